@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+include(GoogleTest)
+
+# Flags that every target of the project shares. Floating-point contraction is off, so that the
+# same source gives the same bytes whichever instructions the compiler picks.
+add_library(aims_flags INTERFACE)
+target_compile_options(aims_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
+target_include_directories(aims_flags INTERFACE ${PROJECT_SOURCE_DIR})
+option(AIMS_WERROR "Treat warnings as errors" OFF)
+if(AIMS_WERROR)
+  target_compile_options(aims_flags INTERFACE -Werror)
+endif()
+
+# aims_library(NAME SOURCES file... [LINKS public_target...] [PRIVATE_LINKS target...])
+# A static library of the folder NAME with the alias aims::NAME.
+function(aims_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(aims_${name} STATIC ${arg_SOURCES})
+  add_library(aims::${name} ALIAS aims_${name})
+  target_link_libraries(aims_${name} PUBLIC aims_flags ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
+endfunction()
+
+# aims_test(NAME SOURCES file... [LINKS target...] [LABEL unit|scenario|stress])
+# A GoogleTest executable whose cases are registered with ctest under one label.
+function(aims_test name)
+  cmake_parse_arguments(arg "" "LABEL" "SOURCES;LINKS" ${ARGN})
+  if(NOT arg_LABEL)
+    set(arg_LABEL unit)
+  endif()
+  add_executable(test_${name} ${arg_SOURCES})
+  target_link_libraries(test_${name} PRIVATE aims_flags ${arg_LINKS} GTest::gtest_main)
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600)
+endfunction()
+
+# aims_bench(NAME SOURCES file... [LINKS target...])
+# A Google Benchmark executable; ctest runs it once, short, so that it cannot rot.
+function(aims_bench name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(bench_${name} ${arg_SOURCES})
+  target_link_libraries(bench_${name} PRIVATE aims_flags ${arg_LINKS} benchmark::benchmark_main)
+  add_test(NAME bench_${name} COMMAND bench_${name} --benchmark_min_time=0.01)
+  set_tests_properties(bench_${name} PROPERTIES LABELS bench TIMEOUT 300)
+endfunction()

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+/// Interval of allowed numbers.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_included = true;
+  bool max_included = true;
+
+  bool contains(double value) const;
+  std::string text() const;  ///< e.g. "> 0", "in [0, 1)"; empty when unbounded
+};
+
+constexpr Range any() { return {}; }
+constexpr Range at_least(double min) { return {.min = min}; }
+constexpr Range positive() { return {.min = 0.0, .min_included = false}; }
+constexpr Range in_range(double min, double max) { return {.min = min, .max = max}; }
+constexpr Range in_half_open(double min, double max) {
+  return {.min = min, .max = max, .max_included = false};
+}
+
+/// What the documentation of a parameter says of it.
+struct Spec {
+  std::string unit;     ///< e.g. "m/s", "-" when dimensionless
+  Range range;          ///< for numbers and each entry of a vector
+  std::string meaning;  ///< one sentence
+  std::string source;   ///< equation, datasheet or document; may be empty
+};
+
+/// One scalar (or short vector) of a configuration, with its documentation.
+struct Parameter {
+  std::string key;       ///< full dotted key, e.g. "estimator.degeneracy.eta"
+  Spec spec;
+  std::string expected;  ///< e.g. "a number in [0, 1)", "one of point, rolling"
+  std::function<std::string()> text;                     ///< current value as a YAML scalar
+  std::function<bool(std::string_view)> assign;          ///< false: not what was expected
+};
+
+/// A list of groups inside a configuration, e.g. the points of a route.
+struct ListField {
+  std::string key;
+  std::function<std::size_t()> size;
+  std::function<void(std::size_t)> resize;
+  std::string meaning;
+};
+
+/// The field list of a configuration: one `describe(Fields&, Config&)` per struct drives loading,
+/// dumping, `--set`, validation, documentation and sweeps. Holds pointers into the configuration,
+/// so it must not outlive it; collect again after resizing a list.
+class Fields {
+ public:
+  void number(std::string_view name, double& value, Spec spec);
+  void integer(std::string_view name, int& value, Spec spec);
+  void flag(std::string_view name, bool& value, Spec spec);
+  void text(std::string_view name, std::string& value, Spec spec);
+  void texts(std::string_view name, std::vector<std::string>& value, Spec spec);
+  void vector(std::string_view name, Eigen::Vector3d& value, Spec spec);
+  void vector(std::string_view name, Eigen::Vector2d& value, Spec spec);
+
+  /// One of a few named values, e.g. {{"point", FootModel::kPoint}, {"rolling", ...}}.
+  template <class Enum>
+  void choice(std::string_view name, Enum& value,
+              std::vector<std::pair<std::string, Enum>> options, Spec spec);
+
+  /// A nested configuration with its own `describe`.
+  template <class Config>
+  void group(std::string_view name, Config& config);
+
+  /// A list of nested configurations; entry i has the keys `name.i.*`.
+  template <class Config>
+  void list(std::string_view name, std::vector<Config>& items, std::string meaning);
+
+  const std::vector<Parameter>& parameters() const { return parameters_; }
+  const std::vector<ListField>& lists() const { return lists_; }
+
+  /// The parameter with that full key, or nullptr.
+  const Parameter* find(std::string_view key) const;
+
+ private:
+  std::string full_key(std::string_view name) const;
+  void add(std::string_view name, Spec spec, std::string expected, std::function<std::string()> text,
+           std::function<bool(std::string_view)> assign);
+
+  std::string prefix_;
+  std::vector<Parameter> parameters_;
+  std::vector<ListField> lists_;
+};
+
+/// The field list of `config`.
+template <class Config>
+Fields fields_of(Config& config) {
+  Fields fields;
+  describe(fields, config);
+  return fields;
+}
+
+/// Sets `key` to `value` (text as in YAML). Errors name the key, what was expected, a near match.
+Result<void> assign(const Fields& fields, std::string_view key, std::string_view value);
+
+/// The candidate closest to `word` by edit distance, or empty when none is near.
+std::string near_match(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "unknown key 'a.b'; did you mean 'a.c'?" for a key that `fields` does not have.
+std::string unknown_key_message(const Fields& fields, std::string_view key);
+
+template <class Enum>
+void Fields::choice(std::string_view name, Enum& value,
+                    std::vector<std::pair<std::string, Enum>> options, Spec spec) {
+  std::string expected = "one of";
+  for (const auto& [label, option] : options) expected += " " + label + ",";
+  expected.pop_back();
+  auto text = [&value, options] {
+    for (const auto& [label, option] : options) {
+      if (option == value) return label;
+    }
+    return std::string();
+  };
+  auto assign = [&value, options](std::string_view given) {
+    for (const auto& [label, option] : options) {
+      if (label == given) {
+        value = option;
+        return true;
+      }
+    }
+    return false;
+  };
+  add(name, std::move(spec), std::move(expected), std::move(text), std::move(assign));
+}
+
+template <class Config>
+void Fields::group(std::string_view name, Config& config) {
+  const std::string outer = prefix_;
+  prefix_ = full_key(name);
+  describe(*this, config);
+  prefix_ = outer;
+}
+
+template <class Config>
+void Fields::list(std::string_view name, std::vector<Config>& items, std::string meaning) {
+  lists_.push_back({full_key(name), [&items] { return items.size(); },
+                    [&items](std::size_t size) { items.resize(size); }, std::move(meaning)});
+  const std::string outer = prefix_;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    prefix_ = outer;
+    prefix_ = full_key(std::string(name) + "." + std::to_string(i));
+    describe(*this, items[i]);
+  }
+  prefix_ = outer;
+}
+
+}  // namespace aims

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/lie.hpp"
+#include "core/time.hpp"
+
+namespace aims {
+
+/// Pose of the body in a fixed frame at an instant.
+struct StampedPose {
+  Time stamp = 0;
+  Pose pose;
+};
+
+/// Poses with strictly increasing stamps.
+using Trajectory = std::vector<StampedPose>;
+
+/// When the robot truly passed a named reference point.
+struct Passage {
+  std::string point;
+  Time stamp = 0;
+};
+
+/// Pose at `stamp`, interpolated between neighbours; empty outside the trajectory's span.
+std::optional<Pose> pose_at(const Trajectory& trajectory, Time stamp);
+
+}  // namespace aims

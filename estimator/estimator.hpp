@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// What one LiDAR update saw and did; quantities of the paper carry its symbols.
+struct ScanDiagnostics {
+  Time stamp = 0;                     ///< end of the sweep
+  int points_in = 0;                  ///< finite points in range
+  int points_used = 0;                ///< with an accepted plane in the final update
+  int iterations = 0;
+  double residual_mean = 0.0;         ///< after the trial update [m], eq. (3)
+  double residual_sigma = 0.0;        ///< after the trial update [m], eq. (3)
+  double residual_sigma_prior = 0.0;  ///< before the trial update [m]
+  double O_lidar = 0.0;               ///< eq. (4), post-fit residuals
+  double O_lidar_prior = 0.0;         ///< eq. (4), pre-fit residuals
+  double C_IL = 0.0;                  ///< eq. (6), 6-D pose block
+  double C_IL_full = 0.0;             ///< eq. (6), 15-D
+  double D = 0.0;                     ///< D_k, eq. (7)
+  double D_smoothed = 0.0;            ///< eq. (12)
+  double gamma_lidar = 1.0;           ///< eq. (8)
+  double gamma_leg = 1.0;             ///< eq. (10)
+  Eigen::Vector3d innovation_rotation = Eigen::Vector3d::Zero();  ///< y_k, eq. (5) [rad]
+  Eigen::Vector3d innovation_position = Eigen::Vector3d::Zero();  ///< y_k, eq. (5) [m]
+  double smallest_eigenvalue = 0.0;   ///< of the translation information [1/m^2]
+  double condition_number = 0.0;      ///< of the translation information
+  double leg_innovation = 0.0;        ///< norm of the last leg velocity innovation [m/s]
+  int leg_updates = 0;                ///< since the last scan
+};
+
+/// What an estimator has found so far.
+struct EstimatorReport {
+  Trajectory trajectory;                    ///< T_odom_body at each scan end; starts at identity
+  std::vector<ScanDiagnostics> diagnostics;  ///< one per scan (empty for `leg`)
+  std::map<std::string, int> counts;         ///< e.g. late, duplicate, non-finite measurements
+};
+
+/// Turns a stream of deliveries into a trajectory. Never throws on data, never reads a clock.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+
+  /// Takes one measurement, in order of arrival.
+  virtual void consume(const Delivery& delivery) = 0;
+
+  /// Processes what is still held back for reordering; call once, after the last delivery.
+  virtual void finish() = 0;
+
+  virtual const EstimatorReport& report() const = 0;
+
+  /// Points of the local map in the odometry frame [m]; empty for an estimator without a map.
+  virtual std::vector<Eigen::Vector3f> map_points() const = 0;
+};
+
+}  // namespace aims

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/measurements.hpp"
+#include "sim/scene.hpp"
+#include "sim/simulation_config.hpp"
+#include "sim/truth.hpp"
+
+namespace aims {
+
+/// Wall time [s] spent in the parts of the simulation so far.
+struct SimulationTimes {
+  double physics = 0.0;  ///< dynamics and gait controller
+  double lidar = 0.0;    ///< ray casting and the return model
+};
+
+/// One robot walking one route through one scene, yielding what its sensors deliver.
+/// Same configuration and seed: the same deliveries and truth, bit for bit.
+class Simulation {
+ public:
+  /// Error when the robot would start inside a solid, or the route has no length.
+  static Result<Simulation> create(const SimulationConfig& config, std::uint64_t seed);
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
+
+  /// Simulates `span` further and appends the deliveries that arrived, in order of arrival.
+  /// False once the route is done, the robot has fallen, or the time limit is reached.
+  bool advance(Duration span, std::vector<Delivery>& deliveries);
+
+  Time now() const;
+  /// Length of the route over its nominal speed plus its pauses: for progress displays.
+  Duration expected_duration() const;
+  const SensorRig& rig() const;
+  const Scene& scene() const;
+  const Truth& truth() const;
+  const SimulationTimes& times() const;
+
+ private:
+  struct Impl;
+  explicit Simulation(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aims

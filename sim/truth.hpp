@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// The true state of the robot at one physics step.
+struct TruthSample {
+  Time stamp = 0;
+  Pose T_world_body;                                             ///< body = IMU frame
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< of the body in the world [m/s]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();    ///< in body axes [rad/s]
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();           ///< [rad/s]
+  Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  std::array<double, kLegCount> slip_speed{};  ///< of each foot in contact over the ground [m/s]
+};
+
+/// Whole-robot configuration, for pictures.
+struct RobotSnapshot {
+  Time stamp = 0;
+  std::vector<double> qpos;  ///< MuJoCo generalized positions of the quadruped
+};
+
+/// What really happened. Returned apart from the measurements; no estimator ever sees it.
+struct Truth {
+  std::vector<TruthSample> samples;      ///< at the physics rate
+  std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz
+  std::vector<Passage> passages;         ///< of the route's named points, in order
+  bool fell = false;
+  bool touched_wall = false;
+};
+
+/// The true poses of the body alone.
+Trajectory body_trajectory(const Truth& truth);
+
+}  // namespace aims
