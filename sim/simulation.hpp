@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/measurements.hpp"
-#include "sim/scene.hpp"
+#include "sim/environment/scene.hpp"
 #include "sim/simulation_config.hpp"
 #include "sim/truth.hpp"
 
