@@ -22,6 +22,7 @@ std::string_view trimmed(std::string_view text) {
 template <class Number>
 std::optional<Number> parse(std::string_view text) {
   text = trimmed(text);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -29,23 +30,42 @@ std::optional<Number> parse(std::string_view text) {
   return value;
 }
 
-/// Entries of "[a, b, c]", or nothing when the brackets are missing.
-std::optional<std::vector<std::string>> parse_sequence(std::string_view text) {
-  text = trimmed(text);
-  if (text.size() < 2 || text.front() != '[' || text.back() != ']') return std::nullopt;
-  std::string_view rest = trimmed(text.substr(1, text.size() - 2));
-  std::vector<std::string> entries;
-  while (!rest.empty()) {
-    const auto comma = rest.find(',');
-    entries.emplace_back(trimmed(rest.substr(0, comma)));
-    rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
+/// Takes a double-quoted entry off the front of `rest`, or nothing when its quote never closes.
+std::optional<std::string> take_quoted(std::string_view& rest) {
+  std::string entry;
+  for (std::size_t i = 1; i < rest.size(); ++i) {
+    if (rest[i] == '"') {
+      rest = trimmed(rest.substr(i + 1));
+      return entry;
+    }
+    if (rest[i] == '\\' && i + 1 < rest.size()) ++i;
+    entry += rest[i];
   }
-  return entries;
+  return std::nullopt;
+}
+
+/// Takes an unquoted entry off the front of `rest`, or nothing when it is empty.
+std::optional<std::string> take_plain(std::string_view& rest) {
+  const auto end = std::min(rest.find(','), rest.size());
+  const std::string entry(trimmed(rest.substr(0, end)));
+  rest = rest.substr(end);
+  if (entry.empty()) return std::nullopt;
+  return entry;
+}
+
+std::string quoted_if_needed(const std::string& entry) {
+  if (!entry.empty() && entry.find_first_of(" \t,[]\"\\") == std::string::npos) return entry;
+  std::string quoted = "\"";
+  for (const char c : entry) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
 }
 
 template <class Vector>
 bool assign_vector(Vector& value, const Range& range, std::string_view text) {
-  const auto entries = parse_sequence(text);
+  const auto entries = sequence_entries(text);
   if (!entries || entries->size() != static_cast<std::size_t>(value.size())) return false;
   Vector parsed;
   for (int i = 0; i < parsed.size(); ++i) {
@@ -73,6 +93,33 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
+}
+
+std::vector<std::string> keys_of(const Fields& fields) {
+  std::vector<std::string> keys;
+  for (const Parameter& parameter : fields.parameters()) keys.push_back(parameter.key);
+  for (const ListField& list : fields.lists()) keys.push_back(list.key);
+  return keys;
+}
+
+/// The known key that a writer of the unknown `key` most likely meant, or empty.
+std::string proposal_for(const Fields& fields, std::string_view key) {
+  const std::vector<std::string> keys = keys_of(fields);
+  const std::size_t name_start = key.rfind('.') + 1;  // npos + 1 = 0
+  const std::string prefix(key.substr(0, name_start));
+  const std::string name(key.substr(name_start));
+  std::vector<std::string> siblings;
+  for (const std::string& each : keys) {
+    if (!each.starts_with(prefix)) continue;
+    const std::string rest = each.substr(prefix.size());
+    siblings.push_back(rest.substr(0, rest.find('.')));
+  }
+  const std::string sibling = near_match(name, siblings);
+  if (!sibling.empty()) return prefix + sibling;
+  for (const std::string& each : keys) {
+    if (each == name || each.ends_with("." + name)) return each;
+  }
+  return near_match(key, keys);
 }
 
 }  // namespace
@@ -103,7 +150,8 @@ void Fields::number(std::string_view name, double& value, Spec spec) {
     value = *parsed;
     return true;
   };
-  add(name, std::move(spec), with_range("a number", range),
+  add(
+      name, std::move(spec), with_range("a number", range),
       [&value] { return fmt::format("{}", value); }, std::move(assign));
 }
 
@@ -115,7 +163,8 @@ void Fields::integer(std::string_view name, int& value, Spec spec) {
     value = *parsed;
     return true;
   };
-  add(name, std::move(spec), with_range("an integer", range),
+  add(
+      name, std::move(spec), with_range("an integer", range),
       [&value] { return fmt::format("{}", value); }, std::move(assign));
 }
 
@@ -125,7 +174,8 @@ void Fields::flag(std::string_view name, bool& value, Spec spec) {
     value = text == "true";
     return true;
   };
-  add(name, std::move(spec), "true or false",
+  add(
+      name, std::move(spec), "true or false",
       [&value] { return std::string(value ? "true" : "false"); }, std::move(assign));
 }
 
@@ -134,32 +184,36 @@ void Fields::text(std::string_view name, std::string& value, Spec spec) {
     value = text;
     return true;
   };
-  add(name, std::move(spec), "a text", [&value] { return value; }, std::move(assign));
+  add(
+      name, std::move(spec), "a text", [&value] { return value; }, std::move(assign));
 }
 
 void Fields::texts(std::string_view name, std::vector<std::string>& value, Spec spec) {
   auto assign = [&value](std::string_view text) {
-    auto entries = parse_sequence(text);
+    auto entries = sequence_entries(text);
     if (!entries) return false;
     value = std::move(*entries);
     return true;
   };
-  add(name, std::move(spec), "a list of texts like [a, b]",
-      [&value] { return fmt::format("[{}]", fmt::join(value, ", ")); }, std::move(assign));
+  add(
+      name, std::move(spec), "a list of texts like [a, b]",
+      [&value] { return sequence_text(value); }, std::move(assign), true);
 }
 
 void Fields::vector(std::string_view name, Eigen::Vector3d& value, Spec spec) {
   const Range range = spec.range;
-  add(name, std::move(spec), with_range("three numbers like [x, y, z]", range),
+  add(
+      name, std::move(spec), with_range("three numbers like [x, y, z]", range),
       [&value] { return fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()); },
-      [&value, range](std::string_view text) { return assign_vector(value, range, text); });
+      [&value, range](std::string_view text) { return assign_vector(value, range, text); }, true);
 }
 
 void Fields::vector(std::string_view name, Eigen::Vector2d& value, Spec spec) {
   const Range range = spec.range;
-  add(name, std::move(spec), with_range("two numbers like [x, y]", range),
+  add(
+      name, std::move(spec), with_range("two numbers like [x, y]", range),
       [&value] { return fmt::format("[{}, {}]", value.x(), value.y()); },
-      [&value, range](std::string_view text) { return assign_vector(value, range, text); });
+      [&value, range](std::string_view text) { return assign_vector(value, range, text); }, true);
 }
 
 const Parameter* Fields::find(std::string_view key) const {
@@ -173,9 +227,10 @@ std::string Fields::full_key(std::string_view name) const {
 }
 
 void Fields::add(std::string_view name, Spec spec, std::string expected,
-                 std::function<std::string()> text, std::function<bool(std::string_view)> assign) {
-  parameters_.push_back(
-      {full_key(name), std::move(spec), std::move(expected), std::move(text), std::move(assign)});
+                 std::function<std::string()> text, std::function<bool(std::string_view)> assign,
+                 bool sequence) {
+  parameters_.push_back({full_key(name), std::move(spec), std::move(expected), std::move(text),
+                         std::move(assign), sequence});
 }
 
 Result<void> assign(const Fields& fields, std::string_view key, std::string_view value) {
@@ -188,7 +243,7 @@ Result<void> assign(const Fields& fields, std::string_view key, std::string_view
 }
 
 std::string near_match(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::size_t tolerance = std::max<std::size_t>(2, word.size() / 3);
+  const std::size_t tolerance = word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);
   std::string nearest;
   std::size_t nearest_distance = tolerance + 1;
   for (const std::string& candidate : candidates) {
@@ -201,11 +256,35 @@ std::string near_match(std::string_view word, const std::vector<std::string>& ca
   return nearest;
 }
 
+std::optional<std::vector<std::string>> sequence_entries(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() < 2 || text.front() != '[' || text.back() != ']') return std::nullopt;
+  std::string_view rest = trimmed(text.substr(1, text.size() - 2));
+  std::vector<std::string> entries;
+  while (!rest.empty()) {
+    auto entry = rest.front() == '"' ? take_quoted(rest) : take_plain(rest);
+    if (!entry) return std::nullopt;
+    entries.push_back(std::move(*entry));
+    if (rest.empty()) break;
+    if (rest.front() != ',') return std::nullopt;
+    rest = trimmed(rest.substr(1));
+    if (rest.empty()) return std::nullopt;
+  }
+  return entries;
+}
+
+std::string sequence_text(const std::vector<std::string>& entries) {
+  std::string text = "[";
+  for (const std::string& entry : entries) {
+    if (text.size() > 1) text += ", ";
+    text += quoted_if_needed(entry);
+  }
+  return text + "]";
+}
+
 std::string unknown_key_message(const Fields& fields, std::string_view key) {
-  std::vector<std::string> keys;
-  for (const Parameter& parameter : fields.parameters()) keys.push_back(parameter.key);
-  for (const ListField& list : fields.lists()) keys.push_back(list.key);
-  const std::string near = near_match(key, keys);
+  const std::string near = proposal_for(fields, key);
+  if (near == key) return fmt::format("{}: a group of settings; expected one of its keys", key);
   if (near.empty()) return fmt::format("unknown key '{}'", key);
   return fmt::format("unknown key '{}'; did you mean '{}'?", key, near);
 }

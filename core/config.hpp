@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,19 +35,20 @@ constexpr Range in_half_open(double min, double max) {
 
 /// What the documentation of a parameter says of it.
 struct Spec {
-  std::string unit;     ///< e.g. "m/s", "-" when dimensionless
-  Range range;          ///< for numbers and each entry of a vector
-  std::string meaning;  ///< one sentence
-  std::string source;   ///< equation, datasheet or document; may be empty
+  std::string unit = {};     ///< e.g. "m/s", "-" when dimensionless
+  Range range = {};          ///< for numbers and each entry of a vector
+  std::string meaning = {};  ///< one sentence
+  std::string source = {};   ///< equation, datasheet or document; may be empty
 };
 
 /// One scalar (or short vector) of a configuration, with its documentation.
 struct Parameter {
-  std::string key;       ///< full dotted key, e.g. "estimator.degeneracy.eta"
+  std::string key;  ///< full dotted key, e.g. "estimator.degeneracy.eta"
   Spec spec;
-  std::string expected;  ///< e.g. "a number in [0, 1)", "one of point, rolling"
-  std::function<std::string()> text;                     ///< current value as a YAML scalar
-  std::function<bool(std::string_view)> assign;          ///< false: not what was expected
+  std::string expected;               ///< e.g. "a number in [0, 1)", "one of point, rolling"
+  std::function<std::string()> text;  ///< current value; of a sequence: "[a, b]"
+  std::function<bool(std::string_view)> assign;  ///< false: not what was expected
+  bool sequence = false;                         ///< holds several scalars, written "[a, b]"
 };
 
 /// A list of groups inside a configuration, e.g. the points of a route.
@@ -72,8 +74,8 @@ class Fields {
 
   /// One of a few named values, e.g. {{"point", FootModel::kPoint}, {"rolling", ...}}.
   template <class Enum>
-  void choice(std::string_view name, Enum& value,
-              std::vector<std::pair<std::string, Enum>> options, Spec spec);
+  void choice(std::string_view name, Enum& value, std::vector<std::pair<std::string, Enum>> options,
+              Spec spec);
 
   /// A nested configuration with its own `describe`.
   template <class Config>
@@ -91,8 +93,9 @@ class Fields {
 
  private:
   std::string full_key(std::string_view name) const;
-  void add(std::string_view name, Spec spec, std::string expected, std::function<std::string()> text,
-           std::function<bool(std::string_view)> assign);
+  void add(std::string_view name, Spec spec, std::string expected,
+           std::function<std::string()> text, std::function<bool(std::string_view)> assign,
+           bool sequence = false);
 
   std::string prefix_;
   std::vector<Parameter> parameters_;
@@ -110,10 +113,18 @@ Fields fields_of(Config& config) {
 /// Sets `key` to `value` (text as in YAML). Errors name the key, what was expected, a near match.
 Result<void> assign(const Fields& fields, std::string_view key, std::string_view value);
 
+/// Entries of the text "[a, b]"; an entry in double quotes may hold anything (\" and \\ escaped).
+/// Empty when it is not such a text.
+std::optional<std::vector<std::string>> sequence_entries(std::string_view text);
+
+/// The text "[a, b]" of entries, in double quotes where needed; undone by `sequence_entries`.
+std::string sequence_text(const std::vector<std::string>& entries);
+
 /// The candidate closest to `word` by edit distance, or empty when none is near.
 std::string near_match(std::string_view word, const std::vector<std::string>& candidates);
 
-/// "unknown key 'a.b'; did you mean 'a.c'?" for a key that `fields` does not have.
+/// "unknown key 'a.b'; did you mean 'a.c'?" for a key that `fields` does not have. Proposes, in
+/// this order: a similar name in the same group, the same name in another group, a similar key.
 std::string unknown_key_message(const Fields& fields, std::string_view key);
 
 template <class Enum>
