@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+/// Builds a table as comma-separated values (RFC 4180 quoting, lines end in LF). Doubles are
+/// written with the shortest decimals that read back equal; no value and non-finite are empty.
+class CsvTable {
+ public:
+  explicit CsvTable(const std::vector<std::string>& header);
+
+  CsvTable& add(std::string_view text);
+  CsvTable& add(const char* text) { return add(std::string_view(text)); }
+  CsvTable& add(const std::string& text) { return add(std::string_view(text)); }
+  CsvTable& add(double value);
+  CsvTable& add(const std::optional<double>& value);
+  CsvTable& add(std::int64_t value);
+  CsvTable& add(int value) { return add(static_cast<std::int64_t>(value)); }
+  CsvTable& add(bool value);
+  CsvTable& add_empty();
+
+  /// Ends the row; cells that the header has and the row has not are empty.
+  void end_row();
+
+  /// The table so far, header included.
+  const std::string& text() const { return text_; }
+
+ private:
+  void add_cell(std::string_view cell);
+
+  std::size_t columns_;
+  std::size_t cells_in_row_ = 0;
+  std::string text_;
+};
+
+/// Writes the table atomically.
+Result<void> write_csv(const std::filesystem::path& file, const CsvTable& table);
+
+}  // namespace aims

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// Lines "stamp x y z qx qy qz qw" of the TUM format: seconds with nine decimals, which keep the
+/// nanoseconds exactly, and shortest decimals that read back to the same doubles.
+std::string tum_text(const Trajectory& trajectory);
+
+/// Reads TUM text ('#' starts a comment line). Stamps must increase strictly, numbers be finite
+/// and quaternions of unit norm within 1e-3 (then normalized). Errors: "name:line: ...".
+Result<Trajectory> parse_tum(std::string_view text, const std::string& name);
+
+/// Writes `tum_text` atomically.
+Result<void> write_tum(const std::filesystem::path& file, const Trajectory& trajectory);
+
+/// Reads a TUM file with `parse_tum`.
+Result<Trajectory> read_tum(const std::filesystem::path& file);
+
+}  // namespace aims

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/config.hpp"
+#include "core/error.hpp"
+
+namespace aims {
+
+/// Collects the field list of a configuration afresh; called again after a list was resized.
+using CollectFields = std::function<Fields()>;
+
+/// How to collect the fields of `config`, which must outlive the result.
+template <class Config>
+CollectFields collector_of(Config& config) {
+  return [&config] { return fields_of(config); };
+}
+
+/// Reads a YAML file into a configuration; what the file does not name keeps its value.
+/// `base: other.yaml` (relative to the file) is read first; a list replaces the base's list.
+/// Errors are one line, `file:line:column: key: ...`; the configuration is then partly changed.
+Result<void> load_config(const std::filesystem::path& file, const CollectFields& collect);
+
+/// As `load_config`, from YAML text; errors call it `name`, and a `base` is relative to it.
+Result<void> load_config_text(std::string_view text, const std::string& name,
+                              const CollectFields& collect);
+
+/// Applies settings "key=value" in order; errors name the offending `--set`.
+Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings);
+
+/// `load_config` into any configuration that has a `describe`.
+template <class Config>
+requires requires(Fields& fields, Config& config) { describe(fields, config); }
+Result<void> load_config(const std::filesystem::path& file, Config& config) {
+  return load_config(file, collector_of(config));
+}
+
+/// `load_config_text` into any configuration that has a `describe`.
+template <class Config>
+requires requires(Fields& fields, Config& config) { describe(fields, config); }
+Result<void> load_config_text(std::string_view text, const std::string& name, Config& config) {
+  return load_config_text(text, name, collector_of(config));
+}
+
+/// `apply_overrides` to any configuration that has a `describe`.
+template <class Config>
+requires requires(Fields& fields, Config& config) { describe(fields, config); }
+Result<void> apply_overrides(Config& config, std::span<const std::string> settings) {
+  return apply_overrides(collector_of(config), settings);
+}
+
+}  // namespace aims
