@@ -20,7 +20,8 @@ enum class Shape { kBox, kCylinder };
 struct Solid {
   Shape shape = Shape::kBox;
   Pose T_world_solid;
-  Eigen::Vector3d half_extents = Eigen::Vector3d::Ones();  ///< [m]; a cylinder: radius, radius, half height
+  Eigen::Vector3d half_extents =
+      Eigen::Vector3d::Ones();  ///< [m]; a cylinder: radius, radius, half height
   Material material;
   bool collides = true;  ///< part of the physics model (kept under about 50 solids)
   bool visible = true;   ///< seen by the LiDAR and the camera
@@ -31,8 +32,8 @@ struct Solid {
 struct Floor {
   Eigen::Vector2d min_corner = Eigen::Vector2d(-10.0, -10.0);  ///< [m]
   Eigen::Vector2d max_corner = Eigen::Vector2d(10.0, 10.0);    ///< [m]
-  int columns = 0;             ///< grid points along x
-  int rows = 0;                ///< grid points along y
+  int columns = 0;                                             ///< grid points along x
+  int rows = 0;                                                ///< grid points along y
   std::vector<float> heights;  ///< [m], row by row (x runs fastest), at most 0.02 for bumps
   Material material;
 };

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/random.hpp"
+#include "sim/environment/scene_config.hpp"
+
+namespace aims {
+
+/// Largest number of colliding solids, so that physics stays fast.
+inline constexpr int kMaxCollidingSolids = 44;
+
+/// Error for a corridor that cannot be built.
+Result<void> validate(const CorridorConfig& config);
+
+/// Walls, ceiling, doors, pillars and clutter of a valid corridor.
+std::vector<Solid> corridor_solids(const CorridorConfig& config,
+                                   const ReflectivityConfig& reflectivity, std::uint64_t seed);
+
+/// The rectangle of floor that the corridor stands on.
+Floor corridor_floor(const CorridorConfig& config);
+
+}  // namespace aims

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/measurements.hpp"
+#include "core/random.hpp"
+#include "core/trajectory.hpp"
+#include "sim/environment/ray_caster.hpp"
+
+namespace aims {
+
+/// A spinning multi-ring LiDAR.
+struct LidarConfig {
+  int rings = 16;
+  int columns = 1800;                ///< firings of each ring per sweep
+  double rate = 10.0;                ///< sweeps per second [Hz]
+  double elevation_min_deg = -15.0;  ///< of ring 0 [deg]
+  double elevation_max_deg = 15.0;   ///< of the last ring [deg]
+  double start_azimuth_deg = 180.0;  ///< of the first firing, +x to +y [deg]; spins clockwise
+  double ring_interval_us =
+      2.304;                  ///< between rings of a column; shortened if it does not fit [us]
+  double range_min = 0.3;     ///< nearer returns are dropped [m]
+  double range_max = 100.0;   ///< farther returns are dropped [m]
+  double range_sigma = 0.02;  ///< white noise of the range [m]
+  double miss_probability = 0.005;  ///< of a return lost for no reason [-]
+  double range_at_10_percent =
+      50.0;  ///< where half the returns of a facing 10 % target are seen [m]
+  double detection_steepness = 6.0;  ///< of the detection probability in the received power [-]
+  /// Box around the robot's trunk, head and hips in the LiDAR frame [m]. A beam that enters it ends
+  /// on the robot and its return is masked, as a driver does; thighs and calves stay below the
+  /// beams. No beam is masked when the box is empty.
+  Eigen::Vector3d body_min = Eigen::Vector3d(-0.15, -0.16, -0.30);
+  Eigen::Vector3d body_max = Eigen::Vector3d(0.55, 0.16, -0.06);
+};
+
+void describe(Fields& fields, LidarConfig& config);
+
+/// Probability that a return of a surface is detected: the received power
+/// reflectivity * cos(incidence) / range^2 against the threshold of the configuration.
+double detection_probability(const LidarConfig& config, double reflectivity, double cos_incidence,
+                             double range);
+
+/// What the returns of a sweep truly met, one entry per point of the scan.
+struct SweepTruth {
+  std::vector<Eigen::Vector3f> normals;  ///< of the surface, in the world, towards the sensor
+  std::vector<int> surfaces;             ///< index into `RayCaster::materials`
+};
+
+/// Simulates sweeps in a scene. Same configuration, seed and poses: the same bytes.
+class Lidar {
+ public:
+  /// `caster` must outlive the LiDAR. Random streams: "lidar.noise", "lidar.detection".
+  Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed);
+
+  /// Nominal length of one sweep.
+  Duration period() const;
+
+  /// The sweep that starts at `start`; each firing leaves from the pose at its own time.
+  /// `T_world_lidar` should cover the sweep; beyond its ends the first or last pose holds.
+  LidarScan sweep(Time start, const Trajectory& T_world_lidar, SweepTruth* truth = nullptr);
+
+ private:
+  /// Sixteen neighbouring firings of one ring.
+  struct alignas(64) Beams {
+    RayPacket::Lanes x, y, z;                                 ///< directions in the LiDAR frame
+    std::array<std::int32_t, kRayPacketSize> time_offset_ns;  ///< after the sweep's start
+    std::array<bool, kRayPacketSize> open;                    ///< not blocked by the robot's body
+  };
+  /// One ring's firings of a block of columns and what came back.
+  struct Returns {
+    RayPacket rays;
+    HitPacket hits;
+    RayPacket::Lanes strength;  ///< reflectivity * cos(incidence) [-]
+  };
+
+  void aim(int block, const std::vector<Pose>& column_poses);
+  void receive(int block, int lanes);
+  void report(int block, int lanes, LidarScan& scan, SweepTruth* truth);
+  bool detected(float strength, float range);
+
+  LidarConfig config_;
+  const RayCaster* caster_;
+  RandomStream noise_;
+  RandomStream detection_;
+  std::vector<float> reflectivity_;  ///< by surface
+  std::vector<Beams> beams_;         ///< block by block, ring by ring
+  std::vector<Returns> returns_;     ///< of the current block, by ring
+};
+
+}  // namespace aims

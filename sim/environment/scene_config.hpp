@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "core/config.hpp"
+#include "core/error.hpp"
+#include "sim/environment/scene.hpp"
+
+namespace aims {
+
+/// The walls that a feature of the corridor is on, seen along +x: left is +y.
+enum class WallSides { kNone, kLeft, kRight, kBoth, kAlternate };
+
+/// The ends of the corridor that are closed by a wall; the others are open.
+enum class EndWalls { kNone, kStart, kEnd, kBoth };
+
+/// Doors set back into the walls.
+struct DoorConfig {
+  WallSides sides = WallSides::kRight;
+  double spacing = 8.0;  ///< between centres along one wall [m]
+  double jitter = 0.5;   ///< largest shift of a centre along the wall [m]
+  double depth = 0.15;   ///< of the door's face behind the wall's [m]
+  double width = 0.9;    ///< of the opening [m]
+  double height = 2.05;  ///< of the opening [m]
+};
+
+/// Square half-columns standing out from the walls.
+struct PillarConfig {
+  WallSides sides = WallSides::kBoth;
+  double spacing = 0.0;  ///< between centres along one wall [m]; 0: no pillars
+  double size = 0.4;     ///< along the wall [m]
+  double depth = 0.15;   ///< out of the wall [m]
+};
+
+/// Boxes and cylinders along the walls; seen, but not part of the physics.
+struct ClutterConfig {
+  double density = 0.0;     ///< objects per metre of corridor [1/m]
+  double lane_width = 1.3;  ///< middle of the corridor that stays free [m]
+};
+
+/// Smooth random unevenness of the floor.
+struct BumpConfig {
+  double height = 0.0;              ///< between the lowest and the highest point [m]; 0: flat
+  double correlation_length = 0.6;  ///< of the heights [m]
+};
+
+/// Diffuse reflectivities at the LiDAR's wavelength [-].
+struct ReflectivityConfig {
+  double wall = 0.5;
+  double floor = 0.25;
+  double ceiling = 0.6;
+  double door = 0.35;
+  double clutter = 0.4;
+};
+
+/// A straight corridor along +x with its centre line on y = 0 and its floor at z = 0. The route
+/// runs on the centre line from x = 0 to x = length.
+struct CorridorConfig {
+  double length = 78.6;  ///< of the route [m]
+  double margin = 3.0;   ///< of corridor before the first and behind the last point [m]
+  double width = 2.2;    ///< between the walls [m]
+  double height = 2.6;   ///< from floor to ceiling [m]
+  EndWalls end_walls = EndWalls::kBoth;
+  DoorConfig doors;
+  PillarConfig pillars;
+  ClutterConfig clutter;
+};
+
+enum class SceneKind { kCorridor };
+
+/// What surrounds the robot.
+struct SceneConfig {
+  SceneKind kind = SceneKind::kCorridor;
+  int seed = 0;                 ///< of jitter, clutter and bumps; 0: the seed of the run
+  double floor_friction = 0.8;  ///< sliding friction under the feet [-], for the physics
+  BumpConfig bumps;
+  ReflectivityConfig reflectivity;
+  CorridorConfig corridor;
+};
+
+void describe(Fields& fields, DoorConfig& config);
+void describe(Fields& fields, PillarConfig& config);
+void describe(Fields& fields, ClutterConfig& config);
+void describe(Fields& fields, BumpConfig& config);
+void describe(Fields& fields, ReflectivityConfig& config);
+void describe(Fields& fields, CorridorConfig& config);
+void describe(Fields& fields, SceneConfig& config);
+
+/// Error for a combination that cannot be built, e.g. doors wider than their spacing.
+Result<void> validate(const SceneConfig& config);
+
+/// The scene of a valid configuration. Same configuration and seed: the same scene.
+Scene build_scene(const SceneConfig& config, std::uint64_t run_seed);
+
+}  // namespace aims
