@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// Estimated and true pose of the body at one instant, each in its own fixed frame.
+struct PosePair {
+  Time stamp = 0;  ///< of the estimated pose
+  Pose estimate;   ///< T_odom_body
+  Pose truth;      ///< T_world_body
+};
+
+/// How an estimated pose finds its true one.
+enum class Association {
+  kInterpolated,  ///< truth interpolated at the estimate's stamps (inside the truth's span)
+  kNearest,       ///< evo's rule: each stamp of the shorter takes the nearest of the longer
+};
+
+/// Pairs of poses in order of time. With `kNearest`, `tolerance` is the largest difference of
+/// stamps, a tie goes to the earlier pose, trajectories of equal length let the estimate choose,
+/// and a pose of the longer trajectory may serve twice, all as in evo.
+std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& truth,
+                                Association association, Duration tolerance);
+
+/// Whether the pose is finite, within 1000 km of the origin and its quaternion of unit norm (1e-3).
+bool is_valid(const Pose& pose);
+
+/// The valid poses whose stamps increase; the others are left out.
+Trajectory valid_part(const Trajectory& trajectory);
+
+}  // namespace aims

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// The way between two reference points passed one after the other.
+struct Segment {
+  std::string name;  ///< "a-b"; the second of the same name is "a-b#2"
+  Time begin = 0;    ///< when the robot truly passed the first point
+  Time end = 0;      ///< when it truly passed the second
+};
+
+/// The segments between consecutive passages in order of time.
+std::vector<Segment> segments_of(std::span<const Passage> passages);
+
+/// M_list of one segment. Distances are straight lines between the two ends, d_i of the truth and
+/// d_hat_i of the estimate at the same times.
+struct SegmentDistance {
+  Segment segment;
+  double true_distance_m = 0.0;                ///< d_i
+  std::optional<double> estimated_distance_m;  ///< d_hat_i; none: no estimate at the ends
+  std::optional<double> percent;               ///< 100 |d_hat_i - d_i| / d_i
+  std::optional<double> signed_percent;        ///< 100 (d_hat_i - d_i) / d_i; < 0: shortened
+};
+
+/// Distances of every segment at least `shortest` [m] long. A segment's end up to `edge` outside
+/// the estimate's span moves to that span's border for the truth and the estimate alike.
+std::vector<SegmentDistance> segment_distances(const Trajectory& estimate, const Trajectory& truth,
+                                               std::span<const Segment> segments, double shortest,
+                                               Duration edge);
+
+/// M_list over all segments in percent: 100 sum |d_hat_i - d_i| / sum d_i (unnumbered equation of
+/// the paper's section III.A); none when there is no segment or one lacks its estimate.
+std::optional<double> m_list_percent(std::span<const SegmentDistance> distances);
+
+/// `stamp`, or the nearer end of the trajectory's span when that is at most `edge` away.
+std::optional<Time> within_span(const Trajectory& trajectory, Time stamp, Duration edge);
+
+}  // namespace aims
