@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "harness/catalogue.hpp"
+
+namespace {
+
+constexpr const char* kDescription =
+    "aims: legged-robot localization in degenerate corridors, settled by measurement.\n"
+    "A simulated quadruped walks a scenario; every estimator gets the same measurements;\n"
+    "truth scores them.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  aims run scenarios/corridor.yaml\n"
+    "  aims run corridor --seed 1-5 --estimators aims,lio --out out/compare\n"
+    "  aims run corridor --set lidar.range_max=30 --set estimator.degeneracy.eta=5\n"
+    "  aims list\n"
+    "  aims config corridor\n"
+    "Exit codes: 0 ok, 1 an expectation of the scenario failed, 2 bad usage or configuration,\n"
+    "3 internal error, 130 interrupted.";
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app(kDescription, "aims");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "aims " AIMS_VERSION);
+  app.require_subcommand(1);
+  const std::filesystem::path scenarios =
+      aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
+  int exit_code = aims::kOk;
+  aims::add_run_command(app, scenarios, exit_code);
+  aims::add_list_command(app, scenarios, exit_code);
+  aims::add_config_command(app, scenarios, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? aims::kOk : aims::kBadInput;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "aims: internal error: {}\n", error.what());
+    return aims::kInternal;
+  }
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "app/progress_display.hpp"
+#include "harness/experiment.hpp"
+#include "harness/pictures.hpp"
+#include "harness/score_table.hpp"
+#include "harness/seeds.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Set by Ctrl-C; a second Ctrl-C ends the program at once.
+volatile std::sig_atomic_t interrupted = 0;
+
+void on_interrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+struct RunArguments {
+  std::string scenario;
+  std::string seeds;
+  std::vector<std::string> estimators;
+  std::vector<std::string> overrides;
+  std::string out;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool overwrite = false;
+  bool quiet = false;
+  bool no_pictures = false;
+};
+
+Result<Scenario> scenario_of(const RunArguments& arguments, const fs::path& folder) {
+  const auto file = find_scenario(arguments.scenario, folder);
+  if (!file) return tl::unexpected(file.error());
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.estimators.empty()) {
+    overrides.push_back(fmt::format("estimators=[{}]", fmt::join(arguments.estimators, ", ")));
+  }
+  return load_scenario(*file, overrides);
+}
+
+Result<ExperimentOptions> options_of(const RunArguments& arguments, const Scenario& scenario) {
+  ExperimentOptions options;
+  options.seeds = {static_cast<std::uint64_t>(scenario.seed)};
+  if (!arguments.seeds.empty()) {
+    auto seeds = parse_seeds(arguments.seeds);
+    if (!seeds) return tl::unexpected(seeds.error());
+    options.seeds = std::move(*seeds);
+  }
+  options.out = arguments.out;
+  if (arguments.out.empty()) {
+    const std::string seeds =
+        arguments.seeds.empty() ? std::to_string(scenario.seed) : arguments.seeds;
+    options.out = fs::path("out") / fmt::format("{}-seed-{}", scenario.name, seeds);
+  }
+  options.overwrite = arguments.overwrite;
+  options.jobs = arguments.jobs;
+  options.pictures = !arguments.no_pictures;
+  return options;
+}
+
+std::string seeds_text(const Experiment& experiment) {
+  std::vector<std::uint64_t> seeds;
+  for (const RunRecord& run : experiment.runs) seeds.push_back(run.seed);
+  const char* meaning = seeds.size() > 1 ? ": median (worst)" : "";
+  return fmt::format("{}{}", fmt::join(seeds, ", "), meaning);
+}
+
+void print_report(const Scenario& scenario, const Experiment& experiment) {
+  fmt::print("{}, seed {}\n{}\n", scenario.name, seeds_text(experiment),
+             to_text(score_table(experiment.runs)));
+  for (const std::string& warning : experiment.warnings) fmt::print("warning: {}\n", warning);
+  for (const GateFailure& failure : experiment.failures) {
+    fmt::print("EXPECTATION FAILED: {}\n  again: aims run {} --seed {} --estimators {}\n",
+               text_of(failure), failure.scenario, failure.seed, failure.expectation.estimator);
+  }
+  if (!experiment.complete) {
+    fmt::print("interrupted: the results hold what was walked until then\n");
+  }
+  fmt::print("results: {}\n", (experiment.folder / "").string());
+  for (const fs::path& picture : pictures_in(experiment.folder)) {
+    fmt::print("  {}\n", picture.string());
+  }
+}
+
+int exit_code_of(const Experiment& experiment) {
+  if (!experiment.complete) return kInterrupted;
+  return experiment.failures.empty() ? kOk : kGateFailed;
+}
+
+int bad_input(const Error& error) {
+  fmt::print(stderr, "aims run: {}\n", error.message);
+  return kBadInput;
+}
+
+int run_command(const RunArguments& arguments, const fs::path& folder) {
+  const auto scenario = scenario_of(arguments, folder);
+  if (!scenario) return bad_input(scenario.error());
+  const auto options = options_of(arguments, *scenario);
+  if (!options) return bad_input(options.error());
+
+  std::signal(SIGINT, on_interrupt);
+  ProgressDisplay display(scenario->name, arguments.quiet);
+  const auto experiment =
+      run_experiment(*scenario, *options, [&](std::uint64_t seed, const Progress& progress) {
+        display.show(seed, progress);
+        return interrupted == 0;
+      });
+  display.close();
+  if (!experiment) return bad_input(experiment.error());
+  print_report(*scenario, *experiment);
+  return exit_code_of(*experiment);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, const fs::path& scenario_folder, int& exit_code) {
+  auto* command =
+      app.add_subcommand("run", "Simulate a scenario, estimate, score, draw, write results");
+  auto arguments = std::make_shared<RunArguments>();
+  command->add_option("scenario", arguments->scenario, "Scenario file, or its bare name")
+      ->required();
+  command->add_option("--seed", arguments->seeds, "Seed, range or list: 3, 1-5, 1,4,7-9");
+  command->add_option("--estimators", arguments->estimators, "Estimators to run, e.g. aims,lio")
+      ->delimiter(',');
+  command->add_option("--set", arguments->overrides, "key=value on top of the scenario; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--out", arguments->out, "Folder for the results (out/SCENARIO-seed-N)");
+  command->add_option("--jobs", arguments->jobs, "Threads; the results do not depend on it")
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--overwrite", arguments->overwrite, "Replace results that exist");
+  command->add_flag("--quiet", arguments->quiet, "No progress, the table alone");
+  command->add_flag("--no-pictures", arguments->no_pictures, "Draw nothing");
+  command->footer(
+      "Examples:\n"
+      "  aims run scenarios/corridor.yaml\n"
+      "  aims run corridor --seed 1-5 --set lidar.range_max=30 --out out/short-sighted");
+  command->callback([arguments, scenario_folder, &exit_code] {
+    exit_code = run_command(*arguments, scenario_folder);
+  });
+}
+
+}  // namespace aims

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+aims_bench(run SOURCES harness_run.cpp LINKS aims::harness)

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <system_error>
+#include <utility>
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path sibling(const fs::path& path, const char* suffix) {
+  fs::path result = path;
+  result += suffix;
+  return result;
+}
+
+tl::unexpected<Error> file_failure(const fs::path& path, const char* what,
+                                   const std::error_code& code) {
+  return failure(fmt::format("{}: {}: {}", path.string(), what, code.message()));
+}
+
+/// A folder that is not one of results is never replaced, whatever was asked.
+Result<void> check_replaceable(const fs::path& path, bool overwrite) {
+  if (!fs::exists(path)) return {};
+  if (!overwrite) {
+    return failure(fmt::format(
+        "{}: exists already; give another --out, or --overwrite to replace it", path.string()));
+  }
+  const bool holds_results = fs::exists(path / "scores.json") || fs::exists(path / "summary.json");
+  if (holds_results || (fs::is_directory(path) && fs::is_empty(path))) return {};
+  return failure(fmt::format("{}: holds no results (no scores.json), so it is not overwritten",
+                             path.string()));
+}
+
+/// Descriptor of the folder's lock, or -1 when another process holds it or it cannot be made.
+int take_lock(const fs::path& folder) {
+  const int descriptor = open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor < 0) return -1;
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  close(descriptor);
+  return -1;
+}
+
+/// Removes a partial folder that no living run holds. False when one does.
+bool clear_stale(const fs::path& partial) {
+  const int lock = take_lock(partial);
+  if (lock < 0) return false;
+  std::error_code code;
+  fs::remove_all(partial, code);
+  close(lock);
+  return !code;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path final_path, fs::path partial, int lock)
+    : final_(std::move(final_path)), partial_(std::move(partial)), lock_(lock) {}
+
+OutputFolder::OutputFolder(OutputFolder&& other) noexcept
+    : final_(std::move(other.final_)),
+      partial_(std::exchange(other.partial_, {})),
+      lock_(std::exchange(other.lock_, -1)) {}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  if (!partial_.empty()) fs::remove_all(partial_, ignored);
+  if (lock_ >= 0) close(lock_);
+}
+
+Result<OutputFolder> OutputFolder::create(const fs::path& given, bool overwrite) {
+  const fs::path final_path = given.has_filename() ? given : given.parent_path();
+  if (auto allowed = check_replaceable(final_path, overwrite); !allowed) {
+    return tl::unexpected(allowed.error());
+  }
+  const fs::path partial = sibling(final_path, ".partial");
+  if (fs::exists(partial) && !clear_stale(partial)) {
+    return failure(fmt::format("{}: another run is writing there", partial.string()));
+  }
+  std::error_code code;
+  fs::create_directories(partial, code);
+  if (code) return file_failure(partial, "cannot create the folder", code);
+  const int lock = take_lock(partial);
+  if (lock < 0) return failure(fmt::format("{}: cannot write there", partial.string()));
+  return OutputFolder(final_path, partial, lock);
+}
+
+Result<void> OutputFolder::commit() {
+  const fs::path replaced = sibling(final_, ".replaced");
+  std::error_code code;
+  const bool replaces = fs::exists(final_);
+  if (replaces) fs::rename(final_, replaced, code);
+  if (code) return file_failure(final_, "cannot be replaced", code);
+  fs::remove(partial_ / ".lock", code);
+  fs::rename(partial_, final_, code);
+  if (code) return file_failure(final_, "cannot be written", code);
+  partial_.clear();
+  if (replaces) fs::remove_all(replaced, code);
+  return {};
+}
+
+}  // namespace aims

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/results.hpp"
+
+#include <fmt/format.h>
+
+#include "harness/tables.hpp"
+#include "io/atomic_file.hpp"
+#include "io/config_dump.hpp"
+#include "io/tum.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Truth poses are written at this spacing; the simulation holds them at the physics rate.
+constexpr Duration kTruthSpacing = 10 * kMillisecond;
+
+Trajectory thinned(const Trajectory& trajectory) {
+  Trajectory kept;
+  for (const StampedPose& each : trajectory) {
+    if (kept.empty() || each.stamp >= kept.back().stamp + kTruthSpacing) kept.push_back(each);
+  }
+  return kept;
+}
+
+std::string config_text(const Scenario& scenario, std::uint64_t seed) {
+  Scenario effective = scenario;
+  effective.seed = static_cast<int>(seed);
+  return dump_config(fields_of(effective));
+}
+
+Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder) {
+  auto written = write_tum(folder / (outcome.name + ".tum"), outcome.report.trajectory);
+  if (!written) return written;
+  return write_csv(folder / (outcome.name + ".diagnostics.csv"), diagnostics_table(outcome));
+}
+
+}  // namespace
+
+Result<void> write_results(const Scenario& scenario, const RunResult& result,
+                           const RunRecord& record, const fs::path& folder) {
+  auto written = write_file_atomically(folder / "config.yaml", config_text(scenario, result.seed));
+  if (written) written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory));
+  if (written) written = write_csv(folder / "passages.csv", passages_table(result.truth.passages));
+  for (const EstimatorOutcome& outcome : result.estimators) {
+    if (written) written = write_estimator(outcome, folder);
+  }
+  if (written) written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
+  if (written) written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");
+  return written;
+}
+
+}  // namespace aims

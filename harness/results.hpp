@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "harness/run.hpp"
+#include "harness/score_record.hpp"
+
+namespace aims {
+
+/// Writes a run into `folder`: scores.json, scores.csv, config.yaml, truth.tum, passages.csv and per estimator
+/// trajectory (TUM) and diagnostics (CSV). The files are described in docs/results.md.
+Result<void> write_results(const Scenario& scenario, const RunResult& result,
+                           const RunRecord& record, const std::filesystem::path& folder);
+
+}  // namespace aims

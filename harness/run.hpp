@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "estimator/estimator.hpp"
+#include "eval/scores.hpp"
+#include "harness/scenario.hpp"
+#include "sim/environment/scene.hpp"
+#include "sim/simulation.hpp"
+#include "sim/truth.hpp"
+
+namespace aims {
+
+struct RunOptions {
+  std::uint64_t seed = 1;
+  int jobs = 1;  ///< threads; the results do not depend on it
+};
+
+/// How far a run has come.
+struct Progress {
+  double simulated_s = 0.0;
+  double expected_s = 0.0;
+  double wall_s = 0.0;
+};
+
+/// Called between batches; returning false ends the run early with what there is.
+using Observer = std::function<bool(const Progress&)>;
+
+/// One estimator's part of a run.
+struct EstimatorOutcome {
+  std::string name;
+  EstimatorReport report;
+  std::vector<Eigen::Vector3f> map;   ///< in its odometry frame [m]
+  Scores scores;
+  std::vector<double> scan_times_ms;
+  double wall_s = 0.0;
+};
+
+/// Everything that one run yields, before it is written.
+struct RunResult {
+  std::uint64_t seed = 0;
+  bool complete = false;  ///< false when the observer ended it early
+  double simulated_s = 0.0;
+  double wall_s = 0.0;
+  SimulationTimes simulation_times;
+  Scene scene;
+  Truth truth;
+  Trajectory truth_trajectory;  ///< T_world_body at the physics rate
+  std::vector<EstimatorOutcome> estimators;
+};
+
+/// Simulates the scenario, feeds every estimator the same stream, and scores each against truth.
+/// Error when the scenario cannot be simulated (robot in a wall, no path).
+Result<RunResult> run(const Scenario& scenario, const RunOptions& options,
+                      const Observer& observer);
+
+}  // namespace aims

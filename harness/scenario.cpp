@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "estimator/registry.hpp"
+#include "io/yaml_config.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> check_estimator(const fs::path& file, std::string_view key, const std::string& name) {
+  std::vector<std::string> known;
+  for (const EstimatorEntry& entry : estimator_registry()) known.emplace_back(entry.name);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return {};
+  const std::string near = near_match(name, known);
+  return failure(fmt::format("{}: {}: no estimator '{}'; expected one of {}{}", file.string(), key,
+                             name, fmt::join(known, ", "),
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+Result<void> check(const fs::path& file, const Scenario& scenario) {
+  for (const std::string& name : scenario.estimators) {
+    if (auto known = check_estimator(file, "estimators", name); !known) return known;
+  }
+  for (const Expectation& expectation : scenario.expect) {
+    if (auto known = check_estimator(file, "expect", expectation.estimator); !known) return known;
+  }
+  return {};
+}
+
+}  // namespace
+
+void describe(Fields& f, Expectation& e) {
+  f.text("estimator", e.estimator, {.meaning = "estimator whose score is limited"});
+  f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
+  f.number("max", e.max, {.unit = "as the score", .meaning = "largest value that passes"});
+}
+
+void describe(Fields& f, Scenario& s) {
+  f.text("name", s.name, {.meaning = "name of the scenario; the file's name when absent"});
+  f.text("description", s.description, {.meaning = "one line for listings"});
+  f.texts("tags", s.tags, {.meaning = "families that the scenario belongs to"});
+  f.integer("seed", s.seed,
+            {.unit = "-", .range = at_least(0), .meaning = "seed of every random stream"});
+  f.texts("estimators", s.estimators, {.meaning = "estimators that run on the stream"});
+  describe(f, s.simulation);
+  f.group("estimator", s.estimator);
+  f.group("scoring", s.scoring);
+  f.list("expect", s.expect, "limits that a run must hold");
+}
+
+Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides) {
+  Scenario scenario;
+  scenario.name = file.stem().string();
+  if (auto loaded = load_config(file, scenario); !loaded) return tl::unexpected(loaded.error());
+  if (auto applied = apply_overrides(scenario, overrides); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  if (auto valid = check(file, scenario); !valid) return tl::unexpected(valid.error());
+  return scenario;
+}
+
+Result<Scenario> default_scenario(std::span<const std::string> overrides) {
+  Scenario scenario;
+  scenario.name = "default";
+  if (auto applied = apply_overrides(scenario, overrides); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  return scenario;
+}
+
+Result<fs::path> find_scenario(const std::string& given, const fs::path& folder) {
+  if (fs::is_regular_file(given)) return fs::path(given);
+  const fs::path by_name = folder / (given + ".yaml");
+  if (fs::is_regular_file(by_name)) return by_name;
+  std::vector<std::string> names;
+  for (const fs::path& file : scenario_files(folder)) names.push_back(file.stem().string());
+  const std::string near = near_match(fs::path(given).stem().string(), names);
+  return failure(fmt::format("{}: no such scenario file, and no scenario of that name in {}{}",
+                             given, folder.string(),
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+std::vector<fs::path> scenario_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace aims

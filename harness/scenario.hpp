@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/error.hpp"
+#include "estimator/config.hpp"
+#include "eval/scores.hpp"
+#include "sim/simulation_config.hpp"
+
+namespace aims {
+
+/// An upper limit that a run must hold, or it fails (exit code 1).
+struct Expectation {
+  std::string estimator;  ///< name in the registry
+  std::string score;      ///< dotted key inside the estimator's scores, e.g. "m_list_percent.a-b"
+  double max = 0.0;       ///< in the score's own unit
+
+  bool operator==(const Expectation&) const = default;
+};
+
+/// One experiment: the world, the walk, the sensors, who estimates, and what is expected.
+struct Scenario {
+  std::string name;
+  std::string description;
+  std::vector<std::string> tags;
+  int seed = 1;
+  std::vector<std::string> estimators = {"aims", "tfs", "tfs_clean", "lio", "leg"};
+  SimulationConfig simulation;
+  EstimatorConfig estimator;
+  ScoreConfig scoring;
+  std::vector<Expectation> expect;
+};
+
+void describe(Fields& fields, Expectation& expectation);
+void describe(Fields& fields, Scenario& scenario);
+
+/// Reads a scenario and applies `overrides` ("key=value") on top of it. Checks everything that can
+/// be checked without simulating; errors are one line that names file, line, key and expectation.
+Result<Scenario> load_scenario(const std::filesystem::path& file,
+                               std::span<const std::string> overrides);
+
+/// The scenario that an empty file describes, with `overrides` on top.
+Result<Scenario> default_scenario(std::span<const std::string> overrides);
+
+/// The file of a scenario given by path or by bare name ("corridor"), searched in `folder`.
+Result<std::filesystem::path> find_scenario(const std::string& given,
+                                            const std::filesystem::path& folder);
+
+/// Every scenario file in `folder`, by name.
+std::vector<std::filesystem::path> scenario_files(const std::filesystem::path& folder);
+
+}  // namespace aims

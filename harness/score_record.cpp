@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/score_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval/statistics.hpp"
+#include "harness/gates.hpp"
+
+namespace aims {
+namespace {
+
+Json json_of(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json();
+}
+
+template <class Part, class Member>
+Json json_of(const std::optional<Part>& part, Member Part::*member) {
+  return part ? json_of(std::optional<double>(*part.*member)) : Json();
+}
+
+Json axis_json(const AxisError& error) {
+  return {{"along", error.along_m},
+          {"lateral", error.lateral_m},
+          {"vertical", error.vertical_m},
+          {"heading_rad", error.heading_rad}};
+}
+
+Json drift_json(const std::optional<DriftSummary>& drift) {
+  if (!drift) return {};
+  return {{"rmse", axis_json(drift->rmse)},
+          {"max", axis_json(drift->max)},
+          {"end", axis_json(drift->end)}};
+}
+
+Json time_json(const std::vector<double>& scan_times_ms) {
+  const auto summary = summarize(scan_times_ms);
+  return {{"mean", json_of(summary, &Summary::mean)},
+          {"p50", json_of(summary, &Summary::p50)},
+          {"p99", json_of(summary, &Summary::p99)}};
+}
+
+/// M_list of each segment and, as "all", of their sum.
+void add_segments(Json& json, const Scores& scores) {
+  Json& percent = json["m_list_percent"] = Json::object();
+  Json& signed_percent = json["m_list_signed_percent"] = Json::object();
+  for (const SegmentDistance& distance : scores.segments) {
+    percent[distance.segment.name] = json_of(distance.percent);
+    signed_percent[distance.segment.name] = json_of(distance.signed_percent);
+  }
+  percent["all"] = json_of(scores.m_list_percent);
+}
+
+void add_relative_errors(Json& json, const Scores& scores) {
+  for (const RpeScore& rpe : scores.rpe) {
+    json["rpe_" + std::to_string(std::lround(rpe.delta)) + "m"] = {
+        {"translation_m", json_of(rpe.translation_rmse_m)},
+        {"rotation_rad", json_of(rpe.rotation_rmse_rad)}};
+  }
+}
+
+Json estimator_json(const EstimatorOutcome& outcome) {
+  const Scores& scores = outcome.scores;
+  Json json;
+  json["success"] = scores.success;
+  json["lost_reason"] = name_of(scores.lost_reason);
+  json["lost_at_s"] = scores.lost_at ? Json(to_seconds(*scores.lost_at)) : Json();
+  add_segments(json, scores);
+  json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
+  json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);
+  json["m_end_z_m"] = json_of(scores.m_end, &EndError::z_m);
+  json["ate_m"] = json_of(scores.ate_m);
+  json["ate_se3_m"] = json_of(scores.ate_se3_m);
+  json["ate_se3_degenerate"] = scores.ate_se3_degenerate;
+  json["ate_yaw_m"] = json_of(scores.ate_yaw_m);
+  json["max_error_m"] = json_of(scores.max_error_m);
+  json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
+  add_relative_errors(json, scores);
+  json["drift_m"] = drift_json(scores.drift);
+  json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
+  json["poses"] = scores.poses;
+  json["counts"] = outcome.report.counts;
+  return json;
+}
+
+/// True straight lengths: the same for every estimator, so the first one's are taken.
+Json segments_json(const RunResult& result) {
+  Json segments = Json::array();
+  if (result.estimators.empty()) return segments;
+  for (const SegmentDistance& distance : result.estimators.front().scores.segments) {
+    segments.push_back({{"name", distance.segment.name}, {"length_m", distance.true_distance_m}});
+  }
+  return segments;
+}
+
+Json times_json(const RunResult& result, double drawing_s) {
+  Json times = {{"physics", result.simulation_times.physics},
+                {"lidar", result.simulation_times.lidar},
+                {"drawing", drawing_s}};
+  for (const EstimatorOutcome& outcome : result.estimators) {
+    times["estimators"][outcome.name] = outcome.wall_s;
+  }
+  return times;
+}
+
+Json gates_json(const Scenario& scenario, const RunRecord& record) {
+  Json gates = Json::array();
+  const std::vector<GateFailure> failures = failed_gates(scenario, record);
+  for (const Expectation& expectation : scenario.expect) {
+    const bool holds = std::none_of(failures.begin(), failures.end(), [&](const auto& failure) {
+      return failure.expectation == expectation;
+    });
+    gates.push_back({{"estimator", expectation.estimator},
+                     {"score", expectation.score},
+                     {"max", expectation.max},
+                     {"value", json_of(find_score(record, expectation.estimator, expectation.score))},
+                     {"holds", holds}});
+  }
+  return gates;
+}
+
+/// Calls `visit(key, value)` for every leaf of `json`, keys dotted.
+template <class Visit>
+void visit_leaves(const Json& json, const std::string& prefix, const Visit& visit) {
+  for (const auto& [key, value] : json.items()) {
+    const std::string full = prefix.empty() ? key : prefix + "." + key;
+    if (value.is_object()) {
+      visit_leaves(value, full, visit);
+    } else {
+      visit(full, value);
+    }
+  }
+}
+
+}  // namespace
+
+RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s) {
+  RunRecord record;
+  record.seed = result.seed;
+  const double wall_s = result.wall_s + drawing_s;
+  record.scores = {{"schema", kScoresSchema},
+                   {"version", AIMS_VERSION},
+                   {"scenario", scenario.name},
+                   {"seed", result.seed},
+                   {"complete", result.complete},
+                   {"simulated_s", result.simulated_s},
+                   {"wall_s", wall_s},
+                   {"realtime_factor", wall_s > 0.0 ? result.simulated_s / wall_s : 0.0},
+                   {"times_s", times_json(result, drawing_s)},
+                   {"robot",
+                    {{"fell", result.truth.fell}, {"touched_wall", result.truth.touched_wall}}},
+                   {"segments", segments_json(result)}};
+  for (const EstimatorOutcome& outcome : result.estimators) {
+    record.scores["estimators"][outcome.name] = estimator_json(outcome);
+  }
+  record.scores["gates"] = gates_json(scenario, record);
+  return record;
+}
+
+std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
+                                 const std::string& key) {
+  std::optional<double> found;
+  visit_leaves(record.scores.at("estimators").at(estimator), "",
+               [&](const std::string& name, const Json& value) {
+                 if (name != key) return;
+                 if (value.is_number()) found = value.get<double>();
+                 if (value.is_boolean()) found = value.get<bool>() ? 1.0 : 0.0;
+               });
+  return found;
+}
+
+std::vector<std::string> score_keys(const RunRecord& record, const std::string& estimator) {
+  std::vector<std::string> keys;
+  visit_leaves(record.scores.at("estimators").at(estimator), "",
+               [&](const std::string& name, const Json& value) {
+                 if (!value.is_string()) keys.push_back(name);
+               });
+  return keys;
+}
+
+}  // namespace aims

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/run.hpp"
+#include "harness/scenario.hpp"
+
+namespace aims {
+
+using Json = nlohmann::ordered_json;
+
+/// Version of the layout of scores.json; see docs/results.md.
+inline constexpr std::string_view kScoresSchema = "aims.scores/1";
+
+/// What scores.json holds of one run.
+struct RunRecord {
+  std::uint64_t seed = 0;
+  Json scores;
+};
+
+/// The record of a run; `drawing_s` is the wall time [s] spent on its pictures.
+RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s);
+
+/// One number of an estimator in a record, by dotted key ("m_list_percent.a-b"); empty when it has
+/// no value (a segment not walked, a lost estimator) or does not exist.
+std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
+                                 const std::string& key);
+
+/// Dotted keys of every number that an estimator of the record has.
+std::vector<std::string> score_keys(const RunRecord& record, const std::string& estimator);
+
+}  // namespace aims

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/summary.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "eval/statistics.hpp"
+#include "harness/score_table.hpp"
+#include "harness/tables.hpp"
+#include "io/atomic_file.hpp"
+
+namespace aims {
+namespace {
+
+Json json_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json summary_json(const Scenario& scenario, std::span<const RunRecord> runs) {
+  Json summary = {{"schema", "aims.summary/1"}, {"scenario", scenario.name}};
+  for (const RunRecord& run : runs) summary["seeds"].push_back(run.seed);
+  for (const auto& [estimator, unused] : runs.front().scores["estimators"].items()) {
+    for (const std::string& key : score_keys(runs.front(), estimator)) {
+      const ScoreSummary over_seeds = summarize(runs, estimator, key);
+      summary["estimators"][estimator][key] = {{"median", json_or_null(over_seeds.median)},
+                                               {"worst", json_or_null(over_seeds.worst)},
+                                               {"count", over_seeds.count}};
+    }
+  }
+  return summary;
+}
+
+}  // namespace
+
+ScoreSummary summarize(std::span<const RunRecord> runs, const std::string& estimator,
+                       const std::string& key) {
+  std::vector<double> values;
+  for (const RunRecord& run : runs) {
+    if (const auto value = find_score(run, estimator, key)) values.push_back(*value);
+  }
+  if (values.empty()) return {};
+  return {median(values), *std::max_element(values.begin(), values.end()), values.size()};
+}
+
+Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> runs,
+                           const std::filesystem::path& folder) {
+  if (runs.empty()) return {};
+  auto written = write_csv(folder / "summary.csv", scores_csv(runs));
+  if (written) {
+    written = write_file_atomically(folder / "summary.md", to_markdown(score_table(runs)));
+  }
+  if (written) {
+    written = write_file_atomically(folder / "summary.json",
+                                    summary_json(scenario, runs).dump(2) + "\n");
+  }
+  return written;
+}
+
+}  // namespace aims

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace aims {
+
+/// A table of texts as it is shown on a terminal: a header and rows of equal length; the first
+/// column is flush left, the others flush right.
+struct TextTable {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// The table with aligned columns and a rule under the header, a line per row.
+std::string to_text(const TextTable& table);
+
+/// The table as Markdown.
+std::string to_markdown(const TextTable& table);
+
+}  // namespace aims

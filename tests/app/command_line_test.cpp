@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the real `aims` command as a user would.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  ///< standard output and error
+};
+
+class CommandLine : public ::testing::Test {
+ protected:
+  Outcome aims(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.path().string() + "' && '" AIMS_COMMAND "' " +
+                                arguments + " 2>&1 </dev/null";
+    Outcome outcome;
+    FILE* pipe = popen(command.c_str(), "r");
+    std::array<char, 4096> buffer{};
+    while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) outcome.output += buffer.data();
+    outcome.exit_code = WEXITSTATUS(pclose(pipe));
+    return outcome;
+  }
+
+  std::string scenario(const std::string& yaml) const {
+    const fs::path file = folder_.path() / "my.yaml";
+    std::ofstream(file) << yaml;
+    return file.filename().string();
+  }
+
+  /// The run is refused: exit 2, one line that holds `expected`, and nothing written.
+  void expect_refused(const std::string& arguments, const std::string& expected) const {
+    const Outcome outcome = aims("run " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_NE(outcome.output.find(expected), std::string::npos) << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1)
+        << outcome.output;
+    EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+  }
+
+  const std::string kCorridor = std::string("'") + AIMS_SCENARIOS "/corridor.yaml'";
+  TemporaryFolder folder_;
+};
+
+TEST_F(CommandLine, RunsAShortWalkAndPrintsATableRowPerEstimator) {
+  const std::string yaml =
+      "scene: {corridor: {length: 10}}\n"
+      "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 2, y: 0}]}\n";
+  const Outcome outcome = aims("run " + scenario(yaml) + " --no-pictures --out here");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  for (const char* row : {"M_list(a-b) %", "\naims ", "\ntfs ", "\ntfs_clean ", "\nlio ", "\nleg "}) {
+    EXPECT_NE(outcome.output.find(row), std::string::npos) << row << outcome.output;
+  }
+  EXPECT_TRUE(fs::exists(folder_.path() / "here" / "scores.json"));
+  const Outcome again = aims("run my.yaml --no-pictures --out here");
+  EXPECT_EQ(again.exit_code, 2) << "results are not replaced unasked";
+}
+
+TEST_F(CommandLine, AFailedExpectationExitsWithOne) {
+  const std::string yaml =
+      "scene: {corridor: {length: 10}}\n"
+      "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n"
+      "expect: [{estimator: leg, score: m_end_m, max: 0.0}]\n";
+  const Outcome outcome =
+      aims("run " + scenario(yaml) + " --no-pictures --quiet --estimators leg --out here");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_NE(outcome.output.find("my seed 1: leg m_end_m"), std::string::npos) << outcome.output;
+}
+
+TEST_F(CommandLine, BadConfigurationIsNamedByFileLineColumnAndKey) {
+  expect_refused(scenario("lidar:\n  range_mx: 30\n"), "my.yaml:2:3: unknown key 'lidar.range_mx'");
+  expect_refused(scenario("lidar:\n  range_mx: 30\n"), "did you mean 'lidar.range_max'?");
+  expect_refused(scenario("lidar:\n  range_max: far\n"), "my.yaml:2:14");
+  expect_refused(scenario("lidar:\n  range_max: -3\n"), "lidar.range_max");
+  expect_refused(scenario("seed: 1\nseed: 2\n"), "my.yaml:2:1");
+  expect_refused(scenario("lidar: [1, 2\n"), "my.yaml:");
+}
+
+TEST_F(CommandLine, BadUsageIsRefused) {
+  expect_refused("nowhere.yaml", "nowhere.yaml");
+  expect_refused(kCorridor + " --set lidar.range_mx=3", "did you mean 'lidar.range_max'?");
+  expect_refused(kCorridor + " --set lidar.range_max", "--set");
+  expect_refused(kCorridor + " --estimators aims,lioo", "did you mean 'lio'?");
+  expect_refused(kCorridor + " --seed x", "--seed");
+  expect_refused(kCorridor + " --out /proc/nowhere/run", "/proc/nowhere");
+}
+
+TEST_F(CommandLine, ImpossibleScenariosAreRefused) {
+  expect_refused(scenario("route: {points: [{name: a, x: 0, y: 1.1}, {name: b, x: 5, y: 1.1}]}\n"),
+                 "route");
+  expect_refused(scenario("route: {points: [{name: a, x: 0, y: 0}, {name: b, x: 0, y: 0}]}\n"),
+                 "route");
+  expect_refused(scenario("base: missing.yaml\n"), "missing.yaml");
+}
+
+TEST_F(CommandLine, ListAndConfigShowWhatThereIs) {
+  const Outcome list = aims("list --scenarios '" AIMS_SCENARIOS "'");
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_NE(list.output.find("corridor_smooth"), std::string::npos) << list.output;
+  EXPECT_EQ(list.output.find("does not load"), std::string::npos) << list.output;
+  EXPECT_NE(list.output.find("tfs_clean"), std::string::npos);
+  const Outcome config = aims("config " + kCorridor);
+  EXPECT_EQ(config.exit_code, 0);
+  for (const char* key : {"eta:", "kappa:", "alpha:", "sigma_0:", "w1:", "gamma_min:"}) {
+    EXPECT_NE(config.output.find(key), std::string::npos) << key;
+  }
+}
+
+TEST_F(CommandLine, HelpAndVersionSucceedAndNonsenseDoesNot) {
+  EXPECT_EQ(aims("--help").exit_code, 0);
+  EXPECT_EQ(aims("run --help").exit_code, 0);
+  EXPECT_EQ(aims("--version").exit_code, 0);
+  EXPECT_EQ(aims("").exit_code, 2);
+  EXPECT_EQ(aims("fly").exit_code, 2);
+  EXPECT_EQ(aims("run --jobs none x").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "io/tum.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scenario short_walk() {
+  Scenario scenario;
+  scenario.name = "short_walk";
+  scenario.estimators = {"aims", "leg"};
+  scenario.simulation.scene.corridor.length = 10.0;
+  scenario.simulation.route.points = {{"a", 0.0, 0.0}, {"b", 2.0, 0.0}};
+  scenario.simulation.route.stand_before = 2.5;
+  return scenario;
+}
+
+bool keep_going(std::uint64_t, const Progress&) { return true; }
+
+Json read_json(const fs::path& file) { return Json::parse(std::ifstream(file)); }
+
+TEST(Experiment, WritesEveryFileOfARun) {
+  const TemporaryFolder temporary;
+  ExperimentOptions options;
+  options.out = temporary.path() / "run";
+  const auto experiment = run_experiment(short_walk(), options, keep_going);
+  ASSERT_TRUE(experiment) << experiment.error().message;
+  for (const char* file :
+       {"scores.json", "scores.csv", "config.yaml", "truth.tum", "passages.csv", "aims.tum",
+        "leg.tum", "aims.diagnostics.csv", "trajectories.png", "aims-map-top.png",
+        "aims-map-side.png", "robot-1.png", "degeneracy.png"}) {
+    EXPECT_TRUE(fs::exists(options.out / file)) << file;
+  }
+  EXPECT_TRUE(read_tum(options.out / "aims.tum"));
+  const Json scores = read_json(options.out / "scores.json");
+  EXPECT_EQ(scores["schema"], kScoresSchema);
+  EXPECT_EQ(scores["scenario"], "short_walk");
+  for (const char* key : {"m_list_percent", "m_list_signed_percent", "m_end_m", "m_end_xy_m",
+                          "m_end_z_m", "ate_m", "max_error_m", "success", "time_per_scan_ms"}) {
+    EXPECT_TRUE(scores["estimators"]["aims"].contains(key)) << key;
+  }
+}
+
+TEST(Experiment, TheWrittenConfigurationReproducesTheRun) {
+  const TemporaryFolder temporary;
+  ExperimentOptions options;
+  options.pictures = false;
+  options.seeds = {5};
+  options.out = temporary.path() / "first";
+  ASSERT_TRUE(run_experiment(short_walk(), options, keep_going));
+  const auto again = load_scenario(options.out / "config.yaml", {});
+  ASSERT_TRUE(again) << again.error().message;
+  options.seeds = {static_cast<std::uint64_t>(again->seed)};
+  const fs::path first = options.out;
+  options.out = temporary.path() / "second";
+  ASSERT_TRUE(run_experiment(*again, options, keep_going));
+  for (const char* file : {"aims.tum", "leg.tum", "truth.tum", "config.yaml"}) {
+    std::ifstream a(first / file);
+    std::ifstream b(options.out / file);
+    EXPECT_TRUE(std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b),
+                           {}))
+        << file;
+  }
+}
+
+TEST(Experiment, SeveralSeedsGetAFolderEachAndASummary) {
+  const TemporaryFolder temporary;
+  ExperimentOptions options;
+  options.pictures = false;
+  options.seeds = {1, 2};
+  options.out = temporary.path() / "runs";
+  ASSERT_TRUE(run_experiment(short_walk(), options, keep_going));
+  EXPECT_TRUE(fs::exists(options.out / "seed-1" / "scores.json"));
+  EXPECT_TRUE(fs::exists(options.out / "seed-2" / "scores.json"));
+  const Json summary = read_json(options.out / "summary.json");
+  EXPECT_EQ(summary["estimators"]["aims"]["m_end_m"]["count"], 2);
+  EXPECT_TRUE(fs::exists(options.out / "summary.md"));
+}
+
+TEST(Experiment, AnInterruptedRunLeavesReadableResults) {
+  const TemporaryFolder temporary;
+  ExperimentOptions options;
+  options.pictures = false;
+  options.out = temporary.path() / "run";
+  const auto experiment =
+      run_experiment(short_walk(), options, [](std::uint64_t, const Progress& progress) {
+        return progress.simulated_s < 4.0;
+      });
+  ASSERT_TRUE(experiment);
+  EXPECT_FALSE(experiment->complete);
+  EXPECT_EQ(read_json(options.out / "scores.json")["complete"], false);
+  EXPECT_TRUE(read_tum(options.out / "aims.tum"));
+}
+
+TEST(Experiment, AScenarioThatCannotRunWritesNothing) {
+  const TemporaryFolder temporary;
+  Scenario scenario = short_walk();
+  scenario.simulation.route.points[1].x = 0.0;
+  ExperimentOptions options;
+  options.out = temporary.path() / "run";
+  EXPECT_FALSE(run_experiment(scenario, options, keep_going));
+  EXPECT_TRUE(fs::is_empty(temporary.path()));
+}
+
+}  // namespace
+}  // namespace aims
