@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/environment/scene.hpp"
+
+namespace aims {
+
+/// Outlines, seen from above in the world's xy plane [m], of the visible solids that stand in the
+/// way: roofs and what ends below `min_top` [m] are left out. Each is convex, counter-clockwise.
+std::vector<std::vector<Eigen::Vector2d>> scene_plan(const Scene& scene, double min_top = 0.05);
+
+}  // namespace aims
