@@ -81,7 +81,8 @@ struct World::Impl {
   RobotState state;
 
   Result<void> find_parts();
-  void set_options(const WorldConfig& config);
+  void set_options(const WorldSetup& setup);
+  Result<void> set_heights(const std::vector<float>& heights);
   void put(double x, double y, double z, double yaw);
   void measure_body();
   void read_motion();
@@ -105,15 +106,25 @@ Result<void> World::Impl::find_parts() {
   return {};
 }
 
-void World::Impl::set_options(const WorldConfig& config) {
+void World::Impl::set_options(const WorldSetup& setup) {
   mjOption& option = model->opt;
-  option.timestep = config.timestep;
+  option.timestep = setup.timestep;
   option.integrator = mjINT_EULER;
   option.solver = mjSOL_NEWTON;
   option.cone = mjCONE_ELLIPTIC;
   option.impratio = 10.0;
-  timestep = from_seconds(config.timestep);
-  for (const int geom : foot_geom) model->geom_friction[3 * geom] = config.friction;
+  timestep = from_seconds(setup.timestep);
+  for (const int geom : foot_geom) model->geom_friction[3 * geom] = setup.friction;
+}
+
+Result<void> World::Impl::set_heights(const std::vector<float>& heights) {
+  const int points = model->nhfield > 0 ? model->hfield_nrow[0] * model->hfield_ncol[0] : 0;
+  if (points != static_cast<int>(heights.size())) {
+    return failure("physics model: its height field has " + std::to_string(points) +
+                   " points, but " + std::to_string(heights.size()) + " heights were given");
+  }
+  std::copy(heights.begin(), heights.end(), model->hfield_data);
+  return {};
 }
 
 void World::Impl::put(double x, double y, double z, double yaw) {
@@ -197,13 +208,14 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
-Result<World> World::create(std::string_view mjcf, const WorldConfig& config) {
-  auto model = load(mjcf);
+Result<World> World::create(const WorldSetup& setup) {
+  auto model = load(setup.mjcf);
   if (!model) return tl::unexpected(model.error());
   auto impl = std::make_unique<Impl>();
   impl->model = std::move(*model);
   if (auto found = impl->find_parts(); !found) return tl::unexpected(found.error());
-  impl->set_options(config);
+  if (auto set = impl->set_heights(setup.heights); !set) return tl::unexpected(set.error());
+  impl->set_options(setup);
   impl->data.reset(mj_makeData(impl->model.get()));
   impl->measure_body();
   World world(std::move(impl));
@@ -289,19 +301,6 @@ int World::warning_count() const {
   int count = 0;
   for (const mjWarningStat& warning : impl_->data->warning) count += warning.number;
   return count;
-}
-
-void describe(Fields& f, WorldConfig& c) {
-  f.number("timestep", c.timestep,
-           {.unit = "s",
-            .range = in_range(0.0005, 0.005),
-            .meaning = "step of the integrator",
-            .source = "2.5 ms divides the periods of 50 Hz and 200 Hz"});
-  f.number("friction", c.friction,
-           {.unit = "-",
-            .range = in_range(0.05, 2.0),
-            .meaning = "of the feet on the floor",
-            .source = "rubber on concrete 0.6-1.0, on wet tiles 0.3-0.5"});
 }
 
 }  // namespace aims

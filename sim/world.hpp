@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/config.hpp"
 #include "core/error.hpp"
 #include "core/lie.hpp"
 #include "core/measurements.hpp"
@@ -15,12 +15,13 @@
 
 namespace aims {
 
-/// Physics of the world and of the feet on its floor.
-struct WorldConfig {
-  double timestep = 0.0025;  ///< of the integrator [s]
-  double friction = 0.7;     ///< of the feet on the floor [-]
+/// What a world is made of.
+struct WorldSetup {
+  std::string mjcf;            ///< the robot (see quadruped_mjcf) with the scene's solids around it
+  std::vector<float> heights;  ///< of the height field in [0, 1], row by row; empty: flat floor
+  double timestep = 0.0025;    ///< of the integrator [s]
+  double friction = 0.7;       ///< of the feet on the floor [-]
 };
-void describe(Fields& f, WorldConfig& c);
 
 /// State of the robot after a physics step. The base frame is the trunk's centre.
 struct RobotState {
@@ -49,8 +50,8 @@ JointVector standing_joints(double height, double lateral);
 /// The dynamics of one robot in one scene, stepped at a fixed rate.
 class World {
  public:
-  /// `mjcf`: the robot (see quadruped_mjcf) with the scene's solids around it.
-  static Result<World> create(std::string_view mjcf, const WorldConfig& config);
+  /// Error when the model does not load or has no quadruped in it.
+  static Result<World> create(const WorldSetup& setup);
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();

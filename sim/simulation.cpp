@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/simulation.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <utility>
+
+#include "sim/arrivals.hpp"
+#include "sim/environment/ray_caster.hpp"
+#include "sim/environment/scene_mjcf.hpp"
+#include "sim/quadruped_model.hpp"
+#include "sim/walker.hpp"
+
+namespace aims {
+namespace {
+
+constexpr Duration kSnapshotPeriod = 100 * kMillisecond;
+constexpr double kStartClearance = 0.15;  ///< of the robot's trunk from solids [m]
+
+/// Adds the wall time of a scope to a total.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total) {}
+  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& total_;
+  Clock::time_point start_ = Clock::now();
+};
+
+Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene) {
+  auto mjcf = scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics,
+                         {.floor_friction = config.scene.floor_friction});
+  if (!mjcf) return tl::unexpected(mjcf.error());
+  return WorldSetup{std::move(*mjcf), height_field_data(scene.floor), config.physics.timestep,
+                    config.scene.floor_friction};
+}
+
+/// Error when a point of the route is not free, or the robot would start touching a solid.
+Result<void> check_route(const SimulationConfig& config, const Scene& scene, const World& world) {
+  for (std::size_t i = 0; i < config.route.points.size(); ++i) {
+    const RoutePoint& p = config.route.points[i];
+    const Eigen::Vector3d at(p.x, p.y, config.robot.gait.body_height);
+    if (is_inside_solid(scene, at, kStartClearance)) {
+      return failure(fmt::format(
+          "route.points.{}: ({}, {}) is inside a wall or object of the scene", i, p.x, p.y));
+    }
+  }
+  if (world.robot_inside_solid()) {
+    return failure("route.points.0: the robot would start inside a wall or object of the scene");
+  }
+  return {};
+}
+
+}  // namespace
+
+struct Simulation::Impl {
+  Impl(const SimulationConfig& config, std::uint64_t seed, Scene built_scene, Walker ready_walker);
+
+  bool finished() const;
+  void step();
+  void record();
+  void send_inertial(const TruthSample& motion);
+  void send_legs();
+  void send_scan();
+  void deliver(Time sent, Measurement measurement, Link& link);
+
+  SimulationConfig config;
+  Scene scene;
+  Walker walker;
+  RayCaster caster;
+  Lidar lidar;
+  Imu imu;
+  LegOdometry legs;
+  Link imu_link;
+  Link leg_link;
+  Link lidar_link;
+  SensorRig rig;
+  Pose T_base_body;
+  Trajectory sweep;  ///< of the LiDAR since the start of the present sweep
+  Arrivals arrivals;
+  std::vector<Delivery> sent;
+  Truth truth;
+  SimulationTimes times;
+};
+
+Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene built_scene,
+                       Walker ready_walker)
+    : config(c),
+      scene(std::move(built_scene)),
+      walker(std::move(ready_walker)),
+      caster(scene),
+      lidar(config.lidar, caster, seed),
+      imu(config.imu, walker.world().timestep(), seed),
+      legs(config.leg_odometry, walker.world().timestep(), seed),
+      imu_link(config.links.imu, seed, "imu"),
+      leg_link(config.links.leg_odometry, seed, "leg_odometry"),
+      lidar_link(config.links.lidar, seed, "lidar"),
+      T_base_body(walker.world().T_base_site("imu")) {
+  const Pose T_body_base = T_base_body.inverse();
+  rig = {T_body_base * walker.world().T_base_site("lidar"), T_body_base};
+  record();
+}
+
+bool Simulation::Impl::finished() const {
+  return truth.fell || walker.route().done() ||
+         walker.world().state().stamp >= from_seconds(config.max_duration);
+}
+
+void Simulation::Impl::deliver(Time now, Measurement measurement, Link& link) {
+  sent.clear();
+  link.send(now, std::move(measurement), sent);
+  for (Delivery& delivery : sent) arrivals.add(std::move(delivery));
+}
+
+void Simulation::Impl::send_inertial(const TruthSample& motion) {
+  if (auto sample = imu.sample(motion)) deliver(motion.stamp, *sample, imu_link);
+}
+
+void Simulation::Impl::send_legs() {
+  const RobotState& state = walker.world().state();
+  if (auto sample = legs.sample(state)) deliver(state.stamp, *sample, leg_link);
+}
+
+/// Casts the sweep that ends now, if one does; the next begins where it ended.
+void Simulation::Impl::send_scan() {
+  const RobotState& state = walker.world().state();
+  sweep.push_back({state.stamp, state.T_world_base * T_base_body * rig.T_body_lidar});
+  if (state.stamp - sweep.front().stamp < lidar.period()) return;
+  const Stopwatch watch(times.lidar);
+  auto scan = std::make_shared<LidarScan>(lidar.sweep(sweep.front().stamp, sweep));
+  deliver(state.stamp, LidarScanPtr(std::move(scan)), lidar_link);
+  sweep.erase(sweep.begin(), sweep.end() - 1);
+}
+
+/// Appends the present state to the truth and lets every sensor see it.
+void Simulation::Impl::record() {
+  const RobotState& state = walker.world().state();
+  TruthSample sample;
+  sample.stamp = state.stamp;
+  sample.T_world_body = state.T_world_base * T_base_body;
+  const Eigen::Vector3d around = state.angular_velocity.cross(T_base_body.translation);
+  sample.velocity = state.velocity + state.T_world_base.rotation * around;
+  sample.angular_velocity = T_base_body.rotation.conjugate() * state.angular_velocity;
+  sample.gyro_bias = imu.gyro_bias();
+  sample.accelerometer_bias = imu.accelerometer_bias();
+  sample.slip_speed = walker.world().slip_speed();
+  truth.samples.push_back(sample);
+  if (state.stamp % kSnapshotPeriod == 0) {
+    truth.snapshots.push_back({state.stamp, walker.world().qpos()});
+  }
+  truth.fell = truth.fell || walker.fallen();
+  truth.touched_wall = truth.touched_wall || state.touches_wall;
+  send_inertial(sample);
+  send_legs();
+  send_scan();
+}
+
+void Simulation::Impl::step() {
+  {
+    const Stopwatch watch(times.physics);
+    walker.step();
+  }
+  record();
+}
+
+Result<Simulation> Simulation::create(const SimulationConfig& config, std::uint64_t seed) {
+  if (auto ok = validate(config); !ok) return tl::unexpected(ok.error());
+  Scene scene = build_scene(config.scene, seed);
+  auto setup = world_setup(config, scene);
+  if (!setup) return tl::unexpected(setup.error());
+  auto walker = Walker::create(*setup, config.robot.gait, config.route);
+  if (!walker) return tl::unexpected(walker.error());
+  if (auto ok = check_route(config, scene, walker->world()); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  return Simulation(std::make_unique<Impl>(config, seed, std::move(scene), std::move(*walker)));
+}
+
+Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
+  const Time until = now() + span;
+  while (now() < until && !impl_->finished()) impl_->step();
+  impl_->truth.passages = impl_->walker.route().passages();
+  const bool finished = impl_->finished();
+  // What is still on its way at the end arrives too.
+  impl_->arrivals.take(finished ? std::numeric_limits<Time>::max() : now(), deliveries);
+  return !finished;
+}
+
+Time Simulation::now() const { return impl_->walker.world().state().stamp; }
+Duration Simulation::expected_duration() const {
+  return from_seconds(nominal_duration(impl_->config.route));
+}
+const SensorRig& Simulation::rig() const { return impl_->rig; }
+const Scene& Simulation::scene() const { return impl_->scene; }
+const Truth& Simulation::truth() const { return impl_->truth; }
+const SimulationTimes& Simulation::times() const { return impl_->times; }
+
+}  // namespace aims

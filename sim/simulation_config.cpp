@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/simulation_config.hpp"
+
+#include "sim/sampling.hpp"
+
+namespace aims {
+
+void describe(Fields& f, PhysicsConfig& c) {
+  f.number("timestep", c.timestep,
+           {.unit = "s",
+            .range = in_range(0.0005, 0.005),
+            .meaning = "step of the integrator; divides the period of every sensor",
+            .source = "2.5 ms divides the periods of 50 Hz and 200 Hz, 2 ms does not"});
+}
+
+void describe(Fields& f, RobotConfig& c) { f.group("gait", c.gait); }
+
+void describe(Fields& f, LinksConfig& c) {
+  f.group("imu", c.imu);
+  f.group("leg_odometry", c.leg_odometry);
+  f.group("lidar", c.lidar);
+}
+
+void describe(Fields& f, SimulationConfig& c) {
+  f.group("scene", c.scene);
+  f.group("route", c.route);
+  f.group("physics", c.physics);
+  f.group("robot", c.robot);
+  f.group("imu", c.imu);
+  f.group("leg_odometry", c.leg_odometry);
+  f.group("lidar", c.lidar);
+  f.group("links", c.links);
+  f.number("max_duration", c.max_duration,
+           {.unit = "s",
+            .range = positive(),
+            .meaning = "simulated time after which the run ends, finished or not"});
+}
+
+Result<void> validate(const SimulationConfig& config) {
+  const Duration timestep = from_seconds(config.physics.timestep);
+  if (auto ok = validate(config.scene); !ok) return ok;
+  if (auto ok = validate(config.route); !ok) return ok;
+  if (auto ok = validate(config.imu, timestep); !ok) return ok;
+  if (auto ok = validate(config.leg_odometry, timestep); !ok) return ok;
+  const auto sweep = steps_per_sample("lidar.rate", config.lidar.rate, timestep);
+  if (!sweep) return tl::unexpected(sweep.error());
+  return {};
+}
+
+}  // namespace aims

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/config.hpp"
+#include "sim/environment/lidar.hpp"
+#include "sim/environment/scene_config.hpp"
+#include "sim/gait.hpp"
+#include "sim/imu.hpp"
+#include "sim/leg_odometry.hpp"
+#include "sim/link/link.hpp"
+#include "sim/route.hpp"
+
+namespace aims {
+
+/// The integrator of the dynamics.
+struct PhysicsConfig {
+  double timestep = 0.0025;  ///< [s]
+};
+void describe(Fields& f, PhysicsConfig& c);
+
+/// The robot, apart from its sensors.
+struct RobotConfig {
+  GaitConfig gait;
+};
+void describe(Fields& f, RobotConfig& c);
+
+/// The ways of the three sensors' packets. By default only leg odometry loses some.
+struct LinksConfig {
+  LinkConfig imu;
+  LinkConfig leg_odometry = {.loss = 0.05};
+  LinkConfig lidar;
+};
+void describe(Fields& f, LinksConfig& c);
+
+/// Everything that a run simulates; with the seed it decides every byte of the result.
+struct SimulationConfig {
+  SceneConfig scene;
+  RouteConfig route;
+  PhysicsConfig physics;
+  RobotConfig robot;
+  ImuConfig imu;
+  LegOdometryConfig leg_odometry;
+  LidarConfig lidar;
+  LinksConfig links;
+  double max_duration = 900.0;  ///< simulated time after which the run ends [s]
+};
+void describe(Fields& f, SimulationConfig& c);
+
+/// Error for values that do not fit together, naming the key.
+Result<void> validate(const SimulationConfig& config);
+
+}  // namespace aims
