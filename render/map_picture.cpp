@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "render/plot.hpp"
@@ -49,12 +49,12 @@ std::vector<Eigen::Vector3f> finite_points(const std::vector<Eigen::Vector3f>& p
 /// Drops what is higher than `section` over the lowest point of its 2 m cell.
 void open_roof(std::vector<Eigen::Vector3f>& points, double section) {
   constexpr float kCell = 2.0F;
-  using Cell = std::pair<int, int>;
   const auto cell_of = [](const Eigen::Vector3f& p) {
-    return Cell{static_cast<int>(std::floor(p.x() / kCell)),
-                static_cast<int>(std::floor(p.y() / kCell))};
+    const auto column = static_cast<std::int64_t>(std::floor(p.x() / kCell));
+    const auto row = static_cast<std::int64_t>(std::floor(p.y() / kCell));
+    return (column << 32) + row;
   };
-  std::map<Cell, float> floor;
+  std::unordered_map<std::int64_t, float> floor;  // looked up only, never walked through
   for (const Eigen::Vector3f& point : points) {
     const auto [entry, fresh] = floor.try_emplace(cell_of(point), point.z());
     if (!fresh) entry->second = std::min(entry->second, point.z());
@@ -157,7 +157,7 @@ int point_size(const std::vector<RasterPoint>& points, double scale) {
   const double area = static_cast<double>(std::max<std::ptrdiff_t>(1, used)) * kCell * kCell;
   const double spacing =
       std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, points.size())));
-  return std::clamp(static_cast<int>(std::lround(1.4 * spacing * scale)), 1, 5);
+  return std::clamp(static_cast<int>(std::lround(2.0 * spacing * scale)), 2, 6);
 }
 
 struct Sheet {
@@ -166,6 +166,7 @@ struct Sheet {
   std::vector<Eigen::Vector2d> track;
   RasterWindow window;
   Layout layout;
+  int point_size = 1;  ///< [px]
 };
 
 void draw_strip(Canvas& canvas, const Sheet& sheet, int strip) {
@@ -179,10 +180,9 @@ void draw_strip(Canvas& canvas, const Sheet& sheet, int strip) {
   panel.x = {strip + 1 == layout.strips ? "x [m]" : "", part.u_min, part.u_max};
   panel.y = {sheet.view == MapView::kAbove ? "y [m]" : "z [m]", part.v_min, part.v_max};
   draw_panel(canvas, area, panel);
-  canvas.image(
-      raster_points(sheet.points, part, static_cast<int>(layout.width),
-                    static_cast<int>(layout.height), point_size(sheet.points, layout.scale), kDark),
-      area);
+  canvas.image(raster_points(sheet.points, part, static_cast<int>(layout.width),
+                             static_cast<int>(layout.height), sheet.point_size, kDark),
+               area);
   std::vector<Eigen::Vector2d> line;
   for (const Eigen::Vector2d& point : sheet.track) line.push_back(to_pixels(panel, area, point));
   canvas.clip(area);
@@ -221,9 +221,10 @@ Result<void> write_map_picture(const std::filesystem::path& path, MapView view,
   const std::size_t finite = points.size();
   const HeightRange heights = map.heights.value_or(map_heights(points));
   if (view == MapView::kAbove) open_roof(points, map.section);
-  Sheet sheet{view, raster_of(view, points, heights), track_of(view, map.trajectory), {}, {}};
+  Sheet sheet{view, raster_of(view, points, heights), track_of(view, map.trajectory), {}, {}, 1};
   sheet.window = window_of(sheet.points, sheet.track);
   sheet.layout = layout_of(sheet.window, map.width - kLeft - kRight);
+  sheet.point_size = point_size(sheet.points, sheet.layout.scale);
   const int height = static_cast<int>(std::ceil(sheet.layout.total()));
   auto canvas = Canvas::create(path, map.width, height);
   if (!canvas) return tl::unexpected(canvas.error());

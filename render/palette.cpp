@@ -46,7 +46,7 @@ Color oklch_color(double lightness, double chroma, double hue_deg) {
 
 Color height_color(double fraction) {
   const double t = std::clamp(std::isfinite(fraction) ? fraction : 0.0, 0.0, 1.0);
-  return oklch_color(0.40 + 0.52 * t, 0.19, 308.0 - 200.0 * t);
+  return oklch_color(0.42 + 0.50 * t, 0.15, 308.0 - 203.0 * t);
 }
 
 std::array<std::array<std::uint8_t, 3>, 256> height_table() {

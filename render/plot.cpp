@@ -56,8 +56,9 @@ void draw_events(Canvas& canvas, const Rect& area, const Panel& panel) {
     const double x = to_pixels(panel, area, {event.at, panel.y.max}).x();
     if (x < area.x || x > area.right()) continue;
     canvas.line({{x, area.y}, {x, area.bottom()}}, {{0.45, 0.45, 0.45}, 1.0, LineStyle::kDashed});
-    canvas.text({x, area.y - 6.0}, event.label,
-                {.horizontal = Align::kCenter, .vertical = Align::kEnd, .bold = true});
+    const bool flip = x > area.right() - 30.0;
+    canvas.text({flip ? x - 6.0 : x + 6.0, area.y + 13.0}, event.label,
+                {.horizontal = flip ? Align::kEnd : Align::kStart, .bold = true});
   }
 }
 
@@ -110,7 +111,12 @@ void draw_panel(Canvas& canvas, const Rect& area, const Panel& panel) {
     }
     return result;
   };
-  for (const auto& corners : panel.areas) canvas.fill(pixels(corners), kArea);
+  for (const auto& corners : panel.areas) {
+    std::vector<Eigen::Vector2d> outline = pixels(corners);
+    canvas.fill(outline, kArea);
+    if (!outline.empty()) outline.push_back(outline.front());
+    canvas.line(outline, {kArea, 0.8});  // closes the seams between neighbours
+  }
   for (const Series& series : panel.series) canvas.line(pixels(series.points), series.stroke);
   draw_marks(canvas, area, panel);
   canvas.unclip();

@@ -57,21 +57,19 @@ Result<void> write_with_caption(const std::filesystem::path& path, const Image& 
 
 }  // namespace
 
-Camera robot_camera(const Scene& scene, const std::vector<double>& qpos, bool prefer_ahead) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  const Eigen::Vector3d target = position_of(qpos) + Eigen::Vector3d(0.0, 0.0, 0.02);
-  const double heading_deg = heading_of(qpos) * kDegrees;
-  const double first = prefer_ahead ? 180.0 : 0.0;
-  Camera camera{target, 1.5, heading_deg + first, -14.0};
-  for (const double distance : {1.5, 1.2, 0.9}) {
-    for (const double turn : {first, first + 180.0}) {
+Camera robot_camera(const Scene& scene, const std::vector<double>& qpos, double heading) {
+  constexpr double kElevation = -14.0;
+  const double heading_deg = heading * 180.0 / std::numbers::pi;
+  const Eigen::Vector3d target = position_of(qpos) + Eigen::Vector3d(0.0, 0.0, 0.03);
+  for (const double distance : {1.4, 1.1, 0.8}) {
+    for (const double turn : {0.0, 180.0}) {
       for (const double aside : {25.0, -25.0, 15.0, -15.0, 0.0}) {
-        camera = {target, distance, heading_deg + turn + aside, -14.0};
+        const Camera camera{target, distance, heading_deg + turn + aside, kElevation};
         if (sees(scene, camera.position(), target)) return camera;
       }
     }
   }
-  return camera;
+  return {target, 0.8, heading_deg, kElevation};
 }
 
 std::vector<std::size_t> notable_snapshots(const std::vector<RobotSnapshot>& snapshots) {
@@ -110,11 +108,10 @@ Result<std::vector<std::filesystem::path>> write_robot_pictures(
   struct Shot {
     const char* file;
     const char* where;
-    bool ahead;
   };
-  constexpr std::array<Shot, 3> kShots = {{{"robot_start.png", "near the start", true},
-                                           {"robot_middle.png", "on the way out", false},
-                                           {"robot_turn.png", "at the turn", true}}};
+  constexpr std::array<Shot, 3> kShots = {{{"robot_start.png", "near the start"},
+                                           {"robot_middle.png", "on the way out"},
+                                           {"robot_turn.png", "at the turn"}}};
   const std::vector<std::size_t> notable = notable_snapshots(snapshots);
   if (notable.empty()) return failure("no snapshot of the robot to draw");
   const MjcfOptions options{.image_width = config.width, .image_height = config.height};
@@ -122,11 +119,19 @@ Result<std::vector<std::filesystem::path>> write_robot_pictures(
   if (!mjcf) return tl::unexpected(mjcf.error());
   auto view = SceneView::create(*mjcf, height_field_data(scene.floor), config);
   if (!view) return tl::unexpected(view.error());
+  // Near the start the robot is met face to face, in the middle it is followed, and at the turn it
+  // is seen against the way it came.
+  const auto& start = snapshots.front().qpos;
+  const auto& first = snapshots[notable.front()].qpos;
+  const auto& middle = snapshots[notable[notable.size() / 2]].qpos;
+  const Eigen::Vector3d way = position_of(start) - position_of(snapshots[notable.back()].qpos);
+  const std::array<double, 3> headings = {heading_of(first) + std::numbers::pi, heading_of(middle),
+                                          std::atan2(way.y(), way.x())};
   std::vector<std::filesystem::path> files;
   for (std::size_t i = 0; i < notable.size(); ++i) {
     const RobotSnapshot& snapshot = snapshots[notable[i]];
-    const auto picture =
-        view->draw(snapshot.qpos, robot_camera(scene, snapshot.qpos, kShots[i].ahead));
+    const Camera camera = robot_camera(scene, snapshot.qpos, headings[i]);
+    const auto picture = view->draw(snapshot.qpos, camera);
     if (!picture) return tl::unexpected(picture.error());
     files.push_back(folder / kShots[i].file);
     const auto written =

@@ -14,10 +14,9 @@
 
 namespace aims {
 
-/// The camera beside, behind or ahead of the robot from which neither a solid nor the picture's
-/// edge hides it: the first free one of a fixed list of view points, at most 25 degrees off the
-/// robot's axis. `prefer_ahead`: views of its face come first.
-Camera robot_camera(const Scene& scene, const std::vector<double>& qpos, bool prefer_ahead);
+/// Camera that looks at the robot roughly along `heading` [rad] (0: along +x), or the other way,
+/// from at most 25 degrees beside it: the first of a fixed list of view points that no solid hides.
+Camera robot_camera(const Scene& scene, const std::vector<double>& qpos, double heading);
 
 /// Snapshots near the start, in the middle of the way out, and at the turn (the farthest point
 /// from the start, while the heading changes), in that order; fewer when there are not so many.

@@ -51,17 +51,20 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
 
 }  // namespace
 
-std::vector<std::vector<Eigen::Vector2d>> scene_plan(const Scene& scene, double min_top) {
+std::vector<std::vector<Eigen::Vector2d>> scene_plan(const Scene& scene, double min_top,
+                                                     double max_bottom) {
   std::vector<std::vector<Eigen::Vector2d>> outlines;
   for (const Solid& solid : scene.solids) {
     if (solid.roof || !solid.visible) continue;
     std::vector<Eigen::Vector2d> points;
     double top = -std::numeric_limits<double>::infinity();
+    double bottom = std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3d& point : surface_points(solid)) {
       points.emplace_back(point.head<2>());
       top = std::max(top, point.z());
+      bottom = std::min(bottom, point.z());
     }
-    if (top >= min_top) outlines.push_back(convex_hull(std::move(points)));
+    if (top >= min_top && bottom <= max_bottom) outlines.push_back(convex_hull(std::move(points)));
   }
   return outlines;
 }

@@ -9,7 +9,9 @@
 namespace aims {
 
 /// Outlines, seen from above in the world's xy plane [m], of the visible solids that stand in the
-/// way: roofs and what ends below `min_top` [m] are left out. Each is convex, counter-clockwise.
-std::vector<std::vector<Eigen::Vector2d>> scene_plan(const Scene& scene, double min_top = 0.05);
+/// way: roofs, what ends below `min_top` and what begins above `max_bottom` [m], as a lintel does,
+/// are left out. Each is convex, counter-clockwise.
+std::vector<std::vector<Eigen::Vector2d>> scene_plan(const Scene& scene, double min_top = 0.05,
+                                                     double max_bottom = 1.2);
 
 }  // namespace aims

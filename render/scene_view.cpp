@@ -47,38 +47,38 @@ void set_quality(mjModel& model, const ViewConfig& config) {
   model.vis.global.offheight = config.height;
   model.vis.global.fovy = 50.0F;
   model.vis.quality.offsamples = config.samples;
-  model.vis.quality.shadowsize = 2048;
+  model.vis.quality.shadowsize = 4096;
   // Near and far plane and shadow box are in units of the model's extent: keep them in metres,
   // whatever the length of the corridor.
   model.stat.extent = 1.0;
   model.vis.map.znear = 0.05F;
   model.vis.map.zfar = 150.0F;
-  model.vis.map.shadowclip = 4.0F;
+  model.vis.map.shadowclip = 1.5F;
   for (float* color : {model.vis.headlight.ambient, model.vis.headlight.diffuse}) {
     std::fill(color, color + 3, 0.32F);
   }
   std::fill(model.vis.headlight.specular, model.vis.headlight.specular + 3, 0.15F);
 }
 
-/// A lamp above the target, so that the robot is lit from above wherever it is.
-void add_lamp(mjvScene& scene, const Camera& camera) {
-  if (scene.nlight >= mjMAXLIGHT) return;
+/// Replaces the scene's lamps by one high above, leaning towards the camera: the robot is lit from
+/// where it is looked at, its shadow lies under it, and a corridor's walls hardly throw any.
+void set_lamp(mjvScene& scene, const Camera& camera) {
+  scene.nlight = std::min(scene.nlight, 1);  // keeps the headlight, which comes first
   mjvLight& light = scene.lights[scene.nlight++];
   std::memset(&light, 0, sizeof(light));
-  const Eigen::Vector3f up_and_aside(-0.35F, 0.30F, 2.6F);
-  const Eigen::Vector3f position = camera.target.cast<float>() + up_and_aside;
-  const Eigen::Vector3f direction = -up_and_aside.normalized();
+  const Eigen::Vector3d back = camera.position() - camera.target;
+  const Eigen::Vector2d aside = back.head<2>().normalized();
+  const Eigen::Vector3f offset(static_cast<float>(0.9 * aside.x()),
+                               static_cast<float>(0.9 * aside.y()), 2.6F);
   for (int i = 0; i < 3; ++i) {
-    light.pos[i] = position[i];
-    light.dir[i] = direction[i];
-    light.ambient[i] = 0.05F;
-    light.diffuse[i] = 0.55F;
-    light.specular[i] = 0.35F;
+    light.pos[i] = static_cast<float>(camera.target[i]) + offset[i];
+    light.dir[i] = -offset.normalized()[i];
+    light.ambient[i] = 0.10F;
+    light.diffuse[i] = 0.50F;
+    light.specular[i] = 0.30F;
   }
   light.attenuation[0] = 1.0F;
-  light.cutoff = 75.0F;
-  light.exponent = 1.0F;
-  light.directional = 0;
+  light.directional = 1;
   light.castshadow = 1;
 }
 
@@ -165,7 +165,7 @@ Result<Image> SceneView::draw(const std::vector<double>& qpos, const Camera& cam
   eye.elevation = camera.elevation_deg;
   mjv_updateScene(model, impl_->data.get(), &impl_->option, nullptr, &eye, mjCAT_ALL,
                   &impl_->scene);
-  add_lamp(impl_->scene, camera);
+  set_lamp(impl_->scene, camera);
   const mjrRect viewport{0, 0, impl_->config.width, impl_->config.height};
   mjr_render(viewport, &impl_->scene, &impl_->context);
   Image picture(viewport.width, viewport.height);

@@ -123,7 +123,7 @@ Study study(const TrajectoryPlot& plot) {
       if (comparison.error[i] <= kFollow) include(comparison.position[i]);
     }
   }
-  result.x = result.x.widened(2.0);
+  result.x = result.x.widened(4.0);
   result.y = result.y.widened(1.5);
   result.z = result.z.widened(std::max(0.1, 0.1 * result.z.span()));
   return result;
