@@ -85,8 +85,11 @@ class Fields {
   template <class Config>
   void list(std::string_view name, std::vector<Config>& items, std::string meaning);
 
-  const std::vector<Parameter>& parameters() const { return parameters_; }
-  const std::vector<ListField>& lists() const { return lists_; }
+  const std::vector<Parameter>& parameters() const& { return parameters_; }
+  const std::vector<ListField>& lists() const& { return lists_; }
+  // By value from a temporary, so that `for (... : fields_of(config).parameters())` is safe.
+  std::vector<Parameter> parameters() && { return std::move(parameters_); }
+  std::vector<ListField> lists() && { return std::move(lists_); }
 
   /// The parameter with that full key, or nullptr.
   const Parameter* find(std::string_view key) const;
