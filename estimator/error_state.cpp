@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/error_state.hpp"
+
+namespace aims {
+
+NominalState boxplus(const NominalState& state, const Vector15& delta) {
+  NominalState moved;
+  moved.rotation = (state.rotation * so3_exp(segment(delta, ErrorState::kRotation))).normalized();
+  moved.position = state.position + segment(delta, ErrorState::kPosition);
+  moved.velocity = state.velocity + segment(delta, ErrorState::kVelocity);
+  moved.gyro_bias = state.gyro_bias + segment(delta, ErrorState::kGyroBias);
+  moved.accelerometer_bias =
+      state.accelerometer_bias + segment(delta, ErrorState::kAccelerometerBias);
+  return moved;
+}
+
+Vector15 boxminus(const NominalState& state, const NominalState& origin) {
+  Vector15 delta;
+  segment(delta, ErrorState::kRotation) = so3_log(origin.rotation.conjugate() * state.rotation);
+  segment(delta, ErrorState::kPosition) = state.position - origin.position;
+  segment(delta, ErrorState::kVelocity) = state.velocity - origin.velocity;
+  segment(delta, ErrorState::kGyroBias) = state.gyro_bias - origin.gyro_bias;
+  segment(delta, ErrorState::kAccelerometerBias) =
+      state.accelerometer_bias - origin.accelerometer_bias;
+  return delta;
+}
+
+Matrix15 boxminus_jacobian(const Vector15& delta) {
+  Matrix15 jacobian = Matrix15::Identity();
+  block(jacobian, ErrorState::kRotation, ErrorState::kRotation) =
+      so3_right_jacobian_inverse(segment(delta, ErrorState::kRotation));
+  return jacobian;
+}
+
+Matrix15 reset_jacobian(const Vector15& delta) {
+  Matrix15 jacobian = Matrix15::Identity();
+  block(jacobian, ErrorState::kRotation, ErrorState::kRotation) =
+      so3_right_jacobian(segment(delta, ErrorState::kRotation));
+  return jacobian;
+}
+
+bool is_finite(const NominalState& state) {
+  return state.rotation.coeffs().allFinite() && state.position.allFinite() &&
+         state.velocity.allFinite() && state.gyro_bias.allFinite() &&
+         state.accelerometer_bias.allFinite();
+}
+
+}  // namespace aims

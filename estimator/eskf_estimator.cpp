@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/eskf_estimator.hpp"
+
+#include "estimator/deskew.hpp"
+#include "estimator/imu_propagation.hpp"
+#include "estimator/initialization.hpp"
+#include "estimator/leg_velocity_model.hpp"
+
+namespace aims {
+
+EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& member,
+                             const SensorRig& rig)
+    : config_(config),
+      member_(member),
+      rig_(rig),
+      queue_(config),
+      selection_(config.lidar),
+      lidar_update_(config.lidar, config.map, config.degeneracy, member.adaptive),
+      map_(config.map) {}
+
+void EskfEstimator::consume(const Delivery& delivery) {
+  queue_.push(delivery);
+  process_ready();
+}
+
+void EskfEstimator::finish() {
+  queue_.close();
+  process_ready();
+}
+
+void EskfEstimator::process_ready() {
+  if (started_ || start()) {
+    while (const std::optional<Correction> next = queue_.pop()) {
+      std::visit([this](const auto& each) { correct(each); }, *next);
+    }
+  }
+  for (const auto& [name, count] : queue_.counts()) report_.counts[name] = count;
+}
+
+bool EskfEstimator::start() {
+  const auto initial =
+      initialize(queue_.imu().samples(), config_.initialization, config_.imu.gravity);
+  if (!initial) return false;
+  if (!initial->stood_still) ++report_.counts["start.moving"];
+  belief_ = initial->belief;
+  time_ = initial->stamp;
+  started_ = true;
+  return true;
+}
+
+void EskfEstimator::correct(const LegOdometrySample& sample) {
+  if (!member_.leg) return;
+  if (sample.stamp < time_) {
+    ++report_.counts["leg.before_start"];
+    return;
+  }
+  const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
+  if (last_leg_) {
+    const auto lost = static_cast<int>((sample.stamp - last_leg_->stamp - period / 2) / period);
+    if (lost > 0) report_.counts["leg.lost"] += lost;
+  }
+  hold_lost_legs(sample.stamp);
+  fuse_leg(sample.stamp, sample.linear_velocity);
+  last_leg_ = sample;
+}
+
+void EskfEstimator::hold_lost_legs(Time until) {
+  if (!member_.hold_lost || !last_leg_) return;
+  const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
+  while (last_leg_->stamp + period + period / 2 < until) {
+    last_leg_->stamp += period;
+    fuse_leg(last_leg_->stamp, last_leg_->linear_velocity);
+    ++report_.counts["leg.held"];
+  }
+}
+
+void EskfEstimator::fuse_leg(Time stamp, const Eigen::Vector3d& velocity) {
+  predict_to(stamp);
+  const Eigen::Vector3d rate =
+      queue_.imu().angular_velocity_at(stamp).value_or(belief_.state.gyro_bias);
+  // eq. (11): R_leg' = R_leg / gamma_leg.
+  const Eigen::Matrix3d noise =
+      leg_velocity_noise(config_.leg, velocity) / lidar_update_.gamma_leg();
+  const LinearMeasurement measurement =
+      leg_velocity_model(belief_.state, rig_.T_body_base, rate, velocity, noise);
+  leg_innovation_ = measurement.residual.norm();
+  ++leg_updates_;
+  accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state,
+                       information_of(measurement)));
+}
+
+void EskfEstimator::correct(const LidarScanPtr& scan) {
+  if (scan->end < time_) {
+    ++report_.counts["lidar.before_start"];
+    return;
+  }
+  hold_lost_legs(scan->end);
+  predict_to(scan->end);
+  ScanDiagnostics diagnostics;
+  diagnostics.stamp = scan->end;
+  diagnostics.leg_innovation = leg_innovation_;
+  diagnostics.leg_updates = leg_updates_;
+  leg_updates_ = 0;
+  prepare_points(*scan, diagnostics);
+  if (!map_.empty()) {
+    accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
+    if (diagnostics.iterations == 0) ++report_.counts["lidar.no_update"];
+  }
+  extend_map();
+  report_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
+  report_.diagnostics.push_back(diagnostics);
+}
+
+void EskfEstimator::predict_to(Time stamp) {
+  if (stamp <= time_) return;
+  queue_.imu().segments(time_, stamp, segments_);
+  for (const InertialSegment& segment : segments_) {
+    const double dt = to_seconds(segment.end - segment.begin);
+    accept(propagate(belief_, segment, dt, config_.imu));
+    if (!segment.measured) ++report_.counts["imu.bridged"];
+  }
+  time_ = stamp;
+  queue_.imu().forget_before(stamp - kSecond);
+}
+
+void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics) {
+  for (const LidarPoint& point : scan.points) diagnostics.points_in += selection_.usable(point);
+  queue_.imu().segments(scan.stamp, scan.end, segments_);
+  const SweepMotion motion(belief_.state, segments_, rig_.T_body_lidar, config_.imu.gravity);
+  selection_.select(scan, config_.lidar.selection_voxel, config_.lidar.max_points, indices_);
+  deskew(scan, indices_, motion, match_points_);
+  selection_.select(scan, config_.map.insertion_voxel, config_.map.max_insertions, indices_);
+  deskew(scan, indices_, motion, insert_points_);
+}
+
+void EskfEstimator::extend_map() {
+  const Eigen::Matrix3f R = belief_.state.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f t = belief_.state.position.cast<float>();
+  for (Eigen::Vector3f& point : insert_points_) point = R * point + t;
+  map_.insert(insert_points_, t);
+}
+
+void EskfEstimator::accept(const Belief& updated) {
+  const bool sound = is_finite(updated.state) && updated.covariance.allFinite() &&
+                     (updated.covariance.diagonal().array() > 0.0).all();
+  if (sound) {
+    belief_ = updated;
+  } else {
+    ++report_.counts["filter.refused"];
+  }
+}
+
+}  // namespace aims

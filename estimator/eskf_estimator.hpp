@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "estimator/config.hpp"
+#include "estimator/estimator.hpp"
+#include "estimator/kalman_update.hpp"
+#include "estimator/lidar_update.hpp"
+#include "estimator/measurement_queue.hpp"
+#include "estimator/scan_selection.hpp"
+#include "estimator/voxel_map.hpp"
+
+namespace aims {
+
+/// The error-state Kalman filter of the family: the IMU predicts, leg odometry corrects at its own
+/// stamps, the LiDAR at the end of each sweep.
+class EskfEstimator : public Estimator {
+ public:
+  EskfEstimator(const EstimatorConfig& config, const FamilyMember& member, const SensorRig& rig);
+
+  void consume(const Delivery& delivery) override;
+  void finish() override;
+  const EstimatorReport& report() const override { return report_; }
+  std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
+
+  /// State and covariance after the last processed measurement, for consistency checks.
+  const Belief& belief() const { return belief_; }
+
+ private:
+  void process_ready();
+  bool start();
+  void correct(const LegOdometrySample& sample);
+  void correct(const LidarScanPtr& scan);
+  void predict_to(Time stamp);
+  void fuse_leg(Time stamp, const Eigen::Vector3d& velocity);
+  void hold_lost_legs(Time until);
+  void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
+  void extend_map();
+  void accept(const Belief& updated);
+
+  EstimatorConfig config_;
+  FamilyMember member_;
+  SensorRig rig_;
+  MeasurementQueue queue_;
+  ScanSelection selection_;
+  LidarUpdate lidar_update_;
+  VoxelMap map_;
+  EstimatorReport report_;
+
+  bool started_ = false;
+  Time time_ = 0;  ///< of the belief
+  Belief belief_;
+  std::optional<LegOdometrySample> last_leg_;  ///< with the stamp moved on while held
+  double leg_innovation_ = 0.0;
+  int leg_updates_ = 0;
+
+  std::vector<InertialSegment> segments_;
+  std::vector<int> indices_;
+  std::vector<Eigen::Vector3f> match_points_;   ///< body axes at the sweep's end
+  std::vector<Eigen::Vector3f> insert_points_;  ///< the same, then in the odometry frame
+};
+
+}  // namespace aims

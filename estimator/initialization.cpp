@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/initialization.hpp"
+
+#include <cmath>
+
+namespace aims {
+namespace {
+
+/// Fewer standing samples than this say nothing about biases.
+constexpr int kFewestSamples = 5;
+
+struct Standing {
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();   ///< mean [rad/s]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< mean [m/s^2]
+  int count = 0;
+  bool moved = false;
+};
+
+/// Means over the standing samples from the front, up to the duration or the first motion.
+Standing average_standing(const std::deque<ImuSample>& samples,
+                          const InitializationConfig& config, double gravity) {
+  Standing standing;
+  for (const ImuSample& sample : samples) {
+    if (sample.stamp - samples.front().stamp > from_seconds(config.duration)) break;
+    standing.moved = sample.angular_velocity.norm() > config.still_rate ||
+                     std::abs(sample.specific_force.norm() - gravity) > config.still_force;
+    if (standing.moved) break;
+    standing.rate += sample.angular_velocity;
+    standing.force += sample.specific_force;
+    ++standing.count;
+  }
+  if (standing.count > 0) {
+    standing.rate /= standing.count;
+    standing.force /= standing.count;
+  }
+  return standing;
+}
+
+/// Roll and pitch that turn the mean specific force upward, yaw 0.
+Eigen::Quaterniond level(const Eigen::Vector3d& force) {
+  const Eigen::Quaterniond tilt =
+      Eigen::Quaterniond::FromTwoVectors(force.normalized(), Eigen::Vector3d::UnitZ());
+  return (yaw_rotation(-yaw_of(tilt)) * tilt).normalized();
+}
+
+Matrix15 initial_covariance(const InitializationConfig& config, bool stood_still) {
+  using E = ErrorState;
+  // Without standing the start is little known: ten times the deviations.
+  const double factor = stood_still ? 1.0 : 100.0;
+  const auto variance = [factor](double sigma) {
+    return Eigen::Matrix3d(factor * sigma * sigma * Eigen::Matrix3d::Identity());
+  };
+  Matrix15 P = Matrix15::Zero();
+  block(P, E::kRotation, E::kRotation) = variance(config.sigma_tilt);
+  block(P, E::kRotation, E::kRotation)(2, 2) = config.sigma_yaw * config.sigma_yaw;
+  block(P, E::kPosition, E::kPosition) =
+      Eigen::Matrix3d::Identity() * (config.sigma_position * config.sigma_position);
+  block(P, E::kVelocity, E::kVelocity) = variance(config.sigma_velocity);
+  block(P, E::kGyroBias, E::kGyroBias) = variance(config.sigma_gyro_bias);
+  block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
+      variance(config.sigma_accelerometer_bias);
+  return P;
+}
+
+}  // namespace
+
+std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
+                                        const InitializationConfig& config, double gravity) {
+  if (samples.empty()) return std::nullopt;
+  const Standing standing = average_standing(samples, config, gravity);
+  const Duration span = samples.back().stamp - samples.front().stamp;
+  if (span < from_seconds(config.duration) && !standing.moved) return std::nullopt;
+  const bool enough = standing.count >= kFewestSamples;
+  InitialBelief initial;
+  initial.stamp = samples.front().stamp;
+  initial.stood_still = enough;
+  initial.belief.state.rotation = level(enough ? standing.force : samples.front().specific_force);
+  if (enough) initial.belief.state.gyro_bias = standing.rate;
+  initial.belief.covariance = initial_covariance(config, enough);
+  return initial;
+}
+
+}  // namespace aims

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "core/measurements.hpp"
+#include "estimator/config.hpp"
+#include "estimator/kalman_update.hpp"
+
+namespace aims {
+
+/// The first belief and the instant to which it belongs.
+struct InitialBelief {
+  Time stamp = 0;
+  Belief belief;
+  bool stood_still = true;  ///< false: the robot moved, so tilt and biases are guesses
+};
+
+/// The belief at the first of `samples` once they span the standing start, or once the robot moves.
+/// Gyro bias and tilt come from their means; the odometry frame is the start pose with yaw 0 and
+/// roll and pitch against gravity. Empty while more samples are needed.
+std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
+                                        const InitializationConfig& config, double gravity);
+
+}  // namespace aims

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "estimator/error_state.hpp"
+
+namespace aims {
+
+/// A linearised measurement of three rows: residual(x [+] d) ~ residual + jacobian d, which is zero
+/// up to `noise` at the truth.
+struct LinearMeasurement {
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 3, ErrorState::kSize> jacobian =
+      Eigen::Matrix<double, 3, ErrorState::kSize>::Zero();
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
+};
+
+/// What measurements of any number of rows say about the error state: A = H^T R^-1 H, b = H^T R^-1 r.
+struct Information {
+  Matrix15 matrix = Matrix15::Zero();
+  Vector15 vector = Vector15::Zero();
+};
+
+/// The information in one three-row measurement.
+Information information_of(const LinearMeasurement& measurement);
+
+/// The information of rows that see the pose alone: 6x6 matrix and 6-vector.
+Information pose_information(const Matrix6& matrix, const Vector6& vector);
+
+/// Gaussian belief: nominal state and covariance of its error.
+struct Belief {
+  NominalState state;
+  Matrix15 covariance = Matrix15::Identity();
+};
+
+/// Inverse of a covariance (symmetric, positive definite).
+Matrix15 inverse_spd(const Matrix15& matrix);
+
+/// The one Kalman update, in information form: the belief after fusing `measurements`, linearised at
+/// `linearization`, with the prior whose state is `prior` and inverse covariance
+/// `prior_information`. With linearization == prior it is the plain update; elsewhere it is one step
+/// of the iterated update. The covariance belongs to the error about the returned state.
+Belief kalman_update(const NominalState& prior, const Matrix15& prior_information,
+                     const NominalState& linearization, const Information& measurements);
+
+}  // namespace aims

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/lidar_update.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace aims {
+namespace {
+
+/// Smallest eigenvalue and condition number of the translation information that remains when the
+/// rotation is unknown too (its Schur complement).
+void record_localizability(const Matrix6& information, ScanDiagnostics& diagnostics) {
+  const Eigen::Matrix3d rotation =
+      information.topLeftCorner<3, 3>() + 1e-9 * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d cross = information.topRightCorner<3, 3>();
+  const Eigen::Matrix3d translation =
+      information.bottomRightCorner<3, 3>() - cross.transpose() * rotation.llt().solve(cross);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(translation,
+                                                              Eigen::EigenvaluesOnly);
+  diagnostics.smallest_eigenvalue = std::max(solver.eigenvalues()(0), 0.0);
+  diagnostics.condition_number =
+      solver.eigenvalues()(2) / std::max(diagnostics.smallest_eigenvalue, 1e-9);
+}
+
+}  // namespace
+
+LidarUpdate::LidarUpdate(const LidarConfig& lidar, const MapConfig& map,
+                         const DegeneracyConfig& degeneracy, bool adaptive)
+    : lidar_(lidar),
+      map_(map),
+      degeneracy_(degeneracy),
+      adaptive_(adaptive),
+      severity_(degeneracy.alpha) {}
+
+void LidarUpdate::associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
+                            const VoxelMap& map) {
+  matches_.clear();
+  const Eigen::Matrix3f R = state.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f t = state.position.cast<float>();
+  Neighbors neighbors;
+  for (const Eigen::Vector3f& point : points) {
+    map.nearest(R * point + t, neighbors);
+    if (neighbors.count < Neighbors::kWanted) continue;
+    const Plane plane = fit_plane(neighbors.points, map_);
+    if (plane.valid) matches_.push_back({point.cast<double>(), plane});
+  }
+}
+
+LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
+  Linearization sum;
+  residuals_.clear();
+  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
+  for (const Match& match : matches_) {
+    const PlaneRow row = plane_row(match.plane, match.p_body, R, state.position);
+    if (!(std::abs(row.residual) <= lidar_.residual_gate)) continue;
+    sum.matrix.noalias() += row.jacobian * row.jacobian.transpose();
+    sum.vector.noalias() += row.jacobian * row.residual;
+    residuals_.push_back(row.residual);
+  }
+  const double weight = 1.0 / (lidar_.point_sigma * lidar_.point_sigma);
+  sum.matrix *= weight;
+  sum.vector *= weight;
+  sum.used = static_cast<int>(residuals_.size());
+  return sum;
+}
+
+bool LidarUpdate::moved(const NominalState& state, const NominalState& since, double rotation,
+                        double position) const {
+  return state.rotation.angularDistance(since.rotation) > rotation ||
+         (state.position - since.position).norm() > position;
+}
+
+Belief LidarUpdate::trial(const Belief& predicted, const Matrix15& prior_information,
+                          std::span<const Eigen::Vector3f> points, const VoxelMap& map,
+                          ScanDiagnostics& diagnostics) {
+  Belief belief = predicted;
+  NominalState associated_at = predicted.state;
+  associate(associated_at, points, map);
+  for (int i = 0; i < lidar_.max_iterations; ++i) {
+    if (moved(belief.state, associated_at, lidar_.research_rotation, lidar_.research_position)) {
+      associated_at = belief.state;
+      associate(associated_at, points, map);
+    }
+    const Linearization rows = linearize(belief.state);
+    if (i == 0) {
+      diagnostics.residual_sigma_prior = std::sqrt(residual_statistics(residuals_).variance);
+    }
+    diagnostics.points_used = rows.used;
+    if (rows.used < lidar_.min_matches) return predicted;
+    const NominalState before = belief.state;
+    belief = kalman_update(predicted.state, prior_information, before,
+                           pose_information(rows.matrix, rows.vector));
+    ++diagnostics.iterations;
+    if (!moved(belief.state, before, lidar_.convergence_rotation, lidar_.convergence_position)) {
+      break;
+    }
+  }
+  return belief;
+}
+
+void LidarUpdate::assess(const Belief& predicted, const Matrix15& prior_information,
+                         const NominalState& trial_state, ScanDiagnostics& diagnostics) {
+  const ResidualStatistics statistics = residual_statistics(residuals_);
+  const double prior_sigma = diagnostics.residual_sigma_prior;
+  const Vector15 y = boxminus(trial_state, predicted.state);  // eq. (5)
+  diagnostics.residual_mean = statistics.mean;
+  diagnostics.residual_sigma = std::sqrt(statistics.variance);
+  diagnostics.O_lidar = effective_observability(statistics.variance, degeneracy_.sigma_0);
+  diagnostics.O_lidar_prior =
+      effective_observability(prior_sigma * prior_sigma, degeneracy_.sigma_0);
+  diagnostics.C_IL = consistency(pose_segment(y), pose_block(predicted.covariance));
+  diagnostics.C_IL_full = consistency_full(y, prior_information);
+  diagnostics.innovation_rotation = segment(y, ErrorState::kRotation);
+  diagnostics.innovation_position = segment(y, ErrorState::kPosition);
+  const double O_lidar =
+      degeneracy_.prior_residuals ? diagnostics.O_lidar_prior : diagnostics.O_lidar;
+  diagnostics.D = degeneracy_severity(O_lidar, diagnostics.C_IL, degeneracy_);  // eq. (7)
+  severity_.update(diagnostics.D);                                              // eq. (12)
+}
+
+Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
+                           const VoxelMap& map, ScanDiagnostics& diagnostics) {
+  const Matrix15 prior_information = inverse_spd(predicted.covariance);
+  Belief belief = trial(predicted, prior_information, points, map, diagnostics);
+  const bool matched = diagnostics.points_used >= lidar_.min_matches;
+  if (matched) {
+    const Linearization rows = linearize(belief.state);
+    diagnostics.points_used = rows.used;
+    record_localizability(rows.matrix, diagnostics);
+    assess(predicted, prior_information, belief.state, diagnostics);
+    gamma_lidar_ = adaptive_ ? lidar_reliability(severity_.value(), degeneracy_) : 1.0;
+    gamma_leg_ = adaptive_ ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
+    // eq. (9): R_lidar' = R_lidar / gamma_lidar, so the information of the trial's last
+    // linearisation is multiplied by gamma_lidar.
+    belief = kalman_update(predicted.state, prior_information, belief.state,
+                           pose_information(gamma_lidar_ * rows.matrix, gamma_lidar_ * rows.vector));
+  }
+  diagnostics.D_smoothed = severity_.value();
+  diagnostics.gamma_lidar = gamma_lidar_;
+  diagnostics.gamma_leg = gamma_leg_;
+  return belief;
+}
+
+}  // namespace aims

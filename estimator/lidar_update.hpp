@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "estimator/config.hpp"
+#include "estimator/degeneracy.hpp"
+#include "estimator/estimator.hpp"
+#include "estimator/kalman_update.hpp"
+#include "estimator/plane_model.hpp"
+#include "estimator/voxel_map.hpp"
+
+namespace aims {
+
+/// The LiDAR correction: an iterated trial update with the nominal noise, the degeneracy index that
+/// its residuals and innovation give, and the final update with the noise that the index asks for.
+class LidarUpdate {
+ public:
+  /// With `adaptive` off the weights stay 1 and the index is only recorded.
+  LidarUpdate(const LidarConfig& lidar, const MapConfig& map, const DegeneracyConfig& degeneracy,
+              bool adaptive);
+
+  /// The belief after fusing `points` (body axes at the belief's instant) against `map`. Fills the
+  /// index, weights and statistics of `diagnostics`. With too few planes the belief is returned as
+  /// it came, and the index stays where it was.
+  Belief update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
+                const VoxelMap& map, ScanDiagnostics& diagnostics);
+
+  /// gamma_leg after the last scan, eq. (10); 1 before the first.
+  double gamma_leg() const { return gamma_leg_; }
+
+ private:
+  /// A point with its plane.
+  struct Match {
+    Eigen::Vector3d p_body;
+    Plane plane;
+  };
+
+  /// The rows of all accepted matches at one pose.
+  struct Linearization {
+    Matrix6 matrix = Matrix6::Zero();  ///< H^T R^-1 H at nominal noise
+    Vector6 vector = Vector6::Zero();  ///< H^T R^-1 r at nominal noise
+    int used = 0;
+  };
+
+  void associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
+                 const VoxelMap& map);
+  Linearization linearize(const NominalState& state);
+  Belief trial(const Belief& predicted, const Matrix15& prior_information,
+               std::span<const Eigen::Vector3f> points, const VoxelMap& map,
+               ScanDiagnostics& diagnostics);
+  void assess(const Belief& predicted, const Matrix15& prior_information,
+              const NominalState& trial_state, ScanDiagnostics& diagnostics);
+  bool moved(const NominalState& state, const NominalState& since, double rotation,
+             double position) const;
+
+  LidarConfig lidar_;
+  MapConfig map_;
+  DegeneracyConfig degeneracy_;
+  bool adaptive_;
+  SeverityFilter severity_;
+  double gamma_lidar_ = 1.0;
+  double gamma_leg_ = 1.0;
+  std::vector<Match> matches_;
+  std::vector<double> residuals_;
+};
+
+}  // namespace aims

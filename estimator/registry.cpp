@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/registry.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "estimator/eskf_estimator.hpp"
+#include "estimator/leg_dead_reckoning.hpp"
+
+namespace aims {
+namespace {
+
+using Factory = std::unique_ptr<Estimator> (*)(const EstimatorConfig&, const SensorRig&);
+
+template <bool leg, bool hold_lost, bool adaptive>
+std::unique_ptr<Estimator> eskf(const EstimatorConfig& config, const SensorRig& rig) {
+  const FamilyMember member{.leg = leg, .hold_lost = hold_lost, .adaptive = adaptive};
+  return std::make_unique<EskfEstimator>(config, member, rig);
+}
+
+std::unique_ptr<Estimator> dead_reckoning(const EstimatorConfig& config, const SensorRig& rig) {
+  return std::make_unique<LegDeadReckoning>(config, rig);
+}
+
+constexpr std::array kEntries = {
+    EstimatorEntry{"aims", "LiDAR, IMU and legs, weighted by the degeneracy index of the paper"},
+    EstimatorEntry{"tfs", "fixed weights, lost leg packets unnoticed: the paper's ablation"},
+    EstimatorEntry{"tfs_clean", "fixed weights, lost leg packets skipped"},
+    EstimatorEntry{"lio", "LiDAR and IMU only, fixed weights"},
+    EstimatorEntry{"leg", "leg odometry alone, as the robot reports it"},
+};
+constexpr std::array<Factory, kEntries.size()> kFactories = {
+    eskf<true, false, true>, eskf<true, true, false>, eskf<true, false, false>,
+    eskf<false, false, false>, dead_reckoning};
+
+std::string unknown_estimator_message(std::string_view name) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const EstimatorEntry& entry : kEntries) {
+    names.emplace_back(entry.name);
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  const std::string near = near_match(name, names);
+  std::string message = "unknown estimator '" + std::string(name) + "'";
+  if (!near.empty()) message += "; did you mean '" + near + "'?";
+  return message + " (known: " + list + ")";
+}
+
+}  // namespace
+
+std::span<const EstimatorEntry> estimator_registry() { return kEntries; }
+
+Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name,
+                                                  const EstimatorConfig& config,
+                                                  const SensorRig& rig) {
+  for (std::size_t i = 0; i < kEntries.size(); ++i) {
+    if (kEntries[i].name == name) return kFactories[i](config, rig);
+  }
+  return failure(unknown_estimator_message(name));
+}
+
+}  // namespace aims

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "estimator/config.hpp"
+#include "estimator/estimator.hpp"
+
+namespace aims {
+
+/// An estimator that can be asked for by name.
+struct EstimatorEntry {
+  std::string_view name;
+  std::string_view description;  ///< one line
+};
+
+/// Every estimator, in the order of the design.
+std::span<const EstimatorEntry> estimator_registry();
+
+/// The estimator `name`. Error for an unknown name, with a near match and the list.
+Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name,
+                                                  const EstimatorConfig& config,
+                                                  const SensorRig& rig);
+
+}  // namespace aims

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "estimator/config.hpp"
+#include "estimator/voxel_hash.hpp"
+
+namespace aims {
+
+/// The map points nearest to a query, nearest first.
+struct Neighbors {
+  static constexpr int kWanted = 5;
+  std::array<Eigen::Vector3f, kWanted> points;
+  std::array<float, kWanted> squared_distances{};  ///< [m^2]
+  int count = 0;
+};
+
+/// Local map: points in hashed cubic voxels. A return close to a map point merges into it (running
+/// mean), so that noise averages out; memory is bounded per voxel and in all.
+class VoxelMap {
+ public:
+  explicit VoxelMap(const MapConfig& config);
+
+  /// Adds points in the odometry frame; non-finite ones are ignored. When there are too many
+  /// voxels afterwards, those farthest from `center` are dropped.
+  void insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center);
+
+  /// The up to five nearest map points within the gate (at most one voxel edge): exact.
+  void nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const;
+
+  std::size_t voxel_count() const { return voxels_.size(); }
+  bool empty() const { return voxels_.empty(); }
+
+  /// Every map point, in order of insertion of its voxel.
+  std::vector<Eigen::Vector3f> points() const;
+
+ private:
+  static constexpr int kCapacity = 32;
+
+  struct Voxel {
+    alignas(16) std::array<float, kCapacity> x;
+    std::array<float, kCapacity> y;
+    std::array<float, kCapacity> z;
+    std::array<std::uint8_t, kCapacity> merged;
+    std::uint64_t key = 0;
+    int count = 0;
+  };
+
+  void insert(const Eigen::Vector3f& point);
+  void drop_far(const Eigen::Vector3f& center);
+  static void search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
+                     Neighbors& neighbors);
+
+  float inverse_size_;
+  float size_;
+  float gate_;
+  float spacing_;
+  int max_points_per_voxel_;
+  int max_merges_;
+  std::size_t max_voxels_;
+  VoxelHash index_;
+  std::vector<Voxel> voxels_;
+};
+
+}  // namespace aims
