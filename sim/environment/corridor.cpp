@@ -73,13 +73,14 @@ std::vector<Span> door_openings(const CorridorConfig& config, Side side, std::ui
   RandomStream random = rng(seed, side == Side::kLeft ? "scene.doors.left" : "scene.doors.right");
   const Span along = extent(config);
   std::vector<Span> openings;
+  const double reach = 0.5 * doors.width + doors.jitter + kWallThickness;
   int index = 0;
   for (const double centre : regular_centres(along, doors.spacing)) {
     const double x = centre + random.uniform(-doors.jitter, doors.jitter);
-    const Span opening{x - 0.5 * doors.width, x + 0.5 * doors.width};
-    const bool fits =
-        opening.begin > along.begin + kWallThickness && opening.end < along.end - kWallThickness;
-    if (on_side(doors.sides, side, index++) && fits) openings.push_back(opening);
+    const bool fits = centre - reach > along.begin && centre + reach < along.end;
+    if (on_side(doors.sides, side, index++) && fits) {
+      openings.push_back({x - 0.5 * doors.width, x + 0.5 * doors.width});
+    }
   }
   return openings;
 }

@@ -85,7 +85,7 @@ TriangleMesh triangulate(const Floor& floor) {
       const auto here = static_cast<std::uint32_t>(row * columns + column);
       const auto above = here + static_cast<std::uint32_t>(columns);
       // The same diagonal as in MuJoCo's height fields.
-      add_quad(here + 1, above + 1, above, here, mesh);
+      add_quad(here, here + 1, above + 1, above, mesh);
     }
   }
   return mesh;
