@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+
+#include "tests/io/temporary_directory.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t files_in(const fs::path& directory) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(directory), fs::directory_iterator()));
+}
+
+TEST(AtomicFile, WritesReplacesAndLeavesNothingElse) {
+  const test::TemporaryDirectory directory;
+  const fs::path file = directory.path() / "f.txt";
+  ASSERT_TRUE(write_file_atomically(file, "first"));
+  ASSERT_TRUE(write_file_atomically(file, std::string_view("sec\0nd", 6)));
+  EXPECT_EQ(read_file(file).value(), std::string("sec\0nd", 6));
+  EXPECT_EQ(files_in(directory.path()), 1U);
+}
+
+TEST(AtomicFile, WritesBytesAndNothingAtAll) {
+  const test::TemporaryDirectory directory;
+  const fs::path file = directory.path() / "f.bin";
+  const std::array<std::byte, 3> bytes = {std::byte{0}, std::byte{255}, std::byte{10}};
+  ASSERT_TRUE(write_file_atomically(file, std::span<const std::byte>(bytes)));
+  EXPECT_EQ(read_file(file).value(), std::string("\0\xff\n", 3));
+  ASSERT_TRUE(write_file_atomically(file, ""));
+  EXPECT_EQ(read_file(file).value(), "");
+}
+
+TEST(AtomicFile, ErrorsNameTheFileAndTheReason) {
+  const test::TemporaryDirectory directory;
+  const fs::path orphan = directory.path() / "gone" / "f.txt";
+  EXPECT_EQ(write_file_atomically(orphan, "x").error().message,
+            orphan.string() + ": cannot be written: no directory '" +
+                orphan.parent_path().string() + "'");
+  EXPECT_EQ(write_file_atomically(directory.path(), "x").error().message,
+            directory.path().string() + ": cannot be written: it is a directory");
+  EXPECT_EQ(read_file(orphan).error().message,
+            orphan.string() + ": cannot be read: No such file or directory");
+  EXPECT_EQ(read_file(directory.path()).error().message,
+            directory.path().string() + ": cannot be read: Is a directory");
+}
+
+TEST(AtomicFile, AFullDiskIsAnErrorAndKeepsTheOldContent) {
+  // The temporary's name leads to a device that accepts an open and refuses a write.
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const test::TemporaryDirectory directory;
+  const fs::path file = directory.path() / "f.txt";
+  ASSERT_TRUE(write_file_atomically(file, "old"));
+  const fs::path temporary = file.string() + "." + std::to_string(::getpid()) + ".tmp";
+  fs::create_symlink("/dev/full", temporary);
+  const auto written = write_file_atomically(file, "new");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().message,
+            file.string() + ": cannot be written: No space left on device");
+  EXPECT_EQ(read_file(file).value(), "old");
+  EXPECT_EQ(files_in(directory.path()), 1U);
+}
+
+}  // namespace
+}  // namespace aims
