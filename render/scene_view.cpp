@@ -53,9 +53,9 @@ void set_quality(mjModel& model, const ViewConfig& config) {
   model.stat.extent = 1.0;
   model.vis.map.znear = 0.05F;
   model.vis.map.zfar = 150.0F;
-  model.vis.map.shadowclip = 1.5F;
+  model.vis.map.shadowclip = 2.5F;
   for (float* color : {model.vis.headlight.ambient, model.vis.headlight.diffuse}) {
-    std::fill(color, color + 3, 0.32F);
+    std::fill(color, color + 3, 0.42F);
   }
   std::fill(model.vis.headlight.specular, model.vis.headlight.specular + 3, 0.15F);
 }
@@ -68,13 +68,13 @@ void set_lamp(mjvScene& scene, const Camera& camera) {
   std::memset(&light, 0, sizeof(light));
   const Eigen::Vector3d back = camera.position() - camera.target;
   const Eigen::Vector2d aside = back.head<2>().normalized();
-  const Eigen::Vector3f offset(static_cast<float>(0.9 * aside.x()),
-                               static_cast<float>(0.9 * aside.y()), 2.6F);
+  const Eigen::Vector3f offset(static_cast<float>(0.2 * aside.x()),
+                               static_cast<float>(0.2 * aside.y()), 2.6F);
   for (int i = 0; i < 3; ++i) {
     light.pos[i] = static_cast<float>(camera.target[i]) + offset[i];
     light.dir[i] = -offset.normalized()[i];
-    light.ambient[i] = 0.10F;
-    light.diffuse[i] = 0.50F;
+    light.ambient[i] = 0.08F;
+    light.diffuse[i] = 0.56F;
     light.specular[i] = 0.30F;
   }
   light.attenuation[0] = 1.0F;

@@ -163,7 +163,7 @@ Panel plan_panel(const TrajectoryPlot& plot, const Study& study) {
     lines.add(std::move(points), stroke);
   };
   add(plot.truth, kTruthStroke);
-  for (std::size_t i = 0; i < plot.estimates.size(); ++i)
+  for (std::size_t i = plot.estimates.size(); i-- > 0;)  // the first lies on top
     add(plot.estimates[i].trajectory, stroke_of(i));
   panel.series = std::move(lines.series);
   for (const Passage& passage : plot.passages) {
@@ -200,7 +200,7 @@ Panel height_panel(const TrajectoryPlot& plot, const Study& study) {
   for (std::size_t i = 0; i < plot.truth.size(); ++i)
     points.emplace_back(study.truth_distance[i], plot.truth[i].pose.translation.z());
   lines.add(std::move(points), kTruthStroke);
-  for (std::size_t k = 0; k < study.estimates.size(); ++k) {
+  for (std::size_t k = study.estimates.size(); k-- > 0;) {
     const Comparison& comparison = study.estimates[k];
     std::vector<Eigen::Vector2d> line;
     for (std::size_t i = 0; i < comparison.error.size(); ++i)
@@ -218,7 +218,7 @@ Panel error_panel(const TrajectoryPlot& plot, const Study& study) {
   panel.height = 230.0;
   panel.events = events_of(plot, study);
   Lines lines;
-  for (std::size_t k = 0; k < study.estimates.size(); ++k) {
+  for (std::size_t k = study.estimates.size(); k-- > 0;) {
     const Comparison& comparison = study.estimates[k];
     std::vector<Eigen::Vector2d> line;
     for (std::size_t i = 0; i < comparison.error.size(); ++i)

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/render/picture_file.hpp"
+
+#include <cairo.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <iterator>
+
+namespace aims::test {
+
+PictureFolder::PictureFolder() {
+  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+  path_ =
+      std::filesystem::temp_directory_path() / ("aims_render_" + std::to_string(::getpid()) + "_" +
+                                                info->test_suite_name() + "_" + info->name());
+  std::filesystem::remove_all(path_);
+  std::filesystem::create_directories(path_);
+}
+
+PictureFolder::~PictureFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::size_t PictureFolder::files() const {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
+}
+
+Image read_png(const std::filesystem::path& path) {
+  cairo_surface_t* surface = cairo_image_surface_create_from_png(path.c_str());
+  Image image;
+  if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
+    image = Image(cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
+    const unsigned char* data = cairo_image_surface_get_data(surface);
+    const int stride = cairo_image_surface_get_stride(surface);
+    for (int row = 0; row < image.height; ++row) {
+      for (int column = 0; column < image.width; ++column) {
+        const unsigned char* bgr = data + static_cast<std::ptrdiff_t>(row) * stride + 4 * column;
+        image.set(column, row, {bgr[2], bgr[1], bgr[0]});
+      }
+    }
+  }
+  cairo_surface_destroy(surface);
+  return image;
+}
+
+int count_pixels(const Image& image, const std::array<int, 3>& color, int tolerance) {
+  int count = 0;
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const auto pixel = image.pixel(column, row);
+      bool near = true;
+      for (std::size_t c = 0; c < 3; ++c) near = near && std::abs(pixel[c] - color[c]) <= tolerance;
+      count += near ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+}  // namespace aims::test
