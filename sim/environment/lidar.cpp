@@ -166,7 +166,7 @@ LidarScan Lidar::sweep(Time start, const Trajectory& T_world_lidar, SweepTruth* 
     }
     const int block = first / kRayPacketSize;
     aim(block, poses);
-    receive(block, lanes);
+    receive(lanes);
     report(block, lanes, scan, truth);
   }
   return scan;
@@ -211,7 +211,7 @@ void Lidar::aim(int block, const std::vector<Pose>& column_poses) {
   }
 }
 
-void Lidar::receive(int /*block*/, int lanes) {
+void Lidar::receive(int lanes) {
   // Beyond the limit by more than the noise can bring back.
   const auto reach = static_cast<float>(config_.range_max + 6.0 * config_.range_sigma);
   for (Returns& each : returns_) {

@@ -22,20 +22,20 @@ struct LidarConfig {
   double elevation_min_deg = -15.0;  ///< of ring 0 [deg]
   double elevation_max_deg = 15.0;   ///< of the last ring [deg]
   double start_azimuth_deg = 180.0;  ///< of the first firing, +x to +y [deg]; spins clockwise
-  double ring_interval_us =
-      2.304;                  ///< between rings of a column; shortened if it does not fit [us]
-  double range_min = 0.3;     ///< nearer returns are dropped [m]
-  double range_max = 100.0;   ///< farther returns are dropped [m]
-  double range_sigma = 0.02;  ///< white noise of the range [m]
-  double miss_probability = 0.005;  ///< of a return lost for no reason [-]
-  double range_at_10_percent =
-      50.0;  ///< where half the returns of a facing 10 % target are seen [m]
+  double ring_interval_us = 2.304;   ///< between rings of a column, at most what fits [us]
+  double range_min = 0.3;            ///< nearer returns are dropped [m]
+  double range_max = 100.0;          ///< farther returns are dropped [m]
+  double range_sigma = 0.02;         ///< white noise of the range [m]
+  double miss_probability = 0.005;   ///< of a return lost for no reason [-]
+  /// Range at which half the returns of a facing target of 10 % reflectivity are detected [m].
+  double range_at_10_percent = 50.0;
   double detection_steepness = 6.0;  ///< of the detection probability in the received power [-]
-  /// Box around the robot's trunk, head and hips in the LiDAR frame [m]. A beam that enters it ends
-  /// on the robot and its return is masked, as a driver does; thighs and calves stay below the
-  /// beams. No beam is masked when the box is empty.
-  Eigen::Vector3d body_min = Eigen::Vector3d(-0.15, -0.16, -0.30);
-  Eigen::Vector3d body_max = Eigen::Vector3d(0.55, 0.16, -0.06);
+  /// Box around trunk, head and hips in the LiDAR frame [m], with a margin as a driver's mask has
+  /// one: what a beam that enters it returns is masked. From the mast of `models/quadruped.xml`
+  /// only the two lowest rings meet it, ahead; thighs and calves stay below all beams. An empty box
+  /// masks nothing.
+  Eigen::Vector3d body_min = Eigen::Vector3d(-0.10, -0.15, -0.32);
+  Eigen::Vector3d body_max = Eigen::Vector3d(0.42, 0.15, -0.085);
 };
 
 void describe(Fields& fields, LidarConfig& config);
@@ -79,7 +79,7 @@ class Lidar {
   };
 
   void aim(int block, const std::vector<Pose>& column_poses);
-  void receive(int block, int lanes);
+  void receive(int lanes);
   void report(int block, int lanes, LidarScan& scan, SweepTruth* truth);
   bool detected(float strength, float range);
 

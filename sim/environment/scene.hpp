@@ -20,8 +20,8 @@ enum class Shape { kBox, kCylinder };
 struct Solid {
   Shape shape = Shape::kBox;
   Pose T_world_solid;
-  Eigen::Vector3d half_extents =
-      Eigen::Vector3d::Ones();  ///< [m]; a cylinder: radius, radius, half height
+  /// [m]; of a cylinder along z: radius, radius, half height
+  Eigen::Vector3d half_extents = Eigen::Vector3d::Ones();
   Material material;
   bool collides = true;  ///< part of the physics model (kept under about 50 solids)
   bool visible = true;   ///< seen by the LiDAR and the camera
@@ -43,5 +43,8 @@ struct Scene {
   Floor floor;
   std::vector<Solid> solids;
 };
+
+/// True when `point` (world) is inside a solid, or nearer to one than `clearance` [m].
+bool is_inside_solid(const Scene& scene, const Eigen::Vector3d& point, double clearance);
 
 }  // namespace aims

@@ -113,8 +113,8 @@ class SceneWriter {
     set(child(visual, "map"), "shadowclip", "1.5");
     set(child(visual, "quality"), "shadowsize", "2048");
     pugi::xml_node headlight = child(visual, "headlight");
-    set(headlight, "ambient", "0.35 0.35 0.35");
-    set(headlight, "diffuse", "0.25 0.25 0.25");
+    set(headlight, "ambient", "0.38 0.38 0.38");
+    set(headlight, "diffuse", "0.18 0.18 0.18");
     set(headlight, "specular", "0 0 0");
   }
 
@@ -163,21 +163,25 @@ class SceneWriter {
 
   void add_lights() {
     pugi::xml_node world = child(root_, "worldbody");
-    pugi::xml_node fill = world.append_child("light");
-    set(fill, "directional", "true");
-    set(fill, "castshadow", "false");
-    set(fill, "dir", "0.5 0.6 -0.6");
-    set(fill, "diffuse", "0.25 0.25 0.25");
-    set(fill, "specular", "0 0 0");
-    // The key light travels with the robot, so that its shadow is sharp everywhere.
+    // Two lights without shadow brighten the walls, one from each side.
+    for (const char* direction : {"0.4 0.8 -0.4", "-0.4 -0.8 -0.4"}) {
+      pugi::xml_node fill = world.append_child("light");
+      set(fill, "directional", "true");
+      set(fill, "castshadow", "false");
+      set(fill, "dir", direction);
+      set(fill, "diffuse", "0.32 0.32 0.31");
+      set(fill, "specular", "0 0 0");
+    }
+    // The key light travels with the robot, so that its shadow is sharp everywhere. It is steep,
+    // so that the walls keep theirs to themselves.
     pugi::xml_node robot = world.child("body");
     pugi::xml_node key = (robot ? robot : world).append_child("light");
     set(key, "mode", robot ? "trackcom" : "fixed");
     set(key, "directional", "true");
     set(key, "castshadow", "true");
     set(key, "pos", "0 0 2.5");
-    set(key, "dir", "0.25 -0.35 -1");
-    set(key, "diffuse", "0.45 0.45 0.45");
+    set(key, "dir", "0.15 -0.12 -1");
+    set(key, "diffuse", "0.4 0.4 0.4");
     set(key, "specular", "0.1 0.1 0.1");
   }
 
@@ -212,19 +216,6 @@ std::vector<float> height_field_data(const Floor& floor) {
   const float top = std::max(*std::max_element(elevations.begin(), elevations.end()), 1e-6F);
   for (float& elevation : elevations) elevation /= top;
   return elevations;
-}
-
-bool is_inside_solid(const Scene& scene, const Eigen::Vector3d& point, double clearance) {
-  return std::any_of(scene.solids.begin(), scene.solids.end(), [&](const Solid& solid) {
-    const Eigen::Vector3d local = solid.T_world_solid.inverse() * point;
-    Eigen::Vector3d outside = local.cwiseAbs() - solid.half_extents;
-    if (solid.shape == Shape::kCylinder) {
-      outside.x() = local.head<2>().norm() - solid.half_extents.x();
-      outside.y() = 0.0;
-    }
-    const double distance = outside.cwiseMax(0.0).norm();
-    return distance < clearance || outside.maxCoeff() <= 0.0;
-  });
 }
 
 }  // namespace aims

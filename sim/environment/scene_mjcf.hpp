@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +37,5 @@ Result<std::string> scene_mjcf(const Scene& scene, std::string_view robot_mjcf, 
 
 /// Elevations in [0, 1] as MuJoCo keeps them, row by row; empty for a flat floor.
 std::vector<float> height_field_data(const Floor& floor);
-
-/// True when `point` (world) is inside a solid, or nearer to one than `clearance` [m].
-bool is_inside_solid(const Scene& scene, const Eigen::Vector3d& point, double clearance);
 
 }  // namespace aims

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "sim/environment/ray_caster.hpp"
-#include "sim/environment/scene_mjcf.hpp"
 
 namespace aims {
 namespace {
