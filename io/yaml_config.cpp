@@ -23,8 +23,10 @@ std::string place(const std::string& file, const YAML::Mark& mark) {
   return fmt::format("{}:{}:{}", file, mark.line + 1, mark.column + 1);
 }
 
+/// The text with a space in place of every control character.
 std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  std::replace_if(text.begin(), text.end(), is_control, ' ');
   return text;
 }
 
@@ -32,7 +34,7 @@ std::string kind_of(const YAML::Node& node) {
   if (node.IsMap()) return "a map";
   if (node.IsSequence()) return "a list";
   if (node.IsNull()) return "nothing";
-  return fmt::format("'{}'", one_line(node.Scalar()));
+  return fmt::format("'{}'", node.Scalar());
 }
 
 /// The one document of a text, which must be a map.
@@ -43,7 +45,7 @@ Result<YAML::Node> parse_document(const std::string& text, const std::string& fi
   } catch (const YAML::Exception& error) {
     return failure(fmt::format("{}: not valid YAML: {}", place(file, error.mark), error.msg));
   } catch (const std::exception& error) {
-    return failure(fmt::format("{}: not valid YAML: {}", file, one_line(error.what())));
+    return failure(fmt::format("{}: not valid YAML: {}", file, error.what()));
   }
   if (documents.empty() || documents.front().IsNull()) {
     return failure(fmt::format("{}: expected a map of settings, the file is empty", file));
@@ -157,7 +159,7 @@ class Assigner {
 
   static std::string shown(const YAML::Node& value) {
     const auto text = value.IsSequence() ? flow_text(value) : std::nullopt;
-    return text ? one_line(*text) : kind_of(value);
+    return text ? *text : kind_of(value);
   }
 
   /// The node whose place an error shall name: the value, or its key when the value is nothing.
@@ -219,23 +221,31 @@ Result<void> load_file(const fs::path& file, const CollectFields& collect,
   return load_document(*text, file.string(), collect, chain);
 }
 
+/// The outcome of `load`, with exceptions as errors and every message on one line.
+template <class Load>
+Result<void> reported(const std::string& name, const Load& load) {
+  std::string message;
+  try {
+    Result<void> loaded = load();
+    if (loaded) return loaded;
+    message = loaded.error().message;
+  } catch (const std::exception& error) {
+    message = fmt::format("{}: {}", name, error.what());
+  }
+  return failure(one_line(std::move(message)));
+}
+
 }  // namespace
 
 Result<void> load_config(const fs::path& file, const CollectFields& collect) {
-  try {
-    return load_file(file, collect, {});
-  } catch (const std::exception& error) {
-    return failure(fmt::format("{}: {}", file.string(), one_line(error.what())));
-  }
+  return reported(file.string(), [&] { return load_file(file, collect, {}); });
 }
 
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect) {
-  try {
+  return reported(name, [&] {
     return load_document(std::string(text), name, collect, {fs::weakly_canonical(name)});
-  } catch (const std::exception& error) {
-    return failure(fmt::format("{}: {}", name, one_line(error.what())));
-  }
+  });
 }
 
 Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings) {

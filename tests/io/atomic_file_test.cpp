@@ -6,7 +6,7 @@
 #include <array>
 #include <filesystem>
 
-#include "tests/io/temporary_directory.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
@@ -19,7 +19,7 @@ std::size_t files_in(const fs::path& directory) {
 }
 
 TEST(AtomicFile, WritesReplacesAndLeavesNothingElse) {
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const fs::path file = directory.path() / "f.txt";
   ASSERT_TRUE(write_file_atomically(file, "first"));
   ASSERT_TRUE(write_file_atomically(file, std::string_view("sec\0nd", 6)));
@@ -28,7 +28,7 @@ TEST(AtomicFile, WritesReplacesAndLeavesNothingElse) {
 }
 
 TEST(AtomicFile, WritesBytesAndNothingAtAll) {
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const fs::path file = directory.path() / "f.bin";
   const std::array<std::byte, 3> bytes = {std::byte{0}, std::byte{255}, std::byte{10}};
   ASSERT_TRUE(write_file_atomically(file, std::span<const std::byte>(bytes)));
@@ -38,7 +38,7 @@ TEST(AtomicFile, WritesBytesAndNothingAtAll) {
 }
 
 TEST(AtomicFile, ErrorsNameTheFileAndTheReason) {
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const fs::path orphan = directory.path() / "gone" / "f.txt";
   EXPECT_EQ(write_file_atomically(orphan, "x").error().message,
             orphan.string() + ": cannot be written: no directory '" +
@@ -54,7 +54,7 @@ TEST(AtomicFile, ErrorsNameTheFileAndTheReason) {
 TEST(AtomicFile, AFullDiskIsAnErrorAndKeepsTheOldContent) {
   // The temporary's name leads to a device that accepts an open and refuses a write.
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const fs::path file = directory.path() / "f.txt";
   ASSERT_TRUE(write_file_atomically(file, "old"));
   const fs::path temporary = file.string() + "." + std::to_string(::getpid()) + ".tmp";

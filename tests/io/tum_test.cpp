@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-#include "tests/io/temporary_directory.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
@@ -79,7 +79,7 @@ RC_GTEST_PROP(Tum, RoundTripIsExact, ()) {
 }
 
 TEST(Tum, FilesRoundTrip) {
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Trajectory trajectory = {{0, Pose()}, {kSecond, {yaw_rotation(1.0), {1.0, 2.0, 3.0}}}};
   const auto file = directory.path() / "t.tum";
   ASSERT_TRUE(write_tum(file, trajectory));

@@ -8,11 +8,14 @@
 
 #include <cmath>
 
+#include "io/atomic_file.hpp"
 #include "io/config_dump.hpp"
-#include "tests/io/temporary_directory.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
+
+namespace fs = std::filesystem;
 
 enum class Model { kPoint, kRolling };
 
@@ -65,6 +68,11 @@ std::string message_of(std::string_view text) {
   Sample config;
   const auto loaded = load_config_text(text, "s.yaml", config);
   return loaded ? "" : loaded.error().message;
+}
+
+fs::path write(const fs::path& file, std::string_view text) {
+  EXPECT_TRUE(write_file_atomically(file, text));
+  return file;
 }
 
 TEST(YamlConfig, ReadsEveryKindOfField) {
@@ -170,11 +178,11 @@ TEST(YamlConfig, MissingFileIsNamed) {
 }
 
 TEST(YamlConfig, BaseIsReadFirstAndItsListsReplaced) {
-  const test::TemporaryDirectory directory;
-  directory.write("base.yaml",
-                  "name: base\ninner: {eta: 7, count: 8}\npoints: [{}, {}, {name: c}]\n");
+  const TemporaryFolder directory;
+  write(directory.path() / "base.yaml",
+        "name: base\ninner: {eta: 7, count: 8}\npoints: [{}, {}, {name: c}]\n");
   const auto child =
-      directory.write("child.yaml", "inner: {count: 2}\nbase: base.yaml\npoints: [{}]\n");
+      write(directory.path() / "child.yaml", "inner: {count: 2}\nbase: base.yaml\npoints: [{}]\n");
   Sample c;
   const auto loaded = load_config(child, c);
   ASSERT_TRUE(loaded) << loaded.error().message;
@@ -186,22 +194,22 @@ TEST(YamlConfig, BaseIsReadFirstAndItsListsReplaced) {
 }
 
 TEST(YamlConfig, ErrorsOfABaseNameTheFileTheyAreIn) {
-  const test::TemporaryDirectory directory;
-  const auto base = directory.write("base.yaml", "inner: {eta: -7}\n");
-  const auto child = directory.write("child.yaml", "base: base.yaml\n");
+  const TemporaryFolder directory;
+  const auto base = write(directory.path() / "base.yaml", "inner: {eta: -7}\n");
+  const auto child = write(directory.path() / "child.yaml", "base: base.yaml\n");
   Sample c;
   EXPECT_EQ(load_config(child, c).error().message,
             base.string() + ":1:14: inner.eta: expected a number >= 0, found '-7'");
-  const auto orphan = directory.write("orphan.yaml", "base: gone.yaml\n");
+  const auto orphan = write(directory.path() / "orphan.yaml", "base: gone.yaml\n");
   EXPECT_EQ(load_config(orphan, c).error().message, orphan.string() + ":1:7: base: no such file '" +
                                                         (directory.path() / "gone.yaml").string() +
                                                         "'");
 }
 
 TEST(YamlConfig, FilesBasedOnThemselvesAreRefused) {
-  const test::TemporaryDirectory directory;
-  const auto a = directory.write("a.yaml", "base: b.yaml\n");
-  directory.write("b.yaml", "base: ./a.yaml\n");
+  const TemporaryFolder directory;
+  const auto a = write(directory.path() / "a.yaml", "base: b.yaml\n");
+  write(directory.path() / "b.yaml", "base: ./a.yaml\n");
   Sample c;
   const auto loaded = load_config(a, c);
   ASSERT_FALSE(loaded);
@@ -291,6 +299,28 @@ RC_GTEST_PROP(DumpConfig, IsReadBackToEqualValues, ()) {
   RC_ASSERT(again.inner.eta == c.inner.eta);
   RC_ASSERT(again.points.size() == c.points.size());
   RC_ASSERT(dump_config(fields_of(again)) == text);
+}
+
+RC_GTEST_PROP(YamlConfig, AnyTextLoadsOrFailsWithOneLine, ()) {
+  std::string text =
+      "name: 'two words'\ngravity: [1, 2.5, -3e2]\nestimators: [aims, \"b\"]\n"
+      "inner: {eta: 0.5, count: 7}\npoints:\n  - &x name: a\n  - {tags: [x], name: *x}\n";
+  const auto mutations = *rc::gen::inRange(0, 6);
+  for (int i = 0; i < mutations; ++i) {
+    const auto at = *rc::gen::inRange<std::size_t>(0, text.size());
+    const auto length = *rc::gen::inRange<std::size_t>(0, 4);
+    const auto insert = *rc::gen::container<std::string>(
+        rc::gen::oneOf(rc::gen::element(':', '-', '[', ']', '{', '}', '&', '*', '!', '|', '>', '%',
+                                        '\n', ' ', '\t', '"', '#', '?', '<', '@', '`'),
+                       rc::gen::arbitrary<char>()));
+    text.replace(at, length, insert.substr(0, 3));
+  }
+  Sample c;
+  const auto loaded = load_config_text(text, "s.yaml", c);
+  if (!loaded) {
+    RC_ASSERT(loaded.error().message.starts_with("s.yaml"));
+    RC_ASSERT(loaded.error().message.find('\n') == std::string::npos);
+  }
 }
 
 }  // namespace
