@@ -12,6 +12,7 @@ namespace {
 constexpr double kWallThickness = 0.2;   ///< of plain and end walls [m]
 constexpr double kOverlap = 0.05;        ///< of pieces behind visible faces, against leaks [m]
 constexpr double kDoorThickness = 0.05;  ///< [m]
+constexpr int kMaxPillars = 40;          ///< they collide, and physics must stay fast
 constexpr double kWalkway = 1.0;         ///< that pillars must leave free [m]
 
 enum class Side { kLeft, kRight };
@@ -231,12 +232,15 @@ Result<void> validate_doors(const CorridorConfig& config) {
   const DoorConfig& doors = config.doors;
   if (doors.sides == WallSides::kNone) return {};
   if (doors.width + 2.0 * doors.jitter >= doors.spacing) {
-    return failure(fmt::format("doors of width {} m with jitter {} m overlap at a spacing of {} m",
-                               doors.width, doors.jitter, doors.spacing));
+    return failure(
+        fmt::format("scene.corridor.doors.spacing: expected more than {} m (width and twice the "
+                    "jitter), got {}",
+                    doors.width + 2.0 * doors.jitter, doors.spacing));
   }
   if (doors.height > config.height) {
-    return failure(fmt::format("doors of height {} m do not fit a corridor of height {} m",
-                               doors.height, config.height));
+    return failure(fmt::format(
+        "scene.corridor.doors.height: expected at most {} m (the corridor's height), got {}",
+        config.height, doors.height));
   }
   return {};
 }
@@ -244,20 +248,20 @@ Result<void> validate_doors(const CorridorConfig& config) {
 Result<void> validate_pillars(const CorridorConfig& config) {
   const PillarConfig& pillars = config.pillars;
   if (pillars.spacing <= 0.0 || pillars.sides == WallSides::kNone) return {};
-  if (pillars.size >= pillars.spacing) {
-    return failure(fmt::format("pillars of size {} m overlap at a spacing of {} m", pillars.size,
-                               pillars.spacing));
-  }
-  if (config.width - 2.0 * pillars.depth < kWalkway) {
-    return failure(fmt::format("pillars of depth {} m leave less than {} m of a width of {} m",
-                               pillars.depth, kWalkway, config.width));
-  }
   const Span along = extent(config);
-  const int per_wall = static_cast<int>((along.end - along.begin) / pillars.spacing);
-  const int total = pillars.sides == WallSides::kBoth ? 2 * per_wall : per_wall;
-  if (total + 4 > kMaxCollidingSolids) {
-    return failure(fmt::format("{} pillars are too many for the physics; at most {}", total,
-                               kMaxCollidingSolids - 4));
+  const double walls = pillars.sides == WallSides::kBoth ? 2.0 : 1.0;
+  const double closest = std::max(pillars.size, walls * (along.end - along.begin) / kMaxPillars);
+  if (pillars.spacing <= closest) {
+    return failure(fmt::format(
+        "scene.corridor.pillars.spacing: expected more than {:.2f} m (their size, and at most {} "
+        "pillars), got {}",
+        closest, kMaxPillars, pillars.spacing));
+  }
+  const double deepest = 0.5 * (config.width - kWalkway);
+  if (pillars.depth > deepest) {
+    return failure(fmt::format(
+        "scene.corridor.pillars.depth: expected at most {:.2f} m (to leave {} m to walk), got {}",
+        deepest, kWalkway, pillars.depth));
   }
   return {};
 }
@@ -267,9 +271,11 @@ Result<void> validate_pillars(const CorridorConfig& config) {
 Result<void> validate(const CorridorConfig& config) {
   if (const auto doors = validate_doors(config); !doors) return doors;
   if (const auto pillars = validate_pillars(config); !pillars) return pillars;
-  if (config.clutter.density > 0.0 && config.clutter.lane_width >= config.width - 0.2) {
-    return failure(fmt::format("a lane of {} m leaves no room for clutter in a width of {} m",
-                               config.clutter.lane_width, config.width));
+  const double widest = config.width - 0.2;
+  if (config.clutter.density > 0.0 && config.clutter.lane_width > widest) {
+    return failure(fmt::format(
+        "scene.corridor.clutter.lane_width: expected at most {:.2f} m (room for clutter), got {}",
+        widest, config.clutter.lane_width));
   }
   return {};
 }

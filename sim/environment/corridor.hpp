@@ -6,9 +6,6 @@
 
 namespace aims {
 
-/// Largest number of colliding solids, so that physics stays fast.
-inline constexpr int kMaxCollidingSolids = 44;
-
 /// Error for a corridor that cannot be built.
 Result<void> validate(const CorridorConfig& config);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/environment/lidar.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -108,6 +110,19 @@ void describe(Fields& f, LidarConfig& c) {
            {.unit = "m", .range = any(), .meaning = "Box of the robot's body, LiDAR frame."});
   f.vector("body_max", c.body_max,
            {.unit = "m", .range = any(), .meaning = "Box of the robot's body, LiDAR frame."});
+}
+
+Result<void> validate(const LidarConfig& config) {
+  if (config.range_max <= config.range_min) {
+    return failure(fmt::format("lidar.range_max: expected more than {} m (range_min), got {}",
+                               config.range_min, config.range_max));
+  }
+  if (config.elevation_max_deg < config.elevation_min_deg) {
+    return failure(
+        fmt::format("lidar.elevation_max_deg: expected at least {} deg (elevation_min_deg), got {}",
+                    config.elevation_min_deg, config.elevation_max_deg));
+  }
+  return {};
 }
 
 double detection_probability(const LidarConfig& config, double reflectivity, double cos_incidence,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/config.hpp"
+#include "core/error.hpp"
 #include "core/measurements.hpp"
 #include "core/random.hpp"
 #include "core/trajectory.hpp"
@@ -39,6 +40,9 @@ struct LidarConfig {
 };
 
 void describe(Fields& fields, LidarConfig& config);
+
+/// Error for limits in the wrong order.
+Result<void> validate(const LidarConfig& config);
 
 /// Probability that a return of a surface is detected: the received power
 /// reflectivity * cos(incidence) / range^2 against the threshold of the configuration.

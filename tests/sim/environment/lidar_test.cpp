@@ -297,5 +297,15 @@ TEST(LidarConfig, EveryParameterTakesItsOwnText) {
   }
 }
 
+TEST(LidarConfig, RejectsLimitsInTheWrongOrder) {
+  LidarConfig config;
+  EXPECT_TRUE(validate(config));
+  config.range_max = 0.2;
+  EXPECT_FALSE(validate(config));
+  config = {};
+  config.elevation_max_deg = -20.0;
+  EXPECT_FALSE(validate(config));
+}
+
 }  // namespace
 }  // namespace aims

@@ -233,13 +233,19 @@ TEST(SceneConfig, RejectsWhatCannotBeBuilt) {
     const auto valid = validate(config);
     return valid ? std::string() : valid.error().message;
   };
+  const auto names = [&](const std::string& key, auto change) {
+    return message(change).starts_with("scene.corridor." + key + ": expected");
+  };
   EXPECT_EQ(message([](CorridorConfig&) {}), "");
-  EXPECT_NE(message([](CorridorConfig& c) { c.doors.spacing = 1.5; }), "");
-  EXPECT_NE(message([](CorridorConfig& c) { c.doors.height = 2.7; }), "");
-  EXPECT_NE(message([](CorridorConfig& c) { c.pillars = {WallSides::kBoth, 0.3, 0.4, 0.1}; }), "");
-  EXPECT_NE(message([](CorridorConfig& c) { c.pillars = {WallSides::kBoth, 8.0, 0.4, 0.7}; }), "");
-  EXPECT_NE(message([](CorridorConfig& c) { c.pillars = {WallSides::kBoth, 2.0, 0.4, 0.1}; }), "");
-  EXPECT_NE(message([](CorridorConfig& c) { c.clutter = {1.0, 2.1}; }), "");
+  EXPECT_TRUE(names("doors.spacing", [](CorridorConfig& c) { c.doors.spacing = 1.5; }));
+  EXPECT_TRUE(names("doors.height", [](CorridorConfig& c) { c.doors.height = 2.7; }));
+  EXPECT_TRUE(names("pillars.spacing", [](CorridorConfig& c) { c.pillars.spacing = 0.3; }));
+  EXPECT_TRUE(names("pillars.spacing", [](CorridorConfig& c) { c.pillars.spacing = 2.0; }));
+  EXPECT_TRUE(names("pillars.depth", [](CorridorConfig& c) {
+    c.pillars.spacing = 8.0;
+    c.pillars.depth = 0.7;
+  }));
+  EXPECT_TRUE(names("clutter.lane_width", [](CorridorConfig& c) { c.clutter = {1.0, 2.1}; }));
 }
 
 }  // namespace
