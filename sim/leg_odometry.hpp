@@ -32,7 +32,7 @@ struct LegOdometryConfig {
   double load_noise = 2.0;             ///< of the measured load, per sample [N]
   double debounce = 0.010;             ///< time from touchdown until a foot counts [s]
   double gyro_noise_density = 2e-4;    ///< [rad/s/sqrt(Hz)]
-  double gyro_bias = 3.5e-3;           ///< standard deviation per axis, per run [rad/s]
+  double gyro_bias = 1.7e-3;           ///< standard deviation per axis, per run [rad/s]
   double gyro_scale_error = 5e-3;      ///< standard deviation per run [-]
   double velocity_scale_error = 0.03;  ///< standard deviation of the speed's scale, per run [-]
   double slip_rate = 0.3;              ///< injected slip bursts per second [Hz]

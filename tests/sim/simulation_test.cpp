@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace aims {
+namespace {
+
+/// Two metres of a corridor, seen by a coarse LiDAR.
+SimulationConfig short_walk() {
+  SimulationConfig config;
+  config.scene.corridor.length = 10.0;
+  config.route.points = {{"a", 0.0, 0.0}, {"b", 2.0, 0.0}};
+  config.route.stand_before = 1.0;
+  config.route.stand_after = 0.5;
+  config.lidar.columns = 64;
+  return config;
+}
+
+struct Recording {
+  std::vector<Delivery> deliveries;
+  Truth truth;
+  SensorRig rig;
+};
+
+Recording run(const SimulationConfig& config, std::uint64_t seed, Duration span = kSecond) {
+  Simulation simulation = Simulation::create(config, seed).value();
+  Recording result;
+  while (simulation.advance(span, result.deliveries)) {
+  }
+  result.truth = simulation.truth();
+  result.rig = simulation.rig();
+  return result;
+}
+
+/// The samples of one sensor as bytes.
+template <class Sample>
+std::string bytes_of(const Recording& recording) {
+  std::string bytes;
+  const auto append = [&bytes](const auto& value) {
+    const auto* data = reinterpret_cast<const char*>(&value);
+    bytes.append(data, sizeof(value));
+  };
+  for (const Delivery& delivery : recording.deliveries) {
+    const auto* sample = std::get_if<Sample>(&delivery.measurement);
+    if (sample == nullptr) continue;
+    append(delivery.arrival);
+    if constexpr (std::is_same_v<Sample, ImuSample>) {
+      append(sample->stamp);
+      for (int i = 0; i < 3; ++i) {
+        append(sample->angular_velocity[i]);
+        append(sample->specific_force[i]);
+      }
+    } else if constexpr (std::is_same_v<Sample, LegOdometrySample>) {
+      append(sample->stamp);
+      for (int i = 0; i < 3; ++i) append(sample->T_odom_base.translation[i]);
+      for (int i = 0; i < 4; ++i) append(sample->T_odom_base.rotation.coeffs()[i]);
+      for (const double rate : sample->joint_velocity) append(rate);
+    } else {
+      for (const LidarPoint& point : (*sample)->points) {
+        for (int i = 0; i < 3; ++i) append(point.position[i]);
+        append(point.time_offset_ns);
+      }
+    }
+  }
+  return bytes;
+}
+
+TEST(Simulation, WalksItsRouteAndDeliversEverySensorInOrderOfArrival) {
+  const Recording result = run(short_walk(), 1);
+  EXPECT_FALSE(result.truth.fell);
+  EXPECT_FALSE(result.truth.touched_wall);
+  ASSERT_EQ(result.truth.passages.size(), 2U);
+  EXPECT_EQ(result.truth.passages[1].point, "b");
+  std::array<std::size_t, 3> counts{};
+  Time last = 0;
+  for (const Delivery& delivery : result.deliveries) {
+    EXPECT_GE(delivery.arrival, last);
+    last = delivery.arrival;
+    ++counts[delivery.measurement.index()];
+  }
+  const double seconds = to_seconds(result.truth.samples.back().stamp);
+  EXPECT_NEAR(static_cast<double>(counts[0]), 50.0 * seconds, 1.0);
+  EXPECT_NEAR(static_cast<double>(counts[1]), 0.95 * 200.0 * seconds, 0.02 * 200.0 * seconds);
+  EXPECT_NEAR(static_cast<double>(counts[2]), 10.0 * seconds, 1.0);
+}
+
+TEST(Simulation, SameSeedGivesTheSameBytesWhateverTheSpan) {
+  const Recording once = run(short_walk(), 7, kSecond);
+  const Recording again = run(short_walk(), 7, 130 * kMillisecond);
+  EXPECT_EQ(bytes_of<ImuSample>(once), bytes_of<ImuSample>(again));
+  EXPECT_EQ(bytes_of<LegOdometrySample>(once), bytes_of<LegOdometrySample>(again));
+  EXPECT_EQ(bytes_of<LidarScanPtr>(once), bytes_of<LidarScanPtr>(again));
+  EXPECT_EQ(once.truth.snapshots.back().qpos, again.truth.snapshots.back().qpos);
+  EXPECT_NE(bytes_of<ImuSample>(once), bytes_of<ImuSample>(run(short_walk(), 8)));
+}
+
+TEST(Simulation, OneSensorsNoiseLeavesTheOthersUntouched) {
+  const Recording base = run(short_walk(), 5);
+  SimulationConfig changed = short_walk();
+  changed.lidar.range_sigma = 0.1;
+  changed.links.leg_odometry.loss = 0.5;
+  changed.leg_odometry.slip_rate = 3.0;
+  const Recording other = run(changed, 5);
+  EXPECT_EQ(bytes_of<ImuSample>(base), bytes_of<ImuSample>(other));
+  EXPECT_NE(bytes_of<LidarScanPtr>(base), bytes_of<LidarScanPtr>(other));
+  EXPECT_NE(bytes_of<LegOdometrySample>(base), bytes_of<LegOdometrySample>(other));
+}
+
+TEST(Simulation, TruthIsConsistentWithItself) {
+  const Recording result = run(short_walk(), 2);
+  const auto& samples = result.truth.samples;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double dt = to_seconds(samples[i].stamp - samples[i - 1].stamp);
+    EXPECT_DOUBLE_EQ(dt, 0.0025);
+    const Eigen::Vector3d moved =
+        samples[i].T_world_body.translation - samples[i - 1].T_world_body.translation;
+    ASSERT_LT((moved / dt - samples[i].velocity).norm(), 0.02);
+  }
+  EXPECT_EQ(result.truth.snapshots.at(1).stamp, 100 * kMillisecond);
+  EXPECT_EQ(body_trajectory(result.truth).size(), samples.size());
+  EXPECT_GT(result.rig.T_body_lidar.translation.z(), 0.1);
+  EXPECT_GT(result.rig.T_body_base.translation.x(), 0.1);
+}
+
+TEST(Simulation, RefusesARobotThatStartsInAWall) {
+  SimulationConfig config = short_walk();
+  config.route.points[0].y = 1.05;
+  const auto simulation = Simulation::create(config, 1);
+  ASSERT_FALSE(simulation);
+  EXPECT_NE(simulation.error().message.find("route.points.0"), std::string::npos);
+}
+
+TEST(Simulation, RefusesARouteWithoutLengthAndAStepThatDividesNoPeriod) {
+  SimulationConfig config = short_walk();
+  config.route.points[1] = config.route.points[0];
+  EXPECT_FALSE(Simulation::create(config, 1));
+  config = short_walk();
+  config.physics.timestep = 0.002;
+  EXPECT_FALSE(Simulation::create(config, 1));
+}
+
+TEST(Simulation, EndsAtItsTimeLimit) {
+  SimulationConfig config = short_walk();
+  config.max_duration = 0.5;
+  EXPECT_EQ(run(config, 1).truth.samples.back().stamp, 500 * kMillisecond);
+}
+
+TEST(Simulation, EveryParameterIsDescribed) {
+  SimulationConfig config;
+  Fields fields = fields_of(config);
+  for (const Parameter& parameter : fields.parameters()) {
+    EXPECT_FALSE(parameter.spec.meaning.empty()) << parameter.key;
+  }
+  EXPECT_TRUE(assign(fields, "leg_odometry.foot_model", "rolling"));
+  EXPECT_EQ(config.leg_odometry.foot_model, FootModel::kRolling);
+  EXPECT_NE(fields.find("robot.gait.forces.friction"), nullptr);
+}
+
+}  // namespace
+}  // namespace aims
