@@ -2,30 +2,14 @@
 #include "tests/render/picture_file.hpp"
 
 #include <cairo.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <iterator>
 
 namespace aims::test {
 
-PictureFolder::PictureFolder() {
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  path_ =
-      std::filesystem::temp_directory_path() / ("aims_render_" + std::to_string(::getpid()) + "_" +
-                                                info->test_suite_name() + "_" + info->name());
-  std::filesystem::remove_all(path_);
-  std::filesystem::create_directories(path_);
-}
-
-PictureFolder::~PictureFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 std::size_t PictureFolder::files() const {
-  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path()), {}));
 }
 
 Image read_png(const std::filesystem::path& path) {

@@ -7,23 +7,19 @@
 #include <string>
 
 #include "render/image.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims::test {
 
-/// Folder of its own for the running test case, empty at the start and removed at the end.
+/// A temporary folder for the pictures of one test case.
 class PictureFolder {
  public:
-  PictureFolder();
-  PictureFolder(const PictureFolder&) = delete;
-  PictureFolder& operator=(const PictureFolder&) = delete;
-  ~PictureFolder();
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path() / name; }
+  const std::filesystem::path& path() const { return folder_.path(); }
   std::size_t files() const;  ///< how many it holds
 
  private:
-  std::filesystem::path path_;
+  TemporaryFolder folder_;
 };
 
 /// Pixels of a PNG file; an empty image when it is none.
