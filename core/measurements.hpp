@@ -13,6 +13,12 @@
 
 namespace aims {
 
+/// What one inertial sample stands for.
+enum class ImuSampling {
+  kMean,   ///< the mean over the interval that ends at its stamp, as a real IMU's filter gives
+  kPoint,  ///< the value at its stamp alone: footfalls alias into it
+};
+
 /// One inertial sample in the body (IMU) frame.
 struct ImuSample {
   Time stamp = 0;  ///< end of the interval that the sample averages, or the instant sampled

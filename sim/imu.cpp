@@ -88,7 +88,7 @@ std::optional<ImuSample> Imu::sample(const TruthSample& motion) {
   last_ = motion;
   if (++count_ < steps_) return std::nullopt;
 
-  const bool average = sampling_ == ImuSampling::kAverage;
+  const bool average = sampling_ == ImuSampling::kMean;
   ImuSample sample;
   sample.stamp = motion.stamp;
   sample.angular_velocity =
@@ -108,7 +108,7 @@ void describe(Fields& f, ImuConfig& c) {
             .meaning = "samples per second",
             .source = "paper, section IV"});
   f.choice("sampling", c.sampling,
-           {{"average", ImuSampling::kAverage}, {"point", ImuSampling::kPoint}},
+           {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
            {.unit = "-", .meaning = "mean over the sample interval, or its last instant"});
   describe_errors(f, "gyro", c.gyro, "rad/s", "MEMS datasheets: 0.005-0.015 deg/s/sqrt(Hz)");
   describe_errors(f, "accelerometer", c.accelerometer, "m/s^2",

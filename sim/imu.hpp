@@ -13,12 +13,6 @@
 
 namespace aims {
 
-/// What one sample stands for.
-enum class ImuSampling {
-  kAverage,  ///< the mean over the sample interval, as a real IMU's filter gives
-  kPoint,    ///< the last physics step alone: footfalls alias into it
-};
-
 /// Errors of one inertial triad, as a datasheet states them; unit: rad/s or m/s^2.
 struct InertialErrorConfig {
   double noise_density = 0.0;  ///< white noise [unit/sqrt(Hz)]
@@ -30,7 +24,7 @@ struct InertialErrorConfig {
 
 struct ImuConfig {
   double rate = 50.0;  ///< samples per second [Hz]
-  ImuSampling sampling = ImuSampling::kAverage;
+  ImuSampling sampling = ImuSampling::kMean;
   InertialErrorConfig gyro = {2e-4, 2e-5, 2e-3, 0.0, 17.4};
   InertialErrorConfig accelerometer = {1.5e-3, 2e-4, 0.03, 0.0, 78.5};
 };
