@@ -39,7 +39,12 @@ class SceneWriter {
       : scene_(scene), render_(purpose == MjcfPurpose::kRender), options_(options), root_(root) {}
 
   void write() {
-    if (render_) add_looks();
+    if (render_) {
+      add_looks();
+    } else {
+      // Shapes that collide with nothing cost the physics half its speed.
+      set(child(root_, "compiler"), "discardvisual", "true");
+    }
     add_floor();
     for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
       const Solid& solid = scene_.solids[i];
