@@ -145,18 +145,23 @@ Layout layout_of(RasterWindow& window, double width) {
   return best;
 }
 
-/// Pixels per point so that neighbouring points touch, judged from a coarse grid.
+/// Pixels per point so that neighbouring points touch where the map is as dense as in the median
+/// cell of a coarse grid.
 int point_size(const std::vector<RasterPoint>& points, double scale) {
   constexpr float kCell = 0.25F;
-  const auto cells = sample(points.size(), [&](std::size_t i) {
+  auto cells = sample(points.size(), [&](std::size_t i) {
     return std::floor(points[i].u / kCell) * 4099.0F + std::floor(points[i].v / kCell);
   });
-  std::vector<float> sorted = cells;
-  std::sort(sorted.begin(), sorted.end());
-  const auto used = std::unique(sorted.begin(), sorted.end()) - sorted.begin();
-  const double area = static_cast<double>(std::max<std::ptrdiff_t>(1, used)) * kCell * kCell;
-  const double spacing =
-      std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, points.size())));
+  if (cells.empty()) return 2;
+  std::sort(cells.begin(), cells.end());
+  std::vector<float> counts;
+  for (auto cell = cells.begin(); cell != cells.end();) {
+    const auto next = std::upper_bound(cell, cells.end(), *cell);
+    counts.push_back(static_cast<float>(next - cell));
+    cell = next;
+  }
+  const double thinning = static_cast<double>(points.size()) / static_cast<double>(cells.size());
+  const double spacing = kCell / std::sqrt(thinning * percentile(counts, 0.5));
   return std::clamp(static_cast<int>(std::lround(2.0 * spacing * scale)), 2, 6);
 }
 

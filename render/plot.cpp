@@ -57,6 +57,9 @@ void draw_events(Canvas& canvas, const Rect& area, const Panel& panel) {
     if (x < area.x || x > area.right()) continue;
     canvas.line({{x, area.y}, {x, area.bottom()}}, {{0.45, 0.45, 0.45}, 1.0, LineStyle::kDashed});
     const bool flip = x > area.right() - 30.0;
+    const double width = canvas.text_width(event.label, {.bold = true});
+    canvas.fill(Rect{flip ? x - 9.0 - width : x + 3.0, area.y + 4.0, width + 6.0, 18.0},
+                {1.0, 1.0, 1.0, 0.75});
     canvas.text({flip ? x - 6.0 : x + 6.0, area.y + 13.0}, event.label,
                 {.horizontal = flip ? Align::kEnd : Align::kStart, .bold = true});
   }

@@ -37,7 +37,8 @@ bool sees(const Scene& scene, const Eigen::Vector3d& eye, const Eigen::Vector3d&
 }
 
 std::string caption(std::string_view scenario, std::string_view where, const RobotSnapshot& shot) {
-  const Eigen::Vector3d at = position_of(shot.qpos);
+  // Rounded first, and zero added, so that no "-0.00" appears.
+  const Eigen::Vector3d at = ((100.0 * position_of(shot.qpos)).array().round() / 100.0) + 0.0;
   return fmt::format("{}  ·  {}  ·  t = {:.1f} s  ·  x = {:.2f} m, y = {:.2f} m", scenario, where,
                      to_seconds(shot.stamp), at.x(), at.y());
 }

@@ -53,7 +53,7 @@ void set_quality(mjModel& model, const ViewConfig& config) {
   model.stat.extent = 1.0;
   model.vis.map.znear = 0.05F;
   model.vis.map.zfar = 150.0F;
-  model.vis.map.shadowclip = 2.5F;
+  model.vis.map.shadowclip = 2.0F;
   for (float* color : {model.vis.headlight.ambient, model.vis.headlight.diffuse}) {
     std::fill(color, color + 3, 0.42F);
   }
@@ -68,8 +68,8 @@ void set_lamp(mjvScene& scene, const Camera& camera) {
   std::memset(&light, 0, sizeof(light));
   const Eigen::Vector3d back = camera.position() - camera.target;
   const Eigen::Vector2d aside = back.head<2>().normalized();
-  const Eigen::Vector3f offset(static_cast<float>(0.2 * aside.x()),
-                               static_cast<float>(0.2 * aside.y()), 2.6F);
+  const Eigen::Vector3f offset(static_cast<float>(0.4 * aside.x()),
+                               static_cast<float>(0.4 * aside.y()), 2.6F);
   for (int i = 0; i < 3; ++i) {
     light.pos[i] = static_cast<float>(camera.target[i]) + offset[i];
     light.dir[i] = -offset.normalized()[i];
