@@ -51,6 +51,25 @@ double brightness(const Raster& raster, int column, int row) {
   return 0.55 + 0.45 * std::exp(-fall / kDepth);
 }
 
+Image shaded(const Raster& raster, const std::array<std::uint8_t, 3>& background) {
+  const auto table = height_table();
+  Image image(raster.width, raster.height);
+  for (int row = 0; row < raster.height; ++row) {
+    for (int column = 0; column < raster.width; ++column) {
+      const std::size_t i = raster.at(column, row);
+      if (raster.nearness[i] == kNothing) {
+        image.set(column, row, background);
+        continue;
+      }
+      const double light = brightness(raster, column, row);
+      std::array<std::uint8_t, 3> color = table[raster.color[i]];
+      for (std::uint8_t& value : color) value = static_cast<std::uint8_t>(light * value + 0.5);
+      image.set(column, row, color);
+    }
+  }
+  return image;
+}
+
 }  // namespace
 
 Image raster_points(const std::vector<RasterPoint>& points, const RasterWindow& window, int width,
@@ -71,22 +90,7 @@ Image raster_points(const std::vector<RasterPoint>& points, const RasterWindow& 
     const double shade = std::clamp(point.height, 0.0F, 1.0F);
     raster.put(column, row, size, point.nearness, static_cast<std::uint8_t>(255.0 * shade + 0.5));
   }
-  const auto table = height_table();
-  Image image(width, height);
-  for (int row = 0; row < height; ++row) {
-    for (int column = 0; column < width; ++column) {
-      const std::size_t i = raster.at(column, row);
-      if (raster.nearness[i] == kNothing) {
-        image.set(column, row, background);
-        continue;
-      }
-      const double light = brightness(raster, column, row);
-      std::array<std::uint8_t, 3> color = table[raster.color[i]];
-      for (std::uint8_t& value : color) value = static_cast<std::uint8_t>(light * value + 0.5);
-      image.set(column, row, color);
-    }
-  }
-  return image;
+  return shaded(raster, background);
 }
 
 }  // namespace aims

@@ -56,6 +56,17 @@ Result<void> write_with_caption(const std::filesystem::path& path, const Image& 
   return canvas->finish();
 }
 
+/// Headings [rad] of the three views: near the start the robot is met face to face, in the middle
+/// it is followed, and at the turn it is seen against the way it came.
+std::array<double, 3> view_headings(const std::vector<RobotSnapshot>& snapshots,
+                                    const std::vector<std::size_t>& notable) {
+  const auto& first = snapshots[notable.front()].qpos;
+  const auto& middle = snapshots[notable[notable.size() / 2]].qpos;
+  const auto& last = snapshots[notable.back()].qpos;
+  const Eigen::Vector3d way = position_of(snapshots.front().qpos) - position_of(last);
+  return {heading_of(first) + std::numbers::pi, heading_of(middle), std::atan2(way.y(), way.x())};
+}
+
 }  // namespace
 
 Camera robot_camera(const Scene& scene, const std::vector<double>& qpos, double heading) {
@@ -120,14 +131,7 @@ Result<std::vector<std::filesystem::path>> write_robot_pictures(
   if (!mjcf) return tl::unexpected(mjcf.error());
   auto view = SceneView::create(*mjcf, height_field_data(scene.floor), config);
   if (!view) return tl::unexpected(view.error());
-  // Near the start the robot is met face to face, in the middle it is followed, and at the turn it
-  // is seen against the way it came.
-  const auto& start = snapshots.front().qpos;
-  const auto& first = snapshots[notable.front()].qpos;
-  const auto& middle = snapshots[notable[notable.size() / 2]].qpos;
-  const Eigen::Vector3d way = position_of(start) - position_of(snapshots[notable.back()].qpos);
-  const std::array<double, 3> headings = {heading_of(first) + std::numbers::pi, heading_of(middle),
-                                          std::atan2(way.y(), way.x())};
+  const std::array<double, 3> headings = view_headings(snapshots, notable);
   std::vector<std::filesystem::path> files;
   for (std::size_t i = 0; i < notable.size(); ++i) {
     const RobotSnapshot& snapshot = snapshots[notable[i]];

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <numbers>
 #include <optional>
@@ -28,7 +29,11 @@ struct DataDeleter {
 using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
 using DataPtr = std::unique_ptr<mjData, DataDeleter>;
 
+/// MuJoCo's own handler waits for a key; nothing sensible can follow an internal error.
+[[noreturn]] void on_error(const char*) { std::abort(); }
+
 Result<ModelPtr> load_model(const std::string& mjcf) {
+  if (mju_user_error == nullptr) mju_user_error = on_error;
   auto files = std::make_unique<mjVFS>();  // 2 MB, too large for the stack
   mj_defaultVFS(files.get());
   std::array<char, 1000> why{};
@@ -80,6 +85,18 @@ void set_lamp(mjvScene& scene, const Camera& camera) {
   light.attenuation[0] = 1.0F;
   light.directional = 1;
   light.castshadow = 1;
+}
+
+Image read_picture(const mjrRect& viewport, const mjrContext& context) {
+  Image picture(viewport.width, viewport.height);
+  std::vector<std::uint8_t> rows(picture.rgb.size());
+  mjr_readPixels(rows.data(), nullptr, viewport, &context);
+  const auto stride = static_cast<std::ptrdiff_t>(viewport.width) * 3;
+  for (int row = 0; row < viewport.height; ++row) {  // OpenGL starts at the bottom
+    std::copy_n(rows.begin() + row * stride, stride,
+                picture.rgb.begin() + (viewport.height - 1 - row) * stride);
+  }
+  return picture;
 }
 
 }  // namespace
@@ -168,15 +185,7 @@ Result<Image> SceneView::draw(const std::vector<double>& qpos, const Camera& cam
   set_lamp(impl_->scene, camera);
   const mjrRect viewport{0, 0, impl_->config.width, impl_->config.height};
   mjr_render(viewport, &impl_->scene, &impl_->context);
-  Image picture(viewport.width, viewport.height);
-  std::vector<std::uint8_t> rows(picture.rgb.size());
-  mjr_readPixels(rows.data(), nullptr, viewport, &impl_->context);
-  const auto stride = static_cast<std::ptrdiff_t>(viewport.width) * 3;
-  for (int row = 0; row < viewport.height; ++row) {  // OpenGL starts at the bottom
-    std::copy_n(rows.begin() + row * stride, stride,
-                picture.rgb.begin() + (viewport.height - 1 - row) * stride);
-  }
-  return picture;
+  return read_picture(viewport, impl_->context);
 }
 
 }  // namespace aims

@@ -37,7 +37,7 @@ struct Comparison {
   std::vector<double> error;              ///< distance from the truth [m]
 };
 
-/// Distance travelled by the truth at each of its stamps [m]; steps below 1 cm do not count, so
+/// Distance travelled by the truth at each of its stamps [m]; steps below 10 cm do not count, so
 /// that swaying on the spot is no travel.
 std::vector<double> travelled(const Trajectory& truth) {
   std::vector<double> distance;
