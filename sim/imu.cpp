@@ -107,8 +107,7 @@ void describe(Fields& f, ImuConfig& c) {
             .range = in_range(1.0, 2000.0),
             .meaning = "samples per second",
             .source = "paper, section IV"});
-  f.choice("sampling", c.sampling,
-           {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
+  f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
            {.unit = "-", .meaning = "mean over the sample interval, or its last instant"});
   describe_errors(f, "gyro", c.gyro, "rad/s", "MEMS datasheets: 0.005-0.015 deg/s/sqrt(Hz)");
   describe_errors(f, "accelerometer", c.accelerometer, "m/s^2",

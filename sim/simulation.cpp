@@ -3,7 +3,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "sim/arrivals.hpp"
@@ -38,6 +40,19 @@ Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scen
   if (!mjcf) return tl::unexpected(mjcf.error());
   return WorldSetup{std::move(*mjcf), height_field_data(scene.floor), config.physics.timestep,
                     config.scene.floor_friction};
+}
+
+/// Random offset of the start, so that each seed walks its own way; at most three sigma.
+Placement start_offset(const RobotConfig& config, std::uint64_t seed) {
+  RandomStream random(seed, "robot.start");
+  const auto draw = [&random](double sigma) {
+    return sigma * std::clamp(random.normal(), -3.0, 3.0);
+  };
+  Placement offset;
+  offset.x = draw(config.start_position_sigma);
+  offset.y = draw(config.start_position_sigma);
+  offset.yaw = draw(config.start_heading_sigma);
+  return offset;
 }
 
 /// Error when a point of the route is not free, or the robot would start touching a solid.
@@ -173,7 +188,8 @@ Result<Simulation> Simulation::create(const SimulationConfig& config, std::uint6
   Scene scene = build_scene(config.scene, seed);
   auto setup = world_setup(config, scene);
   if (!setup) return tl::unexpected(setup.error());
-  auto walker = Walker::create(*setup, config.robot.gait, config.route);
+  auto walker =
+      Walker::create(*setup, config.robot.gait, config.route, start_offset(config.robot, seed));
   if (!walker) return tl::unexpected(walker.error());
   if (auto ok = check_route(config, scene, walker->world()); !ok) {
     return tl::unexpected(ok.error());

@@ -13,7 +13,18 @@ void describe(Fields& f, PhysicsConfig& c) {
             .source = "2.5 ms divides the periods of 50 Hz and 200 Hz, 2 ms does not"});
 }
 
-void describe(Fields& f, RobotConfig& c) { f.group("gait", c.gait); }
+void describe(Fields& f, RobotConfig& c) {
+  f.number("start_position_sigma", c.start_position_sigma,
+           {.unit = "m",
+            .range = in_range(0.0, 0.05),
+            .meaning = "standard deviation per axis of the start about the route's first point"});
+  f.number(
+      "start_heading_sigma", c.start_heading_sigma,
+      {.unit = "rad",
+       .range = in_range(0.0, 0.1),
+       .meaning = "standard deviation of the heading at the start; each run walks its own way"});
+  f.group("gait", c.gait);
+}
 
 void describe(Fields& f, LinksConfig& c) {
   f.group("imu", c.imu);

@@ -21,6 +21,8 @@ void describe(Fields& f, PhysicsConfig& c);
 /// The robot, apart from its sensors.
 struct RobotConfig {
   GaitConfig gait;
+  double start_position_sigma = 0.02;  ///< of the start about the first point, per axis [m]
+  double start_heading_sigma = 0.02;   ///< of the heading at the start [rad]
 };
 void describe(Fields& f, RobotConfig& c);
 

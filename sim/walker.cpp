@@ -15,11 +15,12 @@ Walker::Walker(World world, const GaitConfig& gait, const RouteConfig& route, do
     : world_(std::move(world)), gait_(gait, world_.body(), timestep), route_(route) {}
 
 Result<Walker> Walker::create(const WorldSetup& setup, const GaitConfig& gait,
-                              const RouteConfig& route) {
+                              const RouteConfig& route, const Placement& offset) {
   if (auto ok = validate(route); !ok) return tl::unexpected(ok.error());
   auto world = World::create(setup);
   if (!world) return tl::unexpected(world.error());
-  world->place(route.points[0].x, route.points[0].y, start_heading(route));
+  world->place(route.points[0].x + offset.x, route.points[0].y + offset.y,
+               start_heading(route) + offset.yaw);
   return Walker(std::move(*world), gait, route, setup.timestep);
 }
 

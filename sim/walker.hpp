@@ -8,12 +8,19 @@
 
 namespace aims {
 
+/// Where a robot is put, in the world's plane.
+struct Placement {
+  double x = 0.0;    ///< [m]
+  double y = 0.0;    ///< [m]
+  double yaw = 0.0;  ///< [rad]
+};
+
 /// A robot in a world that walks its route by itself: dynamics, gait and route follower.
 class Walker {
  public:
-  /// Places the robot at the route's first point, heading to the second.
+  /// Places the robot at the route's first point, heading to the second, `offset` from there.
   static Result<Walker> create(const WorldSetup& setup, const GaitConfig& gait,
-                               const RouteConfig& route);
+                               const RouteConfig& route, const Placement& offset = {});
 
   /// One physics step.
   void step();
