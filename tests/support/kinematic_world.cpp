@@ -10,10 +10,10 @@ namespace aims::test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kBodyHeight = 0.30;   ///< [m]
+constexpr double kBodyHeight = 0.30;     ///< [m]
 constexpr double kStride = 1.0 / 0.433;  ///< trot frequency [Hz]
-constexpr double kRamp = 1.0;          ///< to speed and back [s]
-constexpr double kTurn = 4.0;          ///< of half a turn [s]
+constexpr double kRamp = 1.0;            ///< to speed and back [s]
+constexpr double kTurn = 4.0;            ///< of half a turn [s]
 constexpr double kGravity = 9.81;
 constexpr Duration kImuPeriod = 20 * kMillisecond;
 constexpr Duration kLegPeriod = 5 * kMillisecond;
@@ -34,7 +34,9 @@ double progress(double t, double total, double speed) {
 }
 
 /// Share of the full speed at that instant.
-double effort(double t, double total) { return ease(t / kRamp) - ease((t - total + kRamp) / kRamp); }
+double effort(double t, double total) {
+  return ease(t / kRamp) - ease((t - total + kRamp) / kRamp);
+}
 
 /// Distance to the walls of the box [low, high] from a point inside, and the axis that is hit.
 double leave_box(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
@@ -157,12 +159,13 @@ LegOdometrySample KinematicWorld::legs(Time stamp) {
   LegOdometrySample sample;
   sample.stamp = stamp;
   const double standing = velocity(t).norm() < 1e-3 && rate.norm() < 1e-3 ? 0.0 : 1.0;
-  sample.linear_velocity = (1.0 - config_.sensors.leg_scale_error) * in_body +
-                           standing * (slow_noise_ + config_.sensors.leg_noise * leg_random_.normal3());
+  sample.linear_velocity =
+      (1.0 - config_.sensors.leg_scale_error) * in_body +
+      standing * (slow_noise_ + config_.sensors.leg_noise * leg_random_.normal3());
   sample.angular_velocity = rate + gyro_bias_;
   const double dt = to_seconds(kLegPeriod);
-  T_odom_base_ = T_odom_base_ *
-                 Pose{so3_exp(sample.angular_velocity * dt), sample.linear_velocity * dt};
+  T_odom_base_ =
+      T_odom_base_ * Pose{so3_exp(sample.angular_velocity * dt), sample.linear_velocity * dt};
   sample.T_odom_base = T_odom_base_;
   sample.contact = {true, false, false, true};
   return sample;
@@ -183,14 +186,13 @@ LidarScanPtr KinematicWorld::scan(Time end) {
     for (int ring = 0; ring < kRings; ++ring) {
       const double elevation = (2.0 * ring - 15.0) * kPi / 180.0;
       const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
-                                      std::cos(elevation) * std::sin(azimuth),
-                                      std::sin(elevation));
+                                      std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       const RayHit hit = cast_ray(config_.corridor, T_world_lidar.translation, R * direction);
       const double range = hit.distance + config_.sensors.lidar_noise * lidar_random_.normal();
       if (hit.distance < 0.0 || range > config_.sensors.lidar_range) continue;
       if (hit.grazing_sine < config_.sensors.lidar_grazing_sine) continue;
-      scan->points.push_back({(range * direction).cast<float>(), 0.5F, offset,
-                              static_cast<std::uint16_t>(ring)});
+      scan->points.push_back(
+          {(range * direction).cast<float>(), 0.5F, offset, static_cast<std::uint16_t>(ring)});
     }
   }
   return scan;

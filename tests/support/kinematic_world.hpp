@@ -13,29 +13,29 @@ namespace aims::test {
 
 /// A straight corridor along x with door recesses on its left wall, in closed form.
 struct CorridorShape {
-  double begin = -1.5;          ///< x of the near end wall [m]
-  double end = 80.1;            ///< x of the far end wall [m]
-  double width = 2.2;           ///< [m]
-  double height = 2.6;          ///< [m]
-  double door_spacing = 8.0;    ///< 0: no doors [m]
-  double door_width = 0.9;      ///< [m]
-  double door_height = 2.1;     ///< [m]
-  double recess_depth = 0.15;   ///< [m]
-  bool open_ends = false;       ///< no end walls
+  double begin = -1.5;         ///< x of the near end wall [m]
+  double end = 80.1;           ///< x of the far end wall [m]
+  double width = 2.2;          ///< [m]
+  double height = 2.6;         ///< [m]
+  double door_spacing = 8.0;   ///< 0: no doors [m]
+  double door_width = 0.9;     ///< [m]
+  double door_height = 2.1;    ///< [m]
+  double recess_depth = 0.15;  ///< [m]
+  bool open_ends = false;      ///< no end walls
 };
 
 /// A walk without physics: stand, walk a distance, turn, walk back, with the bob of a trot.
 struct WalkPlan {
-  double distance = 78.6;    ///< [m]
-  double speed = 0.7;        ///< [m/s]
-  double stand = 2.0;        ///< before the first step [s]
+  double distance = 78.6;  ///< [m]
+  double speed = 0.7;      ///< [m/s]
+  double stand = 2.0;      ///< before the first step [s]
   bool there_and_back = true;
-  double bob = 1.0;          ///< factor on the trot's oscillations [-]
+  double bob = 1.0;  ///< factor on the trot's oscillations [-]
 };
 
 struct KinematicSensors {
-  double lidar_range = 100.0;       ///< [m]
-  double lidar_noise = 0.02;        ///< [m]
+  double lidar_range = 100.0;  ///< [m]
+  double lidar_noise = 0.02;   ///< [m]
   int lidar_columns = 1800;
   double lidar_grazing_sine = 0.02;  ///< returns flatter than this to the wall are lost [-]
   double gyro_noise = 0.004;         ///< of one sample [rad/s]

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/kalman_update.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "core/random.hpp"
+#include "estimator/imu_propagation.hpp"
+#include "estimator/leg_velocity_model.hpp"
+#include "estimator/plane_model.hpp"
+#include "tests/estimator/finite_differences.hpp"
+
+namespace aims {
+namespace {
+
+Matrix15 some_covariance(RandomStream& random) {
+  Matrix15 A;
+  for (int i = 0; i < 15; ++i) {
+    for (int j = 0; j < 15; ++j) A(i, j) = 0.02 * random.normal();
+  }
+  return A * A.transpose() + 1e-4 * Matrix15::Identity();
+}
+
+Vector15 normal15(RandomStream& random) {
+  Vector15 v;
+  for (int i = 0; i < 15; ++i) v(i) = random.normal();
+  return v;
+}
+
+TEST(KalmanUpdate, EqualsTheGainForm) {
+  RandomStream random(1, "kalman");
+  const Matrix15 P = some_covariance(random);
+  const NominalState state = test::some_state();
+  const LinearMeasurement m = leg_velocity_model(state, Pose{}, {0.1, 0.2, 0.3}, {0.7, 0.0, 0.0},
+                                                 0.04 * Eigen::Matrix3d::Identity());
+  const Belief updated = kalman_update(state, inverse_spd(P), state, information_of(m));
+  const Eigen::Matrix3d S = m.jacobian * P * m.jacobian.transpose() + m.noise;
+  const Eigen::Matrix<double, 15, 3> K = P * m.jacobian.transpose() * S.inverse();
+  const Vector15 delta = -K * m.residual;
+  const Matrix15 I_KH = Matrix15::Identity() - K * m.jacobian;
+  const Matrix15 joseph = I_KH * P * I_KH.transpose() + K * m.noise * K.transpose();
+  const Matrix15 G = reset_jacobian(delta);
+  EXPECT_LT((boxminus(updated.state, state) - delta).norm(), 1e-10);
+  EXPECT_LT((updated.covariance - G * joseph * G.transpose()).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(KalmanUpdate, NothingMeasuredChangesNothing) {
+  RandomStream random(2, "kalman");
+  const Matrix15 P = some_covariance(random);
+  const NominalState state = test::some_state();
+  const Belief same = kalman_update(state, inverse_spd(P), state, Information{});
+  EXPECT_LT(boxminus(same.state, state).norm(), 1e-12);
+  EXPECT_LT((same.covariance - P).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(KalmanUpdate, IterationConvergesToTheSameStateFromElsewhere) {
+  RandomStream random(3, "kalman");
+  const Matrix15 prior_information = inverse_spd(some_covariance(random));
+  const NominalState prior = test::some_state();
+  const auto iterate = [&](NominalState at) {
+    for (int i = 0; i < 20; ++i) {
+      const LinearMeasurement m = leg_velocity_model(at, Pose{}, {0.1, 0.2, 0.3}, {0.7, 0.2, 0.0},
+                                                     0.01 * Eigen::Matrix3d::Identity());
+      at = kalman_update(prior, prior_information, at, information_of(m)).state;
+    }
+    return at;
+  };
+  const NominalState elsewhere = boxplus(prior, 0.1 * normal15(random));
+  EXPECT_LT(boxminus(iterate(elsewhere), iterate(prior)).norm(), 1e-5);
+}
+
+/// One run of propagation, leg updates and updates by exact planes, all with noise drawn from their
+/// models; the normalised squared error of the belief at the end, chi-square with 15 dof.
+double normalised_error_of_a_run(std::uint64_t seed) {
+  RandomStream random(seed, "nees");
+  ImuPropagationConfig imu;
+  imu.gyro_noise = 2e-3;
+  const Matrix15 P0 = 1e-4 * Matrix15::Identity();
+  Belief belief{test::some_state(), P0};
+  NominalState truth = boxplus(belief.state, 1e-2 * normal15(random));
+  const double dt = 0.02;
+  const Pose T_body_base{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.05}};
+  for (int step = 0; step < 200; ++step) {
+    const Eigen::Vector3d rate(0.3 * std::sin(0.1 * step), 0.2, 0.1);
+    const Eigen::Vector3d force(std::cos(0.05 * step), 0.5, 9.81);
+    const InertialSegment real{0, from_seconds(dt), rate + truth.gyro_bias,
+                               force + truth.accelerometer_bias, true};
+    InertialSegment measured = real;
+    const Eigen::Vector3d slip = Eigen::Vector3d::Zero();
+    truth = propagate_state(truth, real, dt, imu.gravity);
+    // The model's noise acts on the state, so it is drawn there.
+    const Matrix15 Q = propagation_noise(imu, true, dt);
+    truth = boxplus(truth, Q.llt().matrixL() * normal15(random));
+    belief = propagate(belief, measured, dt, imu);
+    if (step % 2 == 0) {
+      const Eigen::Matrix3d noise = 0.01 * Eigen::Matrix3d::Identity();
+      const LinearMeasurement exact =
+          leg_velocity_model(truth, T_body_base, measured.angular_velocity, slip, noise);
+      const Eigen::Vector3d reported = exact.residual + 0.1 * random.normal3();
+      const LinearMeasurement m =
+          leg_velocity_model(belief.state, T_body_base, measured.angular_velocity, reported, noise);
+      belief = kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
+                             information_of(m));
+    }
+    if (step % 5 == 0) {
+      Matrix6 A = Matrix6::Zero();
+      Vector6 b = Vector6::Zero();
+      for (int i = 0; i < 30; ++i) {
+        const Plane plane{Eigen::Vector3d::Unit(i % 3), 3.0 * Eigen::Vector3d::Unit(i % 3), true};
+        Eigen::Vector3d p_odom = 4.0 * random.normal3();
+        p_odom(i % 3) = 3.0 + 0.02 * random.normal();
+        const Eigen::Vector3d p_body = truth.T_odom_body().inverse() * p_odom;
+        const PlaneRow row = plane_row(plane, p_body, belief.state.rotation.toRotationMatrix(),
+                                       belief.state.position);
+        A += row.jacobian * row.jacobian.transpose() / (0.02 * 0.02);
+        b += row.jacobian * row.residual / (0.02 * 0.02);
+      }
+      belief = kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
+                             pose_information(A, b));
+    }
+  }
+  const Vector15 error = boxminus(truth, belief.state);
+  return error.dot(belief.covariance.llt().solve(error));
+}
+
+TEST(KalmanUpdate, NormalisedErrorLiesWithinItsChiSquareBounds) {
+  constexpr int kRuns = 50;
+  double sum = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    sum += normalised_error_of_a_run(static_cast<std::uint64_t>(100 + run));
+  }
+  // The sum is chi-square with 750 dof: 99.9 % of it lies within these bounds.
+  EXPECT_GT(sum, 627.0) << "seeds 100 to 149";
+  EXPECT_LT(sum, 882.0) << "seeds 100 to 149";
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/plane_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/random.hpp"
+#include "tests/estimator/finite_differences.hpp"
+
+namespace aims {
+namespace {
+
+std::vector<Eigen::Vector3f> spread_on_plane(const Eigen::Vector3d& normal, double noise,
+                                             RandomStream& random) {
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  std::vector<Eigen::Vector3f> points;
+  for (const auto& [a, b] : {std::pair{0.1, 0.0}, {-0.1, 0.02}, {0.0, 0.1}, {0.03, -0.1}, {0, 0}}) {
+    const Eigen::Vector3d p =
+        Eigen::Vector3d(5.0, 1.0, 2.0) + a * u + b * v + noise * random.normal() * normal;
+    points.push_back(p.cast<float>());
+  }
+  return points;
+}
+
+TEST(PlaneModel, JacobianMatchesFiniteDifferences) {
+  const Plane plane{Eigen::Vector3d(0.2, -0.5, 0.7).normalized(), {5.0, 1.0, 2.0}, true};
+  const Eigen::Vector3d p(3.0, -4.0, 1.5);
+  const auto residual = [&](const NominalState& s) {
+    return Eigen::Matrix<double, 1, 1>(
+        plane_row(plane, p, s.rotation.toRotationMatrix(), s.position).residual);
+  };
+  const NominalState state = test::some_state();
+  const auto numeric = test::numeric_jacobian<1>(state, residual);
+  const PlaneRow row = plane_row(plane, p, state.rotation.toRotationMatrix(), state.position);
+  EXPECT_LT((row.jacobian.transpose() - numeric.leftCols<6>()).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_LT(numeric.rightCols<9>().cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(PlaneModel, FitsExactPlanes) {
+  RandomStream random(1, "plane");
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d normal = random.normal3().normalized();
+    const Plane plane = fit_plane(spread_on_plane(normal, 0.0, random), MapConfig{});
+    ASSERT_TRUE(plane.valid);
+    EXPECT_GT(std::abs(plane.normal.dot(normal)), 1.0 - 1e-6);
+  }
+}
+
+TEST(PlaneModel, RefusesOneScanLine) {
+  std::vector<Eigen::Vector3f> line;
+  for (int i = 0; i < 5; ++i)
+    line.emplace_back(0.1F * static_cast<float>(i), 1.0F, 0.001F * (i % 2));
+  EXPECT_FALSE(fit_plane(line, MapConfig{}).valid);
+}
+
+TEST(PlaneModel, RefusesPointsOffThePlane) {
+  RandomStream random(1, "plane");
+  auto points = spread_on_plane(Eigen::Vector3d::UnitZ(), 0.0, random);
+  points[4].z() += 0.3F;
+  EXPECT_FALSE(fit_plane(points, MapConfig{}).valid);
+}
+
+TEST(PlaneModel, RefusesIdenticalPoints) {
+  const std::vector<Eigen::Vector3f> points(5, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+  EXPECT_FALSE(fit_plane(points, MapConfig{}).valid);
+}
+
+}  // namespace
+}  // namespace aims
