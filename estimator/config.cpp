@@ -12,7 +12,7 @@ Spec spec(std::string unit, Range range, std::string meaning, std::string source
 
 }  // namespace
 
-void describe(Fields& f, ImuConfig& c) {
+void describe(Fields& f, ImuPropagationConfig& c) {
   f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
            spec("", any(), "whether a sample is the mean over its interval or a point value",
                 "design: 20 ms averages"));
@@ -64,7 +64,7 @@ void describe(Fields& f, LegConfig& c) {
   f.number("max_speed", c.max_speed, spec("m/s", positive(), "a faster base is refused"));
 }
 
-void describe(Fields& f, LidarConfig& c) {
+void describe(Fields& f, LidarUpdateConfig& c) {
   f.number("min_range", c.min_range, spec("m", at_least(0), "nearer returns are ignored"));
   f.number("max_range", c.max_range, spec("m", positive(), "farther returns are ignored"));
   f.number("selection_voxel", c.selection_voxel,

@@ -16,12 +16,12 @@ struct ErrorState {
   struct Block {
     int offset;
   };
-  static constexpr Block kRotation{0};           ///< [rad]
-  static constexpr Block kPosition{3};           ///< [m]
-  static constexpr Block kVelocity{6};           ///< [m/s]
-  static constexpr Block kGyroBias{9};           ///< [rad/s]
+  static constexpr Block kRotation{0};            ///< [rad]
+  static constexpr Block kPosition{3};            ///< [m]
+  static constexpr Block kVelocity{6};            ///< [m/s]
+  static constexpr Block kGyroBias{9};            ///< [rad/s]
   static constexpr Block kAccelerometerBias{12};  ///< [m/s^2]
-  static constexpr int kPoseSize = 6;            ///< rotation and position come first
+  static constexpr int kPoseSize = 6;             ///< rotation and position come first
   static constexpr int kSize = 15;
 };
 
@@ -62,11 +62,11 @@ auto pose_segment(Vector& vector) {
 
 /// State of the filter, eq. (1): x = [R, p, v, b_g, b_a].
 struct NominalState {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();         ///< R_odom_body
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();                   ///< p_odom_body [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();                   ///< in odometry axes [m/s]
-  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();                  ///< [rad/s]
-  Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();         ///< [m/s^2]
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< R_odom_body
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< p_odom_body [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< in odometry axes [m/s]
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();           ///< [rad/s]
+  Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();  ///< [m/s^2]
 
   Pose T_odom_body() const { return {rotation, position}; }
 };

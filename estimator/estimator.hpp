@@ -13,9 +13,9 @@ namespace aims {
 
 /// What one LiDAR update saw and did; quantities of the paper carry its symbols.
 struct ScanDiagnostics {
-  Time stamp = 0;                     ///< end of the sweep
-  int points_in = 0;                  ///< finite points in range
-  int points_used = 0;                ///< with an accepted plane in the final update
+  Time stamp = 0;       ///< end of the sweep
+  int points_in = 0;    ///< finite points in range
+  int points_used = 0;  ///< with an accepted plane in the final update
   int iterations = 0;
   double residual_mean = 0.0;         ///< after the trial update [m], eq. (3)
   double residual_sigma = 0.0;        ///< after the trial update [m], eq. (3)
@@ -30,15 +30,15 @@ struct ScanDiagnostics {
   double gamma_leg = 1.0;             ///< eq. (10)
   Eigen::Vector3d innovation_rotation = Eigen::Vector3d::Zero();  ///< y_k, eq. (5) [rad]
   Eigen::Vector3d innovation_position = Eigen::Vector3d::Zero();  ///< y_k, eq. (5) [m]
-  double smallest_eigenvalue = 0.0;   ///< of the translation information [1/m^2]
-  double condition_number = 0.0;      ///< of the translation information
-  double leg_innovation = 0.0;        ///< norm of the last leg velocity innovation [m/s]
-  int leg_updates = 0;                ///< since the last scan
+  double smallest_eigenvalue = 0.0;  ///< of the translation information [1/m^2]
+  double condition_number = 0.0;     ///< of the translation information
+  double leg_innovation = 0.0;       ///< norm of the last leg velocity innovation [m/s]
+  int leg_updates = 0;               ///< since the last scan
 };
 
 /// What an estimator has found so far.
 struct EstimatorReport {
-  Trajectory trajectory;                    ///< T_odom_body at each scan end; starts at identity
+  Trajectory trajectory;                     ///< T_odom_body at each scan end; starts at identity
   std::vector<ScanDiagnostics> diagnostics;  ///< one per scan (empty for `leg`)
   std::map<std::string, int> counts;         ///< e.g. late, duplicate, non-finite measurements
 };

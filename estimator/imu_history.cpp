@@ -13,7 +13,7 @@ bool before(const ImuSample& a, Time stamp) { return a.stamp < stamp; }
 
 }  // namespace
 
-ImuHistory::ImuHistory(const ImuConfig& config)
+ImuHistory::ImuHistory(const ImuPropagationConfig& config)
     : config_(config), period_(from_seconds(1.0 / config.rate_hz)) {}
 
 bool ImuHistory::insert(const ImuSample& sample) {
@@ -45,8 +45,9 @@ InertialSegment ImuHistory::bridge(std::size_t next) const {
     return segment;
   }
   const bool has_next = next < samples_.size();
-  const bool short_gap = has_next && next > 0 &&
-                         samples_[next].stamp - samples_[next - 1].stamp <= 3 * period_ + period_ / 2;
+  const bool short_gap =
+      has_next && next > 0 &&
+      samples_[next].stamp - samples_[next - 1].stamp <= 3 * period_ + period_ / 2;
   const std::size_t last = has_next ? next + 1 : next;  // one past the newest sample used
   const std::size_t wanted = short_gap ? 2 : kBridgeSamples;
   const std::size_t first = last > wanted ? last - wanted : 0;

@@ -14,13 +14,14 @@ namespace aims {
 /// Recent inertial samples in order of stamp, and what they say about any span of time.
 class ImuHistory {
  public:
-  explicit ImuHistory(const ImuConfig& config);
+  explicit ImuHistory(const ImuPropagationConfig& config);
 
   /// Takes a sample at its place; false when one with that stamp is there already.
   bool insert(const ImuSample& sample);
 
   /// Replaces `segments` by consecutive segments that cover (begin, end]. Where samples are missing
-  /// they bridge: by the mean of both neighbours over a short gap, by the recent mean over a long one.
+  /// they bridge: by the mean of both neighbours over a short gap, by the recent mean over a long
+  /// one.
   void segments(Time begin, Time end, std::vector<InertialSegment>& segments) const;
 
   /// The angular velocity that holds at `stamp` [rad/s]; empty where no sample covers it.
@@ -38,7 +39,7 @@ class ImuHistory {
   InertialSegment measured_segment(std::size_t index) const;
   InertialSegment bridge(std::size_t next) const;
 
-  ImuConfig config_;
+  ImuPropagationConfig config_;
   Duration period_;
   std::deque<ImuSample> samples_;
 };

@@ -58,7 +58,7 @@ Matrix15 propagation_jacobian(const NominalState& state, const InertialSegment& 
   return F;
 }
 
-Matrix15 propagation_noise(const ImuConfig& config, bool measured, double dt) {
+Matrix15 propagation_noise(const ImuPropagationConfig& config, bool measured, double dt) {
   using E = ErrorState;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const double gyro = measured ? config.gyro_noise : config.bridge_gyro_noise;
@@ -78,7 +78,7 @@ Matrix15 propagation_noise(const ImuConfig& config, bool measured, double dt) {
 }
 
 Belief propagate(const Belief& belief, const InertialSegment& segment, double dt,
-                 const ImuConfig& config) {
+                 const ImuPropagationConfig& config) {
   const Matrix15 F = propagation_jacobian(belief.state, segment, dt);
   const Matrix15 covariance =
       F * belief.covariance * F.transpose() + propagation_noise(config, segment.measured, dt);

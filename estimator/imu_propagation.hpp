@@ -8,7 +8,8 @@
 
 namespace aims {
 
-/// A span of time over which angular rate and specific force (body axes, bias included) are constant.
+/// A span of time over which angular rate and specific force (body axes, bias included) are
+/// constant.
 struct InertialSegment {
   Time begin = 0;
   Time end = 0;
@@ -26,10 +27,10 @@ Matrix15 propagation_jacobian(const NominalState& state, const InertialSegment& 
 
 /// Covariance that `dt` [s] of inertial noise and bias walk add; isotropic, so that it
 /// is the same in body and odometry axes.
-Matrix15 propagation_noise(const ImuConfig& config, bool measured, double dt);
+Matrix15 propagation_noise(const ImuPropagationConfig& config, bool measured, double dt);
 
 /// The belief `dt` [s] later.
 Belief propagate(const Belief& belief, const InertialSegment& segment, double dt,
-                 const ImuConfig& config);
+                 const ImuPropagationConfig& config);
 
 }  // namespace aims

@@ -17,8 +17,8 @@ struct Standing {
 };
 
 /// Means over the standing samples from the front, up to the duration or the first motion.
-Standing average_standing(const std::deque<ImuSample>& samples,
-                          const InitializationConfig& config, double gravity) {
+Standing average_standing(const std::deque<ImuSample>& samples, const InitializationConfig& config,
+                          double gravity) {
   Standing standing;
   for (const ImuSample& sample : samples) {
     if (sample.stamp - samples.front().stamp > from_seconds(config.duration)) break;

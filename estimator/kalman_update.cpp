@@ -9,8 +9,7 @@ namespace aims {
 Information information_of(const LinearMeasurement& measurement) {
   const Eigen::Matrix<double, 3, ErrorState::kSize> weighted =
       measurement.noise.inverse() * measurement.jacobian;
-  return {measurement.jacobian.transpose() * weighted,
-          weighted.transpose() * measurement.residual};
+  return {measurement.jacobian.transpose() * weighted, weighted.transpose() * measurement.residual};
 }
 
 Information pose_information(const Matrix6& matrix, const Vector6& vector) {

@@ -16,7 +16,8 @@ struct LinearMeasurement {
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
 };
 
-/// What measurements of any number of rows say about the error state: A = H^T R^-1 H, b = H^T R^-1 r.
+/// What measurements of any number of rows say about the error state: A = H^T R^-1 H, b = H^T R^-1
+/// r.
 struct Information {
   Matrix15 matrix = Matrix15::Zero();
   Vector15 vector = Vector15::Zero();
@@ -37,10 +38,10 @@ struct Belief {
 /// Inverse of a covariance (symmetric, positive definite).
 Matrix15 inverse_spd(const Matrix15& matrix);
 
-/// The one Kalman update, in information form: the belief after fusing `measurements`, linearised at
-/// `linearization`, with the prior whose state is `prior` and inverse covariance
-/// `prior_information`. With linearization == prior it is the plain update; elsewhere it is one step
-/// of the iterated update. The covariance belongs to the error about the returned state.
+/// The one Kalman update, in information form: the belief after fusing `measurements`, linearised
+/// at `linearization`, with the prior whose state is `prior` and inverse covariance
+/// `prior_information`. With linearization == prior it is the plain update; elsewhere it is one
+/// step of the iterated update. The covariance belongs to the error about the returned state.
 Belief kalman_update(const NominalState& prior, const Matrix15& prior_information,
                      const NominalState& linearization, const Information& measurements);
 

@@ -4,7 +4,8 @@
 namespace aims {
 namespace {
 
-/// Removes position and heading of `T_odom_body`: roll and pitch keep their meaning against gravity.
+/// Removes position and heading of `T_odom_body`: roll and pitch keep their meaning against
+/// gravity.
 Pose anchor_at(const Pose& T_odom_body) {
   return Pose{yaw_rotation(yaw_of(T_odom_body.rotation)), T_odom_body.translation}.inverse();
 }
@@ -40,10 +41,10 @@ void LegDeadReckoning::process(const LegOdometrySample& sample) {
   if (!T_start_odom_) T_start_odom_ = anchor_at(T_odom_body);
   const StampedPose now{sample.stamp, *T_start_odom_ * T_odom_body};
   for (Time stamp : waiting_) {
-    const Pose pose = last_ ? interpolate(last_->pose, now.pose,
-                                          to_seconds(stamp - last_->stamp) /
-                                              to_seconds(now.stamp - last_->stamp))
-                            : now.pose;
+    const Pose pose =
+        last_ ? interpolate(last_->pose, now.pose,
+                            to_seconds(stamp - last_->stamp) / to_seconds(now.stamp - last_->stamp))
+              : now.pose;
     report_.trajectory.push_back({stamp, pose});
   }
   waiting_.clear();

@@ -12,12 +12,11 @@ namespace aims {
 /// `measured` is that velocity [m/s], `angular_velocity` the gyro's reading in body axes [rad/s].
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
                                      const Eigen::Vector3d& angular_velocity,
-                                     const Eigen::Vector3d& measured,
-                                     const Eigen::Matrix3d& noise);
+                                     const Eigen::Vector3d& measured, const Eigen::Matrix3d& noise);
 
-/// R_leg, the nominal covariance of one sample [m^2/s^2]. The error of leg odometry lasts (a scale, a
-/// slipping stance), so consecutive samples repeat it; the sample's variance grows by the number of
-/// samples per correlation time, so that a second of samples weighs what it is worth.
+/// R_leg, the nominal covariance of one sample [m^2/s^2]. The error of leg odometry lasts (a scale,
+/// a slipping stance), so consecutive samples repeat it; the sample's variance grows by the number
+/// of samples per correlation time, so that a second of samples weighs what it is worth.
 Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, const Eigen::Vector3d& measured);
 
 }  // namespace aims

@@ -17,8 +17,7 @@ void record_localizability(const Matrix6& information, ScanDiagnostics& diagnost
   const Eigen::Matrix3d cross = information.topRightCorner<3, 3>();
   const Eigen::Matrix3d translation =
       information.bottomRightCorner<3, 3>() - cross.transpose() * rotation.llt().solve(cross);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(translation,
-                                                              Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(translation, Eigen::EigenvaluesOnly);
   diagnostics.smallest_eigenvalue = std::max(solver.eigenvalues()(0), 0.0);
   diagnostics.condition_number =
       solver.eigenvalues()(2) / std::max(diagnostics.smallest_eigenvalue, 1e-9);
@@ -26,7 +25,7 @@ void record_localizability(const Matrix6& information, ScanDiagnostics& diagnost
 
 }  // namespace
 
-LidarUpdate::LidarUpdate(const LidarConfig& lidar, const MapConfig& map,
+LidarUpdate::LidarUpdate(const LidarUpdateConfig& lidar, const MapConfig& map,
                          const DegeneracyConfig& degeneracy, bool adaptive)
     : lidar_(lidar),
       map_(map),
@@ -134,8 +133,9 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     gamma_leg_ = adaptive_ ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
     // eq. (9): R_lidar' = R_lidar / gamma_lidar, so the information of the trial's last
     // linearisation is multiplied by gamma_lidar.
-    belief = kalman_update(predicted.state, prior_information, belief.state,
-                           pose_information(gamma_lidar_ * rows.matrix, gamma_lidar_ * rows.vector));
+    belief =
+        kalman_update(predicted.state, prior_information, belief.state,
+                      pose_information(gamma_lidar_ * rows.matrix, gamma_lidar_ * rows.vector));
   }
   diagnostics.D_smoothed = severity_.value();
   diagnostics.gamma_lidar = gamma_lidar_;

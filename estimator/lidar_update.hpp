@@ -19,8 +19,8 @@ namespace aims {
 class LidarUpdate {
  public:
   /// With `adaptive` off the weights stay 1 and the index is only recorded.
-  LidarUpdate(const LidarConfig& lidar, const MapConfig& map, const DegeneracyConfig& degeneracy,
-              bool adaptive);
+  LidarUpdate(const LidarUpdateConfig& lidar, const MapConfig& map,
+              const DegeneracyConfig& degeneracy, bool adaptive);
 
   /// The belief after fusing `points` (body axes at the belief's instant) against `map`. Fills the
   /// index, weights and statistics of `diagnostics`. With too few planes the belief is returned as
@@ -56,7 +56,7 @@ class LidarUpdate {
   bool moved(const NominalState& state, const NominalState& since, double rotation,
              double position) const;
 
-  LidarConfig lidar_;
+  LidarUpdateConfig lidar_;
   MapConfig map_;
   DegeneracyConfig degeneracy_;
   bool adaptive_;

@@ -16,14 +16,14 @@ struct Plane {
   bool valid = false;  ///< the points lie on it, and span it in two directions
 };
 
-/// The least-squares plane of `points`, judged by the map's thickness, spread and ratio: five points
-/// of one scan line do not define a plane.
+/// The least-squares plane of `points`, judged by the map's thickness, spread and ratio: five
+/// points of one scan line do not define a plane.
 Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config);
 
 /// One row of the point-to-plane model.
 struct PlaneRow {
-  double residual = 0.0;                ///< r_i, eq. (2) [m]
-  Vector6 jacobian = Vector6::Zero();   ///< of r_i in rotation and position error
+  double residual = 0.0;               ///< r_i, eq. (2) [m]
+  Vector6 jacobian = Vector6::Zero();  ///< of r_i in rotation and position error
 };
 
 /// Eq. (2) and its Jacobian for a point `p_body` in the body frame at the pose R, t = T_odom_body.

@@ -13,7 +13,7 @@ namespace aims {
 /// the sensor frame. Far walls keep nearly every return, near ones a few.
 class ScanSelection {
  public:
-  explicit ScanSelection(const LidarConfig& config) : config_(config) {}
+  explicit ScanSelection(const LidarUpdateConfig& config) : config_(config) {}
 
   /// Replaces `kept` by indices into `scan`, evenly thinned when there are more than `limit`.
   void select(const LidarScan& scan, double voxel, int limit, std::vector<int>& kept);
@@ -22,7 +22,7 @@ class ScanSelection {
   bool usable(const LidarPoint& point) const;
 
  private:
-  LidarConfig config_;
+  LidarUpdateConfig config_;
   VoxelHash taken_{8192};
 };
 
