@@ -25,7 +25,7 @@ struct Recording {
   SensorRig rig;
 };
 
-Recording run(const SimulationConfig& config, std::uint64_t seed, Duration span = kSecond) {
+Recording record(const SimulationConfig& config, std::uint64_t seed, Duration span = kSecond) {
   Simulation simulation = Simulation::create(config, seed).value();
   Recording result;
   while (simulation.advance(span, result.deliveries)) {
@@ -69,7 +69,7 @@ std::string bytes_of(const Recording& recording) {
 }
 
 TEST(Simulation, WalksItsRouteAndDeliversEverySensorInOrderOfArrival) {
-  const Recording result = run(short_walk(), 1);
+  const Recording result = record(short_walk(), 1);
   EXPECT_FALSE(result.truth.fell);
   EXPECT_FALSE(result.truth.touched_wall);
   ASSERT_EQ(result.truth.passages.size(), 2U);
@@ -88,29 +88,42 @@ TEST(Simulation, WalksItsRouteAndDeliversEverySensorInOrderOfArrival) {
 }
 
 TEST(Simulation, SameSeedGivesTheSameBytesWhateverTheSpan) {
-  const Recording once = run(short_walk(), 7, kSecond);
-  const Recording again = run(short_walk(), 7, 130 * kMillisecond);
+  const Recording once = record(short_walk(), 7, kSecond);
+  const Recording again = record(short_walk(), 7, 130 * kMillisecond);
   EXPECT_EQ(bytes_of<ImuSample>(once), bytes_of<ImuSample>(again));
   EXPECT_EQ(bytes_of<LegOdometrySample>(once), bytes_of<LegOdometrySample>(again));
   EXPECT_EQ(bytes_of<LidarScanPtr>(once), bytes_of<LidarScanPtr>(again));
   EXPECT_EQ(once.truth.snapshots.back().qpos, again.truth.snapshots.back().qpos);
-  EXPECT_NE(bytes_of<ImuSample>(once), bytes_of<ImuSample>(run(short_walk(), 8)));
+  EXPECT_NE(bytes_of<ImuSample>(once), bytes_of<ImuSample>(record(short_walk(), 8)));
+}
+
+TEST(Simulation, EachSeedStartsNearTheFirstPointInItsOwnWay) {
+  SimulationConfig config = short_walk();
+  config.max_duration = 0.05;
+  const auto start = [&config](std::uint64_t seed) {
+    const Recording recording = record(config, seed);
+    return (recording.truth.samples.front().T_world_body * recording.rig.T_body_base).translation;
+  };
+  EXPECT_NE(start(1).head<2>(), start(2).head<2>());
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    EXPECT_LT(start(seed).head<2>().norm(), 0.09) << "seed " << seed;
+  }
 }
 
 TEST(Simulation, OneSensorsNoiseLeavesTheOthersUntouched) {
-  const Recording base = run(short_walk(), 5);
+  const Recording base = record(short_walk(), 5);
   SimulationConfig changed = short_walk();
   changed.lidar.range_sigma = 0.1;
   changed.links.leg_odometry.loss = 0.5;
   changed.leg_odometry.slip_rate = 3.0;
-  const Recording other = run(changed, 5);
+  const Recording other = record(changed, 5);
   EXPECT_EQ(bytes_of<ImuSample>(base), bytes_of<ImuSample>(other));
   EXPECT_NE(bytes_of<LidarScanPtr>(base), bytes_of<LidarScanPtr>(other));
   EXPECT_NE(bytes_of<LegOdometrySample>(base), bytes_of<LegOdometrySample>(other));
 }
 
 TEST(Simulation, TruthIsConsistentWithItself) {
-  const Recording result = run(short_walk(), 2);
+  const Recording result = record(short_walk(), 2);
   const auto& samples = result.truth.samples;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double dt = to_seconds(samples[i].stamp - samples[i - 1].stamp);
@@ -145,7 +158,7 @@ TEST(Simulation, RefusesARouteWithoutLengthAndAStepThatDividesNoPeriod) {
 TEST(Simulation, EndsAtItsTimeLimit) {
   SimulationConfig config = short_walk();
   config.max_duration = 0.5;
-  EXPECT_EQ(run(config, 1).truth.samples.back().stamp, 500 * kMillisecond);
+  EXPECT_EQ(record(config, 1).truth.samples.back().stamp, 500 * kMillisecond);
 }
 
 TEST(Simulation, EveryParameterIsDescribed) {
