@@ -21,7 +21,7 @@ namespace aims {
 struct ScoreConfig {
   Association association = Association::kInterpolated;
   double association_tolerance = 0.01;               ///< [s]
-  AlignmentKind anchor = AlignmentKind::kStartPose;  ///< or kStartHeading
+  AlignmentKind anchor = AlignmentKind::kStartHeading;  ///< or kStartPose
   double straightness = 1e-6;                        ///< [-]
   double edge_tolerance = 3.0;                       ///< [s]
   double longest_gap = 2.0;                          ///< [s]

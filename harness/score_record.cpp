@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "eval/statistics.hpp"
 #include "harness/gates.hpp"
@@ -42,13 +43,15 @@ Json time_json(const std::vector<double>& scan_times_ms) {
 
 /// M_list of each segment and, as "all", of their sum.
 void add_segments(Json& json, const Scores& scores) {
-  Json& percent = json["m_list_percent"] = Json::object();
-  Json& signed_percent = json["m_list_signed_percent"] = Json::object();
+  Json percent = Json::object();
+  Json signed_percent = Json::object();
   for (const SegmentDistance& distance : scores.segments) {
     percent[distance.segment.name] = json_of(distance.percent);
     signed_percent[distance.segment.name] = json_of(distance.signed_percent);
   }
   percent["all"] = json_of(scores.m_list_percent);
+  json["m_list_percent"] = std::move(percent);
+  json["m_list_signed_percent"] = std::move(signed_percent);
 }
 
 void add_relative_errors(Json& json, const Scores& scores) {

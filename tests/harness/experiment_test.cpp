@@ -36,7 +36,7 @@ TEST(Experiment, WritesEveryFileOfARun) {
   for (const char* file :
        {"scores.json", "scores.csv", "config.yaml", "truth.tum", "passages.csv", "aims.tum",
         "leg.tum", "aims.diagnostics.csv", "trajectories.png", "aims-map-top.png",
-        "aims-map-side.png", "robot-1.png", "degeneracy.png"}) {
+        "aims-map-side.png", "robot_start.png", "degeneracy.png"}) {
     EXPECT_TRUE(fs::exists(options.out / file)) << file;
   }
   EXPECT_TRUE(read_tum(options.out / "aims.tum"));
