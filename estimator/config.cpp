@@ -36,7 +36,9 @@ void describe(Fields& f, ImuPropagationConfig& c) {
 
 void describe(Fields& f, InitializationConfig& c) {
   f.number("duration", c.duration,
-           spec("s", in_range(0.1, kLongTime), "standing still that is averaged at the start"));
+           spec("s", in_range(0.1, kLongTime), "standing still at the start"));
+  f.number("settle", c.settle,
+           spec("s", in_range(0.0, kLongTime), "part of it that is left out of the averages"));
   f.number("still_rate", c.still_rate,
            spec("rad/s", positive(), "angular rate above which the robot is taken to move"));
   f.number("still_force", c.still_force,
@@ -71,7 +73,8 @@ void describe(Fields& f, LidarUpdateConfig& c) {
            spec("m", in_range(0.01, 10.0), "one return per voxel of the raw scan is matched"));
   f.integer("max_points", c.max_points, spec("-", at_least(1), "most returns matched per scan"));
   f.number("point_sigma", c.point_sigma,
-           spec("m", positive(), "error of a point-to-plane residual, R_lidar", "eq. (2)"));
+           spec("m", positive(), "error of a point-to-plane residual, R_lidar",
+                "tuned on simulated corridors, with doors and smooth"));
   f.number("residual_gate", c.residual_gate,
            spec("m", positive(), "point-to-plane residuals beyond it are refused"));
   f.integer("max_iterations", c.max_iterations,

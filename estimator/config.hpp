@@ -25,14 +25,15 @@ struct ImuPropagationConfig {
 
 /// Standing start.
 struct InitializationConfig {
-  double duration = 1.0;                   ///< of standing still that is averaged [s]
-  double still_rate = 0.15;                ///< above it the robot is taken to move [rad/s]
-  double still_force = 0.8;                ///< deviation of force above which it moves [m/s^2]
-  double sigma_tilt = 5e-3;                ///< [rad]
-  double sigma_yaw = 1e-4;                 ///< the odometry frame defines yaw [rad]
-  double sigma_position = 1e-4;            ///< the odometry frame defines position [m]
-  double sigma_velocity = 2e-2;            ///< [m/s]
-  double sigma_gyro_bias = 1e-3;           ///< after averaging [rad/s]
+  double duration = 2.0;          ///< of the standing start [s]
+  double settle = 1.0;            ///< of it that is left out, while the robot takes its stance [s]
+  double still_rate = 0.15;       ///< above it the robot is taken to move [rad/s]
+  double still_force = 0.8;       ///< deviation of force above which it moves [m/s^2]
+  double sigma_tilt = 5e-3;       ///< [rad]
+  double sigma_yaw = 1e-4;        ///< the odometry frame defines yaw [rad]
+  double sigma_position = 1e-4;   ///< the odometry frame defines position [m]
+  double sigma_velocity = 2e-2;   ///< [m/s]
+  double sigma_gyro_bias = 1e-3;  ///< after averaging [rad/s]
   double sigma_accelerometer_bias = 5e-2;  ///< [m/s^2]
 };
 
@@ -47,11 +48,13 @@ struct LegConfig {
 
 /// Point selection, matching and the iterated update (sim has a LidarConfig of its own).
 struct LidarUpdateConfig {
-  double min_range = 0.3;              ///< [m]
-  double max_range = 120.0;            ///< [m]
-  double selection_voxel = 0.25;       ///< one point is kept per voxel of the raw scan [m]
-  int max_points = 4000;               ///< bound on points per update
-  double point_sigma = 0.05;           ///< of a point-to-plane residual, R_lidar [m]
+  double min_range = 0.3;         ///< [m]
+  double max_range = 120.0;       ///< [m]
+  double selection_voxel = 0.25;  ///< one point is kept per voxel of the raw scan [m]
+  int max_points = 4000;          ///< bound on points per update
+  /// Of a point-to-plane residual, R_lidar [m]. Far above the 2 cm of a return: neighbouring
+  /// residuals share the errors of map and normals, and are counted as independent.
+  double point_sigma = 0.15;
   double residual_gate = 0.2;          ///< larger residuals are refused [m]
   int max_iterations = 4;              ///< of the trial update
   double convergence_rotation = 1e-4;  ///< [rad]

@@ -12,21 +12,31 @@ constexpr int kFewestSamples = 5;
 struct Standing {
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();   ///< mean [rad/s]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< mean [m/s^2]
+  Time end = 0;                                     ///< of the last sample averaged
   int count = 0;
   bool moved = false;
 };
 
-/// Means over the standing samples from the front, up to the duration or the first motion.
-Standing average_standing(const std::deque<ImuSample>& samples, const InitializationConfig& config,
-                          double gravity) {
+/// Whether the sample can be one of a robot that stands still.
+bool is_still(const ImuSample& sample, const InitializationConfig& config, double gravity) {
+  return sample.angular_velocity.norm() <= config.still_rate &&
+         std::abs(sample.specific_force.norm() - gravity) <= config.still_force;
+}
+
+/// Means over the standing samples later than `settle` [s] after the first, up to the end of the
+/// stand or the first motion after settling.
+Standing average_standing(const std::deque<ImuSample>& samples, double settle,
+                          const InitializationConfig& config, double gravity) {
   Standing standing;
+  const Time first = samples.front().stamp;
   for (const ImuSample& sample : samples) {
-    if (sample.stamp - samples.front().stamp > from_seconds(config.duration)) break;
-    standing.moved = sample.angular_velocity.norm() > config.still_rate ||
-                     std::abs(sample.specific_force.norm() - gravity) > config.still_force;
+    if (sample.stamp - first > from_seconds(config.duration)) break;
+    if (sample.stamp - first < from_seconds(settle)) continue;
+    standing.moved = !is_still(sample, config, gravity);
     if (standing.moved) break;
     standing.rate += sample.angular_velocity;
     standing.force += sample.specific_force;
+    standing.end = sample.stamp;
     ++standing.count;
   }
   if (standing.count > 0) {
@@ -67,12 +77,13 @@ Matrix15 initial_covariance(const InitializationConfig& config, bool stood_still
 std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
                                         const InitializationConfig& config, double gravity) {
   if (samples.empty()) return std::nullopt;
-  const Standing standing = average_standing(samples, config, gravity);
+  Standing standing = average_standing(samples, config.settle, config, gravity);
   const Duration span = samples.back().stamp - samples.front().stamp;
   if (span < from_seconds(config.duration) && !standing.moved) return std::nullopt;
+  if (standing.count < kFewestSamples) standing = average_standing(samples, 0.0, config, gravity);
   const bool enough = standing.count >= kFewestSamples;
   InitialBelief initial;
-  initial.stamp = samples.front().stamp;
+  initial.stamp = enough ? standing.end : samples.front().stamp;
   initial.stood_still = enough;
   initial.belief.state.rotation = level(enough ? standing.force : samples.front().specific_force);
   if (enough) initial.belief.state.gyro_bias = standing.rate;

@@ -17,7 +17,7 @@ struct InitialBelief {
   bool stood_still = true;  ///< false: the robot moved, so tilt and biases are guesses
 };
 
-/// The belief at the first of `samples` once they span the standing start, or once the robot moves.
+/// The belief at the end of the standing start: once `samples` span it, or once the robot moves.
 /// Gyro bias and tilt come from their means; the odometry frame is the start pose with yaw 0 and
 /// roll and pitch against gravity. Empty while more samples are needed.
 std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
