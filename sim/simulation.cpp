@@ -194,6 +194,7 @@ Result<Simulation> Simulation::create(const SimulationConfig& config, std::uint6
   if (auto ok = check_route(config, scene, walker->world()); !ok) {
     return tl::unexpected(ok.error());
   }
+  walker->settle();
   return Simulation(std::make_unique<Impl>(config, seed, std::move(scene), std::move(*walker)));
 }
 

@@ -9,6 +9,10 @@ namespace {
 /// Cosine of the tilt beyond which the robot has fallen.
 constexpr double kFallenCosine = 0.5;
 
+/// Standing before time zero, until the joints have found their rest: a recording starts with a
+/// robot that has been standing for a while.
+constexpr Duration kSettling = 2 * kSecond;
+
 }  // namespace
 
 Walker::Walker(World world, const GaitConfig& gait, const RouteConfig& route, double timestep)
@@ -22,6 +26,11 @@ Result<Walker> Walker::create(const WorldSetup& setup, const GaitConfig& gait,
   world->place(route.points[0].x + offset.x, route.points[0].y + offset.y,
                start_heading(route) + offset.yaw);
   return Walker(std::move(*world), gait, route, setup.timestep);
+}
+
+void Walker::settle() {
+  while (world_.state().stamp < kSettling) world_.step(gait_.torques(world_.state(), {}));
+  world_.restart_clock();
 }
 
 void Walker::step() {

@@ -22,6 +22,9 @@ class Walker {
   static Result<Walker> create(const WorldSetup& setup, const GaitConfig& gait,
                                const RouteConfig& route, const Placement& offset = {});
 
+  /// Stands until at rest, then calls that time zero.
+  void settle();
+
   /// One physics step.
   void step();
 

@@ -252,6 +252,8 @@ void World::step(const JointVector& torques) {
   impl_->read_contacts();
 }
 
+void World::restart_clock() { impl_->state.stamp = 0; }
+
 void World::push(const Eigen::Vector3d& force) {
   Eigen::Map<Eigen::Vector3d>(impl_->data->xfrc_applied + 6 * impl_->trunk) = force;
 }

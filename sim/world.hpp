@@ -63,6 +63,9 @@ class World {
   /// One physics step under those joint torques [N m], limited to what the motors can give.
   void step(const JointVector& torques);
 
+  /// Calls the present instant time zero.
+  void restart_clock();
+
   /// Pushes the trunk with a force in the world frame [N] during the following steps.
   void push(const Eigen::Vector3d& force);
 
