@@ -111,9 +111,9 @@ void describe(Fields& f, MapConfig& c) {
   f.number("plane_thickness", c.plane_thickness,
            spec("m", positive(), "the five neighbours lie this close to their plane"));
   f.number("plane_min_spread", c.plane_min_spread,
-           spec("m", at_least(0), "least second principal deviation of the neighbours"));
+           spec("m", at_least(0), "least second principal deviation of the neighbours; docs/decisions.md"));
   f.number("plane_min_ratio", c.plane_min_ratio,
-           spec("-", at_least(1), "least ratio of second to smallest principal variance"));
+           spec("-", at_least(1), "least ratio of second to smallest principal variance; docs/decisions.md"));
 }
 
 void describe(Fields& f, DegeneracyConfig& c) {

@@ -67,7 +67,7 @@ struct LidarUpdateConfig {
 /// Local map and its planes.
 struct MapConfig {
   double voxel_size = 0.5;     ///< hashed voxel; bounds the neighbour search [m]
-  double point_spacing = 0.1;  ///< returns closer than this to a map point merge into it [m]
+  double point_spacing = 0.15;  ///< returns closer than this to a map point merge into it [m]
   int max_points_per_voxel = 32;
   int max_merges = 20;             ///< returns that a map point averages before it is frozen
   int max_voxels = 100000;         ///< beyond it the farthest are dropped
@@ -75,8 +75,8 @@ struct MapConfig {
   int max_insertions = 12000;      ///< bound on points per scan
   double neighbor_gate = 0.5;      ///< the five neighbours lie within it [m]
   double plane_thickness = 0.06;   ///< the five neighbours lie this close to their plane [m]
-  double plane_min_spread = 0.03;  ///< second principal deviation of the neighbours [m]
-  double plane_min_ratio = 4.0;    ///< second over smallest principal variance [-]
+  double plane_min_spread = 0.065;  ///< second principal deviation of the neighbours [m]
+  double plane_min_ratio = 10.0;    ///< second over smallest principal variance [-]
 };
 
 /// Reliability assessment and adaptive weights, eqs. (3)-(12).

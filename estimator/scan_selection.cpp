@@ -2,6 +2,17 @@
 #include "estimator/scan_selection.hpp"
 
 namespace aims {
+namespace {
+
+/// Well-mixed bits of an index (splitmix64 finalizer): the draw among the returns of a voxel.
+std::uint64_t lot(std::int32_t index) {
+  std::uint64_t bits = static_cast<std::uint64_t>(index) + 0x9e3779b97f4a7c15ULL;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
+  return bits ^ (bits >> 31);
+}
+
+}  // namespace
 
 bool ScanSelection::usable(const LidarPoint& point) const {
   const double squared = point.position.squaredNorm();
@@ -17,7 +28,13 @@ void ScanSelection::select(const LidarScan& scan, double voxel, int limit, std::
     if (!usable(scan.points[i])) continue;
     const std::uint64_t key = voxel_key(voxel_of(scan.points[i].position, inverse_size));
     const auto index = static_cast<std::int32_t>(i);
-    if (taken_.find_or_insert(key, index) == index) kept.push_back(index);
+    const auto next = static_cast<std::int32_t>(kept.size());
+    const std::int32_t slot = taken_.find_or_insert(key, next);
+    if (slot == next) {
+      kept.push_back(index);
+    } else if (lot(index) < lot(kept[slot])) {
+      kept[slot] = index;
+    }
   }
   const std::size_t count = kept.size();
   const auto most = static_cast<std::size_t>(limit);

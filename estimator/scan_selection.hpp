@@ -9,8 +9,11 @@
 
 namespace aims {
 
-/// Picks points of a raw scan evenly in space: the first return, in firing order, of each voxel of
-/// the sensor frame. Far walls keep nearly every return, near ones a few.
+/// Picks points of a raw scan evenly in space: one return of each voxel of the sensor frame, drawn
+/// by a hash of its index. Far walls keep nearly every return, near ones a few.
+/// The draw must not follow the firing order: the first return in a voxel is more often one that
+/// range noise pushed into it, outwards on one side of the robot and inwards on the other, and the
+/// map then turns with the sense in which the LiDAR spins.
 class ScanSelection {
  public:
   explicit ScanSelection(const LidarUpdateConfig& config) : config_(config) {}

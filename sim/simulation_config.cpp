@@ -51,6 +51,7 @@ Result<void> validate(const SimulationConfig& config) {
   const Duration timestep = from_seconds(config.physics.timestep);
   if (auto ok = validate(config.scene); !ok) return ok;
   if (auto ok = validate(config.route); !ok) return ok;
+  if (auto ok = validate(config.lidar); !ok) return ok;
   if (auto ok = validate(config.imu, timestep); !ok) return ok;
   if (auto ok = validate(config.leg_odometry, timestep); !ok) return ok;
   const auto sweep = steps_per_sample("lidar.rate", config.lidar.rate, timestep);

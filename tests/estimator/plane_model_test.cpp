@@ -11,12 +11,14 @@
 namespace aims {
 namespace {
 
+/// Five points as the map holds them around a query: one in the middle, four at its spacing.
 std::vector<Eigen::Vector3f> spread_on_plane(const Eigen::Vector3d& normal, double noise,
                                              RandomStream& random) {
   const Eigen::Vector3d u = normal.unitOrthogonal();
   const Eigen::Vector3d v = normal.cross(u);
   std::vector<Eigen::Vector3f> points;
-  for (const auto& [a, b] : {std::pair{0.1, 0.0}, {-0.1, 0.02}, {0.0, 0.1}, {0.03, -0.1}, {0, 0}}) {
+  const double d = MapConfig{}.point_spacing;
+  for (const auto& [a, b] : {std::pair{d, 0.0}, {-d, 0.02}, {0.0, d}, {0.03, -d}, {0, 0}}) {
     const Eigen::Vector3d p =
         Eigen::Vector3d(5.0, 1.0, 2.0) + a * u + b * v + noise * random.normal() * normal;
     points.push_back(p.cast<float>());
@@ -53,6 +55,17 @@ TEST(PlaneModel, RefusesOneScanLine) {
   for (int i = 0; i < 5; ++i)
     line.emplace_back(0.1F * static_cast<float>(i), 1.0F, 0.001F * (i % 2));
   EXPECT_FALSE(fit_plane(line, MapConfig{}).valid);
+}
+
+// One ring crosses from a wall to the floor: its five points lie in the cone of the beams, so that
+// the plane through them says nothing of either surface.
+TEST(PlaneModel, RefusesOneScanLineBentAroundACorner) {
+  const std::vector<Eigen::Vector3f> bent = {{1.0F, 1.1F, -0.10F},
+                                             {1.1F, 1.1F, -0.15F},
+                                             {1.2F, 1.1F, -0.20F},
+                                             {1.3F, 1.05F, -0.21F},
+                                             {1.35F, 1.0F, -0.21F}};
+  EXPECT_FALSE(fit_plane(bent, MapConfig{}).valid);
 }
 
 TEST(PlaneModel, RefusesPointsOffThePlane) {
