@@ -24,8 +24,7 @@ void print_entry(const CatalogueEntry& entry) {
 
 }  // namespace
 
-void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folder,
-                      int& exit_code) {
+void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code) {
   auto* command = app.add_subcommand("list", "Scenarios and estimators, a line each");
   auto folder = std::make_shared<std::string>(scenario_folder.string());
   auto tag = std::make_shared<std::string>();

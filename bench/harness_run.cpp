@@ -31,8 +31,7 @@ void whole_run(benchmark::State& state) {
     aims_s += result->estimators.front().wall_s;
     scans += result->estimators.front().report.trajectory.size();
   }
-  state.counters["realtime_factor"] =
-      benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
+  state.counters["realtime_factor"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
   state.counters["physics_realtime_factor"] = simulated_s / physics_s;
   state.counters["lidar_realtime_factor"] = simulated_s / lidar_s;
   state.counters["aims_realtime_factor"] = simulated_s / aims_s;

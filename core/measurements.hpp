@@ -41,18 +41,19 @@ struct LidarScan {
   std::vector<LidarPoint> points;
 };
 
-inline constexpr int kLegCount = 4;    ///< order: front left, front right, rear left, rear right
+inline constexpr int kLegCount = 4;     ///< order: front left, front right, rear left, rear right
 inline constexpr int kJointCount = 12;  ///< per leg: abduction, hip, knee
 
 /// Leg odometry as a robot reports it: pose in its own odometry frame, twist of its base.
 struct LegOdometrySample {
   Time stamp = 0;
-  Pose T_odom_base;                                             ///< base in the odometry frame
-  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();    ///< of the base, in base axes [m/s]
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();   ///< of the base, in base axes [rad/s]
-  std::array<bool, kLegCount> contact{};                        ///< feet judged to stand
-  std::array<double, kJointCount> joint_position{};             ///< encoders [rad]
-  std::array<double, kJointCount> joint_velocity{};             ///< encoders [rad/s]
+  Pose T_odom_base;                                           ///< base in the odometry frame
+  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();  ///< of the base, in base axes [m/s]
+  Eigen::Vector3d angular_velocity =
+      Eigen::Vector3d::Zero();                       ///< of the base, in base axes [rad/s]
+  std::array<bool, kLegCount> contact{};             ///< feet judged to stand
+  std::array<double, kJointCount> joint_position{};  ///< encoders [rad]
+  std::array<double, kJointCount> joint_velocity{};  ///< encoders [rad/s]
 };
 
 using LidarScanPtr = std::shared_ptr<const LidarScan>;

@@ -14,11 +14,11 @@ class RandomStream {
  public:
   RandomStream(std::uint64_t run_seed, std::string_view name);
 
-  double uniform();                        ///< in [0, 1)
+  double uniform();                         ///< in [0, 1)
   double uniform(double low, double high);  ///< in [low, high)
-  double normal();                         ///< zero mean, unit variance
-  Eigen::Vector3d normal3();               ///< three independent `normal()`
-  bool chance(double probability);         ///< true with that probability
+  double normal();                          ///< zero mean, unit variance
+  Eigen::Vector3d normal3();                ///< three independent `normal()`
+  bool chance(double probability);          ///< true with that probability
 
  private:
   boost::random::mt19937_64 engine_;

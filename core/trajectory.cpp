@@ -13,7 +13,8 @@ std::optional<Pose> pose_at(const Trajectory& trajectory, Time stamp) {
   if (after->stamp == stamp) return after->pose;
   if (after == trajectory.begin()) return std::nullopt;
   const StampedPose& before = *std::prev(after);
-  const double fraction = to_seconds(stamp - before.stamp) / to_seconds(after->stamp - before.stamp);
+  const double fraction =
+      to_seconds(stamp - before.stamp) / to_seconds(after->stamp - before.stamp);
   return interpolate(before.pose, after->pose, fraction);
 }
 

@@ -64,8 +64,7 @@ Result<void> draw_map(const Scenario& scenario, const EstimatorOutcome& outcome,
   map.title = fmt::format("{}: map of {}", scenario.name, outcome.name);
   map.points = outcome.map;
   map.trajectory = outcome.report.trajectory;
-  auto drawn =
-      write_map_picture(folder / (outcome.name + "-map-top.png"), MapView::kAbove, map);
+  auto drawn = write_map_picture(folder / (outcome.name + "-map-top.png"), MapView::kAbove, map);
   if (!drawn) return drawn;
   return write_map_picture(folder / (outcome.name + "-map-side.png"), MapView::kSide, map);
 }
@@ -91,23 +90,36 @@ Result<void> draw_degeneracy(const Scenario& scenario, const RunResult& result,
   plot.title = fmt::format("{}: degeneracy index of {}", scenario.name, found->name);
   plot.subtitle = subtitle_of(result);
   plot.panels = {
-      {"Index", "[-]", {series_of("D_k", *found, &Scan::D),
-                        series_of("smoothed", *found, &Scan::D_smoothed)}, false, true},
-      {"Reliability", "[-]", {series_of("gamma_lidar", *found, &Scan::gamma_lidar),
-                              series_of("gamma_leg", *found, &Scan::gamma_leg)}, false, true},
-      {"Observability", "[-]", {series_of("O_lidar after the update", *found, &Scan::O_lidar),
-                                series_of("before", *found, &Scan::O_lidar_prior)}, false, true},
+      {"Index",
+       "[-]",
+       {series_of("D_k", *found, &Scan::D), series_of("smoothed", *found, &Scan::D_smoothed)},
+       false,
+       true},
+      {"Reliability",
+       "[-]",
+       {series_of("gamma_lidar", *found, &Scan::gamma_lidar),
+        series_of("gamma_leg", *found, &Scan::gamma_leg)},
+       false,
+       true},
+      {"Observability",
+       "[-]",
+       {series_of("O_lidar after the update", *found, &Scan::O_lidar),
+        series_of("before", *found, &Scan::O_lidar_prior)},
+       false,
+       true},
       {"Consistency", "[-]", {series_of("C_IL", *found, &Scan::C_IL)}, true, false},
-      {"Smallest translation eigenvalue", "[1/m²]",
-       {series_of("lambda_min", *found, &Scan::smallest_eigenvalue)}, true, false}};
+      {"Smallest translation eigenvalue",
+       "[1/m²]",
+       {series_of("lambda_min", *found, &Scan::smallest_eigenvalue)},
+       true,
+       false}};
   for (const Passage& passage : result.truth.passages) {
     plot.events.emplace_back(to_seconds(passage.stamp), passage.point);
   }
   return write_time_plot(folder / "degeneracy.png", plot);
 }
 
-Result<void> draw_robot(const Scenario& scenario, const RunResult& result,
-                        const fs::path& folder) {
+Result<void> draw_robot(const Scenario& scenario, const RunResult& result, const fs::path& folder) {
   const auto drawn = write_robot_pictures(folder, scenario.name, result.scene, quadruped_mjcf(),
                                           result.truth.snapshots);
   if (!drawn) return tl::unexpected(drawn.error());

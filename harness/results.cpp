@@ -47,7 +47,8 @@ Result<void> write_results(const Scenario& scenario, const RunResult& result,
     if (written) written = write_estimator(outcome, folder);
   }
   if (written) written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
-  if (written) written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");
+  if (written)
+    written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");
   return written;
 }
 

@@ -74,8 +74,8 @@ EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result
   outcome.name = timed.name();
   outcome.report = timed.estimator().report();
   outcome.map = timed.estimator().map_points();
-  outcome.scores = score(outcome.report.trajectory, result.truth_trajectory,
-                         result.truth.passages, scoring);
+  outcome.scores =
+      score(outcome.report.trajectory, result.truth_trajectory, result.truth.passages, scoring);
   outcome.scan_times_ms = timed.scan_times_ms();
   outcome.wall_s = timed.total_seconds();
   return outcome;

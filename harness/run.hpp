@@ -35,7 +35,7 @@ using Observer = std::function<bool(const Progress&)>;
 struct EstimatorOutcome {
   std::string name;
   EstimatorReport report;
-  std::vector<Eigen::Vector3f> map;   ///< in its odometry frame [m]
+  std::vector<Eigen::Vector3f> map;  ///< in its odometry frame [m]
   Scores scores;
   std::vector<double> scan_times_ms;
   double wall_s = 0.0;

@@ -113,11 +113,12 @@ Json gates_json(const Scenario& scenario, const RunRecord& record) {
     const bool holds = std::none_of(failures.begin(), failures.end(), [&](const auto& failure) {
       return failure.expectation == expectation;
     });
-    gates.push_back({{"estimator", expectation.estimator},
-                     {"score", expectation.score},
-                     {"max", expectation.max},
-                     {"value", json_of(find_score(record, expectation.estimator, expectation.score))},
-                     {"holds", holds}});
+    gates.push_back(
+        {{"estimator", expectation.estimator},
+         {"score", expectation.score},
+         {"max", expectation.max},
+         {"value", json_of(find_score(record, expectation.estimator, expectation.score))},
+         {"holds", holds}});
   }
   return gates;
 }
@@ -141,18 +142,18 @@ RunRecord record_of(const Scenario& scenario, const RunResult& result, double dr
   RunRecord record;
   record.seed = result.seed;
   const double wall_s = result.wall_s + drawing_s;
-  record.scores = {{"schema", kScoresSchema},
-                   {"version", AIMS_VERSION},
-                   {"scenario", scenario.name},
-                   {"seed", result.seed},
-                   {"complete", result.complete},
-                   {"simulated_s", result.simulated_s},
-                   {"wall_s", wall_s},
-                   {"realtime_factor", wall_s > 0.0 ? result.simulated_s / wall_s : 0.0},
-                   {"times_s", times_json(result, drawing_s)},
-                   {"robot",
-                    {{"fell", result.truth.fell}, {"touched_wall", result.truth.touched_wall}}},
-                   {"segments", segments_json(result)}};
+  record.scores = {
+      {"schema", kScoresSchema},
+      {"version", AIMS_VERSION},
+      {"scenario", scenario.name},
+      {"seed", result.seed},
+      {"complete", result.complete},
+      {"simulated_s", result.simulated_s},
+      {"wall_s", wall_s},
+      {"realtime_factor", wall_s > 0.0 ? result.simulated_s / wall_s : 0.0},
+      {"times_s", times_json(result, drawing_s)},
+      {"robot", {{"fell", result.truth.fell}, {"touched_wall", result.truth.touched_wall}}},
+      {"segments", segments_json(result)}};
   for (const EstimatorOutcome& outcome : result.estimators) {
     record.scores["estimators"][outcome.name] = estimator_json(outcome);
   }

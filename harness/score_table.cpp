@@ -35,7 +35,8 @@ std::string cell(const ScoreSummary& summary, int digits, bool several) {
 
 std::string success_cell(std::span<const RunRecord> runs, const std::string& estimator) {
   std::size_t successes = 0;
-  for (const RunRecord& run : runs) successes += run.scores["estimators"][estimator]["success"] == true;
+  for (const RunRecord& run : runs)
+    successes += run.scores["estimators"][estimator]["success"] == true;
   if (runs.size() == 1) return successes == 1 ? "yes" : "lost";
   return fmt::format("{}/{}", successes, runs.size());
 }

@@ -48,8 +48,8 @@ Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> 
     written = write_file_atomically(folder / "summary.md", to_markdown(score_table(runs)));
   }
   if (written) {
-    written = write_file_atomically(folder / "summary.json",
-                                    summary_json(scenario, runs).dump(2) + "\n");
+    written =
+        write_file_atomically(folder / "summary.json", summary_json(scenario, runs).dump(2) + "\n");
   }
   return written;
 }

@@ -4,16 +4,36 @@
 namespace aims {
 namespace {
 
-const std::vector<std::string> kDiagnosticsHeader = {
-    "stamp_s",        "points_in",        "points_used",      "iterations",
-    "residual_mean",  "residual_sigma",   "residual_sigma_prior",
-    "O_lidar",        "O_lidar_prior",    "C_IL",             "C_IL_full",
-    "D",              "D_smoothed",       "gamma_lidar",      "gamma_leg",
-    "innovation_rotation_x", "innovation_rotation_y", "innovation_rotation_z",
-    "innovation_position_x", "innovation_position_y", "innovation_position_z",
-    "smallest_eigenvalue", "condition_number", "leg_innovation", "leg_updates", "time_ms"};
+const std::vector<std::string> kDiagnosticsHeader = {"stamp_s",
+                                                     "points_in",
+                                                     "points_used",
+                                                     "iterations",
+                                                     "residual_mean",
+                                                     "residual_sigma",
+                                                     "residual_sigma_prior",
+                                                     "O_lidar",
+                                                     "O_lidar_prior",
+                                                     "C_IL",
+                                                     "C_IL_full",
+                                                     "D",
+                                                     "D_smoothed",
+                                                     "gamma_lidar",
+                                                     "gamma_leg",
+                                                     "innovation_rotation_x",
+                                                     "innovation_rotation_y",
+                                                     "innovation_rotation_z",
+                                                     "innovation_position_x",
+                                                     "innovation_position_y",
+                                                     "innovation_position_z",
+                                                     "smallest_eigenvalue",
+                                                     "condition_number",
+                                                     "leg_innovation",
+                                                     "leg_updates",
+                                                     "time_ms"};
 
-void add_vector(CsvTable& table, const Eigen::Vector3d& v) { table.add(v.x()).add(v.y()).add(v.z()); }
+void add_vector(CsvTable& table, const Eigen::Vector3d& v) {
+  table.add(v.x()).add(v.y()).add(v.z());
+}
 
 }  // namespace
 

@@ -46,8 +46,7 @@ class CommandLine : public ::testing::Test {
     const Outcome outcome = aims("run " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
     EXPECT_NE(outcome.output.find(expected), std::string::npos) << outcome.output;
-    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1)
-        << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
     EXPECT_FALSE(fs::exists(folder_.path() / "out"));
   }
 
@@ -61,7 +60,8 @@ TEST_F(CommandLine, RunsAShortWalkAndPrintsATableRowPerEstimator) {
       "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 2, y: 0}]}\n";
   const Outcome outcome = aims("run " + scenario(yaml) + " --no-pictures --out here");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  for (const char* row : {"M_list(a-b) %", "\naims ", "\ntfs ", "\ntfs_clean ", "\nlio ", "\nleg "}) {
+  for (const char* row :
+       {"M_list(a-b) %", "\naims ", "\ntfs ", "\ntfs_clean ", "\nlio ", "\nleg "}) {
     EXPECT_NE(outcome.output.find(row), std::string::npos) << row << outcome.output;
   }
   EXPECT_TRUE(fs::exists(folder_.path() / "here" / "scores.json"));

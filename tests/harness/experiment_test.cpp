@@ -65,8 +65,8 @@ TEST(Experiment, TheWrittenConfigurationReproducesTheRun) {
   for (const char* file : {"aims.tum", "leg.tum", "truth.tum", "config.yaml"}) {
     std::ifstream a(first / file);
     std::ifstream b(options.out / file);
-    EXPECT_TRUE(std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b),
-                           {}))
+    EXPECT_TRUE(
+        std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b), {}))
         << file;
   }
 }
@@ -90,10 +90,9 @@ TEST(Experiment, AnInterruptedRunLeavesReadableResults) {
   ExperimentOptions options;
   options.pictures = false;
   options.out = temporary.path() / "run";
-  const auto experiment =
-      run_experiment(short_walk(), options, [](std::uint64_t, const Progress& progress) {
-        return progress.simulated_s < 4.0;
-      });
+  const auto experiment = run_experiment(
+      short_walk(), options,
+      [](std::uint64_t, const Progress& progress) { return progress.simulated_s < 4.0; });
   ASSERT_TRUE(experiment);
   EXPECT_FALSE(experiment->complete);
   EXPECT_EQ(read_json(options.out / "scores.json")["complete"], false);

@@ -9,9 +9,8 @@ namespace {
 RunRecord record() {
   RunRecord run;
   run.seed = 7;
-  run.scores["estimators"]["aims"] = {{"m_end_m", 0.15},
-                                      {"ate_m", nullptr},
-                                      {"m_list_percent", {{"a-b", 0.07}}}};
+  run.scores["estimators"]["aims"] = {
+      {"m_end_m", 0.15}, {"ate_m", nullptr}, {"m_list_percent", {{"a-b", 0.07}}}};
   return run;
 }
 

@@ -17,7 +17,8 @@ TEST(TextTable, ColumnsAlignUnderTheirHeaders) {
 }
 
 TEST(TextTable, MarkdownHasOneCellPerColumn) {
-  EXPECT_EQ(to_markdown(kTable), "| name | m |\n|---|---:|\n| aims | 0.1 |\n| tfs_clean | 12.3 |\n");
+  EXPECT_EQ(to_markdown(kTable),
+            "| name | m |\n|---|---:|\n| aims | 0.1 |\n| tfs_clean | 12.3 |\n");
 }
 
 }  // namespace

@@ -34,9 +34,8 @@ struct Confinement {
   bool in_headers;
 };
 const std::vector<Confinement> kConfined = {
-    {"mujoco/", {"sim", "render"}, false}, {"embree3/", {"sim"}, false},
-    {"GL/", {"render"}, false},            {"cairo", {"render"}, false},
-    {"yaml-cpp/", {"io"}, false},          {"CLI/", {"app"}, true},
+    {"mujoco/", {"sim", "render"}, false}, {"embree3/", {"sim"}, false}, {"GL/", {"render"}, false},
+    {"cairo", {"render"}, false},          {"yaml-cpp/", {"io"}, false}, {"CLI/", {"app"}, true},
 };
 
 bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
