@@ -8,7 +8,6 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "harness/scenario.hpp"
-#include "io/config_dump.hpp"
 
 namespace aims {
 namespace {
@@ -28,13 +27,12 @@ Result<Scenario> scenario_of(const ConfigArguments& arguments,
 }
 
 int print_config(const ConfigArguments& arguments, const std::filesystem::path& folder) {
-  auto scenario = scenario_of(arguments, folder);
+  const auto scenario = scenario_of(arguments, folder);
   if (!scenario) {
     fmt::print(stderr, "aims config: {}\n", scenario.error().message);
     return kBadInput;
   }
-  const Fields fields = fields_of(*scenario);
-  fmt::print("{}", arguments.plain ? dump_config(fields) : dump_annotated_config(fields));
+  fmt::print("{}", config_text(*scenario, !arguments.plain));
   return kOk;
 }
 

@@ -38,6 +38,16 @@ Result<void> check_replaceable(const fs::path& path, bool overwrite) {
                              path.string()));
 }
 
+/// Folders above `path` that do not exist yet, innermost first.
+std::vector<fs::path> missing_parents(const fs::path& path) {
+  std::vector<fs::path> missing;
+  for (fs::path parent = path.parent_path(); !parent.empty() && !fs::exists(parent);
+       parent = parent.parent_path()) {
+    missing.push_back(parent);
+  }
+  return missing;
+}
+
 /// Descriptor of the folder's lock, or -1 when another process holds it or it cannot be made.
 int take_lock(const fs::path& folder) {
   const int descriptor = open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -59,17 +69,18 @@ bool clear_stale(const fs::path& partial) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path final_path, fs::path partial, int lock)
-    : final_(std::move(final_path)), partial_(std::move(partial)), lock_(lock) {}
-
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : final_(std::move(other.final_)),
       partial_(std::exchange(other.partial_, {})),
-      lock_(std::exchange(other.lock_, -1)) {}
+      lock_(std::exchange(other.lock_, -1)),
+      new_parents_(std::exchange(other.new_parents_, {})) {}
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
-  if (!partial_.empty()) fs::remove_all(partial_, ignored);
+  if (!partial_.empty()) {
+    fs::remove_all(partial_, ignored);
+    for (const fs::path& parent : new_parents_) fs::remove(parent, ignored);
+  }
   if (lock_ >= 0) close(lock_);
 }
 
@@ -82,12 +93,16 @@ Result<OutputFolder> OutputFolder::create(const fs::path& given, bool overwrite)
   if (fs::exists(partial) && !clear_stale(partial)) {
     return failure(fmt::format("{}: another run is writing there", partial.string()));
   }
+  OutputFolder folder;
+  folder.final_ = final_path;
+  folder.partial_ = partial;
+  folder.new_parents_ = missing_parents(partial);
   std::error_code code;
   fs::create_directories(partial, code);
   if (code) return file_failure(partial, "cannot create the folder", code);
-  const int lock = take_lock(partial);
-  if (lock < 0) return failure(fmt::format("{}: cannot write there", partial.string()));
-  return OutputFolder(final_path, partial, lock);
+  folder.lock_ = take_lock(partial);
+  if (folder.lock_ < 0) return failure(fmt::format("{}: cannot write there", partial.string()));
+  return folder;
 }
 
 Result<void> OutputFolder::commit() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -28,11 +29,12 @@ class OutputFolder {
   Result<void> commit();
 
  private:
-  OutputFolder(std::filesystem::path final_path, std::filesystem::path partial, int lock);
+  OutputFolder() = default;
 
   std::filesystem::path final_;
   std::filesystem::path partial_;  ///< empty once committed or moved from
-  int lock_;                       ///< descriptor that keeps other runs out; -1 when not held
+  int lock_ = -1;                  ///< descriptor that keeps other runs out; -1 when not held
+  std::vector<std::filesystem::path> new_parents_;  ///< made on the way, innermost first
 };
 
 }  // namespace aims

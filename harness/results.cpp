@@ -5,7 +5,6 @@
 
 #include "harness/tables.hpp"
 #include "io/atomic_file.hpp"
-#include "io/config_dump.hpp"
 #include "io/tum.hpp"
 
 namespace aims {
@@ -24,10 +23,10 @@ Trajectory thinned(const Trajectory& trajectory) {
   return kept;
 }
 
-std::string config_text(const Scenario& scenario, std::uint64_t seed) {
+std::string effective_config(const Scenario& scenario, std::uint64_t seed) {
   Scenario effective = scenario;
   effective.seed = static_cast<int>(seed);
-  return dump_config(fields_of(effective));
+  return config_text(effective);
 }
 
 Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder) {
@@ -40,7 +39,8 @@ Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& fo
 
 Result<void> write_results(const Scenario& scenario, const RunResult& result,
                            const RunRecord& record, const fs::path& folder) {
-  auto written = write_file_atomically(folder / "config.yaml", config_text(scenario, result.seed));
+  auto written =
+      write_file_atomically(folder / "config.yaml", effective_config(scenario, result.seed));
   if (written) written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory));
   if (written) written = write_csv(folder / "passages.csv", passages_table(result.truth.passages));
   for (const EstimatorOutcome& outcome : result.estimators) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "estimator/registry.hpp"
+#include "io/config_dump.hpp"
 #include "io/yaml_config.hpp"
 
 namespace aims {
@@ -72,6 +73,12 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides) {
     return tl::unexpected(applied.error());
   }
   return scenario;
+}
+
+std::string config_text(const Scenario& scenario, bool annotated) {
+  Scenario copy = scenario;
+  const Fields fields = fields_of(copy);
+  return annotated ? dump_annotated_config(fields) : dump_config(fields);
 }
 
 Result<fs::path> find_scenario(const std::string& given, const fs::path& folder) {

@@ -47,6 +47,10 @@ Result<Scenario> load_scenario(const std::filesystem::path& file,
 /// The scenario that an empty file describes, with `overrides` on top.
 Result<Scenario> default_scenario(std::span<const std::string> overrides);
 
+/// Every parameter of the scenario as YAML that loads again; `annotated` adds unit, range, meaning
+/// and source to each.
+std::string config_text(const Scenario& scenario, bool annotated = false);
+
 /// The file of a scenario given by path or by bare name ("corridor"), searched in `folder`.
 Result<std::filesystem::path> find_scenario(const std::string& given,
                                             const std::filesystem::path& folder);

@@ -28,7 +28,7 @@ TEST(OutputFolder, AppearsOnlyOnCommit) {
 
 TEST(OutputFolder, LeavesNothingWhenNeverCommitted) {
   const TemporaryFolder temporary;
-  { auto folder = OutputFolder::create(temporary.path() / "run", false); }
+  { auto folder = OutputFolder::create(temporary.path() / "new" / "deep" / "run", false); }
   EXPECT_TRUE(fs::is_empty(temporary.path()));
 }
 
