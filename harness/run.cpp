@@ -87,7 +87,7 @@ Result<RunResult> run(const Scenario& scenario, const RunOptions& options,
                       const Observer& observer) {
   const Stopwatch stopwatch;
   auto simulation = Simulation::create(scenario.simulation, options.seed);
-  if (!simulation) return tl::unexpected(simulation.error());
+  if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
   auto estimators = make_estimators(scenario, simulation->rig());
   if (!estimators) return tl::unexpected(estimators.error());
 

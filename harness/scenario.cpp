@@ -8,28 +8,30 @@
 #include "estimator/registry.hpp"
 #include "io/config_dump.hpp"
 #include "io/yaml_config.hpp"
+#include "io/yaml_position.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> check_estimator(const fs::path& file, std::string_view key, const std::string& name) {
+Result<void> check_estimator(std::string_view key, const std::string& name) {
   std::vector<std::string> known;
   for (const EstimatorEntry& entry : estimator_registry()) known.emplace_back(entry.name);
   if (std::find(known.begin(), known.end(), name) != known.end()) return {};
   const std::string near = near_match(name, known);
-  return failure(fmt::format("{}: {}: no estimator '{}'; expected one of {}{}", file.string(), key,
-                             name, fmt::join(known, ", "),
+  return failure(fmt::format("{}: no estimator '{}'; expected one of {}{}", key, name,
+                             fmt::join(known, ", "),
                              near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
-Result<void> check(const fs::path& file, const Scenario& scenario) {
+Result<void> check(const Scenario& scenario) {
   for (const std::string& name : scenario.estimators) {
-    if (auto known = check_estimator(file, "estimators", name); !known) return known;
+    if (auto known = check_estimator("estimators", name); !known) return known;
   }
-  for (const Expectation& expectation : scenario.expect) {
-    if (auto known = check_estimator(file, "expect", expectation.estimator); !known) return known;
+  for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
+    const std::string key = fmt::format("expect.{}.estimator", i);
+    if (auto known = check_estimator(key, scenario.expect[i].estimator); !known) return known;
   }
   return {};
 }
@@ -55,14 +57,22 @@ void describe(Fields& f, Scenario& s) {
   f.list("expect", s.expect, "limits that a run must hold");
 }
 
+Error located(const Scenario& scenario, const Error& error) {
+  if (scenario.file.empty()) return error;
+  return {with_position(scenario.file, error.message)};
+}
+
 Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides) {
   Scenario scenario;
+  scenario.file = file;
   scenario.name = file.stem().string();
   if (auto loaded = load_config(file, scenario); !loaded) return tl::unexpected(loaded.error());
   if (auto applied = apply_overrides(scenario, overrides); !applied) {
     return tl::unexpected(applied.error());
   }
-  if (auto valid = check(file, scenario); !valid) return tl::unexpected(valid.error());
+  if (auto valid = check(scenario); !valid) {
+    return tl::unexpected(located(scenario, valid.error()));
+  }
   return scenario;
 }
 

@@ -25,6 +25,7 @@ struct Expectation {
 
 /// One experiment: the world, the walk, the sensors, who estimates, and what is expected.
 struct Scenario {
+  std::filesystem::path file;  ///< where it was read from, for messages; empty: nowhere
   std::string name;
   std::string description;
   std::vector<std::string> tags;
@@ -38,6 +39,9 @@ struct Scenario {
 
 void describe(Fields& fields, Expectation& expectation);
 void describe(Fields& fields, Scenario& scenario);
+
+/// `error`, whose message begins with a key of the scenario, with the key's file, line and column.
+Error located(const Scenario& scenario, const Error& error);
 
 /// Reads a scenario and applies `overrides` ("key=value") on top of it. Checks everything that can
 /// be checked without simulating; errors are one line that names file, line, key and expectation.

@@ -100,9 +100,11 @@ TEST_F(CommandLine, BadUsageIsRefused) {
 
 TEST_F(CommandLine, ImpossibleScenariosAreRefused) {
   expect_refused(scenario("route: {points: [{name: a, x: 0, y: 1.1}, {name: b, x: 5, y: 1.1}]}\n"),
-                 "route");
+                 "my.yaml:1:18: route.points.0: ");
   expect_refused(scenario("route: {points: [{name: a, x: 0, y: 0}, {name: b, x: 0, y: 0}]}\n"),
-                 "route");
+                 "my.yaml:1:");
+  expect_refused(scenario("scene: {corridor: {doors: {width: 3, spacing: 2}}}\n"), "my.yaml:1:");
+  expect_refused(scenario("estimators: [aims, lioo]\n"), "my.yaml:1:13: estimators: no estimator");
   expect_refused(scenario("base: missing.yaml\n"), "missing.yaml");
 }
 

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace aims {
+
+/// Puts the place in front of a message that begins with a dotted key ("route.points.0: ..."):
+/// "file:line:column: " of the key, or of the nearest group around it that the file or one of its
+/// bases has; "file: " when none has any part of it.
+std::string with_position(const std::filesystem::path& file, const std::string& message);
+
+}  // namespace aims
