@@ -19,7 +19,7 @@ bool tagged(const CatalogueEntry& entry, const std::string& tag) {
 void print_entry(const CatalogueEntry& entry) {
   const std::string tags =
       entry.tags.empty() ? "" : fmt::format("  [{}]", fmt::join(entry.tags, ", "));
-  fmt::print("  {:<14} {}{}\n", entry.name, entry.description, tags);
+  fmt::print("  {:<16} {}{}\n", entry.name, entry.description, tags);
 }
 
 }  // namespace
