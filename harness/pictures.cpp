@@ -69,11 +69,13 @@ Result<void> draw_map(const Scenario& scenario, const EstimatorOutcome& outcome,
   return write_map_picture(folder / (outcome.name + "-map-side.png"), MapView::kSide, map);
 }
 
+/// The quantity over the scans that made an update.
 TimeSeries series_of(std::string name, const EstimatorOutcome& outcome,
                      double ScanDiagnostics::*quantity) {
   TimeSeries series{std::move(name), {}};
   for (const ScanDiagnostics& scan : outcome.report.diagnostics) {
-    series.points.emplace_back(to_seconds(scan.stamp), scan.*quantity);
+    const bool updated = scan.iterations > 0;
+    if (updated) series.points.emplace_back(to_seconds(scan.stamp), scan.*quantity);
   }
   return series;
 }
