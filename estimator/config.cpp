@@ -55,6 +55,13 @@ void describe(Fields& f, InitializationConfig& c) {
 }
 
 void describe(Fields& f, LegConfig& c) {
+  f.choice("measurement", c.measurement,
+           {{"velocity", LegMeasurement::kVelocity},
+            {"displacement", LegMeasurement::kDisplacement}},
+           spec("", any(),
+                "velocity at each packet's stamp, or displacement between scan ends with a cloned "
+                "pose; docs/decisions.md",
+                "paper: relative motion between consecutive states"));
   f.number("rate_hz", c.rate_hz, spec("Hz", positive(), "nominal packet rate", "paper, III-A"));
   f.vector("velocity_sigma", c.velocity_sigma,
            spec("m/s", positive(), "error of one sample along the base's axes, R_leg"));

@@ -37,8 +37,15 @@ struct InitializationConfig {
   double sigma_accelerometer_bias = 5e-2;  ///< [m/s^2]
 };
 
+/// What leg odometry is taken to measure.
+enum class LegMeasurement {
+  kVelocity,      ///< the base's velocity, at each packet's own stamp
+  kDisplacement,  ///< the base's way between two scan ends, against a cloned pose
+};
+
 /// Leg odometry.
 struct LegConfig {
+  LegMeasurement measurement = LegMeasurement::kVelocity;
   double rate_hz = 200.0;                         ///< nominal packet rate [Hz]
   Eigen::Vector3d velocity_sigma{0.1, 0.1, 0.1};  ///< of one sample, base axes [m/s]
   double correlation_time = 0.1;  ///< of that error: consecutive samples repeat it [s]

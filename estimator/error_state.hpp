@@ -30,6 +30,10 @@ using Matrix6 = Eigen::Matrix<double, ErrorState::kPoseSize, ErrorState::kPoseSi
 using Vector15 = Eigen::Matrix<double, ErrorState::kSize, 1>;
 using Matrix15 = Eigen::Matrix<double, ErrorState::kSize, ErrorState::kSize>;
 
+using Matrix3x6 = Eigen::Matrix<double, 3, ErrorState::kPoseSize>;
+using Matrix3x15 = Eigen::Matrix<double, 3, ErrorState::kSize>;
+using Matrix6x15 = Eigen::Matrix<double, ErrorState::kPoseSize, ErrorState::kSize>;
+
 /// The three columns of `matrix` that belong to `block`.
 template <class Matrix>
 auto columns(Matrix& matrix, ErrorState::Block block) {
@@ -52,6 +56,12 @@ auto segment(Vector& vector, ErrorState::Block block) {
 template <class Matrix>
 auto pose_block(Matrix& matrix) {
   return matrix.template topLeftCorner<ErrorState::kPoseSize, ErrorState::kPoseSize>();
+}
+
+/// The 6x15 rotation-and-position rows of a 15x15 matrix.
+template <class Matrix>
+auto pose_rows(Matrix& matrix) {
+  return matrix.template topRows<ErrorState::kPoseSize>();
 }
 
 /// The rotation-and-position entries of a 15-vector.

@@ -4,6 +4,7 @@
 #include "estimator/deskew.hpp"
 #include "estimator/imu_propagation.hpp"
 #include "estimator/initialization.hpp"
+#include "estimator/leg_displacement_model.hpp"
 #include "estimator/leg_velocity_model.hpp"
 
 namespace aims {
@@ -16,7 +17,8 @@ EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& 
       queue_(config),
       selection_(config.lidar),
       lidar_update_(config.lidar, config.map, config.degeneracy, member.adaptive),
-      map_(config.map) {}
+      map_(config.map),
+      leg_integrator_(config.leg) {}
 
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -45,6 +47,7 @@ bool EskfEstimator::start() {
   belief_ = initial->belief;
   time_ = initial->stamp;
   started_ = true;
+  renew_clone();
   return true;
 }
 
@@ -60,7 +63,7 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
     if (lost > 0) report_.counts["leg.lost"] += lost;
   }
   hold_lost_legs(sample.stamp);
-  fuse_leg(sample.stamp, sample.linear_velocity);
+  take_leg(sample);
   last_leg_ = sample;
 }
 
@@ -69,12 +72,20 @@ void EskfEstimator::hold_lost_legs(Time until) {
   const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
   while (last_leg_->stamp + period + period / 2 < until) {
     last_leg_->stamp += period;
-    fuse_leg(last_leg_->stamp, last_leg_->linear_velocity);
+    take_leg(*last_leg_);
     ++report_.counts["leg.held"];
   }
 }
 
-void EskfEstimator::fuse_leg(Time stamp, const Eigen::Vector3d& velocity) {
+void EskfEstimator::take_leg(const LegOdometrySample& sample) {
+  if (config_.leg.measurement == LegMeasurement::kDisplacement) {
+    leg_integrator_.add(sample);
+  } else {
+    fuse_leg_velocity(sample.stamp, sample.linear_velocity);
+  }
+}
+
+void EskfEstimator::fuse_leg_velocity(Time stamp, const Eigen::Vector3d& velocity) {
   predict_to(stamp);
   const Eigen::Vector3d rate =
       queue_.imu().angular_velocity_at(stamp).value_or(belief_.state.gyro_bias);
@@ -89,6 +100,35 @@ void EskfEstimator::fuse_leg(Time stamp, const Eigen::Vector3d& velocity) {
                        information_of(measurement)));
 }
 
+void EskfEstimator::fuse_leg_displacement() {
+  if (!clone_) return;
+  const std::optional<LegDisplacement> measured = leg_integrator_.until(time_);
+  if (!measured) {
+    ++report_.counts["leg.uncovered"];
+    return;
+  }
+  // eq. (11): R_leg' = R_leg / gamma_leg.
+  const Eigen::Matrix3d noise =
+      leg_displacement_noise(config_.leg, *measured) / lidar_update_.gamma_leg();
+  const Matrix15 prior_information = inverse_spd(belief_.covariance);
+  const LinearMeasurement measurement =
+      marginalise_clone(leg_displacement_model(clone_->T_odom_body, belief_.state, rig_.T_body_base,
+                                               measured->translation, noise),
+                        *clone_, prior_information);
+  leg_innovation_ = measurement.residual.norm() / to_seconds(measured->duration);
+  ++leg_updates_;
+  accept(
+      kalman_update(belief_.state, prior_information, belief_.state, information_of(measurement)));
+}
+
+/// Between its birth after one scan and its use at the next, the state is only predicted, so that
+/// no update has to carry the clone along.
+void EskfEstimator::renew_clone() {
+  if (!member_.leg || config_.leg.measurement != LegMeasurement::kDisplacement) return;
+  clone_ = clone_pose(belief_);
+  leg_integrator_.begin(time_);
+}
+
 void EskfEstimator::correct(const LidarScanPtr& scan) {
   if (scan->end < time_) {
     ++report_.counts["lidar.before_start"];
@@ -96,6 +136,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   }
   hold_lost_legs(scan->end);
   predict_to(scan->end);
+  fuse_leg_displacement();
   ScanDiagnostics diagnostics;
   diagnostics.stamp = scan->end;
   diagnostics.leg_innovation = leg_innovation_;
@@ -106,6 +147,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
     if (diagnostics.iterations == 0) ++report_.counts["lidar.no_update"];
   }
+  renew_clone();
   extend_map();
   report_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   report_.diagnostics.push_back(diagnostics);
@@ -116,7 +158,11 @@ void EskfEstimator::predict_to(Time stamp) {
   queue_.imu().segments(time_, stamp, segments_);
   for (const InertialSegment& segment : segments_) {
     const double dt = to_seconds(segment.end - segment.begin);
-    accept(propagate(belief_, segment, dt, config_.imu));
+    const NominalState before = belief_.state;
+    const bool sound = accept(propagate(belief_, segment, dt, config_.imu));
+    if (clone_ && sound) {
+      clone_ = propagate_clone(*clone_, propagation_jacobian(before, segment, dt));
+    }
     if (!segment.measured) ++report_.counts["imu.bridged"];
   }
   time_ = stamp;
@@ -140,7 +186,7 @@ void EskfEstimator::extend_map() {
   map_.insert(insert_points_, t);
 }
 
-void EskfEstimator::accept(const Belief& updated) {
+bool EskfEstimator::accept(const Belief& updated) {
   const bool sound = is_finite(updated.state) && updated.covariance.allFinite() &&
                      (updated.covariance.diagonal().array() > 0.0).all();
   if (sound) {
@@ -148,6 +194,7 @@ void EskfEstimator::accept(const Belief& updated) {
   } else {
     ++report_.counts["filter.refused"];
   }
+  return sound;
 }
 
 }  // namespace aims

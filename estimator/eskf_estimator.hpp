@@ -7,15 +7,18 @@
 #include "estimator/config.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/kalman_update.hpp"
+#include "estimator/leg_displacement.hpp"
 #include "estimator/lidar_update.hpp"
 #include "estimator/measurement_queue.hpp"
+#include "estimator/pose_clone.hpp"
 #include "estimator/scan_selection.hpp"
 #include "estimator/voxel_map.hpp"
 
 namespace aims {
 
 /// The error-state Kalman filter of the family: the IMU predicts, leg odometry corrects at its own
-/// stamps, the LiDAR at the end of each sweep.
+/// stamps (or, as displacement since the last scan, at the end of each sweep), the LiDAR at the end
+/// of each sweep.
 class EskfEstimator : public Estimator {
  public:
   EskfEstimator(const EstimatorConfig& config, const FamilyMember& member, const SensorRig& rig);
@@ -34,11 +37,15 @@ class EskfEstimator : public Estimator {
   void correct(const LegOdometrySample& sample);
   void correct(const LidarScanPtr& scan);
   void predict_to(Time stamp);
-  void fuse_leg(Time stamp, const Eigen::Vector3d& velocity);
+  void take_leg(const LegOdometrySample& sample);
+  void fuse_leg_velocity(Time stamp, const Eigen::Vector3d& velocity);
+  void fuse_leg_displacement();
+  void renew_clone();
   void hold_lost_legs(Time until);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void extend_map();
-  void accept(const Belief& updated);
+  /// Takes the belief `updated`, unless it is unsound: then it is counted, and false returned.
+  bool accept(const Belief& updated);
 
   EstimatorConfig config_;
   FamilyMember member_;
@@ -53,6 +60,8 @@ class EskfEstimator : public Estimator {
   Time time_ = 0;  ///< of the belief
   Belief belief_;
   std::optional<LegOdometrySample> last_leg_;  ///< with the stamp moved on while held
+  LegIntegrator leg_integrator_;               ///< since the last scan; displacement mode
+  std::optional<PoseClone> clone_;             ///< at the last scan; displacement mode
   double leg_innovation_ = 0.0;
   int leg_updates_ = 0;
 

@@ -32,7 +32,7 @@ struct ScanDiagnostics {
   Eigen::Vector3d innovation_position = Eigen::Vector3d::Zero();  ///< y_k, eq. (5) [m]
   double smallest_eigenvalue = 0.0;  ///< of the translation information [1/m^2]
   double condition_number = 0.0;     ///< of the translation information
-  double leg_innovation = 0.0;       ///< norm of the last leg velocity innovation [m/s]
+  double leg_innovation = 0.0;       ///< norm of the last leg innovation, over its interval [m/s]
   int leg_updates = 0;               ///< since the last scan
 };
 

@@ -11,8 +11,7 @@ namespace aims {
 /// up to `noise` at the truth.
 struct LinearMeasurement {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-  Eigen::Matrix<double, 3, ErrorState::kSize> jacobian =
-      Eigen::Matrix<double, 3, ErrorState::kSize>::Zero();
+  Matrix3x15 jacobian = Matrix3x15::Zero();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
 };
 

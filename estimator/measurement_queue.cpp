@@ -50,7 +50,8 @@ void MeasurementQueue::accept(const ImuSample& sample) {
 }
 
 void MeasurementQueue::accept(const LegOdometrySample& sample) {
-  if (!sample.linear_velocity.allFinite() || !is_finite(sample.T_odom_base)) {
+  if (!sample.linear_velocity.allFinite() || !sample.angular_velocity.allFinite() ||
+      !is_finite(sample.T_odom_base)) {
     return count("leg.non_finite");
   }
   if (sample.linear_velocity.norm() > config_.leg.max_speed) return count("leg.out_of_range");

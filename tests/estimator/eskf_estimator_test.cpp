@@ -31,8 +31,8 @@ std::vector<Delivery> record(KinematicWorld& world) {
 }
 
 EstimatorReport run(std::string_view name, const std::vector<Delivery>& deliveries,
-                    const SensorRig& rig) {
-  auto estimator = make_estimator(name, EstimatorConfig{}, rig);
+                    const SensorRig& rig, const EstimatorConfig& config = {}) {
+  auto estimator = make_estimator(name, config, rig);
   for (const Delivery& delivery : deliveries) (*estimator)->consume(delivery);
   (*estimator)->finish();
   return (*estimator)->report();
@@ -61,6 +61,51 @@ TEST(Eskf, WalksTheCorridorWithinCentimetres) {
     EXPECT_LT(report.trajectory.front().pose.translation.norm(), 0.01);
     EXPECT_LT(largest_error(report, world), 0.05) << name;
   }
+}
+
+/// The defaults, with the legs measured between scans.
+EstimatorConfig displacement_config() {
+  EstimatorConfig config;
+  config.leg.measurement = LegMeasurement::kDisplacement;
+  return config;
+}
+
+TEST(Eskf, WalksTheCorridorAsWellWithDisplacementsBetweenScans) {
+  KinematicWorld world(short_walk());
+  const auto deliveries = record(world);
+  for (const char* name : {"aims", "tfs", "tfs_clean"}) {
+    const EstimatorReport velocity = run(name, deliveries, world.rig());
+    const EstimatorReport report = run(name, deliveries, world.rig(), displacement_config());
+    ASSERT_EQ(report.trajectory.size(), velocity.trajectory.size()) << name;
+    EXPECT_LT(largest_error(report, world), 1.2 * largest_error(velocity, world) + 0.01) << name;
+    EXPECT_EQ(report.diagnostics.at(100).leg_updates, 1) << name;
+    EXPECT_EQ(report.counts.count("filter.refused"), 0U) << name;
+  }
+}
+
+TEST(Eskf, DisplacementsKeepTheScaleWhereTheLidarIsSilent) {
+  KinematicConfig world_config = short_walk();
+  KinematicWorld world(world_config);
+  const auto deliveries = record(world);
+  EstimatorConfig config = displacement_config();
+  config.lidar.min_matches = 1000000;  // no scan corrects: legs and IMU alone
+  const EstimatorReport with_legs = run("tfs_clean", deliveries, world.rig(), config);
+  const EstimatorReport without = run("lio", deliveries, world.rig(), config);
+  EXPECT_LT(largest_error(with_legs, world), 0.3);
+  EXPECT_GT(largest_error(without, world), 3.0 * largest_error(with_legs, world));
+}
+
+TEST(Eskf, ADisplacementWithTooFewPacketsIsLeftOut) {
+  KinematicConfig world_config = short_walk();
+  world_config.sensors.leg_loss = 0.7;
+  KinematicWorld world(world_config);
+  const auto deliveries = record(world);
+  const EstimatorReport clean = run("tfs_clean", deliveries, world.rig(), displacement_config());
+  const EstimatorReport held = run("tfs", deliveries, world.rig(), displacement_config());
+  EXPECT_GT(clean.counts.at("leg.uncovered"), 50);
+  // The loss goes unnoticed where the last packet is repeated.
+  EXPECT_LE(held.counts.contains("leg.uncovered") ? held.counts.at("leg.uncovered") : 0, 1);
+  EXPECT_LT(largest_error(clean, world), 0.1);
 }
 
 TEST(Eskf, LegOdometryAloneInheritsItsScale) {
