@@ -18,4 +18,12 @@ std::optional<Pose> pose_at(const Trajectory& trajectory, Time stamp) {
   return interpolate(before.pose, after->pose, fraction);
 }
 
+Trajectory thinned(const Trajectory& trajectory, Duration spacing) {
+  Trajectory kept;
+  for (const StampedPose& each : trajectory) {
+    if (kept.empty() || each.stamp >= kept.back().stamp + spacing) kept.push_back(each);
+  }
+  return kept;
+}
+
 }  // namespace aims

@@ -28,4 +28,7 @@ struct Passage {
 /// Pose at `stamp`, interpolated between neighbours; empty outside the trajectory's span.
 std::optional<Pose> pose_at(const Trajectory& trajectory, Time stamp);
 
+/// The first pose, and then each that is at least `spacing` after the last one kept.
+Trajectory thinned(const Trajectory& trajectory, Duration spacing);
+
 }  // namespace aims

@@ -24,14 +24,6 @@ std::string subtitle_of(const RunResult& result) {
   return fmt::format("seed {}, {:.0f} s simulated", result.seed, result.simulated_s);
 }
 
-Trajectory thinned(const Trajectory& trajectory) {
-  Trajectory kept;
-  for (const StampedPose& each : trajectory) {
-    if (kept.empty() || each.stamp >= kept.back().stamp + kDrawnSpacing) kept.push_back(each);
-  }
-  return kept;
-}
-
 /// The estimate laid onto the truth at its start, by position and heading.
 Trajectory in_world(const EstimatorOutcome& outcome, const RunResult& result,
                     const ScoreConfig& scoring) {
@@ -49,7 +41,7 @@ Result<void> draw_trajectories(const Scenario& scenario, const RunResult& result
   plot.title = scenario.name + ": estimated trajectories";
   plot.subtitle = subtitle_of(result);
   plot.scene = result.scene;
-  plot.truth = thinned(result.truth_trajectory);
+  plot.truth = thinned(result.truth_trajectory, kDrawnSpacing);
   plot.passages = result.truth.passages;
   for (const EstimatorOutcome& outcome : result.estimators) {
     plot.estimates.push_back({outcome.name, in_world(outcome, result, scenario.scoring)});

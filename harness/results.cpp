@@ -15,14 +15,6 @@ namespace fs = std::filesystem;
 /// Truth poses are written at this spacing; the simulation holds them at the physics rate.
 constexpr Duration kTruthSpacing = 10 * kMillisecond;
 
-Trajectory thinned(const Trajectory& trajectory) {
-  Trajectory kept;
-  for (const StampedPose& each : trajectory) {
-    if (kept.empty() || each.stamp >= kept.back().stamp + kTruthSpacing) kept.push_back(each);
-  }
-  return kept;
-}
-
 std::string effective_config(const Scenario& scenario, std::uint64_t seed) {
   Scenario effective = scenario;
   effective.seed = static_cast<int>(seed);
@@ -41,7 +33,8 @@ Result<void> write_results(const Scenario& scenario, const RunResult& result,
                            const RunRecord& record, const fs::path& folder) {
   auto written =
       write_file_atomically(folder / "config.yaml", effective_config(scenario, result.seed));
-  if (written) written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory));
+  if (written)
+    written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory, kTruthSpacing));
   if (written) written = write_csv(folder / "passages.csv", passages_table(result.truth.passages));
   for (const EstimatorOutcome& outcome : result.estimators) {
     if (written) written = write_estimator(outcome, folder);

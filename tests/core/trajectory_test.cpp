@@ -39,5 +39,14 @@ TEST(PoseAt, KeepsNanosecondsOfLargeStamps) {
   EXPECT_NEAR(pose_at(late, epoch + 1)->translation.x(), 1.0, 1e-14);
 }
 
+TEST(Thinned, KeepsTheFirstPoseAndThenThoseSpacingApart) {
+  Trajectory dense;
+  for (Time stamp = 5; stamp <= 35; stamp += 3) dense.push_back({stamp, {}});
+  std::vector<Time> stamps;
+  for (const StampedPose& each : thinned(dense, 10)) stamps.push_back(each.stamp);
+  EXPECT_EQ(stamps, (std::vector<Time>{5, 17, 29}));
+  EXPECT_TRUE(thinned({}, 10).empty());
+}
+
 }  // namespace
 }  // namespace aims
