@@ -11,6 +11,7 @@
 #include "sim/arrivals.hpp"
 #include "sim/environment/ray_caster.hpp"
 #include "sim/environment/scene_mjcf.hpp"
+#include "sim/localizability.hpp"
 #include "sim/quadruped_model.hpp"
 #include "sim/walker.hpp"
 
@@ -147,8 +148,15 @@ void Simulation::Impl::send_scan() {
   sweep.push_back({state.stamp, state.T_world_base * T_base_body * rig.T_body_lidar});
   if (state.stamp - sweep.front().stamp < lidar.period()) return;
   const Stopwatch watch(times.lidar);
-  auto scan = std::make_shared<LidarScan>(lidar.sweep(sweep.front().stamp, sweep));
+  SweepTruth seen;
+  auto scan = std::make_shared<LidarScan>(lidar.sweep(sweep.front().stamp, sweep, &seen));
+  const Time end = scan->end;
   deliver(state.stamp, LidarScanPtr(std::move(scan)), lidar_link);
+  if (!sent.empty()) {
+    const Pose T_world_lidar = pose_at(sweep, end).value_or(sweep.back().pose);
+    truth.scans.push_back(scan_information(end, seen, T_world_lidar * rig.T_body_lidar.inverse(),
+                                           config.lidar.range_sigma));
+  }
   sweep.erase(sweep.begin(), sweep.end() - 1);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/measurements.hpp"
+#include "core/scan_information.hpp"
 #include "core/trajectory.hpp"
 
 namespace aims {
@@ -32,6 +33,7 @@ struct Truth {
   std::vector<TruthSample> samples;      ///< at the physics rate
   std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz
   std::vector<Passage> passages;         ///< of the route's named points, in order
+  std::vector<ScanInformation> scans;    ///< of the sweeps that did not get lost on their way
   bool fell = false;
   bool touched_wall = false;
 };

@@ -265,9 +265,16 @@ void Lidar::report(int block, int lanes, LidarScan& scan, SweepTruth* truth) {
       point.time_offset_ns = beams.time_offset_ns[lane];
       point.ring = static_cast<std::uint16_t>(ring);
       if (truth == nullptr) continue;
-      truth->normals.emplace_back(each.hits.normal_x[lane], each.hits.normal_y[lane],
-                                  each.hits.normal_z[lane]);
+      const RayPacket& rays = each.rays;
+      const Eigen::Vector3f origin(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
+      const Eigen::Vector3f direction(rays.direction_x[lane], rays.direction_y[lane],
+                                      rays.direction_z[lane]);
+      const Eigen::Vector3f normal(each.hits.normal_x[lane], each.hits.normal_y[lane],
+                                   each.hits.normal_z[lane]);
+      truth->normals.push_back(normal);
       truth->surfaces.push_back(surface);
+      truth->points.emplace_back(origin + each.hits.distance[lane] * direction);
+      truth->cosines.push_back(std::clamp(-normal.dot(direction), 0.0F, 1.0F));
     }
   }
 }

@@ -53,6 +53,8 @@ double detection_probability(const LidarConfig& config, double reflectivity, dou
 struct SweepTruth {
   std::vector<Eigen::Vector3f> normals;  ///< of the surface, in the world, towards the sensor
   std::vector<int> surfaces;             ///< index into `RayCaster::materials`
+  std::vector<Eigen::Vector3f> points;   ///< where the beam met it, in the world, without noise [m]
+  std::vector<float> cosines;            ///< of the angle between beam and normal, in [0, 1]
 };
 
 /// Simulates sweeps in a scene. Same configuration, seed and poses: the same bytes.

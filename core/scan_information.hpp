@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/time.hpp"
+
+namespace aims {
+
+/// What one LiDAR sweep tells about the pose of the body at the sweep's end, against a known map:
+/// the Fisher information of its true returns at the true pose. Rotation first, then translation,
+/// both as right perturbations in body axes: T = T_true (Exp(rotation), translation).
+struct ScanInformation {
+  Time stamp = 0;  ///< true end of the sweep
+  /// [1/rad^2, 1/(rad m); 1/(rad m), 1/m^2]
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  int returns = 0;           ///< that the information sums over
+  double range_sigma = 0.0;  ///< white noise of each range that it supposes [m]
+};
+
+}  // namespace aims
