@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
@@ -12,34 +12,42 @@
 namespace aims {
 namespace {
 
-bool tagged(const CatalogueEntry& entry, const std::string& tag) {
-  return tag.empty() || std::find(entry.tags.begin(), entry.tags.end(), tag) != entry.tags.end();
-}
-
 void print_entry(const CatalogueEntry& entry) {
   const std::string tags =
       entry.tags.empty() ? "" : fmt::format("  [{}]", fmt::join(entry.tags, ", "));
   fmt::print("  {:<16} {}{}\n", entry.name, entry.description, tags);
 }
 
+int print_list(const std::string& folder, const std::vector<std::string>& tags) {
+  const auto files = scenarios_in(folder, tags);
+  if (!files) {
+    fmt::print(stderr, "aims list: {}\n", files.error().message);
+    return kBadInput;
+  }
+  fmt::print("Scenarios in {}:\n", folder);
+  for (const CatalogueEntry& entry : scenario_catalogue(*files)) print_entry(entry);
+  const std::vector<Family> families = families_of(*files);
+  if (!families.empty()) fmt::print("Families, by level:\n");
+  for (const Family& family : families) {
+    fmt::print("  {:<16} [{}], {} cases: {}\n", family.name, family.level_unit, family.cases.size(),
+               fmt::join(family.cases, ", "));
+  }
+  fmt::print("Estimators:\n");
+  for (const CatalogueEntry& entry : estimator_catalogue()) print_entry(entry);
+  return kOk;
+}
+
 }  // namespace
 
 void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code) {
-  auto* command = app.add_subcommand("list", "Scenarios and estimators, a line each");
+  auto* command = app.add_subcommand("list", "Scenarios, families and estimators, a line each");
   auto folder = std::make_shared<std::string>(scenario_folder.string());
-  auto tag = std::make_shared<std::string>();
-  command->add_option("--scenarios", *folder, "Folder of scenarios");
-  command->add_option("--tag", *tag, "Only scenarios with this tag");
-  command->footer("Example: aims list --tag paper");
-  command->callback([folder, tag, &exit_code] {
-    fmt::print("Scenarios in {}:\n", *folder);
-    for (const CatalogueEntry& entry : scenario_catalogue(*folder)) {
-      if (tagged(entry, *tag)) print_entry(entry);
-    }
-    fmt::print("Estimators:\n");
-    for (const CatalogueEntry& entry : estimator_catalogue()) print_entry(entry);
-    exit_code = kOk;
-  });
+  auto tags = std::make_shared<std::vector<std::string>>();
+  command->add_option("--folder", *folder, "Folder of scenarios, searched with those in it");
+  command->add_option("--tags", *tags, "Only scenarios with any of these tags, e.g. stress,dial")
+      ->delimiter(',');
+  command->footer("Examples:\n  aims list\n  aims list --tags stress,dial");
+  command->callback([folder, tags, &exit_code] { exit_code = print_list(*folder, *tags); });
 }
 
 }  // namespace aims

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "core/error.hpp"
+#include "harness/scenario.hpp"
 
 namespace aims {
 
@@ -14,8 +18,31 @@ struct CatalogueEntry {
   std::vector<std::string> tags;
 };
 
-/// Every scenario of `folder`.
-std::vector<CatalogueEntry> scenario_catalogue(const std::filesystem::path& folder);
+/// Scenarios that differ in one quantity.
+struct Family {
+  std::string name;
+  std::string level_unit;
+  std::vector<std::string> cases;  ///< names of the scenarios, by level
+};
+
+/// A scenario file and what it holds, or why it does not load.
+struct ScenarioFile {
+  std::filesystem::path file;
+  Result<Scenario> scenario;
+};
+
+/// Every scenario file in `folder` and below, read with `overrides` on top. With tags, only
+/// scenarios that have any of them, and none that does not load. Errors: two files of one name, a
+/// tag that no scenario has.
+Result<std::vector<ScenarioFile>> scenarios_in(const std::filesystem::path& folder,
+                                               std::span<const std::string> tags,
+                                               std::span<const std::string> overrides = {});
+
+/// A line per scenario.
+std::vector<CatalogueEntry> scenario_catalogue(std::span<const ScenarioFile> files);
+
+/// The families of those scenarios, by name.
+std::vector<Family> families_of(std::span<const ScenarioFile> files);
 
 /// Every registered estimator.
 std::vector<CatalogueEntry> estimator_catalogue();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "estimator/registry.hpp"
 #include "io/config_dump.hpp"
@@ -47,7 +48,10 @@ void describe(Fields& f, Expectation& e) {
 void describe(Fields& f, Scenario& s) {
   f.text("name", s.name, {.meaning = "name of the scenario; the file's name when absent"});
   f.text("description", s.description, {.meaning = "one line for listings"});
-  f.texts("tags", s.tags, {.meaning = "families that the scenario belongs to"});
+  f.texts("tags", s.tags, {.meaning = "sets that the scenario belongs to, for --tags"});
+  f.text("family", s.family, {.meaning = "scenarios that differ in one quantity; empty: none"});
+  f.number("level", s.level, {.unit = "level_unit", .meaning = "that quantity in this scenario"});
+  f.text("level_unit", s.level_unit, {.meaning = "unit of the level"});
   f.integer("seed", s.seed,
             {.unit = "-", .range = at_least(0), .meaning = "seed of every random stream"});
   f.texts("estimators", s.estimators, {.meaning = "estimators that run on the stream"});
@@ -93,23 +97,35 @@ std::string config_text(const Scenario& scenario, bool annotated) {
 
 Result<fs::path> find_scenario(const std::string& given, const fs::path& folder) {
   if (fs::is_regular_file(given)) return fs::path(given);
-  const fs::path by_name = folder / (given + ".yaml");
-  if (fs::is_regular_file(by_name)) return by_name;
+  const fs::path by_path = folder / (given + ".yaml");
+  if (fs::is_regular_file(by_path)) return by_path;
+  const auto files = scenario_files(folder);
+  if (!files) return tl::unexpected(files.error());
   std::vector<std::string> names;
-  for (const fs::path& file : scenario_files(folder)) names.push_back(file.stem().string());
+  for (const fs::path& file : *files) {
+    names.push_back(file.stem().string());
+    if (names.back() == given) return file;
+  }
   const std::string near = near_match(fs::path(given).stem().string(), names);
   return failure(fmt::format("{}: no such scenario file, and no scenario of that name in {}{}",
                              given, folder.string(),
                              near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
-std::vector<fs::path> scenario_files(const fs::path& folder) {
+Result<std::vector<fs::path>> scenario_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
+  std::map<std::string, fs::path> by_name;
+  for (const fs::path& file : files) {
+    const auto [other, is_new] = by_name.emplace(file.stem().string(), file);
+    if (is_new) continue;
+    return failure(fmt::format("{} and {}: two scenarios of the same name; rename one",
+                               other->second.string(), file.string()));
+  }
   return files;
 }
 

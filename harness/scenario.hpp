@@ -29,6 +29,9 @@ struct Scenario {
   std::string name;
   std::string description;
   std::vector<std::string> tags;
+  std::string family;      ///< scenarios that differ in one quantity, e.g. "leg_loss"; empty: none
+  double level = 0.0;      ///< that quantity, in `level_unit`; scores of a family are drawn over it
+  std::string level_unit;  ///< e.g. "m", "%"
   int seed = 1;
   std::vector<std::string> estimators = {"aims", "tfs", "tfs_clean", "lio", "leg"};
   SimulationConfig simulation;
@@ -55,11 +58,13 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides);
 /// and source to each.
 std::string config_text(const Scenario& scenario, bool annotated = false);
 
-/// The file of a scenario given by path or by bare name ("corridor"), searched in `folder`.
+/// The file of a scenario given by path or by bare name ("corridor"), searched in `folder` and
+/// below.
 Result<std::filesystem::path> find_scenario(const std::string& given,
                                             const std::filesystem::path& folder);
 
-/// Every scenario file in `folder`, by name.
-std::vector<std::filesystem::path> scenario_files(const std::filesystem::path& folder);
+/// Every scenario file in `folder` and below, in order of their paths. Error when two have the same
+/// bare name.
+Result<std::vector<std::filesystem::path>> scenario_files(const std::filesystem::path& folder);
 
 }  // namespace aims

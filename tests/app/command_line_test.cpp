@@ -109,7 +109,7 @@ TEST_F(CommandLine, ImpossibleScenariosAreRefused) {
 }
 
 TEST_F(CommandLine, ListAndConfigShowWhatThereIs) {
-  const Outcome list = aims("list --scenarios '" AIMS_SCENARIOS "'");
+  const Outcome list = aims("list --folder '" AIMS_SCENARIOS "'");
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_NE(list.output.find("corridor_smooth"), std::string::npos) << list.output;
   EXPECT_EQ(list.output.find("does not load"), std::string::npos) << list.output;
@@ -119,6 +119,22 @@ TEST_F(CommandLine, ListAndConfigShowWhatThereIs) {
   for (const char* key : {"eta:", "kappa:", "alpha:", "sigma_0:", "w1:", "gamma_min:"}) {
     EXPECT_NE(config.output.find(key), std::string::npos) << key;
   }
+}
+
+TEST_F(CommandLine, ListShowsFamiliesAndTakesSeveralTags) {
+  const fs::path deep = folder_.path() / "scenarios" / "deep";
+  fs::create_directories(deep);
+  std::ofstream(deep / "mild.yaml") << "{tags: [one], family: loss, level: 1, level_unit: '%'}";
+  std::ofstream(deep / "hard.yaml") << "{tags: [two], family: loss, level: 9, level_unit: '%'}";
+  std::ofstream(deep / "other.yaml") << "tags: [three]";
+  const Outcome list = aims("list --tags two,one");
+  EXPECT_EQ(list.exit_code, 0) << list.output;
+  EXPECT_NE(list.output.find("loss             [%], 2 cases: mild, hard"), std::string::npos)
+      << list.output;
+  EXPECT_EQ(list.output.find("other"), std::string::npos) << list.output;
+  const Outcome unknown = aims("list --tags four");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.output.find("'four'; there are one, three, two"), std::string::npos);
 }
 
 TEST_F(CommandLine, HelpAndVersionSucceedAndNonsenseDoesNot) {
