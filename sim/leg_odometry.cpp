@@ -36,7 +36,7 @@ LegOdometry::LegOdometry(const LegOdometryConfig& config, Duration timestep, std
       gyro_(run_seed, "leg.gyro"),
       slip_(run_seed, "leg.slip") {
   RandomStream run(run_seed, "leg.run");
-  velocity_scale_ = 1.0 + config_.velocity_scale_error * run.normal();
+  velocity_scale_ = config_.velocity_scale * (1.0 + config_.velocity_scale_error * run.normal());
   gyro_scale_ = 1.0 + config_.gyro_scale_error * run.normal();
   gyro_bias_ = config_.gyro_bias * run.normal3();
   for (double& offset : angle_offset_) offset = config_.angle_offset * run.normal();
@@ -179,6 +179,10 @@ void describe(Fields& f, LegOdometryConfig& c) {
            {.unit = "-",
             .range = in_range(0.0, 0.2),
             .meaning = "standard deviation of its own gyro's scale, per run"});
+  f.number("velocity_scale", c.velocity_scale,
+           {.unit = "-",
+            .range = in_range(0.2, 5.0),
+            .meaning = "of every run: a wrong leg length or wheel-like calibration"});
   f.number("velocity_scale_error", c.velocity_scale_error,
            {.unit = "-",
             .range = in_range(0.0, 0.5),

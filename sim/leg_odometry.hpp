@@ -34,6 +34,7 @@ struct LegOdometryConfig {
   double gyro_noise_density = 2e-4;    ///< [rad/s/sqrt(Hz)]
   double gyro_bias = 1.7e-3;           ///< standard deviation per axis, per run [rad/s]
   double gyro_scale_error = 5e-3;      ///< standard deviation per run [-]
+  double velocity_scale = 1.0;         ///< of every run: what it reports over what it felt [-]
   double velocity_scale_error = 0.03;  ///< standard deviation of the speed's scale, per run [-]
   double slip_rate = 0.3;              ///< injected slip bursts per second [Hz]
   double slip_speed = 0.15;            ///< standard deviation of a burst's speed error [m/s]

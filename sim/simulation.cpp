@@ -56,6 +56,13 @@ Placement start_offset(const RobotConfig& config, std::uint64_t seed) {
   return offset;
 }
 
+/// Passages of the recording; those before its start are nobody's reference.
+std::vector<Passage> passages_since(const RouteFollower& route, Time start) {
+  std::vector<Passage> passages = route.passages();
+  std::erase_if(passages, [start](const Passage& each) { return each.stamp < start; });
+  return passages;
+}
+
 /// Error when a point of the route is not free, or the robot would start touching a solid.
 Result<void> check_route(const SimulationConfig& config, const Scene& scene, const World& world) {
   for (std::size_t i = 0; i < config.route.points.size(); ++i) {
@@ -203,6 +210,7 @@ Result<Simulation> Simulation::create(const SimulationConfig& config, std::uint6
     return tl::unexpected(ok.error());
   }
   walker->settle();
+  while (to_seconds(walker->world().state().stamp) < config.recording_start) walker->step();
   return Simulation(std::make_unique<Impl>(config, seed, std::move(scene), std::move(*walker)));
 }
 
@@ -214,7 +222,7 @@ Simulation::~Simulation() = default;
 bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
   const Time until = now() + span;
   while (now() < until && !impl_->finished()) impl_->step();
-  impl_->truth.passages = impl_->walker.route().passages();
+  impl_->truth.passages = passages_since(impl_->walker.route(), impl_->truth.samples.front().stamp);
   const bool finished = impl_->finished();
   // What is still on its way at the end arrives too.
   impl_->arrivals.take(finished ? std::numeric_limits<Time>::max() : now(), deliveries);

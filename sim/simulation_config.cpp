@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/simulation_config.hpp"
 
+#include <fmt/format.h>
+
 #include "sim/sampling.hpp"
 
 namespace aims {
@@ -41,6 +43,10 @@ void describe(Fields& f, SimulationConfig& c) {
   f.group("leg_odometry", c.leg_odometry);
   f.group("lidar", c.lidar);
   f.group("links", c.links);
+  f.number("recording_start", c.recording_start,
+           {.unit = "s",
+            .range = at_least(0),
+            .meaning = "sensors are off until then, while the robot already walks"});
   f.number("max_duration", c.max_duration,
            {.unit = "s",
             .range = positive(),
@@ -56,6 +62,10 @@ Result<void> validate(const SimulationConfig& config) {
   if (auto ok = validate(config.leg_odometry, timestep); !ok) return ok;
   const auto sweep = steps_per_sample("lidar.rate", config.lidar.rate, timestep);
   if (!sweep) return tl::unexpected(sweep.error());
+  if (config.recording_start >= config.max_duration) {
+    return failure(fmt::format("recording_start: expected less than {} s (max_duration), got {}",
+                               config.max_duration, config.recording_start));
+  }
   return {};
 }
 

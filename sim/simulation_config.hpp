@@ -44,7 +44,8 @@ struct SimulationConfig {
   LegOdometryConfig leg_odometry;
   LidarConfig lidar;
   LinksConfig links;
-  double max_duration = 900.0;  ///< simulated time after which the run ends [s]
+  double recording_start = 0.0;  ///< until then the robot walks unrecorded: a cold start [s]
+  double max_duration = 900.0;   ///< simulated time after which the run ends [s]
 };
 void describe(Fields& f, SimulationConfig& c);
 

@@ -53,6 +53,28 @@ bool meets_body(const LidarConfig& config, const Eigen::Vector3d& direction) {
   return enter <= leave;
 }
 
+/// Which rings still fire: the dead ones are drawn without replacement.
+std::vector<bool> living_rings(const LidarConfig& config, std::uint64_t run_seed) {
+  RandomStream random = rng(run_seed, "lidar.defects");
+  std::vector<bool> alive(static_cast<std::size_t>(config.rings), true);
+  const auto dead = std::lround(config.defects.dead_ring_share * config.rings);
+  for (long lost = 0; lost < dead;) {
+    const auto ring = static_cast<std::size_t>(random.uniform(0.0, config.rings));
+    if (ring >= alive.size() || !alive[ring]) continue;
+    alive[ring] = false;
+    ++lost;
+  }
+  return alive;
+}
+
+/// Whether a direction lies in the covered sector.
+bool is_covered(const LidarDefectConfig& defects, const Eigen::Vector3d& direction) {
+  const double azimuth = std::atan2(direction.y(), direction.x());
+  const double off = azimuth - defects.blind_center_deg * kRadiansPerDegree;
+  return std::abs(std::remainder(off, 2.0 * std::numbers::pi)) <
+         0.5 * defects.blind_width_deg * kRadiansPerDegree;
+}
+
 /// Poses at rising times, found by walking along the trajectory.
 class PoseCursor {
  public:
@@ -75,6 +97,17 @@ class PoseCursor {
 };
 
 }  // namespace
+
+void describe(Fields& f, LidarDefectConfig& c) {
+  f.number("dead_ring_share", c.dead_ring_share,
+           {.unit = "-", .range = in_range(0.0, 1.0), .meaning = "Rings that see nothing."});
+  f.number("blind_center_deg", c.blind_center_deg,
+           {.unit = "deg",
+            .range = in_range(-360.0, 360.0),
+            .meaning = "Middle of a covered sector; 0 is ahead."});
+  f.number("blind_width_deg", c.blind_width_deg,
+           {.unit = "deg", .range = in_range(0.0, 360.0), .meaning = "Of the covered sector."});
+}
 
 void describe(Fields& f, LidarConfig& c) {
   f.integer("rings", c.rings, {.unit = "-", .range = in_range(1, 128), .meaning = "Lasers."});
@@ -110,6 +143,7 @@ void describe(Fields& f, LidarConfig& c) {
            {.unit = "m", .range = any(), .meaning = "Box of the robot's body, LiDAR frame."});
   f.vector("body_max", c.body_max,
            {.unit = "m", .range = any(), .meaning = "Box of the robot's body, LiDAR frame."});
+  f.group("defects", c.defects);
 }
 
 Result<void> validate(const LidarConfig& config) {
@@ -143,6 +177,7 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
   for (const Material& material : caster.materials()) {
     reflectivity_.push_back(static_cast<float>(material.reflectivity));
   }
+  const std::vector<bool> alive = living_rings(config, run_seed);
   const int blocks = (config.columns + kRayPacketSize - 1) / kRayPacketSize;
   for (int block = 0; block < blocks; ++block) {
     for (int ring = 0; ring < config.rings; ++ring) {
@@ -155,7 +190,8 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
         beams.y[lane] = static_cast<float>(direction.y());
         beams.z[lane] = static_cast<float>(direction.z());
         beams.time_offset_ns[lane] = static_cast<std::int32_t>(std::llround(offset));
-        beams.open[lane] = !meets_body(config, direction);
+        beams.open[lane] = alive[static_cast<std::size_t>(ring)] &&
+                           !is_covered(config.defects, direction) && !meets_body(config, direction);
       }
     }
   }

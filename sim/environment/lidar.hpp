@@ -15,6 +15,15 @@
 
 namespace aims {
 
+/// Parts of a LiDAR that see nothing, for the whole run.
+struct LidarDefectConfig {
+  double dead_ring_share = 0.0;   ///< of the rings, drawn per run [-]
+  double blind_center_deg = 0.0;  ///< middle of a covered sector, +x to +y [deg]
+  double blind_width_deg = 0.0;   ///< of that sector [deg]; 0: none
+};
+
+void describe(Fields& fields, LidarDefectConfig& config);
+
 /// A spinning multi-ring LiDAR.
 struct LidarConfig {
   int rings = 16;
@@ -37,6 +46,7 @@ struct LidarConfig {
   /// masks nothing.
   Eigen::Vector3d body_min = Eigen::Vector3d(-0.10, -0.15, -0.32);
   Eigen::Vector3d body_max = Eigen::Vector3d(0.42, 0.15, -0.085);
+  LidarDefectConfig defects;
 };
 
 void describe(Fields& fields, LidarConfig& config);
@@ -60,7 +70,8 @@ struct SweepTruth {
 /// Simulates sweeps in a scene. Same configuration, seed and poses: the same bytes.
 class Lidar {
  public:
-  /// `caster` must outlive the LiDAR. Random streams: "lidar.noise", "lidar.detection".
+  /// `caster` must outlive the LiDAR. Random streams: "lidar.noise", "lidar.detection",
+  /// "lidar.defects".
   Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed);
 
   /// Nominal length of one sweep.

@@ -27,6 +27,23 @@ void shift_stamps(Measurement& measurement, Duration offset) {
 
 }  // namespace
 
+void describe(Fields& f, OutageConfig& c) {
+  f.number(
+      "start", c.start,
+      {.unit = "s", .range = at_least(0), .meaning = "Of the first outage, in the recording."});
+  f.number("length", c.length,
+           {.unit = "s", .range = at_least(0), .meaning = "Of each outage; 0: none."});
+  f.number("period", c.period,
+           {.unit = "s", .range = at_least(0), .meaning = "From start to start; 0: one alone."});
+}
+
+bool is_out(const OutageConfig& outage, Time sent) {
+  const Duration since = sent - from_seconds(outage.start);
+  if (outage.length <= 0.0 || since < 0) return false;
+  const Duration within = outage.period > 0.0 ? since % from_seconds(outage.period) : since;
+  return within < from_seconds(outage.length);
+}
+
 void describe(Fields& f, LinkConfig& c) {
   const Range probability = in_range(0.0, 1.0);
   f.number("loss", c.loss,
@@ -49,6 +66,7 @@ void describe(Fields& f, LinkConfig& c) {
            {.unit = "-", .range = probability, .meaning = "Packets that arrive twice."});
   f.number("clock_offset", c.clock_offset,
            {.unit = "s", .range = in_range(-10.0, 10.0), .meaning = "Added to the stamps."});
+  f.group("outage", c.outage);
 }
 
 Link::Link(const LinkConfig& config, std::uint64_t run_seed, std::string_view name)
@@ -75,7 +93,7 @@ Time Link::arrival(Time sent) {
 }
 
 void Link::send(Time sent, Measurement measurement, std::vector<Delivery>& out) {
-  const bool dropped = lost();
+  const bool dropped = lost() || is_out(config_.outage, sent);
   const Time first = arrival(sent);
   const bool twice = duplicate_.chance(config_.duplicate_probability);
   const Duration behind = twice ? from_seconds(duplicate_.uniform(0.0, config_.jitter)) : 0;

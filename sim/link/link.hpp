@@ -11,6 +11,18 @@
 
 namespace aims {
 
+/// Stretches of time in which nothing comes through.
+struct OutageConfig {
+  double start = 0.0;   ///< of the first, after the start of the recording [s]
+  double length = 0.0;  ///< of each [s]; 0: none
+  double period = 0.0;  ///< from start to start [s]; 0: one outage alone
+};
+
+void describe(Fields& fields, OutageConfig& config);
+
+/// Whether a packet sent at `sent` falls into an outage.
+bool is_out(const OutageConfig& outage, Time sent);
+
 /// What happens to a sensor's packets on their way. The default changes nothing.
 struct LinkConfig {
   double loss = 0.0;                   ///< probability that a packet is lost on its own [-]
@@ -22,6 +34,7 @@ struct LinkConfig {
   double reorder_delay = 0.03;         ///< for which a packet is held back [s]
   double duplicate_probability = 0.0;  ///< that a packet arrives twice [-]
   double clock_offset = 0.0;           ///< of the sensor's clock: added to the stamps [s]
+  OutageConfig outage = {};
 };
 
 void describe(Fields& fields, LinkConfig& config);

@@ -62,6 +62,13 @@ TEST(LegOdometry, PointFeetReadShortByFootRadiusOverHipHeight) {
   EXPECT_NEAR(relative_error(measure(perfect(FootModel::kPoint))), expected, 0.015);
 }
 
+TEST(LegOdometry, AWrongScaleMultipliesWhatItReports) {
+  LegOdometryConfig config = perfect(FootModel::kRolling);
+  const double right = relative_error(measure(config));
+  config.velocity_scale = 1.2;
+  EXPECT_NEAR(1.0 + relative_error(measure(config)), 1.2 * (1.0 + right), 2e-3);
+}
+
 TEST(LegOdometry, ReportsTwoHundredTimesASecondWithEveryFieldFilled) {
   const auto samples = measure({});
   ASSERT_GT(samples.size(), 1000U);

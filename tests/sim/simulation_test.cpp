@@ -161,6 +161,33 @@ TEST(Simulation, EndsAtItsTimeLimit) {
   EXPECT_EQ(record(config, 1).truth.samples.back().stamp, 500 * kMillisecond);
 }
 
+TEST(Simulation, AColdStartIsTheSameWalkSeenFromLaterOn) {
+  SimulationConfig config = short_walk();
+  const Recording whole = record(config, 1);
+  config.recording_start = 2.5;  // the robot is on its way
+  const Recording late = record(config, 1);
+  const Time start = from_seconds(2.5);
+  ASSERT_FALSE(late.truth.samples.empty());
+  EXPECT_EQ(late.truth.samples.front().stamp, start);
+  EXPECT_GT(late.truth.samples.front().velocity.norm(), 0.2);
+  for (const Delivery& each : late.deliveries) EXPECT_GE(stamp_of(each.measurement), start);
+  const std::size_t skipped = whole.truth.samples.size() - late.truth.samples.size();
+  for (std::size_t i = 0; i < late.truth.samples.size(); ++i) {
+    EXPECT_EQ(late.truth.samples[i].T_world_body.translation,
+              whole.truth.samples[skipped + i].T_world_body.translation);
+  }
+  ASSERT_EQ(late.truth.passages.size(), 1U) << "the first point was passed before";
+  EXPECT_EQ(late.truth.passages[0].point, "b");
+}
+
+TEST(Simulation, RefusesARecordingThatWouldBeginAfterItsEnd) {
+  SimulationConfig config = short_walk();
+  config.recording_start = config.max_duration;
+  const auto refused = Simulation::create(config, 1);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message.find("recording_start"), std::string::npos);
+}
+
 TEST(Simulation, EveryParameterIsDescribed) {
   SimulationConfig config;
   Fields fields = fields_of(config);

@@ -291,7 +291,7 @@ TEST(Lidar, RepeatsBitForBitWithItsSeedAndOnlyWithIt) {
 TEST(LidarConfig, EveryParameterTakesItsOwnText) {
   LidarConfig config;
   const Fields fields = fields_of(config);
-  EXPECT_EQ(fields.parameters().size(), 15U);
+  EXPECT_EQ(fields.parameters().size(), 18U);
   for (const Parameter& each : fields.parameters()) {
     EXPECT_TRUE(each.assign(each.text())) << each.key << " = " << each.text();
   }
@@ -305,6 +305,48 @@ TEST(LidarConfig, RejectsLimitsInTheWrongOrder) {
   config = {};
   config.elevation_max_deg = -20.0;
   EXPECT_FALSE(validate(config));
+}
+
+TEST(Lidar, DeadRingsAreTheStatedShareAndTheSameForTheWholeRun) {
+  const Scene scene = plain_corridor();
+  const RayCaster caster(scene);
+  LidarConfig config = perfect();
+  config.defects.dead_ring_share = 0.25;
+  Lidar lidar(config, caster, 3);
+  const auto rings_of = [&](Time start) {
+    std::set<int> rings;
+    const LidarScan scan = lidar.sweep(start, still());
+    for (const LidarPoint& point : scan.points) rings.insert(point.ring);
+    return rings;
+  };
+  const std::set<int> first = rings_of(0);
+  EXPECT_EQ(first.size(), 12U);
+  EXPECT_EQ(rings_of(kSecond), first);
+  config.defects.dead_ring_share = 1.0;
+  EXPECT_TRUE(one_sweep(scene, config, still()).points.empty());
+}
+
+TEST(Lidar, ACoveredSectorReturnsNothingAndTheRestIsUntouched) {
+  LidarConfig config = perfect();
+  const LidarScan whole = one_sweep(plain_corridor(), config, still());
+  config.defects.blind_center_deg = 170.0;  // reaches over the seam at 180 degrees
+  config.defects.blind_width_deg = 60.0;
+  const LidarScan rest = one_sweep(plain_corridor(), config, still());
+  std::vector<LidarPoint> kept;
+  for (const LidarPoint& point : whole.points) {
+    const double azimuth = std::atan2(point.position.y(), point.position.x());
+    const double off =
+        std::remainder(azimuth - 170.0 * std::numbers::pi / 180.0, 2.0 * std::numbers::pi);
+    if (std::abs(off) > 30.0 * std::numbers::pi / 180.0 - 1e-5) kept.push_back(point);
+  }
+  ASSERT_NEAR(static_cast<double>(rest.points.size()), static_cast<double>(kept.size()), 32.0);
+  EXPECT_LT(rest.points.size(), whole.points.size() * 0.86);
+  for (const LidarPoint& point : rest.points) {
+    const double azimuth = std::atan2(point.position.y(), point.position.x());
+    const double off =
+        std::remainder(azimuth - 170.0 * std::numbers::pi / 180.0, 2.0 * std::numbers::pi);
+    EXPECT_GE(std::abs(off), 30.0 * std::numbers::pi / 180.0 - 1e-5);
+  }
 }
 
 }  // namespace

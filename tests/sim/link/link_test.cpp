@@ -183,6 +183,22 @@ TEST(Link, ClockOffsetShiftsEveryStampAndNoArrival) {
   for (const Delivery& each : out) EXPECT_EQ(each.arrival, 2 * kSecond);
 }
 
+TEST(Link, LosesExactlyWhatIsSentInAnOutage) {
+  LinkConfig config;
+  config.outage = {.start = 0.5, .length = 0.2, .period = 1.0};
+  const auto present = arrived(send_samples(config, 600), 600);  // three seconds
+  for (int i = 0; i < 600; ++i) {
+    const int within = i % 200;
+    EXPECT_EQ(present[i], within < 100 || within >= 140) << i;
+  }
+}
+
+TEST(Link, AnOutageWithoutAPeriodComesOnce) {
+  LinkConfig config;
+  config.outage = {.start = 0.1, .length = 0.05, .period = 0.0};
+  EXPECT_EQ(bursts(arrived(send_samples(config, 600), 600)), std::vector<int>{10});
+}
+
 TEST(Link, OneFaultLeavesTheOthersAsTheyWere) {
   constexpr int kCount = 5000;
   LinkConfig config;
@@ -193,6 +209,10 @@ TEST(Link, OneFaultLeavesTheOthersAsTheyWere) {
   config.reorder_probability = 0.3;
   config.duplicate_probability = 0.3;
   EXPECT_EQ(arrived(send_samples(config, kCount), kCount), present);
+  config.outage = {.start = 20.0, .length = 1.0, .period = 0.0};
+  const auto with_outage = arrived(send_samples(config, kCount), kCount);
+  EXPECT_TRUE(std::equal(present.begin(), present.begin() + 4000, with_outage.begin()));
+  EXPECT_TRUE(std::equal(present.begin() + 4200, present.end(), with_outage.begin() + 4200));
 }
 
 TEST(Link, RepeatsWithItsSeedAndOnlyWithIt) {
@@ -211,7 +231,7 @@ TEST(Link, RepeatsWithItsSeedAndOnlyWithIt) {
 TEST(LinkConfig, EveryParameterTakesItsOwnText) {
   LinkConfig config;
   const Fields fields = fields_of(config);
-  EXPECT_EQ(fields.parameters().size(), 9U);
+  EXPECT_EQ(fields.parameters().size(), 12U);
   for (const Parameter& each : fields.parameters()) EXPECT_TRUE(each.assign(each.text()));
 }
 
