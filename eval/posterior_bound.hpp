@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/scan_information.hpp"
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// True white noise and bias of one inertial triad; unit: rad/s or m/s^2.
+struct TriadErrors {
+  double noise_density = 0.0;  ///< [unit/sqrt(Hz)]
+  double bias_walk = 0.0;      ///< [unit/sqrt(s)]
+  double bias_sigma = 0.0;     ///< of the bias at the start [unit]
+};
+
+/// True errors of the leg odometry, as far as the bound knows them.
+struct LegErrors {
+  bool used = true;
+  double packets_per_second = 200.0;  ///< that arrive on average [Hz]
+  double velocity_sigma = 0.01;       ///< white, of one packet and axis [m/s]
+  double scale_sigma = 0.03;          ///< of the run's constant scale [-]
+};
+
+/// What is known of the state at the first true pose: the odometry frame defines position and
+/// heading, the rest is to be found.
+struct InitialKnowledge {
+  double position_sigma = 1e-4;  ///< [m]
+  double heading_sigma = 1e-4;   ///< [rad]
+  double tilt_sigma = 0.1;       ///< [rad]
+  double velocity_sigma = 1e-2;  ///< [m/s]
+};
+
+/// The parameters of the simulated sensors that the posterior bound needs.
+struct BoundParameters {
+  TriadErrors gyro;
+  TriadErrors accelerometer;
+  LegErrors legs;
+  bool lidar = true;  ///< false: without the sweeps' information
+  InitialKnowledge initial;
+  Pose T_body_base;  ///< frame of the leg odometry in the body frame
+};
+
+/// The true motion at one instant.
+struct TrueMotion {
+  Time stamp = 0;
+  Pose T_world_body;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< of the body in the world [m/s]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in body axes [rad/s]
+};
+
+/// The least possible standard deviation of any unbiased estimate at the end of one sweep.
+struct PosteriorBound {
+  Time stamp = 0;
+  Eigen::Matrix3d position = Eigen::Matrix3d::Zero();  ///< covariance, world axes [m^2]
+  double along = 0.0;                                  ///< along the body's heading [m]
+  double lateral = 0.0;                                ///< to its left [m]
+  double vertical = 0.0;                               ///< [m]
+  double heading = 0.0;                                ///< [rad]
+  double leg_scale = 0.0;                              ///< of the leg odometry's scale [-]
+};
+
+/// Standard deviation [m] along the unit `axis` (world).
+double bound_along(const PosteriorBound& bound, const Eigen::Vector3d& axis);
+
+/// Posterior Cramer-Rao bound over a run (the information recursion of Tichavsky, Muravchik and
+/// Nehorai 1998, in covariance form): IMU, legs and LiDAR linearised at the true motion. State:
+/// rotation, position, velocity, both IMU biases and the constant scale of the legs. `motion` has
+/// increasing stamps, finely enough to integrate (20 ms); `scans` are in order of time, and only
+/// those inside the motion's span count. One entry per scan, with or without `lidar`.
+/// The LiDAR is held against a known map: no SLAM can do as well. Of the legs, slip, rolling
+/// feet, joint offsets and late touchdown are left out: real legs are worse.
+std::vector<PosteriorBound> posterior_bounds(std::span<const TrueMotion> motion,
+                                             std::span<const ScanInformation> scans,
+                                             const BoundParameters& parameters);
+
+}  // namespace aims
