@@ -35,6 +35,10 @@ void describe_association(Fields& f, ScoreConfig& c) {
 }
 
 void describe_metrics(Fields& f, ScoreConfig& c) {
+  f.texts("segments", c.segments,
+          {.meaning = "Ways that have an M_list, as [a-d, d-h]; empty: from each named point to "
+                      "the next.",
+           .source = "table II"});
   f.number("shortest_segment", c.shortest_segment,
            {.unit = "m",
             .range = positive(),
@@ -104,7 +108,8 @@ Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<cons
   const std::vector<PosePair> pairs =
       associate(valid, valid_truth, config.association, from_seconds(config.association_tolerance));
   const std::vector<PosePair> anchored = aligned(pairs, align_start(pairs, config.anchor));
-  const std::vector<Segment> segments = segments_of(passages);
+  const std::vector<Segment> segments =
+      config.segments.empty() ? segments_of(passages) : segments_named(passages, config.segments);
   const Duration edge = from_seconds(config.edge_tolerance);
 
   Scores scores;

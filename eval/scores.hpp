@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/config.hpp"
@@ -20,12 +21,13 @@ namespace aims {
 /// How an estimate is held against the truth.
 struct ScoreConfig {
   Association association = Association::kInterpolated;
-  double association_tolerance = 0.01;               ///< [s]
+  double association_tolerance = 0.01;                  ///< [s]
   AlignmentKind anchor = AlignmentKind::kStartHeading;  ///< or kStartPose
-  double straightness = 1e-6;                        ///< [-]
-  double edge_tolerance = 3.0;                       ///< [s]
-  double longest_gap = 2.0;                          ///< [s]
-  double shortest_segment = 1.0;                     ///< [m]
+  double straightness = 1e-6;                           ///< [-]
+  double edge_tolerance = 3.0;                          ///< [s]
+  double longest_gap = 2.0;                             ///< [s]
+  double shortest_segment = 1.0;                        ///< [m]
+  std::vector<std::string> segments;  ///< "a-d"; none: from each named point to the next
   bool rpe_all_pairs = false;
   bool rpe_pairs_from_truth = true;
   double lost_error_offset = 1.0;     ///< [m]

@@ -15,18 +15,42 @@ std::optional<double> distance_between(const Trajectory& trajectory, Time begin,
   return (last->translation - first->translation).norm();
 }
 
+std::string name_of(const Passage& from, const Passage& to) { return from.point + "-" + to.point; }
+
+/// Adds a segment; one of the same name as an earlier one is numbered.
+void add_segment(const Passage& from, const Passage& to, std::vector<Segment>& segments) {
+  const std::string name = name_of(from, to);
+  const auto same = [&name](const Segment& each) {
+    return each.name == name || each.name.starts_with(name + "#");
+  };
+  const auto earlier = std::count_if(segments.begin(), segments.end(), same);
+  segments.push_back(
+      {earlier == 0 ? name : name + "#" + std::to_string(earlier + 1), from.stamp, to.stamp});
+}
+
 }  // namespace
 
 std::vector<Segment> segments_of(std::span<const Passage> passages) {
   std::vector<Segment> segments;
   for (std::size_t i = 1; i < passages.size(); ++i) {
-    const std::string name = passages[i - 1].point + "-" + passages[i].point;
-    const auto same = [&name](const Segment& each) {
-      return each.name == name || each.name.starts_with(name + "#");
-    };
-    const auto earlier = std::count_if(segments.begin(), segments.end(), same);
-    segments.push_back({earlier == 0 ? name : name + "#" + std::to_string(earlier + 1),
-                        passages[i - 1].stamp, passages[i].stamp});
+    add_segment(passages[i - 1], passages[i], segments);
+  }
+  return segments;
+}
+
+std::vector<Segment> segments_named(std::span<const Passage> passages,
+                                    std::span<const std::string> names) {
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    for (std::size_t j = i + 1; j < passages.size(); ++j) {
+      const bool wanted =
+          std::find(names.begin(), names.end(), name_of(passages[i], passages[j])) != names.end();
+      const auto between = passages.subspan(i + 1, j - i - 1);
+      const bool direct = std::none_of(between.begin(), between.end(), [&](const Passage& each) {
+        return each.point == passages[i].point || each.point == passages[j].point;
+      });
+      if (wanted && direct) add_segment(passages[i], passages[j], segments);
+    }
   }
   return segments;
 }

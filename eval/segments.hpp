@@ -20,6 +20,11 @@ struct Segment {
 /// The segments between consecutive passages in order of time.
 std::vector<Segment> segments_of(std::span<const Passage> passages);
 
+/// The segments of the given names ("a-d"), in order of time: from a passage of the first point to
+/// the next passage of the second, other points in between or not, but neither of the two.
+std::vector<Segment> segments_named(std::span<const Passage> passages,
+                                    std::span<const std::string> names);
+
 /// M_list of one segment. Distances are straight lines between the two ends, d_i of the truth and
 /// d_hat_i of the estimate at the same times.
 struct SegmentDistance {

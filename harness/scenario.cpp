@@ -26,7 +26,27 @@ Result<void> check_estimator(std::string_view key, const std::string& name) {
                              near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
+/// Error for a segment that the route has no two points for.
+Result<void> check_segments(const Scenario& scenario) {
+  const auto& points = scenario.simulation.route.points;
+  for (std::size_t i = 0; i < scenario.scoring.segments.size(); ++i) {
+    const std::string& name = scenario.scoring.segments[i];
+    bool exists = false;
+    for (std::size_t from = 0; from < points.size(); ++from) {
+      for (std::size_t to = from + 1; to < points.size(); ++to) {
+        exists = exists || points[from].name + "-" + points[to].name == name;
+      }
+    }
+    if (exists) continue;
+    return failure(fmt::format(
+        "scoring.segments: expected FROM-TO of two of the route's points in order, got '{}'",
+        name));
+  }
+  return {};
+}
+
 Result<void> check(const Scenario& scenario) {
+  if (auto segments = check_segments(scenario); !segments) return segments;
   for (const std::string& name : scenario.estimators) {
     if (auto known = check_estimator("estimators", name); !known) return known;
   }

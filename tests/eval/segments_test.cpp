@@ -24,6 +24,32 @@ TEST(Segments, AreNamedByTheirPoints) {
   EXPECT_TRUE(segments_of({}).empty());
 }
 
+TEST(Segments, MayLeavePointsInBetweenOut) {
+  const std::vector<Passage> passages = {{"a", 0}, {"b", 1}, {"d", 2}, {"f", 3}, {"h", 4},
+                                         {"f", 5}, {"d", 6}, {"b", 7}, {"a", 8}};
+  const std::vector<std::string> names = {"h-d", "a-d", "d-h", "d-a"};
+  const auto segments = segments_named(passages, names);
+  ASSERT_EQ(segments.size(), 4U);
+  EXPECT_EQ(segments[0].name, "a-d");
+  EXPECT_EQ(segments[0].begin, 0);
+  EXPECT_EQ(segments[0].end, 2);
+  EXPECT_EQ(segments[1].name, "d-h");
+  EXPECT_EQ(segments[1].begin, 2);
+  EXPECT_EQ(segments[2].name, "h-d");
+  EXPECT_EQ(segments[2].end, 6);
+  EXPECT_EQ(segments[3].name, "d-a") << "from the last time at d, not the first";
+  EXPECT_EQ(segments[3].begin, 6);
+  EXPECT_EQ(segments[3].end, 8);
+  EXPECT_TRUE(segments_named(passages, std::vector<std::string>{"a-x"}).empty());
+}
+
+TEST(Segments, OfTheSameNameAreNumbered) {
+  const std::vector<Passage> passages = {{"a", 0}, {"b", 1}, {"a", 2}, {"b", 3}};
+  const auto segments = segments_named(passages, std::vector<std::string>{"a-b"});
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[1].name, "a-b#2");
+}
+
 TEST(MList, OfAPerfectEstimateIsZeroInAnyFrame) {
   for (const SegmentDistance& each : distances_of(test::perfect_walk())) {
     EXPECT_NEAR(each.true_distance_m, test::kLength, 1e-9);
