@@ -6,138 +6,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.hpp"
+#include "sim/environment/wall.hpp"
+
 namespace aims {
 namespace {
 
-constexpr double kWallThickness = 0.2;   ///< of plain and end walls [m]
-constexpr double kOverlap = 0.05;        ///< of pieces behind visible faces, against leaks [m]
-constexpr double kDoorThickness = 0.05;  ///< [m]
-constexpr int kMaxPillars = 40;          ///< they collide, and physics must stay fast
-constexpr double kWalkway = 1.0;         ///< that pillars must leave free [m]
-
-enum class Side { kLeft, kRight };
-
-/// An interval along the corridor [m].
-struct Span {
-  double begin = 0.0;
-  double end = 0.0;
-  double centre() const { return 0.5 * (begin + end); }
-};
-
-struct Materials {
-  Material wall, ceiling, door, pillar, clutter;
-};
-
-Materials corridor_materials(const ReflectivityConfig& reflectivity) {
-  return {.wall = {reflectivity.wall, {0.86F, 0.85F, 0.80F}},
-          .ceiling = {reflectivity.ceiling, {0.93F, 0.93F, 0.92F}},
-          .door = {reflectivity.door, {0.50F, 0.31F, 0.17F}},
-          .pillar = {reflectivity.wall, {0.72F, 0.74F, 0.76F}},
-          .clutter = {reflectivity.clutter, {0.25F, 0.42F, 0.56F}}};
-}
+constexpr int kMaxPillars = 40;   ///< they collide, and physics must stay fast
+constexpr double kWalkway = 1.0;  ///< that pillars must leave free [m]
 
 Span extent(const CorridorConfig& config) {
   return {-config.margin, config.length + config.margin};
 }
 
+/// The extent with its end walls, whether they are built or not.
+Span outer_extent(const CorridorConfig& config) {
+  const Span along = extent(config);
+  return {along.begin - kWallThickness, along.end + kWallThickness};
+}
+
 bool has_end(const CorridorConfig& config, EndWalls end) {
   return config.end_walls == end || config.end_walls == EndWalls::kBoth;
-}
-
-/// Whether the feature number `index` along a wall is on that side.
-bool on_side(WallSides sides, Side side, int index) {
-  switch (sides) {
-    case WallSides::kNone:
-      return false;
-    case WallSides::kLeft:
-      return side == Side::kLeft;
-    case WallSides::kRight:
-      return side == Side::kRight;
-    case WallSides::kBoth:
-      return true;
-    case WallSides::kAlternate:
-      return (index % 2 == 0) == (side == Side::kLeft);
-  }
-  return false;
-}
-
-/// Centres of features `spacing` apart, the first half a spacing behind the corridor's begin.
-std::vector<double> regular_centres(const Span& along, double spacing) {
-  std::vector<double> centres;
-  for (double x = along.begin + 0.5 * spacing; x < along.end; x += spacing) centres.push_back(x);
-  return centres;
-}
-
-/// Openings of the doors in one wall, in order along x, clear of the corridor's ends.
-std::vector<Span> door_openings(const CorridorConfig& config, Side side, std::uint64_t seed) {
-  const DoorConfig& doors = config.doors;
-  RandomStream random = rng(seed, side == Side::kLeft ? "scene.doors.left" : "scene.doors.right");
-  const Span along = extent(config);
-  std::vector<Span> openings;
-  const double reach = 0.5 * doors.width + doors.jitter + kWallThickness;
-  int index = 0;
-  for (const double centre : regular_centres(along, doors.spacing)) {
-    const double x = centre + random.uniform(-doors.jitter, doors.jitter);
-    const bool fits = centre - reach > along.begin && centre + reach < along.end;
-    if (on_side(doors.sides, side, index++) && fits) {
-      openings.push_back({x - 0.5 * doors.width, x + 0.5 * doors.width});
-    }
-  }
-  return openings;
-}
-
-/// Adds boxes on one side of the corridor, given by their distances from the centre line.
-class SideBuilder {
- public:
-  SideBuilder(const CorridorConfig& config, Side side, std::vector<Solid>& solids)
-      : sign_(side == Side::kLeft ? 1.0 : -1.0), face_(0.5 * config.width), solids_(solids) {}
-
-  /// A box along `x`, from `near` to `far` behind the wall's face, between two heights.
-  Solid& box(const Span& x, double near, double far, double bottom, double top,
-             const Material& material) {
-    Solid solid;
-    solid.T_world_solid.translation = {x.centre(), sign_ * (face_ + 0.5 * (near + far)),
-                                       0.5 * (bottom + top)};
-    solid.half_extents = {0.5 * (x.end - x.begin), 0.5 * (far - near), 0.5 * (top - bottom)};
-    solid.material = material;
-    solid.collides = false;
-    return solids_.emplace_back(solid);
-  }
-
- private:
-  double sign_;
-  double face_;
-  std::vector<Solid>& solids_;
-};
-
-/// One long wall: a colliding slab that nobody sees, and the pieces that are seen.
-void add_wall(const CorridorConfig& config, const std::vector<Span>& openings,
-              const Materials& materials, SideBuilder& side) {
-  const Span along = extent(config);
-  const Span outer{along.begin - kWallThickness, along.end + kWallThickness};
-  Solid& slab = side.box(outer, 0.0, kWallThickness, 0.0, config.height, materials.wall);
-  slab.collides = true;
-  slab.visible = false;
-  const double top = config.height + kOverlap;
-  if (openings.empty()) {
-    side.box(outer, 0.0, kWallThickness, -kOverlap, top, materials.wall);
-    return;
-  }
-  const double depth = config.doors.depth;
-  const double back = depth + kDoorThickness;
-  side.box(outer, depth + 0.5 * kDoorThickness, back + kWallThickness, -kOverlap, top,
-           materials.wall);
-  double begin = outer.begin;
-  for (const Span& opening : openings) {
-    side.box({begin, opening.begin}, 0.0, back, -kOverlap, top, materials.wall);
-    const Span behind{opening.begin - kOverlap, opening.end + kOverlap};
-    side.box(behind, depth, back, -kOverlap, config.doors.height + kOverlap, materials.door);
-    if (config.doors.height < config.height) {
-      side.box(opening, 0.0, back, config.doors.height, top, materials.wall);
-    }
-    begin = opening.end;
-  }
-  side.box({begin, outer.end}, 0.0, back, -kOverlap, top, materials.wall);
 }
 
 /// The pillars of one wall that do not stand in front of a door, as spans along x.
@@ -197,52 +86,25 @@ void add_clutter(const CorridorConfig& config, const Material& material, std::ui
   }
 }
 
-/// A box across the corridor, from wall to wall and beyond.
-Solid cross_box(const CorridorConfig& config, const Span& x, double bottom, double top,
-                const Material& material) {
-  Solid solid;
-  const double half_width =
-      0.5 * config.width + std::max(config.doors.depth, 0.0) + kWallThickness + kDoorThickness;
-  solid.T_world_solid.translation = {x.centre(), 0.0, 0.5 * (bottom + top)};
-  solid.half_extents = {0.5 * (x.end - x.begin), half_width, 0.5 * (top - bottom)};
-  solid.material = material;
-  return solid;
-}
-
 void add_ends_and_ceiling(const CorridorConfig& config, const Materials& materials,
                           std::vector<Solid>& solids) {
   const Span along = extent(config);
+  const Span outer = outer_extent(config);
+  const double half_width = outer_half_width(config.width, config.doors.depth);
   const double top = config.height + kOverlap;
   if (has_end(config, EndWalls::kStart)) {
-    solids.push_back(cross_box(config, {along.begin - kWallThickness, along.begin}, -kOverlap, top,
-                               materials.wall));
+    solids.push_back(
+        cross_box({}, {outer.begin, along.begin}, half_width, -kOverlap, top, materials.wall));
   }
   if (has_end(config, EndWalls::kEnd)) {
     solids.push_back(
-        cross_box(config, {along.end, along.end + kWallThickness}, -kOverlap, top, materials.wall));
+        cross_box({}, {along.end, outer.end}, half_width, -kOverlap, top, materials.wall));
   }
-  Solid ceiling = cross_box(config, {along.begin - kWallThickness, along.end + kWallThickness},
-                            config.height, config.height + kWallThickness, materials.ceiling);
+  Solid ceiling = cross_box({}, outer, half_width, config.height, config.height + kWallThickness,
+                            materials.ceiling);
   ceiling.collides = false;
   ceiling.roof = true;
   solids.push_back(ceiling);
-}
-
-Result<void> validate_doors(const CorridorConfig& config) {
-  const DoorConfig& doors = config.doors;
-  if (doors.sides == WallSides::kNone) return {};
-  if (doors.width + 2.0 * doors.jitter >= doors.spacing) {
-    return failure(
-        fmt::format("scene.corridor.doors.spacing: expected more than {} m (width and twice the "
-                    "jitter), got {}",
-                    doors.width + 2.0 * doors.jitter, doors.spacing));
-  }
-  if (doors.height > config.height) {
-    return failure(fmt::format(
-        "scene.corridor.doors.height: expected at most {} m (the corridor's height), got {}",
-        config.height, doors.height));
-  }
-  return {};
 }
 
 Result<void> validate_pillars(const CorridorConfig& config) {
@@ -269,7 +131,10 @@ Result<void> validate_pillars(const CorridorConfig& config) {
 }  // namespace
 
 Result<void> validate(const CorridorConfig& config) {
-  if (const auto doors = validate_doors(config); !doors) return doors;
+  if (const auto doors = validate_doors(config.doors, config.height, "scene.corridor.doors");
+      !doors) {
+    return doors;
+  }
   if (const auto pillars = validate_pillars(config); !pillars) return pillars;
   const double widest = config.width - 0.2;
   if (config.clutter.density > 0.0 && config.clutter.lane_width > widest) {
@@ -282,12 +147,15 @@ Result<void> validate(const CorridorConfig& config) {
 
 std::vector<Solid> corridor_solids(const CorridorConfig& config,
                                    const ReflectivityConfig& reflectivity, std::uint64_t seed) {
-  const Materials materials = corridor_materials(reflectivity);
+  const Materials materials = building_materials(reflectivity);
+  const DoorConfig& doors = config.doors;
   std::vector<Solid> solids;
   for (const Side which : {Side::kLeft, Side::kRight}) {
-    SideBuilder side(config, which, solids);
-    const std::vector<Span> openings = door_openings(config, which, seed);
-    add_wall(config, openings, materials, side);
+    const char* stream = which == Side::kLeft ? "scene.doors.left" : "scene.doors.right";
+    const std::vector<Span> openings = door_openings(doors, extent(config), which, seed, stream);
+    SideBuilder side({}, which, 0.5 * config.width, solids);
+    add_wall({outer_extent(config), config.height, openings, doors.depth, doors.height}, materials,
+             side);
     add_pillars(config, pillar_spans(config, which, openings), materials, side);
   }
   add_ends_and_ceiling(config, materials, solids);

@@ -5,32 +5,6 @@
 #include "sim/environment/height_field.hpp"
 
 namespace aims {
-namespace {
-
-std::vector<std::pair<std::string, WallSides>> side_options() {
-  return {{"none", WallSides::kNone},
-          {"left", WallSides::kLeft},
-          {"right", WallSides::kRight},
-          {"both", WallSides::kBoth},
-          {"alternate", WallSides::kAlternate}};
-}
-
-}  // namespace
-
-void describe(Fields& f, DoorConfig& c) {
-  f.choice("sides", c.sides, side_options(), {.meaning = "Walls that have doors, seen along +x."});
-  f.number("spacing", c.spacing,
-           {.unit = "m", .range = in_range(0.5, 1000.0), .meaning = "Between centres in a wall."});
-  f.number("jitter", c.jitter,
-           {.unit = "m", .range = at_least(0), .meaning = "Largest shift of a door's centre."});
-  f.number("depth", c.depth,
-           {.unit = "m", .range = in_range(0.001, 1.0), .meaning = "Of the door behind the wall."});
-  f.number("width", c.width,
-           {.unit = "m", .range = in_range(0.1, 10.0), .meaning = "Of the opening."});
-  f.number("height", c.height,
-           {.unit = "m", .range = in_range(0.5, 10.0), .meaning = "Of the opening."});
-}
-
 void describe(Fields& f, PillarConfig& c) {
   f.choice("sides", c.sides, side_options(), {.meaning = "Walls that have pillars."});
   f.number("spacing", c.spacing,
@@ -55,15 +29,6 @@ void describe(Fields& f, BumpConfig& c) {
             .meaning = "Between the floor's lowest and highest point; 0 for a flat floor."});
   f.number("correlation_length", c.correlation_length,
            {.unit = "m", .range = in_range(0.2, 5.0), .meaning = "Of the floor's heights."});
-}
-
-void describe(Fields& f, ReflectivityConfig& c) {
-  const Range range = {.min = 0.0, .max = 1.0, .min_included = false};
-  f.number("wall", c.wall, {.unit = "-", .range = range, .meaning = "Of walls and pillars."});
-  f.number("floor", c.floor, {.unit = "-", .range = range, .meaning = "Of the floor."});
-  f.number("ceiling", c.ceiling, {.unit = "-", .range = range, .meaning = "Of the ceiling."});
-  f.number("door", c.door, {.unit = "-", .range = range, .meaning = "Of the doors."});
-  f.number("clutter", c.clutter, {.unit = "-", .range = range, .meaning = "Of loose objects."});
 }
 
 void describe(Fields& f, CorridorConfig& c) {
@@ -92,7 +57,7 @@ void describe(Fields& f, CorridorConfig& c) {
 }
 
 void describe(Fields& f, SceneConfig& c) {
-  f.choice("kind", c.kind, {{"corridor", SceneKind::kCorridor}},
+  f.choice("kind", c.kind, {{"corridor", SceneKind::kCorridor}, {"garage", SceneKind::kGarage}},
            {.meaning = "Which generator builds the surroundings."});
   f.integer("seed", c.seed,
             {.unit = "-",
@@ -104,12 +69,15 @@ void describe(Fields& f, SceneConfig& c) {
   f.group("bumps", c.bumps);
   f.group("reflectivity", c.reflectivity);
   f.group("corridor", c.corridor);
+  f.group("garage", c.garage);
 }
 
 Result<void> validate(const SceneConfig& config) {
   switch (config.kind) {
     case SceneKind::kCorridor:
       return validate(config.corridor);
+    case SceneKind::kGarage:
+      return validate(config.garage);
   }
   return failure("unknown kind of scene");
 }
@@ -121,6 +89,10 @@ Scene build_scene(const SceneConfig& config, std::uint64_t run_seed) {
     case SceneKind::kCorridor:
       scene.solids = corridor_solids(config.corridor, config.reflectivity, seed);
       scene.floor = corridor_floor(config.corridor);
+      break;
+    case SceneKind::kGarage:
+      scene.solids = garage_solids(config.garage, config.reflectivity, seed);
+      scene.floor = garage_floor(config.garage);
       break;
   }
   scene.floor.material = {config.reflectivity.floor, {0.55F, 0.57F, 0.60F}};

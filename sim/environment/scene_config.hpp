@@ -5,25 +5,14 @@
 
 #include "core/config.hpp"
 #include "core/error.hpp"
+#include "sim/environment/building_config.hpp"
+#include "sim/environment/garage.hpp"
 #include "sim/environment/scene.hpp"
 
 namespace aims {
 
-/// The walls that a feature of the corridor is on, seen along +x: left is +y.
-enum class WallSides { kNone, kLeft, kRight, kBoth, kAlternate };
-
 /// The ends of the corridor that are closed by a wall; the others are open.
 enum class EndWalls { kNone, kStart, kEnd, kBoth };
-
-/// Doors set back into the walls.
-struct DoorConfig {
-  WallSides sides = WallSides::kRight;
-  double spacing = 8.0;  ///< between centres along one wall [m]
-  double jitter = 0.5;   ///< largest shift of a centre along the wall [m]
-  double depth = 0.15;   ///< of the door's face behind the wall's [m]
-  double width = 0.9;    ///< of the opening [m]
-  double height = 2.05;  ///< of the opening [m]
-};
 
 /// Square half-columns standing out from the walls.
 struct PillarConfig {
@@ -45,15 +34,6 @@ struct BumpConfig {
   double correlation_length = 0.6;  ///< of the heights [m]
 };
 
-/// Diffuse reflectivities at the LiDAR's wavelength [-].
-struct ReflectivityConfig {
-  double wall = 0.5;
-  double floor = 0.25;
-  double ceiling = 0.6;
-  double door = 0.35;
-  double clutter = 0.4;
-};
-
 /// A straight corridor along +x with its centre line on y = 0 and its floor at z = 0. The route
 /// runs on the centre line from x = 0 to x = length.
 struct CorridorConfig {
@@ -67,7 +47,7 @@ struct CorridorConfig {
   ClutterConfig clutter;
 };
 
-enum class SceneKind { kCorridor };
+enum class SceneKind { kCorridor, kGarage };
 
 /// What surrounds the robot.
 struct SceneConfig {
@@ -77,13 +57,12 @@ struct SceneConfig {
   BumpConfig bumps;
   ReflectivityConfig reflectivity;
   CorridorConfig corridor;
+  GarageConfig garage;
 };
 
-void describe(Fields& fields, DoorConfig& config);
 void describe(Fields& fields, PillarConfig& config);
 void describe(Fields& fields, ClutterConfig& config);
 void describe(Fields& fields, BumpConfig& config);
-void describe(Fields& fields, ReflectivityConfig& config);
 void describe(Fields& fields, CorridorConfig& config);
 void describe(Fields& fields, SceneConfig& config);
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/config.hpp"
+
+namespace aims {
+
+/// The walls that a feature of a corridor is on, seen along it: left is +y of its own axes.
+enum class WallSides { kNone, kLeft, kRight, kBoth, kAlternate };
+
+/// Doors set back into the walls.
+struct DoorConfig {
+  WallSides sides = WallSides::kRight;
+  double spacing = 8.0;  ///< between centres along one wall [m]
+  double jitter = 0.5;   ///< largest shift of a centre along the wall [m]
+  double depth = 0.15;   ///< of the door's face behind the wall's [m]
+  double width = 0.9;    ///< of the opening [m]
+  double height = 2.05;  ///< of the opening [m]
+};
+
+/// Diffuse reflectivities at the LiDAR's wavelength [-].
+struct ReflectivityConfig {
+  double wall = 0.5;
+  double floor = 0.25;
+  double ceiling = 0.6;
+  double door = 0.35;
+  double clutter = 0.4;
+};
+
+void describe(Fields& fields, DoorConfig& config);
+void describe(Fields& fields, ReflectivityConfig& config);
+
+/// Names of `WallSides` in a configuration.
+std::vector<std::pair<std::string, WallSides>> side_options();
+
+}  // namespace aims

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/environment/wall.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/random.hpp"
+
+namespace aims {
+namespace {
+
+/// Centres of features `spacing` apart, the first half a spacing behind the wall's begin.
+std::vector<double> regular_centres(const Span& along, double spacing) {
+  std::vector<double> centres;
+  for (double x = along.begin + 0.5 * spacing; x < along.end; x += spacing) centres.push_back(x);
+  return centres;
+}
+
+/// What is seen of a wall without openings, or with doors and a slab behind them.
+void add_faces(const Wall& wall, const Materials& materials, SideBuilder& side) {
+  const double top = wall.height + kOverlap;
+  if (wall.openings.empty()) {
+    side.box(wall.outer, 0.0, kWallThickness, -kOverlap, top, materials.wall);
+    return;
+  }
+  const double depth = wall.door_depth;
+  const double back = depth + kDoorThickness;
+  side.box(wall.outer, depth + 0.5 * kDoorThickness, back + kWallThickness, -kOverlap, top,
+           materials.wall);
+  double begin = wall.outer.begin;
+  for (const Span& opening : wall.openings) {
+    side.box({begin, opening.begin}, 0.0, back, -kOverlap, top, materials.wall);
+    const Span behind{opening.begin - kOverlap, opening.end + kOverlap};
+    side.box(behind, depth, back, -kOverlap, wall.door_height + kOverlap, materials.door);
+    if (wall.door_height < wall.height) {
+      side.box(opening, 0.0, back, wall.door_height, top, materials.wall);
+    }
+    begin = opening.end;
+  }
+  side.box({begin, wall.outer.end}, 0.0, back, -kOverlap, top, materials.wall);
+}
+
+}  // namespace
+
+Materials building_materials(const ReflectivityConfig& reflectivity) {
+  return {.wall = {reflectivity.wall, {0.86F, 0.85F, 0.80F}},
+          .ceiling = {reflectivity.ceiling, {0.93F, 0.93F, 0.92F}},
+          .door = {reflectivity.door, {0.50F, 0.31F, 0.17F}},
+          .pillar = {reflectivity.wall, {0.72F, 0.74F, 0.76F}},
+          .clutter = {reflectivity.clutter, {0.25F, 0.42F, 0.56F}}};
+}
+
+Pose line_at(double x, double y, double heading) {
+  const Eigen::AngleAxisd turn(heading, Eigen::Vector3d::UnitZ());
+  return {Eigen::Quaterniond(turn), Eigen::Vector3d(x, y, 0.0)};
+}
+
+Solid& SideBuilder::box(const Span& x, double near, double far, double bottom, double top,
+                        const Material& material) {
+  Solid solid;
+  const Eigen::Vector3d centre(x.centre(), sign_ * (face_ + 0.5 * (near + far)),
+                               0.5 * (bottom + top));
+  solid.T_world_solid = T_world_line_ * Pose{Eigen::Quaterniond::Identity(), centre};
+  solid.half_extents = {0.5 * (x.end - x.begin), 0.5 * (far - near), 0.5 * (top - bottom)};
+  solid.material = material;
+  solid.collides = false;
+  return solids_.emplace_back(solid);
+}
+
+void add_wall(const Wall& wall, const Materials& materials, SideBuilder& side) {
+  Solid& slab = side.box(wall.outer, 0.0, kWallThickness, 0.0, wall.height, materials.wall);
+  slab.collides = true;
+  slab.visible = false;
+  add_faces(wall, materials, side);
+}
+
+Solid cross_box(const Pose& T_world_line, const Span& x, double half_width, double bottom,
+                double top, const Material& material) {
+  Solid solid;
+  const Eigen::Vector3d centre(x.centre(), 0.0, 0.5 * (bottom + top));
+  solid.T_world_solid = T_world_line * Pose{Eigen::Quaterniond::Identity(), centre};
+  solid.half_extents = {0.5 * (x.end - x.begin), half_width, 0.5 * (top - bottom)};
+  solid.material = material;
+  return solid;
+}
+
+double outer_half_width(double width, double door_depth) {
+  return 0.5 * width + std::max(door_depth, 0.0) + kWallThickness + kDoorThickness;
+}
+
+bool on_side(WallSides sides, Side side, int index) {
+  switch (sides) {
+    case WallSides::kNone:
+      return false;
+    case WallSides::kLeft:
+      return side == Side::kLeft;
+    case WallSides::kRight:
+      return side == Side::kRight;
+    case WallSides::kBoth:
+      return true;
+    case WallSides::kAlternate:
+      return (index % 2 == 0) == (side == Side::kLeft);
+  }
+  return false;
+}
+
+std::vector<Span> door_openings(const DoorConfig& doors, const Span& along, Side side,
+                                std::uint64_t seed, std::string_view stream) {
+  RandomStream random = rng(seed, stream);
+  std::vector<Span> openings;
+  const double reach = 0.5 * doors.width + doors.jitter + kWallThickness;
+  int index = 0;
+  for (const double centre : regular_centres(along, doors.spacing)) {
+    const double x = centre + random.uniform(-doors.jitter, doors.jitter);
+    const bool fits = centre - reach > along.begin && centre + reach < along.end;
+    if (on_side(doors.sides, side, index++) && fits) {
+      openings.push_back({x - 0.5 * doors.width, x + 0.5 * doors.width});
+    }
+  }
+  return openings;
+}
+
+Result<void> validate_doors(const DoorConfig& doors, double wall_height, std::string_view key) {
+  if (doors.sides == WallSides::kNone) return {};
+  if (doors.width + 2.0 * doors.jitter >= doors.spacing) {
+    return failure(
+        fmt::format("{}.spacing: expected more than {} m (width and twice the jitter), got {}", key,
+                    doors.width + 2.0 * doors.jitter, doors.spacing));
+  }
+  if (doors.height > wall_height) {
+    return failure(fmt::format("{}.height: expected at most {} m (the corridor's height), got {}",
+                               key, wall_height, doors.height));
+  }
+  return {};
+}
+
+void add_arm(const CorridorArm& arm, const Materials& materials, std::vector<Solid>& solids) {
+  Span outer = arm.along;
+  if (arm.begin_closed) outer.begin -= kWallThickness;
+  if (arm.end_closed) outer.end += kWallThickness;
+  for (const Side which : {Side::kLeft, Side::kRight}) {
+    SideBuilder side(arm.T_world_arm, which, 0.5 * arm.width, solids);
+    add_wall({outer, arm.height, which == Side::kLeft ? arm.left : arm.right, arm.door_depth,
+              arm.door_height},
+             materials, side);
+  }
+  const double half_width = outer_half_width(arm.width, arm.door_depth);
+  const double top = arm.height + kOverlap;
+  if (arm.begin_closed) {
+    solids.push_back(cross_box(arm.T_world_arm, {outer.begin, arm.along.begin}, half_width,
+                               -kOverlap, top, materials.wall));
+  }
+  if (arm.end_closed) {
+    solids.push_back(cross_box(arm.T_world_arm, {arm.along.end, outer.end}, half_width, -kOverlap,
+                               top, materials.wall));
+  }
+  // Over an open end the ceiling stops inside the wall that it opens through.
+  Span covered = outer;
+  if (!arm.begin_closed) covered.begin += 0.5 * kWallThickness;
+  if (!arm.end_closed) covered.end -= 0.5 * kWallThickness;
+  Solid ceiling = cross_box(arm.T_world_arm, covered, half_width, arm.height,
+                            arm.height + kWallThickness, materials.ceiling);
+  ceiling.collides = false;
+  ceiling.roof = true;
+  solids.push_back(ceiling);
+}
+
+}  // namespace aims

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "sim/environment/building_config.hpp"
+#include "sim/environment/scene.hpp"
+
+namespace aims {
+
+inline constexpr double kWallThickness = 0.2;  ///< of plain and end walls [m]
+inline constexpr double kOverlap = 0.05;  ///< of pieces behind visible faces, against leaks [m]
+inline constexpr double kDoorThickness = 0.05;  ///< [m]
+
+enum class Side { kLeft, kRight };
+
+/// An interval along a wall [m].
+struct Span {
+  double begin = 0.0;
+  double end = 0.0;
+  double centre() const { return 0.5 * (begin + end); }
+  double length() const { return end - begin; }
+};
+
+/// What the parts of a building are made of.
+struct Materials {
+  Material wall, ceiling, door, pillar, clutter;
+};
+Materials building_materials(const ReflectivityConfig& reflectivity);
+
+/// Frame in the plane z = 0 with its origin at (x, y) [m] and its x axis at `heading` [rad].
+Pose line_at(double x, double y, double heading);
+
+/// Adds boxes on one side of a line, given by their distances behind a face parallel to it.
+class SideBuilder {
+ public:
+  /// The face is `face` [m] from the line, which is the x axis of `T_world_line`.
+  SideBuilder(const Pose& T_world_line, Side side, double face, std::vector<Solid>& solids)
+      : T_world_line_(T_world_line),
+        sign_(side == Side::kLeft ? 1.0 : -1.0),
+        face_(face),
+        solids_(solids) {}
+
+  /// A box along `x`, from `near` to `far` behind the face, between two heights; it is seen, but
+  /// no part of the physics.
+  Solid& box(const Span& x, double near, double far, double bottom, double top,
+             const Material& material);
+
+ private:
+  Pose T_world_line_;
+  double sign_;
+  double face_;
+  std::vector<Solid>& solids_;
+};
+
+/// A straight wall with doors set back into it.
+struct Wall {
+  Span outer;           ///< of the wall, ends included
+  double height = 2.6;  ///< [m]
+  std::vector<Span> openings;
+  double door_depth = 0.15;   ///< of the doors' faces behind the wall's [m]
+  double door_height = 2.05;  ///< at most the wall's [m]
+};
+
+/// The colliding slab, which nobody sees, and the pieces that are seen.
+void add_wall(const Wall& wall, const Materials& materials, SideBuilder& side);
+
+/// A box across a line, from `x.begin` to `x.end` along it and `half_width` [m] to either side.
+Solid cross_box(const Pose& T_world_line, const Span& x, double half_width, double bottom,
+                double top, const Material& material);
+
+/// Half width [m] of what closes a corridor: across it and behind its walls.
+double outer_half_width(double width, double door_depth);
+
+/// Whether the feature number `index` along a wall is on that side.
+bool on_side(WallSides sides, Side side, int index);
+
+/// Openings of the doors in one wall, in order, clear of the ends of `along`. Draws from `stream`.
+std::vector<Span> door_openings(const DoorConfig& doors, const Span& along, Side side,
+                                std::uint64_t seed, std::string_view stream);
+
+/// Error for doors that do not fit; `key` names their group in the configuration.
+Result<void> validate_doors(const DoorConfig& doors, double wall_height, std::string_view key);
+
+/// A straight stretch of corridor along the x axis of its own frame.
+struct CorridorArm {
+  Pose T_world_arm;
+  Span along;
+  double width = 2.2;   ///< [m]
+  double height = 2.6;  ///< [m]
+  bool begin_closed = false;
+  bool end_closed = false;
+  std::vector<Span> left;     ///< openings of doors
+  std::vector<Span> right;    ///< openings of doors
+  double door_depth = 0.15;   ///< [m]
+  double door_height = 2.05;  ///< [m]
+};
+
+/// Walls, end walls and ceiling. An open end is flush with what it opens into: it has to stand in
+/// a wall at least as thick as `kWallThickness`.
+void add_arm(const CorridorArm& arm, const Materials& materials, std::vector<Solid>& solids);
+
+}  // namespace aims
