@@ -82,9 +82,9 @@ void print_report(const Scenario& scenario, const Experiment& experiment) {
   fmt::print("{}, seed {}\n{}\n", scenario.name, seeds_text(experiment),
              to_text(score_table(experiment.runs)));
   for (const std::string& warning : experiment.warnings) fmt::print("warning: {}\n", warning);
-  for (const GateFailure& failure : experiment.failures) {
-    fmt::print("EXPECTATION FAILED: {}\n  again: aims run {} --seed {} --estimators {}\n",
-               text_of(failure), failure.scenario, failure.seed, failure.expectation.estimator);
+  for (const GateCheck& failure : experiment.failures) {
+    fmt::print("EXPECTATION FAILED: {}\n  again: {}\n", text_of(scenario, failure),
+               reproducing_command(scenario, failure));
   }
   if (!experiment.complete) {
     fmt::print("interrupted: the results hold what was walked until then\n");

@@ -48,7 +48,7 @@ Result<std::vector<ScenarioFile>> scenarios_in(const fs::path& folder,
   if (tags.empty()) return files;
   if (auto known = check_tags(files, tags); !known) return tl::unexpected(known.error());
   std::erase_if(files, [&](const ScenarioFile& each) {
-    return !each.scenario || !has_any(*each.scenario, tags);
+    return each.scenario && !has_any(*each.scenario, tags);
   });
   return files;
 }

@@ -38,11 +38,6 @@ Result<void> run_seed(const Scenario& scenario, const ExperimentOptions& options
   RunRecord record = record_of(scenario, *result, drawing_s);
   if (auto written = write_results(scenario, *result, record, folder); !written) return written;
   experiment.complete = result->complete;
-  if (result->complete) {
-    for (GateFailure& failure : failed_gates(scenario, record)) {
-      experiment.failures.push_back(std::move(failure));
-    }
-  }
   experiment.runs.push_back(std::move(record));
   return {};
 }
@@ -63,6 +58,7 @@ Result<Experiment> run_experiment(const Scenario& scenario, const ExperimentOpti
     if (!done) return tl::unexpected(done.error());
     if (!experiment.complete) break;
   }
+  if (experiment.complete) experiment.failures = failed(check_gates(scenario, experiment.runs));
   if (several) {
     if (auto written = write_summary(scenario, experiment.runs, folder->path()); !written) {
       return tl::unexpected(written.error());

@@ -25,9 +25,9 @@ struct ExperimentOptions {
 
 /// What an experiment yields besides the files that it wrote.
 struct Experiment {
-  std::vector<RunRecord> runs;        ///< one per seed, in order
-  std::vector<GateFailure> failures;  ///< expectations that do not hold
-  bool complete = true;               ///< false when the observer ended it early
+  std::vector<RunRecord> runs;      ///< one per seed, in order
+  std::vector<GateCheck> failures;  ///< expectations that do not hold over all seeds
+  bool complete = true;             ///< false when the observer ended it early
   std::filesystem::path folder;
   std::vector<std::string> warnings;  ///< e.g. a picture that could not be drawn
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,19 +11,28 @@
 
 namespace aims {
 
-/// An expectation that does not hold in one run.
-struct GateFailure {
-  std::string scenario;
-  std::uint64_t seed = 0;
+/// An expectation held against the runs of one scenario.
+struct GateCheck {
   Expectation expectation;
-  std::optional<double> value;  ///< empty: the run has no such score
+  std::optional<double> value;       ///< of the statistic; empty: a run has no such score
+  std::vector<std::uint64_t> seeds;  ///< that decide: the worst one, or all
+  bool holds = false;
 };
 
-/// The expectations of the scenario that the run does not hold; those of estimators that did not
-/// run do not count.
-std::vector<GateFailure> failed_gates(const Scenario& scenario, const RunRecord& record);
+/// Every expectation of the scenario whose estimator ran, over all `runs`. A score that has no
+/// value in some run holds no limit, whichever statistic is asked for.
+std::vector<GateCheck> check_gates(const Scenario& scenario, std::span<const RunRecord> runs);
 
-/// One line: scenario, seed, figure, limit.
-std::string text_of(const GateFailure& failure);
+/// Those of the checks that do not hold.
+std::vector<GateCheck> failed(std::vector<GateCheck> checks);
+
+/// The check as results hold it; a limit that is none is null.
+Json gate_json(const GateCheck& check);
+
+/// One line: scenario, seeds, figure, limit.
+std::string text_of(const Scenario& scenario, const GateCheck& check);
+
+/// The command that repeats what decided the check.
+std::string reproducing_command(const Scenario& scenario, const GateCheck& check);
 
 }  // namespace aims

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "harness/output_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <system_error>
 #include <utility>
@@ -48,22 +45,12 @@ std::vector<fs::path> missing_parents(const fs::path& path) {
   return missing;
 }
 
-/// Descriptor of the folder's lock, or -1 when another process holds it or it cannot be made.
-int take_lock(const fs::path& folder) {
-  const int descriptor = open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (descriptor < 0) return -1;
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  close(descriptor);
-  return -1;
-}
-
 /// Removes a partial folder that no living run holds. False when one does.
 bool clear_stale(const fs::path& partial) {
-  const int lock = take_lock(partial);
-  if (lock < 0) return false;
+  const auto lock = FolderLock::take(partial);
+  if (!lock) return false;
   std::error_code code;
   fs::remove_all(partial, code);
-  close(lock);
   return !code;
 }
 
@@ -72,7 +59,7 @@ bool clear_stale(const fs::path& partial) {
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : final_(std::move(other.final_)),
       partial_(std::exchange(other.partial_, {})),
-      lock_(std::exchange(other.lock_, -1)),
+      lock_(std::move(other.lock_)),
       new_parents_(std::exchange(other.new_parents_, {})) {}
 
 OutputFolder::~OutputFolder() {
@@ -81,7 +68,6 @@ OutputFolder::~OutputFolder() {
     fs::remove_all(partial_, ignored);
     for (const fs::path& parent : new_parents_) fs::remove(parent, ignored);
   }
-  if (lock_ >= 0) close(lock_);
 }
 
 Result<OutputFolder> OutputFolder::create(const fs::path& given, bool overwrite) {
@@ -100,8 +86,8 @@ Result<OutputFolder> OutputFolder::create(const fs::path& given, bool overwrite)
   std::error_code code;
   fs::create_directories(partial, code);
   if (code) return file_failure(partial, "cannot create the folder", code);
-  folder.lock_ = take_lock(partial);
-  if (folder.lock_ < 0) return failure(fmt::format("{}: cannot write there", partial.string()));
+  if (auto lock = FolderLock::take(partial)) folder.lock_.emplace(std::move(*lock));
+  if (!folder.lock_) return failure(fmt::format("{}: cannot write there", partial.string()));
   return folder;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
+#include "harness/folder_lock.hpp"
 
 namespace aims {
 
@@ -32,8 +34,8 @@ class OutputFolder {
   OutputFolder() = default;
 
   std::filesystem::path final_;
-  std::filesystem::path partial_;  ///< empty once committed or moved from
-  int lock_ = -1;                  ///< descriptor that keeps other runs out; -1 when not held
+  std::filesystem::path partial_;                   ///< empty once committed or moved from
+  std::optional<FolderLock> lock_;                  ///< keeps other runs out
   std::vector<std::filesystem::path> new_parents_;  ///< made on the way, innermost first
 };
 

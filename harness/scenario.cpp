@@ -52,7 +52,14 @@ Result<void> check(const Scenario& scenario) {
   }
   for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
     const std::string key = fmt::format("expect.{}.estimator", i);
-    if (auto known = check_estimator(key, scenario.expect[i].estimator); !known) return known;
+    const Expectation& expectation = scenario.expect[i];
+    if (auto known = check_estimator(key, expectation.estimator); !known) return known;
+    if (expectation.min == -kNoLimit && expectation.max == kNoLimit) {
+      return failure(fmt::format("expect.{}: expected a limit, max or min", i));
+    }
+    if (expectation.min > expectation.max) {
+      return failure(fmt::format("expect.{}.min: is above max, so that nothing can pass", i));
+    }
   }
   return {};
 }
@@ -63,6 +70,12 @@ void describe(Fields& f, Expectation& e) {
   f.text("estimator", e.estimator, {.meaning = "estimator whose score is limited"});
   f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
   f.number("max", e.max, {.unit = "as the score", .meaning = "largest value that passes"});
+  f.number("min", e.min, {.unit = "as the score", .meaning = "smallest value that passes"});
+  f.choice("statistic", e.statistic,
+           {{"worst", GateStatistic::kWorst},
+            {"median", GateStatistic::kMedian},
+            {"mean", GateStatistic::kMean}},
+           {.meaning = "what of the score over several seeds is limited"});
 }
 
 void describe(Fields& f, Scenario& s) {
@@ -89,6 +102,7 @@ Error located(const Scenario& scenario, const Error& error) {
 Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides) {
   Scenario scenario;
   scenario.file = file;
+  scenario.overrides.assign(overrides.begin(), overrides.end());
   scenario.name = file.stem().string();
   if (auto loaded = load_config(file, scenario); !loaded) return tl::unexpected(loaded.error());
   if (auto applied = apply_overrides(scenario, overrides); !applied) {

@@ -14,18 +14,32 @@
 
 namespace aims {
 
-/// An upper limit that a run must hold, or it fails (exit code 1).
+/// What of a score over several seeds is held against the limits.
+enum class GateStatistic {
+  kWorst,   ///< the largest against `max`, the smallest against `min`
+  kMedian,  ///< the middle
+  kMean,    ///< of `success`: the share of seeds
+};
+
+/// A limit that is none.
+inline constexpr double kNoLimit = 1e300;
+
+/// Limits that a score must hold over the seeds of an invocation, or it fails (exit code 1). `min`
+/// serves scores of which more is better, and errors that must not become small unnoticed.
 struct Expectation {
-  std::string estimator;  ///< name in the registry
-  std::string score;      ///< dotted key inside the estimator's scores, e.g. "m_list_percent.a-b"
-  double max = 0.0;       ///< in the score's own unit
+  std::string estimator;   ///< name in the registry
+  std::string score;       ///< dotted key inside the estimator's scores, e.g. "m_list_percent.a-b"
+  double max = kNoLimit;   ///< in the score's own unit
+  double min = -kNoLimit;  ///< in the score's own unit
+  GateStatistic statistic = GateStatistic::kWorst;
 
   bool operator==(const Expectation&) const = default;
 };
 
 /// One experiment: the world, the walk, the sensors, who estimates, and what is expected.
 struct Scenario {
-  std::filesystem::path file;  ///< where it was read from, for messages; empty: nowhere
+  std::filesystem::path file;          ///< where it was read from, for messages; empty: nowhere
+  std::vector<std::string> overrides;  ///< "key=value" that were applied on top of the file
   std::string name;
   std::string description;
   std::vector<std::string> tags;

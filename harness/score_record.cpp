@@ -5,15 +5,14 @@
 #include <cmath>
 #include <utility>
 
+#include "estimator/registry.hpp"
 #include "eval/statistics.hpp"
 #include "harness/gates.hpp"
 
 namespace aims {
 namespace {
 
-Json json_of(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json();
-}
+using aims::json_of;
 
 template <class Part, class Member>
 Json json_of(const std::optional<Part>& part, Member Part::*member) {
@@ -108,18 +107,8 @@ Json times_json(const RunResult& result, double drawing_s) {
 
 Json gates_json(const Scenario& scenario, const RunRecord& record) {
   Json gates = Json::array();
-  const std::vector<GateFailure> failures = failed_gates(scenario, record);
-  for (const Expectation& expectation : scenario.expect) {
-    const bool holds = std::none_of(failures.begin(), failures.end(), [&](const auto& failure) {
-      return failure.expectation == expectation;
-    });
-    gates.push_back(
-        {{"estimator", expectation.estimator},
-         {"score", expectation.score},
-         {"max", expectation.max},
-         {"value", json_of(find_score(record, expectation.estimator, expectation.score))},
-         {"holds", holds}});
-  }
+  for (const GateCheck& check : check_gates(scenario, {&record, 1}))
+    gates.push_back(gate_json(check));
   return gates;
 }
 
@@ -137,6 +126,10 @@ void visit_leaves(const Json& json, const std::string& prefix, const Visit& visi
 }
 
 }  // namespace
+
+Json json_of(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json();
+}
 
 RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s) {
   RunRecord record;
@@ -159,6 +152,23 @@ RunRecord record_of(const Scenario& scenario, const RunResult& result, double dr
   }
   record.scores["gates"] = gates_json(scenario, record);
   return record;
+}
+
+void take_estimators(const Scenario& scenario, const RunRecord& from, RunRecord& record) {
+  Json merged = Json::object();
+  for (const EstimatorEntry& entry : estimator_registry()) {
+    const std::string name(entry.name);
+    for (const RunRecord* each : {&std::as_const(record), &from}) {
+      const Json& estimators = each->scores.at("estimators");
+      if (!merged.contains(name) && estimators.contains(name)) merged[name] = estimators[name];
+    }
+  }
+  for (const auto& [name, seconds] : from.scores["times_s"]["estimators"].items()) {
+    Json& times = record.scores["times_s"]["estimators"];
+    if (merged.contains(name) && !times.contains(name)) times[name] = seconds;
+  }
+  record.scores["estimators"] = std::move(merged);
+  record.scores["gates"] = gates_json(scenario, record);
 }
 
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,

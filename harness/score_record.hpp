@@ -17,6 +17,9 @@ using Json = nlohmann::ordered_json;
 /// Version of the layout of scores.json; see docs/results.md.
 inline constexpr std::string_view kScoresSchema = "aims.scores/1";
 
+/// The number, or null for none and for what is not finite.
+Json json_of(const std::optional<double>& value);
+
 /// What scores.json holds of one run.
 struct RunRecord {
   std::uint64_t seed = 0;
@@ -25,6 +28,10 @@ struct RunRecord {
 
 /// The record of a run; `drawing_s` is the wall time [s] spent on its pictures.
 RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s);
+
+/// Adds to `record` the estimators of `from` that it does not have; both are of the same scenario
+/// and seed. Gates follow; the order becomes that of the registry.
+void take_estimators(const Scenario& scenario, const RunRecord& from, RunRecord& record);
 
 /// One number of an estimator in a record, by dotted key ("m_list_percent.a-b"); empty when it has
 /// no value (a segment not walked, a lost estimator) or does not exist.

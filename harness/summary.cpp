@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "eval/statistics.hpp"
+#include "harness/gates.hpp"
 #include "harness/score_table.hpp"
 #include "harness/tables.hpp"
 #include "io/atomic_file.hpp"
@@ -12,18 +13,20 @@
 namespace aims {
 namespace {
 
-Json json_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
 Json summary_json(const Scenario& scenario, std::span<const RunRecord> runs) {
   Json summary = {{"schema", "aims.summary/1"}, {"scenario", scenario.name}};
   for (const RunRecord& run : runs) summary["seeds"].push_back(run.seed);
   for (const auto& [estimator, unused] : runs.front().scores["estimators"].items()) {
     for (const std::string& key : score_keys(runs.front(), estimator)) {
       const ScoreSummary over_seeds = summarize(runs, estimator, key);
-      summary["estimators"][estimator][key] = {{"median", json_or_null(over_seeds.median)},
-                                               {"worst", json_or_null(over_seeds.worst)},
+      summary["estimators"][estimator][key] = {{"median", json_of(over_seeds.median)},
+                                               {"worst", json_of(over_seeds.worst)},
                                                {"count", over_seeds.count}};
     }
+  }
+  summary["gates"] = Json::array();
+  for (const GateCheck& check : check_gates(scenario, runs)) {
+    summary["gates"].push_back(gate_json(check));
   }
   return summary;
 }

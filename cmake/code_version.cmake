@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Script: cmake -DROOT=... -DBUILD=... -DOUT=... -P code_version.cmake
+# Writes OUT, a source file with the hash of everything that decides what a run yields: the sources of the
+# libraries that simulate, estimate and score, the robot, and what compiled them. Only contents and names
+# inside the project count; OUT changes only when the hash does.
+set(digest "${BUILD}")
+foreach(folder core sim estimator eval models harness)
+  file(GLOB_RECURSE files RELATIVE ${ROOT} "${ROOT}/${folder}/*.hpp" "${ROOT}/${folder}/*.cpp"
+    "${ROOT}/${folder}/*.in" "${ROOT}/${folder}/*.xml")
+  if(folder STREQUAL "harness")  # the rest of it reports
+    list(FILTER files INCLUDE REGEX "harness/(run|score_record|timed_estimator)\\.")
+  endif()
+  list(SORT files)
+  foreach(file ${files})
+    file(SHA256 "${ROOT}/${file}" hash)
+    string(APPEND digest "\n${file} ${hash}")
+  endforeach()
+endforeach()
+string(SHA256 version "${digest}")
+string(SUBSTRING ${version} 0 16 version)
+set(text "// Written by cmake/code_version.cmake.
+#include \"harness/code_version.hpp\"
+
+namespace aims {
+std::string_view code_version() { return \"${version}\"; }
+}  // namespace aims
+")
+set(old "")
+if(EXISTS ${OUT})
+  file(READ ${OUT} old)
+endif()
+if(NOT old STREQUAL text)
+  file(WRITE ${OUT} "${text}")
+endif()

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/unit_id.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "harness/code_version.hpp"
+
+namespace aims {
+namespace {
+
+/// http://www.isthe.com/chongo/tech/comp/fnv
+std::uint64_t fnv1a(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
+}
+
+/// The scenario with what does not change a run's numbers taken out.
+std::string deciding_text(const Scenario& scenario) {
+  Scenario bare;
+  bare.simulation = scenario.simulation;
+  bare.estimator = scenario.estimator;
+  bare.scoring = scenario.scoring;
+  return config_text(bare);
+}
+
+}  // namespace
+
+std::string unit_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator) {
+  return fmt::format("{:016x}", fnv1a(fmt::format("{}\n{}\n{}\n{}", code_version(), seed, estimator,
+                                                  deciding_text(scenario))));
+}
+
+}  // namespace aims

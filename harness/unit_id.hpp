@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "harness/scenario.hpp"
+
+namespace aims {
+
+/// Name of what one estimator yields on one seed of a scenario: 16 hexadecimal digits of a hash
+/// (FNV-1a, 64 bit) of everything that decides it, and of nothing else: the effective
+/// configuration of simulation, estimators and scoring, the seed, the estimator, the code's
+/// version. Names, descriptions, tags and expectations do not count, nor does where a file lies.
+std::string unit_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator);
+
+}  // namespace aims
