@@ -8,6 +8,18 @@
 #include "estimator/leg_velocity_model.hpp"
 
 namespace aims {
+namespace {
+
+/// What the filter says of its pose error, in body axes.
+void record_covariance(const Belief& belief, ScanDiagnostics& diagnostics) {
+  using E = ErrorState;
+  const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
+  const Eigen::Matrix3d position = block(belief.covariance, E::kPosition, E::kPosition);
+  diagnostics.position_covariance = R.transpose() * position * R;
+  diagnostics.rotation_covariance = block(belief.covariance, E::kRotation, E::kRotation);
+}
+
+}  // namespace
 
 EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& member,
                              const SensorRig& rig)
@@ -149,6 +161,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   }
   renew_clone();
   extend_map();
+  record_covariance(belief_, diagnostics);
   report_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   report_.diagnostics.push_back(diagnostics);
 }

@@ -34,6 +34,8 @@ struct ScanDiagnostics {
   double condition_number = 0.0;     ///< of the translation information
   double leg_innovation = 0.0;       ///< norm of the last leg innovation, over its interval [m/s]
   int leg_updates = 0;               ///< since the last scan
+  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< after it, body axes [m^2]
+  Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();  ///< after it, body axes [rad^2]
 };
 
 /// What an estimator has found so far.

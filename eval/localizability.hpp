@@ -62,7 +62,7 @@ struct DegeneracyLevel {
 
 /// The limits in use, strictest first. See docs/decisions.md for their choice.
 inline constexpr std::array<DegeneracyLevel, 3> kDegeneracyLevels = {
-    {{"n10", 10.0}, {"n30", 30.0}, {"n100", 100.0}}};
+    {{"n10", 10.0}, {"n100", 100.0}, {"n1000", 1000.0}}};
 
 /// True when the sweep holds less about its weak axis than the limit asks for.
 bool is_degenerate(const Localizability& scan, const DegeneracyLevel& level);

@@ -36,6 +36,9 @@ Result<void> write_results(const Scenario& scenario, const RunResult& result,
   if (written)
     written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory, kTruthSpacing));
   if (written) written = write_csv(folder / "passages.csv", passages_table(result.truth.passages));
+  if (written)
+    written =
+        write_csv(folder / "localizability.csv", localizability_table(result.localizability));
   for (const EstimatorOutcome& outcome : result.estimators) {
     if (written) written = write_estimator(outcome, folder);
   }

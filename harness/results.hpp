@@ -9,8 +9,8 @@
 
 namespace aims {
 
-/// Writes a run into `folder`: scores.json, scores.csv, config.yaml, truth.tum, passages.csv and
-/// per estimator trajectory (TUM) and diagnostics (CSV). The files are described in
+/// Writes a run into `folder`: scores.json, scores.csv, config.yaml, truth.tum, passages.csv,
+/// localizability.csv and per estimator trajectory (TUM) and diagnostics (CSV). The files are described in
 /// docs/results.md.
 Result<void> write_results(const Scenario& scenario, const RunResult& result,
                            const RunRecord& record, const std::filesystem::path& folder);

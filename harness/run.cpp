@@ -69,13 +69,17 @@ bool stream(Simulation& simulation, std::vector<TimedEstimator>& estimators, int
 }
 
 EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result,
-                            const ScoreConfig& scoring) {
+                            const Scenario& scenario) {
+  const ScoreConfig& scoring = scenario.scoring;
   EstimatorOutcome outcome;
   outcome.name = timed.name();
   outcome.report = timed.estimator().report();
   outcome.map = timed.estimator().map_points();
   outcome.scores =
       score(outcome.report.trajectory, result.truth_trajectory, result.truth.passages, scoring);
+  outcome.weak_axis =
+      weak_axis_scores_of(outcome.report, result.truth_trajectory, result.localizability, scoring,
+                          half_sweep(scenario.simulation));
   outcome.scan_times_ms = timed.scan_times_ms();
   outcome.wall_s = timed.total_seconds();
   return outcome;
@@ -99,8 +103,10 @@ Result<RunResult> run(const Scenario& scenario, const RunOptions& options,
   result.scene = simulation->scene();
   result.truth = simulation->truth();
   result.truth_trajectory = body_trajectory(result.truth);
+  result.localizability = run_localizability(scenario.simulation, simulation->rig(), result.truth,
+                                             result.truth_trajectory);
   for (const TimedEstimator& each : *estimators) {
-    result.estimators.push_back(outcome_of(each, result, scenario.scoring));
+    result.estimators.push_back(outcome_of(each, result, scenario));
   }
   result.wall_s = stopwatch.seconds();
   return result;

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "estimator/estimator.hpp"
 #include "eval/scores.hpp"
+#include "harness/run_localizability.hpp"
 #include "harness/scenario.hpp"
 #include "sim/environment/scene.hpp"
 #include "sim/simulation.hpp"
@@ -37,6 +38,7 @@ struct EstimatorOutcome {
   EstimatorReport report;
   std::vector<Eigen::Vector3f> map;  ///< in its odometry frame [m]
   Scores scores;
+  std::vector<WeakAxisScore> weak_axis;  ///< error along what the LiDAR cannot see
   std::vector<double> scan_times_ms;
   double wall_s = 0.0;
 };
@@ -51,6 +53,7 @@ struct RunResult {
   Scene scene;
   Truth truth;
   Trajectory truth_trajectory;  ///< T_world_body at the physics rate
+  RunLocalizability localizability;  ///< what the sweeps allow to know
   std::vector<EstimatorOutcome> estimators;
 };
 

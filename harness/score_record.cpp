@@ -61,6 +61,45 @@ void add_relative_errors(Json& json, const Scores& scores) {
   }
 }
 
+Json weak_axis_json(const std::vector<WeakAxisScore>& scores) {
+  Json json = Json::object();
+  for (const WeakAxisScore& score : scores) {
+    json[score.level] = {{"scans", score.scans},
+                         {"error_rms_m", json_of(score.error_rms_m)},
+                         {"bound_rms_m", json_of(score.bound_rms_m)},
+                         {"efficiency", json_of(score.efficiency)},
+                         {"nees", json_of(score.nees)}};
+  }
+  return json;
+}
+
+/// What the run's sweeps allow to know, whoever estimates.
+Json localizability_json(const RunLocalizability& run) {
+  std::vector<double> returns;
+  for (const Localizability& scan : run.scans) returns.push_back(scan.equivalent_returns);
+  Json share = Json::object();
+  for (const DegeneracyLevel& level : kDegeneracyLevels) {
+    const auto degenerate = std::count_if(
+        run.scans.begin(), run.scans.end(),
+        [&level](const Localizability& scan) { return is_degenerate(scan, level); });
+    share[std::string(level.name)] =
+        run.scans.empty()
+            ? Json()
+            : Json(static_cast<double>(degenerate) / static_cast<double>(run.scans.size()));
+  }
+  Json bound;
+  if (!run.bounds.empty()) {
+    const PosteriorBound& end = run.bounds.back();
+    bound = {{"along", json_of(end.along)},
+             {"lateral", json_of(end.lateral)},
+             {"vertical", json_of(end.vertical)}};
+  }
+  return {{"scans", run.scans.size()},
+          {"median_equivalent_returns", json_of(median(returns))},
+          {"degenerate_share", std::move(share)},
+          {"bound_end_m", std::move(bound)}};
+}
+
 Json estimator_json(const EstimatorOutcome& outcome) {
   const Scores& scores = outcome.scores;
   Json json;
@@ -79,6 +118,7 @@ Json estimator_json(const EstimatorOutcome& outcome) {
   json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
   add_relative_errors(json, scores);
   json["drift_m"] = drift_json(scores.drift);
+  json["weak_axis"] = weak_axis_json(outcome.weak_axis);
   json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
   json["poses"] = scores.poses;
   json["counts"] = outcome.report.counts;
@@ -146,7 +186,8 @@ RunRecord record_of(const Scenario& scenario, const RunResult& result, double dr
       {"realtime_factor", wall_s > 0.0 ? result.simulated_s / wall_s : 0.0},
       {"times_s", times_json(result, drawing_s)},
       {"robot", {{"fell", result.truth.fell}, {"touched_wall", result.truth.touched_wall}}},
-      {"segments", segments_json(result)}};
+      {"segments", segments_json(result)},
+      {"localizability", localizability_json(result.localizability)}};
   for (const EstimatorOutcome& outcome : result.estimators) {
     record.scores["estimators"][outcome.name] = estimator_json(outcome);
   }

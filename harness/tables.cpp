@@ -29,10 +29,27 @@ const std::vector<std::string> kDiagnosticsHeader = {"stamp_s",
                                                      "condition_number",
                                                      "leg_innovation",
                                                      "leg_updates",
+                                                     "position_covariance_xx",
+                                                     "position_covariance_xy",
+                                                     "position_covariance_xz",
+                                                     "position_covariance_yy",
+                                                     "position_covariance_yz",
+                                                     "position_covariance_zz",
+                                                     "rotation_covariance_xx",
+                                                     "rotation_covariance_xy",
+                                                     "rotation_covariance_xz",
+                                                     "rotation_covariance_yy",
+                                                     "rotation_covariance_yz",
+                                                     "rotation_covariance_zz",
                                                      "time_ms"};
 
 void add_vector(CsvTable& table, const Eigen::Vector3d& v) {
   table.add(v.x()).add(v.y()).add(v.z());
+}
+
+/// The upper triangle of a symmetric matrix, row by row.
+void add_symmetric(CsvTable& table, const Eigen::Matrix3d& m) {
+  table.add(m(0, 0)).add(m(0, 1)).add(m(0, 2)).add(m(1, 1)).add(m(1, 2)).add(m(2, 2));
 }
 
 }  // namespace
@@ -49,6 +66,8 @@ CsvTable diagnostics_table(const EstimatorOutcome& outcome) {
     add_vector(table, d.innovation_position);
     table.add(d.smallest_eigenvalue).add(d.condition_number);
     table.add(d.leg_innovation).add(d.leg_updates);
+    add_symmetric(table, d.position_covariance);
+    add_symmetric(table, d.rotation_covariance);
     if (i < outcome.scan_times_ms.size()) table.add(outcome.scan_times_ms[i]);
     table.end_row();
   }
