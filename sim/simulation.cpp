@@ -67,7 +67,8 @@ std::vector<Passage> passages_since(const RouteFollower& route, Time start) {
 Result<void> check_route(const SimulationConfig& config, const Scene& scene, const World& world) {
   for (std::size_t i = 0; i < config.route.points.size(); ++i) {
     const RoutePoint& p = config.route.points[i];
-    const Eigen::Vector3d at(p.x, p.y, config.robot.gait.body_height);
+    const double ground = floor_height(scene.floor, p.x, p.y);
+    const Eigen::Vector3d at(p.x, p.y, ground + config.robot.gait.body_height);
     if (is_inside_solid(scene, at, kStartClearance)) {
       return failure(fmt::format(
           "route.points.{}: ({}, {}) is inside a wall or object of the scene", i, p.x, p.y));

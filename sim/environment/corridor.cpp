@@ -86,12 +86,19 @@ void add_clutter(const CorridorConfig& config, const Material& material, std::ui
   }
 }
 
-void add_ends_and_ceiling(const CorridorConfig& config, const Materials& materials,
-                          std::vector<Solid>& solids) {
+/// Half width of what closes the corridor: with the space behind glass, where there is any.
+double closed_half_width(const CorridorConfig& config) {
+  const double walls = outer_half_width(config.width, config.doors.depth);
+  if (config.glass.share <= 0.0) return walls;
+  return std::max(walls, 0.5 * config.width + config.glass.behind + kWallThickness);
+}
+
+void add_ends(const CorridorConfig& config, double height, const Materials& materials,
+              std::vector<Solid>& solids) {
   const Span along = extent(config);
   const Span outer = outer_extent(config);
-  const double half_width = outer_half_width(config.width, config.doors.depth);
-  const double top = config.height + kOverlap;
+  const double half_width = closed_half_width(config);
+  const double top = height + kOverlap;
   if (has_end(config, EndWalls::kStart)) {
     solids.push_back(
         cross_box({}, {outer.begin, along.begin}, half_width, -kOverlap, top, materials.wall));
@@ -100,11 +107,62 @@ void add_ends_and_ceiling(const CorridorConfig& config, const Materials& materia
     solids.push_back(
         cross_box({}, {along.end, outer.end}, half_width, -kOverlap, top, materials.wall));
   }
-  Solid ceiling = cross_box({}, outer, half_width, config.height, config.height + kWallThickness,
-                            materials.ceiling);
+}
+
+Solid ceiling_piece(const CorridorConfig& config, const Pose& T_world_line, const Span& x,
+                    double bottom, const Materials& materials) {
+  Solid ceiling = cross_box(T_world_line, x, closed_half_width(config), bottom,
+                            bottom + kWallThickness, materials.ceiling);
   ceiling.collides = false;
   ceiling.roof = true;
-  solids.push_back(ceiling);
+  return ceiling;
+}
+
+/// One level piece; over a ramp three, which keep the corridor's height over the floor.
+void add_ceiling(const CorridorConfig& config, const RampConfig& ramp, const Materials& materials,
+                 std::vector<Solid>& solids) {
+  const Span outer = outer_extent(config);
+  if (ramp.grade <= 0.0) {
+    solids.push_back(ceiling_piece(config, {}, outer, config.height, materials));
+    return;
+  }
+  const double end = ramp.start + ramp.length;
+  const double slope = std::atan(ramp.grade);
+  const Eigen::AngleAxisd tilt(-slope, Eigen::Vector3d::UnitY());
+  const Pose T_world_slope{Eigen::Quaterniond(tilt), {ramp.start, 0.0, config.height}};
+  solids.push_back(ceiling_piece(config, {}, {outer.begin, ramp.start}, config.height, materials));
+  solids.push_back(
+      ceiling_piece(config, T_world_slope, {0.0, ramp.length / std::cos(slope)}, 0.0, materials));
+  // Its bottom lies above the slope's where the two overlap.
+  solids.push_back(ceiling_piece(config, {}, {end - kOverlap, outer.end},
+                                 config.height + ramp_rise(ramp), materials));
+}
+
+/// Doors stand on the floor under their middle.
+std::vector<Opening> openings_over(const std::vector<Span>& doors, double height,
+                                   const RampConfig& ramp) {
+  std::vector<Opening> openings;
+  for (const Span& door : doors) {
+    openings.push_back({door, height + ramp_height(ramp, door.centre())});
+  }
+  return openings;
+}
+
+/// One wall with doors and glass, and behind glass a second wall without end.
+void add_side(const CorridorConfig& config, const RampConfig& ramp, Side which,
+              const std::vector<Span>& doors, const Materials& materials,
+              std::vector<Solid>& solids) {
+  const double height = config.height + ramp_rise(ramp);
+  const Span outer = outer_extent(config);
+  SideBuilder side({}, which, 0.5 * config.width, solids);
+  add_wall({outer, height, openings_over(doors, config.doors.height, ramp), config.doors.depth,
+            glass_panes(config.glass, extent(config), doors)},
+           materials, side);
+  if (config.glass.share > 0.0) {
+    const double behind = config.glass.behind;
+    side.box(outer, behind, behind + kWallThickness, -kOverlap, height + kOverlap, materials.wall);
+  }
+  add_pillars(config, pillar_spans(config, which, doors), materials, side);
 }
 
 Result<void> validate_pillars(const CorridorConfig& config) {
@@ -136,6 +194,14 @@ Result<void> validate(const CorridorConfig& config) {
     return doors;
   }
   if (const auto pillars = validate_pillars(config); !pillars) return pillars;
+  if (config.glass.share > 0.0) {
+    const double least = config.doors.depth + kDoorThickness + kWallThickness;
+    if (config.glass.behind <= least) {
+      return failure(
+          fmt::format("scene.corridor.glass.behind: expected more than {} m (the wall), got {}",
+                      least, config.glass.behind));
+    }
+  }
   const double widest = config.width - 0.2;
   if (config.clutter.density > 0.0 && config.clutter.lane_width > widest) {
     return failure(fmt::format(
@@ -145,28 +211,25 @@ Result<void> validate(const CorridorConfig& config) {
   return {};
 }
 
-std::vector<Solid> corridor_solids(const CorridorConfig& config,
+std::vector<Solid> corridor_solids(const CorridorConfig& config, const RampConfig& ramp,
                                    const ReflectivityConfig& reflectivity, std::uint64_t seed) {
-  const Materials materials = building_materials(reflectivity);
-  const DoorConfig& doors = config.doors;
+  Materials materials = building_materials(reflectivity);
+  materials.glass = glass_material(config.glass);
   std::vector<Solid> solids;
   for (const Side which : {Side::kLeft, Side::kRight}) {
     const char* stream = which == Side::kLeft ? "scene.doors.left" : "scene.doors.right";
-    const std::vector<Span> openings = door_openings(doors, extent(config), which, seed, stream);
-    SideBuilder side({}, which, 0.5 * config.width, solids);
-    add_wall({outer_extent(config), config.height, openings, doors.depth, doors.height}, materials,
-             side);
-    add_pillars(config, pillar_spans(config, which, openings), materials, side);
+    const auto doors = door_openings(config.doors, extent(config), which, seed, stream);
+    add_side(config, ramp, which, doors, materials, solids);
   }
-  add_ends_and_ceiling(config, materials, solids);
+  add_ends(config, config.height + ramp_rise(ramp), materials, solids);
+  add_ceiling(config, ramp, materials, solids);
   add_clutter(config, materials.clutter, seed, solids);
   return solids;
 }
 
 Floor corridor_floor(const CorridorConfig& config) {
   const Span along = extent(config);
-  const double half_width =
-      0.5 * config.width + config.doors.depth + kWallThickness + kDoorThickness;
+  const double half_width = closed_half_width(config);
   Floor floor;
   floor.min_corner = {along.begin - kWallThickness, -half_width};
   floor.max_corner = {along.end + kWallThickness, half_width};

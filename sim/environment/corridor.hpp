@@ -10,7 +10,7 @@ namespace aims {
 Result<void> validate(const CorridorConfig& config);
 
 /// Walls, ceiling, doors, pillars and clutter of a valid corridor.
-std::vector<Solid> corridor_solids(const CorridorConfig& config,
+std::vector<Solid> corridor_solids(const CorridorConfig& config, const RampConfig& ramp,
                                    const ReflectivityConfig& reflectivity, std::uint64_t seed);
 
 /// The rectangle of floor that the corridor stands on.

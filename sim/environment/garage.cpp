@@ -43,10 +43,10 @@ Material shaded(Material material, float shade) {
 
 /// A wall of the hall from one point of its own line to another; the hall is on the right.
 void add_hall_wall(const Pose& T_world_line, const Span& outer, const Hall& hall,
-                   std::vector<Span> doors, double door_depth, double door_height,
+                   const std::vector<Span>& doors, double door_depth, double door_height,
                    const Materials& materials, std::vector<Solid>& solids) {
   SideBuilder side(T_world_line, Side::kLeft, 0.0, solids);
-  add_wall({outer, hall.height, std::move(doors), door_depth, door_height}, materials, side);
+  add_wall({outer, hall.height, openings_at(doors, door_height), door_depth, {}}, materials, side);
 }
 
 /// A wall with a corridor's mouth at its line's origin, and the piece above the mouth.
@@ -168,10 +168,11 @@ CorridorArm arm_of(const GarageConfig& c, double length, std::uint64_t seed,
   arm.width = c.width;
   arm.height = c.height;
   arm.begin_closed = true;
-  arm.left = door_openings(c.doors, arm.along, Side::kLeft, seed, stream + ".left");
-  arm.right = door_openings(c.doors, arm.along, Side::kRight, seed, stream + ".right");
   arm.door_depth = c.doors.depth;
-  arm.door_height = c.doors.height;
+  arm.left = openings_at(door_openings(c.doors, arm.along, Side::kLeft, seed, stream + ".left"),
+                         c.doors.height);
+  arm.right = openings_at(door_openings(c.doors, arm.along, Side::kRight, seed, stream + ".right"),
+                          c.doors.height);
   return arm;
 }
 

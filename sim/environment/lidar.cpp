@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/environment/people.hpp"
+
 namespace aims {
 namespace {
 
@@ -178,6 +180,9 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
     reflectivity_.push_back(static_cast<float>(material.reflectivity));
   }
   const std::vector<bool> alive = living_rings(config, run_seed);
+  for (const Person& person : caster.people()) {
+    reflectivity_.push_back(static_cast<float>(person.material.reflectivity));
+  }
   const int blocks = (config.columns + kRayPacketSize - 1) / kRayPacketSize;
   for (int block = 0; block < blocks; ++block) {
     for (int ring = 0; ring < config.rings; ++ring) {
@@ -217,7 +222,7 @@ LidarScan Lidar::sweep(Time start, const Trajectory& T_world_lidar, SweepTruth* 
     }
     const int block = first / kRayPacketSize;
     aim(block, poses);
-    receive(lanes);
+    receive(block, lanes, start);
     report(block, lanes, scan, truth);
   }
   return scan;
@@ -262,11 +267,19 @@ void Lidar::aim(int block, const std::vector<Pose>& column_poses) {
   }
 }
 
-void Lidar::receive(int lanes) {
+void Lidar::receive(int block, int lanes, Time start) {
   // Beyond the limit by more than the noise can bring back.
   const auto reach = static_cast<float>(config_.range_max + 6.0 * config_.range_sigma);
-  for (Returns& each : returns_) {
+  for (int ring = 0; ring < config_.rings; ++ring) {
+    Returns& each = returns_[ring];
     caster_->cast(each.rays, reach, each.hits, lanes);
+    if (!caster_->people().empty()) {
+      const Beams& beams = beams_[block * config_.rings + ring];
+      std::array<Time, kRayPacketSize> stamps;
+      for (int i = 0; i < kRayPacketSize; ++i) stamps[i] = start + beams.time_offset_ns[i];
+      meet_people(caster_->people(), each.rays, stamps, caster_->first_moving_surface(), reach,
+                  each.hits);
+    }
     const RayPacket& rays = each.rays;
     const HitPacket& hits = each.hits;
     for (int i = 0; i < kRayPacketSize; ++i) {

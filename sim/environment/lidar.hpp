@@ -62,9 +62,11 @@ double detection_probability(const LidarConfig& config, double reflectivity, dou
 /// What the returns of a sweep truly met, one entry per point of the scan.
 struct SweepTruth {
   std::vector<Eigen::Vector3f> normals;  ///< of the surface, in the world, towards the sensor
-  std::vector<int> surfaces;             ///< index into `RayCaster::materials`
-  std::vector<Eigen::Vector3f> points;   ///< where the beam met it, in the world, without noise [m]
-  std::vector<float> cosines;            ///< of the angle between beam and normal, in [0, 1]
+  /// Index into `RayCaster::materials`. From `RayCaster::first_moving_surface` on it was a person:
+  /// such a return says nothing about where the sensor is and should be left out of localizability.
+  std::vector<int> surfaces;
+  std::vector<Eigen::Vector3f> points;  ///< where the beam met it, in the world, without noise [m]
+  std::vector<float> cosines;           ///< of the angle between beam and normal, in [0, 1]
 };
 
 /// Simulates sweeps in a scene. Same configuration, seed and poses: the same bytes.
@@ -96,7 +98,7 @@ class Lidar {
   };
 
   void aim(int block, const std::vector<Pose>& column_poses);
-  void receive(int lanes);
+  void receive(int block, int lanes, Time start);
   void report(int block, int lanes, LidarScan& scan, SweepTruth* truth);
   bool detected(float strength, float range);
 

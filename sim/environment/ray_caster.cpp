@@ -14,7 +14,25 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-void attach(RTCDevice device, RTCScene scene, const TriangleMesh& mesh, unsigned surface) {
+/// Lets beams pass through glass unless they meet it steeply; the material is the user data.
+void pass_through_glass(const RTCFilterFunctionNArguments* arguments) {
+  const auto limit =
+      static_cast<float>(static_cast<const Material*>(arguments->geometryUserPtr)->return_cosine);
+  const unsigned n = arguments->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (arguments->valid[i] == 0) continue;
+    const Eigen::Vector3f direction(RTCRayN_dir_x(arguments->ray, n, i),
+                                    RTCRayN_dir_y(arguments->ray, n, i),
+                                    RTCRayN_dir_z(arguments->ray, n, i));
+    const Eigen::Vector3f normal(RTCHitN_Ng_x(arguments->hit, n, i),
+                                 RTCHitN_Ng_y(arguments->hit, n, i),
+                                 RTCHitN_Ng_z(arguments->hit, n, i));
+    if (std::abs(direction.dot(normal)) < limit * normal.norm()) arguments->valid[i] = 0;
+  }
+}
+
+void attach(RTCDevice device, RTCScene scene, const TriangleMesh& mesh, unsigned surface,
+            const Material& material) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, 3 * sizeof(float),
@@ -27,6 +45,11 @@ void attach(RTCDevice device, RTCScene scene, const TriangleMesh& mesh, unsigned
                               3 * sizeof(std::uint32_t), mesh.triangles.size()));
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) *indices++ = index;
+  }
+  if (material.return_cosine > 0.0) {
+    // Embree hands the pointer back as it was given; nothing writes through it.
+    rtcSetGeometryUserData(geometry, const_cast<Material*>(&material));
+    rtcSetGeometryIntersectFilterFunction(geometry, pass_through_glass);
   }
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
   rtcCommitGeometry(geometry);
@@ -85,6 +108,7 @@ struct RayCaster::Impl {
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene scene = rtcNewScene(device);
   std::vector<Material> materials;
+  std::vector<Person> people;
   std::size_t triangle_count = 0;
 
   Impl() = default;
@@ -95,18 +119,21 @@ struct RayCaster::Impl {
     rtcReleaseDevice(device);
   }
 
+  /// `materials` must have room: glass keeps a pointer to its own.
   void add(const TriangleMesh& mesh, const Material& material, bool visible) {
-    if (visible) {
-      attach(device, scene, mesh, static_cast<unsigned>(materials.size()));
-      triangle_count += mesh.triangles.size();
-    }
+    const auto surface = static_cast<unsigned>(materials.size());
     materials.push_back(material);
+    if (!visible) return;
+    attach(device, scene, mesh, surface, materials.back());
+    triangle_count += mesh.triangles.size();
   }
 };
 
 RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
+  impl_->people = scene.people;
+  impl_->materials.reserve(scene.solids.size() + 1);
   for (const Solid& solid : scene.solids) {
     impl_->add(triangulate(solid), solid.material, solid.visible);
   }
@@ -160,6 +187,8 @@ std::optional<RayHit> RayCaster::cast(const Eigen::Vector3d& origin,
 }
 
 const std::vector<Material>& RayCaster::materials() const { return impl_->materials; }
+
+const std::vector<Person>& RayCaster::people() const { return impl_->people; }
 
 std::size_t RayCaster::triangle_count() const { return impl_->triangle_count; }
 

@@ -36,7 +36,8 @@ struct RayHit {
   int surface = 0;                                    ///< index into `RayCaster::materials`
 };
 
-/// Finds what rays meet first in a scene: its visible solids and its floor. Casting is
+/// Finds what rays meet first in a scene: its visible solids and its floor. Through glass a ray
+/// passes unless it meets it steeply (`Material::return_cosine`). Casting is
 /// thread-safe, starts no threads, and yields the same bits for the same scene and rays.
 class RayCaster {
  public:
@@ -59,6 +60,11 @@ class RayCaster {
   /// The surface that is the floor.
   int floor_surface() const { return static_cast<int>(materials().size()) - 1; }
   std::size_t triangle_count() const;
+
+  /// The scene's people. They move, so that rays do not meet them here; see `meet_people`.
+  const std::vector<Person>& people() const;
+  /// Surface of the first person; the next ones follow. What moves has a surface of at least that.
+  int first_moving_surface() const { return static_cast<int>(materials().size()); }
 
  private:
   struct Impl;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/lie.hpp"
+#include "core/time.hpp"
 
 namespace aims {
 
@@ -12,6 +13,8 @@ namespace aims {
 struct Material {
   double reflectivity = 0.5;  ///< diffuse, at the LiDAR's wavelength, in [0, 1]
   Eigen::Vector3f color = Eigen::Vector3f(0.75F, 0.75F, 0.72F);  ///< RGB in [0, 1]
+  /// Of glass: smallest cosine of incidence that returns a beam; others pass through. 0: opaque.
+  double return_cosine = 0.0;
 };
 
 enum class Shape { kBox, kCylinder };
@@ -34,15 +37,38 @@ struct Floor {
   Eigen::Vector2d max_corner = Eigen::Vector2d(10.0, 10.0);    ///< [m]
   int columns = 0;                                             ///< grid points along x
   int rows = 0;                                                ///< grid points along y
-  std::vector<float> heights;  ///< [m], row by row (x runs fastest), at most 0.02 for bumps
+  std::vector<float> heights;  ///< [m], at least 0, row by row (x runs fastest)
   Material material;
 };
+
+/// Somebody who walks up and down between two points at a constant speed, as an upright cylinder.
+/// Seen by the LiDAR and the camera, but no part of the physics: people keep out of the way.
+struct Person {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< turning point [m]
+  Eigen::Vector2d to = Eigen::Vector2d::UnitX();   ///< the other one [m]
+  double speed = 1.0;                              ///< [m/s]
+  double start = 0.0;    ///< way done at time zero, in [0, twice the distance) [m]
+  double radius = 0.25;  ///< [m]
+  double height = 1.75;  ///< [m]
+  Material material;
+
+  /// Of the axis at a time of the simulation [m]; closed form.
+  Eigen::Vector2d position(Time stamp) const;
+};
+
+/// Height [m] of the floor's surface (two triangles per cell, as in every product); beyond the
+/// floor's border, of the nearest point on it.
+double floor_height(const Floor& floor, double x, double y);
 
 /// The one description from which physics, ray casting and pictures are built.
 struct Scene {
   Floor floor;
   std::vector<Solid> solids;
+  std::vector<Person> people;
 };
+
+/// The scene as it looks at one instant, for pictures: people become solids.
+Scene scene_at(const Scene& scene, Time stamp);
 
 /// True when `point` (world) is inside a solid, or nearer to one than `clearance` [m].
 bool is_inside_solid(const Scene& scene, const Eigen::Vector3d& point, double clearance);

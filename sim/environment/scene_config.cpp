@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/environment/scene_config.hpp"
 
+#include <fmt/format.h>
+
 #include "sim/environment/corridor.hpp"
 #include "sim/environment/height_field.hpp"
 
@@ -54,10 +56,15 @@ void describe(Fields& f, CorridorConfig& c) {
   f.group("doors", c.doors);
   f.group("pillars", c.pillars);
   f.group("clutter", c.clutter);
+  f.group("glass", c.glass);
 }
 
 void describe(Fields& f, SceneConfig& c) {
-  f.choice("kind", c.kind, {{"corridor", SceneKind::kCorridor}, {"garage", SceneKind::kGarage}},
+  f.choice("kind", c.kind,
+           {{"corridor", SceneKind::kCorridor},
+            {"garage", SceneKind::kGarage},
+            {"junction", SceneKind::kJunction},
+            {"tunnel", SceneKind::kTunnel}},
            {.meaning = "Which generator builds the surroundings."});
   f.integer("seed", c.seed,
             {.unit = "-",
@@ -69,15 +76,56 @@ void describe(Fields& f, SceneConfig& c) {
   f.group("bumps", c.bumps);
   f.group("reflectivity", c.reflectivity);
   f.group("corridor", c.corridor);
+  f.group("ramp", c.ramp);
+  f.group("people", c.people);
   f.group("garage", c.garage);
+  f.group("junction", c.junction);
+  f.group("tunnel", c.tunnel);
 }
 
+namespace {
+
+Result<void> validate_ramp(const SceneConfig& config) {
+  const RampConfig& ramp = config.ramp;
+  if (ramp.grade <= 0.0) return {};
+  if (config.bumps.height > 0.0) return failure("scene.ramp: a floor with a ramp has no bumps");
+  if (config.people.count > 0) return failure("scene.people: only on a level floor");
+  const double room = config.corridor.length + config.corridor.margin - ramp.start;
+  if (ramp.length > room) {
+    return failure(
+        fmt::format("scene.ramp.length: expected at most {} m (up to the corridor's end), got {}",
+                    room, ramp.length));
+  }
+  return {};
+}
+
+/// People who walk up and down the corridor, a metre short of its ends.
+std::vector<Person> corridor_people(const SceneConfig& config, std::uint64_t seed) {
+  constexpr double kShort = 1.0;  ///< [m]
+  const CorridorConfig& corridor = config.corridor;
+  return people_in_lanes(config.people, kShort - corridor.margin,
+                         corridor.length + corridor.margin - kShort, seed);
+}
+
+}  // namespace
+
 Result<void> validate(const SceneConfig& config) {
+  if (config.kind != SceneKind::kCorridor) {
+    if (config.ramp.grade > 0.0) return failure("scene.ramp: only a corridor can have a ramp");
+    if (config.people.count > 0) return failure("scene.people: only a corridor can have people");
+  }
   switch (config.kind) {
-    case SceneKind::kCorridor:
+    case SceneKind::kCorridor: {
+      if (auto ok = validate_ramp(config); !ok) return ok;
+      if (auto ok = validate(config.people, config.corridor.width); !ok) return ok;
       return validate(config.corridor);
+    }
     case SceneKind::kGarage:
       return validate(config.garage);
+    case SceneKind::kJunction:
+      return validate(config.junction);
+    case SceneKind::kTunnel:
+      return validate(config.tunnel);
   }
   return failure("unknown kind of scene");
 }
@@ -87,16 +135,26 @@ Scene build_scene(const SceneConfig& config, std::uint64_t run_seed) {
   Scene scene;
   switch (config.kind) {
     case SceneKind::kCorridor:
-      scene.solids = corridor_solids(config.corridor, config.reflectivity, seed);
+      scene.solids = corridor_solids(config.corridor, config.ramp, config.reflectivity, seed);
       scene.floor = corridor_floor(config.corridor);
+      scene.people = corridor_people(config, seed);
       break;
     case SceneKind::kGarage:
       scene.solids = garage_solids(config.garage, config.reflectivity, seed);
       scene.floor = garage_floor(config.garage);
       break;
+    case SceneKind::kJunction:
+      scene.solids = junction_solids(config.junction, config.reflectivity, seed);
+      scene.floor = junction_floor(config.junction);
+      break;
+    case SceneKind::kTunnel:
+      scene.solids = tunnel_solids(config.tunnel, config.reflectivity, seed);
+      scene.floor = tunnel_floor(config.tunnel);
+      break;
   }
   scene.floor.material = {config.reflectivity.floor, {0.55F, 0.57F, 0.60F}};
   add_bumps(config.bumps, seed, scene.floor);
+  add_ramp(config.ramp, scene.floor);
   return scene;
 }
 

@@ -7,7 +7,12 @@
 #include "core/error.hpp"
 #include "sim/environment/building_config.hpp"
 #include "sim/environment/garage.hpp"
+#include "sim/environment/glass.hpp"
+#include "sim/environment/junction.hpp"
+#include "sim/environment/people.hpp"
+#include "sim/environment/ramp.hpp"
 #include "sim/environment/scene.hpp"
+#include "sim/environment/tunnel.hpp"
 
 namespace aims {
 
@@ -45,9 +50,10 @@ struct CorridorConfig {
   DoorConfig doors;
   PillarConfig pillars;
   ClutterConfig clutter;
+  GlassConfig glass;
 };
 
-enum class SceneKind { kCorridor, kGarage };
+enum class SceneKind { kCorridor, kGarage, kJunction, kTunnel };
 
 /// What surrounds the robot.
 struct SceneConfig {
@@ -57,7 +63,11 @@ struct SceneConfig {
   BumpConfig bumps;
   ReflectivityConfig reflectivity;
   CorridorConfig corridor;
+  RampConfig ramp;      ///< in the corridor
+  PeopleConfig people;  ///< in the corridor
   GarageConfig garage;
+  JunctionConfig junction;
+  TunnelConfig tunnel;
 };
 
 void describe(Fields& fields, PillarConfig& config);

@@ -16,8 +16,10 @@ std::string text(const Eigen::Quaterniond& q) {
   return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z());
 }
 
-std::string rgba(const Eigen::Vector3f& color) {
-  return fmt::format("{} {} {} 1", color.x(), color.y(), color.z());
+std::string rgba(const Material& material) {
+  const Eigen::Vector3f& color = material.color;
+  const bool glass = material.return_cosine > 0.0;
+  return fmt::format("{} {} {} {}", color.x(), color.y(), color.z(), glass ? 0.3 : 1.0);
 }
 
 void set(pugi::xml_node node, const char* name, const std::string& value) {
@@ -80,7 +82,7 @@ class SceneWriter {
     set(geom, "size", box ? text(half) : fmt::format("{} {}", half.x(), half.z()));
     if (!render_) return;
     set(geom, "material", "scene_matte");
-    set(geom, "rgba", rgba(solid.material.color));
+    set(geom, "rgba", rgba(solid.material));
   }
 
   void add_floor() {

@@ -17,8 +17,8 @@ std::vector<double> regular_centres(const Span& along, double spacing) {
   return centres;
 }
 
-/// What is seen of a wall without openings, or with doors and a slab behind them.
-void add_faces(const Wall& wall, const Materials& materials, SideBuilder& side) {
+/// A stretch of wall without glass: plain, or with doors and a slab behind them.
+void add_solid_faces(const Wall& wall, const Materials& materials, SideBuilder& side) {
   const double top = wall.height + kOverlap;
   if (wall.openings.empty()) {
     side.box(wall.outer, 0.0, kWallThickness, -kOverlap, top, materials.wall);
@@ -26,19 +26,45 @@ void add_faces(const Wall& wall, const Materials& materials, SideBuilder& side) 
   }
   const double depth = wall.door_depth;
   const double back = depth + kDoorThickness;
-  side.box(wall.outer, depth + 0.5 * kDoorThickness, back + kWallThickness, -kOverlap, top,
+  side.box(wall.outer, depth + 0.5 * kDoorThickness, wall_depth(wall), -kOverlap, top,
            materials.wall);
   double begin = wall.outer.begin;
-  for (const Span& opening : wall.openings) {
-    side.box({begin, opening.begin}, 0.0, back, -kOverlap, top, materials.wall);
-    const Span behind{opening.begin - kOverlap, opening.end + kOverlap};
-    side.box(behind, depth, back, -kOverlap, wall.door_height + kOverlap, materials.door);
-    if (wall.door_height < wall.height) {
-      side.box(opening, 0.0, back, wall.door_height, top, materials.wall);
+  for (const Opening& opening : wall.openings) {
+    const Span& along = opening.along;
+    side.box({begin, along.begin}, 0.0, back, -kOverlap, top, materials.wall);
+    const Span behind{along.begin - kOverlap, along.end + kOverlap};
+    side.box(behind, depth, back, -kOverlap, opening.top + kOverlap, materials.door);
+    if (opening.top < wall.height) {
+      side.box(along, 0.0, back, opening.top, top, materials.wall);
     }
-    begin = opening.end;
+    begin = along.end;
   }
   side.box({begin, wall.outer.end}, 0.0, back, -kOverlap, top, materials.wall);
+}
+
+/// The part of a wall within a span, with the openings that lie in it and no glass.
+Wall stretch(const Wall& wall, const Span& span) {
+  Wall part = wall;
+  part.outer = span;
+  part.glass.clear();
+  std::erase_if(part.openings, [&](const Opening& opening) {
+    return opening.along.begin < span.begin || opening.along.end > span.end;
+  });
+  return part;
+}
+
+/// One wall of an arm, in two parts where it has a gap.
+void add_arm_wall(const CorridorArm& arm, Side which, const Span& outer, const Materials& materials,
+                  std::vector<Solid>& solids) {
+  SideBuilder side(arm.T_world_arm, which, 0.5 * arm.width, solids);
+  const bool left = which == Side::kLeft;
+  const Wall whole{outer, arm.height, left ? arm.left : arm.right, arm.door_depth, {}};
+  if (!left || !arm.left_gap) {
+    add_wall(whole, materials, side);
+    return;
+  }
+  add_wall(stretch(whole, {outer.begin, arm.left_gap->begin}), materials, side);
+  add_wall(stretch(whole, {arm.left_gap->end, outer.end}), materials, side);
 }
 
 }  // namespace
@@ -48,7 +74,8 @@ Materials building_materials(const ReflectivityConfig& reflectivity) {
           .ceiling = {reflectivity.ceiling, {0.93F, 0.93F, 0.92F}},
           .door = {reflectivity.door, {0.50F, 0.31F, 0.17F}},
           .pillar = {reflectivity.wall, {0.72F, 0.74F, 0.76F}},
-          .clutter = {reflectivity.clutter, {0.25F, 0.42F, 0.56F}}};
+          .clutter = {reflectivity.clutter, {0.25F, 0.42F, 0.56F}},
+          .glass = {reflectivity.wall, {0.62F, 0.80F, 0.84F}}};
 }
 
 Pose line_at(double x, double y, double heading) {
@@ -68,11 +95,32 @@ Solid& SideBuilder::box(const Span& x, double near, double far, double bottom, d
   return solids_.emplace_back(solid);
 }
 
-void add_wall(const Wall& wall, const Materials& materials, SideBuilder& side) {
-  Solid& slab = side.box(wall.outer, 0.0, kWallThickness, 0.0, wall.height, materials.wall);
+double wall_depth(const Wall& wall) {
+  return wall.openings.empty() ? kWallThickness : wall.door_depth + kDoorThickness + kWallThickness;
+}
+
+void add_wall_slab(const Span& outer, double height, const Materials& materials,
+                   SideBuilder& side) {
+  Solid& slab = side.box(outer, 0.0, kWallThickness, 0.0, height, materials.wall);
   slab.collides = true;
   slab.visible = false;
-  add_faces(wall, materials, side);
+}
+
+void add_wall_faces(const Wall& wall, const Materials& materials, SideBuilder& side) {
+  double begin = wall.outer.begin;
+  for (const Span& pane : wall.glass) {
+    if (pane.begin > begin) add_solid_faces(stretch(wall, {begin, pane.begin}), materials, side);
+    side.box(pane, 0.0, kGlassThickness, -kOverlap, wall.height + kOverlap, materials.glass);
+    begin = pane.end;
+  }
+  if (wall.outer.end > begin) {
+    add_solid_faces(stretch(wall, {begin, wall.outer.end}), materials, side);
+  }
+}
+
+void add_wall(const Wall& wall, const Materials& materials, SideBuilder& side) {
+  add_wall_slab(wall.outer, wall.height, materials, side);
+  add_wall_faces(wall, materials, side);
 }
 
 Solid cross_box(const Pose& T_world_line, const Span& x, double half_width, double bottom,
@@ -121,6 +169,12 @@ std::vector<Span> door_openings(const DoorConfig& doors, const Span& along, Side
   return openings;
 }
 
+std::vector<Opening> openings_at(const std::vector<Span>& spans, double top) {
+  std::vector<Opening> openings;
+  for (const Span& span : spans) openings.push_back({span, top});
+  return openings;
+}
+
 Result<void> validate_doors(const DoorConfig& doors, double wall_height, std::string_view key) {
   if (doors.sides == WallSides::kNone) return {};
   if (doors.width + 2.0 * doors.jitter >= doors.spacing) {
@@ -140,10 +194,7 @@ void add_arm(const CorridorArm& arm, const Materials& materials, std::vector<Sol
   if (arm.begin_closed) outer.begin -= kWallThickness;
   if (arm.end_closed) outer.end += kWallThickness;
   for (const Side which : {Side::kLeft, Side::kRight}) {
-    SideBuilder side(arm.T_world_arm, which, 0.5 * arm.width, solids);
-    add_wall({outer, arm.height, which == Side::kLeft ? arm.left : arm.right, arm.door_depth,
-              arm.door_height},
-             materials, side);
+    add_arm_wall(arm, which, outer, materials, solids);
   }
   const double half_width = outer_half_width(arm.width, arm.door_depth);
   const double top = arm.height + kOverlap;

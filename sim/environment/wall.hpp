@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace aims {
 
 inline constexpr double kWallThickness = 0.2;  ///< of plain and end walls [m]
 inline constexpr double kOverlap = 0.05;  ///< of pieces behind visible faces, against leaks [m]
-inline constexpr double kDoorThickness = 0.05;  ///< [m]
+inline constexpr double kGlassThickness = 0.01;  ///< [m]
+inline constexpr double kDoorThickness = 0.05;   ///< [m]
 
 enum class Side { kLeft, kRight };
 
@@ -27,7 +29,7 @@ struct Span {
 
 /// What the parts of a building are made of.
 struct Materials {
-  Material wall, ceiling, door, pillar, clutter;
+  Material wall, ceiling, door, pillar, clutter, glass;
 };
 Materials building_materials(const ReflectivityConfig& reflectivity);
 
@@ -56,17 +58,32 @@ class SideBuilder {
   std::vector<Solid>& solids_;
 };
 
-/// A straight wall with doors set back into it.
-struct Wall {
-  Span outer;           ///< of the wall, ends included
-  double height = 2.6;  ///< [m]
-  std::vector<Span> openings;
-  double door_depth = 0.15;   ///< of the doors' faces behind the wall's [m]
-  double door_height = 2.05;  ///< at most the wall's [m]
+/// An opening in a wall with a door set back into it.
+struct Opening {
+  Span along;
+  double top = 2.05;  ///< height of the lintel [m]
 };
+
+/// A straight wall with doors set back into it and panes of glass in it.
+struct Wall {
+  Span outer;                     ///< of the wall, ends included
+  double height = 2.6;            ///< [m]
+  std::vector<Opening> openings;  ///< in order
+  double door_depth = 0.15;       ///< of the doors' faces behind the wall's [m]
+  std::vector<Span> glass;        ///< in order, clear of the openings
+};
+
+/// How far a wall reaches behind its face [m].
+double wall_depth(const Wall& wall);
 
 /// The colliding slab, which nobody sees, and the pieces that are seen.
 void add_wall(const Wall& wall, const Materials& materials, SideBuilder& side);
+
+/// The pieces that are seen alone.
+void add_wall_faces(const Wall& wall, const Materials& materials, SideBuilder& side);
+
+/// The colliding slab alone.
+void add_wall_slab(const Span& outer, double height, const Materials& materials, SideBuilder& side);
 
 /// A box across a line, from `x.begin` to `x.end` along it and `half_width` [m] to either side.
 Solid cross_box(const Pose& T_world_line, const Span& x, double half_width, double bottom,
@@ -82,6 +99,9 @@ bool on_side(WallSides sides, Side side, int index);
 std::vector<Span> door_openings(const DoorConfig& doors, const Span& along, Side side,
                                 std::uint64_t seed, std::string_view stream);
 
+/// Openings over the spans, lintels `top` [m] high.
+std::vector<Opening> openings_at(const std::vector<Span>& spans, double top);
+
 /// Error for doors that do not fit; `key` names their group in the configuration.
 Result<void> validate_doors(const DoorConfig& doors, double wall_height, std::string_view key);
 
@@ -93,10 +113,10 @@ struct CorridorArm {
   double height = 2.6;  ///< [m]
   bool begin_closed = false;
   bool end_closed = false;
-  std::vector<Span> left;     ///< openings of doors
-  std::vector<Span> right;    ///< openings of doors
-  double door_depth = 0.15;   ///< [m]
-  double door_height = 2.05;  ///< [m]
+  std::vector<Opening> left;
+  std::vector<Opening> right;
+  double door_depth = 0.15;      ///< [m]
+  std::optional<Span> left_gap;  ///< where another corridor of that height begins
 };
 
 /// Walls, end walls and ceiling. An open end is flush with what it opens into: it has to stand in

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/environment/people.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/random.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kRobotHalfWidth = 0.4;  ///< with its sway about the centre line [m]
+
+/// Where a ray enters a standing cylinder.
+struct Entry {
+  double distance;  ///< [m]
+  Eigen::Vector3d normal;
+};
+
+std::optional<Entry> enter_cylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                    const Eigen::Vector2d& axis, double radius, double height) {
+  const Eigen::Vector2d to_axis = axis - origin.head<2>();
+  const double a = direction.head<2>().squaredNorm();
+  const double b = to_axis.dot(direction.head<2>());
+  const double c = to_axis.squaredNorm() - radius * radius;
+  const double discriminant = b * b - a * c;
+  if (c <= 0.0 || b <= 0.0 || discriminant <= 0.0) return std::nullopt;
+  const double root = std::sqrt(discriminant);
+  const double side = (b - root) / a;
+  const double z = origin.z() + side * direction.z();
+  if (z >= 0.0 && z <= height) {
+    const Eigen::Vector2d outwards = (side * direction.head<2>() - to_axis) / radius;
+    return Entry{side, {outwards.x(), outwards.y(), 0.0}};
+  }
+  // From above, a ray may come down on the cylinder's top before it leaves its side.
+  if (z <= height) return std::nullopt;
+  const double top = (height - origin.z()) / direction.z();
+  if (top < side || top > (b + root) / a) return std::nullopt;
+  return Entry{top, Eigen::Vector3d::UnitZ()};
+}
+
+/// False when no ray of the packet can meet the person: all pass by on one side.
+bool may_meet(const Person& person, const RayPacket& rays, Time stamp) {
+  constexpr double kSlack = 0.1;  ///< of motion within a packet, by far [m]
+  const Eigen::Vector2d axis = person.position(stamp);
+  int left = 0;
+  int right = 0;
+  for (const int lane : {0, kRayPacketSize - 1}) {
+    const Eigen::Vector2d to_axis(axis.x() - rays.origin_x[lane], axis.y() - rays.origin_y[lane]);
+    const Eigen::Vector2d direction(rays.direction_x[lane], rays.direction_y[lane]);
+    const double across = direction.x() * to_axis.y() - direction.y() * to_axis.x();
+    const double clear = (person.radius + kSlack) * direction.norm();
+    left += across > clear ? 1 : 0;
+    right += across < -clear ? 1 : 0;
+  }
+  return left < 2 && right < 2;
+}
+
+}  // namespace
+
+void describe(Fields& f, PeopleConfig& c) {
+  f.integer("count", c.count,
+            {.unit = "-", .range = in_range(0, 100), .meaning = "Who walk up and down."});
+  f.number("speed", c.speed,
+           {.unit = "m/s", .range = in_range(0.0, 3.0), .meaning = "Of walking."});
+  f.number("radius", c.radius,
+           {.unit = "m", .range = in_range(0.05, 0.5), .meaning = "Of the upright cylinder."});
+  f.number("height", c.height,
+           {.unit = "m", .range = in_range(0.5, 2.5), .meaning = "Of the upright cylinder."});
+  f.number("lane", c.lane,
+           {.unit = "m", .range = at_least(0), .meaning = "From the corridor's centre line."});
+  f.number("reflectivity", c.reflectivity,
+           {.unit = "-",
+            .range = {.min = 0.0, .max = 1.0, .min_included = false},
+            .meaning = "Of clothes."});
+}
+
+Result<void> validate(const PeopleConfig& config, double corridor_width) {
+  if (config.count == 0) return {};
+  const double least = kRobotHalfWidth + config.radius;
+  const double most = 0.5 * corridor_width - config.radius;
+  if (config.lane < least || config.lane > most) {
+    return failure(
+        fmt::format("scene.people.lane: expected {:.2f} to {:.2f} m (beside the robot, clear of "
+                    "the walls), got {}",
+                    least, most, config.lane));
+  }
+  return {};
+}
+
+std::vector<Person> people_in_lanes(const PeopleConfig& config, double begin, double end,
+                                    std::uint64_t seed) {
+  RandomStream random = rng(seed, "scene.people");
+  std::vector<Person> people;
+  for (int i = 0; i < config.count; ++i) {
+    Person& person = people.emplace_back();
+    const double y = random.chance(0.5) ? config.lane : -config.lane;
+    person.from = {begin, y};
+    person.to = {end, y};
+    person.speed = config.speed;
+    person.start = random.uniform(0.0, 2.0 * (end - begin));
+    person.radius = config.radius;
+    person.height = config.height;
+    person.material = {config.reflectivity, {0.22F, 0.32F, 0.50F}};
+  }
+  return people;
+}
+
+void meet_people(const std::vector<Person>& people, const RayPacket& rays,
+                 const std::array<Time, kRayPacketSize>& stamps, int first_surface,
+                 float max_distance, HitPacket& hits) {
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const Person& person = people[i];
+    if (!may_meet(person, rays, stamps[0])) continue;
+    for (int lane = 0; lane < kRayPacketSize; ++lane) {
+      const Eigen::Vector3d origin(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
+      const Eigen::Vector3d direction(rays.direction_x[lane], rays.direction_y[lane],
+                                      rays.direction_z[lane]);
+      const auto entry = enter_cylinder(origin, direction, person.position(stamps[lane]),
+                                        person.radius, person.height);
+      if (!entry || entry->distance >= hits.distance[lane] || entry->distance > max_distance) {
+        continue;
+      }
+      hits.distance[lane] = static_cast<float>(entry->distance);
+      hits.normal_x[lane] = static_cast<float>(entry->normal.x());
+      hits.normal_y[lane] = static_cast<float>(entry->normal.y());
+      hits.normal_z[lane] = static_cast<float>(entry->normal.z());
+      hits.surface[lane] = first_surface + static_cast<int>(i);
+    }
+  }
+}
+
+}  // namespace aims
