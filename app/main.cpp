@@ -21,6 +21,8 @@ constexpr const char* kFooter =
     "  aims run scenarios/corridor.yaml\n"
     "  aims run corridor --seed 1-5 --estimators aims,lio --out out/compare\n"
     "  aims run corridor --set lidar.range_max=30 --set estimator.degeneracy.eta=5\n"
+    "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
+    "  aims compare out/before out/after\n"
     "  aims list\n"
     "  aims config corridor\n"
     "Exit codes: 0 ok, 1 an expectation of the scenario failed, 2 bad usage or configuration,\n"
@@ -35,6 +37,8 @@ int parse_and_run(int argc, char** argv) {
       aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
   int exit_code = aims::kOk;
   aims::add_run_command(app, scenarios, exit_code);
+  aims::add_suite_command(app, scenarios, exit_code);
+  aims::add_compare_command(app, exit_code);
   aims::add_list_command(app, scenarios, exit_code);
   aims::add_config_command(app, scenarios, exit_code);
   try {

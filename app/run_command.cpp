@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <memory>
 #include <string>
 #include <thread>
@@ -10,6 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/interrupt.hpp"
 #include "app/progress_display.hpp"
 #include "harness/experiment.hpp"
 #include "harness/pictures.hpp"
@@ -20,14 +20,6 @@ namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Set by Ctrl-C; a second Ctrl-C ends the program at once.
-volatile std::sig_atomic_t interrupted = 0;
-
-void on_interrupt(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
 
 struct RunArguments {
   std::string scenario;
@@ -111,12 +103,12 @@ int run_command(const RunArguments& arguments, const fs::path& folder) {
   const auto options = options_of(arguments, *scenario);
   if (!options) return bad_input(options.error());
 
-  std::signal(SIGINT, on_interrupt);
+  watch_interrupt();
   ProgressDisplay display(scenario->name, arguments.quiet);
   const auto experiment =
       run_experiment(*scenario, *options, [&](std::uint64_t seed, const Progress& progress) {
         display.show(seed, progress);
-        return interrupted == 0;
+        return !interrupted();
       });
   display.close();
   if (!experiment) return bad_input(experiment.error());

@@ -29,19 +29,24 @@ Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& fo
 
 }  // namespace
 
-Result<void> write_results(const Scenario& scenario, const RunResult& result,
-                           const RunRecord& record, const fs::path& folder) {
+Result<void> write_streams(const Scenario& scenario, const RunResult& result,
+                           const fs::path& folder) {
   auto written =
       write_file_atomically(folder / "config.yaml", effective_config(scenario, result.seed));
   if (written)
     written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory, kTruthSpacing));
   if (written) written = write_csv(folder / "passages.csv", passages_table(result.truth.passages));
   if (written)
-    written =
-        write_csv(folder / "localizability.csv", localizability_table(result.localizability));
+    written = write_csv(folder / "localizability.csv", localizability_table(result.localizability));
   for (const EstimatorOutcome& outcome : result.estimators) {
     if (written) written = write_estimator(outcome, folder);
   }
+  return written;
+}
+
+Result<void> write_results(const Scenario& scenario, const RunResult& result,
+                           const RunRecord& record, const fs::path& folder) {
+  auto written = write_streams(scenario, result, folder);
   if (written) written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
   if (written)
     written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");

@@ -9,9 +9,13 @@
 
 namespace aims {
 
+/// Writes what a run's scores were made from: the files of `write_results` but the scores.
+Result<void> write_streams(const Scenario& scenario, const RunResult& result,
+                           const std::filesystem::path& folder);
+
 /// Writes a run into `folder`: scores.json, scores.csv, config.yaml, truth.tum, passages.csv,
-/// localizability.csv and per estimator trajectory (TUM) and diagnostics (CSV). The files are described in
-/// docs/results.md.
+/// localizability.csv and per estimator trajectory (TUM) and diagnostics (CSV). The files are
+/// described in docs/results.md.
 Result<void> write_results(const Scenario& scenario, const RunResult& result,
                            const RunRecord& record, const std::filesystem::path& folder);
 

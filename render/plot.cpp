@@ -120,7 +120,13 @@ void draw_panel(Canvas& canvas, const Rect& area, const Panel& panel) {
     if (!outline.empty()) outline.push_back(outline.front());
     canvas.line(outline, {kArea, 0.8});  // closes the seams between neighbours
   }
-  for (const Series& series : panel.series) canvas.line(pixels(series.points), series.stroke);
+  for (const Series& series : panel.series) {
+    canvas.line(pixels(series.points), series.stroke);
+    for (const Eigen::Vector2d& point : series.points) {
+      if (series.dot <= 0.0 || !point.allFinite()) continue;
+      canvas.disc(to_pixels(panel, area, point), series.dot, series.stroke.color);
+    }
+  }
   draw_marks(canvas, area, panel);
   canvas.unclip();
   draw_events(canvas, area, panel);

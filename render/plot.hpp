@@ -24,6 +24,7 @@ struct Series {
   std::string name;  ///< in the legend; empty: not there
   std::vector<Eigen::Vector2d> points;
   Stroke stroke;
+  double dot = 0.0;  ///< radius of a disc at each point [px]; 0: none
 };
 
 /// A labelled dot at a data point.
