@@ -48,6 +48,8 @@ void describe(Fields& f, InitializationConfig& c) {
   f.number("sigma_position", c.sigma_position,
            spec("m", positive(), "initial position, defined by the frame"));
   f.number("sigma_velocity", c.sigma_velocity, spec("m/s", positive(), "initial velocity"));
+  f.number("sigma_velocity_moving", c.sigma_velocity_moving,
+           spec("m/s", positive(), "initial velocity of a robot that was not seen standing"));
   f.number("sigma_gyro_bias", c.sigma_gyro_bias,
            spec("rad/s", positive(), "gyro bias after averaging"));
   f.number("sigma_accelerometer_bias", c.sigma_accelerometer_bias,
@@ -55,13 +57,13 @@ void describe(Fields& f, InitializationConfig& c) {
 }
 
 void describe(Fields& f, LegConfig& c) {
-  f.choice("measurement", c.measurement,
-           {{"velocity", LegMeasurement::kVelocity},
-            {"displacement", LegMeasurement::kDisplacement}},
-           spec("", any(),
-                "velocity at each packet's stamp, or displacement between scan ends with a cloned "
-                "pose; docs/decisions.md",
-                "paper: relative motion between consecutive states"));
+  f.choice(
+      "measurement", c.measurement,
+      {{"velocity", LegMeasurement::kVelocity}, {"displacement", LegMeasurement::kDisplacement}},
+      spec("", any(),
+           "velocity at each packet's stamp, or displacement between scan ends with a cloned "
+           "pose; docs/decisions.md",
+           "paper: relative motion between consecutive states"));
   f.number("rate_hz", c.rate_hz, spec("Hz", positive(), "nominal packet rate", "paper, III-A"));
   f.vector("velocity_sigma", c.velocity_sigma,
            spec("m/s", positive(), "error of one sample along the base's axes, R_leg"));
@@ -118,9 +120,11 @@ void describe(Fields& f, MapConfig& c) {
   f.number("plane_thickness", c.plane_thickness,
            spec("m", positive(), "the five neighbours lie this close to their plane"));
   f.number("plane_min_spread", c.plane_min_spread,
-           spec("m", at_least(0), "least second principal deviation of the neighbours; docs/decisions.md"));
+           spec("m", at_least(0),
+                "least second principal deviation of the neighbours; docs/decisions.md"));
   f.number("plane_min_ratio", c.plane_min_ratio,
-           spec("-", at_least(1), "least ratio of second to smallest principal variance; docs/decisions.md"));
+           spec("-", at_least(1),
+                "least ratio of second to smallest principal variance; docs/decisions.md"));
 }
 
 void describe(Fields& f, DegeneracyConfig& c) {

@@ -25,15 +25,16 @@ struct ImuPropagationConfig {
 
 /// Standing start.
 struct InitializationConfig {
-  double duration = 2.0;          ///< of the standing start [s]
-  double settle = 1.0;            ///< of it that is left out, while the robot takes its stance [s]
-  double still_rate = 0.15;       ///< above it the robot is taken to move [rad/s]
-  double still_force = 0.8;       ///< deviation of force above which it moves [m/s^2]
-  double sigma_tilt = 5e-3;       ///< [rad]
-  double sigma_yaw = 1e-4;        ///< the odometry frame defines yaw [rad]
-  double sigma_position = 1e-4;   ///< the odometry frame defines position [m]
-  double sigma_velocity = 2e-2;   ///< [m/s]
-  double sigma_gyro_bias = 1e-3;  ///< after averaging [rad/s]
+  double duration = 2.0;         ///< of the standing start [s]
+  double settle = 1.0;           ///< of it that is left out, while the robot takes its stance [s]
+  double still_rate = 0.15;      ///< above it the robot is taken to move [rad/s]
+  double still_force = 0.8;      ///< deviation of force above which it moves [m/s^2]
+  double sigma_tilt = 5e-3;      ///< [rad]
+  double sigma_yaw = 1e-4;       ///< the odometry frame defines yaw [rad]
+  double sigma_position = 1e-4;  ///< the odometry frame defines position [m]
+  double sigma_velocity = 2e-2;  ///< [m/s]
+  double sigma_velocity_moving = 1.0;      ///< of a robot that was not seen standing [m/s]
+  double sigma_gyro_bias = 1e-3;           ///< after averaging [rad/s]
   double sigma_accelerometer_bias = 5e-2;  ///< [m/s^2]
 };
 
@@ -73,15 +74,15 @@ struct LidarUpdateConfig {
 
 /// Local map and its planes.
 struct MapConfig {
-  double voxel_size = 0.5;     ///< hashed voxel; bounds the neighbour search [m]
+  double voxel_size = 0.5;      ///< hashed voxel; bounds the neighbour search [m]
   double point_spacing = 0.15;  ///< returns closer than this to a map point merge into it [m]
   int max_points_per_voxel = 32;
-  int max_merges = 20;             ///< returns that a map point averages before it is frozen
-  int max_voxels = 100000;         ///< beyond it the farthest are dropped
-  double insertion_voxel = 0.1;    ///< one point is inserted per voxel of the raw scan [m]
-  int max_insertions = 12000;      ///< bound on points per scan
-  double neighbor_gate = 0.5;      ///< the five neighbours lie within it [m]
-  double plane_thickness = 0.06;   ///< the five neighbours lie this close to their plane [m]
+  int max_merges = 20;              ///< returns that a map point averages before it is frozen
+  int max_voxels = 100000;          ///< beyond it the farthest are dropped
+  double insertion_voxel = 0.1;     ///< one point is inserted per voxel of the raw scan [m]
+  int max_insertions = 12000;       ///< bound on points per scan
+  double neighbor_gate = 0.5;       ///< the five neighbours lie within it [m]
+  double plane_thickness = 0.06;    ///< the five neighbours lie this close to their plane [m]
   double plane_min_spread = 0.065;  ///< second principal deviation of the neighbours [m]
   double plane_min_ratio = 10.0;    ///< second over smallest principal variance [-]
 };

@@ -46,6 +46,13 @@ Standing average_standing(const std::deque<ImuSample>& samples, double settle,
   return standing;
 }
 
+/// Mean specific force of all samples [m/s^2]: what a gait adds to gravity averages out.
+Eigen::Vector3d mean_force(const std::deque<ImuSample>& samples) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const ImuSample& sample : samples) sum += sample.specific_force;
+  return sum / static_cast<double>(samples.size());
+}
+
 /// Roll and pitch that turn the mean specific force upward, yaw 0.
 Eigen::Quaterniond level(const Eigen::Vector3d& force) {
   const Eigen::Quaterniond tilt =
@@ -55,7 +62,7 @@ Eigen::Quaterniond level(const Eigen::Vector3d& force) {
 
 Matrix15 initial_covariance(const InitializationConfig& config, bool stood_still) {
   using E = ErrorState;
-  // Without standing the start is little known: ten times the deviations.
+  // Without standing the start is little known: ten times the deviations, and any velocity.
   const double factor = stood_still ? 1.0 : 100.0;
   const auto variance = [factor](double sigma) {
     return Eigen::Matrix3d(factor * sigma * sigma * Eigen::Matrix3d::Identity());
@@ -65,7 +72,8 @@ Matrix15 initial_covariance(const InitializationConfig& config, bool stood_still
   block(P, E::kRotation, E::kRotation)(2, 2) = config.sigma_yaw * config.sigma_yaw;
   block(P, E::kPosition, E::kPosition) =
       Eigen::Matrix3d::Identity() * (config.sigma_position * config.sigma_position);
-  block(P, E::kVelocity, E::kVelocity) = variance(config.sigma_velocity);
+  const double velocity = stood_still ? config.sigma_velocity : config.sigma_velocity_moving;
+  block(P, E::kVelocity, E::kVelocity) = Eigen::Matrix3d::Identity() * (velocity * velocity);
   block(P, E::kGyroBias, E::kGyroBias) = variance(config.sigma_gyro_bias);
   block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
       variance(config.sigma_accelerometer_bias);
@@ -83,9 +91,9 @@ std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
   if (standing.count < kFewestSamples) standing = average_standing(samples, 0.0, config, gravity);
   const bool enough = standing.count >= kFewestSamples;
   InitialBelief initial;
-  initial.stamp = enough ? standing.end : samples.front().stamp;
+  initial.stamp = enough ? standing.end : samples.back().stamp;
   initial.stood_still = enough;
-  initial.belief.state.rotation = level(enough ? standing.force : samples.front().specific_force);
+  initial.belief.state.rotation = level(enough ? standing.force : mean_force(samples));
   if (enough) initial.belief.state.gyro_bias = standing.rate;
   initial.belief.covariance = initial_covariance(config, enough);
   return initial;

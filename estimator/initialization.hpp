@@ -18,6 +18,8 @@ struct InitialBelief {
 };
 
 /// The belief at the end of the standing start: once `samples` span it, or once the robot moves.
+/// A robot that moves from the first sample on starts at the newest one, level by the mean force of
+/// a gait that carries its weight, with a velocity that only measurements can tell.
 /// Gyro bias and tilt come from their means; the odometry frame is the start pose with yaw 0 and
 /// roll and pitch against gravity. Empty while more samples are needed.
 std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,

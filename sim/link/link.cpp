@@ -11,7 +11,7 @@ std::string stream_name(std::string_view link, std::string_view fault) {
   return "link." + std::string(link) + "." + std::string(fault);
 }
 
-/// The measurement as a sensor reports it whose clock is ahead by `offset`.
+/// The measurement as a sensor reports it that stamps it late by `offset`.
 void shift_stamps(Measurement& measurement, Duration offset) {
   if (auto* scan = std::get_if<LidarScanPtr>(&measurement)) {
     auto shifted = std::make_shared<LidarScan>(**scan);
@@ -64,6 +64,10 @@ void describe(Fields& f, LinkConfig& c) {
            {.unit = "s", .range = at_least(0), .meaning = "For which a packet is held back."});
   f.number("duplicate_probability", c.duplicate_probability,
            {.unit = "-", .range = probability, .meaning = "Packets that arrive twice."});
+  f.number("stamp_jitter", c.stamp_jitter,
+           {.unit = "s",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Largest error of a stamp, uniform, either way."});
   f.number("clock_offset", c.clock_offset,
            {.unit = "s", .range = in_range(-10.0, 10.0), .meaning = "Added to the stamps."});
   f.group("outage", c.outage);
@@ -76,6 +80,7 @@ Link::Link(const LinkConfig& config, std::uint64_t run_seed, std::string_view na
       jitter_(run_seed, stream_name(name, "jitter")),
       reorder_(run_seed, stream_name(name, "reorder")),
       duplicate_(run_seed, stream_name(name, "duplicate")),
+      stamp_(run_seed, stream_name(name, "stamp")),
       in_burst_(burst_.chance(config.burst_fraction)) {}
 
 bool Link::lost() {
@@ -98,7 +103,8 @@ void Link::send(Time sent, Measurement measurement, std::vector<Delivery>& out) 
   const bool twice = duplicate_.chance(config_.duplicate_probability);
   const Duration behind = twice ? from_seconds(duplicate_.uniform(0.0, config_.jitter)) : 0;
   if (dropped) return;
-  const Duration offset = from_seconds(config_.clock_offset);
+  const double error = stamp_.uniform(-config_.stamp_jitter, config_.stamp_jitter);
+  const Duration offset = from_seconds(config_.clock_offset + error);
   if (offset != 0) shift_stamps(measurement, offset);
   out.push_back({first, measurement});
   if (twice) out.push_back({first + behind, std::move(measurement)});

@@ -33,6 +33,7 @@ struct LinkConfig {
   double reorder_probability = 0.0;    ///< that a packet is held back [-]
   double reorder_delay = 0.03;         ///< for which a packet is held back [s]
   double duplicate_probability = 0.0;  ///< that a packet arrives twice [-]
+  double stamp_jitter = 0.0;           ///< largest error of a stamp, uniform, either way [s]
   double clock_offset = 0.0;           ///< of the sensor's clock: added to the stamps [s]
   OutageConfig outage = {};
 };
@@ -55,7 +56,7 @@ class Link {
   Time arrival(Time sent);
 
   LinkConfig config_;
-  RandomStream loss_, burst_, jitter_, reorder_, duplicate_;
+  RandomStream loss_, burst_, jitter_, reorder_, duplicate_, stamp_;
   bool in_burst_ = false;
 };
 

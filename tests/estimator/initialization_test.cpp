@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace aims {
 namespace {
 
@@ -45,6 +47,26 @@ TEST(Initialization, MotionEndsTheStand) {
   ASSERT_TRUE(initial.has_value());
   EXPECT_TRUE(initial->stood_still);
   EXPECT_EQ(initial->belief.state.gyro_bias.norm(), 0.0);
+}
+
+TEST(Initialization, AMovingStartLevelsByTheMeanForceAndLeavesTheVelocityOpen) {
+  const Eigen::Quaterniond tilt = so3_exp({0.0, 0.06, 0.0});
+  std::deque<ImuSample> samples;
+  for (int i = 0; i < 60; ++i) {  // footfalls at 5 Hz and a swaying trunk
+    const double phase = 2.0 * M_PI * i / 10.0;
+    const Eigen::Vector3d footfall(1.5 * std::sin(phase), 0.5 * std::cos(phase),
+                                   6.0 * std::cos(phase));
+    samples.push_back({i * 20 * kMillisecond,
+                       {0.0, 0.4 * std::cos(phase), 0.0},
+                       tilt.conjugate() * Eigen::Vector3d(0.0, 0.0, kGravity) + footfall});
+  }
+  const auto initial = initialize(samples, InitializationConfig{}, kGravity);
+  ASSERT_TRUE(initial.has_value());
+  EXPECT_FALSE(initial->stood_still);
+  EXPECT_EQ(initial->stamp, samples.back().stamp);
+  EXPECT_LT(initial->belief.state.rotation.angularDistance(tilt), 1e-2);
+  const auto variance = initial->belief.covariance.diagonal().segment<3>(ErrorState::kVelocity);
+  EXPECT_GE(std::sqrt(variance.minCoeff()), 0.7) << "the robot may be in full stride";
 }
 
 TEST(Initialization, MovingStartIsUncertain) {

@@ -199,6 +199,23 @@ TEST(Link, AnOutageWithoutAPeriodComesOnce) {
   EXPECT_EQ(bursts(arrived(send_samples(config, 600), 600)), std::vector<int>{10});
 }
 
+TEST(Link, StampJitterMovesStampsWithinItsBoundsAndNoArrival) {
+  LinkConfig config;
+  config.stamp_jitter = 0.002;
+  double least = 0.0;
+  double most = 0.0;
+  double sum = 0.0;
+  for (const Delivery& each : send_samples(config, 20'000)) {
+    const double error = to_seconds(stamp_of(each.measurement) - each.arrival);
+    least = std::min(least, error);
+    most = std::max(most, error);
+    sum += error;
+  }
+  EXPECT_NEAR(least, -0.002, 1e-5);
+  EXPECT_NEAR(most, 0.002, 1e-5);
+  EXPECT_NEAR(sum / 20'000.0, 0.0, 4.0 * 0.002 / std::sqrt(3.0 * 20'000.0));
+}
+
 TEST(Link, OneFaultLeavesTheOthersAsTheyWere) {
   constexpr int kCount = 5000;
   LinkConfig config;
@@ -231,7 +248,7 @@ TEST(Link, RepeatsWithItsSeedAndOnlyWithIt) {
 TEST(LinkConfig, EveryParameterTakesItsOwnText) {
   LinkConfig config;
   const Fields fields = fields_of(config);
-  EXPECT_EQ(fields.parameters().size(), 12U);
+  EXPECT_EQ(fields.parameters().size(), 13U);
   for (const Parameter& each : fields.parameters()) EXPECT_TRUE(each.assign(each.text()));
 }
 
