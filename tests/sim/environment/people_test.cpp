@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/environment/people.hpp"
+
+#include <cmath>
+
+#include "sim/environment/lidar.hpp"
+#include "tests/sim/environment/scene_checks.hpp"
+
+namespace aims {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+SceneConfig with_people(int count) {
+  SceneConfig config;
+  config.corridor.length = 25.0;
+  config.corridor.doors.sides = WallSides::kNone;
+  config.people.count = count;
+  return config;
+}
+
+TEST(Person, WalksUpAndDownAtItsSpeed) {
+  Person person;
+  person.from = {-2.0, 0.5};
+  person.to = {4.0, 0.5};
+  person.speed = 1.5;
+  person.start = 1.0;
+  EXPECT_TRUE(person.position(0).isApprox(Vector2d(-1.0, 0.5), 1e-12));
+  EXPECT_TRUE(person.position(2 * kSecond).isApprox(Vector2d(2.0, 0.5), 1e-12));
+  EXPECT_TRUE(person.position(4 * kSecond).isApprox(Vector2d(3.0, 0.5), 1e-12))
+      << "on its way back";
+  EXPECT_TRUE(person.position(8 * kSecond).isApprox(person.position(0), 1e-9)) << "one round";
+  Vector2d last = person.position(0);
+  for (Time t = 10 * kMillisecond; t < 30 * kSecond; t += 10 * kMillisecond) {
+    const Vector2d here = person.position(t);
+    ASSERT_LE((here - last).norm(), 0.015 + 1e-9);
+    last = here;
+  }
+}
+
+TEST(MeetPeople, AgreesWithMarchingAlongTheRay) {
+  constexpr std::uint64_t kSeed = 21;
+  RandomStream random = rng(kSeed, "rays");
+  PeopleConfig config;
+  config.count = 1;
+  const std::vector<Person> people = people_in_lanes(config, -2.0, 3.0, 3);
+  const Person& person = people.front();
+  int met = 0;
+  for (int packet = 0; packet < 400; ++packet) {
+    RayPacket rays;
+    HitPacket hits;
+    std::array<Time, kRayPacketSize> stamps;
+    const Time start = from_seconds(random.uniform(0.0, 20.0));
+    const Vector2d at = person.position(start);
+    const Vector3d origin(at.x() + random.uniform(-4.0, 4.0), at.y() + random.uniform(0.4, 4.0),
+                          random.uniform(0.1, 2.6));
+    const Vector3d aim(at.x() + random.uniform(-0.4, 0.4), at.y(), random.uniform(-0.3, 2.1));
+    for (int lane = 0; lane < kRayPacketSize; ++lane) {
+      const Vector3d spread = 0.05 * lane * Vector3d(0.2, 0.0, 0.0);
+      const Vector3d direction = (aim + spread - origin).normalized();
+      rays.origin_x[lane] = static_cast<float>(origin.x());
+      rays.origin_y[lane] = static_cast<float>(origin.y());
+      rays.origin_z[lane] = static_cast<float>(origin.z());
+      rays.direction_x[lane] = static_cast<float>(direction.x());
+      rays.direction_y[lane] = static_cast<float>(direction.y());
+      rays.direction_z[lane] = static_cast<float>(direction.z());
+      hits.distance[lane] = 20.0F;
+      hits.surface[lane] = -1;
+      stamps[lane] = start + lane * 55'555;
+    }
+    meet_people(people, rays, stamps, 100, 20.0F, hits);
+    for (int lane = 0; lane < kRayPacketSize; ++lane) {
+      const Vector3d direction(rays.direction_x[lane], rays.direction_y[lane],
+                               rays.direction_z[lane]);
+      const auto inside = [&](double s, double margin) {
+        const Vector3d p = origin + s * direction;
+        return (p.head<2>() - person.position(stamps[lane])).norm() < person.radius + margin &&
+               p.z() > -margin && p.z() < person.height + margin;
+      };
+      const bool hit = hits.surface[lane] == 100;
+      met += hit ? 1 : 0;
+      const double until = hit ? hits.distance[lane] - 1e-3 : 12.0;
+      for (double s = 0.0; s < until; s += 0.004) {
+        ASSERT_FALSE(inside(s, -1e-3)) << "seed " << kSeed << ", packet " << packet;
+      }
+      if (hit) {
+        ASSERT_TRUE(inside(hits.distance[lane], 1e-4));
+        const Vector3d normal(hits.normal_x[lane], hits.normal_y[lane], hits.normal_z[lane]);
+        ASSERT_NEAR(normal.norm(), 1.0, 1e-5);
+        ASSERT_LT(normal.dot(direction), 1e-3);
+      }
+    }
+  }
+  EXPECT_GT(met, 1500) << "most rays should meet the person";
+}
+
+TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
+  SceneConfig config = with_people(8);
+  config.people.speed = 3.0;
+  const Scene scene = build_scene(config, 2);
+  const RayCaster caster(scene);
+  LidarConfig lidar_config;
+  lidar_config.range_sigma = 0.0;
+  lidar_config.body_min = lidar_config.body_max = Vector3d::Zero();
+  Lidar lidar(lidar_config, caster, 1);
+  int met = 0;
+  double stale = 0.0;
+  for (int sweep = 0; sweep < 10; ++sweep) {
+    const Time start = sweep * 3 * kSecond;
+    const Vector3d sensor(12.0, 0.1, 0.45);
+    SweepTruth truth;
+    const LidarScan scan =
+        lidar.sweep(start, {{start, {so3_exp({0.0, 0.0, 0.3}), sensor}}}, &truth);
+    ASSERT_EQ(truth.surfaces.size(), scan.points.size());
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+      if (truth.surfaces[i] < caster.first_moving_surface()) continue;
+      ++met;
+      const Person& person = scene.people.at(truth.surfaces[i] - caster.first_moving_surface());
+      const Vector3d point =
+          so3_exp({0.0, 0.0, 0.3}) * scan.points[i].position.cast<double>() + sensor;
+      const Time fired = start + scan.points[i].time_offset_ns;
+      const double radius = (point.head<2>() - person.position(fired)).norm();
+      ASSERT_NEAR(radius, person.radius, 1e-4);
+      ASSERT_LT(point.z(), person.height + 1e-4);
+      const double at_start = (point.head<2>() - person.position(start)).norm();
+      stale = std::max(stale, std::abs(at_start - person.radius));
+    }
+  }
+  EXPECT_GT(met, 1000);
+  EXPECT_GT(stale, 0.1) << "the sweep's start would have been the wrong time";
+}
+
+TEST(LidarOfPeople, PeopleWhoStandStillAreSeenLikeSolids) {
+  SceneConfig config = with_people(6);
+  config.people.speed = 0.0;
+  const Scene scene = build_scene(config, 5);
+  const Scene still = scene_at(scene, 0);
+  EXPECT_EQ(still.solids.size(), scene.solids.size() + 6);
+  const RayCaster moving(scene);
+  const RayCaster fixed(still);
+  LidarConfig lidar_config;
+  lidar_config.range_sigma = 0.0;
+  lidar_config.miss_probability = 0.0;
+  lidar_config.range_at_10_percent = 1e4;
+  Lidar one(lidar_config, moving, 1);
+  Lidar other(lidar_config, fixed, 1);
+  const Trajectory pose = {{0, {Eigen::Quaterniond::Identity(), {12.0, 0.0, 0.45}}}};
+  const LidarScan a = one.sweep(0, pose);
+  const LidarScan b = other.sweep(0, pose);
+  ASSERT_EQ(a.points.size(), b.points.size());
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    // A prism of 48 sides stands for the solid cylinder; its silhouette differs by a millimetre.
+    apart += (a.points[i].position - b.points[i].position).norm() > 0.01F ? 1 : 0;
+  }
+  EXPECT_LT(apart, a.points.size() / 500);
+}
+
+TEST(PeopleScene, KeepToLanesBesideTheRobotAndComeFromTheSeed) {
+  const auto people = [](std::uint64_t seed) { return build_scene(with_people(12), seed).people; };
+  const auto one = people(1);
+  const auto again = people(1);
+  const auto other = people(2);
+  int same = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].start, again[i].start);
+    same += one[i].start == other[i].start ? 1 : 0;
+    for (Time t = 0; t < 200 * kSecond; t += kSecond) {
+      const Vector2d at = one[i].position(t);
+      EXPECT_EQ(std::abs(at.y()), 0.75);
+      EXPECT_GE(at.x(), -2.0);
+      EXPECT_LE(at.x(), 27.0);
+    }
+  }
+  EXPECT_EQ(same, 0);
+  EXPECT_TRUE(build_scene(with_people(0), 1).people.empty());
+}
+
+TEST(PeopleScene, LanesThroughWallsOrRobotAreRefused) {
+  SceneConfig config = with_people(1);
+  config.people.lane = 0.9;
+  EXPECT_NE(validate(config).error().message.find("scene.people.lane"), std::string::npos);
+  config.people.lane = 0.5;
+  EXPECT_NE(validate(config).error().message.find("scene.people.lane"), std::string::npos);
+  config.people.lane = 0.75;
+  EXPECT_TRUE(validate(config));
+}
+
+}  // namespace
+}  // namespace aims
