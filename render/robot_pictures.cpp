@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "core/lie.hpp"
 #include "render/canvas.hpp"
@@ -127,19 +129,23 @@ Result<std::vector<std::filesystem::path>> write_robot_pictures(
   const std::vector<std::size_t> notable = notable_snapshots(snapshots);
   if (notable.empty()) return failure("no snapshot of the robot to draw");
   const MjcfOptions options{.image_width = config.width, .image_height = config.height};
-  const auto view_at = [&](Time stamp) -> Result<SceneView> {
+  std::optional<SceneView> view;
+  const auto show = [&](Time stamp) -> Result<void> {
+    view.reset();  // before the next one makes its own context the current one
     const auto mjcf = scene_mjcf(scene_at(scene, stamp), robot_mjcf, MjcfPurpose::kRender, options);
     if (!mjcf) return tl::unexpected(mjcf.error());
-    return SceneView::create(*mjcf, height_field_data(scene.floor), config);
+    auto made = SceneView::create(*mjcf, height_field_data(scene.floor), config);
+    if (!made) return tl::unexpected(made.error());
+    view.emplace(std::move(*made));
+    return {};
   };
-  auto view = view_at(snapshots[notable[0]].stamp);
-  if (!view) return tl::unexpected(view.error());
   const std::array<double, 3> headings = view_headings(snapshots, notable);
   std::vector<std::filesystem::path> files;
   for (std::size_t i = 0; i < notable.size(); ++i) {
     const RobotSnapshot& snapshot = snapshots[notable[i]];
-    if (i > 0 && !scene.people.empty()) view = view_at(snapshot.stamp);  // they have walked on
-    if (!view) return tl::unexpected(view.error());
+    if (!view || !scene.people.empty()) {  // people have walked on
+      if (auto ok = show(snapshot.stamp); !ok) return tl::unexpected(ok.error());
+    }
     const Camera camera = robot_camera(scene, snapshot.qpos, headings[i]);
     const auto picture = view->draw(snapshot.qpos, camera);
     if (!picture) return tl::unexpected(picture.error());
