@@ -65,8 +65,8 @@ TEST(Initialization, AMovingStartLevelsByTheMeanForceAndLeavesTheVelocityOpen) {
   EXPECT_FALSE(initial->stood_still);
   EXPECT_EQ(initial->stamp, samples.back().stamp);
   EXPECT_LT(initial->belief.state.rotation.angularDistance(tilt), 1e-2);
-  const auto variance = initial->belief.covariance.diagonal().segment<3>(ErrorState::kVelocity);
-  EXPECT_GE(std::sqrt(variance.minCoeff()), 0.7) << "the robot may be in full stride";
+  const Vector15 variance = initial->belief.covariance.diagonal();
+  EXPECT_GE(std::sqrt(segment(variance, ErrorState::kVelocity).minCoeff()), 0.7) << "the robot may be in full stride";
 }
 
 TEST(Initialization, MovingStartIsUncertain) {
