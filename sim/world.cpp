@@ -12,6 +12,7 @@ namespace aims {
 namespace {
 
 constexpr double kNominalHeight = 0.29;   ///< [m]
+constexpr double kHighestBump = 0.02;     ///< of a floor with bumps [m]
 constexpr double kNominalLateral = 0.09;  ///< [m]
 
 /// A broken model or state inside the physics engine is a broken invariant: stop, never wait on
@@ -84,6 +85,8 @@ struct World::Impl {
   void set_options(const WorldSetup& setup);
   Result<void> set_heights(const std::vector<float>& heights);
   void put(double x, double y, double z, double yaw);
+  /// Height [m] of the grid point of the floor nearest to (x, y).
+  double field_height(double x, double y) const;
   void measure_body();
   void read_motion();
   void read_contacts();
@@ -125,6 +128,21 @@ Result<void> World::Impl::set_heights(const std::vector<float>& heights) {
   }
   std::copy(heights.begin(), heights.end(), model->hfield_data);
   return {};
+}
+
+double World::Impl::field_height(double x, double y) const {
+  if (model->nhfield == 0) return 0.0;
+  const mjtNum* size = model->hfield_size;
+  int geom = 0;
+  while (model->geom_type[geom] != mjGEOM_HFIELD) ++geom;
+  const mjtNum* centre = model->geom_pos + 3 * geom;
+  const auto cell = [](double offset, double half, int points) {
+    const double fraction = std::clamp((offset + half) / (2.0 * half), 0.0, 1.0);
+    return static_cast<int>(std::lround(fraction * (points - 1)));
+  };
+  const int column = cell(x - centre[0], size[0], model->hfield_ncol[0]);
+  const int row = cell(y - centre[1], size[1], model->hfield_nrow[0]);
+  return size[2] * static_cast<double>(model->hfield_data[row * model->hfield_ncol[0] + column]);
 }
 
 void World::Impl::put(double x, double y, double z, double yaw) {
@@ -224,8 +242,8 @@ Result<World> World::create(const WorldSetup& setup) {
 }
 
 void World::place(double x, double y, double yaw) {
-  // Lifted step by step until no foot is inside a bump of the floor.
-  double z = kNominalHeight;
+  // Lifted step by step until no foot is inside a bump of the floor; a ramp is higher than that.
+  double z = kNominalHeight + std::max(0.0, impl_->field_height(x, y) - kHighestBump);
   impl_->put(x, y, z, yaw);
   for (int lift = 0; lift < 20; ++lift) {
     bool sunk = false;

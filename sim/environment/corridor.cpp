@@ -47,11 +47,11 @@ std::vector<Span> pillar_spans(const CorridorConfig& config, Side which,
   return spans;
 }
 
-void add_pillars(const CorridorConfig& config, const std::vector<Span>& spans,
+void add_pillars(const CorridorConfig& config, double height, const std::vector<Span>& spans,
                  const Materials& materials, SideBuilder& side) {
   for (const Span& span : spans) {
-    Solid& pillar = side.box(span, -config.pillars.depth, kOverlap, -kOverlap,
-                             config.height + kOverlap, materials.pillar);
+    Solid& pillar = side.box(span, -config.pillars.depth, kOverlap, -kOverlap, height + kOverlap,
+                             materials.pillar);
     pillar.collides = true;
   }
 }
@@ -75,14 +75,15 @@ Solid clutter_object(const CorridorConfig& config, double x, const Material& mat
   return solid;
 }
 
-void add_clutter(const CorridorConfig& config, const Material& material, std::uint64_t seed,
-                 std::vector<Solid>& solids) {
+void add_clutter(const CorridorConfig& config, const RampConfig& ramp, const Material& material,
+                 std::uint64_t seed, std::vector<Solid>& solids) {
   RandomStream random = rng(seed, "scene.clutter");
   const Span along = extent(config);
   const auto count = std::lround(config.clutter.density * (along.end - along.begin));
   for (long i = 0; i < count; ++i) {
     const double x = random.uniform(along.begin, along.end);
     solids.push_back(clutter_object(config, x, material, random));
+    solids.back().T_world_solid.translation.z() += ramp_height(ramp, x);
   }
 }
 
@@ -162,7 +163,7 @@ void add_side(const CorridorConfig& config, const RampConfig& ramp, Side which,
     const double behind = config.glass.behind;
     side.box(outer, behind, behind + kWallThickness, -kOverlap, height + kOverlap, materials.wall);
   }
-  add_pillars(config, pillar_spans(config, which, doors), materials, side);
+  add_pillars(config, height, pillar_spans(config, which, doors), materials, side);
 }
 
 Result<void> validate_pillars(const CorridorConfig& config) {
@@ -223,7 +224,7 @@ std::vector<Solid> corridor_solids(const CorridorConfig& config, const RampConfi
   }
   add_ends(config, config.height + ramp_rise(ramp), materials, solids);
   add_ceiling(config, ramp, materials, solids);
-  add_clutter(config, materials.clutter, seed, solids);
+  add_clutter(config, ramp, materials.clutter, seed, solids);
   return solids;
 }
 
