@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "harness/comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -136,12 +138,12 @@ std::vector<std::string> without(const Units& units, const Units& others) {
   std::vector<std::string> rest;
   for (const auto& [name, seeds] : units) {
     const auto other = others.find(name);
-    std::string missing;
+    std::vector<std::uint64_t> missing;
     for (const std::uint64_t seed : seeds) {
-      if (other != others.end() && other->second.contains(seed)) continue;
-      missing += (missing.empty() ? "" : ",") + std::to_string(seed);
+      if (other == others.end() || !other->second.contains(seed)) missing.push_back(seed);
     }
-    if (!missing.empty()) rest.push_back(name + ", seed " + missing);
+    if (missing.empty()) continue;
+    rest.push_back(fmt::format("{}, seed {}", name, fmt::join(missing, ",")));
   }
   return rest;
 }

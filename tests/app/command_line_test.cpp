@@ -137,6 +137,46 @@ TEST_F(CommandLine, ListShowsFamiliesAndTakesSeveralTags) {
   EXPECT_NE(unknown.output.find("'four'; there are one, three, two"), std::string::npos);
 }
 
+TEST_F(CommandLine, ASuiteRunsResumesChecksItsGatesAndIsCompared) {
+  fs::create_directories(folder_.path() / "scenarios");
+  std::ofstream(folder_.path() / "scenarios" / "walk.yaml")
+      << "tags: [short]\nscene: {corridor: {length: 10}}\n"
+         "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n"
+         "expect: [{estimator: leg, score: ate_m, statistic: median, min: 50}]\n";
+  const std::string suite = "suite --tags short --seeds 1-2 --estimators leg --out here";
+  const Outcome first = aims(suite);
+  EXPECT_EQ(first.exit_code, 1) << first.output;
+  EXPECT_NE(first.output.find("2 runs simulated, 0 found"), std::string::npos) << first.output;
+  EXPECT_NE(first.output.find("walk seed 1,2: leg median ate_m"), std::string::npos);
+  EXPECT_NE(first.output.find("again: aims run scenarios/walk.yaml --seed 1,2 --estimators leg"),
+            std::string::npos)
+      << first.output;
+  EXPECT_NE(aims(suite).output.find("0 runs simulated, 2 found"), std::string::npos);
+  const Outcome changed = aims(suite + " --set estimator.degeneracy.eta=4");
+  EXPECT_NE(changed.output.find("another code or configuration"), std::string::npos);
+  const Outcome same = aims("compare here here --fail-on-worse --out compared");
+  EXPECT_EQ(same.exit_code, 0) << same.output;
+  EXPECT_NE(same.output.find("0 better, 0 worse"), std::string::npos) << same.output;
+  EXPECT_TRUE(fs::exists(folder_.path() / "compared" / "compare.json"));
+}
+
+TEST_F(CommandLine, ASuiteSaysWhatIsWrongWithItsArguments) {
+  fs::create_directories(folder_.path() / "scenarios");
+  std::ofstream(folder_.path() / "scenarios" / "walk.yaml") << "tags: [short]";
+  const auto refused = [&](const std::string& arguments, const std::string& expected) {
+    const Outcome outcome = aims(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_NE(outcome.output.find(expected), std::string::npos) << outcome.output;
+  };
+  refused("suite --tags tall", "no scenario has the tag 'tall'; there are short");
+  refused("suite --scenarios wlak", "did you mean 'walk'?");
+  refused("suite --seeds 3-1", "'3-1' is not a seed");
+  refused("suite --set lidar.range_mx=3", "did you mean 'lidar.range_max'?");
+  refused("suite --tags short --out scenarios", "is no suite's folder");
+  refused("suite --folder nowhere", "nowhere: holds no scenario");
+  refused("compare scenarios scenarios", "holds no finished results");
+}
+
 TEST_F(CommandLine, HelpAndVersionSucceedAndNonsenseDoesNot) {
   EXPECT_EQ(aims("--help").exit_code, 0);
   EXPECT_EQ(aims("run --help").exit_code, 0);
