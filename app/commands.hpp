@@ -11,6 +11,8 @@ namespace aims {
 void add_run_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
 void add_suite_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);
+void add_detectors_command(CLI::App& app, const std::filesystem::path& scenario_folder,
+                           int& exit_code);
 void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
 void add_config_command(CLI::App& app, const std::filesystem::path& scenario_folder,
                         int& exit_code);

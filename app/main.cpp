@@ -23,6 +23,7 @@ constexpr const char* kFooter =
     "  aims run corridor --set lidar.range_max=30 --set estimator.degeneracy.eta=5\n"
     "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
     "  aims compare out/before out/after\n"
+    "  aims detectors corridor corridor_smooth --seeds 1-5\n"
     "  aims list\n"
     "  aims config corridor\n"
     "Exit codes: 0 ok, 1 an expectation of the scenario failed, 2 bad usage or configuration,\n"
@@ -39,6 +40,7 @@ int parse_and_run(int argc, char** argv) {
   aims::add_run_command(app, scenarios, exit_code);
   aims::add_suite_command(app, scenarios, exit_code);
   aims::add_compare_command(app, exit_code);
+  aims::add_detectors_command(app, scenarios, exit_code);
   aims::add_list_command(app, scenarios, exit_code);
   aims::add_config_command(app, scenarios, exit_code);
   try {

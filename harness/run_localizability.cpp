@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "harness/run_localizability.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -163,7 +163,8 @@ void Simulation::Impl::send_scan() {
   if (!sent.empty()) {
     const Pose T_world_lidar = pose_at(sweep, end).value_or(sweep.back().pose);
     truth.scans.push_back(scan_information(end, seen, T_world_lidar * rig.T_body_lidar.inverse(),
-                                           config.lidar.range_sigma));
+                                           config.lidar.range_sigma,
+                                           caster.first_moving_surface()));
   }
   sweep.erase(sweep.begin(), sweep.end() - 1);
 }

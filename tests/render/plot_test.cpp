@@ -97,7 +97,7 @@ TEST(ScenePlan, SeesThroughLintelsAndRoofs) {
   lintel.T_world_solid.translation.z() = 2.4;
   Solid roof = wall;
   roof.roof = true;
-  const auto plan = scene_plan(Scene{{}, {wall, lintel, roof}});
+  const auto plan = scene_plan(Scene{{}, {wall, lintel, roof}, {}});
   ASSERT_EQ(plan.size(), 1U);
   EXPECT_EQ(plan[0].size(), 4U);
   double area = 0.0;
