@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/environment/ray_caster.hpp"
+#include "sim/environment/scene_mjcf.hpp"
 
 namespace aims {
 namespace {
@@ -55,6 +56,61 @@ TEST(CorridorScene, HasTheConfiguredCrossSectionAndLength) {
   }
   EXPECT_NEAR(distance(caster, {0.0, 0.0, 1.0}, Vector3d::UnitX()), 81.6, 1e-4);
   EXPECT_NEAR(distance(caster, {0.0, 0.0, 1.0}, -Vector3d::UnitX()), 3.0, 1e-4);
+}
+
+TEST(CorridorScene, PlainOneIsSevenBoxesAtKnownPlaces) {
+  SceneConfig config = plain_corridor();
+  config.corridor.length = 20.0;
+  config.corridor.margin = 3.0;
+  const Scene scene = build_scene(config, 1);
+  struct Expected {
+    Vector3d centre, half;
+    bool collides, visible;
+  };
+  // A slab that collides and a face that is seen for each wall, two ends, and the ceiling.
+  const std::vector<Expected> boxes = {{{10.0, 1.2, 1.3}, {13.2, 0.1, 1.3}, true, false},
+                                       {{10.0, 1.2, 1.3}, {13.2, 0.1, 1.35}, false, true},
+                                       {{10.0, -1.2, 1.3}, {13.2, 0.1, 1.3}, true, false},
+                                       {{10.0, -1.2, 1.3}, {13.2, 0.1, 1.35}, false, true},
+                                       {{-3.1, 0.0, 1.3}, {0.1, 1.5, 1.35}, true, true},
+                                       {{23.1, 0.0, 1.3}, {0.1, 1.5, 1.35}, true, true},
+                                       {{10.0, 0.0, 2.7}, {13.2, 1.5, 0.1}, false, true}};
+  ASSERT_EQ(scene.solids.size(), boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Solid& solid = scene.solids[i];
+    EXPECT_TRUE(solid.T_world_solid.translation.isApprox(boxes[i].centre, 1e-12)) << i;
+    EXPECT_TRUE(solid.half_extents.isApprox(boxes[i].half, 1e-12)) << i;
+    EXPECT_TRUE(solid.T_world_solid.rotation.coeffs() == Eigen::Quaterniond::Identity().coeffs());
+    EXPECT_EQ(solid.collides, boxes[i].collides) << i;
+    EXPECT_EQ(solid.visible, boxes[i].visible) << i;
+    EXPECT_EQ(solid.roof, i == 6) << i;
+  }
+}
+
+TEST(CorridorScene, FeaturesThatAreOffChangeNothing) {
+  SceneConfig config;
+  const std::string plain = scene_mjcf(build_scene(config, 3), "", MjcfPurpose::kRender).value();
+  config.corridor.glass = {.share = 0.0, .pane = 5.0, .limit_deg = 30.0, .behind = 3.0};
+  config.ramp = {.start = 1.0, .length = 2.0, .grade = 0.0};
+  config.people = {.count = 0, .speed = 2.0, .lane = 5.0};
+  config.garage.cars = 1;
+  config.tunnel.radius = 7.0;
+  ASSERT_TRUE(validate(config));
+  EXPECT_EQ(scene_mjcf(build_scene(config, 3), "", MjcfPurpose::kRender).value(), plain);
+}
+
+TEST(Scene, EveryKindIsTheSameTwice) {
+  for (const SceneKind kind :
+       {SceneKind::kCorridor, SceneKind::kGarage, SceneKind::kJunction, SceneKind::kTunnel}) {
+    SceneConfig config;
+    config.kind = kind;
+    const auto product = [&](MjcfPurpose purpose) {
+      return scene_mjcf(build_scene(config, 4), "", purpose).value();
+    };
+    for (const MjcfPurpose purpose : {MjcfPurpose::kPhysics, MjcfPurpose::kRender}) {
+      EXPECT_EQ(product(purpose), product(purpose)) << static_cast<int>(kind);
+    }
+  }
 }
 
 TEST(CorridorScene, RecessesHaveTheConfiguredSizeAndSpacing) {
