@@ -79,9 +79,9 @@ Json localizability_json(const RunLocalizability& run) {
   for (const Localizability& scan : run.scans) returns.push_back(scan.equivalent_returns);
   Json share = Json::object();
   for (const DegeneracyLevel& level : kDegeneracyLevels) {
-    const auto degenerate = std::count_if(
-        run.scans.begin(), run.scans.end(),
-        [&level](const Localizability& scan) { return is_degenerate(scan, level); });
+    const auto degenerate =
+        std::count_if(run.scans.begin(), run.scans.end(),
+                      [&level](const Localizability& scan) { return is_degenerate(scan, level); });
     share[std::string(level.name)] =
         run.scans.empty()
             ? Json()
