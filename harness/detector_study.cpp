@@ -34,9 +34,12 @@ Result<DetectorRun> run_unit(const Unit& unit, const std::string& estimator,
   const auto result =
       run(scenario, {unit.seed, 1}, [&wanted](const Progress&) { return wanted.load(); });
   if (!result) return tl::unexpected(result.error());
-  const auto& diagnostics = result->estimators.front().report.diagnostics;
-  DetectorRun made =
-      detector_run(diagnostics, result->localizability.scans, half_sweep(scenario.simulation));
+  const EstimatorReport& report = result->estimators.front().report;
+  if (report.diagnostics.empty() && !report.trajectory.empty()) {
+    return failure(fmt::format("estimator {} records no diagnostics of scans", estimator));
+  }
+  DetectorRun made = detector_run(report.diagnostics, result->localizability.scans,
+                                  half_sweep(scenario.simulation));
   made.scenario = scenario.name;
   made.seed = unit.seed;
   return made;
@@ -108,7 +111,7 @@ Result<DetectorStudy> run_detectors(std::span<const Scenario> scenarios,
   const bool any = std::any_of(study.runs.begin(), study.runs.end(),
                                [](const DetectorRun& run) { return !run.scans.empty(); });
   if (!any) {
-    return failure(fmt::format("estimator {} records no diagnostics of scans", options.estimator));
+    return failure(fmt::format("estimator {} made no update with a scan", options.estimator));
   }
   study.scores = score_detectors(study.runs);
   study.warnings = undecided_levels(study.scores);

@@ -69,6 +69,24 @@ TEST_F(CommandLine, RunsAShortWalkAndPrintsATableRowPerEstimator) {
   EXPECT_EQ(again.exit_code, 2) << "results are not replaced unasked";
 }
 
+TEST_F(CommandLine, DetectorsPrintsARowPerIndexAndSaysWhenNothingCanBeDetected) {
+  const std::string yaml =
+      "scene: {corridor: {length: 10}}\n"
+      "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n";
+  const Outcome outcome = aims("detectors " + scenario(yaml) + " --seeds 1 --quiet --out here");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  for (const char* row : {"\nD ", "\nO_lidar ", "\nC_IL ", "\nsmallest_eigenvalue "}) {
+    EXPECT_NE(outcome.output.find(row), std::string::npos) << row << outcome.output;
+  }
+  EXPECT_NE(outcome.output.find("all runs, n10: none of"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("nan"), std::string::npos) << outcome.output;
+  EXPECT_TRUE(fs::exists(folder_.path() / "here" / "roc.png"));
+  EXPECT_EQ(aims("detectors my.yaml --seeds 1 --out here").exit_code, 2) << "exists already";
+  EXPECT_EQ(aims("detectors my.yaml --seeds x --out new").exit_code, 2);
+  EXPECT_EQ(aims("detectors my.yaml --estimator leg --seeds 1 --out new").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder_.path() / "new"));
+}
+
 TEST_F(CommandLine, AFailedExpectationExitsWithOne) {
   const std::string yaml =
       "scene: {corridor: {length: 10}}\n"
