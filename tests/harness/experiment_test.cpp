@@ -71,6 +71,43 @@ TEST(Experiment, TheWrittenConfigurationReproducesTheRun) {
   }
 }
 
+/// The text of a file that a run wrote, without what a clock decided.
+std::string timeless(const fs::path& file) {
+  std::ifstream stream(file);
+  if (file.filename() == "scores.json") {
+    Json json = Json::parse(stream);
+    for (const char* key : {"wall_s", "realtime_factor", "times_s"}) json.erase(key);
+    for (auto& [name, scores] : json["estimators"].items()) scores.erase("time_per_scan_ms");
+    return json.dump();
+  }
+  const bool times_last = file.string().ends_with(".diagnostics.csv");
+  std::string text;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.find("time_per_scan_ms") != std::string::npos) continue;
+    text += (times_last ? line.substr(0, line.rfind(',')) : line) + "\n";
+  }
+  return text;
+}
+
+TEST(Experiment, TwiceGivesTheSameBytesInEveryFileOnOneThreadAndOnTwo) {
+  const TemporaryFolder temporary;
+  ExperimentOptions options;
+  options.pictures = false;
+  options.seeds = {4};
+  for (const int jobs : {1, 2}) {
+    options.jobs = jobs;
+    options.out = temporary.path() / std::to_string(jobs);
+    ASSERT_TRUE(run_experiment(short_walk(), options, keep_going));
+  }
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(temporary.path() / "1")) {
+    const fs::path other = temporary.path() / "2" / entry.path().filename();
+    EXPECT_TRUE(timeless(entry.path()) == timeless(other)) << entry.path().filename();
+    ++files;
+  }
+  EXPECT_GE(files, 9U);
+}
+
 TEST(Experiment, SeveralSeedsGetAFolderEachAndASummary) {
   const TemporaryFolder temporary;
   ExperimentOptions options;
