@@ -24,10 +24,9 @@ constexpr const char* kIntroduction =
     "returns of a facing surface would. AUC with 95 % interval (bootstrap over runs); detected =\n"
     "share of degenerate scans at {:.0f} % false alarms; delay = median from onset to alarm over\n"
     "the onsets that were detected; missed = onsets without an alarm. AUC 0.5 is chance, below it\n"
-    "the index points the wrong way. Alarms at random on 5 % of the scans of 10 Hz would come 1.4 "
-    "s\n"
-    "after an onset in the median. Pooling over scenarios also rewards an index for telling the\n"
-    "scenarios apart; the tables of single scenarios do not.\n";
+    "the index points the wrong way. Alarms at random on 5 % of the scans of 10 Hz would come\n"
+    "1.4 s after an onset in the median. Pooling over scenarios also rewards an index for telling\n"
+    "the scenarios apart; the tables of single scenarios do not.\n";
 
 Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
