@@ -41,21 +41,22 @@ std::optional<Entry> enter_cylinder(const Eigen::Vector3d& origin, const Eigen::
   return Entry{top, Eigen::Vector3d::UnitZ()};
 }
 
-/// False when no ray of the packet can meet the person: all pass by on one side.
-bool may_meet(const Person& person, const RayPacket& rays, Time stamp) {
-  constexpr double kSlack = 0.1;  ///< of motion within a packet, by far [m]
-  const Eigen::Vector2d axis = person.position(stamp);
-  int left = 0;
-  int right = 0;
-  for (const int lane : {0, kRayPacketSize - 1}) {
-    const Eigen::Vector2d to_axis(axis.x() - rays.origin_x[lane], axis.y() - rays.origin_y[lane]);
-    const Eigen::Vector2d direction(rays.direction_x[lane], rays.direction_y[lane]);
-    const double across = direction.x() * to_axis.y() - direction.y() * to_axis.x();
-    const double clear = (person.radius + kSlack) * direction.norm();
-    left += across > clear ? 1 : 0;
-    right += across < -clear ? 1 : 0;
+/// False when every ray of the packet passes by the person on one side or the other.
+bool may_meet(const Person& person, const RayPacket& rays,
+              const std::array<Time, kRayPacketSize>& stamps) {
+  const Eigen::Vector2d axis = person.position(stamps.front());
+  const double walked = person.speed * to_seconds(stamps.back() - stamps.front());
+  const double clear = person.radius + std::abs(walked) + 0.01;
+  bool near = false;
+  for (int lane = 0; lane < kRayPacketSize; ++lane) {
+    const double x = axis.x() - rays.origin_x[lane];
+    const double y = axis.y() - rays.origin_y[lane];
+    const double across = rays.direction_x[lane] * y - rays.direction_y[lane] * x;
+    const double flat = rays.direction_x[lane] * rays.direction_x[lane] +
+                        rays.direction_y[lane] * rays.direction_y[lane];
+    near |= across * across <= clear * clear * flat;
   }
-  return left < 2 && right < 2;
+  return near;
 }
 
 }  // namespace
@@ -113,7 +114,7 @@ void meet_people(const std::vector<Person>& people, const RayPacket& rays,
                  float max_distance, HitPacket& hits) {
   for (std::size_t i = 0; i < people.size(); ++i) {
     const Person& person = people[i];
-    if (!may_meet(person, rays, stamps[0])) continue;
+    if (!may_meet(person, rays, stamps)) continue;
     for (int lane = 0; lane < kRayPacketSize; ++lane) {
       const Eigen::Vector3d origin(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
       const Eigen::Vector3d direction(rays.direction_x[lane], rays.direction_y[lane],

@@ -95,6 +95,45 @@ TEST(MeetPeople, AgreesWithMarchingAlongTheRay) {
   EXPECT_GT(met, 1500) << "most rays should meet the person";
 }
 
+TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
+  PeopleConfig config;
+  config.count = 5;
+  config.speed = 3.0;
+  const std::vector<Person> people = people_in_lanes(config, -2.0, 3.0, 8);
+  int met = 0;
+  for (int packet = 0; packet < 200; ++packet) {
+    RayPacket rays;
+    std::array<Time, kRayPacketSize> stamps;
+    for (int lane = 0; lane < kRayPacketSize; ++lane) {
+      const double azimuth = 0.031 * packet + 0.39 * lane;  // all around the sensor
+      rays.origin_z[lane] = 0.5F;
+      rays.direction_x[lane] = static_cast<float>(std::cos(azimuth));
+      rays.direction_y[lane] = static_cast<float>(std::sin(azimuth));
+      stamps[lane] = packet * 70 * kMillisecond + lane * 6 * kMillisecond;
+    }
+    HitPacket together;
+    together.distance.fill(20.0F);
+    together.surface.fill(-1);
+    meet_people(people, rays, stamps, 0, 20.0F, together);
+    for (int lane = 0; lane < kRayPacketSize; ++lane) {
+      RayPacket alone;
+      alone.origin_z.fill(0.5F);
+      alone.direction_x.fill(rays.direction_x[lane]);
+      alone.direction_y.fill(rays.direction_y[lane]);
+      std::array<Time, kRayPacketSize> stamp;
+      stamp.fill(stamps[lane]);
+      HitPacket single;
+      single.distance.fill(20.0F);
+      single.surface.fill(-1);
+      meet_people(people, alone, stamp, 0, 20.0F, single);
+      ASSERT_EQ(together.surface[lane], single.surface[0]) << packet << " " << lane;
+      ASSERT_EQ(together.distance[lane], single.distance[0]);
+      met += single.surface[0] >= 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(met, 200);
+}
+
 TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
   SceneConfig config = with_people(8);
   config.people.speed = 3.0;
