@@ -22,7 +22,7 @@ struct Interval {
 using ClusterStatistic = std::function<std::optional<double>(std::span<const std::size_t>)>;
 
 /// Percentile bootstrap interval (Efron and Tibshirani 1993, section 13.3) of a statistic over
-/// independent clusters, e.g. runs: `replicates` times, as many clusters as there are are drawn with
+/// independent clusters, e.g. runs: `replicates` times, as many clusters as given are drawn with
 /// replacement from the stream rng(seed, "bootstrap"). Replicates without a value are left out; the
 /// interval is empty for fewer than two clusters, or when no replicate has a value. With few
 /// clusters it is too narrow: five cannot give more than 5^5 resamples.
