@@ -176,6 +176,82 @@ TEST(PosteriorBound, IsTheSpreadOfTheOptimalFilterInALinearWorld) {
   EXPECT_NEAR(std::sqrt(squared / draws), bound, 0.05 * bound);
 }
 
+/// Heading cannot be told from inside: what the IMU integrates and what the legs report turn
+/// together. A wrong sign in either model would make it observable.
+TEST(PosteriorBound, NeitherImuNorLegsTellTheHeadingOfAnAcceleratingWalk) {
+  BoundParameters p = certain();
+  p.initial.heading_sigma = 0.01;
+  p.accelerometer.noise_density = 1e-4;
+  p.legs = {true, 200.0, 1e-3, 0.0};
+  const auto motion = straight_motion(10, 0.0, 0.1);
+  const auto bounds = posterior_bounds(motion, scans_at({10.0}, kNothing), p);
+  EXPECT_NEAR(bounds[0].heading, 0.01, 1e-4);
+  EXPECT_NEAR(bounds[0].lateral, 0.01 * 5.0, 1e-3);
+}
+
+/// A body that walks off from rest along a curve, turning, rolling and bobbing as it goes.
+std::vector<TrueMotion> curved_motion(double seconds) {
+  std::vector<TrueMotion> motion;
+  const auto pose_of = [](double t) {
+    const double arc = 0.1 * t * t;
+    const Vector3d rotation(0.1 * std::sin(3.0 * t), 0.08 * std::cos(4.0 * t), 0.5 * t);
+    return Pose{
+        so3_exp(rotation),
+        {1.4 * std::sin(arc), 1.4 * (1.0 - std::cos(arc)), 0.03 * (1.0 - std::cos(5.0 * t))}};
+  };
+  for (int i = 0; i <= std::lround(seconds / kStep); ++i) {
+    const double t = i * kStep;
+    TrueMotion at;
+    at.stamp = from_seconds(t);
+    at.T_world_body = pose_of(t);
+    at.velocity = (pose_of(t + 1e-5).translation - pose_of(t - 1e-5).translation) / 2e-5;
+    at.angular_velocity =
+        so3_log(pose_of(t - 1e-5).rotation.conjugate() * pose_of(t + 1e-5).rotation) / 2e-5;
+    motion.push_back(at);
+  }
+  return motion;
+}
+
+/// Integrates the true motion's own rates with wrong initial attitude, velocity and biases, without
+/// linearising anything, and compares the spread with the bound.
+TEST(PosteriorBound, IsTheSpreadOfInertialIntegrationAlongACurve) {
+  BoundParameters p = certain();
+  p.gyro.bias_sigma = 2e-3;
+  p.accelerometer.bias_sigma = 0.02;
+  p.initial.tilt_sigma = 3e-3;
+  p.initial.heading_sigma = 3e-3;
+  const auto motion = curved_motion(6.0);
+  const PosteriorBound bound = posterior_bounds(motion, scans_at({6.0}, kNothing), p)[0];
+  RandomStream random(3, "test.curve");
+  const int draws = 1500;  // sampling error of a deviation: 1.8 %
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (int draw = 0; draw < draws; ++draw) {
+    Pose pose = motion[0].T_world_body;
+    pose.rotation = pose.rotation * so3_exp(3e-3 * random.normal3());
+    Vector3d velocity = motion[0].velocity;
+    const Vector3d turn = 2e-3 * random.normal3();
+    const Vector3d push = 0.02 * random.normal3();
+    for (std::size_t i = 1; i < motion.size(); ++i) {
+      const TrueMotion& a = motion[i - 1];
+      const TrueMotion& b = motion[i];
+      const Vector3d gravity(0.0, 0.0, -9.81);
+      const Vector3d force =
+          a.T_world_body.rotation.conjugate() * ((b.velocity - a.velocity) / kStep - gravity);
+      const Vector3d gained = pose.rotation * (force + push) + gravity;
+      pose.translation += velocity * kStep + 0.5 * kStep * kStep * gained;
+      velocity += kStep * gained;
+      const Vector3d rate =
+          so3_log(a.T_world_body.rotation.conjugate() * b.T_world_body.rotation) / kStep;
+      pose.rotation = pose.rotation * so3_exp((rate + turn) * kStep);
+    }
+    const Vector3d error = pose.translation - motion.back().T_world_body.translation;
+    covariance += error * error.transpose() / draws;
+  }
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(std::sqrt(covariance(i, i) / bound.position(i, i)), 1.0, 0.08) << "axis " << i;
+  }
+}
+
 TEST(PosteriorBound, HasAnEntryPerSweepInsideTheMotionAndNoneWithoutMotion) {
   const auto motion = straight_motion(1.0, 0.5);
   const auto scans = scans_at({-0.1, 0.0, 0.25, 1.0, 1.1}, kNothing);
