@@ -66,12 +66,15 @@ Result<void> draw_family(const fs::path& folder, const FamilyResult& family) {
   LevelPlot plot = plot_of(family, levels);
   plot.level_label = fmt::format("{} [{}]", family.name, family.level_unit);
   auto drawn = draw(folder, family.name, plot);
-  const auto known =
-      std::count_if(family.equivalent_returns.begin(), family.equivalent_returns.end(),
-                    [](const std::optional<double>& value) { return value && *value > 0.0; });
+  std::vector<std::optional<double>> returns = family.equivalent_returns;
+  for (auto& value : returns) {
+    if (value) value = std::max(*value, 1.0);  // so that none at all has a place on the axis
+  }
+  const auto known = std::count_if(returns.begin(), returns.end(),
+                                   [](const auto& value) { return value.has_value(); });
   if (!drawn || family.name != "dial" || known < 2) return drawn;
-  LevelPlot over_truth = plot_of(family, family.equivalent_returns);
-  over_truth.level_label = "median equivalent returns along the weak axis [-]";
+  LevelPlot over_truth = plot_of(family, returns);
+  over_truth.level_label = "median equivalent returns along the weak axis, at least 1 [-]";
   over_truth.logarithmic_levels = true;
   sort_points(over_truth);
   return draw(folder, family.name + "-localizability", over_truth);
