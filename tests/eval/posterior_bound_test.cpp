@@ -252,6 +252,19 @@ TEST(PosteriorBound, IsTheSpreadOfInertialIntegrationAlongACurve) {
   }
 }
 
+TEST(PosteriorBound, ASweepInformsAlongTheBodysOwnAxes) {
+  BoundParameters p = certain();
+  p.initial.position_sigma = 1.0;
+  auto motion = straight_motion(1.0, 0.0);
+  for (TrueMotion& at : motion) at.T_world_body.rotation = yaw_rotation(0.7);
+  Eigen::Matrix<double, 6, 6> ahead = kNothing;
+  ahead(3, 3) = 1e4;
+  const PosteriorBound bound = posterior_bounds(motion, scans_at({1.0}, ahead), p)[0];
+  EXPECT_NEAR(bound.along, 0.01, 1e-5);
+  EXPECT_NEAR(bound.lateral, 1.0, 1e-3);
+  EXPECT_NEAR(bound_along(bound, {std::cos(0.7), std::sin(0.7), 0.0}), 0.01, 1e-5);
+}
+
 TEST(PosteriorBound, HasAnEntryPerSweepInsideTheMotionAndNoneWithoutMotion) {
   const auto motion = straight_motion(1.0, 0.5);
   const auto scans = scans_at({-0.1, 0.0, 0.25, 1.0, 1.1}, kNothing);
