@@ -64,7 +64,7 @@ bool EskfEstimator::start() {
 }
 
 void EskfEstimator::correct(const LegOdometrySample& sample) {
-  if (!member_.leg) return;
+  if (!member_.leg) return bridge_silence(sample.stamp);
   if (sample.stamp < time_) {
     ++report_.counts["leg.before_start"];
     return;
@@ -77,6 +77,16 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
   hold_lost_legs(sample.stamp);
   take_leg(sample);
   last_leg_ = sample;
+  bridge_silence(sample.stamp);
+}
+
+/// Without scans the pose goes on by what there is; the legs' packets serve as its clock.
+void EskfEstimator::bridge_silence(Time stamp) {
+  if (report_.trajectory.empty()) return;
+  if (stamp - report_.trajectory.back().stamp < kLongestSilence) return;
+  predict_to(stamp);
+  report_.trajectory.push_back({stamp, belief_.state.T_odom_body()});
+  ++report_.counts["pose.without_scan"];
 }
 
 void EskfEstimator::hold_lost_legs(Time until) {

@@ -42,6 +42,7 @@ class EskfEstimator : public Estimator {
   void fuse_leg_displacement();
   void renew_clone();
   void hold_lost_legs(Time until);
+  void bridge_silence(Time stamp);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void extend_map();
   /// Takes the belief `updated`, unless it is unsound: then it is counted, and false returned.

@@ -38,9 +38,13 @@ struct ScanDiagnostics {
   Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();  ///< after it, body axes [rad^2]
 };
 
+/// While no scan comes, a pose is reported at least this often.
+inline constexpr Duration kLongestSilence = 250 * kMillisecond;
+
 /// What an estimator has found so far.
 struct EstimatorReport {
-  Trajectory trajectory;                     ///< T_odom_body at each scan end; starts at identity
+  /// T_odom_body at each scan end, or after `kLongestSilence`; starts at identity
+  Trajectory trajectory;
   std::vector<ScanDiagnostics> diagnostics;  ///< one per scan (empty for `leg`)
   std::map<std::string, int> counts;         ///< e.g. late, duplicate, non-finite measurements
 };

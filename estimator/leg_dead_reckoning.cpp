@@ -48,6 +48,9 @@ void LegDeadReckoning::process(const LegOdometrySample& sample) {
     report_.trajectory.push_back({stamp, pose});
   }
   waiting_.clear();
+  const bool silent =
+      !report_.trajectory.empty() && now.stamp - report_.trajectory.back().stamp >= kLongestSilence;
+  if (silent) report_.trajectory.push_back(now);
   last_ = now;
   queue_.imu().forget_before(sample.stamp);
 }

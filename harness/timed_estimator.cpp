@@ -5,6 +5,14 @@
 #include <utility>
 
 namespace aims {
+namespace {
+
+/// Scans done so far; an estimator that looks at none is measured by its poses.
+std::size_t scans_in(const EstimatorReport& report) {
+  return report.diagnostics.empty() ? report.trajectory.size() : report.diagnostics.size();
+}
+
+}  // namespace
 
 TimedEstimator::TimedEstimator(std::string name, std::unique_ptr<Estimator> estimator)
     : name_(std::move(name)), estimator_(std::move(estimator)) {}
@@ -22,17 +30,18 @@ void TimedEstimator::finish() {
 template <class Work>
 void TimedEstimator::timed(const Work& work) {
   using Clock = std::chrono::steady_clock;
-  const std::size_t poses_before = estimator_->report().trajectory.size();
+  const EstimatorReport& report = estimator_->report();
+  const std::size_t scans_before = scans_in(report);
   const Clock::time_point start = Clock::now();
   work();
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   total_seconds_ += seconds;
-  seconds_since_pose_ += seconds;
-  const std::size_t new_poses = estimator_->report().trajectory.size() - poses_before;
-  for (std::size_t i = 0; i < new_poses; ++i) {
-    scan_times_ms_.push_back(1e3 * seconds_since_pose_ / static_cast<double>(new_poses));
-  }
-  if (new_poses > 0) seconds_since_pose_ = 0.0;
+  seconds_since_scan_ += seconds;
+  const std::size_t scans = scans_in(report);
+  if (scans <= scans_before) return;
+  const auto done = static_cast<double>(scans - scans_before);
+  scan_times_ms_.resize(scans, 1e3 * seconds_since_scan_ / done);
+  seconds_since_scan_ = 0.0;
 }
 
 }  // namespace aims

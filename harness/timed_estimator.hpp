@@ -21,7 +21,7 @@ class TimedEstimator {
   const std::string& name() const { return name_; }
   const Estimator& estimator() const { return *estimator_; }
   double total_seconds() const { return total_seconds_; }
-  /// Time from one pose to the next: the scan and all samples since the scan before [ms].
+  /// Time from one scan to the next: the scan and all samples since the scan before [ms].
   const std::vector<double>& scan_times_ms() const { return scan_times_ms_; }
 
  private:
@@ -31,7 +31,7 @@ class TimedEstimator {
   std::string name_;
   std::unique_ptr<Estimator> estimator_;
   double total_seconds_ = 0.0;
-  double seconds_since_pose_ = 0.0;
+  double seconds_since_scan_ = 0.0;
   std::vector<double> scan_times_ms_;
 };
 

@@ -229,6 +229,32 @@ TEST(Eskf, SurvivesALidarThatIsSilentForTwoSeconds) {
   EXPECT_LT(error, 0.3);
 }
 
+/// Longest time between two poses.
+Duration longest_gap(const Trajectory& trajectory) {
+  Duration longest = 0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    longest = std::max(longest, trajectory[i].stamp - trajectory[i - 1].stamp);
+  }
+  return longest;
+}
+
+TEST(Eskf, GoesOnReportingWhileTheLidarIsSilent) {
+  KinematicWorld world(short_walk());
+  std::vector<Delivery> kept;
+  for (const Delivery& d : record(world)) {
+    if (!std::holds_alternative<LidarScanPtr>(d.measurement) || !within(d, 4.0, 7.0)) {
+      kept.push_back(d);
+    }
+  }
+  for (const char* name : {"aims", "lio", "leg"}) {
+    const EstimatorReport report = run(name, kept, world.rig());
+    EXPECT_LE(longest_gap(report.trajectory), kLongestSilence + 10 * kMillisecond) << name;
+    if (report.diagnostics.empty()) continue;
+    const auto bridged = report.trajectory.size() - report.diagnostics.size();
+    EXPECT_NEAR(static_cast<double>(bridged), 12.0, 1.0) << name;
+  }
+}
+
 TEST(Eskf, WorksWithoutLegs) {
   double error = 0.0;
   run_spoiled(
