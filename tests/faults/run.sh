@@ -35,6 +35,8 @@ copy_sources() {
   rm -rf "$sources"
   mkdir -p "$sources"
   tar -C "$root" --exclude=./build --exclude=./out --exclude=./.git -cf - . | tar -C "$sources" -xf -
+  # What an interrupted run left compiled with a fault must be compiled again.
+  sed -n 's,^+++ b/,,p' "$here"/*.patch | sort -u | (cd "$sources" && xargs touch)
 }
 
 configure() {
