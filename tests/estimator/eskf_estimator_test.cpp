@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -141,6 +142,22 @@ TEST(Eskf, FillsTheDiagnostics) {
   EXPECT_LT(d.gamma_leg, 1.0);
   EXPECT_GE(d.O_lidar, 0.0);
   EXPECT_LE(d.O_lidar, 1.0);
+}
+
+TEST(Eskf, WeighsEachScanByTheSmoothedIndexOfThatScan) {
+  KinematicWorld world(short_walk());
+  const EstimatorReport report = run("aims", record(world), world.rig());
+  const DegeneracyConfig config;
+  double smoothed = report.diagnostics.at(1).D_smoothed;  // the first scan only starts the map
+  for (std::size_t i = 1; i < report.diagnostics.size(); ++i) {
+    const ScanDiagnostics& scan = report.diagnostics[i];
+    if (i > 1) smoothed = config.alpha * smoothed + (1.0 - config.alpha) * scan.D;
+    EXPECT_NEAR(scan.D_smoothed, smoothed, 1e-12) << i;
+    EXPECT_NEAR(scan.gamma_lidar, std::exp(-config.eta * scan.D_smoothed), 1e-12) << i;
+    EXPECT_NEAR(scan.gamma_leg,
+                config.gamma_min + (1.0 - config.gamma_min) * (1.0 - scan.D_smoothed), 1e-12)
+        << i;
+  }
 }
 
 TEST(Eskf, SameDataGivesTheSameBytes) {
