@@ -25,6 +25,9 @@ class PictureFolder {
 /// Pixels of a PNG file; an empty image when it is none.
 Image read_png(const std::filesystem::path& path);
 
+/// Of the first curve of a plot.
+inline constexpr std::array<int, 3> kBlue = {0, 114, 178};
+
 /// How many pixels have that colour, within
 /// `tolerance` per component.
 int count_pixels(const Image& image, const std::array<int, 3>& color, int tolerance = 12);

@@ -14,10 +14,9 @@ namespace aims {
 namespace {
 
 using test::count_pixels;
+using test::kBlue;
 using test::PictureFolder;
 using test::read_png;
-
-constexpr std::array<int, 3> kBlue = {0, 114, 178};
 
 std::vector<std::string> labels(const std::vector<Tick>& ticks) {
   std::vector<std::string> result;

@@ -9,10 +9,9 @@ namespace aims {
 namespace {
 
 using test::count_pixels;
+using test::kBlue;
 using test::PictureFolder;
 using test::read_png;
-
-constexpr std::array<int, 3> kBlue = {0, 114, 178};
 
 RocPlot one_detector(std::vector<Eigen::Vector2d> points) {
   return {"title", "subtitle", {{"first", {{"D (1.00)", std::move(points)}}}, {"second", {}}}};
