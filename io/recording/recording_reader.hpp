@@ -22,13 +22,13 @@ struct RecordingSetup {
   SensorRig rig;
   bool has_legs = false;
   bool has_truth = false;
-  Time epoch = 0;  ///< since 1970; stamps of deliveries count from here
   /// What was assumed, converted or made up, one sentence each: "IMU in g: multiplied by 9.80665".
   std::vector<std::string> notes;
 };
 
 /// A recording as the stream that an estimator takes: bag messages become deliveries, in order of
-/// record time. Memory is bounded by the bag's chunks, not by its length.
+/// record time. Stamps are those of the message headers, arrivals the record times, both as in the
+/// bag. Memory is bounded by the bag's chunks, not by its length.
 class RecordingReader {
  public:
   /// Looks at the start of the bag and decides topics, units, extrinsics. Errors list the topics
