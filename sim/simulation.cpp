@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "sim/arrivals.hpp"
@@ -41,6 +42,15 @@ Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scen
   if (!mjcf) return tl::unexpected(mjcf.error());
   return WorldSetup{std::move(*mjcf), height_field_data(scene.floor), config.physics.timestep,
                     config.scene.floor_friction};
+}
+
+/// The IMU once more at its second rate: the same draws give it the same turn-on biases and scales.
+std::optional<Imu> second_output(const SimulationConfig& config, Duration timestep,
+                                 std::uint64_t seed) {
+  if (config.fast_imu_rate <= 0.0) return std::nullopt;
+  ImuConfig fast = config.imu;
+  fast.rate = config.fast_imu_rate;
+  return Imu(fast, timestep, seed);
 }
 
 /// Random offset of the start, so that each seed walks its own way; at most three sigma.
@@ -99,6 +109,7 @@ struct Simulation::Impl {
   RayCaster caster;
   Lidar lidar;
   Imu imu;
+  std::optional<Imu> fast_imu;
   LegOdometry legs;
   Link imu_link;
   Link leg_link;
@@ -108,6 +119,7 @@ struct Simulation::Impl {
   Trajectory sweep;  ///< of the LiDAR since the start of the present sweep
   Arrivals arrivals;
   std::vector<Delivery> sent;
+  std::vector<ImuSample> fast_samples;
   Truth truth;
   SimulationTimes times;
 };
@@ -120,6 +132,7 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene buil
       caster(scene),
       lidar(config.lidar, caster, seed),
       imu(config.imu, walker.world().timestep(), seed),
+      fast_imu(second_output(config, walker.world().timestep(), seed)),
       legs(config.leg_odometry, walker.world().timestep(), seed),
       imu_link(config.links.imu, seed, "imu"),
       leg_link(config.links.leg_odometry, seed, "leg_odometry"),
@@ -143,6 +156,8 @@ void Simulation::Impl::deliver(Time now, Measurement measurement, Link& link) {
 
 void Simulation::Impl::send_inertial(const TruthSample& motion) {
   if (auto sample = imu.sample(motion)) deliver(motion.stamp, *sample, imu_link);
+  if (!fast_imu) return;
+  if (auto sample = fast_imu->sample(motion)) fast_samples.push_back(*sample);
 }
 
 void Simulation::Impl::send_legs() {
@@ -230,6 +245,8 @@ bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
   impl_->arrivals.take(finished ? std::numeric_limits<Time>::max() : now(), deliveries);
   return !finished;
 }
+
+std::vector<ImuSample> Simulation::take_fast_imu() { return std::exchange(impl_->fast_samples, {}); }
 
 Time Simulation::now() const { return impl_->walker.world().state().stamp; }
 Duration Simulation::expected_duration() const {

@@ -33,6 +33,10 @@ class Simulation {
   /// False once the route is done, the robot has fallen, or the time limit is reached.
   bool advance(Duration span, std::vector<Delivery>& deliveries);
 
+  /// Takes what the IMU's second output (`fast_imu_rate`) gave since the last call: the same sensor
+  /// with the same errors and its own noise, no packet of it lost.
+  std::vector<ImuSample> take_fast_imu();
+
   Time now() const;
   /// Length of the route over its nominal speed plus its pauses: for progress displays.
   Duration expected_duration() const;

@@ -43,6 +43,11 @@ void describe(Fields& f, SimulationConfig& c) {
   f.group("leg_odometry", c.leg_odometry);
   f.group("lidar", c.lidar);
   f.group("links", c.links);
+  f.number("fast_imu_rate", c.fast_imu_rate,
+           {.unit = "Hz",
+            .range = in_range(0.0, 2000.0),
+            .meaning = "of a second output of the IMU, for recordings; estimators here do not get it",
+            .source = "other systems ask for 200 Hz or more; 0: none"});
   f.number("recording_start", c.recording_start,
            {.unit = "s",
             .range = at_least(0),
@@ -60,6 +65,10 @@ Result<void> validate(const SimulationConfig& config) {
   if (auto ok = validate(config.lidar); !ok) return ok;
   if (auto ok = validate(config.imu, timestep); !ok) return ok;
   if (auto ok = validate(config.leg_odometry, timestep); !ok) return ok;
+  if (config.fast_imu_rate > 0.0) {
+    const auto steps = steps_per_sample("fast_imu_rate", config.fast_imu_rate, timestep);
+    if (!steps) return tl::unexpected(steps.error());
+  }
   const auto sweep = steps_per_sample("lidar.rate", config.lidar.rate, timestep);
   if (!sweep) return tl::unexpected(sweep.error());
   if (config.recording_start >= config.max_duration) {

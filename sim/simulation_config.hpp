@@ -44,6 +44,7 @@ struct SimulationConfig {
   LegOdometryConfig leg_odometry;
   LidarConfig lidar;
   LinksConfig links;
+  double fast_imu_rate = 0.0;    ///< of the IMU's second output, for recordings; 0: none [Hz]
   double recording_start = 0.0;  ///< until then the robot walks unrecorded: a cold start [s]
   double max_duration = 900.0;   ///< simulated time after which the run ends [s]
 };

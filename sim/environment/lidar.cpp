@@ -63,6 +63,12 @@ std::vector<bool> living_rings(const LidarConfig& config, std::uint64_t run_seed
   return alive;
 }
 
+/// The time of a firing as a sensor's float32 seconds hold it, so that a recording loses nothing [ns].
+std::int32_t sensor_time_offset(double offset_ns) {
+  const auto seconds = static_cast<float>(offset_ns * 1e-9);
+  return static_cast<std::int32_t>(std::llround(static_cast<double>(seconds) * 1e9));
+}
+
 /// Whether a direction lies in the covered sector.
 bool is_covered(const LidarDefectConfig& defects, const Eigen::Vector3d& direction) {
   const double azimuth = std::atan2(direction.y(), direction.x());
@@ -118,7 +124,7 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
         beams.x[lane] = static_cast<float>(direction.x());
         beams.y[lane] = static_cast<float>(direction.y());
         beams.z[lane] = static_cast<float>(direction.z());
-        beams.time_offset_ns[lane] = static_cast<std::int32_t>(std::llround(offset));
+        beams.time_offset_ns[lane] = sensor_time_offset(offset);
         beams.open[lane] = alive[static_cast<std::size_t>(ring)] &&
                            !is_covered(config.defects, direction) && !meets_body(config, direction);
       }

@@ -199,5 +199,34 @@ TEST(Simulation, EveryParameterIsDescribed) {
   EXPECT_NE(fields.find("robot.gait.forces.friction"), nullptr);
 }
 
+TEST(Simulation, TheSecondImuOutputChangesNothingElse) {
+  SimulationConfig config = short_walk();
+  const Recording without = record(config, 3);
+  config.fast_imu_rate = 200.0;
+  Simulation simulation = Simulation::create(config, 3).value();
+  Recording with;
+  std::vector<ImuSample> fast;
+  for (bool walking = true; walking;) {
+    walking = simulation.advance(kSecond, with.deliveries);
+    for (const ImuSample& sample : simulation.take_fast_imu()) fast.push_back(sample);
+  }
+  EXPECT_EQ(bytes_of<ImuSample>(with), bytes_of<ImuSample>(without));
+  EXPECT_EQ(bytes_of<LegOdometrySample>(with), bytes_of<LegOdometrySample>(without));
+  EXPECT_TRUE(simulation.take_fast_imu().empty());
+  EXPECT_NEAR(to_seconds(fast.back().stamp - fast.front().stamp),
+              static_cast<double>(fast.size() - 1) * 0.005, 1e-9);
+  Eigen::Vector3d slow_mean = Eigen::Vector3d::Zero();
+  Eigen::Vector3d fast_mean = Eigen::Vector3d::Zero();
+  int slow_count = 0;
+  for (const Delivery& delivery : with.deliveries) {
+    if (const auto* sample = std::get_if<ImuSample>(&delivery.measurement)) {
+      slow_mean += sample->angular_velocity;
+      ++slow_count;
+    }
+  }
+  for (const ImuSample& sample : fast) fast_mean += sample.angular_velocity;
+  EXPECT_LT((slow_mean / slow_count - fast_mean / fast.size()).norm(), 3e-3) << "one sensor's bias";
+}
+
 }  // namespace
 }  // namespace aims

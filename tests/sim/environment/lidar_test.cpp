@@ -117,6 +117,18 @@ TEST(Lidar, FiresColumnByColumnFromTheLowestRingUpClockwise) {
   EXPECT_GT(scan.points.back().time_offset_ns, 99 * kMillisecond);
 }
 
+TEST(Lidar, TimesAreThoseThatFloat32SecondsHold) {
+  const LidarScan scan = one_sweep(plain_corridor(), perfect(), still());
+  const double column_ns = 1e8 / 1800.0;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const std::int32_t offset = scan.points[i].time_offset_ns;
+    const auto seconds = static_cast<float>(offset * 1e-9);
+    ASSERT_EQ(std::llround(static_cast<double>(seconds) * 1e9), offset) << i;
+    const double fired = static_cast<double>(i / 16) * column_ns + static_cast<double>(i % 16) * 2304.0;
+    ASSERT_NEAR(offset, fired, 4.3) << "half of the float's spacing at 0.1 s";
+  }
+}
+
 TEST(Lidar, ColumnsNeedNotFillTheLastPacket) {
   LidarConfig config = perfect();
   config.columns = 1000 + 7;
