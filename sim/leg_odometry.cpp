@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/leg_kinematics.hpp"
+#include "core/leg_kinematics.hpp"
 #include "sim/sampling.hpp"
 
 namespace aims {
@@ -87,15 +87,11 @@ void LegOdometry::measure_rotation(const RobotState& truth, LegOdometrySample& s
 
 /// Velocity of the base in base axes if that foot stands.
 Eigen::Vector3d LegOdometry::foot_velocity(int leg, const LegOdometrySample& sample) const {
-  const Eigen::Vector3d q = joints_of(joints_in(sample.joint_position), leg);
-  const Eigen::Vector3d rate = joints_of(joints_in(sample.joint_velocity), leg);
-  const Eigen::Vector3d& turning = sample.angular_velocity;
-  const Eigen::Vector3d resting =
-      -(foot_jacobian(leg, q) * rate + turning.cross(foot_in_base(leg, q)));
-  if (config_.foot_model == FootModel::kPoint) return resting;
-  const Eigen::Vector3d foot_turning = turning + calf_rate_in_base(leg, q, rate);
+  const LegMotion motion{joints_of(joints_in(sample.joint_position), leg),
+                         joints_of(joints_in(sample.joint_velocity), leg), sample.angular_velocity};
+  if (config_.foot_model == FootModel::kPoint) return velocity_from_foot(leg, motion);
   const Eigen::Vector3d up = T_odom_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  return resting + foot_turning.cross(kLegGeometry.foot_radius * up);
+  return velocity_from_rolling_foot(leg, motion, up);
 }
 
 /// Mean over the standing feet; without any, the last velocity goes on.

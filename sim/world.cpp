@@ -294,7 +294,7 @@ std::array<double, kLegCount> World::slip_speed() const {
     if (s.foot_load[leg] <= 0.0) continue;
     const Eigen::Vector3d q = joints_of(s.q, leg);
     const Eigen::Vector3d rate = joints_of(s.qd, leg);
-    const Eigen::Vector3d turning = s.angular_velocity + calf_rate_in_base(leg, q, rate);
+    const Eigen::Vector3d turning = s.angular_velocity + calf_rate_in_base(q, rate);
     const Eigen::Vector3d in_base =
         s.angular_velocity.cross(foot_in_base(leg, q)) + foot_jacobian(leg, q) * rate;
     const Eigen::Vector3d down(0.0, 0.0, -kLegGeometry.foot_radius);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/leg_kinematics.hpp"
 #include "core/lie.hpp"
 #include "core/measurements.hpp"
-#include "sim/leg_kinematics.hpp"
 
 namespace aims {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/leg_kinematics.hpp"
+#include "core/leg_kinematics.hpp"
 #include "sim/simulation.hpp"
 #include "tests/sim/walking.hpp"
 

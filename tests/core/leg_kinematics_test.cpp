@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/leg_kinematics.hpp"
+#include "core/leg_kinematics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +47,33 @@ TEST(LegKinematics, LeftAndRightAreMirrored) {
 TEST(LegKinematics, AnglesForAPointOutOfReachAreFinite) {
   EXPECT_TRUE(leg_angles(0, {0.0, 0.0, -3.0}).allFinite());
   EXPECT_TRUE(leg_angles(0, hip_in_base(0)).allFinite());
+}
+
+/// A base that moves rigidly over a foot that stays: the pose after `dt` keeps the foot in place.
+TEST(LegKinematics, VelocityFromARestingFootMovesTheBaseSoThatTheFootStays) {
+  RandomStream random(3, "test");
+  const double dt = 1e-6;
+  LegGeometry long_legs;
+  long_legs.thigh = 0.3;
+  long_legs.hip_y = 0.1;
+  for (int trial = 0; trial < 40; ++trial) {
+    const int leg = trial % kLegCount;
+    const LegMotion motion{random_angles(random), random.normal3(), 0.5 * random.normal3()};
+    const Eigen::Vector3d velocity = velocity_from_foot(leg, motion, long_legs);
+    const auto foot_after = [&](double t) -> Eigen::Vector3d {
+      return velocity * t +
+             so3_exp(motion.turning * t) * foot_in_base(leg, motion.q + motion.rate * t, long_legs);
+    };
+    EXPECT_LT((foot_after(dt) - foot_after(-dt)).norm() / (2.0 * dt), 1e-8) << "trial " << trial;
+  }
+}
+
+TEST(LegKinematics, ARollingFootAddsTheSpeedOfItsCentreOverTheFloor) {
+  // The calf pitches forward at 2 rad/s over a foot of 22 mm: its centre runs at 44 mm/s.
+  const LegMotion motion{{0.0, 0.8, -1.6}, {0.0, 2.0, 0.0}, Eigen::Vector3d::Zero()};
+  const Eigen::Vector3d rolling = velocity_from_rolling_foot(0, motion, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d difference = rolling - velocity_from_foot(0, motion);
+  EXPECT_LT((difference - Eigen::Vector3d(0.044, 0.0, 0.0)).norm(), 1e-12);
 }
 
 }  // namespace

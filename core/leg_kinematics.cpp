@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/leg_kinematics.hpp"
+#include "core/leg_kinematics.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,8 +7,6 @@
 
 namespace aims {
 namespace {
-
-constexpr LegGeometry g = kLegGeometry;
 
 Eigen::Matrix3d abduction_rotation(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -21,35 +19,35 @@ Eigen::Vector3d rod(double length, double angle) {
 
 }  // namespace
 
-Eigen::Vector3d hip_in_base(int leg) {
+Eigen::Vector3d hip_in_base(int leg, const LegGeometry& g) {
   return {leg < 2 ? g.hip_x : -g.hip_x, side_of(leg) * g.hip_y, 0.0};
 }
 
-Eigen::Vector3d foot_in_base(int leg, const Eigen::Vector3d& q) {
+Eigen::Vector3d foot_in_base(int leg, const Eigen::Vector3d& q, const LegGeometry& g) {
   const Eigen::Vector3d in_leg = Eigen::Vector3d(0.0, side_of(leg) * g.abduction, 0.0) +
                                  rod(g.thigh, q[1]) + rod(g.calf, q[1] + q[2]);
-  return hip_in_base(leg) + abduction_rotation(q[0]) * in_leg;
+  return hip_in_base(leg, g) + abduction_rotation(q[0]) * in_leg;
 }
 
-Eigen::Matrix3d foot_jacobian(int leg, const Eigen::Vector3d& q) {
+Eigen::Matrix3d foot_jacobian(int leg, const Eigen::Vector3d& q, const LegGeometry& g) {
   const Eigen::Matrix3d R = abduction_rotation(q[0]);
   const Eigen::Vector3d pitch_axis = R.col(1);
   const Eigen::Vector3d calf = R * rod(g.calf, q[1] + q[2]);
   const Eigen::Vector3d leg_rods = R * rod(g.thigh, q[1]) + calf;
   Eigen::Matrix3d J;
-  J.col(0) = Eigen::Vector3d::UnitX().cross(foot_in_base(leg, q) - hip_in_base(leg));
+  J.col(0) = Eigen::Vector3d::UnitX().cross(foot_in_base(leg, q, g) - hip_in_base(leg, g));
   J.col(1) = pitch_axis.cross(leg_rods);
   J.col(2) = pitch_axis.cross(calf);
   return J;
 }
 
-Eigen::Vector3d calf_rate_in_base(int, const Eigen::Vector3d& q, const Eigen::Vector3d& rate) {
+Eigen::Vector3d calf_rate_in_base(const Eigen::Vector3d& q, const Eigen::Vector3d& rate) {
   const Eigen::Vector3d pitch_axis = abduction_rotation(q[0]).col(1);
   return rate[0] * Eigen::Vector3d::UnitX() + (rate[1] + rate[2]) * pitch_axis;
 }
 
-Eigen::Vector3d leg_angles(int leg, const Eigen::Vector3d& foot) {
-  const Eigen::Vector3d p = foot - hip_in_base(leg);
+Eigen::Vector3d leg_angles(int leg, const Eigen::Vector3d& foot, const LegGeometry& g) {
+  const Eigen::Vector3d p = foot - hip_in_base(leg, g);
   const double offset = side_of(leg) * g.abduction;
   const double across = std::max(std::hypot(p.y(), p.z()), std::abs(offset) + 1e-6);
   const double down = std::sqrt(across * across - offset * offset);
@@ -64,6 +62,29 @@ Eigen::Vector3d leg_angles(int leg, const Eigen::Vector3d& foot) {
   const double direction = std::atan2(-p.x(), down);
   const double q1 = direction - std::atan2(g.calf * std::sin(q2), g.thigh + g.calf * std::cos(q2));
   return {q0, q1, q2};
+}
+
+Eigen::Vector3d velocity_from_foot(int leg, const LegMotion& motion, const LegGeometry& g) {
+  const auto& [q, rate, turning] = motion;
+  return -(foot_jacobian(leg, q, g) * rate + turning.cross(foot_in_base(leg, q, g)));
+}
+
+Eigen::Vector3d velocity_from_rolling_foot(int leg, const LegMotion& motion,
+                                           const Eigen::Vector3d& up, const LegGeometry& g) {
+  const Eigen::Vector3d foot_turning = motion.turning + calf_rate_in_base(motion.q, motion.rate);
+  return velocity_from_foot(leg, motion, g) + foot_turning.cross(g.foot_radius * up);
+}
+
+void describe(Fields& f, LegGeometry& g) {
+  const auto length = [](std::string meaning) {
+    return Spec{.unit = "m", .range = at_least(0), .meaning = std::move(meaning)};
+  };
+  f.number("hip_x", g.hip_x, length("hip from the trunk's centre, forward or back"));
+  f.number("hip_y", g.hip_y, length("hip from the trunk's centre, to either side"));
+  f.number("abduction", g.abduction, length("from the abduction axis to the plane of the leg"));
+  f.number("thigh", g.thigh, length("of the thigh, hip to knee"));
+  f.number("calf", g.calf, length("of the calf, knee to the foot's centre"));
+  f.number("foot_radius", g.foot_radius, length("of the round foot"));
 }
 
 }  // namespace aims

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+
+#include "core/config.hpp"
+#include "core/measurements.hpp"
+
+namespace aims {
+
+/// One number per joint, leg by leg: abduction, hip, knee.
+using JointVector = Eigen::Matrix<double, kJointCount, 1>;
+
+/// Lengths of a quadruped [m]; by default of the model in `models/`, against which a test holds
+/// them.
+struct LegGeometry {
+  double hip_x = 0.188;     ///< hip from the trunk's centre, forward or back
+  double hip_y = 0.047;     ///< hip from the trunk's centre, to either side
+  double abduction = 0.08;  ///< from the abduction axis to the plane of the leg
+  double thigh = 0.213;
+  double calf = 0.213;
+  double foot_radius = 0.022;
+};
+
+inline constexpr LegGeometry kLegGeometry{};
+
+void describe(Fields& fields, LegGeometry& geometry);
+
+/// Names of the legs in the model, in the order of all per-leg arrays.
+inline constexpr std::array<std::string_view, kLegCount> kLegNames = {"FL", "FR", "RL", "RR"};
+
+/// +1 for a leg on the left, -1 on the right.
+constexpr double side_of(int leg) { return leg % 2 == 0 ? 1.0 : -1.0; }
+
+/// Where the abduction axis of `leg` leaves the trunk, in the base frame [m].
+Eigen::Vector3d hip_in_base(int leg, const LegGeometry& geometry = kLegGeometry);
+
+/// Angles of the joints of one leg out of all twelve [rad].
+inline Eigen::Vector3d joints_of(const JointVector& q, int leg) { return q.segment<3>(3 * leg); }
+
+/// Centre of the foot sphere in the base frame [m] at the joint angles `q` [rad].
+Eigen::Vector3d foot_in_base(int leg, const Eigen::Vector3d& q,
+                             const LegGeometry& geometry = kLegGeometry);
+
+/// d foot_in_base / d q, 3x3 [m/rad].
+Eigen::Matrix3d foot_jacobian(int leg, const Eigen::Vector3d& q,
+                              const LegGeometry& geometry = kLegGeometry);
+
+/// Angular velocity of the calf with respect to the base, in base axes [rad/s].
+Eigen::Vector3d calf_rate_in_base(const Eigen::Vector3d& q, const Eigen::Vector3d& rate);
+
+/// Joint angles [rad] that bring the foot's centre to `foot` in the base frame [m], knee backwards.
+/// A point out of reach is brought to the nearest reachable length of the leg.
+Eigen::Vector3d leg_angles(int leg, const Eigen::Vector3d& foot,
+                           const LegGeometry& geometry = kLegGeometry);
+
+/// How one leg and the trunk turn at an instant.
+struct LegMotion {
+  Eigen::Vector3d q;        ///< angles of the leg's joints [rad]
+  Eigen::Vector3d rate;     ///< of these angles [rad/s]
+  Eigen::Vector3d turning;  ///< angular velocity of the base, in base axes [rad/s]
+};
+
+/// Velocity of the base in base axes [m/s] if the centre of that leg's foot rests.
+Eigen::Vector3d velocity_from_foot(int leg, const LegMotion& motion,
+                                   const LegGeometry& geometry = kLegGeometry);
+
+/// Velocity of the base in base axes [m/s] if the round foot rolls on a floor that faces `up`, a
+/// unit vector in base axes.
+Eigen::Vector3d velocity_from_rolling_foot(int leg, const LegMotion& motion,
+                                           const Eigen::Vector3d& up,
+                                           const LegGeometry& geometry = kLegGeometry);
+
+}  // namespace aims
