@@ -24,6 +24,7 @@ constexpr const char* kFooter =
     "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
     "  aims compare out/before out/after\n"
     "  aims detectors corridor corridor_smooth --seeds 1-5\n"
+    "  aims simulate corridor -o walk.bag\n"
     "  aims list\n"
     "  aims config corridor\n"
     "Exit codes: 0 ok, 1 an expectation of the scenario failed, 2 bad usage or configuration,\n"
@@ -38,6 +39,7 @@ int parse_and_run(int argc, char** argv) {
       aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
   int exit_code = aims::kOk;
   aims::add_run_command(app, scenarios, exit_code);
+  aims::add_simulate_command(app, scenarios, exit_code);
   aims::add_suite_command(app, scenarios, exit_code);
   aims::add_compare_command(app, exit_code);
   aims::add_detectors_command(app, scenarios, exit_code);

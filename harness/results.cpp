@@ -12,15 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Truth poses are written at this spacing; the simulation holds them at the physics rate.
-constexpr Duration kTruthSpacing = 10 * kMillisecond;
-
-std::string effective_config(const Scenario& scenario, std::uint64_t seed) {
-  Scenario effective = scenario;
-  effective.seed = static_cast<int>(seed);
-  return config_text(effective);
-}
-
 Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder) {
   auto written = write_tum(folder / (outcome.name + ".tum"), outcome.report.trajectory);
   if (!written) return written;

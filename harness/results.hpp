@@ -4,10 +4,14 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/time.hpp"
 #include "harness/run.hpp"
 #include "harness/score_record.hpp"
 
 namespace aims {
+
+/// Truth poses are written at this spacing; the simulation holds them at the physics rate.
+inline constexpr Duration kTruthSpacing = 10 * kMillisecond;
 
 /// Writes what a run's scores were made from: the files of `write_results` but the scores.
 Result<void> write_streams(const Scenario& scenario, const RunResult& result,

@@ -129,6 +129,12 @@ std::string config_text(const Scenario& scenario, bool annotated) {
   return annotated ? dump_annotated_config(fields) : dump_config(fields);
 }
 
+std::string effective_config(const Scenario& scenario, std::uint64_t seed) {
+  Scenario effective = scenario;
+  effective.seed = static_cast<int>(seed);
+  return config_text(effective);
+}
+
 Result<fs::path> find_scenario(const std::string& given, const fs::path& folder) {
   if (fs::is_regular_file(given)) return fs::path(given);
   const fs::path by_path = folder / (given + ".yaml");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -71,6 +72,9 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides);
 /// Every parameter of the scenario as YAML that loads again; `annotated` adds unit, range, meaning
 /// and source to each.
 std::string config_text(const Scenario& scenario, bool annotated = false);
+
+/// The configuration that repeats a run with that seed.
+std::string effective_config(const Scenario& scenario, std::uint64_t seed);
 
 /// The file of a scenario given by path or by bare name ("corridor"), searched in `folder` and
 /// below.

@@ -21,6 +21,8 @@ class MessageBytes {
   requires std::is_arithmetic_v<Number>
   void put(Number value) { append(&value, sizeof(value)); }
 
+  void reserve(std::size_t size) { bytes_.reserve(size); }
+
   void length(std::size_t count) { put(static_cast<std::uint32_t>(count)); }
 
   void text(std::string_view value) {
