@@ -10,18 +10,27 @@
 
 namespace aims {
 
+/// How poses of a file are taken.
+enum class PoseRules {
+  kStrict,   ///< a pose that is none, or a stamp that does not increase, is an error
+  kAsGiven,  ///< they stay, not finite, not of unit norm, out of order: for scoring to count
+};
+
 /// Lines "stamp x y z qx qy qz qw" of the TUM format: seconds with nine decimals, which keep the
 /// nanoseconds exactly, and shortest decimals that read back to the same doubles.
 std::string tum_text(const Trajectory& trajectory);
 
 /// Reads TUM text ('#' starts a comment line). Stamps must increase strictly, numbers be finite
-/// and quaternions of unit norm within 1e-3 (then normalized). Errors: "name:line: ...".
-Result<Trajectory> parse_tum(std::string_view text, const std::string& name);
+/// and quaternions of unit norm within 1e-3 (then normalized), unless the rules say as given.
+/// Errors: "name:line: ...".
+Result<Trajectory> parse_tum(std::string_view text, const std::string& name,
+                             PoseRules rules = PoseRules::kStrict);
 
 /// Writes `tum_text` atomically.
 Result<void> write_tum(const std::filesystem::path& file, const Trajectory& trajectory);
 
 /// Reads a TUM file with `parse_tum`.
-Result<Trajectory> read_tum(const std::filesystem::path& file);
+Result<Trajectory> read_tum(const std::filesystem::path& file,
+                            PoseRules rules = PoseRules::kStrict);
 
 }  // namespace aims

@@ -50,6 +50,17 @@ TEST(Tum, ErrorsNameFileAndLine) {
             "t.tum:3: expected a stamp after 2.000000000, found 2.000000000");
 }
 
+TEST(Tum, AsGivenKeepsPosesThatAreNone) {
+  const auto parsed = parse_tum("2 nan 0 0 0 0 0 1\n2 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0.9999\n",
+                                "t.tum", PoseRules::kAsGiven);
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  ASSERT_EQ(parsed->size(), 3U);
+  EXPECT_TRUE(std::isnan((*parsed)[0].pose.translation.x()));
+  EXPECT_EQ((*parsed)[1].pose.rotation.norm(), 0.0);
+  EXPECT_EQ((*parsed)[2].pose.rotation.norm(), 1.0) << "rounding is made good";
+  EXPECT_FALSE(parse_tum("1 x 0 0 0 0 0 1\n", "t.tum", PoseRules::kAsGiven));
+}
+
 TEST(Tum, MissingFileIsNamed) {
   const auto read = read_tum("/nonexistent/t.tum");
   ASSERT_FALSE(read);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/time.hpp"
+
+namespace aims {
+
+/// Goes through the lines of a text that are neither blank nor comments ('#').
+class LineReader {
+ public:
+  /// `name` is what errors call the text; both must outlive the reader.
+  LineReader(std::string_view text, std::string_view name) : rest_(text), name_(name) {}
+
+  /// The next such line, or nothing at the end.
+  std::optional<std::string_view> next();
+
+  /// Number of the last line given, counted from 1 with blanks and comments.
+  int number() const { return number_; }
+
+  /// The error "name:line: message" about the last line given.
+  tl::unexpected<Error> error(std::string_view message) const;
+
+ private:
+  std::string_view rest_;
+  std::string_view name_;
+  int number_ = 0;
+};
+
+/// Words between blanks and tabs.
+std::vector<std::string_view> words_of(std::string_view line);
+
+/// The number that fills the whole word; nan and inf only when `finite` is false.
+std::optional<double> parse_number(std::string_view word, bool finite = true);
+
+/// Seconds as nanoseconds: exact when written as plain decimals of at most nine digits; other
+/// notations (exponents, more digits) are rounded to the nearest nanosecond.
+std::optional<Time> parse_stamp(std::string_view word);
+
+/// Seconds with nine decimals, which keep the nanoseconds exactly.
+std::string stamp_text(Time stamp);
+
+}  // namespace aims
