@@ -8,7 +8,7 @@ foreach(folder core sim estimator eval models harness)
   file(GLOB_RECURSE files RELATIVE ${ROOT} "${ROOT}/${folder}/*.hpp" "${ROOT}/${folder}/*.cpp"
     "${ROOT}/${folder}/*.in" "${ROOT}/${folder}/*.xml")
   if(folder STREQUAL "harness")  # the rest of it reports
-    list(FILTER files INCLUDE REGEX "harness/(run[a-z_]*|score_record|timed_estimator)\\.")
+    list(FILTER files INCLUDE REGEX "harness/(run[a-z_]*|score_record|stream|timed_estimator)\\.")
   endif()
   list(SORT files)
   foreach(file ${files})

@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "harness/output_folder.hpp"
 #include "harness/pictures.hpp"
 #include "harness/results.hpp"
+#include "harness/stopwatch.hpp"
 #include "harness/summary.hpp"
 
 namespace aims {
@@ -18,12 +17,11 @@ namespace fs = std::filesystem;
 /// Wall time [s] that drawing took; a picture that could not be drawn costs no results.
 double draw(const Scenario& scenario, const RunResult& result, const fs::path& folder,
             std::vector<std::string>& warnings) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   if (auto drawn = draw_pictures(scenario, result, folder); !drawn) {
     warnings.push_back(drawn.error().message);
   }
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return stopwatch.seconds();
 }
 
 /// Runs one seed and adds it to the experiment.

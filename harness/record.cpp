@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "harness/code_version.hpp"
 #include "harness/results.hpp"
+#include "harness/stopwatch.hpp"
+#include "harness/stream.hpp"
 #include "harness/tables.hpp"
 #include "io/recording/recording_writer.hpp"
 #include "io/tum.hpp"
@@ -20,9 +21,6 @@ namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Simulated at a time: bounds the memory of a recording.
-constexpr Duration kBatch = kSecond;
 
 /// Puts the simulation's three outputs into one bag, in order of time within a batch.
 class Recorder {
@@ -109,11 +107,7 @@ Result<void> make_room(const RecordOptions& options) {
 
 Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& options,
                              const Observer& observer) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  const auto elapsed = [start] {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
+  const Stopwatch stopwatch;
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
   if (auto ok = make_room(options); !ok) return tl::unexpected(ok.error());
@@ -129,10 +123,10 @@ Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& opti
   const double expected_s = to_seconds(simulation->expected_duration());
   for (bool walking = true; walking && outcome.complete;) {
     deliveries.clear();
-    walking = simulation->advance(kBatch, deliveries);
+    walking = simulation->advance(kStreamBatch, deliveries);
     auto ok = recorder.write(deliveries, simulation->take_fast_imu(), simulation->truth());
     if (!ok) return tl::unexpected(ok.error());
-    outcome.complete = observer({to_seconds(simulation->now()), expected_s, elapsed()});
+    outcome.complete = observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
   }
   const Truth& truth = simulation->truth();
   const CsvTable passages = passages_table(truth.passages);
@@ -148,7 +142,7 @@ Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& opti
   outcome.touched_wall = truth.touched_wall;
   outcome.left_out = recorder.writer().left_out();
   outcome.bag_bytes = fs::file_size(options.bag);
-  outcome.wall_s = elapsed();
+  outcome.wall_s = stopwatch.seconds();
   return outcome;
 }
 

@@ -1,72 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "harness/run.hpp"
 
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
-#include <chrono>
-#include <utility>
-
-#include "estimator/registry.hpp"
-#include "harness/timed_estimator.hpp"
+#include "harness/stopwatch.hpp"
+#include "harness/stream.hpp"
 
 namespace aims {
 namespace {
-
-/// Stream handed over between simulation and estimators at a time: bounds the memory of a run.
-constexpr Duration kBatch = kSecond;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-Result<std::vector<TimedEstimator>> make_estimators(const Scenario& scenario,
-                                                    const SensorRig& rig) {
-  std::vector<TimedEstimator> estimators;
-  for (const std::string& name : scenario.estimators) {
-    auto made = make_estimator(name, scenario.estimator, rig);
-    if (!made) return tl::unexpected(made.error());
-    estimators.emplace_back(name, std::move(*made));
-  }
-  return estimators;
-}
-
-/// Streams the whole run: while the estimators work on one batch, the next is simulated.
-/// True when the simulation came to its own end.
-bool stream(Simulation& simulation, std::vector<TimedEstimator>& estimators, int jobs,
-            const Observer& observer) {
-  const Stopwatch stopwatch;
-  const double expected_s = to_seconds(simulation.expected_duration());
-  tbb::task_arena arena(jobs);
-  std::vector<Delivery> current;
-  std::vector<Delivery> next;
-  bool walking = simulation.advance(kBatch, current);
-  bool wanted = true;
-  for (bool pending = true; pending && wanted;) {
-    pending = walking;
-    next.clear();
-    arena.execute([&] {
-      tbb::task_group tasks;
-      for (TimedEstimator& each : estimators) tasks.run([&] { each.consume(current); });
-      if (walking) tasks.run([&] { walking = simulation.advance(kBatch, next); });
-      tasks.wait();
-    });
-    std::swap(current, next);
-    wanted = observer({to_seconds(simulation.now()), expected_s, stopwatch.seconds()});
-  }
-  arena.execute([&] {
-    tbb::task_group tasks;
-    for (TimedEstimator& each : estimators) tasks.run([&each] { each.finish(); });
-    tasks.wait();
-  });
-  return wanted;
-}
 
 EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result,
                             const Scenario& scenario) {
@@ -92,12 +31,19 @@ Result<RunResult> run(const Scenario& scenario, const RunOptions& options,
   const Stopwatch stopwatch;
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
-  auto estimators = make_estimators(scenario, simulation->rig());
+  auto estimators = make_estimators(scenario.estimators, scenario.estimator, simulation->rig());
   if (!estimators) return tl::unexpected(estimators.error());
 
+  const double expected_s = to_seconds(simulation->expected_duration());
+  const StreamEnd end =
+      stream([&](std::vector<Delivery>& batch) { return simulation->advance(kStreamBatch, batch); },
+             *estimators, options.jobs,
+             [&] {
+               return observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
+             });
   RunResult result;
   result.seed = options.seed;
-  result.complete = stream(*simulation, *estimators, options.jobs, observer);
+  result.complete = !end.stopped;
   result.simulated_s = to_seconds(simulation->now());
   result.simulation_times = simulation->times();
   result.scene = simulation->scene();

@@ -52,7 +52,7 @@ struct RunResult {
   SimulationTimes simulation_times;
   Scene scene;
   Truth truth;
-  Trajectory truth_trajectory;  ///< T_world_body at the physics rate
+  Trajectory truth_trajectory;       ///< T_world_body at the physics rate
   RunLocalizability localizability;  ///< what the sweeps allow to know
   std::vector<EstimatorOutcome> estimators;
 };

@@ -29,8 +29,7 @@ bool ProgressCount::wanted() const {
 
 void ProgressCount::tell() {
   SuiteProgress progress{done_, total_, 0.0, std::nullopt};
-  progress.elapsed_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  progress.elapsed_s = stopwatch_.seconds();
   double runs = static_cast<double>(done_);
   for (const auto& [key, share] : under_way_) runs += share;
   if (runs > 0.0) {

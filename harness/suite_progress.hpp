@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
 #include <map>
 #include <mutex>
 
 #include "harness/run.hpp"
+#include "harness/stopwatch.hpp"
 #include "harness/suite.hpp"
 
 namespace aims {
@@ -31,7 +31,7 @@ class ProgressCount {
   std::size_t done_ = 0;
   std::map<const void*, double> under_way_;  ///< share of each run that is done
   bool wanted_ = true;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
 };
 
 }  // namespace aims

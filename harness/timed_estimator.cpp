@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "harness/timed_estimator.hpp"
 
-#include <chrono>
 #include <utility>
+
+#include "harness/stopwatch.hpp"
 
 namespace aims {
 namespace {
@@ -29,12 +30,11 @@ void TimedEstimator::finish() {
 
 template <class Work>
 void TimedEstimator::timed(const Work& work) {
-  using Clock = std::chrono::steady_clock;
   const EstimatorReport& report = estimator_->report();
   const std::size_t scans_before = scans_in(report);
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   work();
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   total_seconds_ += seconds;
   seconds_since_scan_ += seconds;
   const std::size_t scans = scans_in(report);

@@ -246,7 +246,9 @@ bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
   return !finished;
 }
 
-std::vector<ImuSample> Simulation::take_fast_imu() { return std::exchange(impl_->fast_samples, {}); }
+std::vector<ImuSample> Simulation::take_fast_imu() {
+  return std::exchange(impl_->fast_samples, {});
+}
 
 Time Simulation::now() const { return impl_->walker.world().state().stamp; }
 Duration Simulation::expected_duration() const {

@@ -124,7 +124,8 @@ TEST(Lidar, TimesAreThoseThatFloat32SecondsHold) {
     const std::int32_t offset = scan.points[i].time_offset_ns;
     const auto seconds = static_cast<float>(offset * 1e-9);
     ASSERT_EQ(std::llround(static_cast<double>(seconds) * 1e9), offset) << i;
-    const double fired = static_cast<double>(i / 16) * column_ns + static_cast<double>(i % 16) * 2304.0;
+    const double fired =
+        static_cast<double>(i / 16) * column_ns + static_cast<double>(i % 16) * 2304.0;
     ASSERT_NEAR(offset, fired, 4.3) << "half of the float's spacing at 0.1 s";
   }
 }
