@@ -28,6 +28,12 @@ inline constexpr LegGeometry kLegGeometry{};
 
 void describe(Fields& fields, LegGeometry& geometry);
 
+/// What a robot takes its feet for.
+enum class FootModel {
+  kPoint,    ///< the centre of a standing foot rests: reads short, as the round foot rolls
+  kRolling,  ///< the foot rolls on its contact point
+};
+
 /// Names of the legs in the model, in the order of all per-leg arrays.
 inline constexpr std::array<std::string_view, kLegCount> kLegNames = {"FL", "FR", "RL", "RR"};
 

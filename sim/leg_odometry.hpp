@@ -8,17 +8,12 @@
 
 #include "core/config.hpp"
 #include "core/error.hpp"
+#include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
 #include "core/random.hpp"
 #include "sim/world.hpp"
 
 namespace aims {
-
-/// What the robot takes its feet for.
-enum class FootModel {
-  kPoint,    ///< the centre of a standing foot rests: reads short, as the round foot rolls
-  kRolling,  ///< the foot rolls on its contact point
-};
 
 /// The robot's own odometry: encoders, contact detection, its own gyro.
 struct LegOdometryConfig {

@@ -6,23 +6,25 @@
 #include <vector>
 
 #include "core/config.hpp"
+#include "core/leg_kinematics.hpp"
 
 namespace aims {
 
-/// Topics of a recording. An empty name: the only topic of a fitting type, if there is just one.
+/// Topics of a recording. An empty name: the topic that recordings written here have, else the only
+/// topic of a fitting type, if there is just one. "none": do without.
 struct TopicsConfig {
   std::string lidar;         ///< sensor_msgs/PointCloud2 or livox_ros_driver(2)/CustomMsg
   std::string imu;           ///< sensor_msgs/Imu
-  std::string leg_odometry;  ///< nav_msgs/Odometry or geometry_msgs/TwistStamped
+  std::string leg_odometry;  ///< nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist
   std::string joint_states;  ///< sensor_msgs/JointState, for legs without odometry
   std::string contacts;      ///< any message with an array of numbers, one per foot
-  std::string truth;         ///< nav_msgs/Odometry; read for scoring only
+  std::string truth;         ///< nav_msgs/Odometry or PoseStamped; read for scoring only
 };
 
 /// Where a sensor sits on the body when the bag's tf does not say, or says wrong.
 struct ExtrinsicConfig {
-  bool given = false;                                       ///< use these values, not the bag's tf
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();    ///< in the IMU frame [m]
+  bool given = false;                                     ///< use these values, not the bag's tf
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< in the IMU frame [m]
   Eigen::Vector3d rotation_rpy_deg = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw [deg]
 };
 
@@ -42,14 +44,17 @@ struct RecordingConfig {
   ImuUnit imu_unit = ImuUnit::kAuto;
   PointTimeUnit point_time_unit = PointTimeUnit::kAuto;
   CloudStamp cloud_stamp = CloudStamp::kAuto;
-  double lidar_rate = 10.0;  ///< sweeps per second, where points carry no time [Hz]
-  bool lidar_clockwise = true;  ///< sense of spin seen from above, where points carry no time
-  double imu_delay = 0.0;    ///< subtracted from the stamps of the IMU [s]
-  double lidar_delay = 0.0;  ///< subtracted from the stamps of the LiDAR [s]
-  double leg_delay = 0.0;    ///< subtracted from the stamps of the legs [s]
+  double lidar_rate = 10.0;         ///< sweeps per second, where points carry no time [Hz]
+  bool lidar_clockwise = true;      ///< sense of spin seen from above, where points carry no time
+  double imu_delay = 0.0;           ///< subtracted from the stamps of the IMU [s]
+  double lidar_delay = 0.0;         ///< subtracted from the stamps of the LiDAR [s]
+  double leg_delay = 0.0;           ///< subtracted from the stamps of the legs [s]
   std::string contacts_field;       ///< path of the array; empty: the first array of numbers
   double contact_threshold = 20.0;  ///< value from which a foot stands [N or the message's unit]
-  std::vector<std::string> joint_names;  ///< of the 12 joints, leg by leg; empty: as recorded
+  std::vector<std::string> foot_names;       ///< of the array's entries, e.g. [FR, FL, RR, RL]
+  std::vector<std::string> joint_names;      ///< of the 12 joints, leg by leg; empty: as recorded
+  LegGeometry leg_geometry;                  ///< for legs without odometry
+  FootModel foot_model = FootModel::kPoint;  ///< for legs without odometry
 };
 
 void describe(Fields& fields, TopicsConfig& config);
