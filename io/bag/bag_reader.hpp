@@ -36,19 +36,21 @@ struct BagMessage {
 
 /// What the index of a bag says.
 struct BagSummary {
-  std::uint64_t file_size = 0;    ///< [bytes]
+  std::uint64_t file_size = 0;  ///< [bytes]
   std::uint64_t chunks = 0;
   std::uint64_t messages = 0;
-  std::uint64_t lost_bytes = 0;   ///< behind the last whole chunk; only of a recovered bag
-  Time start = 0;                 ///< earliest record time, since the epoch
-  Time end = 0;                   ///< latest record time
-  std::string compression;        ///< "none", "lz4", "bz2", or several: "lz4, none"
-  bool indexed = true;            ///< false: never closed, read by scanning
+  std::uint64_t lost_bytes = 0;  ///< in chunks that are not whole, and behind; when recovered
+  Time start = 0;                ///< earliest record time, since the epoch
+  Time end = 0;                  ///< latest record time
+  std::string compression;       ///< "none", "lz4", "bz2", or several: "lz4, none"
+  bool indexed = true;           ///< false: never closed, read by scanning
 };
 
 struct BagOpenOptions {
   /// Read what is whole in a bag that was never closed or was cut short, instead of an error.
   bool recover = false;
+  /// Chunks in memory at a time; a bag that needs more is an error [bytes].
+  std::size_t memory_limit = std::size_t{1} << 30;
 };
 
 /// Reads a ROS 1 bag (format 2.0) message by message in order of record time, then of place in the
@@ -67,6 +69,7 @@ class BagReader {
   const BagSummary& summary() const;
 
   /// From here on only messages of these topics are given; chunks without them are not read.
+  /// Topics that the bag does not have are no error.
   void select(std::span<const std::string> topics);
 
   /// The next message, or nothing at the end.

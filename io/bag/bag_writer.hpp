@@ -10,11 +10,12 @@
 
 #include "core/error.hpp"
 #include "core/time.hpp"
+#include "io/bag/compression.hpp"
 #include "io/ros/message_type.hpp"
 
 namespace aims {
 
-enum class BagCompression { kNone, kLz4, kBz2 };
+class BagOutput;
 
 struct BagWriterOptions {
   BagCompression compression = BagCompression::kNone;
@@ -27,6 +28,9 @@ class BagWriter {
  public:
   /// Error when the file exists or cannot be written.
   static Result<BagWriter> create(const std::filesystem::path& file, BagWriterOptions options = {});
+  /// Onto anything that takes writes and begins with an empty bag; `name` is for errors.
+  static Result<BagWriter> create(std::unique_ptr<BagOutput> output, const std::string& name,
+                                  BagWriterOptions options = {});
   BagWriter(BagWriter&&) noexcept;
   BagWriter& operator=(BagWriter&&) noexcept;
   ~BagWriter();  ///< closes, without a word about what went wrong: call `close`
@@ -35,7 +39,9 @@ class BagWriter {
   std::uint32_t add_connection(const std::string& topic, const MessageType& type,
                                bool latching = false);
 
-  /// Appends a message as serialized by ROS 1. Error when the disk is full, naming the file.
+  /// Appends a message as serialized by ROS 1. Error when the disk is full, naming the file; the
+  /// bag then still opens with the chunks closed before. `record_time` is above 0: at 0, rosbag's
+  /// own reader does not see a message.
   Result<void> write(std::uint32_t connection, Time record_time, std::span<const std::byte> data);
 
   /// Closes the last chunk and the file. Nothing may be written afterwards.

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+/// How the content of a bag's chunks is packed.
+enum class BagCompression { kNone, kLz4, kBz2 };
+
+/// As bags name it: "none", "lz4", "bz2".
+std::string_view name_of(BagCompression compression);
+std::optional<BagCompression> compression_named(std::string_view name);
+
+/// The packed form of `bytes`: an lz4 frame or a bz2 stream, or the same bytes.
+Result<std::vector<std::byte>> compress(BagCompression compression,
+                                        std::span<const std::byte> bytes);
+
+/// Unpacks exactly `size` bytes into `out`. Error when the packed bytes are damaged or hold fewer
+/// or more; memory grows with what is truly unpacked and never beyond `size`.
+Result<void> decompress(BagCompression compression, std::span<const std::byte> packed,
+                        std::size_t size, std::vector<std::byte>& out);
+
+}  // namespace aims
