@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""usage: mcap_test.py CONVERTER VIEWER_SCRIPT. Run by tests/mcap/run.sh."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import genpy
+
+import sample_bag
+from cdr import CdrReader, parse_schema
+from mcap_file import McapFile
+
+CONVERTER, VIEWER = None, None
+
+# As in ROS 2's common_interfaces and geometry2; constants and comments left out.
+ROS2_FIELDS = {
+    "sensor_msgs/msg/PointCloud2":
+        "std_msgs/Header header, uint32 height, uint32 width, sensor_msgs/PointField[] fields, "
+        "bool is_bigendian, uint32 point_step, uint32 row_step, uint8[] data, bool is_dense",
+    "sensor_msgs/msg/PointField": "string name, uint32 offset, uint8 datatype, uint32 count",
+    "sensor_msgs/msg/Imu":
+        "std_msgs/Header header, geometry_msgs/Quaternion orientation, "
+        "float64[9] orientation_covariance, geometry_msgs/Vector3 angular_velocity, "
+        "float64[9] angular_velocity_covariance, geometry_msgs/Vector3 linear_acceleration, "
+        "float64[9] linear_acceleration_covariance",
+    "sensor_msgs/msg/JointState":
+        "std_msgs/Header header, string[] name, float64[] position, float64[] velocity, "
+        "float64[] effort",
+    "sensor_msgs/msg/CameraInfo":
+        "std_msgs/Header header, uint32 height, uint32 width, string distortion_model, "
+        "float64[] d, float64[9] k, float64[9] r, float64[12] p, uint32 binning_x, "
+        "uint32 binning_y, sensor_msgs/RegionOfInterest roi",
+    "nav_msgs/msg/Odometry":
+        "std_msgs/Header header, string child_frame_id, "
+        "geometry_msgs/PoseWithCovariance pose, geometry_msgs/TwistWithCovariance twist",
+    "tf2_msgs/msg/TFMessage": "geometry_msgs/TransformStamped[] transforms",
+    "geometry_msgs/msg/TransformStamped":
+        "std_msgs/Header header, string child_frame_id, geometry_msgs/Transform transform",
+    "geometry_msgs/msg/PoseWithCovariance": "geometry_msgs/Pose pose, float64[36] covariance",
+    "geometry_msgs/msg/Quaternion": "float64 x, float64 y, float64 z, float64 w",
+    "std_msgs/msg/Header": "builtin_interfaces/Time stamp, string frame_id",
+    "std_msgs/msg/String": "string data",
+    "builtin_interfaces/msg/Time": "int32 sec, uint32 nanosec",
+    "builtin_interfaces/msg/Duration": "int32 sec, uint32 nanosec",
+    "aims_msgs/msg/FootContacts": "std_msgs/Header header, string[] foot, bool[] contact",
+}
+
+
+def convert(*arguments, **options):
+    return subprocess.run([CONVERTER, *arguments], capture_output=True, text=True, check=False, **options)
+
+
+def as_ros2(message):
+    """What a ROS 1 message must read like in ROS 2; numbers by their bits."""
+    if isinstance(message, genpy.Time | genpy.Duration):
+        return {"sec": message.secs, "nanosec": message.nsecs}
+    if isinstance(message, genpy.Message):
+        fields = {}
+        for name in message.__slots__:
+            if message._type == "std_msgs/Header" and name == "seq":
+                continue
+            new_name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+            fields[new_name] = as_ros2(getattr(message, name))
+        return fields
+    return comparable(message)
+
+
+def comparable(value):
+    if isinstance(value, dict):
+        return {name: comparable(each) for name, each in value.items()}
+    if isinstance(value, float):
+        return sample_bag.bits(value)
+    if isinstance(value, str):
+        return value.encode()
+    if isinstance(value, list | tuple):
+        return [as_ros2(each) if isinstance(each, genpy.Message | genpy.rostime.TVal)
+                else comparable(each) for each in value]
+    return value
+
+
+class Sample(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.bag = os.path.join(cls.folder.name, "run.bag")
+        cls.written = sample_bag.write(cls.bag, "none")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def left_over(self):
+        return [name for name in os.listdir(self.folder.name) if "partial" in name]
+
+
+class Conversion(Sample):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        output = os.path.join(cls.folder.name, "run.mcap")
+        cls.done = convert(cls.bag, output)
+        assert cls.done.returncode == 0, cls.done.stderr
+        cls.mcap = McapFile(output)  # checks lengths, checksums, indexes and statistics
+
+    def test_every_message_is_there_with_its_times_and_exact_values(self):
+        found = {}
+        for message in self.mcap.messages:
+            channel = self.mcap.channels[message.channel]
+            schema = self.mcap.schemas[channel.schema]
+            types, _ = parse_schema(schema.name, schema.text)
+            value = comparable(CdrReader(types, message.data).decode(schema.name))
+            found.setdefault(channel.topic, []).append((message, value))
+        self.assertEqual(found.keys(), self.written.keys())
+        for topic, messages in self.written.items():
+            self.assertEqual(len(found[topic]), len(messages), topic)
+            for (record_time, sent), (message, value) in zip(messages, found[topic]):
+                self.assertEqual(value, as_ros2(sent), topic)
+                self.assertEqual(message.log_time, record_time)
+                stamped = hasattr(sent, "header")
+                publish = sent.header.stamp.to_nsec() if stamped else record_time
+                self.assertEqual(message.publish_time, publish, topic)
+
+    def test_messages_keep_the_order_of_the_bag(self):
+        first = [self.mcap.channels[message.channel].topic for message in self.mcap.messages[2:5]]
+        self.assertEqual(first, ["/joint_states", "/foot_contacts", "/leg_odometry"])
+        for channel in self.mcap.channels:
+            numbers = [m.sequence for m in self.mcap.messages if m.channel == channel]
+            self.assertEqual(numbers, list(range(len(numbers))))
+
+    def test_types_are_those_of_ros_2(self):
+        self.assertEqual(self.mcap.profile, "ros2")
+        seen = {}
+        for schema in self.mcap.schemas.values():
+            self.assertEqual(schema.encoding, "ros2msg")
+            seen.update(parse_schema(schema.name, schema.text)[0])
+        for name, expected in ROS2_FIELDS.items():
+            fields = [f"{kind.replace('/msg/', '/')}{'' if size is None else f'[{size}]'} {field}"
+                      for kind, size, field in seen[name]]
+            self.assertEqual(", ".join(fields), expected, name)
+
+    def test_constants_are_kept(self):
+        schema = next(s for s in self.mcap.schemas.values() if s.name == "odd_msgs/msg/Oddities")
+        constants = parse_schema(schema.name, schema.text)[1]
+        self.assertEqual(constants, {
+            (schema.name, "GREETING"): ("string", '"say \\"hi\\" # all of this"'),
+            (schema.name, "ANSWER"): ("int32", "42"),
+            (schema.name, "YES"): ("bool", "true"),
+            (schema.name, "HALF"): ("float32", "0.5")})
+
+    def test_latched_topics_are_offered_as_transient_local(self):
+        for channel in self.mcap.channels.values():
+            self.assertEqual(channel.encoding, "cdr")
+            durability = 1 if channel.topic == "/tf_static" else 2
+            self.assertIn(f"  durability: {durability}\n", channel.metadata["offered_qos_profiles"])
+
+    def test_summary_is_printed(self):
+        count = sum(len(messages) for messages in self.written.values())
+        size = os.path.getsize(self.path("run.mcap"))
+        self.assertEqual(self.done.stdout, f"{self.path('run.mcap')}: {count} messages, "
+                         f"{len(self.written)} topics, {size} bytes\n")
+
+    def test_the_viewers_own_decoder_reads_the_same_bytes(self):
+        run = subprocess.run(["node", VIEWER, self.path("run.mcap")], capture_output=True,
+                             text=True, check=False)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        count = sum(len(messages) for messages in self.written.values())
+        foreign = sum(not each.text.isascii() for _, each in self.written["/odd"]) + 1
+        self.assertEqual(run.stdout, f"{count} messages read, {foreign} not ASCII, 0 differ\n")
+
+    def test_compression_on_either_side_changes_no_message(self):
+        for compression in ("bz2", "lz4"):
+            bag, output = self.path(compression + ".bag"), self.path(compression + ".mcap")
+            sample_bag.write(bag, compression)
+            self.assertEqual(convert(bag, output, "--compress", "zstd").returncode, 0)
+            self.assertEqual(McapFile(output).messages, self.mcap.messages)
+
+
+class BadInput(Sample):
+    def fails(self, expected, *arguments):
+        run = convert(*arguments)
+        self.assertEqual((run.returncode, run.stdout), (2, ""), run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertIn(expected, run.stderr)
+        self.assertEqual(self.left_over(), [])
+
+    def put(self, name, data):
+        with open(self.path(name), "wb") as stream:
+            stream.write(data)
+        return self.path(name)
+
+    def bytes_of_bag(self):
+        with open(self.bag, "rb") as stream:
+            return stream.read()
+
+    def test_usage_is_explained(self):
+        self.fails("two files expected", self.bag)
+        self.fails("--compress gzip: none or zstd expected", self.bag, "x", "--compress", "gzip")
+        self.fails("Unknown option '--fast'", self.bag, self.path("x.mcap"), "--fast")
+        self.assertEqual(convert("--help").returncode, 0)
+
+    def test_files_that_cannot_be_read_or_written_are_named(self):
+        self.fails(self.path("none.bag") + ": no such file", self.path("none.bag"), "x.mcap")
+        self.fails(": not a file", self.folder.name, "x.mcap")
+        self.fails("/nowhere: no such folder", self.bag, "/nowhere/x.mcap")
+        self.fails("is the bag itself", self.bag, self.bag, "--overwrite")
+
+    def test_what_is_no_whole_bag_is_told_apart(self):
+        whole = self.bytes_of_bag()
+        text = self.put("text.bag", b"# a text file\n" * 1000)
+        self.fails("text.bag: not a ROS 1 bag", text, self.path("x.mcap"))
+        self.fails("not a ROS 1 bag", self.put("empty.bag", b""), self.path("x.mcap"))
+        self.fails("cut short", self.put("cut.bag", whole[:len(whole) // 2]), self.path("x.mcap"))
+        at = whole.index(b"index_pos=") + len(b"index_pos=")
+        never_closed = whole[:at] + bytes(8) + whole[at + 8:]
+        self.fails("never closed", self.put("open.bag", never_closed), self.path("x.mcap"))
+
+    def test_damage_inside_is_an_error_and_leaves_nothing(self):
+        whole = bytearray(self.bytes_of_bag())
+        at = whole.index(b"front_left")
+        whole[at - 4:at] = b"\xff\xff\xff\x7f"  # a string that claims two gigabytes
+        output = self.path("damaged.mcap")
+        self.fails("bytes expected at byte", self.put("damaged.bag", whole), output)
+        self.assertFalse(os.path.exists(output))
+
+    def test_an_existing_file_stays_unless_asked(self):
+        output = self.put("old.mcap", b"old")
+        self.fails("exists; --overwrite replaces it", self.bag, output)
+        with open(output, "rb") as stream:
+            self.assertEqual(stream.read(), b"old")
+        self.assertEqual(convert(self.bag, output, "--overwrite").returncode, 0)
+        McapFile(output)
+
+    def test_interruption_leaves_nothing(self):
+        bag, output = self.path("long.bag"), self.path("long.mcap")
+        sample_bag.write(bag, "none", seconds=20, points=20000)
+        with subprocess.Popen([CONVERTER, bag, output], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as run:
+            while not self.left_over():
+                self.assertIsNone(run.poll())
+                time.sleep(0.005)
+            run.send_signal(signal.SIGINT)
+            run.communicate(timeout=30)
+        self.assertEqual(run.returncode, 130)
+        self.assertEqual(self.left_over(), [])
+        self.assertFalse(os.path.exists(output))
+
+
+if __name__ == "__main__":
+    CONVERTER, VIEWER = sys.argv[1:3]
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
