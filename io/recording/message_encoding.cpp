@@ -40,14 +40,12 @@ void put_point_field(MessageBytes& out, std::string_view name, std::uint32_t off
   out.put(std::uint32_t{1});
 }
 
-std::array<std::byte, kPointStep> point_bytes(const LidarPoint& point) {
+void write_point(const LidarPoint& point, std::byte* bytes) {
   const auto time = static_cast<float>(point.time_offset_ns * 1e-9);
-  std::array<std::byte, kPointStep> bytes{};
-  std::memcpy(bytes.data(), point.position.data(), 12);
-  std::memcpy(bytes.data() + 12, &point.intensity, 4);
-  std::memcpy(bytes.data() + 16, &point.ring, 2);
-  std::memcpy(bytes.data() + 18, &time, 4);
-  return bytes;
+  std::memcpy(bytes, point.position.data(), 12);
+  std::memcpy(bytes + 12, &point.intensity, 4);
+  std::memcpy(bytes + 16, &point.ring, 2);
+  std::memcpy(bytes + 18, &time, 4);
 }
 
 }  // namespace
@@ -70,7 +68,11 @@ MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan) {
   out.put(static_cast<std::uint32_t>(kPointStep));
   out.put(static_cast<std::uint32_t>(kPointStep * width));
   out.length(kPointStep * scan.points.size());
-  for (const LidarPoint& point : scan.points) out.append(point_bytes(point).data(), kPointStep);
+  std::byte* next = out.extend(kPointStep * scan.points.size());
+  for (const LidarPoint& point : scan.points) {
+    write_point(point, next);
+    next += kPointStep;
+  }
   out.put(true);  // is_dense
   return out;
 }

@@ -44,8 +44,13 @@ class MessageBytes {
   }
 
   void append(const void* data, std::size_t size) {
-    const auto* begin = static_cast<const std::byte*>(data);
-    bytes_.insert(bytes_.end(), begin, begin + size);
+    if (size > 0) std::memcpy(extend(size), data, size);
+  }
+
+  /// Room for `size` further bytes, valid until the next call.
+  std::byte* extend(std::size_t size) {
+    bytes_.resize(bytes_.size() + size);
+    return bytes_.data() + (bytes_.size() - size);
   }
 
   std::span<const std::byte> view() const { return bytes_; }
