@@ -55,6 +55,17 @@ struct TableView {
   const ColumnLayout* find(std::string_view name) const;
 };
 
+/// What a field of a message holds.
+enum class FieldKind { kNumber, kTime, kText, kNumbers, kTimes, kTexts, kMessages };
+
+/// A field of a message, by its path from the message's top; arrays of messages are one field.
+struct MessageField {
+  std::string path;
+  FieldKind kind = FieldKind::kNumber;
+  std::optional<NumberType> number;  ///< of numbers; bools are kUint8
+  bool is_bool = false;
+};
+
 /// One decoded message. Paths are written "pose.pose.position.x", elements "transforms[0].header".
 /// A path that the message does not have, or of another kind, gives nothing. Views point into the
 /// bytes that were decoded.
@@ -65,7 +76,8 @@ class MessageView {
   std::optional<std::string_view> text(std::string_view path) const;
   std::optional<std::vector<double>> numbers(std::string_view path) const;  ///< array of numbers
   std::optional<std::vector<std::string_view>> texts(std::string_view path) const;
-  std::optional<std::span<const std::byte>> bytes(std::string_view path) const;  ///< uint8[], int8[]
+  std::optional<std::span<const std::byte>> bytes(
+      std::string_view path) const;                              ///< uint8[], int8[]
   std::optional<std::size_t> size(std::string_view path) const;  ///< entries of any array
   /// An array of messages that hold numbers, bools and times alone; a time is two uint32 columns
   /// "name.sec" and "name.nsec", a nested message's fields are "name.field".
@@ -82,6 +94,9 @@ class MessageDecoder {
  public:
   /// Error for a definition that cannot be read, naming the line and the type.
   static Result<MessageDecoder> create(std::string_view type, std::string_view definition);
+
+  /// All fields in the order of the definition, those of nested messages in place.
+  std::vector<MessageField> fields() const;
 
   /// Error for bytes that end early or are too many, naming the field and the offset within it.
   /// Memory stays within a small multiple of the bytes given.

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+enum class ArrayKind { kNone, kFixed, kVariable };
+
+/// A field as written: "float64[36] covariance".
+struct FieldDefinition {
+  std::string type;  ///< without brackets
+  std::string name;
+  ArrayKind array = ArrayKind::kNone;
+  std::uint32_t count = 1;  ///< entries of a fixed array
+  int line = 0;             ///< in the whole text, from 1
+};
+
+/// A message type as written; constants are left out.
+struct TypeDefinition {
+  std::string name;  ///< with package
+  std::vector<FieldDefinition> fields;
+};
+
+/// Splits the definition text of a bag: the type itself first, then those that it uses, each after
+/// a line of '=' and "MSG: package/Type". Errors name the type and the line.
+Result<std::vector<TypeDefinition>> parse_definition(std::string_view type, std::string_view text);
+
+}  // namespace aims
