@@ -55,6 +55,20 @@ std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& tr
   return associate_interpolated(estimate, truth);
 }
 
+std::optional<Duration> median_stamp_difference(const Trajectory& estimate,
+                                                const Trajectory& truth) {
+  std::vector<Duration> differences;
+  for (const StampedPose& each : estimate) {
+    const bool inside =
+        !truth.empty() && each.stamp >= truth.front().stamp && each.stamp <= truth.back().stamp;
+    if (inside) differences.push_back(std::abs(nearest(truth, each.stamp).stamp - each.stamp));
+  }
+  if (differences.empty()) return std::nullopt;
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle;
+}
+
 bool is_valid(const Pose& pose) {
   const bool finite = pose.translation.allFinite() && pose.rotation.coeffs().allFinite();
   return finite && pose.translation.norm() < kFarthest &&

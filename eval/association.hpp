@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/trajectory.hpp"
@@ -25,6 +26,11 @@ enum class Association {
 /// and a pose of the longer trajectory may serve twice, all as in evo.
 std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& truth,
                                 Association association, Duration tolerance);
+
+/// Median distance in time from the estimate's poses inside the truth's span to the nearest true
+/// pose; none when there is no such pose. Stamps of both increase.
+std::optional<Duration> median_stamp_difference(const Trajectory& estimate,
+                                                const Trajectory& truth);
 
 /// Whether the pose is finite, within 1000 km of the origin and its quaternion of unit norm (1e-3).
 bool is_valid(const Pose& pose);

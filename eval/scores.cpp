@@ -103,13 +103,16 @@ void describe(Fields& fields, ScoreConfig& config) {
 
 Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const Passage> passages,
              const ScoreConfig& config) {
+  return score_over(estimate, truth, segments_wanted(passages, config.segments), config);
+}
+
+Scores score_over(const Trajectory& estimate, const Trajectory& truth,
+                  std::span<const Segment> segments, const ScoreConfig& config) {
   const Trajectory valid = valid_part(estimate);
   const Trajectory valid_truth = valid_part(truth);
   const std::vector<PosePair> pairs =
       associate(valid, valid_truth, config.association, from_seconds(config.association_tolerance));
   const std::vector<PosePair> anchored = aligned(pairs, align_start(pairs, config.anchor));
-  const std::vector<Segment> segments =
-      config.segments.empty() ? segments_of(passages) : segments_named(passages, config.segments);
   const Duration edge = from_seconds(config.edge_tolerance);
 
   Scores scores;

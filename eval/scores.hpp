@@ -70,4 +70,8 @@ struct Scores {
 Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const Passage> passages,
              const ScoreConfig& config);
 
+/// As `score`, with an M_list of each of the segments, in order of time, and of no others.
+Scores score_over(const Trajectory& estimate, const Trajectory& truth,
+                  std::span<const Segment> segments, const ScoreConfig& config);
+
 }  // namespace aims

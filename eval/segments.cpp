@@ -55,6 +55,11 @@ std::vector<Segment> segments_named(std::span<const Passage> passages,
   return segments;
 }
 
+std::vector<Segment> segments_wanted(std::span<const Passage> passages,
+                                     std::span<const std::string> names) {
+  return names.empty() ? segments_of(passages) : segments_named(passages, names);
+}
+
 std::optional<Time> within_span(const Trajectory& trajectory, Time stamp, Duration edge) {
   if (trajectory.empty()) return std::nullopt;
   const Time clamped = std::clamp(stamp, trajectory.front().stamp, trajectory.back().stamp);

@@ -25,6 +25,10 @@ std::vector<Segment> segments_of(std::span<const Passage> passages);
 std::vector<Segment> segments_named(std::span<const Passage> passages,
                                     std::span<const std::string> names);
 
+/// The segments of those names, or between consecutive passages when there are no names.
+std::vector<Segment> segments_wanted(std::span<const Passage> passages,
+                                     std::span<const std::string> names);
+
 /// M_list of one segment. Distances are straight lines between the two ends, d_i of the truth and
 /// d_hat_i of the estimate at the same times.
 struct SegmentDistance {

@@ -101,38 +101,12 @@ Json localizability_json(const RunLocalizability& run) {
 }
 
 Json estimator_json(const EstimatorOutcome& outcome) {
-  const Scores& scores = outcome.scores;
-  Json json;
-  json["success"] = scores.success;
-  json["lost_reason"] = name_of(scores.lost_reason);
-  json["lost_at_s"] = scores.lost_at ? Json(to_seconds(*scores.lost_at)) : Json();
-  add_segments(json, scores);
-  json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
-  json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);
-  json["m_end_z_m"] = json_of(scores.m_end, &EndError::z_m);
-  json["ate_m"] = json_of(scores.ate_m);
-  json["ate_se3_m"] = json_of(scores.ate_se3_m);
-  json["ate_se3_degenerate"] = scores.ate_se3_degenerate;
-  json["ate_yaw_m"] = json_of(scores.ate_yaw_m);
-  json["max_error_m"] = json_of(scores.max_error_m);
-  json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
-  add_relative_errors(json, scores);
-  json["drift_m"] = drift_json(scores.drift);
+  Json json = scores_json(outcome.scores);
   json["weak_axis"] = weak_axis_json(outcome.weak_axis);
   json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
-  json["poses"] = scores.poses;
+  json["poses"] = outcome.scores.poses;
   json["counts"] = outcome.report.counts;
   return json;
-}
-
-/// True straight lengths: the same for every estimator, so the first one's are taken.
-Json segments_json(const RunResult& result) {
-  Json segments = Json::array();
-  if (result.estimators.empty()) return segments;
-  for (const SegmentDistance& distance : result.estimators.front().scores.segments) {
-    segments.push_back({{"name", distance.segment.name}, {"length_m", distance.true_distance_m}});
-  }
-  return segments;
 }
 
 Json times_json(const RunResult& result, double drawing_s) {
@@ -171,6 +145,34 @@ Json json_of(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json();
 }
 
+Json scores_json(const Scores& scores) {
+  Json json;
+  json["success"] = scores.success;
+  json["lost_reason"] = name_of(scores.lost_reason);
+  json["lost_at_s"] = scores.lost_at ? Json(to_seconds(*scores.lost_at)) : Json();
+  add_segments(json, scores);
+  json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
+  json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);
+  json["m_end_z_m"] = json_of(scores.m_end, &EndError::z_m);
+  json["ate_m"] = json_of(scores.ate_m);
+  json["ate_se3_m"] = json_of(scores.ate_se3_m);
+  json["ate_se3_degenerate"] = scores.ate_se3_degenerate;
+  json["ate_yaw_m"] = json_of(scores.ate_yaw_m);
+  json["max_error_m"] = json_of(scores.max_error_m);
+  json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
+  add_relative_errors(json, scores);
+  json["drift_m"] = drift_json(scores.drift);
+  return json;
+}
+
+Json segments_json(const Scores& scores) {
+  Json segments = Json::array();
+  for (const SegmentDistance& distance : scores.segments) {
+    segments.push_back({{"name", distance.segment.name}, {"length_m", distance.true_distance_m}});
+  }
+  return segments;
+}
+
 RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s) {
   RunRecord record;
   record.seed = result.seed;
@@ -186,7 +188,8 @@ RunRecord record_of(const Scenario& scenario, const RunResult& result, double dr
       {"realtime_factor", wall_s > 0.0 ? result.simulated_s / wall_s : 0.0},
       {"times_s", times_json(result, drawing_s)},
       {"robot", {{"fell", result.truth.fell}, {"touched_wall", result.truth.touched_wall}}},
-      {"segments", segments_json(result)},
+      {"segments",
+       result.estimators.empty() ? Json::array() : segments_json(result.estimators.front().scores)},
       {"localizability", localizability_json(result.localizability)}};
   for (const EstimatorOutcome& outcome : result.estimators) {
     record.scores["estimators"][outcome.name] = estimator_json(outcome);

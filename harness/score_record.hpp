@@ -26,6 +26,12 @@ struct RunRecord {
   Json scores;
 };
 
+/// What scores.json holds of any estimate.
+Json scores_json(const Scores& scores);
+
+/// The segments with their true straight lengths, which are the same for every estimate.
+Json segments_json(const Scores& scores);
+
 /// The record of a run; `drawing_s` is the wall time [s] spent on its pictures.
 RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s);
 
