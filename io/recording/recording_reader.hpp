@@ -37,6 +37,9 @@ class RecordingReader {
   /// that exist when one is missing or ambiguous.
   static Result<RecordingReader> open(const std::filesystem::path& bag,
                                       const RecordingConfig& config, BagOpenOptions options = {});
+  /// The same from any source of messages; `open` of a bag calls this one.
+  static Result<RecordingReader> open(std::unique_ptr<MessageSource> source,
+                                      const RecordingConfig& config);
   RecordingReader(RecordingReader&&) noexcept;
   RecordingReader& operator=(RecordingReader&&) noexcept;
   ~RecordingReader();

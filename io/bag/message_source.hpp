@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/time.hpp"
+
+namespace aims {
+
+/// One topic as one publisher recorded it.
+struct BagConnection {
+  std::uint32_t id = 0;
+  std::string topic;
+  std::string type;        ///< e.g. "sensor_msgs/PointCloud2"
+  std::string md5;         ///< of the definition
+  std::string definition;  ///< the message type in words, with all types that it uses
+  bool latching = false;
+  std::uint64_t messages = 0;  ///< in the bag, by its index
+};
+
+/// One recorded message; valid until the reader moves on.
+struct BagMessage {
+  const BagConnection* connection = nullptr;
+  Time record_time = 0;             ///< since the epoch
+  std::span<const std::byte> data;  ///< as serialized by ROS 1, little endian
+  std::uint64_t offset = 0;         ///< of the chunk that holds it, in the file [bytes]
+};
+
+/// What the index of a bag says.
+struct BagSummary {
+  std::uint64_t file_size = 0;  ///< [bytes]
+  std::uint64_t chunks = 0;
+  std::uint64_t messages = 0;
+  std::uint64_t lost_bytes = 0;  ///< in chunks that are not whole, and behind; when recovered
+  Time start = 0;                ///< earliest record time, since the epoch
+  Time end = 0;                  ///< latest record time
+  std::string compression;       ///< "none", "lz4", "bz2", or several: "lz4, none"
+  bool indexed = true;           ///< false: never closed, read by scanning
+};
+
+/// Messages in order of record time: a bag, or the topics of a running robot.
+class MessageSource {
+ public:
+  virtual ~MessageSource() = default;
+
+  /// What errors call it: the bag's path.
+  virtual std::string name() const = 0;
+
+  /// In order of their ids; none comes later.
+  virtual const std::vector<BagConnection>& connections() const = 0;
+
+  /// What is known beforehand; of a running robot only the start.
+  virtual const BagSummary& summary() const = 0;
+
+  /// From here on only messages of these topics are given. Topics that are absent are no error.
+  virtual void select(std::span<const std::string> topics) = 0;
+
+  /// The next message, or nothing at the end.
+  virtual Result<std::optional<BagMessage>> next() = 0;
+
+  /// Starts again at the first message. A running robot can do so once, after a look at what had
+  /// come when the source was made: until then its `next` ends there.
+  virtual void rewind() = 0;
+
+ protected:
+  MessageSource() = default;
+  MessageSource(MessageSource&&) = default;
+  MessageSource& operator=(MessageSource&&) = default;
+};
+
+}  // namespace aims
