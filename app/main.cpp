@@ -22,9 +22,12 @@ constexpr const char* kFooter =
     "  aims run corridor --seed 1-5 --estimators aims,lio --out out/compare\n"
     "  aims run corridor --set lidar.range_max=30 --set estimator.degeneracy.eta=5\n"
     "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
+    "  aims score --truth truth.tum --estimate mine.tum --segments a-b=12.5:110.2\n"
     "  aims compare out/before out/after\n"
     "  aims detectors corridor corridor_smooth --seeds 1-5\n"
     "  aims simulate corridor -o walk.bag\n"
+    "  aims estimate walk.bag --estimators aims,lio\n"
+    "  aims info robot.bag\n"
     "  aims list\n"
     "  aims config corridor\n"
     "Exit codes: 0 ok, 1 an expectation of the scenario failed, 2 bad usage or configuration,\n"
@@ -40,7 +43,11 @@ int parse_and_run(int argc, char** argv) {
   int exit_code = aims::kOk;
   aims::add_run_command(app, scenarios, exit_code);
   aims::add_simulate_command(app, scenarios, exit_code);
+  aims::add_estimate_command(app, exit_code);
+  aims::add_info_command(app, exit_code);
+  aims::add_check_command(app, exit_code);
   aims::add_suite_command(app, scenarios, exit_code);
+  aims::add_score_command(app, exit_code);
   aims::add_compare_command(app, exit_code);
   aims::add_detectors_command(app, scenarios, exit_code);
   aims::add_list_command(app, scenarios, exit_code);
