@@ -64,8 +64,8 @@ class MessageSource {
   /// The next message, or nothing at the end.
   virtual Result<std::optional<BagMessage>> next() = 0;
 
-  /// Starts again at the first message. A running robot can do so once, after a look at what had
-  /// come when the source was made: until then its `next` ends there.
+  /// Starts again at the first message. Of a running robot only what had come when the source was
+  /// made can be read twice, and `next` ends there until the source goes live.
   virtual void rewind() = 0;
 
  protected:
