@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "estimator/registry.hpp"
+#include "harness/stopwatch.hpp"
+#include "harness/stream.hpp"
+#include "io/bag_trajectory.hpp"
+#include "io/passages.hpp"
+#include "io/recording/recording_topics.hpp"
+#include "io/yaml_config.hpp"
+
+namespace aims {
+namespace {
+
+/// A sample rate that is off by more is another one [-].
+constexpr double kRateTolerance = 0.1;
+
+/// `configured`, or the rate of the recording where that is clearly another and nobody chose.
+void follow_rate(std::optional<double> recorded_hz, const char* key, double default_hz,
+                 double& configured_hz, std::vector<std::string>& notes) {
+  if (!recorded_hz || configured_hz != default_hz) return;
+  if (std::abs(*recorded_hz - configured_hz) <= kRateTolerance * configured_hz) return;
+  configured_hz = *recorded_hz;
+  notes.push_back(
+      fmt::format("estimator.{} = {:.4g}, the rate found in the recording", key, configured_hz));
+}
+
+Result<std::vector<Passage>> passages_of(const std::filesystem::path& bag) {
+  const auto text = read_bag_text(bag, std::string(kPassagesTopic));
+  if (!text) return tl::unexpected(text.error());
+  if (!*text) return std::vector<Passage>{};
+  return parse_passages(**text, fmt::format("{}:{}", bag.string(), kPassagesTopic));
+}
+
+EstimatorOutcome outcome_of(const TimedEstimator& timed) {
+  EstimatorOutcome outcome;
+  outcome.name = timed.name();
+  outcome.report = timed.estimator().report();
+  outcome.map = timed.estimator().map_points();
+  outcome.scan_times_ms = timed.scan_times_ms();
+  outcome.wall_s = timed.total_seconds();
+  return outcome;
+}
+
+/// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
+void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
+  if (result.truth.empty()) return;
+  ScoringInput input;
+  input.scoring = config.scoring;
+  input.truth = {"truth", result.bag.string(), "truth of the recording", result.truth};
+  for (const EstimatorOutcome& each : result.estimators) {
+    input.estimates.push_back({each.name, each.name, "estimated here", each.report.trajectory});
+  }
+  if (auto passages = passages_of(result.bag)) {
+    input.segments = config.scoring.segments.empty()
+                         ? segments_of(*passages)
+                         : segments_named(*passages, config.scoring.segments);
+    input.passages = std::move(*passages);
+  } else {
+    result.setup.notes.push_back(passages.error().message);
+  }
+  auto scores = score_trajectories(std::move(input));
+  if (scores) {
+    result.scores = std::move(*scores);
+  } else {
+    result.setup.notes.push_back("not scored: " + scores.error().message);
+  }
+}
+
+/// Estimators whose measurements the recording does not hold cannot run.
+Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup) {
+  for (const std::string& name : config.estimators) {
+    if (name == "lio" || setup.has_legs) continue;
+    return failure(fmt::format(
+        "{}: estimator {} needs leg odometry, which the recording does not hold; name its topic "
+        "(--topics leg_odometry=/...), or use --estimator lio",
+        "recording", name));
+  }
+  return {};
+}
+
+}  // namespace
+
+void describe(Fields& fields, EstimateConfig& config) {
+  fields.texts("estimators", config.estimators,
+               {.unit = "-", .meaning = "who estimates, by name; `aims list` names them"});
+  fields.group("recording", config.recording);
+  fields.group("estimator", config.estimator);
+  fields.group("scoring", config.scoring);
+}
+
+Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
+                                            std::span<const std::string> overrides) {
+  EstimateConfig config;
+  if (!file.empty()) {
+    if (auto ok = load_config(file, config); !ok) return tl::unexpected(ok.error());
+  }
+  if (auto ok = apply_overrides(config, overrides); !ok) return tl::unexpected(ok.error());
+  if (config.estimators.empty()) return failure("estimators: expected at least one name");
+  return config;
+}
+
+Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOptions& options,
+                                const Observer& observer) {
+  const Stopwatch stopwatch;
+  auto reader = RecordingReader::open(options.bag, config.recording, {options.recover});
+  if (!reader) return tl::unexpected(reader.error());
+  EstimateResult result;
+  result.bag = options.bag;
+  result.setup = reader->setup();
+  result.summary = reader->summary();
+  if (auto ok = check_topics(config, result.setup); !ok) return tl::unexpected(ok.error());
+  result.estimator = config.estimator;
+  const EstimatorConfig defaults;
+  follow_rate(result.setup.imu_rate_hz, "imu.rate_hz", defaults.imu.rate_hz,
+              result.estimator.imu.rate_hz, result.setup.notes);
+  follow_rate(result.setup.leg_rate_hz, "leg.rate_hz", defaults.leg.rate_hz,
+              result.estimator.leg.rate_hz, result.setup.notes);
+  auto estimators = make_estimators(config.estimators, result.estimator, result.setup.rig);
+  if (!estimators) return tl::unexpected(estimators.error());
+
+  const double length_s = to_seconds(result.summary.end - result.summary.start);
+  const StreamEnd end =
+      stream([&](std::vector<Delivery>& batch) { return reader->advance(kStreamBatch, batch); },
+             *estimators, options.jobs,
+             [&] {
+               return observer({to_seconds(reader->position()), length_s, stopwatch.seconds()});
+             });
+  result.complete = !end.stopped;
+  result.broken = end.error;
+  result.counts = reader->counts();
+  result.truth = reader->truth();
+  result.recorded_s = to_seconds(reader->position());
+  for (const TimedEstimator& each : *estimators) result.estimators.push_back(outcome_of(each));
+  score_against_truth(config, result);
+  result.wall_s = stopwatch.seconds();
+  return result;
+}
+
+}  // namespace aims
