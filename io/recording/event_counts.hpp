@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace aims {
+
+/// How often something happened, by its name: "cloud_points_not_finite".
+using EventCounts = std::map<std::string, int>;
+
+}  // namespace aims

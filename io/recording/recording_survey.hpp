@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/recording/cloud_survey.hpp"
+#include "io/recording/frame_tree.hpp"
+#include "io/recording/leg_stream.hpp"
+#include "io/recording/recording_channels.hpp"
+#include "io/recording/recording_reader.hpp"
+
+namespace aims {
+
+/// Everything decided before the first message is given.
+struct RecordingPlan {
+  RecordingSetup setup;
+  CloudReading cloud;
+  double force_scale = 1.0;  ///< brings specific force to m/s^2
+  LegStreamConfig legs;
+  ContactRule contacts;
+  Pose T_truth_body;             ///< the body in the frame of which truth is told
+  bool truth_is_of_body = true;  ///< then its poses stay as they are
+  Duration arrival_shift = 0;    ///< added to record times
+  std::array<bool, kRoleCount> stamped_by_record{};  ///< no stamps: record times are taken
+};
+
+/// Learns from the start of a recording how to read the rest.
+class RecordingSurvey {
+ public:
+  RecordingSurvey(const RecordingConfig& config, const TopicsConfig& topics)
+      : config_(config), topics_(topics) {}
+
+  /// Takes the next message of a chosen topic.
+  void add(const BagMessage& message, const Channel& channel);
+  /// Takes a message of tf; `fixed`: of /tf_static.
+  void add_transforms(const MessageView& message, bool fixed);
+
+  /// Enough of every chosen topic.
+  bool enough() const;
+  /// At least one message of every chosen topic.
+  bool met_all() const;
+
+  /// Decides; appends to `notes`, which become those of the setup. Error when no cloud is readable.
+  Result<RecordingPlan> decide(const std::filesystem::path& bag, std::vector<std::string> notes);
+
+ private:
+  /// What is seen of one topic.
+  struct Seen {
+    std::vector<Time> stamps;
+    std::vector<Duration> latencies;  ///< record time minus stamp
+    std::string frame;
+    std::string child_frame;
+    std::string type;
+  };
+
+  Seen& seen(Role role) { return seen_[static_cast<std::size_t>(role)]; }
+  const Seen& seen(Role role) const { return seen_[static_cast<std::size_t>(role)]; }
+  void note_times(Role role, const MessageView& view, Time record_time);
+  void add_cloud(const MessageView& view, Time record_time);
+  void add_imu(const MessageView& view);
+  void add_contacts(const MessageView& view, const Channel& channel);
+  void choose_contact_field(const Channel& channel);
+
+  void decide_stamps(RecordingPlan& plan) const;
+  void decide_imu(RecordingPlan& plan) const;
+  void decide_legs(RecordingPlan& plan) const;
+  void decide_contacts(RecordingPlan& plan) const;
+  void decide_frames(RecordingPlan& plan) const;
+  void decide_truth(RecordingPlan& plan) const;
+  std::optional<Pose> find_transform(const std::string& from, const std::string& to,
+                                     std::vector<std::string>& notes) const;
+  Pose extrinsic(const ExtrinsicConfig& given, const std::string& from, const std::string& to,
+                 std::string_view key, std::vector<std::string>& notes) const;
+  std::string imu_frame() const;
+  std::string base_frame() const;
+
+  RecordingConfig config_;
+  TopicsConfig topics_;
+  std::array<Seen, kRoleCount> seen_;
+  CloudSurvey clouds_;
+  std::string cloud_error_;     ///< of the first that could not be read
+  std::vector<double> forces_;  ///< magnitudes, as recorded
+  double fastest_turn_ = 0.0;
+  int joint_messages_ = 0, joint_orders_ = 0, effort_messages_ = 0;
+  std::string contact_field_;
+  bool contacts_are_flags_ = false;
+  int contact_messages_ = 0;
+  double largest_load_ = 0.0;
+  FrameTree fixed_, all_;
+  EventCounts transform_counts_;
+};
+
+}  // namespace aims
