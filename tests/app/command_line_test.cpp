@@ -1,46 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the real `aims` command as a user would.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include "tests/support/temporary_folder.hpp"
+#include "tests/app/command_line.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Outcome;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  ///< standard output and error
-};
-
-class CommandLine : public ::testing::Test {
+class CommandLine : public testing::CommandLine {
  protected:
-  Outcome aims(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.path().string() + "' && '" AIMS_COMMAND "' " +
-                                arguments + " 2>&1 </dev/null";
-    Outcome outcome;
-    FILE* pipe = popen(command.c_str(), "r");
-    std::array<char, 4096> buffer{};
-    while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) outcome.output += buffer.data();
-    outcome.exit_code = WEXITSTATUS(pclose(pipe));
-    return outcome;
-  }
-
-  std::string scenario(const std::string& yaml) const {
-    const fs::path file = folder_.path() / "my.yaml";
-    std::ofstream(file) << yaml;
-    return file.filename().string();
-  }
-
   /// The run is refused: exit 2, one line that holds `expected`, and nothing written.
   void expect_refused(const std::string& arguments, const std::string& expected) const {
     const Outcome outcome = aims("run " + arguments);
@@ -51,7 +27,6 @@ class CommandLine : public ::testing::Test {
   }
 
   const std::string kCorridor = std::string("'") + AIMS_SCENARIOS "/corridor.yaml'";
-  TemporaryFolder folder_;
 };
 
 TEST_F(CommandLine, RunsAShortWalkAndPrintsATableRowPerEstimator) {
