@@ -22,6 +22,15 @@ async function checkMagic(file) {
   }
 }
 
+/** What `promise` yields; its error says where. */
+async function at(place, promise) {
+  try {
+    return await promise;
+  } catch (error) {
+    throw new Error(`${place}: ${error.message ?? error}`);
+  }
+}
+
 async function decompressors() {
   const bzip2 = await Bzip2.init();
   await lz4.isLoaded;
@@ -53,7 +62,7 @@ export class BagSource {
     source.#decompress = await decompressors();
     source.#bag = new rosbag.Bag(source.#file);
     try {
-      const header = await source.#bag.reader.readHeader();
+      const header = await at("bag header at offset 13", source.#bag.reader.readHeader());
       if (header.indexPosition === 0) {
         throw new Error("the bag was never closed and has no index; run 'rosbag reindex' first");
       }
@@ -62,7 +71,7 @@ export class BagSource {
           `cut short: the index is at ${header.indexPosition}, the end at ${source.#file.size()}`,
         );
       }
-      await source.#bag.open();
+      await at(`index at offset ${header.indexPosition}`, source.#bag.open());
     } catch (error) {
       await source.close();
       throw error;

@@ -224,6 +224,9 @@ class BadInput(Sample):
         at = whole.index(b"index_pos=") + len(b"index_pos=")
         never_closed = whole[:at] + bytes(8) + whole[at + 8:]
         self.fails("never closed", self.put("open.bag", never_closed), self.path("x.mcap"))
+        index = int.from_bytes(whole[at:at + 8], "little")
+        broken = whole[:index] + b"\xff" * 8 + whole[index + 8:]
+        self.fails(f"index at offset {index}: ", self.put("broken.bag", broken), "x.mcap")
 
     def test_damage_inside_is_an_error_and_leaves_nothing(self):
         whole = bytearray(self.bytes_of_bag())
