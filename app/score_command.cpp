@@ -26,9 +26,8 @@ int bad_input(const Error& error) {
 }
 
 void print_report(const TrajectoryScores& scores, const TrajectoryReport& report) {
-  fmt::print("{}\n{}\n", to_text(trajectory_source_table(scores)),
-             to_text(trajectory_score_table(scores)));
-  if (scores.estimates.size() > 1) fmt::print("* smallest of those that are not lost\n");
+  fmt::print("{}\n{}\n{}", to_text(trajectory_source_table(scores)),
+             to_text(trajectory_score_table(scores)), score_legend(scores));
   for (const std::string& note : scores.notes) fmt::print("note: {}\n", note);
   for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);
   fmt::print("results: {}\n", (report.folder / "").string());

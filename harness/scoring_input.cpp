@@ -138,6 +138,17 @@ Result<std::vector<Segment>> segments_of_request(const ScoringRequest& request,
   return resolve_segments(*list, input.passages, input.truth.trajectory);
 }
 
+/// KITTI's own poses are of a camera, whose y axis points down.
+void note_axes(ScoringInput& input) {
+  const auto is_kitti = [](const SourcedTrajectory& each) { return each.kind == "KITTI poses"; };
+  const bool any = is_kitti(input.truth) ||
+                   std::any_of(input.estimates.begin(), input.estimates.end(), is_kitti);
+  if (!any || input.scoring.anchor == AlignmentKind::kStartPose) return;
+  input.notes.emplace_back(
+      "KITTI poses are taken with z up; for a camera's axes (y down) give "
+      "--set scoring.anchor=pose");
+}
+
 Result<std::vector<StampList>> stamps_of(const std::filesystem::path& times) {
   if (times.empty()) return std::vector<StampList>();
   const auto text = read_file(times);
@@ -171,6 +182,7 @@ Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
   if (auto read = read_estimates(request, *stamps, input); !read) {
     return tl::unexpected(read.error());
   }
+  note_axes(input);
   return input;
 }
 

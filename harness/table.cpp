@@ -25,6 +25,19 @@ std::string line(const std::vector<std::string>& cells, const std::vector<std::s
   return text + "\n";
 }
 
+/// A cell of a Markdown table, in which a bar would end it.
+std::string escaped(const std::string& cell) {
+  std::string text;
+  for (const char c : cell) text += c == '|' ? std::string("\\|") : std::string(1, c);
+  return text;
+}
+
+std::string markdown_row(const std::vector<std::string>& cells) {
+  std::string text = "|";
+  for (const std::string& cell : cells) text += fmt::format(" {} |", escaped(cell));
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string to_text(const TextTable& table) {
@@ -37,10 +50,10 @@ std::string to_text(const TextTable& table) {
 }
 
 std::string to_markdown(const TextTable& table) {
-  std::string text = fmt::format("| {} |\n|---|", fmt::join(table.header, " | "));
+  std::string text = markdown_row(table.header) + "|---|";
   for (std::size_t i = 1; i < table.header.size(); ++i) text += "---:|";
   text += "\n";
-  for (const auto& row : table.rows) text += fmt::format("| {} |\n", fmt::join(row, " | "));
+  for (const auto& row : table.rows) text += markdown_row(row);
   return text;
 }
 

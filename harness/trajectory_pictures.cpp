@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -28,12 +29,24 @@ std::string subtitle_of(const TrajectoryScores& scores) {
                      path_length(truth), to_seconds(truth.back().stamp - truth.front().stamp));
 }
 
+/// The reference points, or the ends of segments "from-to" that were given by their times.
+std::vector<Passage> points_of(const TrajectoryScores& scores) {
+  std::vector<Passage> points = scores.passages;
+  if (!points.empty()) return points;
+  for (const Segment& each : scores.segments) {
+    const std::size_t dash = std::min(each.name.find('-'), each.name.size());
+    points.push_back({each.name.substr(0, dash), each.begin});
+    if (dash < each.name.size()) points.push_back({each.name.substr(dash + 1), each.end});
+  }
+  return points;
+}
+
 Result<void> draw_trajectories(const TrajectoryScores& scores, const std::filesystem::path& file) {
   TrajectoryPlot plot;
   plot.title = scores.truth.name + ": estimated trajectories";
   plot.subtitle = subtitle_of(scores);
   plot.truth = thinned(scores.truth.trajectory, kDrawnSpacing);
-  plot.passages = scores.passages;
+  plot.passages = points_of(scores);
   for (const ScoredEstimate& each : scores.estimates) {
     plot.estimates.push_back({each.given.name, thinned(each.in_truth_frame, kDrawnSpacing)});
   }
@@ -75,11 +88,12 @@ Result<void> draw_errors(const TrajectoryScores& scores, const std::filesystem::
   plot.title = scores.truth.name + ": errors over time";
   plot.subtitle = subtitle_of(scores);
   plot.panels = {
-      panel_of(scores, "Distance from the truth", "error [m]", kLeastMetres, distance),
-      panel_of(scores, "Height error", "|z error| [m]", kLeastMetres, height),
-      panel_of(scores, "Heading error", "error [deg]", kLeastDegrees, heading_error_deg)};
+      panel_of(scores, "Distance from the truth, from 1 mm", "error [m]", kLeastMetres, distance),
+      panel_of(scores, "Height error, from 1 mm", "error [m]", kLeastMetres, height),
+      panel_of(scores, "Heading error, from 0.01 degrees", "error [deg]", kLeastDegrees,
+               heading_error_deg)};
   const Time start = scores.truth.trajectory.front().stamp;
-  for (const Passage& each : scores.passages) {
+  for (const Passage& each : points_of(scores)) {
     plot.events.emplace_back(to_seconds(each.stamp - start), each.point);
   }
   return write_time_plot(file, plot);

@@ -57,13 +57,15 @@ std::string cell(const ScoredEstimate& estimate, const RunRecord& record, const 
   if (!value) return "-";
   const bool fell_back = column.key == "ate_se3_m" && estimate.scores.ate_se3_degenerate;
   const bool is_best = estimate.scores.success && smallest && *value == *smallest;
-  return fmt::format("{:.{}f}{}{}", *value, column.digits, fell_back ? " yaw" : "",
-                     is_best ? "*" : "");
+  return fmt::format("{:.{}f}{}{}", *value, column.digits, is_best ? "*" : "",
+                     fell_back ? " yaw" : "");
 }
 
-std::string success_cell(const Scores& scores) {
+/// Whether it is localized to its end, or why not since when [s after the truth's start].
+std::string success_cell(const Scores& scores, const Trajectory& truth) {
   if (scores.success) return "yes";
-  return fmt::format("{} {:.1f} s", name_of(scores.lost_reason), to_seconds(*scores.lost_at));
+  return fmt::format("{} at {:.1f} s", name_of(scores.lost_reason),
+                     to_seconds(*scores.lost_at - truth.front().stamp));
 }
 
 Json estimate_json(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
@@ -81,11 +83,10 @@ Json estimate_json(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
 }
 
 std::string markdown(const TrajectoryScores& scores) {
-  std::string text = fmt::format("# Scores against {}\n\n{}\n{}", scores.truth.name,
-                                 to_markdown(trajectory_score_table(scores)),
-                                 to_markdown(trajectory_source_table(scores)));
-  if (scores.estimates.size() > 1) text += "\n\\* smallest of those that are not lost\n";
-  if (!scores.notes.empty()) text += "\n";
+  std::string text =
+      fmt::format("# Scores against {}\n\n{}\n{}\n{}\n", scores.truth.name,
+                  to_markdown(trajectory_score_table(scores)),
+                  to_markdown(trajectory_source_table(scores)), score_legend(scores));
   for (const std::string& note : scores.notes) text += fmt::format("- {}\n", note);
   return text;
 }
@@ -104,7 +105,7 @@ TextTable trajectory_score_table(const TrajectoryScores& scores) {
     for (const Column& column : columns) {
       row.push_back(cell(each, record, column, best(scores, record, column)));
     }
-    row.push_back(success_cell(each.scores));
+    row.push_back(success_cell(each.scores, scores.truth.trajectory));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -123,6 +124,19 @@ TextTable trajectory_source_table(const TrajectoryScores& scores) {
                           each.given.kind, each.given.source});
   }
   return table;
+}
+
+std::string score_legend(const TrajectoryScores& scores) {
+  const bool pose = scores.scoring.anchor == AlignmentKind::kStartPose;
+  std::string text = fmt::format(
+      "M_end, ATE, max |z|: laid onto the truth at the first pose, by position and {}. ATE yaw, "
+      "ATE "
+      "SE(3): least\nsquares over all positions, by translation and heading, and by translation "
+      "and "
+      "rotation (Umeyama).\n",
+      pose ? "rotation" : "heading");
+  if (scores.estimates.size() > 1) text += "A star: smallest of those that are localized.\n";
+  return text;
 }
 
 RunRecord record_of(const TrajectoryScores& scores) {

@@ -19,6 +19,9 @@ TextTable trajectory_score_table(const TrajectoryScores& scores);
 /// Where the truth and each estimate come from, and how they met.
 TextTable trajectory_source_table(const TrajectoryScores& scores);
 
+/// How the trajectories were aligned for each column, in words.
+std::string score_legend(const TrajectoryScores& scores);
+
 /// The record of schema aims.scores/1, with seed 0 and the truth's name as scenario.
 RunRecord record_of(const TrajectoryScores& scores);
 

@@ -83,23 +83,23 @@ void note_truth(const ScoringInput& input, std::vector<std::string>& notes) {
   }
 }
 
-void note_estimate(const ScoredEstimate& estimate, const ScoreConfig& scoring,
-                   std::vector<std::string>& notes) {
-  const std::string& name = estimate.given.name;
-  const Scores& scores = estimate.scores;
-  if (scores.poses_invalid > 0) {
+void note_estimates(const TrajectoryScores& result, std::vector<std::string>& notes) {
+  std::vector<std::string> straight;
+  for (const ScoredEstimate& each : result.estimates) {
+    const Scores& scores = each.scores;
+    if (scores.ate_se3_m && scores.ate_se3_degenerate) straight.push_back(each.given.name);
+    if (scores.poses_invalid == 0) continue;
     notes.push_back(
         fmt::format("{}: {} of {} poses left out: not finite, not a pose, or stamped "
                     "not after the one before",
-                    name, scores.poses_invalid, scores.poses));
+                    each.given.name, scores.poses_invalid, scores.poses));
   }
-  if (scores.ate_se3_m && scores.ate_se3_degenerate) {
-    notes.push_back(
-        fmt::format("{}: the motion is too straight for SE(3) alignment (Umeyama): the "
-                    "rotation about the line cannot be told, its covariance lacks rank "
-                    "(ratio below {:g}); ATE SE(3) falls back to yaw only",
-                    name, scoring.straightness));
-  }
+  if (straight.empty()) return;
+  notes.push_back(
+      fmt::format("{}: too straight (or too few poses) for SE(3) alignment: Umeyama's "
+                  "covariance lacks rank, so that the rotation about the line of motion "
+                  "cannot be told; ATE SE(3) falls back to heading and translation",
+                  fmt::join(straight, ", ")));
 }
 
 ScoredEstimate score_one(SourcedTrajectory estimate, const ScoringInput& input) {
@@ -135,8 +135,8 @@ Result<TrajectoryScores> score_trajectories(ScoringInput input) {
     }
     move_near(estimate, result.notes);
     result.estimates.push_back(score_one(std::move(estimate), input));
-    note_estimate(result.estimates.back(), input.scoring, result.notes);
   }
+  note_estimates(result, result.notes);
   result.truth = std::move(input.truth);
   result.passages = std::move(input.passages);
   result.segments = std::move(input.segments);

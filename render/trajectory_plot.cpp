@@ -137,7 +137,7 @@ bool leaves(const Study& study, const Comparison& comparison) {
 }
 
 /// Chooses the panel's height for equal scales, or says by how much y is stretched.
-void set_plan_scale(Panel& panel, Interval x, Interval y) {
+void set_plan_scale(Panel& panel, const std::string& label, Interval x, Interval y) {
   const double width = panel_width(kWidth);
   const double equal = width * y.span() / x.span();
   panel.height = std::clamp(equal, 260.0, 800.0);
@@ -145,7 +145,7 @@ void set_plan_scale(Panel& panel, Interval x, Interval y) {
   if (stretch < 1.0) {
     x = x.widened(0.5 * x.span() * (1.0 / stretch - 1.0));
   }
-  panel.x = {"x, along the corridor [m]", x.min, x.max};
+  panel.x = {label, x.min, x.max};
   const bool stretched = stretch > 1.01;
   panel.y = {stretched ? fmt::format("y, scale ×{:.1f} [m]", stretch) : "y [m]", y.min, y.max};
   panel.title = stretched ? fmt::format("Plan, lateral scale stretched ×{:.1f}", stretch) : "Plan";
@@ -153,7 +153,8 @@ void set_plan_scale(Panel& panel, Interval x, Interval y) {
 
 Panel plan_panel(const TrajectoryPlot& plot, const Study& study) {
   Panel panel;
-  set_plan_scale(panel, study.x, study.y);
+  const bool has_walls = !plot.scene.solids.empty();
+  set_plan_scale(panel, has_walls ? "x, along the corridor [m]" : "x [m]", study.x, study.y);
   panel.areas = scene_plan(plot.scene);
   Lines lines;
   const auto add = [&](const Trajectory& trajectory, const Stroke& stroke) {
