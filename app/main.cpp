@@ -43,6 +43,9 @@ int parse_and_run(int argc, char** argv) {
   int exit_code = aims::kOk;
   aims::add_run_command(app, scenarios, exit_code);
   aims::add_simulate_command(app, scenarios, exit_code);
+  aims::add_estimate_command(app, exit_code);
+  aims::add_info_command(app, exit_code);
+  aims::add_check_command(app, exit_code);
   aims::add_suite_command(app, scenarios, exit_code);
   aims::add_score_command(app, exit_code);
   aims::add_compare_command(app, exit_code);
