@@ -125,9 +125,24 @@ Result<void> sort_chunks(const BagFile& file, BagIndex& index) {
   return {};
 }
 
-tl::unexpected<Error> not_indexed(const BagFile& file, std::uint64_t position,
-                                  const std::string& what) {
-  return file.refuse(position, what + "; --recover reads what is whole, `rosbag reindex` mends it");
+/// The index that the file header points to, as far as it can be read.
+Result<BagIndex> read_index_at(const BagFile& file, std::uint64_t position,
+                               std::uint32_t connection_count, std::uint32_t chunk_count) {
+  if (position > file.size() || (position == file.size() && connection_count > 0)) {
+    return file.refuse(
+        position, fmt::format("expected the index, but the file ends at byte {}", file.size()));
+  }
+  BagIndex index;
+  for (std::uint32_t i = 0; i < connection_count; ++i) {
+    const auto read = read_connection(file, position, index);
+    if (!read) return tl::unexpected(read.error());
+  }
+  for (std::uint32_t i = 0; i < chunk_count; ++i) {
+    const auto read = read_chunk_info(file, position, index);
+    if (!read) return tl::unexpected(read.error());
+  }
+  if (const auto sorted = sort_chunks(file, index); !sorted) return tl::unexpected(sorted.error());
+  return index;
 }
 
 }  // namespace
@@ -159,27 +174,12 @@ Result<BagIndex> read_index(const BagFile& file) {
     return file.refuse(header->position,
                        "expected 'index_pos', 'conn_count' and 'chunk_count' in the file header");
   }
+  const std::string remedy = "; --recover reads what is whole, `rosbag reindex` mends it";
   if (*index_position == 0) {
-    return not_indexed(file, header->position, "the bag was never closed and has no index");
+    return file.refuse(header->position, "the bag was never closed and has no index" + remedy);
   }
-  if (*index_position > file.size() || (*index_position == file.size() && *connection_count > 0)) {
-    return not_indexed(
-        file, *index_position,
-        fmt::format("expected the index, but the file ends at byte {}", file.size()));
-  }
-  BagIndex index;
-  std::uint64_t position = *index_position;
-  for (std::uint32_t i = 0; i < *connection_count; ++i) {
-    if (const auto read = read_connection(file, position, index); !read) {
-      return tl::unexpected(read.error());
-    }
-  }
-  for (std::uint32_t i = 0; i < *chunk_count; ++i) {
-    if (const auto read = read_chunk_info(file, position, index); !read) {
-      return tl::unexpected(read.error());
-    }
-  }
-  if (const auto sorted = sort_chunks(file, index); !sorted) return tl::unexpected(sorted.error());
+  auto index = read_index_at(file, *index_position, *connection_count, *chunk_count);
+  if (!index) return failure(index.error().message + remedy);
   return index;
 }
 

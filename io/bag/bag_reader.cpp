@@ -141,10 +141,9 @@ Result<void> BagReader::Impl::load(const ChunkPlace& place) {
   chunk->place = &place;
   chunk->next = 0;
   ChunkContent& content = chunk->content;
-  if (const auto got = load_chunk(file, place, index.connections, content); !got) return got;
-  if (!options.recover) {
-    if (const auto fits = check_chunk_index(file, place, content); !fits) return fits;
-  }
+  Result<void> got = load_chunk(file, place, index.connections, content);
+  if (got && !options.recover) got = check_chunk_index(file, place, content);
+  if (!got) return failure(got.error().message + "; --recover leaves out what is damaged");
   std::erase_if(content.messages, [&](const ChunkMessage& message) {
     const MessageKey key{message.time, place.position, message.offset};
     return !chosen.contains(message.connection) || (last && key <= *last);
