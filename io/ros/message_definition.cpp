@@ -70,17 +70,21 @@ Result<FieldDefinition> parse_field(std::string_view line) {
   return field;
 }
 
-/// A constant has a '=' before any comment; its value may hold a '#'.
+/// A constant has a '=' before any comment.
 bool is_constant(std::string_view line) {
   const std::size_t equals = line.find('=');
   return equals != std::string_view::npos && equals < line.find('#') && equals > 0;
 }
 
 Result<void> add_field(std::string_view line, int number, TypeDefinition& type) {
-  line = trimmed(line.substr(0, line.find('#')));
+  // What stands before the '=' of a constant looks like a field; its value may hold a '#'.
+  const bool constant = is_constant(line);
+  line = trimmed(line.substr(0, line.find(constant ? '=' : '#')));
   if (line.empty()) return {};
   auto field = parse_field(line);
   if (!field) return tl::unexpected(field.error());
+  if (constant && field->array == ArrayKind::kNone) return {};
+  if (constant) return failure(fmt::format("expected 'TYPE NAME', found '{}'", line.substr(0, 80)));
   if (type.fields.size() >= kMostFields) {
     return failure(fmt::format("a type of more than {} fields", kMostFields));
   }
@@ -115,7 +119,7 @@ Result<std::vector<TypeDefinition>> parse_definition(std::string_view type, std:
       expect_name = false;
     } else if (expect_name && !line.empty()) {
       return refuse(number, "expected 'MSG: package/Type'");
-    } else if (!is_constant(line)) {
+    } else {
       const auto added = add_field(line, number, types.back());
       if (!added) return refuse(number, added.error().message);
     }

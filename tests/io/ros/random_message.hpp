@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/time.hpp"
+
+namespace aims {
+
+/// A made-up message type with one message of it: definition, bytes, and every value by its path.
+/// Written apart from the decoder: values are put down as the bytes are.
+class RandomMessage {
+ public:
+  explicit RandomMessage(std::uint32_t seed) : random_(seed) {
+    const std::string root = make_type(0);
+    for (std::size_t i = 1; i < types_.size(); ++i) {
+      definition_ += std::string(80, '=') + "\nMSG: test_msgs/T" + std::to_string(i) + "\n" +
+                     text_of(types_[i]);
+    }
+    definition_ = text_of(types_[0]) + definition_;
+    write(types_[0], "");
+  }
+
+  std::string type() const { return "test_msgs/T0"; }
+  const std::string& definition() const { return definition_; }
+  const std::string& bytes() const { return bytes_; }
+
+  std::vector<std::pair<std::string, double>> numbers;
+  std::vector<std::pair<std::string, std::vector<double>>> arrays;
+  std::vector<std::pair<std::string, Time>> times;
+  std::vector<std::pair<std::string, std::string>> texts;
+  std::vector<std::pair<std::string, std::size_t>> sizes;
+
+ private:
+  struct Field {
+    std::string type;  ///< builtin, or "T3"
+    int nested = -1;
+    std::string name;
+    int count = -1;  ///< -1: single, 0: open array, else fixed
+  };
+  using Fields = std::vector<Field>;
+
+  std::uint32_t pick(std::uint32_t below) { return static_cast<std::uint32_t>(random_() % below); }
+
+  std::string make_type(int depth) {
+    static const char* const kBuiltins[] = {
+        "bool",   "int8",  "uint8",  "byte",    "char",    "int16",  "uint16", "int32",
+        "uint32", "int64", "uint64", "float32", "float64", "string", "time",   "duration"};
+    const std::size_t place = types_.size();
+    types_.emplace_back();
+    Fields fields;
+    const std::uint32_t count = 1 + pick(6);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Field field;
+      field.name = "f" + std::to_string(i) + "_";
+      field.count = pick(3) == 0 ? 0 : (pick(3) == 0 ? static_cast<int>(1 + pick(4)) : -1);
+      if (depth < 3 && pick(3) == 0) {
+        field.nested = static_cast<int>(types_.size());
+        field.type = make_type(depth + 1);
+      } else {
+        field.type = kBuiltins[pick(16)];
+      }
+      fields.push_back(field);
+    }
+    types_[place] = fields;
+    return "T" + std::to_string(place);
+  }
+
+  std::string text_of(const Fields& fields) {
+    std::string text = "# a comment = none\nint32 CONSTANT=5 # five\nstring WORD=a # b\n\n";
+    for (const Field& field : fields) {
+      const bool full = field.nested >= 0 && pick(2) == 0;
+      const std::string brackets =
+          field.count < 0 ? ""
+                          : (field.count == 0 ? "[]" : "[" + std::to_string(field.count) + "]");
+      text += "  " + (full ? "test_msgs/" : std::string()) + field.type + brackets + "\t " +
+              field.name + (pick(2) == 0 ? "# x=1" : "") + (pick(4) == 0 ? "\r\n" : "\n");
+    }
+    return text;
+  }
+
+  template <class T>
+  double put(T value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    return static_cast<double>(value);
+  }
+
+  double put_number(const std::string& type) {
+    if (type == "bool") return put(static_cast<std::uint8_t>(pick(2)));
+    if (type == "int8" || type == "byte") return put(static_cast<std::int8_t>(random_()));
+    if (type == "uint8" || type == "char") return put(static_cast<std::uint8_t>(random_()));
+    if (type == "int16") return put(static_cast<std::int16_t>(random_()));
+    if (type == "uint16") return put(static_cast<std::uint16_t>(random_()));
+    if (type == "int32") return put(static_cast<std::int32_t>(random_()));
+    if (type == "uint32") return put(static_cast<std::uint32_t>(random_()));
+    if (type == "int64") return put(static_cast<std::int64_t>(random_()));
+    if (type == "uint64") return put(static_cast<std::uint64_t>(random_()));
+    if (type == "float32") return put(static_cast<float>(pick(1000)) / 7.0F);
+    return put(static_cast<double>(random_()) / 3.0);
+  }
+
+  void put_one(const Field& field, const std::string& path, std::vector<double>* array) {
+    if (field.nested >= 0) {
+      write(types_[static_cast<std::size_t>(field.nested)], path + ".");
+    } else if (field.type == "string") {
+      texts.emplace_back(path, std::string(pick(6), 's'));
+      put(static_cast<std::uint32_t>(texts.back().second.size()));
+      bytes_ += texts.back().second;
+    } else if (field.type == "time") {
+      const auto seconds = static_cast<std::uint32_t>(random_());
+      put(seconds);
+      put(std::uint32_t{999'999'999});
+      times.emplace_back(path, Time{seconds} * kSecond + 999'999'999);
+    } else if (field.type == "duration") {
+      const auto seconds = static_cast<std::int32_t>(random_());
+      put(seconds);
+      put(std::int32_t{-7});
+      times.emplace_back(path, Time{seconds} * kSecond - 7);
+    } else {
+      numbers.emplace_back(path, put_number(field.type));
+      if (array != nullptr) array->push_back(numbers.back().second);
+    }
+  }
+
+  void write(const Fields& fields, const std::string& prefix) {
+    for (const Field& field : fields) {
+      const std::string path = prefix + field.name;
+      if (field.count < 0) {
+        put_one(field, path, nullptr);
+        continue;
+      }
+      const std::uint32_t count =
+          field.count == 0 ? pick(4) : static_cast<std::uint32_t>(field.count);
+      if (field.count == 0) put(count);
+      sizes.emplace_back(path, count);
+      std::vector<double> values;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        put_one(field, path + "[" + std::to_string(i) + "]", &values);
+      }
+      const bool is_number = field.nested < 0 && field.type != "string" && field.type != "time" &&
+                             field.type != "duration";
+      if (is_number) arrays.emplace_back(path, values);
+    }
+  }
+
+  std::mt19937_64 random_;
+  std::vector<Fields> types_;
+  std::string definition_;
+  std::string bytes_;
+};
+
+}  // namespace aims
