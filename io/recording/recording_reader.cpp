@@ -26,7 +26,7 @@ constexpr std::size_t kMostDeliveries = 100'000;
 constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 
 /// Reads the first messages of tf alone; chunks without them are not read.
-Result<void> survey_transforms(BagReader& bag, const std::string& topic, bool fixed,
+Result<void> survey_transforms(MessageSource& bag, const std::string& topic, bool fixed,
                                RecordingSurvey& survey) {
   std::map<std::uint32_t, MessageDecoder> decoders;
   for (const BagConnection& connection : bag.connections()) {
@@ -52,7 +52,7 @@ Result<void> survey_transforms(BagReader& bag, const std::string& topic, bool fi
   return {};
 }
 
-Result<void> survey_sensors(BagReader& bag, const RecordingChannels& channels,
+Result<void> survey_sensors(MessageSource& bag, const RecordingChannels& channels,
                             RecordingSurvey& survey) {
   bag.select(channels.topics());
   bag.rewind();
@@ -76,7 +76,7 @@ Result<void> survey_sensors(BagReader& bag, const RecordingChannels& channels,
   return {};
 }
 
-Result<RecordingPlan> survey_recording(BagReader& bag, const RecordingConfig& config,
+Result<RecordingPlan> survey_recording(MessageSource& bag, const RecordingConfig& config,
                                        const TopicsConfig& topics,
                                        const RecordingChannels& channels,
                                        std::vector<std::string> notes) {
@@ -88,15 +88,15 @@ Result<RecordingPlan> survey_recording(BagReader& bag, const RecordingConfig& co
     return tl::unexpected(ok.error());
   }
   if (auto ok = survey_sensors(bag, channels, survey); !ok) return tl::unexpected(ok.error());
-  return survey.decide(bag.file(), std::move(notes));
+  return survey.decide(bag.name(), std::move(notes));
 }
 
 }  // namespace
 
 struct RecordingReader::Impl {
-  Impl(BagReader reader, RecordingChannels chosen, RecordingPlan decided,
+  Impl(std::unique_ptr<MessageSource> source, RecordingChannels chosen, RecordingPlan decided,
        const RecordingConfig& configured)
-      : bag(std::move(reader)),
+      : bag(std::move(source)),
         channels(std::move(chosen)),
         plan(std::move(decided)),
         config(configured),
@@ -115,7 +115,7 @@ struct RecordingReader::Impl {
   void malformed(Role role) { ++counts[std::string(name_of(role)) + "_malformed"]; }
   Time stamp_of(Role role, Time stamp, double delay) const;
 
-  BagReader bag;
+  std::unique_ptr<MessageSource> bag;
   RecordingChannels channels;
   RecordingPlan plan;
   RecordingConfig config;
@@ -131,7 +131,7 @@ struct RecordingReader::Impl {
 };
 
 Result<void> RecordingReader::Impl::fetch() {
-  auto message = bag.next();
+  auto message = bag->next();
   if (!message) return tl::unexpected(message.error());
   next = *message;
   return {};
@@ -224,7 +224,7 @@ void RecordingReader::Impl::take_truth(const MessageView& view) {
 
 void RecordingReader::Impl::take(const BagMessage& message, std::vector<Delivery>& out) {
   record_time = message.record_time;
-  position = std::max(position, record_time - bag.summary().start);
+  position = std::max(position, record_time - bag->summary().start);
   const Channel* channel = channels.find(message);
   if (channel == nullptr) return;
   const auto view = channel->decoder.decode(message.data);
@@ -248,17 +248,23 @@ Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
                                               BagOpenOptions options) {
   auto bag = BagReader::open(file, options);
   if (!bag) return tl::unexpected(bag.error());
+  return open(std::make_unique<BagReader>(std::move(*bag)), config);
+}
+
+Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag,
+                                              const RecordingConfig& config) {
+  const std::filesystem::path name = bag->name();
   std::vector<std::string> notes;
-  const auto topics = choose_topics(file, bag->connections(), config.topics, notes);
+  const auto topics = choose_topics(name, bag->connections(), config.topics, notes);
   if (!topics) return tl::unexpected(topics.error());
-  auto channels = RecordingChannels::create(file, bag->connections(), *topics);
+  auto channels = RecordingChannels::create(name, bag->connections(), *topics);
   if (!channels) return tl::unexpected(channels.error());
   auto plan = survey_recording(*bag, config, *topics, *channels, std::move(notes));
   if (!plan) return tl::unexpected(plan.error());
   bag->select(channels->topics());
   bag->rewind();
   return RecordingReader(
-      std::make_unique<Impl>(std::move(*bag), std::move(*channels), std::move(*plan), config));
+      std::make_unique<Impl>(std::move(bag), std::move(*channels), std::move(*plan), config));
 }
 
 Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deliveries) {
@@ -292,7 +298,7 @@ RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = defaul
 RecordingReader::~RecordingReader() = default;
 
 const RecordingSetup& RecordingReader::setup() const { return impl_->plan.setup; }
-const BagSummary& RecordingReader::summary() const { return impl_->bag.summary(); }
+const BagSummary& RecordingReader::summary() const { return impl_->bag->summary(); }
 Duration RecordingReader::position() const { return impl_->position; }
 const Trajectory& RecordingReader::truth() const { return impl_->truth; }
 const std::map<std::string, int>& RecordingReader::counts() const { return impl_->counts; }
