@@ -81,10 +81,10 @@ int estimate_command(const EstimateArguments& arguments) {
   if (!folder) return bad_input(folder.error());
 
   watch_interrupt();
-  ProgressDisplay display(arguments.bag, arguments.quiet);
+  ProgressDisplay display(arguments.bag, arguments.quiet, "read");
   const EstimateOptions options = {arguments.bag, arguments.recover, arguments.jobs};
   const auto result = estimate(*config, options, [&](const Progress& progress) {
-    display.show(0, progress);
+    display.show(std::nullopt, progress);
     return !interrupted();
   });
   display.close();

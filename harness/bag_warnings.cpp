@@ -27,8 +27,9 @@ void warn_of_times(const TopicInfo& topic, std::vector<std::string>& out) {
   if (!is_sensor(topic) || topic.messages < 2) return;
   if (topic.loss.value_or(0.0) > kMuchLoss) {
     out.push_back(
-        fmt::format("{}: about {:.1f} % of the messages are missing; record on a faster "
-                    "disk or with a larger buffer (rosbag record -b 0)",
+        fmt::format("{}: about {:.1f} % of the messages are missing, lost on the robot or while "
+                    "recording: look at its "
+                    "network, record on a faster disk or with a larger buffer (rosbag record -b 0)",
                     topic.topic, 100.0 * *topic.loss));
   }
   if (topic.rate_hz && topic.largest_gap_s.value_or(0.0) * *topic.rate_hz > kLongGapSamples) {

@@ -52,7 +52,7 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   if (result.truth.empty()) return;
   ScoringInput input;
   input.scoring = config.scoring;
-  input.truth = {"truth", result.bag.string(), "truth of the recording", result.truth};
+  input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording", result.truth};
   for (const EstimatorOutcome& each : result.estimators) {
     input.estimates.push_back({each.name, each.name, "estimated here", each.report.trajectory});
   }
