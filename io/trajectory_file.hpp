@@ -22,9 +22,9 @@ struct StampList {
 struct TrajectoryFileOptions {
   PoseRules rules = PoseRules::kStrict;
   /// Of a bag with several topics that hold poses, when the source names none; may be empty.
-  std::string preferred_topic;
+  std::string preferred_topic = {};
   /// For poses without stamps: the first list with as many entries as there are poses.
-  std::vector<StampList> stamps;
+  std::vector<StampList> stamps = {};
 };
 
 /// A trajectory, and what its file says of it.
