@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes and lists bags for the readers and writers of others to be held against ours:
-//   bag_tool write FILE none|lz4|bz2 CHUNK_BYTES   a sample of all message types
+//   bag_tool write FILE none|lz4|bz2 CHUNK_BYTES [COUNT [POINTS]]   a sample of all message types
 //   bag_tool list FILE [recover]                   time, topic, size and CRC of every message
 //   bag_tool decode FILE                           every value of every message
 //   bag_tool flood FILE                            writes until it is killed
@@ -30,10 +30,10 @@ int fail(const Error& error) {
   return 2;
 }
 
-LidarScan sample_scan(std::mt19937& random) {
+LidarScan sample_scan(std::mt19937& random, int points) {
   LidarScan scan;
   std::uniform_real_distribution<float> coordinate(-50.0F, 50.0F);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < points; ++i) {
     LidarPoint point;
     point.position = {coordinate(random), coordinate(random), coordinate(random)};
     scan.points.push_back(point);
@@ -41,7 +41,7 @@ LidarScan sample_scan(std::mt19937& random) {
   return scan;
 }
 
-Result<void> write_sample(BagWriter& bag) {
+Result<void> write_sample(BagWriter& bag, int count, int points) {
   std::mt19937 random(1);
   const auto text = bag.add_connection("/aims/scenario", string_type());
   const auto cloud = bag.add_connection("/lidar/points", point_cloud_type());
@@ -59,7 +59,7 @@ Result<void> write_sample(BagWriter& bag) {
   };
   put(text, kStart, string_message("a: 1 # \xc3\xa4\n"));
   put(tf, kStart, transforms_message(kStart, {{"imu", "lidar", Pose{}}, {"imu", "base", Pose{}}}));
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < count; ++i) {
     const Time time = kStart + i * 7 * kMillisecond;
     const MessageHeader header{sequence++, time, "some_frame"};
     LegOdometrySample legs;
@@ -72,18 +72,21 @@ Result<void> write_sample(BagWriter& bag) {
     put(odometry, time, odometry_message(header, "base", content));
     // Recorded later than what follows: chunks overlap in time.
     if (i % 10 == 0)
-      put(cloud, time + 100 * kMillisecond, cloud_message(header, sample_scan(random)));
+      put(cloud, time + 100 * kMillisecond, cloud_message(header, sample_scan(random, points)));
   }
   return outcome;
 }
 
-int write(const std::string& file, const std::string& compression, const std::string& chunk) {
+int write(const std::vector<std::string>& words) {
   BagWriterOptions options;
-  options.compression = compression_named(compression).value();
-  options.chunk_size = std::stoul(chunk);
-  auto bag = BagWriter::create(file, options);
+  options.compression = compression_named(words[2]).value();
+  options.chunk_size = std::stoul(words[3]);
+  const int count = words.size() > 4 ? std::stoi(words[4]) : 200;
+  const int points = words.size() > 5 ? std::stoi(words[5]) : 500;
+  auto bag = BagWriter::create(words[1], options);
   if (!bag) return fail(bag.error());
-  if (const auto written = write_sample(*bag); !written) return fail(written.error());
+  if (const auto written = write_sample(*bag, count, points); !written)
+    return fail(written.error());
   if (const auto closed = bag->close(); !closed) return fail(closed.error());
   return 0;
 }
@@ -187,7 +190,7 @@ int decode(const std::string& file) {
 }
 
 int run(const std::vector<std::string>& words) {
-  if (words.size() == 4 && words[0] == "write") return write(words[1], words[2], words[3]);
+  if (words.size() >= 4 && words[0] == "write") return write(words);
   if (words.size() == 2 && words[0] == "list") return list(words[1], false);
   if (words.size() == 3 && words[0] == "list") return list(words[1], words[2] == "recover");
   if (words.size() == 2 && words[0] == "decode") return decode(words[1]);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Replays what fuzzing has found worth keeping, in the ordinary build.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "io/atomic_file.hpp"
+#include "io/byte_cursor.hpp"
+#include "tests/fuzz/fuzz_targets.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+void replay(const std::string& target, void (*run)(std::span<const std::uint8_t>)) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(AIMS_CORPUS) / target)) {
+    SCOPED_TRACE(entry.path());
+    const std::string bytes = read_file(entry.path()).value();
+    run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    ++count;
+  }
+  EXPECT_GT(count, 3) << target;
+}
+
+TEST(FuzzCorpus, Bags) { replay("bag", fuzz_bag); }
+TEST(FuzzCorpus, Messages) { replay("message", fuzz_message); }
+TEST(FuzzCorpus, Recordings) { replay("recording", fuzz_recording); }
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <string>
+
+#include "io/byte_cursor.hpp"
+#include "tests/fuzz/fuzz_targets.hpp"
+#include "tests/fuzz/touch.hpp"
+
+namespace aims {
+
+void fuzz_message(std::span<const std::uint8_t> input) {
+  ByteCursor cursor(std::as_bytes(input));
+  const auto size = cursor.number<std::uint16_t>();
+  if (!size) return;
+  const auto definition = cursor.take(std::min<std::size_t>(*size, cursor.left()));
+  const auto decoder = MessageDecoder::create("p/T", as_text(*definition));
+  if (!decoder) return;
+  touch_message(*decoder, *cursor.take(cursor.left()));
+}
+
+}  // namespace aims

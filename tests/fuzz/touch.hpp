@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "io/ros/message_decoder.hpp"
+
+namespace aims {
+
+/// Decodes the bytes and looks at everything that a view offers.
+void touch_message(const MessageDecoder& decoder, std::span<const std::byte> bytes);
+
+/// Reads a recording to its end.
+void touch_recording(const std::filesystem::path& bag, bool recover);
+
+}  // namespace aims
