@@ -52,7 +52,8 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   if (result.truth.empty()) return;
   ScoringInput input;
   input.scoring = config.scoring;
-  input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording", result.truth};
+  input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",
+                 result.truth};
   for (const EstimatorOutcome& each : result.estimators) {
     input.estimates.push_back({each.name, each.name, "estimated here", each.report.trajectory});
   }
@@ -73,13 +74,14 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
 }
 
 /// Estimators whose measurements the recording does not hold cannot run.
-Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup) {
+Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
+                          const std::filesystem::path& bag) {
   for (const std::string& name : config.estimators) {
     if (name == "lio" || setup.has_legs) continue;
-    return failure(fmt::format(
-        "{}: estimator {} needs leg odometry, which the recording does not hold; name its topic "
-        "(--topics leg_odometry=/...), or use --estimator lio",
-        "recording", name));
+    return failure(
+        fmt::format("{}: estimator {} needs leg odometry, which is not found; name its topic "
+                    "(--topics leg_odometry=/...), or use --estimator lio",
+                    bag.string(), name));
   }
   return {};
 }
@@ -114,7 +116,8 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.bag = options.bag;
   result.setup = reader->setup();
   result.summary = reader->summary();
-  if (auto ok = check_topics(config, result.setup); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_topics(config, result.setup, options.bag); !ok)
+    return tl::unexpected(ok.error());
   result.estimator = config.estimator;
   const EstimatorConfig defaults;
   follow_rate(result.setup.imu_rate_hz, "imu.rate_hz", defaults.imu.rate_hz,
