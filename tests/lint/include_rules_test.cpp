@@ -25,6 +25,7 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
      {"core/", "render/", "sim/environment/scene", "sim/truth.hpp", "sim/quadruped_model.hpp"}},
     {"harness", {"core/", "estimator/", "sim/", "eval/", "io/", "render/", "harness/"}},
     {"app", {"core/", "harness/", "app/"}},
+    {"ros", {"core/", "estimator/", "io/", "harness/", "ros/"}},
 };
 
 /// Prefixes of third-party headers and the folders that may include them, in which kind of file.
@@ -34,8 +35,13 @@ struct Confinement {
   bool in_headers;
 };
 const std::vector<Confinement> kConfined = {
-    {"mujoco/", {"sim", "render"}, false}, {"embree3/", {"sim"}, false}, {"GL/", {"render"}, false},
-    {"cairo", {"render"}, false},          {"yaml-cpp/", {"io"}, false}, {"CLI/", {"app"}, true},
+    {"mujoco/", {"sim", "render"}, false},
+    {"embree3/", {"sim"}, false},
+    {"GL/", {"render"}, false},
+    {"cairo", {"render"}, false},
+    {"yaml-cpp/", {"io"}, false},
+    {"CLI/", {"app", "ros"}, true},
+    {"ros/ros.h", {"ros"}, false},
 };
 
 bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {

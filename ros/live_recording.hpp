@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/time.hpp"
+#include "io/recording/recording_reader.hpp"
+#include "ros/transport.hpp"
+
+namespace aims {
+
+struct LiveRecordingOptions {
+  Duration settle = 3 * kSecond;  ///< gathered before the reader decides
+  double patience = 0.0;          ///< given up after so long [s]; 0: never
+};
+
+/// Takes the topics of the network, until topics, units and extrinsics can be decided as for a bag;
+/// from then on takes those that are used. While something is missing, `waiting` is told what every
+/// few seconds. Error when the node was asked to end before, or patience has run out.
+Result<RecordingReader> open_live_recording(RosTransport& transport, const RecordingConfig& config,
+                                            const LiveRecordingOptions& options,
+                                            const std::function<void(const std::string&)>& waiting);
+
+}  // namespace aims

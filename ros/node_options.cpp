@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/node_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "core/config.hpp"
+
+namespace aims {
+namespace {
+
+constexpr const char* kDescription =
+    "Estimates a robot's motion live from ROS 1 topics and publishes it on ~odometry.";
+
+constexpr const char* kFooter =
+    "Private parameters have the same names (_estimator:=lio); _set/recording/topics/imu:=/imu is\n"
+    "--set recording.topics.imu=/imu. Exit codes: 0 ok, 2 bad usage, configuration or topics.";
+
+constexpr std::string_view kSettingPrefix = "set/";
+
+/// The options that may also come as parameters.
+Fields fields_of_options(NodeOptions& options) {
+  Fields fields;
+  fields.text("estimator", options.estimator, {});
+  fields.text("config", options.config, {});
+  fields.text("out", options.out, {});
+  fields.text("odom_frame", options.odom_frame, {});
+  fields.text("body_frame", options.body_frame, {});
+  fields.flag("tf", options.tf, {});
+  fields.number("settle", options.settle, {.unit = "s", .range = in_range(0.1, 60.0)});
+  fields.number("patience", options.patience, {.unit = "s", .range = at_least(0.0)});
+  return fields;
+}
+
+void add_options(CLI::App& app, NodeOptions& options) {
+  app.add_option("--estimator", options.estimator, "Estimator to run (aims)");
+  app.add_option("--config", options.config, "YAML file with recording, estimator");
+  app.add_option("--set", options.overrides, "key=value on top; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--out", options.out, "TUM file to write at the end");
+  app.add_option("--odom_frame", options.odom_frame, "Frame of the published poses (odom)");
+  app.add_option("--body_frame", options.body_frame, "Frame of the IMU (imu)");
+  app.add_flag("--tf", options.tf, "Also publish the pose on /tf");
+  app.add_option("--settle", options.settle,
+                 "Time [s] gathered before topics, units and extrinsics are decided (3)")
+      ->check(CLI::Range(0.1, 60.0));
+  app.add_option("--patience", options.patience,
+                 "Give up after so long [s] without the topics that are needed; 0: never (0)")
+      ->check(CLI::Range(0.0, 1e6));
+}
+
+}  // namespace
+
+Result<NodeCommand> parse_node_arguments(std::vector<std::string> arguments) {
+  NodeCommand command;
+  CLI::App app(kDescription, "aims_node");
+  app.footer(kFooter);
+  add_options(app, command.options);
+  std::ranges::reverse(arguments);  // as CLI11 wants them
+  try {
+    app.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    command.help = app.help();
+  } catch (const CLI::ParseError& error) {
+    return failure(fmt::format("{}; see --help", error.what()));
+  }
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() > 0) command.given.push_back(option->get_single_name());
+  }
+  return command;
+}
+
+Result<void> apply_parameters(const std::map<std::string, std::string>& parameters,
+                              NodeCommand& command) {
+  const Fields fields = fields_of_options(command.options);
+  std::vector<std::string> settings;
+  for (const auto& [name, value] : parameters) {
+    if (name.starts_with(kSettingPrefix)) {
+      std::string key = name.substr(kSettingPrefix.size());
+      std::ranges::replace(key, '/', '.');
+      settings.push_back(key + "=" + value);
+      continue;
+    }
+    const bool given = std::ranges::find(command.given, name) != command.given.end();
+    if (given && fields.find(name) != nullptr) continue;
+    if (auto ok = assign(fields, name, value); !ok) {
+      return failure(fmt::format("parameter ~{}: {}", name, ok.error().message));
+    }
+  }
+  auto& overrides = command.options.overrides;
+  overrides.insert(overrides.begin(), settings.begin(), settings.end());
+  return {};
+}
+
+}  // namespace aims

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/transport.hpp"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <signal.h>
+#include <topic_tools/shape_shifter.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <deque>
+#include <tuple>
+#include <utility>
+
+namespace aims {
+namespace {
+
+using topic_tools::ShapeShifter;
+
+/// Messages that wait while one is worked on: five seconds at 200 Hz. The oldest go first.
+constexpr std::uint32_t kQueueSize = 1000;
+/// How often a waiting node looks whether it was asked to end [s].
+constexpr double kLongestWait = 0.1;
+
+/// What ShapeShifter and roscpp's serialization write to.
+struct ByteStream {
+  std::vector<std::byte>& bytes;
+  std::uint8_t* advance(std::uint32_t size) {
+    bytes.resize(size);
+    return reinterpret_cast<std::uint8_t*>(bytes.data());
+  }
+};
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
+
+std::string text_of(XmlRpc::XmlRpcValue& value) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return static_cast<bool&>(value) ? "true" : "false";
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return std::to_string(static_cast<int&>(value));
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      return number_text(static_cast<double&>(value));
+    case XmlRpc::XmlRpcValue::TypeString:
+      return static_cast<std::string&>(value);
+    case XmlRpc::XmlRpcValue::TypeArray:
+      break;
+    default:
+      return {};
+  }
+  std::string text;
+  for (int i = 0; i < value.size(); ++i) text += (i > 0 ? ", " : "") + text_of(value[i]);
+  return "[" + text + "]";
+}
+
+void flatten(XmlRpc::XmlRpcValue& value, const std::string& key,
+             std::map<std::string, std::string>& texts) {
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    texts[key] = text_of(value);
+    return;
+  }
+  for (auto& [name, child] : value) flatten(child, key.empty() ? name : key + "/" + name, texts);
+}
+
+void request_end(int) { ros::requestShutdown(); }
+
+}  // namespace
+
+struct RosTransport::Impl {
+  using Event = ros::MessageEvent<const ShapeShifter>;
+  using Key = std::tuple<std::string, std::string, bool>;  // topic, md5, latching
+
+  ros::NodeHandle node;
+  ros::CallbackQueue queue;
+  std::map<std::string, ros::Subscriber> subscribers;
+  std::map<Key, std::shared_ptr<const RosConnection>> connections;
+  std::vector<std::pair<ros::Publisher, RosConnection>> publishers;
+  std::deque<RosMessage> inbox;
+
+  void take(const std::string& topic, const Event& event) {
+    const ShapeShifter& message = *event.getConstMessage();
+    const auto header = event.getConnectionHeaderPtr();
+    const auto latching = header->find("latching");
+    const bool latched = latching != header->end() && latching->second == "1";
+    auto& connection = connections[{topic, message.getMD5Sum(), latched}];
+    if (!connection) {
+      connection = std::make_shared<RosConnection>(
+          RosConnection{topic, message.getDataType(), message.getMD5Sum(),
+                        message.getMessageDefinition(), latched});
+    }
+    RosMessage taken;
+    taken.connection = connection;
+    taken.arrival = static_cast<std::int64_t>(event.getReceiptTime().toNSec());
+    ByteStream stream{taken.data};
+    message.write(stream);
+    inbox.push_back(std::move(taken));
+  }
+};
+
+RosTransport::RosTransport(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RosTransport::~RosTransport() = default;
+
+std::vector<std::string> RosTransport::own_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  if (!arguments.empty()) arguments.erase(arguments.begin());
+  return arguments;
+}
+
+std::unique_ptr<RosTransport> RosTransport::connect(int argc, char** argv, const std::string& name,
+                                                    std::string& error) {
+  try {
+    ros::init(argc, argv, name, ros::init_options::NoRosout);
+  } catch (const std::exception& exception) {
+    error = exception.what();
+    return nullptr;
+  }
+  if (!ros::master::check()) {
+    error = "no ROS master at " + ros::master::getURI() + "; start one, or set ROS_MASTER_URI";
+    return nullptr;
+  }
+  auto impl = std::make_unique<Impl>();
+  signal(SIGTERM, request_end);
+  return std::unique_ptr<RosTransport>(new RosTransport(std::move(impl)));
+}
+
+bool RosTransport::running() const { return ros::ok(); }
+
+std::map<std::string, std::string> RosTransport::parameters() const {
+  XmlRpc::XmlRpcValue all;
+  std::map<std::string, std::string> texts;
+  if (ros::param::get(ros::this_node::getName(), all)) flatten(all, "", texts);
+  return texts;
+}
+
+std::map<std::string, std::string> RosTransport::topics() const {
+  ros::master::V_TopicInfo found;
+  std::map<std::string, std::string> types;
+  if (!ros::master::getTopics(found)) return types;
+  for (const ros::master::TopicInfo& topic : found) types[topic.name] = topic.datatype;
+  return types;
+}
+
+std::string RosTransport::resolved(const std::string& topic) const {
+  return ros::names::resolve(topic);
+}
+
+void RosTransport::subscribe(const std::string& topic) {
+  const std::string name = resolved(topic);
+  if (impl_->subscribers.count(name) > 0) return;
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const Impl::Event&>(
+      name, kQueueSize,
+      [impl = impl_.get(), name](const Impl::Event& event) { impl->take(name, event); });
+  options.callback_queue = &impl_->queue;
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  impl_->subscribers[name] = impl_->node.subscribe(options);
+}
+
+void RosTransport::unsubscribe(const std::string& topic) {
+  impl_->subscribers.erase(resolved(topic));
+}
+
+std::optional<RosMessage> RosTransport::wait(double seconds) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  while (impl_->inbox.empty()) {
+    const double left = (end - ros::WallTime::now()).toSec();
+    if (left <= 0.0 || !ros::ok()) return std::nullopt;
+    impl_->queue.callOne(ros::WallDuration(std::min(left, kLongestWait)));
+  }
+  RosMessage message = std::move(impl_->inbox.front());
+  impl_->inbox.pop_front();
+  return message;
+}
+
+std::size_t RosTransport::advertise(const RosConnection& connection) {
+  ros::AdvertiseOptions options(resolved(connection.topic), 100, connection.md5, connection.type,
+                                connection.definition);
+  options.latch = connection.latching;
+  impl_->publishers.emplace_back(impl_->node.advertise(options), connection);
+  return impl_->publishers.size() - 1;
+}
+
+void RosTransport::publish(std::size_t publisher, const std::byte* data, std::size_t size) {
+  const auto& [target, connection] = impl_->publishers.at(publisher);
+  ShapeShifter message;
+  message.morph(connection.md5, connection.type, connection.definition,
+                connection.latching ? "1" : "0");
+  // Only read from: roscpp has one stream type for both directions.
+  auto* bytes = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(data));
+  ros::serialization::IStream stream(bytes, static_cast<std::uint32_t>(size));
+  message.read(stream);
+  target.publish(message);
+}
+
+}  // namespace aims
