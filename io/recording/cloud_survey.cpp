@@ -114,7 +114,10 @@ std::optional<Duration> sweep_period(std::vector<Time> stamps, std::optional<Dur
   if (2 * most->second >= between.size()) return most->first;
   std::vector<Duration> each;
   for (const auto& [period, times] : periods) each.insert(each.end(), times, period);
-  return whole_rate(*median(each));
+  // Stamps that jitter: how long points fire tells the period better, if it is near.
+  const Duration usual = *median(each);
+  const Duration fired = whole_rate(span.value_or(usual));
+  return std::abs(fired - usual) <= usual / 4 ? fired : whole_rate(usual);
 }
 
 void CloudSurvey::learn_fields(const PointTable& table) {

@@ -22,7 +22,7 @@ struct RecordingSetup {
   SensorRig rig;
   bool has_legs = false;
   bool has_truth = false;
-  std::optional<double> imu_rate_hz;  ///< from the median spacing of the first stamps
+  std::optional<double> imu_rate_hz;  ///< from the usual spacing of the first stamps
   std::optional<double> leg_rate_hz;  ///< as for the IMU
   /// What was assumed, converted or made up, one sentence each: "IMU in g: multiplied by 9.80665".
   std::vector<std::string> notes;

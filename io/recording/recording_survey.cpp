@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "io/recording/median.hpp"
@@ -19,14 +20,27 @@ constexpr double kFastestRobot = 35.0;  ///< where gyros of 2000 deg/s saturate 
 /// Clocks of sensors and recorder that differ by more are different clocks.
 constexpr Duration kSameClock = 5 * kSecond;
 
-std::optional<double> rate_of(const std::vector<Time>& stamps) {
+/// Samples per second: by the spacing that a third share, so that losses do not count; else by the
+/// median, if half are near it; else, stamps being in disorder, by the mean.
+std::optional<double> rate_of(std::vector<Time> stamps) {
+  std::sort(stamps.begin(), stamps.end());
   std::vector<Duration> spacings;
+  std::map<Duration, std::size_t> times;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] > stamps[i - 1]) spacings.push_back(stamps[i] - stamps[i - 1]);
+    if (stamps[i] == stamps[i - 1]) continue;
+    spacings.push_back(stamps[i] - stamps[i - 1]);
+    ++times[spacings.back()];
   }
-  const std::optional<Duration> spacing = median(spacings);
-  if (!spacing) return std::nullopt;
-  return 1.0 / to_seconds(*spacing);
+  if (spacings.empty()) return std::nullopt;
+  const auto most = std::max_element(times.begin(), times.end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  if (3 * most->second >= spacings.size()) return 1.0 / to_seconds(most->first);
+  const Duration usual = *median(spacings);
+  const auto near = std::count_if(spacings.begin(), spacings.end(), [&](Duration each) {
+    return std::abs(each - usual) < usual / 10;
+  });
+  if (2 * static_cast<std::size_t>(near) >= spacings.size()) return 1.0 / to_seconds(usual);
+  return static_cast<double>(spacings.size()) / to_seconds(stamps.back() - stamps.front());
 }
 
 bool all_zero(const std::vector<Time>& stamps) {
