@@ -11,6 +11,7 @@
 #include "harness/bag_warnings.hpp"
 #include "harness/topic_statistics.hpp"
 #include "io/recording/cloud_survey.hpp"
+#include "io/recording/message_values.hpp"
 #include "io/recording/recording_reader.hpp"
 #include "io/ros/message_decoder.hpp"
 
@@ -87,8 +88,10 @@ class Survey {
       found.parent = std::string(message.text(path + "header.frame_id").value_or(""));
       found.child = std::string(message.text(path + "child_frame_id").value_or(""));
       found.fixed = fixed;
-      found.T_parent_child = {quaternion_at(message, path + "transform.rotation"),
-                              vector_at(message, path + "transform.translation")};
+      const auto rotation = quaternion_at(message, path + "transform.rotation");
+      const auto translation = vector_at(message, path + "transform.translation");
+      if (!rotation || !translation) continue;
+      found.T_parent_child = {*rotation, *translation};
       const bool known = std::any_of(
           info.transforms.begin(), info.transforms.end(), [&found](const TransformInfo& each) {
             return each.parent == found.parent && each.child == found.child;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "harness/bag_inspection.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <utility>
 
+#include "io/recording/median.hpp"
+#include "io/recording/message_values.hpp"
 #include "io/recording/point_table.hpp"
 
 namespace aims {
@@ -23,17 +23,6 @@ std::string name_of(NumberType type) {
 }
 
 }  // namespace
-
-Eigen::Vector3d vector_at(const MessageView& message, const std::string& path) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return {message.number(path + ".x").value_or(kNone), message.number(path + ".y").value_or(kNone),
-          message.number(path + ".z").value_or(kNone)};
-}
-
-Eigen::Quaterniond quaternion_at(const MessageView& message, const std::string& path) {
-  return {message.number(path + ".w").value_or(0.0), message.number(path + ".x").value_or(0.0),
-          message.number(path + ".y").value_or(0.0), message.number(path + ".z").value_or(0.0)};
-}
 
 CloudInspection::CloudInspection(std::string topic) { info_.topic = std::move(topic); }
 
@@ -74,12 +63,14 @@ CloudInfo CloudInspection::finish() const {
 ImuInspection::ImuInspection(std::string topic) { info_.topic = std::move(topic); }
 
 void ImuInspection::add(const MessageView& message, Time stamp) {
-  const ImuSample sample = {stamp, vector_at(message, "angular_velocity"),
-                            vector_at(message, "linear_acceleration")};
-  if (!sample.specific_force.allFinite()) return;
+  const auto rate = vector_at(message, "angular_velocity");
+  const auto force = vector_at(message, "linear_acceleration");
+  if (!rate || !force || !force->allFinite()) return;
+  const ImuSample sample = {stamp, *rate, *force};
   if (unit_known_) return add_in_si(sample);
   first_.push_back(sample);
-  info_.oriented = std::abs(quaternion_at(message, "orientation").norm() - 1.0) < 1e-2;
+  const auto orientation = quaternion_at(message, "orientation");
+  info_.oriented = orientation && std::abs(orientation->norm() - 1.0) < 1e-2;
   if (first_.size() == kUnitSamples) settle_unit();
 }
 
@@ -93,8 +84,7 @@ ImuInfo ImuInspection::finish() {
 void ImuInspection::settle_unit() {
   std::vector<double> norms;
   for (const ImuSample& each : first_) norms.push_back(each.specific_force.norm());
-  std::sort(norms.begin(), norms.end());
-  const double usual = norms.empty() ? kStandardGravity : norms[norms.size() / 2];
+  const double usual = median(norms).value_or(kStandardGravity);
   info_.in_g = usual > 0.5 && usual < 2.0;
   unit_known_ = true;
   for (const ImuSample& each : first_) add_in_si(each);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,12 +11,6 @@
 #include "io/ros/message_decoder.hpp"
 
 namespace aims {
-
-/// The numbers x, y, z below `path`; NaN where the message has none.
-Eigen::Vector3d vector_at(const MessageView& message, const std::string& path);
-
-/// The numbers w, x, y, z below `path`; zero where the message has none.
-Eigen::Quaterniond quaternion_at(const MessageView& message, const std::string& path);
 
 /// Looks at the first clouds of a topic.
 class CloudInspection {

@@ -4,19 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/recording/median.hpp"
+
 namespace aims {
 namespace {
 
 constexpr std::size_t kMostKept = 1'000'000;
 /// A spacing that is longer by more stands for lost messages [-].
 constexpr double kLossThreshold = 1.5;
-
-std::optional<double> median_of(std::vector<float> values) {
-  if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Share of messages missing, were they all `usual` seconds apart.
 double loss_of(const std::vector<float>& spacings, double usual) {
@@ -57,13 +52,13 @@ void TopicStatistics::finish(TopicInfo& info) {
   info.backwards = backwards_;
   info.first_stamp = first_;
   info.last_stamp = last_;
-  if (const auto usual = median_of(spacings_s_); usual && *usual > 0.0) {
+  if (const auto usual = median(spacings_s_); usual && *usual > 0.0) {
     info.rate_hz = 1.0 / *usual;
     info.largest_gap_s = largest_gap_s_;
     info.loss = loss_of(spacings_s_, *usual);
   }
   if (offsets_s_.empty()) return;
-  info.median_offset_s = median_of(offsets_s_);
+  info.median_offset_s = median(offsets_s_);
   const auto [smallest, largest] = std::minmax_element(offsets_s_.begin(), offsets_s_.end());
   info.smallest_offset_s = *smallest;
   info.largest_offset_s = *largest;
