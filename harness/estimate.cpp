@@ -73,19 +73,6 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   }
 }
 
-/// Estimators whose measurements the recording does not hold cannot run.
-Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
-                          const std::filesystem::path& bag) {
-  for (const std::string& name : config.estimators) {
-    if (name == "lio" || setup.has_legs) continue;
-    return failure(
-        fmt::format("{}: estimator {} needs leg odometry, which is not found; name its topic "
-                    "(--topics leg_odometry=/...), or use --estimator lio",
-                    bag.string(), name));
-  }
-  return {};
-}
-
 }  // namespace
 
 void describe(Fields& fields, EstimateConfig& config) {
@@ -107,6 +94,26 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
   return config;
 }
 
+Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
+                          const std::string& recording) {
+  for (const std::string& name : config.estimators) {
+    if (name == "lio" || setup.has_legs) continue;
+    return failure(
+        fmt::format("{}: estimator {} needs leg odometry, which is not found; name its topic "
+                    "(--topics leg_odometry=/...), or use --estimator lio",
+                    recording, name));
+  }
+  return {};
+}
+
+EstimatorConfig estimator_config_for(const EstimateConfig& config, RecordingSetup& setup) {
+  EstimatorConfig own = config.estimator;
+  const EstimatorConfig defaults;
+  follow_rate(setup.imu_rate_hz, "imu.rate_hz", defaults.imu.rate_hz, own.imu.rate_hz, setup.notes);
+  follow_rate(setup.leg_rate_hz, "leg.rate_hz", defaults.leg.rate_hz, own.leg.rate_hz, setup.notes);
+  return own;
+}
+
 Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOptions& options,
                                 const Observer& observer) {
   const Stopwatch stopwatch;
@@ -116,14 +123,9 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.bag = options.bag;
   result.setup = reader->setup();
   result.summary = reader->summary();
-  if (auto ok = check_topics(config, result.setup, options.bag); !ok)
+  if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)
     return tl::unexpected(ok.error());
-  result.estimator = config.estimator;
-  const EstimatorConfig defaults;
-  follow_rate(result.setup.imu_rate_hz, "imu.rate_hz", defaults.imu.rate_hz,
-              result.estimator.imu.rate_hz, result.setup.notes);
-  follow_rate(result.setup.leg_rate_hz, "leg.rate_hz", defaults.leg.rate_hz,
-              result.estimator.leg.rate_hz, result.setup.notes);
+  result.estimator = estimator_config_for(config, result.setup);
   auto estimators = make_estimators(config.estimators, result.estimator, result.setup.rig);
   if (!estimators) return tl::unexpected(estimators.error());
 

@@ -72,11 +72,15 @@ int run_node(RosTransport& transport, const NodeOptions& options) {
   if (!config) return bad_input(config.error());
   const LiveRecordingOptions live{.settle = from_seconds(options.settle),
                                   .patience = options.patience};
-  auto reader = open_live_recording(transport, config->recording, live,
-                                    [](const std::string& missing) { say("waiting: " + missing); });
+  auto reader = open_live_recording(
+      transport, config->recording, live,
+      [&](const RecordingSetup& setup) { return check_topics(*config, setup, "live topics"); },
+      [](const std::string& missing) { say("waiting: " + missing); });
   if (!reader) return bad_input(reader.error());
-  for (const std::string& note : reader->setup().notes) say("note: " + note);
-  auto estimator = make_estimator(options.estimator, config->estimator, reader->setup().rig);
+  RecordingSetup setup = reader->setup();
+  const EstimatorConfig own = estimator_config_for(*config, setup);
+  for (const std::string& note : setup.notes) say("note: " + note);
+  auto estimator = make_estimator(options.estimator, own, setup.rig);
   if (!estimator) return bad_input(estimator.error());
 
   OdometryPublisher publisher(transport, {options.odom_frame, options.body_frame, options.tf});

@@ -85,7 +85,7 @@ class Gathering {
 };
 
 Result<RecordingReader> try_open(RosTransport& transport, const Gathering& gathering,
-                                 const RecordingConfig& config) {
+                                 const RecordingConfig& config, const EnoughFound& enough) {
   auto wait = [&transport]() -> std::optional<RosMessage> {
     while (transport.running()) {
       if (auto message = transport.wait(kPoll)) return message;
@@ -96,6 +96,7 @@ Result<RecordingReader> try_open(RosTransport& transport, const Gathering& gathe
   LiveSource& live = *source;
   auto reader = RecordingReader::open(std::move(source), config);
   if (!reader) return reader;
+  if (auto ok = enough(reader->setup()); !ok) return tl::unexpected(ok.error());
   for (const std::string& topic : gathering.subscribed()) {
     if (!live.selects(topic)) transport.unsubscribe(topic);
   }
@@ -107,7 +108,7 @@ Result<RecordingReader> try_open(RosTransport& transport, const Gathering& gathe
 
 Result<RecordingReader> open_live_recording(
     RosTransport& transport, const RecordingConfig& config, const LiveRecordingOptions& options,
-    const std::function<void(const std::string&)>& waiting) {
+    const EnoughFound& enough, const std::function<void(const std::string&)>& waiting) {
   Gathering gathering(transport);
   const Timer since_start;
   Timer since_complaint;
@@ -115,7 +116,7 @@ Result<RecordingReader> open_live_recording(
   while (transport.running()) {
     gathering.collect();
     if (gathering.span() >= options.settle) {
-      auto reader = try_open(transport, gathering, config);
+      auto reader = try_open(transport, gathering, config, enough);
       if (reader) return reader;
       missing = reader.error().message;
     }
