@@ -19,6 +19,7 @@ namespace aims {
 namespace {
 
 constexpr std::size_t kMostTransforms = 256;
+constexpr std::size_t kMostTurns = 100'000;
 
 /// Goes over every message once.
 class Survey {
@@ -38,6 +39,11 @@ class Survey {
     } else if (connection.type == "sensor_msgs/Imu") {
       imus_.try_emplace(connection.topic, connection.topic)
           .first->second.add(*view, stamp.value_or(message.record_time));
+      add_turn_rate(connection.topic, *view, "angular_velocity", stamp);
+    } else if (connection.type == "nav_msgs/Odometry") {
+      add_turn_rate(connection.topic, *view, "twist.twist.angular", stamp);
+    } else if (connection.type == "geometry_msgs/TwistStamped") {
+      add_turn_rate(connection.topic, *view, "twist.angular", stamp);
     } else if (connection.type == "tf2_msgs/TFMessage" || connection.type == "tf/tfMessage") {
       add_transforms(*view, connection.topic == "/tf_static", info);
     }
@@ -53,11 +59,34 @@ class Survey {
       added.frame = frames_[topic];
       statistics_[topic].finish(added);
     }
+    compare_clocks(info);
     for (auto& [topic, survey] : clouds_) info.clouds.push_back(survey.finish());
     for (auto& [topic, survey] : imus_) info.imus.push_back(survey.finish());
   }
 
  private:
+  void add_turn_rate(const std::string& topic, const MessageView& message, const char* path,
+                     std::optional<Time> stamp) {
+    const auto rate = vector_at(message, path);
+    std::vector<TurnRate>& rates = turns_[topic];
+    if (!rate || !rate->allFinite() || !stamp || rates.size() == kMostTurns) return;
+    if (rates.empty() || rates.back().stamp < *stamp) rates.push_back({*stamp, rate->norm()});
+  }
+
+  /// Holds every sensor that feels turns against the fastest IMU.
+  void compare_clocks(BagInfo& info) const {
+    if (imus_.empty()) return;
+    const auto fewer = [this](const auto& a, const auto& b) {
+      return turns_.at(a.first).size() < turns_.at(b.first).size();
+    };
+    const std::string& reference = std::max_element(imus_.begin(), imus_.end(), fewer)->first;
+    for (TopicInfo& each : info.topics) {
+      const auto rates = turns_.find(each.topic);
+      if (rates == turns_.end() || each.topic == reference) continue;
+      each.clock = clock_offset(rates->second, turns_.at(reference));
+    }
+  }
+
   std::optional<MessageView> decode(const BagMessage& message, BagInfo& info) {
     const BagConnection& connection = *message.connection;
     auto known = decoders_.find(connection.id);
@@ -106,6 +135,7 @@ class Survey {
   std::map<std::string, std::string> frames_;
   std::map<std::string, CloudInspection> clouds_;
   std::map<std::string, ImuInspection> imus_;
+  std::map<std::string, std::vector<TurnRate>> turns_;  ///< of the first minutes
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/lie.hpp"
+#include "harness/clock_offset.hpp"
 #include "io/bag/bag_reader.hpp"
 #include "io/recording/recording_config.hpp"
 
@@ -32,6 +33,7 @@ struct TopicInfo {
   std::optional<double> median_offset_s;  ///< record time minus stamp
   std::optional<double> smallest_offset_s;
   std::optional<double> largest_offset_s;
+  std::optional<ClockOffset> clock;        ///< against the IMU, by the turns that both felt
   Time first_stamp = 0;  ///< of the header, or the record time
   Time last_stamp = 0;
 };

@@ -26,9 +26,10 @@ std::string head_text(const BagInfo& info) {
 
 std::string topics_text(const BagInfo& info) {
   TextTable table;
-  table.header = {"topic",    "type",      "messages",
-                  "Hz",       "gap max s", "lost %",
-                  "repeated", "backwards", "recorded after stamp s"};
+  table.header = {"topic",        "type",      "messages",
+                  "Hz",           "gap max s", "lost %",
+                  "repeated",     "backwards", "recorded after stamp s",
+                  "clock - IMU s"};
   for (const TopicInfo& each : info.topics) {
     const std::string offset = each.median_offset_s
                                    ? fmt::format("{:.3f} ({:.3f} to {:.3f})", *each.median_offset_s,
@@ -37,7 +38,8 @@ std::string topics_text(const BagInfo& info) {
     table.rows.push_back({each.topic, each.type, std::to_string(each.messages),
                           number(each.rate_hz, 1), number(each.largest_gap_s, 3),
                           number(each.loss, 2, 100.0), std::to_string(each.repeated),
-                          std::to_string(each.backwards), offset});
+                          std::to_string(each.backwards), offset,
+                          each.clock ? fmt::format("{:+.4f}", each.clock->seconds) : "-"});
   }
   return to_text(table);
 }

@@ -13,6 +13,7 @@ constexpr double kMuchLoss = 0.01;             ///< [-]
 constexpr double kLongGapSamples = 10.0;       ///< in periods of the topic
 constexpr double kOddOffset = 0.5;             ///< between record time and stamp [s]
 constexpr double kOffsetBetweenTopics = 0.15;  ///< [s]
+constexpr double kOddClock = 0.015;            ///< more than averaging over a sample explains [s]
 constexpr double kShortRest = 2.0;             ///< [s]
 constexpr double kGravity = 9.81;              ///< [m/s^2]
 constexpr double kOddForce = 0.3;              ///< of a resting accelerometer from gravity [m/s^2]
@@ -51,6 +52,17 @@ void warn_of_times(const TopicInfo& topic, std::vector<std::string>& out) {
                     "leg_delay)",
                     topic.topic, *topic.median_offset_s));
   }
+}
+
+/// A clock of its own shows in when the same turns are felt.
+void warn_of_clock(const TopicInfo& topic, std::vector<std::string>& out) {
+  if (!topic.clock || std::abs(topic.clock->seconds) < kOddClock) return;
+  out.push_back(
+      fmt::format("{}: feels turns {:.1f} ms {} the IMU (correlation {:.2f}); if it is the "
+                  "legs' topic, recording.leg_delay={:.4f} makes it good",
+                  topic.topic, 1e3 * std::abs(topic.clock->seconds),
+                  topic.clock->seconds > 0.0 ? "after" : "before", topic.clock->correlation,
+                  topic.clock->seconds));
 }
 
 /// Sensors that are late by different amounts may have clocks of their own.
@@ -141,7 +153,10 @@ std::vector<std::string> bag_warnings(const BagInfo& info) {
     out.push_back(fmt::format("{} messages do not fit their definition; the first: {}",
                               info.undecodable, info.first_undecodable));
   }
-  for (const TopicInfo& each : info.topics) warn_of_times(each, out);
+  for (const TopicInfo& each : info.topics) {
+    warn_of_times(each, out);
+    warn_of_clock(each, out);
+  }
   warn_of_offsets(info, out);
   for (const CloudInfo& each : info.clouds) warn_of_clouds(each, out);
   for (const ImuInfo& each : info.imus) warn_of_imu(info, each, out);
