@@ -40,7 +40,13 @@ void say(const std::string& text) {
 Result<EstimateConfig> config_of(const NodeOptions& options) {
   std::vector<std::string> overrides = {fmt::format("estimators=[{}]", options.estimator)};
   overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  return load_estimate_config(options.config, overrides);
+  auto config = load_estimate_config(options.config, overrides);
+  if (!config) return config;
+  if (auto known = make_estimator(options.estimator, config->estimator, SensorRig{}); !known) {
+    return tl::unexpected(known.error());
+  }
+  config->recording.topics.truth = "none";  // for scoring alone
+  return config;
 }
 
 /// Estimates until the network ends it; then the rest that the estimator held back.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""usage: mcap_test.py CONVERTER VIEWER_SCRIPT. Run by tests/mcap/run.sh."""
+"""usage: mcap_test.py CONVERTER VIEWER_SCRIPT AIMS. Run by tests/mcap/run.sh."""
 
 import os
 import re
@@ -11,12 +11,13 @@ import time
 import unittest
 
 import genpy
+import rosbag
 
 import sample_bag
 from cdr import CdrReader, parse_schema
 from mcap_file import McapFile
 
-CONVERTER, VIEWER = None, None
+CONVERTER, VIEWER, AIMS = None, None, None
 
 # As in ROS 2's common_interfaces and geometry2; constants and comments left out.
 ROS2_FIELDS = {
@@ -84,6 +85,27 @@ def comparable(value):
     return value
 
 
+def check_messages(test, mcap, written):
+    """Holds all messages against {topic: [(record time, message)]}."""
+    found, types = {}, {}
+    for number, schema in mcap.schemas.items():
+        types[number] = parse_schema(schema.name, schema.text)[0]
+    for message in mcap.messages:
+        channel = mcap.channels[message.channel]
+        name = mcap.schemas[channel.schema].name
+        value = comparable(CdrReader(types[channel.schema], message.data).decode(name))
+        found.setdefault(channel.topic, []).append((message, value))
+    test.assertEqual(found.keys(), written.keys())
+    for topic, messages in written.items():
+        test.assertEqual(len(found[topic]), len(messages), topic)
+        for (record_time, sent), (message, value) in zip(messages, found[topic]):
+            test.assertEqual(value, as_ros2(sent), topic)
+            test.assertEqual(message.log_time, record_time)
+            stamped = hasattr(sent, "header")
+            publish = sent.header.stamp.to_nsec() if stamped else record_time
+            test.assertEqual(message.publish_time, publish, topic)
+
+
 class Sample(unittest.TestCase):
     maxDiff = None
 
@@ -114,22 +136,7 @@ class Conversion(Sample):
         cls.mcap = McapFile(output)  # checks lengths, checksums, indexes and statistics
 
     def test_every_message_is_there_with_its_times_and_exact_values(self):
-        found = {}
-        for message in self.mcap.messages:
-            channel = self.mcap.channels[message.channel]
-            schema = self.mcap.schemas[channel.schema]
-            types, _ = parse_schema(schema.name, schema.text)
-            value = comparable(CdrReader(types, message.data).decode(schema.name))
-            found.setdefault(channel.topic, []).append((message, value))
-        self.assertEqual(found.keys(), self.written.keys())
-        for topic, messages in self.written.items():
-            self.assertEqual(len(found[topic]), len(messages), topic)
-            for (record_time, sent), (message, value) in zip(messages, found[topic]):
-                self.assertEqual(value, as_ros2(sent), topic)
-                self.assertEqual(message.log_time, record_time)
-                stamped = hasattr(sent, "header")
-                publish = sent.header.stamp.to_nsec() if stamped else record_time
-                self.assertEqual(message.publish_time, publish, topic)
+        check_messages(self, self.mcap, self.written)
 
     def test_messages_keep_the_order_of_the_bag(self):
         first = [self.mcap.channels[message.channel].topic for message in self.mcap.messages[2:5]]
@@ -184,6 +191,23 @@ class Conversion(Sample):
             sample_bag.write(bag, compression)
             self.assertEqual(convert(bag, output, "--compress", "zstd").returncode, 0)
             self.assertEqual(McapFile(output).messages, self.mcap.messages)
+
+
+class SimulatedRecording(unittest.TestCase):
+    def test_every_message_is_there_with_its_times_and_exact_values(self):
+        scenario = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stand.yaml")
+        with tempfile.TemporaryDirectory() as folder:
+            bag, output = os.path.join(folder, "walk.bag"), os.path.join(folder, "walk.mcap")
+            subprocess.run([AIMS, "simulate", scenario, "-o", bag, "--quiet"], check=True,
+                           stdout=subprocess.DEVNULL)
+            done = convert(bag, output, "--compress", "zstd")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            written = {}
+            with rosbag.Bag(bag) as reader:
+                for topic, message, record_time in reader.read_messages():
+                    written.setdefault(topic, []).append((record_time.to_nsec(), message))
+            self.assertGreaterEqual(len(written), 10)
+            check_messages(self, McapFile(output), written)
 
 
 class BadInput(Sample):
@@ -260,5 +284,5 @@ class BadInput(Sample):
 
 
 if __name__ == "__main__":
-    CONVERTER, VIEWER = sys.argv[1:3]
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    CONVERTER, VIEWER, AIMS = sys.argv[1:4]
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# usage: run.sh SOURCE_FOLDER WORK_FOLDER. Tests the MCAP converter as a copy in the work folder.
+# usage: run.sh SOURCE_FOLDER WORK_FOLDER AIMS. Tests the MCAP converter as a copy in the work folder.
 set -euo pipefail
 source_folder="$1"
 work="$2"
@@ -26,4 +26,4 @@ if [[ ! "$work/mcap/node_modules/.package-lock.json" -nt "$work/mcap/package-loc
   fi
 fi
 PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$tests/mcap_test.py" \
-  "$work/bag_to_mcap.sh" "$work/mcap/read_as_viewer.mjs"
+  "$work/bag_to_mcap.sh" "$work/mcap/read_as_viewer.mjs" "$3"

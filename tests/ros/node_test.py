@@ -148,6 +148,7 @@ class BadUsage(unittest.TestCase):
         with Network(os.path.abspath("log")) as network:
             environment = network.environment
             fails(self, ["gave up after 1 s: no messages yet"], environment, "--patience", "1")
+            fails(self, ["'amis'", "did you mean"], environment, "--estimator", "amis")
             fails(self, ["recording.topics.imoo"], environment, "--set",
                   "recording.topics.imoo=/imu")
             fails(self, ["parameter ~estimater", "did you mean"], environment,
