@@ -46,7 +46,8 @@ void demand(const Result<void>& outcome) {
 void fuzz_recording(std::span<const std::uint8_t> input) {
   std::vector<std::byte> bytes;
   {
-    auto bag = BagWriter::create(std::make_unique<MemoryOutput>(bytes), "fuzz.bag");
+    auto bag = BagWriter::create(std::make_unique<MemoryOutput>(bytes), "fuzz.bag",
+                                 {BagCompression::kNone, 1 << 14});
     const std::array<MessageType, 6> types = {imu_type(),           point_cloud_type(),
                                               odometry_type(),      joint_state_type(),
                                               foot_contacts_type(), transforms_type()};

@@ -231,6 +231,25 @@ def check_unclosed(tool, folder):
     print(f"unclosed: {len(ours)} messages recovered by us, {len(theirs)} by rosbag reindex")
 
 
+def check_killed(tool, folder):
+    """Our writer, killed at any moment, leaves a bag with an index that rosbag takes."""
+    rng, counts = random.Random(3), []
+    for _ in range(6):
+        file = os.path.join(folder, "killed.bag")
+        writer = subprocess.Popen([tool, "flood", file])
+        wanted = rng.randrange(10 ** 5, 10 ** 7)
+        while not os.path.exists(file) or os.path.getsize(file) < wanted:
+            assert writer.poll() is None
+        writer.kill()
+        writer.wait()
+        with rosbag.Bag(file) as bag:
+            theirs = listed(bag)
+        assert theirs and theirs == run(tool, "list", file).splitlines()
+        counts.append(len(theirs))
+        os.remove(file)
+    print(f"killed: {counts} messages read")
+
+
 def main():
     tool, folder = sys.argv[1], sys.argv[2]
     shutil.rmtree(folder, ignore_errors=True)
@@ -238,6 +257,7 @@ def main():
     check_ours(tool, folder)
     check_theirs(tool, folder)
     check_unclosed(tool, folder)
+    check_killed(tool, folder)
     shutil.rmtree(folder)
 
 
