@@ -27,7 +27,8 @@ function(aims_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(aims_${name} STATIC ${arg_SOURCES})
   add_library(aims::${name} ALIAS aims_${name})
-  target_link_libraries(aims_${name} PUBLIC aims_flags ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
+  target_link_libraries(aims_${name} PUBLIC $<BUILD_INTERFACE:aims_flags> ${arg_LINKS}
+    PRIVATE ${arg_PRIVATE_LINKS})
 endfunction()
 
 # aims_test(NAME SOURCES file... [LINKS target...] [LABEL unit|scenario|stress])

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What is installed, in two components: `runtime` is the program with its scenarios, `dev` the
+# libraries that a program of somebody else needs to estimate, read bags and score: core, estimator,
+# eval and io. The simulation, the pictures and the harness stay inside the program.
+include(CMakePackageConfigHelpers)
+
+set(exported_libraries core estimator eval io)
+set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/aims)
+
+install(TARGETS aims RUNTIME COMPONENT runtime)
+install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPONENT runtime
+  FILES_MATCHING PATTERN "*.yaml")
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/aims RENAME copyright
+  COMPONENT runtime)
+
+# Includes are written from the root of the sources, "core/lie.hpp"; include/aims is that root.
+foreach(library ${exported_libraries})
+  set_target_properties(aims_${library} PROPERTIES EXPORT_NAME ${library})
+  target_compile_features(aims_${library} PUBLIC cxx_std_20)
+  install(TARGETS aims_${library} EXPORT aims ARCHIVE COMPONENT dev
+    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aims)
+  install(DIRECTORY ${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aims COMPONENT dev
+    FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+install(EXPORT aims NAMESPACE aims:: FILE aimsTargets.cmake DESTINATION ${cmake_folder}
+  COMPONENT dev)
+configure_package_config_file(cmake/aimsConfig.cmake.in ${PROJECT_BINARY_DIR}/aimsConfig.cmake
+  INSTALL_DESTINATION ${cmake_folder} NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may change anything.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/aimsConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/aimsConfig.cmake ${PROJECT_BINARY_DIR}/aimsConfigVersion.cmake
+  DESTINATION ${cmake_folder} COMPONENT dev)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libaims-dev RENAME copyright
+  COMPONENT dev)

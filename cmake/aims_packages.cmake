@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# `cpack -G DEB` in the build folder: aims_VERSION_ARCH.deb, the program, and libaims-dev_..., for
+# programs of others.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME aims)
+set(CPACK_PACKAGE_VENDOR "the AIMS authors")
+set(CPACK_PACKAGE_CONTACT "the AIMS authors <aims@localhost>")
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL runtime dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME aims)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+  "legged-robot localization in degenerate corridors
+Simulates a quadruped, runs estimators on simulated or recorded data, scores
+any system's trajectory against a truth, and draws what happened.")
+# Libraries are found by dpkg-shlibdeps; the fonts are for the pictures.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS fonts-dejavu-core)
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libaims-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_DEV_DESCRIPTION
+  "legged-robot localization in degenerate corridors, libraries
+Estimators, readers of recordings and trajectory scoring as static libraries
+with headers; CMake finds them by find_package(aims CONFIG).")
+# What aimsConfig.cmake finds.
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libboost-dev, libbz2-dev, libeigen3-dev, libexpected-dev, \
+libfmt-dev, liblz4-dev, libyaml-cpp-dev, pkg-config")
+include(CPack)

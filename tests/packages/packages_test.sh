@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# packages_test.sh BUILD SOURCE WORK: makes the Debian packages of what BUILD has built, looks into
+# them, and installs them into a root of their own.
+set -euo pipefail
+build=$1 source=$2 work=$3
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+for tool in cpack dpkg-deb dpkg-shlibdeps; do
+  command -v "$tool" >/dev/null || { echo "SKIPPED: no $tool here"; exit 0; }
+done
+
+rm -rf "$work"
+mkdir -p "$work"
+(cd "$build" && cpack -G DEB -B "$work") >"$work/cpack.log" 2>&1 || { cat "$work/cpack.log"; fail "cpack"; }
+program=$(echo "$work"/aims_*.deb)
+libraries=$(echo "$work"/libaims-dev_*.deb)
+
+# contents PACKAGE FILE...: the package holds each file.
+contents() {
+  local package=$1 file
+  shift
+  dpkg-deb -c "$package" >"$work/contents"
+  for file in "$@"; do
+    grep -q " \./usr/$file$" "$work/contents" || fail "$package holds no /usr/$file"
+  done
+}
+contents "$program" bin/aims share/aims/scenarios/corridor.yaml \
+  share/aims/scenarios/stress/ramp_06.yaml share/doc/aims/copyright
+grep -qE '\.hpp$|\.a$|\.cmake$' "$work/contents" && fail "what others build with is in $program"
+contents "$libraries" include/aims/core/lie.hpp include/aims/estimator/registry.hpp \
+  include/aims/eval/scores.hpp include/aims/io/recording/recording_reader.hpp \
+  lib/libaims_core.a lib/libaims_estimator.a lib/libaims_eval.a lib/libaims_io.a \
+  lib/cmake/aims/aimsConfig.cmake lib/cmake/aims/aimsConfigVersion.cmake \
+  lib/cmake/aims/aimsTargets.cmake share/doc/libaims-dev/copyright
+for package in "$program" "$libraries"; do
+  dpkg-deb -c "$package" | awk '$2 != "root/root" || $6 !~ "^./(usr/.*)?$"' | grep . &&
+    fail "$package: the files above are not root's, or not under /usr"
+done
+
+# depends PACKAGE: one name a line.
+depends() { dpkg-deb -f "$1" Depends | tr ',' '\n' | sed 's/^ *//; s/ .*//'; }
+for name in libc6 libstdc++6 libcairo2 libfmt9 libyaml-cpp0.7 fonts-dejavu-core; do
+  depends "$program" | grep -xF "$name" >"$work/found" || fail "$program does not depend on $name"
+done
+for name in libeigen3-dev libfmt-dev libexpected-dev libyaml-cpp-dev libboost-dev liblz4-dev \
+  libbz2-dev; do
+  depends "$libraries" | grep -xF "$name" >"$work/found" || fail "$libraries does not depend on $name"
+done
+if command -v apt-cache >/dev/null; then
+  # shellcheck disable=SC2046
+  apt-cache show --no-all-versions $(depends "$program") $(depends "$libraries") \
+    >"$work/known" 2>/dev/null || true
+  for name in $(depends "$program") $(depends "$libraries"); do
+    grep -qxF "Package: $name" "$work/known" || fail "no Debian package $name"
+  done
+else
+  echo "no apt-cache here: names of the dependencies are not looked up"
+fi
+
+# Installed elsewhere; the dependencies are not, so that they are forced.
+root=$work/root
+if [ "$(id -u)" -eq 0 ]; then
+  mkdir -p "$root/var/lib/dpkg/"{info,updates}
+  touch "$root/var/lib/dpkg/"{status,available}
+  dpkg --root="$root" --force-depends --force-script-chrootless -i "$program" "$libraries" \
+    >"$work/dpkg.log" 2>&1 || { cat "$work/dpkg.log"; fail "dpkg -i"; }
+  [ "$(dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${Status}' libaims-dev)" = \
+    "install ok installed" ] || fail "libaims-dev is not installed"
+else
+  for package in "$program" "$libraries"; do dpkg-deb -x "$package" "$root"; done
+fi
+cd /
+version=$("$root/usr/bin/aims" --version)
+[ "$version" = "aims $(dpkg-deb -f "$program" Version)" ] || fail "it says '$version'"
+"$root/usr/bin/aims" list >"$work/list"
+grep -qF "$root/usr/share/aims/scenarios" "$work/list" ||
+  fail "the installed program does not find its scenarios"
+grep -rIlF -e "$source" -e "$build" "$root/usr" && fail "the files above name a folder of this machine"
+echo "packages are sound: $(cd "$work" && ls -s1 --block-size=K ./*.deb | tr '\n' ' ')"
