@@ -188,7 +188,7 @@ Result<void> check_chunk_index(const BagFile& file, const ChunkPlace& place,
   if (const auto agree = check_counts(file, place, content); !agree) return agree;
   std::uint64_t position = place.end_position();
   std::size_t told = 0;
-  for (std::size_t i = 0; i < place.counts.size(); ++i) {
+  for (std::uint32_t i = 0; i < place.index_records; ++i) {
     const auto record = file.record(position);
     if (!record) return tl::unexpected(record.error());
     const auto id = record->header.number<std::uint32_t>("conn");

@@ -39,6 +39,7 @@ struct ChunkPlace {
   Time start = 0;                                 ///< earliest record time
   Time end = 0;                                   ///< latest
   std::map<std::uint32_t, std::uint32_t> counts;  ///< messages by connection id
+  std::uint32_t index_records = 0;                ///< behind the chunk
 
   std::uint64_t end_position() const { return data_position + packed_size; }
   /// Bytes needed to have it in memory.

@@ -70,6 +70,7 @@ Result<void> read_counts(const BagFile& file, const FileRecord& record, BagIndex
                                    "connections, found {}",
                                    count.value_or(0), data->size()));
   }
+  place.index_records = *count;
   for (std::size_t at = 0; at < data->size(); at += 8) {
     const auto id = load_number<std::uint32_t>(data->data() + at);
     BagConnection* connection = index.connections.find(id);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +18,9 @@ namespace {
 constexpr std::size_t kMostChunkBytes = std::size_t{1} << 30;
 constexpr std::size_t kMostMessageBytes = std::size_t{1} << 30;
 constexpr Time kEndOfTime = static_cast<Time>(std::numeric_limits<std::uint32_t>::max()) * kSecond;
+
+/// Bytes of a connection and its count in a chunk's info.
+constexpr std::size_t kCountSize = 8;
 
 struct Connection {
   std::vector<std::byte> record;
@@ -53,11 +56,32 @@ struct BagWriter::Impl {
 
   Result<void> close_chunk();
   Result<void> close_file();
-  std::vector<std::byte> pack() const;
+  /// Appends the index records of the open chunk and forgets them; yields messages by connection.
+  std::vector<std::byte> take_index(std::vector<std::byte>& out);
   tl::unexpected<Error> refuse(const std::string& why) const {
     return failure(fmt::format("{}: {}", file.string(), why));
   }
 };
+
+std::vector<std::byte> BagWriter::Impl::take_index(std::vector<std::byte>& out) {
+  std::vector<std::byte> counts;
+  for (std::uint32_t id = 0; id < connections.size(); ++id) {
+    std::vector<std::byte>& entries = connections[id].index;
+    if (entries.empty()) continue;
+    const auto count = static_cast<std::uint32_t>(entries.size() / kIndexEntrySize);
+    HeaderBuilder(out)
+        .number("conn", id)
+        .number("count", count)
+        .op(BagOp::kIndex)
+        .number("ver", std::uint32_t{1})
+        .finish();
+    append_data(out, entries);
+    append_number(counts, id);
+    append_number(counts, count);
+    entries.clear();
+  }
+  return counts;
+}
 
 Result<void> BagWriter::Impl::close_chunk() {
   if (!has_messages) return {};
@@ -70,27 +94,10 @@ Result<void> BagWriter::Impl::close_chunk() {
       .number("size", static_cast<std::uint32_t>(chunk.size()))
       .finish();
   append_data(bytes, *packed);
-  std::vector<std::byte> counts;
-  std::uint32_t present = 0;
-  for (std::uint32_t id = 0; id < connections.size(); ++id) {
-    std::vector<std::byte>& entries = connections[id].index;
-    if (entries.empty()) continue;
-    const auto count = static_cast<std::uint32_t>(entries.size() / kIndexEntrySize);
-    HeaderBuilder(bytes)
-        .number("conn", id)
-        .number("count", count)
-        .op(BagOp::kIndex)
-        .number("ver", std::uint32_t{1})
-        .finish();
-    append_data(bytes, entries);
-    append_number(counts, id);
-    append_number(counts, count);
-    ++present;
-    entries.clear();
-  }
+  const std::vector<std::byte> counts = take_index(bytes);
   HeaderBuilder(index.chunk_infos)
       .number("chunk_pos", publisher.chunk_position())
-      .number("count", present)
+      .number("count", static_cast<std::uint32_t>(counts.size() / kCountSize))
       .time("end_time", end)
       .op(BagOp::kChunkInfo)
       .time("start_time", start)
