@@ -65,11 +65,12 @@ Result<void> follow(RecordingReader& reader, Estimator& estimator, OdometryPubli
   return {};
 }
 
-void print_summary(const RecordingReader& reader, const Estimator& estimator) {
+void print_summary(const RecordingReader& reader, const Estimator& estimator, std::size_t dropped) {
   for (const auto& [event, count] : reader.counts()) say(fmt::format("note: {}: {}", event, count));
   for (const auto& [event, count] : estimator.report().counts) {
     say(fmt::format("note: {}: {}", event, count));
   }
+  if (dropped > 0) say(fmt::format("note: {} messages left out, since the node was late", dropped));
   say(fmt::format("{} poses", estimator.report().trajectory.size()));
 }
 
@@ -92,7 +93,7 @@ int run_node(RosTransport& transport, const NodeOptions& options) {
   OdometryPublisher publisher(transport, {options.odom_frame, options.body_frame, options.tf});
   say(fmt::format("{} publishes {}", options.estimator, transport.resolved("~odometry")));
   if (auto ok = follow(*reader, **estimator, publisher); !ok) return bad_input(ok.error());
-  print_summary(*reader, **estimator);
+  print_summary(*reader, **estimator, transport.dropped());
   if (options.out.empty()) return kOk;
   const auto written = write_tum(options.out, (*estimator)->report().trajectory);
   return written ? kOk : bad_input(written.error());

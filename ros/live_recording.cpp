@@ -119,6 +119,8 @@ Result<RecordingReader> open_live_recording(
       auto reader = try_open(transport, gathering, config, enough);
       if (reader) return reader;
       missing = reader.error().message;
+    } else if (gathering.span() > 0) {
+      missing = fmt::format("{:.1f} s of messages so far", to_seconds(gathering.span()));
     }
     if (options.patience > 0.0 && since_start.seconds() > options.patience) {
       return failure(fmt::format("gave up after {:g} s: {}", options.patience, missing));

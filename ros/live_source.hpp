@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/bag/message_source.hpp"
-#include "ros/transport.hpp"
+#include "ros/ros_message.hpp"
 
 namespace aims {
 

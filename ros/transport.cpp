@@ -8,16 +8,17 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <deque>
 #include <tuple>
 #include <utility>
+
+#include "ros/inbox.hpp"
 
 namespace aims {
 namespace {
 
 using topic_tools::ShapeShifter;
 
-/// Messages that wait while one is worked on: five seconds at 200 Hz. The oldest go first.
+/// Messages that wait in roscpp while one is worked on: five seconds at 200 Hz.
 constexpr std::uint32_t kQueueSize = 1000;
 /// How often a waiting node looks whether it was asked to end [s].
 constexpr double kLongestWait = 0.1;
@@ -79,7 +80,7 @@ struct RosTransport::Impl {
   std::map<std::string, ros::Subscriber> subscribers;
   std::map<Key, std::shared_ptr<const RosConnection>> connections;
   std::vector<std::pair<ros::Publisher, RosConnection>> publishers;
-  std::deque<RosMessage> inbox;
+  Inbox inbox;
 
   void take(const std::string& topic, const Event& event) {
     const ShapeShifter& message = *event.getConstMessage();
@@ -97,7 +98,7 @@ struct RosTransport::Impl {
     taken.arrival = static_cast<std::int64_t>(event.getReceiptTime().toNSec());
     ByteStream stream{taken.data};
     message.write(stream);
-    inbox.push_back(std::move(taken));
+    inbox.push(std::move(taken));
   }
 };
 
@@ -167,15 +168,16 @@ void RosTransport::unsubscribe(const std::string& topic) {
 
 std::optional<RosMessage> RosTransport::wait(double seconds) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  impl_->queue.callAvailable();
   while (impl_->inbox.empty()) {
     const double left = (end - ros::WallTime::now()).toSec();
     if (left <= 0.0 || !ros::ok()) return std::nullopt;
-    impl_->queue.callOne(ros::WallDuration(std::min(left, kLongestWait)));
+    impl_->queue.callAvailable(ros::WallDuration(std::min(left, kLongestWait)));
   }
-  RosMessage message = std::move(impl_->inbox.front());
-  impl_->inbox.pop_front();
-  return message;
+  return impl_->inbox.pop();
 }
+
+std::size_t RosTransport::dropped() const { return impl_->inbox.dropped(); }
 
 std::size_t RosTransport::advertise(const RosConnection& connection) {
   ros::AdvertiseOptions options(resolved(connection.topic), 100, connection.md5, connection.type,

@@ -2,30 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "ros/ros_message.hpp"
+
 namespace aims {
-
-/// One topic as one publisher announces it.
-struct RosConnection {
-  std::string topic;       ///< resolved, e.g. "/imu/data"
-  std::string type;        ///< e.g. "sensor_msgs/Imu"
-  std::string md5;         ///< of the definition
-  std::string definition;  ///< the message type in words, with all types that it uses
-  bool latching = false;
-};
-
-/// A message as it came over the network.
-struct RosMessage {
-  std::shared_ptr<const RosConnection> connection;
-  std::int64_t arrival = 0;     ///< ROS time at which it came [ns]
-  std::vector<std::byte> data;  ///< as serialized by ROS 1, little endian
-};
 
 /// A node of a ROS 1 network that takes and gives messages of any type, as bytes. This header knows
 /// neither ROS nor C++20, so that roscpp, which does not compile as such, stays in one source.
@@ -58,6 +43,9 @@ class RosTransport {
 
   /// The next message in order of arrival; nothing after `seconds`, or when the node ends.
   std::optional<RosMessage> wait(double seconds);
+
+  /// Messages left out so far since the node was too slow for them.
+  std::size_t dropped() const;
 
   /// Announces a topic; yields the number to publish with.
   std::size_t advertise(const RosConnection& connection);

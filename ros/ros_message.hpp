@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace aims {
+
+/// One topic as one publisher announces it.
+struct RosConnection {
+  std::string topic;       ///< resolved, e.g. "/imu/data"
+  std::string type;        ///< e.g. "sensor_msgs/Imu"
+  std::string md5;         ///< of the definition
+  std::string definition;  ///< the message type in words, with all types that it uses
+  bool latching = false;
+};
+
+/// A message as it came over the network.
+struct RosMessage {
+  std::shared_ptr<const RosConnection> connection;
+  std::int64_t arrival = 0;     ///< ROS time at which it came [ns]
+  std::vector<std::byte> data;  ///< as serialized by ROS 1, little endian
+};
+
+}  // namespace aims
