@@ -6,23 +6,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "io/recording/median.hpp"
+#include "io/recording/sweep_period.hpp"
 
 namespace aims {
 namespace {
 
 constexpr std::size_t kMostClouds = 60;
-constexpr std::size_t kMostRings = 256;
-constexpr std::size_t kMostElevations = 100'000;
-constexpr Duration kLongestSweep = kSecond;
 /// Times from the start of a sweep are below this; above, they have another origin [ns].
 constexpr double kOtherOrigin = 5e9;
-constexpr double kRingGap = 1e-3;  ///< between the elevations of neighbouring rings, at least [rad]
 
-constexpr std::array<std::string_view, 5> kRingFields = {"ring", "line", "channel", "laser_id",
-                                                         "scan_id"};
 constexpr std::array<std::string_view, 5> kIntensityFields = {"intensity", "reflectivity", "i",
                                                               "intensities", "signal"};
 
@@ -43,119 +37,15 @@ std::string_view unit_name(double ns) {
   return "?";
 }
 
-/// The unit in which `span` is nearest to a sweep's length, or nothing when none comes near.
-std::optional<double> unit_of(double span, Duration about) {
-  std::optional<double> best;
-  double best_ratio = 20.0;
-  for (const Unit& unit : kUnits) {
-    const double length = span * unit.ns / static_cast<double>(about);
-    if (!(length > 0.0)) continue;
-    const double ratio = std::max(length, 1.0 / length);
-    if (ratio >= best_ratio) continue;
-    best_ratio = ratio;
-    best = unit.ns;
-  }
-  return best;
-}
-
-std::vector<Duration> spacings(std::vector<Time> stamps) {
-  std::sort(stamps.begin(), stamps.end());
-  std::vector<Duration> between;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] > stamps[i - 1]) between.push_back(stamps[i] - stamps[i - 1]);
-  }
-  return between;
-}
-
-/// The period of the nearest whole number of sweeps per second, if within 3 % of `period`.
-Duration whole_rate(Duration period) {
-  const double rate = std::max(1.0, std::round(1.0 / to_seconds(period)));
-  const Duration whole = from_seconds(1.0 / rate);
-  return std::abs(whole - period) <= period * 3 / 100 ? whole : period;
-}
-
-/// Centres of the groups into which the elevations fall, or nothing when they do not.
-std::vector<double> ring_elevations(std::vector<float> elevations) {
-  std::sort(elevations.begin(), elevations.end());
-  std::vector<double> rings;
-  std::size_t begin = 0;
-  for (std::size_t i = 1; i <= elevations.size(); ++i) {
-    if (i < elevations.size() && elevations[i] - elevations[i - 1] < kRingGap) continue;
-    if (elevations[i - 1] - elevations[begin] > 5.0 * kRingGap) return {};
-    rings.push_back(0.5 * (elevations[begin] + elevations[i - 1]));
-    if (rings.size() > kMostRings) return {};
-    begin = i;
-  }
-  if (rings.size() < 2) return {};
-  return rings;
-}
-
 }  // namespace
-
-std::span<const std::string_view> ring_field_names() { return kRingFields; }
-
-std::optional<Duration> sweep_period(std::vector<Time> stamps, std::optional<Duration> span) {
-  std::vector<Duration> between = spacings(std::move(stamps));
-  std::erase_if(between, [&](Duration each) { return span && each < *span - *span / 10; });
-  if (between.empty()) {
-    if (!span || *span <= 0) return std::nullopt;
-    // The last firing comes a little before the end.
-    return whole_rate(*span);
-  }
-  const Duration least = *std::min_element(between.begin(), between.end());
-  const Duration base = span && least > *span + *span / 2 ? *span : least;
-  std::map<Duration, std::size_t> periods;
-  for (const Duration each : between) {
-    const Duration sweeps = std::max<Duration>(1, (each + base / 2) / base);
-    ++periods[(each + sweeps / 2) / sweeps];
-  }
-  const auto most = std::max_element(periods.begin(), periods.end(),
-                                     [](auto& a, auto& b) { return a.second < b.second; });
-  if (2 * most->second >= between.size()) return most->first;
-  std::vector<Duration> each;
-  for (const auto& [period, times] : periods) each.insert(each.end(), times, period);
-  // Stamps that jitter: how long points fire tells the period better, if it is near.
-  const Duration usual = *median(each);
-  const Duration fired = whole_rate(span.value_or(usual));
-  return std::abs(fired - usual) <= usual / 4 ? fired : whole_rate(usual);
-}
 
 void CloudSurvey::learn_fields(const PointTable& table) {
   for (const std::string_view name : time_field_names()) {
     if (table.find(name) != nullptr) time_fields_.emplace_back(name);
   }
-  if (const ColumnLayout* ring = table.find_any(kRingFields)) {
-    ring_source_ = RingSource::kField;
-    ring_field_ = ring->name;
-  } else if (std::min(table.width, table.height) > 1 &&
-             std::min(table.width, table.height) <= kMostRings) {
-    ring_source_ = table.height <= table.width ? RingSource::kRow : RingSource::kColumn;
-  }
   if (const ColumnLayout* intensity = table.find_any(kIntensityFields)) {
     intensity_field_ = intensity->name;
   }
-}
-
-void CloudSurvey::learn_rings(const PointTable& table, std::size_t index,
-                              const Eigen::Vector3d& position) {
-  const double elevation = std::atan2(position.z(), std::hypot(position.x(), position.y()));
-  if (ring_source_ == RingSource::kNone) {
-    if (elevations_.size() < kMostElevations) elevations_.push_back(static_cast<float>(elevation));
-    return;
-  }
-  double ring = 0.0;
-  if (ring_source_ == RingSource::kRow) {
-    ring = static_cast<double>(index / table.width);
-  } else if (ring_source_ == RingSource::kColumn) {
-    ring = static_cast<double>(index % table.width);
-  } else if (const ColumnLayout* column = table.find(ring_field_)) {
-    ring = PointField(table, *column).at(table.point(index));
-  }
-  if (!(ring >= 0.0) || ring >= static_cast<double>(kMostRings)) return;
-  const auto at = static_cast<std::size_t>(ring);
-  if (at >= rings_.size()) rings_.resize(at + 1);
-  rings_[at].elevation_sum += elevation;
-  ++rings_[at].points;
 }
 
 void CloudSurvey::learn_points(const PointTable& table, Cloud& cloud) {
@@ -168,12 +58,13 @@ void CloudSurvey::learn_points(const PointTable& table, Cloud& cloud) {
   const PointField x(table, *table.find("x")), y(table, *table.find("y")),
       z(table, *table.find("z"));
   cloud.ranges.resize(times.size());
+  rings_.begin(table);
   std::optional<double> last_azimuth;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::byte* bytes = table.point(i);
     const Eigen::Vector3d position(x.at(bytes), y.at(bytes), z.at(bytes));
     if (!position.allFinite() || position.isZero(0.0)) continue;
-    learn_rings(table, i, position);
+    rings_.add(table, i, position);
     const double azimuth = std::atan2(position.y(), position.x());
     const double step = last_azimuth ? azimuth - *last_azimuth : 0.0;
     if (std::abs(step) < 0.2) (step > 0.0 ? rising_azimuths_ : falling_azimuths_) += step != 0.0;
@@ -228,7 +119,7 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
   }
   const std::optional<double> span = median(spans);
   if (!span || !(*span > 0.0)) return false;
-  std::optional<double> unit = unit_of(*span, about);
+  std::optional<double> unit = time_unit(*span, about);
   for (const Unit& each : kUnits) {
     if (each.unit == config.point_time_unit) unit = each.ns;
   }
@@ -354,38 +245,6 @@ void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& read
   }
 }
 
-void CloudSurvey::decide_rings(CloudReading& reading, std::vector<std::string>& notes) const {
-  reading.ring_source = ring_source_;
-  reading.ring_field = ring_field_;
-  if (ring_source_ == RingSource::kNone) {
-    reading.ring_elevations = ring_elevations(elevations_);
-    if (reading.ring_elevations.empty()) {
-      notes.push_back("points carry no ring and their elevations form none: all are ring 0");
-      return;
-    }
-    reading.ring_source = RingSource::kElevation;
-    notes.push_back(fmt::format("points carry no ring: told from elevation, {} rings",
-                                reading.ring_elevations.size()));
-    return;
-  }
-  if (ring_source_ != RingSource::kField) {
-    notes.push_back(fmt::format("points carry no ring: told from the {} of the organised cloud",
-                                ring_source_ == RingSource::kRow ? "row" : "column"));
-  }
-  int rising = 0, falling = 0;
-  std::optional<double> below;
-  for (const RingMean& ring : rings_) {
-    if (ring.points == 0) continue;
-    const double mean = ring.elevation_sum / ring.points;
-    if (below) ++(mean > *below ? rising : falling);
-    below = mean;
-  }
-  if (falling >= 3 && rising * 10 <= falling) {
-    reading.flipped_rings = static_cast<int>(rings_.size());
-    notes.push_back("ring 0 is the highest: numbered from the lowest");
-  }
-}
-
 void CloudSurvey::decide_intensity(CloudReading& reading, std::vector<std::string>& notes) const {
   reading.intensity_field = intensity_field_;
   if (intensity_field_.empty() || largest_intensity_ <= 1.0) return;
@@ -401,7 +260,7 @@ CloudReading CloudSurvey::decide(const RecordingConfig& config,
   reading.clockwise = config.lidar_clockwise;
   decide_times(config, reading, notes);
   decide_stamp(config, reading, notes);
-  decide_rings(reading, notes);
+  rings_.decide(reading, notes);
   decide_intensity(reading, notes);
   return reading;
 }

@@ -91,7 +91,6 @@ Time CloudDecoder::zero() const {
 bool CloudDecoder::read_time(const std::byte* bytes, LidarPoint& point) {
   if (!columns_.time) return true;
   const auto time = point_time(columns_.time->at(bytes), reading_.time_unit);
-  // Both are within 9.2e18 of each other's sign or the difference is far out anyway.
   Time after = 0;
   if (!time || __builtin_sub_overflow(*time, zero_, &after)) return false;
   if (after < -kFarthest || after > kFarthest) return false;
@@ -198,7 +197,9 @@ std::optional<Time> point_time(double value, double unit_ns) {
 LidarScan read_cloud(const PointTable& table, const CloudReading& reading, EventCounts& counts) {
   LidarScan scan;
   scan.points = CloudDecoder(table, reading, counts).points();
-  if (reading.clock == PointClock::kNone) time_by_azimuth(reading, scan.points);
+  const bool timed = reading.clock != PointClock::kNone;
+  if (timed && table.find(reading.time_field) == nullptr) ++counts["cloud_without_time"];
+  if (!timed) time_by_azimuth(reading, scan.points);
   if (!std::is_sorted(scan.points.begin(), scan.points.end(), fires_before)) {
     ++counts["cloud_sorted_by_time"];
     std::stable_sort(scan.points.begin(), scan.points.end(), fires_before);

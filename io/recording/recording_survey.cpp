@@ -48,6 +48,12 @@ bool all_zero(const std::vector<Time>& stamps) {
          std::all_of(stamps.begin(), stamps.end(), [](Time stamp) { return stamp == 0; });
 }
 
+/// A frame that does not move with the robot, by its name.
+bool is_world(const std::string& frame) {
+  return frame.find("odom") != std::string::npos || frame.find("map") != std::string::npos ||
+         frame.find("world") != std::string::npos;
+}
+
 Pose pose_of(const ExtrinsicConfig& given) {
   const Eigen::Vector3d rpy = given.rotation_rpy_deg * (std::numbers::pi / 180.0);
   const Eigen::Quaterniond roll(Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()));
@@ -236,6 +242,12 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) const {
     stream.source = legs.type == "nav_msgs/Odometry" ? LegSource::kOdometry : LegSource::kTwist;
     if (stream.source == LegSource::kTwist) {
       notes.push_back(fmt::format("{}: a twist without a pose, which is integrated", legs.type));
+      if (is_world(legs.frame)) {
+        notes.push_back(
+            fmt::format("the twist's frame '{}' does not move with the robot: its axes are "
+                        "taken as the base's all the same",
+                        legs.frame));
+      }
     }
     if (legs.type == "geometry_msgs/Twist") {
       notes.push_back("geometry_msgs/Twist has no stamp: record times are taken");
@@ -261,7 +273,8 @@ std::string RecordingSurvey::base_frame() const {
   if (!config_.base_frame.empty()) return config_.base_frame;
   const Seen& legs = seen(Role::kLegs);
   if (!legs.child_frame.empty()) return legs.child_frame;
-  if (!legs.frame.empty() && legs.type != "nav_msgs/Odometry") return legs.frame;
+  const bool twist = !legs.frame.empty() && legs.type != "nav_msgs/Odometry";
+  if (twist && !is_world(legs.frame)) return legs.frame;
   const std::string& joints = seen(Role::kJoints).frame;
   if (!joints.empty() && all_.knows(joints)) return joints;
   for (const char* usual : {"base", "base_link", "trunk", "body"}) {
