@@ -12,6 +12,7 @@ import unittest
 
 import genpy
 import rosbag
+import yaml
 
 import sample_bag
 from cdr import CdrReader, parse_schema
@@ -169,7 +170,11 @@ class Conversion(Sample):
         for channel in self.mcap.channels.values():
             self.assertEqual(channel.encoding, "cdr")
             durability = 1 if channel.topic == "/tf_static" else 2
-            self.assertIn(f"  durability: {durability}\n", channel.metadata["offered_qos_profiles"])
+            offered, = yaml.safe_load(channel.metadata["offered_qos_profiles"])
+            self.assertEqual((offered["reliability"], offered["durability"]), (1, durability))
+            for key in ("history", "depth", "deadline", "lifespan", "liveliness",
+                        "liveliness_lease_duration", "avoid_ros_namespace_conventions"):
+                self.assertIn(key, offered)
 
     def test_summary_is_printed(self):
         count = sum(len(messages) for messages in self.written.values())
@@ -234,7 +239,7 @@ class BadInput(Sample):
         self.assertEqual(convert("--help").returncode, 0)
 
     def test_files_that_cannot_be_read_or_written_are_named(self):
-        self.fails(self.path("none.bag") + ": no such file", self.path("none.bag"), "x.mcap")
+        self.fails(self.path("gone.bag") + ": no such file", self.path("gone.bag"), "x.mcap")
         self.fails(": not a file", self.folder.name, "x.mcap")
         self.fails("/nowhere: no such folder", self.bag, "/nowhere/x.mcap")
         self.fails("is the bag itself", self.bag, self.bag, "--overwrite")
@@ -251,6 +256,12 @@ class BadInput(Sample):
         index = int.from_bytes(whole[at:at + 8], "little")
         broken = whole[:index] + b"\xff" * 8 + whole[index + 8:]
         self.fails(f"index at offset {index}: ", self.put("broken.bag", broken), "x.mcap")
+
+    def test_a_bag_without_messages_is_no_error(self):
+        bag, output = self.path("none.bag"), self.path("none.mcap")
+        rosbag.Bag(bag, "w").close()
+        self.assertEqual(convert(bag, output).returncode, 0)
+        self.assertEqual(McapFile(output).messages, [])
 
     def test_damage_inside_is_an_error_and_leaves_nothing(self):
         whole = bytearray(self.bytes_of_bag())
@@ -270,7 +281,7 @@ class BadInput(Sample):
 
     def test_interruption_leaves_nothing(self):
         bag, output = self.path("long.bag"), self.path("long.mcap")
-        sample_bag.write(bag, "none", seconds=20, points=20000)
+        sample_bag.write(bag, "none", seconds=10, points=20000)
         with subprocess.Popen([CONVERTER, bag, output], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE) as run:
             while not self.left_over():
