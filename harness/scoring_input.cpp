@@ -76,7 +76,8 @@ Result<std::filesystem::path> read_truth(const ScoringRequest& request,
   auto file = read_trajectory(request.truth, {PoseRules::kStrict, kTruthTopic, stamps});
   if (!file) return tl::unexpected(file.error());
   input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
-  input.truth = {name_of(*file), request.truth, file->kind, std::move(file->trajectory)};
+  input.truth = {name_of(*file), request.truth, file->kind, std::move(file->trajectory),
+                 file->body_frame};
   return file->topic.empty() ? std::filesystem::path() : file->file;
 }
 
@@ -87,6 +88,16 @@ std::string unique_name(const std::string& name, const std::vector<SourcedTrajec
   std::string unique = name;
   for (int i = 2; taken.contains(unique); ++i) unique = fmt::format("{}#{}", name, i);
   return unique;
+}
+
+void note_body(const SourcedTrajectory& truth, const SourcedTrajectory& estimate,
+               std::vector<std::string>& notes) {
+  const std::string& body = estimate.body_frame;
+  if (truth.body_frame.empty() || body.empty() || truth.body_frame == body) return;
+  notes.push_back(
+      fmt::format("{}: poses of '{}', while the truth's are of '{}'; --extrinsic takes "
+                  "one to the other",
+                  estimate.name, body, truth.body_frame));
 }
 
 Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList> stamps,
@@ -110,8 +121,9 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
       if (moved) each.pose = each.pose * T_estimate_body;
     }
     const std::string name = request.names.empty() ? name_of(*file) : request.names[i];
-    input.estimates.push_back(
-        {unique_name(name, input.estimates), source, file->kind, std::move(file->trajectory)});
+    input.estimates.push_back({unique_name(name, input.estimates), source, file->kind,
+                               std::move(file->trajectory), file->body_frame});
+    if (!moved) note_body(input.truth, input.estimates.back(), input.notes);
   }
   return {};
 }

@@ -18,6 +18,7 @@ struct SourcedTrajectory {
   std::string source;  ///< as given: a file, or a bag and its topic
   std::string kind;    ///< "TUM", "KITTI poses", "nav_msgs/Odometry on /odom"
   Trajectory trajectory;
+  std::string body_frame = {};  ///< whose poses they are, where the file says; e.g. "lidar"
 };
 
 /// Trajectories of any system, the truth, and over which ways M_list is taken.

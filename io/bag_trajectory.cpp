@@ -145,6 +145,9 @@ class TopicReader {
     return add_path(last_path, poses, record_times);
   }
 
+  /// Of the first message that names one; e.g. "imu".
+  const std::string& body_frame() const { return body_frame_; }
+
  private:
   Result<MessageView> decode(const BagMessage& message) {
     const BagConnection& connection = *message.connection;
@@ -164,6 +167,7 @@ class TopicReader {
     if (!view) return tl::unexpected(view.error());
     const auto pose = pose_in(*view, layout, "");
     if (!pose) return error(message, fmt::format("expected a pose in '{}'", layout.position));
+    if (body_frame_.empty()) body_frame_ = view->text("child_frame_id").value_or("");
     poses.push_back(*pose);
     record_times.push_back(message.record_time);
     return {};
@@ -192,6 +196,7 @@ class TopicReader {
 
   BagReader& bag_;
   std::string topic_;
+  std::string body_frame_;
   std::map<std::uint32_t, MessageDecoder> decoders_;
 };
 
@@ -241,8 +246,10 @@ Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::stri
                    [&](const BagConnection& each) { return each.topic == *chosen; });
   result.kind = fmt::format("{} on {}", connection->type, *chosen);
   std::vector<Time> record_times;
-  auto read = TopicReader(*bag, *chosen).read(result.trajectory, record_times);
+  TopicReader reader(*bag, *chosen);
+  auto read = reader.read(result.trajectory, record_times);
   if (!read) return tl::unexpected(read.error());
+  result.body_frame = reader.body_frame();
   const std::string name = fmt::format("{}:{}", file.string(), *chosen);
   if (result.trajectory.empty()) return failure(name + ": expected poses, found none");
   stamp_by_record_time(result.trajectory, record_times, name, result.notes);

@@ -33,6 +33,7 @@ struct TrajectoryFile {
   std::string kind;       ///< "TUM", "KITTI poses", "nav_msgs/Odometry on /odom"
   std::filesystem::path file;
   std::string topic;               ///< of a bag
+  std::string body_frame;          ///< whose poses they are, where a bag says; e.g. "lidar"
   std::vector<std::string> notes;  ///< what was assumed or left out, a sentence each
 };
 

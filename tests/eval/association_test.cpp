@@ -69,5 +69,16 @@ TEST(ValidPart, LeavesOutWhatIsNoPoseOrOutOfOrder) {
   EXPECT_EQ(valid[2].stamp, 6);
 }
 
+TEST(Association, MedianStampDifferenceIsToTheNearestTruePoseInsideItsSpan) {
+  Trajectory truth;
+  for (const Time stamp : {0, 100, 200, 300}) truth.push_back({stamp, Pose()});
+  // 10, 40 and 20 away; those outside do not count.
+  const Trajectory estimate = {
+      {-50, Pose()}, {10, Pose()}, {140, Pose()}, {280, Pose()}, {900, Pose()}};
+  EXPECT_EQ(median_stamp_difference(estimate, truth), 20);
+  EXPECT_FALSE(median_stamp_difference({{900, Pose()}}, truth));
+  EXPECT_FALSE(median_stamp_difference(estimate, {}));
+}
+
 }  // namespace
 }  // namespace aims

@@ -158,5 +158,20 @@ TEST(ScoreConfig, DefaultsLieInTheirRanges) {
   }
 }
 
+TEST(Scores, OverGivenSegmentsNamesAndPassagesCountForNothing) {
+  ScoreConfig config;
+  config.segments = {"x-y"};
+  const std::vector<Segment> half = {{"half", 0, from_seconds(20.0)}};
+  const Scores scores = score_over(test::estimated_walk([](double, Pose pose) {
+                                     pose.translation *= 0.9;
+                                     return pose;
+                                   }),
+                                   test::true_walk(), half, config);
+  ASSERT_EQ(scores.segments.size(), 1U);
+  EXPECT_EQ(scores.segments[0].segment.name, "half");
+  EXPECT_NEAR(scores.segments[0].true_distance_m, 20.0, 1e-9);
+  EXPECT_NEAR(*scores.m_list_percent, 10.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace aims
