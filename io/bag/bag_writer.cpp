@@ -136,7 +136,7 @@ Result<BagWriter> BagWriter::create(const std::filesystem::path& file, BagWriter
 Result<BagWriter> BagWriter::create(std::unique_ptr<BagOutput> output, const std::string& name,
                                     BagWriterOptions options) {
   options.chunk_size = std::clamp<std::size_t>(options.chunk_size, 1, kMostChunkBytes);
-  const std::uint64_t room = options.chunk_size + options.chunk_size / 4 + (1 << 16);
+  const std::uint64_t room = options.chunk_size + options.chunk_size / 4 + (1 << 12);
   auto impl = std::unique_ptr<Impl>(new Impl{name,
                                              options,
                                              BagPublisher(std::move(output), room),

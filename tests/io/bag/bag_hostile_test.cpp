@@ -170,8 +170,11 @@ TEST_F(HostileBag, AMessageLongerThanItsChunk) {
 TEST_F(HostileBag, AnIndexThatTellsOtherThings) {
   std::string bytes = sample();
   const std::size_t entry = bytes.find("ver=", 4117) + 12;
-  bytes[entry + 8] = static_cast<char>(bytes[entry + 8] + 1);
-  expect_error(bytes, "of the chunk, which is not there");
+  for (const std::size_t at : {entry, entry + 5, entry + 8}) {
+    bytes = sample();
+    bytes[at] = static_cast<char>(bytes[at] + 1);
+    expect_error(bytes, "of the chunk, which is not there");
+  }
   bytes = sample();
   const std::size_t infos = bytes.find("chunk_pos=");
   patch(bytes, "start_time=", 0, std::uint64_t{3});

@@ -30,7 +30,9 @@ struct SampleMessage {
 
 /// Writes a file without waiting for the disk; false when that fails.
 inline bool put_file(const std::filesystem::path& file, std::string_view bytes) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  // Some file systems wait for the disk when a file is cut and written again, not for a new one.
+  std::filesystem::remove(file);
+  std::ofstream stream(file, std::ios::binary);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return static_cast<bool>(stream.flush());
 }

@@ -75,7 +75,7 @@ void check_every_prefix(std::uint32_t seed, BagWriterOptions options) {
   for (int i = 0; i < 30; ++i) {
     // A new topic now and then makes the index grow.
     if (i % 7 == 0) bag->add_connection("/topic" + std::to_string(i / 7), string_type());
-    const std::size_t size = random() % 5 == 0 ? random() % 3000 : random() % 100;
+    const std::size_t size = random() % 5 == 0 ? random() % 12000 : random() % 100;
     messages.push_back({"/topic" + std::to_string(i / 7), kSecond + i, std::string(size, 'x')});
     ASSERT_TRUE(bag->write(static_cast<std::uint32_t>(i / 7), messages.back().time,
                            bytes_of(messages.back().bytes)));
