@@ -2,14 +2,12 @@
 #include "io/recording/recording_survey.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
 
 #include "io/recording/median.hpp"
+#include "io/recording/sweep_period.hpp"
 
 namespace aims {
 namespace {
@@ -20,29 +18,6 @@ constexpr double kFastestRobot = 35.0;  ///< where gyros of 2000 deg/s saturate 
 /// Clocks of sensors and recorder that differ by more are different clocks.
 constexpr Duration kSameClock = 5 * kSecond;
 
-/// Samples per second: by the spacing that a third share, so that losses do not count; else by the
-/// median, if half are near it; else, stamps being in disorder, by the mean.
-std::optional<double> rate_of(std::vector<Time> stamps) {
-  std::sort(stamps.begin(), stamps.end());
-  std::vector<Duration> spacings;
-  std::map<Duration, std::size_t> times;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] == stamps[i - 1]) continue;
-    spacings.push_back(stamps[i] - stamps[i - 1]);
-    ++times[spacings.back()];
-  }
-  if (spacings.empty()) return std::nullopt;
-  const auto most = std::max_element(times.begin(), times.end(),
-                                     [](auto& a, auto& b) { return a.second < b.second; });
-  if (3 * most->second >= spacings.size()) return 1.0 / to_seconds(most->first);
-  const Duration usual = *median(spacings);
-  const auto near = std::count_if(spacings.begin(), spacings.end(), [&](Duration each) {
-    return std::abs(each - usual) < usual / 10;
-  });
-  if (2 * static_cast<std::size_t>(near) >= spacings.size()) return 1.0 / to_seconds(usual);
-  return static_cast<double>(spacings.size()) / to_seconds(stamps.back() - stamps.front());
-}
-
 bool all_zero(const std::vector<Time>& stamps) {
   return stamps.size() >= 3 &&
          std::all_of(stamps.begin(), stamps.end(), [](Time stamp) { return stamp == 0; });
@@ -52,13 +27,6 @@ bool all_zero(const std::vector<Time>& stamps) {
 bool is_world(const std::string& frame) {
   return frame.find("odom") != std::string::npos || frame.find("map") != std::string::npos ||
          frame.find("world") != std::string::npos;
-}
-
-Pose pose_of(const ExtrinsicConfig& given) {
-  const Eigen::Vector3d rpy = given.rotation_rpy_deg * (std::numbers::pi / 180.0);
-  const Eigen::Quaterniond roll(Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()));
-  const Eigen::Quaterniond pitch(Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()));
-  return {yaw_rotation(rpy.z()) * pitch * roll, given.translation};
 }
 
 }  // namespace
@@ -129,11 +97,6 @@ void RecordingSurvey::add_contacts(const MessageView& view, const Channel& chann
   }
 }
 
-void RecordingSurvey::add_transforms(const MessageView& message, bool fixed) {
-  if (fixed) fixed_.add(message, transform_counts_);
-  all_.add(message, transform_counts_);
-}
-
 bool RecordingSurvey::met_all() const {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
@@ -186,7 +149,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
 
 void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
   std::vector<std::string>& notes = plan.setup.notes;
-  plan.setup.imu_rate_hz = rate_of(seen(Role::kImu).stamps);
+  plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
   const double force = median(forces_).value_or(0.0);
   bool gravities = config_.imu_unit == ImuUnit::kGravities;
   if (config_.imu_unit == ImuUnit::kAuto && !forces_.empty()) {
@@ -259,7 +222,7 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) const {
     notes.push_back("no leg odometry, nor joints with contacts: estimators run without legs");
   }
   const bool kinematic = stream.source == LegSource::kKinematics;
-  plan.setup.leg_rate_hz = rate_of(kinematic ? seen(Role::kJoints).stamps : legs.stamps);
+  plan.setup.leg_rate_hz = sample_rate(kinematic ? seen(Role::kJoints).stamps : legs.stamps);
   plan.setup.has_legs = stream.source != LegSource::kNone;
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);
   stream.half_period = from_seconds(std::clamp(0.5 / rate, 1e-9, 0.5));
@@ -276,38 +239,10 @@ std::string RecordingSurvey::base_frame() const {
   const bool twist = !legs.frame.empty() && legs.type != "nav_msgs/Odometry";
   if (twist && !is_world(legs.frame)) return legs.frame;
   const std::string& joints = seen(Role::kJoints).frame;
-  if (!joints.empty() && all_.knows(joints)) return joints;
+  if (!joints.empty() && frames_.knows(joints)) return joints;
   for (const char* usual : {"base", "base_link", "trunk", "body"}) {
-    if (all_.knows(usual)) return usual;
+    if (frames_.knows(usual)) return usual;
   }
-  return {};
-}
-
-std::optional<Pose> RecordingSurvey::find_transform(const std::string& from, const std::string& to,
-                                                    std::vector<std::string>& notes) const {
-  if (from.empty() || to.empty()) return std::nullopt;
-  if (auto pose = fixed_.transform(from, to)) return pose;
-  auto pose = all_.transform(from, to);
-  if (pose) {
-    notes.push_back(fmt::format("{}: from /tf at the start, taken as fixed",
-                                fmt::join(all_.chain(from, to), " -> ")));
-  }
-  return pose;
-}
-
-Pose RecordingSurvey::extrinsic(const ExtrinsicConfig& given, const std::string& from,
-                                const std::string& to, std::string_view key,
-                                std::vector<std::string>& notes) const {
-  if (given.given) return pose_of(given);
-  if (!from.empty() && from == to) {
-    notes.push_back(fmt::format("frame '{}' serves both ends of {}: identity", from, key));
-  }
-  if (auto pose = find_transform(from, to, notes)) return *pose;
-  notes.push_back(
-      fmt::format("NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Give "
-                  "recording.{}.translation and "
-                  "rotation_rpy_deg with recording.{}.given=true, or name the frames",
-                  from, to, key, key));
   return {};
 }
 
@@ -317,11 +252,11 @@ void RecordingSurvey::decide_frames(RecordingPlan& plan) const {
       config_.lidar_frame.empty() ? seen(Role::kLidar).frame : config_.lidar_frame;
   if (!topics_.lidar.empty()) {
     setup.rig.T_body_lidar =
-        extrinsic(config_.T_imu_lidar, imu_frame(), lidar, "T_imu_lidar", setup.notes);
+        frames_.extrinsic(config_.T_imu_lidar, imu_frame(), lidar, "T_imu_lidar", setup.notes);
   }
   if (setup.has_legs) {
     setup.rig.T_body_base =
-        extrinsic(config_.T_imu_base, imu_frame(), base_frame(), "T_imu_base", setup.notes);
+        frames_.extrinsic(config_.T_imu_base, imu_frame(), base_frame(), "T_imu_base", setup.notes);
   }
   plan.legs.T_body_base = setup.rig.T_body_base;
 }
@@ -331,7 +266,7 @@ void RecordingSurvey::decide_truth(RecordingPlan& plan) const {
   plan.setup.has_truth = !topics_.truth.empty();
   const std::string& child = seen(Role::kTruth).child_frame;
   if (!plan.setup.has_truth || child == imu_frame()) return;
-  const auto pose = find_transform(child, imu_frame(), plan.setup.notes);
+  const auto pose = frames_.find(child, imu_frame(), plan.setup.notes);
   if (!pose) {
     plan.setup.notes.push_back(
         fmt::format("truth is of frame '{}', not connected to the IMU's '{}': "
@@ -360,7 +295,7 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   decide_legs(plan);
   decide_frames(plan);
   decide_truth(plan);
-  for (const auto& [what, times] : transform_counts_) {
+  for (const auto& [what, times] : frames_.counts()) {
     plan.setup.notes.push_back(fmt::format("{} {} times: ignored", what, times));
   }
   return plan;

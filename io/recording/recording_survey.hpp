@@ -8,25 +8,12 @@
 #include <vector>
 
 #include "io/recording/cloud_survey.hpp"
-#include "io/recording/frame_tree.hpp"
 #include "io/recording/leg_stream.hpp"
+#include "io/recording/recorded_frames.hpp"
 #include "io/recording/recording_channels.hpp"
-#include "io/recording/recording_reader.hpp"
+#include "io/recording/recording_plan.hpp"
 
 namespace aims {
-
-/// Everything decided before the first message is given.
-struct RecordingPlan {
-  RecordingSetup setup;
-  CloudReading cloud;
-  double force_scale = 1.0;  ///< brings specific force to m/s^2
-  LegStreamConfig legs;
-  ContactRule contacts;
-  Pose T_truth_body;             ///< the body in the frame of which truth is told
-  bool truth_is_of_body = true;  ///< then its poses stay as they are
-  Duration arrival_shift = 0;    ///< added to record times
-  std::array<bool, kRoleCount> stamped_by_record{};  ///< no stamps: record times are taken
-};
 
 /// Learns from the start of a recording how to read the rest.
 class RecordingSurvey {
@@ -37,7 +24,7 @@ class RecordingSurvey {
   /// Takes the next message of a chosen topic.
   void add(const BagMessage& message, const Channel& channel);
   /// Takes a message of tf; `fixed`: of /tf_static.
-  void add_transforms(const MessageView& message, bool fixed);
+  void add_transforms(const MessageView& message, bool fixed) { frames_.add(message, fixed); }
 
   /// Enough of every chosen topic.
   bool enough() const;
@@ -71,10 +58,6 @@ class RecordingSurvey {
   void decide_contacts(RecordingPlan& plan) const;
   void decide_frames(RecordingPlan& plan) const;
   void decide_truth(RecordingPlan& plan) const;
-  std::optional<Pose> find_transform(const std::string& from, const std::string& to,
-                                     std::vector<std::string>& notes) const;
-  Pose extrinsic(const ExtrinsicConfig& given, const std::string& from, const std::string& to,
-                 std::string_view key, std::vector<std::string>& notes) const;
   std::string imu_frame() const;
   std::string base_frame() const;
 
@@ -90,8 +73,7 @@ class RecordingSurvey {
   bool contacts_are_flags_ = false;
   int contact_messages_ = 0;
   double largest_load_ = 0.0;
-  FrameTree fixed_, all_;
-  EventCounts transform_counts_;
+  RecordedFrames frames_;
 };
 
 }  // namespace aims

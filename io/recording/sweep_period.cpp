@@ -68,4 +68,21 @@ std::optional<double> time_unit(double span, Duration about) {
   return best;
 }
 
+std::optional<double> sample_rate(std::vector<Time> stamps) {
+  std::sort(stamps.begin(), stamps.end());
+  const std::vector<Duration> between = spacings(stamps);
+  if (between.empty()) return std::nullopt;
+  std::map<Duration, std::size_t> times;
+  for (const Duration each : between) ++times[each];
+  const auto most = std::max_element(times.begin(), times.end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  if (3 * most->second >= between.size()) return 1.0 / to_seconds(most->first);
+  const Duration usual = *median(between);
+  const auto near = std::count_if(between.begin(), between.end(), [&](Duration each) {
+    return std::abs(each - usual) < usual / 10;
+  });
+  if (2 * static_cast<std::size_t>(near) >= between.size()) return 1.0 / to_seconds(usual);
+  return static_cast<double>(between.size()) / to_seconds(stamps.back() - stamps.front());
+}
+
 }  // namespace aims

@@ -23,4 +23,8 @@ std::optional<Duration> sweep_period(std::vector<Time> stamps, std::optional<Dur
 /// nothing when none comes near.
 std::optional<double> time_unit(double span, Duration about);
 
+/// Samples per second [Hz]: by the spacing that a third share, so that losses do not count; else by
+/// the median, if half are near it; else, stamps being in disorder, by the mean.
+std::optional<double> sample_rate(std::vector<Time> stamps);
+
 }  // namespace aims
