@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
-#include "io/recording/cloud_survey.hpp"
 #include "io/recording/frame_tree.hpp"
 #include "io/recording/leg_names.hpp"
+#include "io/recording/point_cloud.hpp"
 #include "io/recording/recording_config.hpp"
+#include "io/recording/sweep_period.hpp"
 #include "tests/io/recording/recorded_deliveries.hpp"
 
 namespace aims {
