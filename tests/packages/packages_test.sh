@@ -9,7 +9,7 @@ fail() {
   echo "FAILED: $*" >&2
   exit 1
 }
-for tool in cpack dpkg-deb dpkg-shlibdeps; do
+for tool in cpack dpkg-deb dpkg-shlibdeps file; do
   command -v "$tool" >/dev/null || { echo "SKIPPED: no $tool here"; exit 0; }
 done
 
