@@ -25,7 +25,7 @@ constexpr int kBadInput = 2;
 constexpr int kInternal = 3;
 
 /// Deliveries are handed over in pieces of so much record time.
-constexpr Duration kBatch = 20 * kMillisecond;
+constexpr Duration kBatch = 5 * kMillisecond;
 
 int bad_input(const Error& error) {
   fmt::print(stderr, "aims_node: {}\n", error.message);

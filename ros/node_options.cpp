@@ -81,7 +81,7 @@ Result<void> apply_parameters(const std::map<std::string, std::string>& paramete
     if (name.starts_with(kSettingPrefix)) {
       std::string key = name.substr(kSettingPrefix.size());
       std::ranges::replace(key, '/', '.');
-      settings.push_back(key + "=" + value);
+      settings.push_back(fmt::format("{}={}", key, value));
       continue;
     }
     const bool given = std::ranges::find(command.given, name) != command.given.end();

@@ -64,7 +64,8 @@ void flatten(XmlRpc::XmlRpcValue& value, const std::string& key,
     texts[key] = text_of(value);
     return;
   }
-  for (auto& [name, child] : value) flatten(child, key.empty() ? name : key + "/" + name, texts);
+  const std::string prefix = key.empty() ? key : key + "/";
+  for (auto& [name, child] : value) flatten(child, prefix + name, texts);
 }
 
 void request_end(int) { ros::requestShutdown(); }
@@ -84,7 +85,7 @@ struct RosTransport::Impl {
 
   void take(const std::string& topic, const Event& event) {
     const ShapeShifter& message = *event.getConstMessage();
-    const auto header = event.getConnectionHeaderPtr();
+    const auto& header = event.getConnectionHeaderPtr();
     const auto latching = header->find("latching");
     const bool latched = latching != header->end() && latching->second == "1";
     auto& connection = connections[{topic, message.getMD5Sum(), latched}];

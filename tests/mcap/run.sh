@@ -11,7 +11,9 @@ skip() {
   exit 0
 }
 
-command -v node >/dev/null && command -v npm >/dev/null || skip "node and npm are not installed"
+for tool in node npm; do
+  command -v "$tool" >/dev/null || skip "$tool is not installed"
+done
 /usr/bin/python3 -c 'import rosbag, genpy.dynamic, nav_msgs.msg, sensor_msgs.msg, tf2_msgs.msg' \
   2>/dev/null || skip "python3-rosbag or the messages of ROS are not installed"
 
