@@ -27,11 +27,13 @@ def outcome_of(tool, file):
     except subprocess.TimeoutExpired:
         return "hangs (over 10 s)", ""
     said = done.stderr.decode(errors="replace")
+    if "Assertion `buffer_' failed" in said or "bad_alloc" in said:
+        return "asks for more than 2 GB", said
     if done.returncode < 0:
         return f"killed by {signal.Signals(-done.returncode).name}", said
     if done.returncode == 0:
         return "reads to the end", said
-    return ("out of memory (2 GB)" if "bad_alloc" in said else "refuses"), said
+    return "refuses", said
 
 
 def damaged(whole, rng):
