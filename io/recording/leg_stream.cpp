@@ -55,8 +55,9 @@ std::optional<Eigen::Vector3d> LegStream::up_in_base() const {
   return config_.T_body_base.rotation.conjugate() * *up_.in_body();
 }
 
-std::optional<LegOdometrySample> LegStream::add_odometry(LegOdometrySample sample) {
+LegOdometrySample LegStream::add_odometry(LegOdometrySample sample, EventCounts& counts) {
   attach(sample);
+  if (twist_check_.add(sample)) ++counts["legs_twist_in_odometry_axes_seconds"];
   return sample;
 }
 

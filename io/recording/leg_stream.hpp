@@ -7,6 +7,7 @@
 #include "core/measurements.hpp"
 #include "io/recording/event_counts.hpp"
 #include "io/recording/leg_messages.hpp"
+#include "io/recording/twist_check.hpp"
 
 namespace aims {
 
@@ -40,7 +41,7 @@ class LegStream {
   explicit LegStream(const LegStreamConfig& config) : config_(config) {}
 
   void add_imu(const ImuSample& sample);
-  std::optional<LegOdometrySample> add_odometry(LegOdometrySample sample);
+  LegOdometrySample add_odometry(LegOdometrySample sample, EventCounts& counts);
   /// A sample without a pose: the pose is integrated.
   LegOdometrySample add_twist(LegOdometrySample sample);
   std::optional<LegOdometrySample> add_joints(JointReading reading, EventCounts& counts);
@@ -56,6 +57,7 @@ class LegStream {
 
   LegStreamConfig config_;
   UpDirection up_;
+  TwistCheck twist_check_;
   std::optional<ImuSample> imu_;
   std::optional<JointReading> joints_;
   std::optional<ContactReading> contacts_;

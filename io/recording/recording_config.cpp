@@ -8,7 +8,7 @@ Spec words(std::string meaning) { return {.unit = "-", .meaning = std::move(mean
 
 Spec delay_of(const std::string& sensor) {
   return {.unit = "s",
-          .range = in_range(-100.0, 100.0),
+          .range = in_range(-4e9, 4e9),
           .meaning = "subtracted from the stamps of the " + sensor};
 }
 

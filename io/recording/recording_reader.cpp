@@ -117,7 +117,7 @@ void RecordingReader::Impl::take_legs(const MessageView& view, std::vector<Deliv
   auto sample = twist ? twist_at(view, record_time) : odometry_at(view, counts);
   if (!sample) return malformed(Role::kLegs);
   sample->stamp = stamp_of(Role::kLegs, sample->stamp, config.leg_delay);
-  deliver(twist ? legs.add_twist(*sample) : legs.add_odometry(*sample), out);
+  deliver(twist ? legs.add_twist(*sample) : legs.add_odometry(*sample, counts), out);
 }
 
 void RecordingReader::Impl::take_joints(const MessageView& view, std::vector<Delivery>& out) {

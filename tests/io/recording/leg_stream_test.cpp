@@ -126,5 +126,29 @@ TEST(LegStream, NumbersBeyondReasonDoNotSpoilThePose) {
   EXPECT_NEAR(legs.add_twist(sample).T_odom_base.translation.x(), 0.01, 1e-12);
 }
 
+/// Seconds counted as of a twist in the wrong axes, on a walk along a curve.
+int wrong_seconds(bool in_odometry_axes) {
+  LegStreamConfig config;
+  config.source = LegSource::kOdometry;
+  LegStream legs(config);
+  EventCounts counts;
+  LegOdometrySample sample;
+  for (int k = 0; k < 1000; ++k) {
+    const double heading = 0.003 * k;
+    const Eigen::Vector3d velocity = yaw_rotation(heading) * Eigen::Vector3d(0.6, 0.0, 0.0);
+    sample.stamp = k * 10 * kMillisecond;
+    sample.T_odom_base.rotation = yaw_rotation(heading);
+    sample.T_odom_base.translation += 0.01 * velocity;
+    sample.linear_velocity = in_odometry_axes ? velocity : Eigen::Vector3d(0.6, 0.0, 0.0);
+    legs.add_odometry(sample, counts);
+  }
+  return counts["legs_twist_in_odometry_axes_seconds"];
+}
+
+TEST(LegStream, ATwistInOdometryAxesIsCountedOnceTheRobotHasTurned) {
+  EXPECT_EQ(wrong_seconds(false), 0);
+  EXPECT_GE(wrong_seconds(true), 6);  // from half a radian of heading on
+}
+
 }  // namespace
 }  // namespace aims
