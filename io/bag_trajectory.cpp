@@ -103,11 +103,10 @@ std::optional<Eigen::Vector3d> vector_at(const MessageView& view, const std::str
 }
 
 /// A pose whose norm is one within rounding of float32 is normalized; others stay as they are.
-std::optional<StampedPose> pose_in(const MessageView& view, const PoseLayout& layout,
-                                   const std::string& prefix) {
-  const auto stamp = view.time(prefix + "header.stamp");
-  const auto position = vector_at(view, prefix + std::string(layout.position));
-  const std::string rotation = prefix + std::string(layout.rotation);
+std::optional<StampedPose> pose_in(const MessageView& view, const PoseLayout& layout) {
+  const auto stamp = view.time("header.stamp");
+  const auto position = vector_at(view, std::string(layout.position));
+  const std::string rotation(layout.rotation);
   const auto q = vector_at(view, rotation);
   const auto w = view.number(rotation + ".w");
   if (!stamp || !position || !q || !w) return std::nullopt;
@@ -165,7 +164,7 @@ class TopicReader {
                    std::vector<Time>& record_times) {
     const auto view = decode(message);
     if (!view) return tl::unexpected(view.error());
-    const auto pose = pose_in(*view, layout, "");
+    const auto pose = pose_in(*view, layout);
     if (!pose) return error(message, fmt::format("expected a pose in '{}'", layout.position));
     if (body_frame_.empty()) body_frame_ = view->text("child_frame_id").value_or("");
     poses.push_back(*pose);
@@ -177,12 +176,11 @@ class TopicReader {
                         std::vector<Time>& record_times) {
     const auto view = decode(message);
     if (!view) return tl::unexpected(view.error());
-    const auto size = view->size("poses");
-    if (!size) return error(message, "expected an array 'poses'");
-    for (std::size_t i = 0; i < *size; ++i) {
-      const auto pose =
-          pose_in(*view, *layout_of(std::string(kPath)), fmt::format("poses[{}].", i));
-      if (!pose) return error(message, fmt::format("expected a pose in 'poses[{}]'", i));
+    const auto entries = view->messages("poses");
+    if (!entries) return error(message, "expected an array 'poses'");
+    for (const MessageView& each : *entries) {
+      const auto pose = pose_in(each, *layout_of(std::string(kPath)));
+      if (!pose) return error(message, "expected poses in 'poses'");
       poses.push_back(*pose);
       record_times.push_back(message.record_time);
     }

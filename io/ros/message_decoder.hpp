@@ -79,6 +79,9 @@ class MessageView {
   std::optional<std::span<const std::byte>> bytes(
       std::string_view path) const;                              ///< uint8[], int8[]
   std::optional<std::size_t> size(std::string_view path) const;  ///< entries of any array
+  /// The entries of an array of messages, each with paths of its own, in one pass: `size` and
+  /// "path[i].field" start at the first entry each time.
+  std::optional<std::vector<MessageView>> messages(std::string_view path) const;
   /// An array of messages that hold numbers, bools and times alone; a time is two uint32 columns
   /// "name.sec" and "name.nsec", a nested message's fields are "name.field".
   std::optional<TableView> table(std::string_view path) const;

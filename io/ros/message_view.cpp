@@ -79,11 +79,12 @@ double number_of(const std::byte* bytes, const MessageSlot& slot) {
 /// Looks a path up in decoded bytes.
 class Lookup {
  public:
-  Lookup(const std::vector<MessagePlan>& plans, std::span<const std::byte> bytes)
-      : plans_(plans), bytes_(bytes), walk_(plans, bytes) {}
+  Lookup(const MessagePlan& root, const std::vector<MessagePlan>& plans,
+         std::span<const std::byte> bytes)
+      : root_(root), plans_(plans), bytes_(bytes), walk_(plans, bytes) {}
 
   std::optional<Found> find(std::string_view path, const std::uint32_t* segments) {
-    const MessagePlan* plan = &plans_.back();
+    const MessagePlan* plan = &root_;
     std::size_t message = 0;
     while (true) {
       const auto start_of = [&](const MessageSlot& slot) {
@@ -122,6 +123,7 @@ class Lookup {
   }
 
  private:
+  const MessagePlan& root_;
   const std::vector<MessagePlan>& plans_;
   std::span<const std::byte> bytes_;
   MessageWalk walk_;
@@ -135,25 +137,29 @@ bool is_one(const Found& found, FieldKind one, FieldKind many) {
 }  // namespace
 
 std::optional<double> MessageView::number(std::string_view path) const {
-  const auto found = Lookup(*impl_->plans, impl_->bytes).find(path, impl_->segments());
+  const auto found =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).find(path, impl_->segments());
   if (!found || !is_one(*found, FieldKind::kNumber, FieldKind::kNumbers)) return std::nullopt;
   return number_of(impl_->bytes.data() + found->start, *found->slot);
 }
 
 std::optional<Time> MessageView::time(std::string_view path) const {
-  const auto found = Lookup(*impl_->plans, impl_->bytes).find(path, impl_->segments());
+  const auto found =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).find(path, impl_->segments());
   if (!found || !is_one(*found, FieldKind::kTime, FieldKind::kTimes)) return std::nullopt;
   return time_at(impl_->bytes.data() + found->start, found->slot->is_signed);
 }
 
 std::optional<std::string_view> MessageView::text(std::string_view path) const {
-  const auto found = Lookup(*impl_->plans, impl_->bytes).find(path, impl_->segments());
+  const auto found =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).find(path, impl_->segments());
   if (!found || !is_one(*found, FieldKind::kText, FieldKind::kTexts)) return std::nullopt;
   return text_at(impl_->bytes, found->start);
 }
 
 std::optional<std::vector<double>> MessageView::numbers(std::string_view path) const {
-  const auto array = Lookup(*impl_->plans, impl_->bytes).array(path, impl_->segments());
+  const auto array =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
   if (!array || array->first.slot->kind != FieldKind::kNumbers) return std::nullopt;
   const auto& [found, count] = *array;
   std::vector<double> values(count);
@@ -165,7 +171,8 @@ std::optional<std::vector<double>> MessageView::numbers(std::string_view path) c
 }
 
 std::optional<std::vector<std::string_view>> MessageView::texts(std::string_view path) const {
-  const auto array = Lookup(*impl_->plans, impl_->bytes).array(path, impl_->segments());
+  const auto array =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
   if (!array || array->first.slot->kind != FieldKind::kTexts) return std::nullopt;
   std::vector<std::string_view> values(array->second);
   std::size_t start = array->first.start;
@@ -177,7 +184,8 @@ std::optional<std::vector<std::string_view>> MessageView::texts(std::string_view
 }
 
 std::optional<std::span<const std::byte>> MessageView::bytes(std::string_view path) const {
-  const auto array = Lookup(*impl_->plans, impl_->bytes).array(path, impl_->segments());
+  const auto array =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
   if (!array || array->first.slot->kind != FieldKind::kNumbers) return std::nullopt;
   const auto& [found, count] = *array;
   if (found.slot->entry_size != 1 || found.slot->is_bool) return std::nullopt;
@@ -185,13 +193,38 @@ std::optional<std::span<const std::byte>> MessageView::bytes(std::string_view pa
 }
 
 std::optional<std::size_t> MessageView::size(std::string_view path) const {
-  const auto array = Lookup(*impl_->plans, impl_->bytes).array(path, impl_->segments());
+  const auto array =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
   if (!array) return std::nullopt;
   return array->second;
 }
 
+std::optional<std::vector<MessageView>> MessageView::messages(std::string_view path) const {
+  const auto array =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
+  if (!array || array->first.slot->kind != FieldKind::kMessages) return std::nullopt;
+  const MessagePlan& entry = (*impl_->plans)[array->first.slot->element];
+  if (array->second > impl_->bytes.size()) return std::nullopt;  // entries without a byte
+  std::vector<MessageView> views(array->second);
+  std::size_t start = array->first.start;
+  for (MessageView& view : views) {
+    auto impl = std::make_shared<Impl>();
+    impl->plans = impl_->plans;
+    impl->root = array->first.slot->element;
+    impl->make_room(entry.segment_sizes.size());
+    const std::span<const std::byte> rest = impl_->bytes.subspan(start);
+    const auto size = MessageWalk(*impl->plans, rest).end_of(entry, 0, impl->segments());
+    if (!size) return std::nullopt;
+    impl->bytes = rest.first(*size);
+    start += *size;
+    view.impl_ = std::move(impl);
+  }
+  return views;
+}
+
 std::optional<TableView> MessageView::table(std::string_view path) const {
-  const auto array = Lookup(*impl_->plans, impl_->bytes).array(path, impl_->segments());
+  const auto array =
+      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
   if (!array || array->first.slot->kind != FieldKind::kMessages) return std::nullopt;
   const auto& [found, count] = *array;
   const MessagePlan& row = (*impl_->plans)[found.slot->element];

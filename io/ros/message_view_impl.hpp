@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,10 @@ namespace aims {
 /// A decoded message: its bytes, and where its segments start.
 struct MessageView::Impl {
   std::shared_ptr<const std::vector<MessagePlan>> plans;
+  std::optional<std::uint32_t> root;  ///< the plan of an entry of an array; none: the type's own
   std::span<const std::byte> bytes;
+
+  const MessagePlan& plan() const { return root ? (*plans)[*root] : plans->back(); }
 
   void make_room(std::size_t segments) {
     if (segments > few_.size()) many_.resize(segments);

@@ -77,6 +77,23 @@ TEST(MessageDecoder, PathsOfOtherKindsGiveNothing) {
   EXPECT_FALSE(view->table("transforms")) << "rows of no fixed size";
 }
 
+TEST(MessageDecoder, EntriesOfAnArrayAreMessagesOfTheirOwn) {
+  const MessageBytes bytes = transforms_message(
+      kSecond, {{"a", "b", Pose{}}, {"a", "longer", {Eigen::Quaterniond::Identity(), {1, 2, 3}}}});
+  const auto view = decoder_of(transforms_type()).decode(bytes.view());
+  ASSERT_TRUE(view) << view.error().message;
+  const auto entries = view->messages("transforms");
+  ASSERT_TRUE(entries);
+  ASSERT_EQ(entries->size(), 2U);
+  EXPECT_EQ((*entries)[0].text("child_frame_id"), "b");
+  EXPECT_EQ((*entries)[1].text("child_frame_id"), "longer");
+  EXPECT_EQ((*entries)[1].time("header.stamp"), kSecond);
+  EXPECT_EQ((*entries)[1].number("transform.translation.z"), 3.0);
+  EXPECT_FALSE((*entries)[1].text("transforms[0].child_frame_id"));
+  EXPECT_FALSE(view->messages("transforms[0]"));
+  EXPECT_FALSE(view->messages("nothing"));
+}
+
 TEST(MessageDecoder, ACloudsDataIsNotCopied) {
   const MessageDecoder decoder = decoder_of(point_cloud_type());
   LidarScan scan;
