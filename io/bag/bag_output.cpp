@@ -34,7 +34,11 @@ class FileOutput final : public BagOutput {
   }
 
   Result<void> truncate(std::uint64_t size) override {
-    if (::ftruncate(fd_, static_cast<off_t>(size)) != 0) return refuse(errno);
+    int outcome = 0;
+    do {
+      outcome = ::ftruncate(fd_, static_cast<off_t>(size));
+    } while (outcome != 0 && errno == EINTR);
+    if (outcome != 0) return refuse(errno);
     return {};
   }
 

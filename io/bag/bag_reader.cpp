@@ -125,10 +125,16 @@ void BagReader::Impl::step() {
 }
 
 Result<void> BagReader::Impl::load(const ChunkPlace& place) {
+  if (place.memory() > options.memory_limit) {
+    return file.refuse(place.position,
+                       fmt::format("this chunk needs {} bytes of memory, more than {}; a copy made "
+                                   "by `rosbag filter` has smaller ones",
+                                   place.memory(), options.memory_limit));
+  }
   if (memory + place.memory() > options.memory_limit) {
     return file.refuse(place.position,
                        fmt::format("{} chunks overlap in time and need more than {} bytes; a copy "
-                                   "made by `rosbag filter` with smaller chunks may do",
+                                   "made by `rosbag filter` is in order of time",
                                    loaded.size() + 1, options.memory_limit));
   }
   std::unique_ptr<LoadedChunk> chunk;
