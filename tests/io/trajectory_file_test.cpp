@@ -111,8 +111,9 @@ TEST_F(TrajectoryFiles, TheKindIsToldByTheContent) {
   const auto tum = read_trajectory(file("a.txt", "# c\n1 0 0 0 0 0 0 1\n"), {});
   ASSERT_TRUE(tum) << tum.error().message;
   EXPECT_EQ(tum->kind, "TUM");
-  const auto kitti = read_trajectory(file("b.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n"),
-                                     {.rules = PoseRules::kStrict, .stamps = {{"times.txt", {3 * kSecond}}}});
+  const auto kitti =
+      read_trajectory(file("b.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n"),
+                      {.rules = PoseRules::kStrict, .stamps = {{"times.txt", {3 * kSecond}}}});
   ASSERT_TRUE(kitti) << kitti.error().message;
   EXPECT_EQ(kitti->kind, "KITTI poses");
   EXPECT_EQ(kitti->trajectory.front().stamp, 3 * kSecond);
@@ -136,8 +137,9 @@ TEST_F(TrajectoryFiles, TextErrorsNameFileAndLine) {
 TEST_F(TrajectoryFiles, KittiPosesNeedAsManyStamps) {
   const std::string poses = file("p.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n1 0 0 4 0 1 0 5 0 0 1 6\n");
   EXPECT_NE(message_of(poses).find("2 KITTI poses without stamps"), std::string::npos);
-  const std::string message =
-      message_of(poses, {.rules = PoseRules::kStrict, .stamps = {{"times.txt", {0}}, {"the truth", {0, 1, 2}}}});
+  const std::string message = message_of(
+      poses,
+      {.rules = PoseRules::kStrict, .stamps = {{"times.txt", {0}}, {"the truth", {0, 1, 2}}}});
   EXPECT_NE(message.find("times.txt has 1, the truth has 3"), std::string::npos) << message;
 }
 

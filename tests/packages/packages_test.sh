@@ -80,4 +80,4 @@ version=$("$root/usr/bin/aims" --version)
 grep -qF "$root/usr/share/aims/scenarios" "$work/list" ||
   fail "the installed program does not find its scenarios"
 grep -rIlF -e "$source" -e "$build" "$root/usr" && fail "the files above name a folder of this machine"
-echo "packages are sound: $(cd "$work" && ls -s1 --block-size=K ./*.deb | tr '\n' ' ')"
+echo "packages are sound: $(find "$work" -maxdepth 1 -name '*.deb' -printf '%f %k kB  ')"
