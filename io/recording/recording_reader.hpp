@@ -57,7 +57,7 @@ class RecordingReader {
   /// True poses of the body (IMU frame) met so far; stamps as those of deliveries.
   const Trajectory& truth() const;
 
-  /// Events worth a count: "cloud_points_not_finite", "cloud_empty", "stamp_not_increasing", ...
+  /// Events worth a count: "cloud_points_not_finite", "imu_stamp_not_increasing", ...
   const std::map<std::string, int>& counts() const;
 
  private:

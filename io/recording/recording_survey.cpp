@@ -220,6 +220,10 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) const {
     notes.push_back("leg odometry: from joints, contacts and gyro by the leg model (leg_geometry)");
   } else {
     notes.push_back("no leg odometry, nor joints with contacts: estimators run without legs");
+    if (has_joints && effort_messages_ > 0 && topics_.contacts.empty()) {
+      notes.push_back(fmt::format("knees that bear can tell contacts: topics.contacts: {}",
+                                  topics_.joint_states));
+    }
   }
   const bool kinematic = stream.source == LegSource::kKinematics;
   plan.setup.leg_rate_hz = sample_rate(kinematic ? seen(Role::kJoints).stamps : legs.stamps);

@@ -5,30 +5,23 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "core/leg_kinematics.hpp"
 #include "io/ros/message_types.hpp"
 #include "tests/io/recording/recorded_deliveries.hpp"
 #include "tests/io/recording/robot_recording.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
 
+using test::kMounted;
+using test::kStart;
 using test::RawCloud;
 using test::Recording;
 using test::RobotRecording;
 
-constexpr Time kStart = 100 * kSecond;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-const std::vector<FrameTransform> kMounted = {{"imu", "lidar", {}}, {"imu", "base", {}}};
 
-class RecordingReaderTest : public ::testing::Test {
- protected:
-  std::filesystem::path bag() const { return folder_.path() / "robot.bag"; }
-  TemporaryFolder folder_;
-};
+class RecordingReaderTest : public test::RecordingTest {};
 
 MessageBytes odometry(Time stamp, const std::string& child = "base", double speed = 0.5) {
   OdometryContent content;
@@ -291,145 +284,6 @@ TEST_F(RecordingReaderTest, TruthOfAnotherFrameIsTurnedIntoThatOfTheBody) {
   ASSERT_EQ(read.truth.size(), 5U);
   EXPECT_NEAR(read.truth[4].pose.translation.x(), 0.5 * 0.04 - 0.5, 1e-12);
   EXPECT_EQ(test::legs_of(read.deliveries).size(), 5U);
-}
-
-/// A standing robot whose joints tell its effort; the knees of FR and RL bear.
-MessageBytes joints(Time stamp, const std::vector<std::string>& names) {
-  MessageBytes out;
-  out.put(std::uint32_t{0});
-  out.time(stamp);
-  out.text("base");
-  out.length(names.size());
-  for (const std::string& name : names) out.text(name);
-  std::vector<double> position, velocity, effort;
-  for (int leg = 0; leg < kLegCount; ++leg) {
-    for (const double angle : {0.0, 0.8, -1.6}) position.push_back(angle);
-    for (int i = 0; i < 3; ++i) velocity.push_back(0.1 * (leg + 1));
-    const bool bears = leg == 1 || leg == 2;
-    for (const double torque : {1.0, 2.0, bears ? -24.0 : 0.5}) effort.push_back(torque);
-  }
-  for (const auto* each : {&position, &velocity, &effort}) out.array(*each);
-  return out;
-}
-
-TEST_F(RecordingReaderTest, KneesThatBearTellContactsWhereNothingElseDoes) {
-  RobotRecording robot(bag());
-  robot.add_transforms(kMounted);
-  robot.add_imu(kStart, 20);
-  robot.add_clouds(kStart, 3);
-  std::vector<std::string> names;
-  for (const char* leg : {"FL", "FR", "RL", "RR"}) {
-    for (const char* part : {"_hip_joint", "_thigh_joint", "_calf_joint"}) {
-      names.push_back(std::string(leg) + part);
-    }
-  }
-  for (int k = 0; k < 10; ++k) {
-    const Time now = kStart + kSecond / 10 + k * 5 * kMillisecond;
-    robot.add("/joint_states", joint_state_type(), now, joints(now, names));
-  }
-  robot.close();
-  RecordingConfig config;
-  config.topics.contacts = "/joint_states";
-  const Recording read = test::read_recording(bag(), config);
-  ASSERT_EQ(read.error, "");
-  const auto legs = test::legs_of(read.deliveries);
-  ASSERT_EQ(legs.size(), 10U);
-  EXPECT_EQ(legs[0].contact, (std::array<bool, 4>{false, true, true, false}));
-  const LegMotion right{{0.0, 0.8, -1.6}, Eigen::Vector3d::Constant(0.2), Eigen::Vector3d::Zero()};
-  const LegMotion left{{0.0, 0.8, -1.6}, Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Zero()};
-  const Eigen::Vector3d expected =
-      (velocity_from_foot(1, right) + velocity_from_foot(2, left)) / 2.0;
-  EXPECT_LT((legs[0].linear_velocity - expected).norm(), 1e-12);
-}
-
-TEST_F(RecordingReaderTest, JointsThatNamesDoNotTellAreSaid) {
-  RobotRecording robot(bag());
-  robot.add_imu(kStart, 20);
-  robot.add_clouds(kStart, 3);
-  robot.add("/joint_states", joint_state_type(), kStart, joints(kStart, {"FL_hip", "arm_1"}));
-  robot.close();
-  const Recording read = test::read_recording(bag());
-  EXPECT_TRUE(read.noted("the twelve joints are not told by their names (joint_names)"));
-  EXPECT_EQ(read.counts.at("joints_malformed"), 1);
-}
-
-/// A ring of points around the sensor, `sense` +1 from +x to +y, without a time.
-RawCloud untimed_cloud(Time stamp, double sense) {
-  std::vector<std::array<float, 4>> points;
-  for (int i = 0; i < 200; ++i) {
-    const double azimuth = sense * 2.0 * std::numbers::pi * i / 200.0;
-    points.push_back({static_cast<float>(5.0 * std::cos(azimuth)),
-                      static_cast<float>(5.0 * std::sin(azimuth)), 0.0F, 0.0F});
-  }
-  RawCloud cloud = RawCloud::of(stamp, points);
-  cloud.fields.pop_back();
-  return cloud;
-}
-
-/// Untimed clouds at 10 Hz that arrive `latency` after their stamp.
-Recording read_untimed(const std::filesystem::path& bag, double sense, Duration latency,
-                       const RecordingConfig& config = {}) {
-  std::filesystem::remove(bag);
-  RobotRecording robot(bag);
-  robot.add_transforms(kMounted);
-  robot.add_imu(kStart, 30);
-  for (int k = 0; k < 4; ++k) {
-    const Time stamp = kStart + k * 100 * kMillisecond;
-    robot.add_cloud(untimed_cloud(stamp, sense), stamp + latency);
-  }
-  robot.close();
-  return test::read_recording(bag, config);
-}
-
-TEST_F(RecordingReaderTest, PointsWithoutTimeFireAlongTheTurn) {
-  const Recording read = read_untimed(bag(), -1.0, 105 * kMillisecond);
-  const auto scans = test::scans_of(read.deliveries);
-  ASSERT_EQ(scans.size(), 4U);
-  EXPECT_EQ(scans[1]->stamp, kStart + 100 * kMillisecond);
-  EXPECT_EQ(scans[1]->end, kStart + 200 * kMillisecond);
-  EXPECT_FALSE(read.noted("run the other way"));
-  for (std::size_t i = 0; i < 200; ++i) {
-    ASSERT_NEAR(scans[1]->points[i].time_offset_ns, 5e5 * static_cast<double>(i), 100.0);
-  }
-}
-
-TEST_F(RecordingReaderTest, AWrongSenseOfSpinIsSaidAndSetByTheConfiguration) {
-  EXPECT_TRUE(read_untimed(bag(), 1.0, 105 * kMillisecond)
-                  .noted("azimuths run the other way from point to point: set "
-                         "lidar_clockwise: false"));
-  RecordingConfig config;
-  config.lidar_clockwise = false;
-  const Recording read = read_untimed(bag(), 1.0, 105 * kMillisecond, config);
-  EXPECT_FALSE(read.noted("run the other way"));
-  EXPECT_NEAR(test::scans_of(read.deliveries)[2]->points[50].time_offset_ns, 25e6, 100.0);
-}
-
-TEST_F(RecordingReaderTest, ACloudThatComesTooEarlyIsStampedAtItsEnd) {
-  const Recording early = read_untimed(bag(), -1.0, 5 * kMillisecond);
-  EXPECT_TRUE(early.noted("clouds arrive 5.0 ms after their stamp"));
-  EXPECT_EQ(test::scans_of(early.deliveries)[1]->stamp, kStart);
-  EXPECT_EQ(test::scans_of(early.deliveries)[1]->end, kStart + 100 * kMillisecond);
-  // Record times that are copies of the stamps tell nothing.
-  const Recording copied = read_untimed(bag(), -1.0, 0);
-  EXPECT_EQ(test::scans_of(copied.deliveries)[1]->stamp, kStart + 100 * kMillisecond);
-  RecordingConfig config;
-  config.cloud_stamp = CloudStamp::kStart;
-  const Recording told = read_untimed(bag(), -1.0, 5 * kMillisecond, config);
-  EXPECT_EQ(test::scans_of(told.deliveries)[1]->stamp, kStart + 100 * kMillisecond);
-}
-
-TEST_F(RecordingReaderTest, TimesFromTheStartOfASweepMayHaveTheStampAtItsEnd) {
-  RobotRecording robot(bag());
-  robot.add_imu(kStart, 30);
-  robot.add_clouds(kStart, 4);
-  robot.close();
-  RecordingConfig config;
-  config.cloud_stamp = CloudStamp::kEnd;
-  const auto scans = test::scans_of(test::read_recording(bag(), config).deliveries);
-  ASSERT_EQ(scans.size(), 4U);
-  EXPECT_EQ(scans[2]->stamp, kStart + 100 * kMillisecond);
-  EXPECT_EQ(scans[2]->end, kStart + 200 * kMillisecond);
-  EXPECT_NEAR(scans[2]->points.back().time_offset_ns, 90e6, 5.0);  // float32 seconds
 }
 
 TEST_F(RecordingReaderTest, AGapOfAYearIsPassedAtOnce) {

@@ -19,7 +19,8 @@
 namespace aims {
 namespace {
 
-constexpr int kNoPython = 77;
+constexpr int kNoPackages = 77;  ///< of make_robot_bags.py
+constexpr int kNotFound = 127;   ///< of the shell
 
 struct ExpectedLeg {
   Time stamp = 0;
@@ -74,7 +75,8 @@ class RobotBags : public ::testing::Test {
   static void TearDownTestSuite() { folder_.reset(); }
 
   void SetUp() override {
-    if (exit_code_ == kNoPython) GTEST_SKIP() << said_;
+    if (exit_code_ == kNotFound) GTEST_SKIP() << "SKIPPED: /usr/bin/python3 is needed";
+    if (exit_code_ == kNoPackages) GTEST_SKIP() << said_;
     ASSERT_EQ(exit_code_, 0) << said_;
   }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <array>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/measurements.hpp"
@@ -14,8 +15,14 @@
 #include "io/recording/recording_reader.hpp"
 #include "io/ros/message_bytes.hpp"
 #include "io/ros/message_type.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims::test {
+
+/// When the recordings here begin.
+inline constexpr Time kStart = 100 * kSecond;
+/// LiDAR and base at the IMU's place.
+inline const std::vector<FrameTransform> kMounted = {{"imu", "lidar", {}}, {"imu", "base", {}}};
 
 /// A sensor_msgs/PointCloud2 as it is on the wire, whether or not it holds together.
 struct RawCloud {
@@ -58,6 +65,13 @@ class RobotRecording {
  private:
   BagWriter bag_;
   std::map<std::string, std::uint32_t> connections_;
+};
+
+/// A test with a place for its bag.
+class RecordingTest : public ::testing::Test {
+ protected:
+  std::filesystem::path bag() const { return folder_.path() / "robot.bag"; }
+  TemporaryFolder folder_;
 };
 
 /// What reading a bag gives.
