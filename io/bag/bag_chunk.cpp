@@ -170,7 +170,7 @@ Result<void> load_chunk(const BagFile& file, const ChunkPlace& place, BagConnect
   const bool packed = place.compression != BagCompression::kNone;
   std::vector<std::byte>& raw = packed ? content.packed : content.bytes;
   raw.resize(place.packed_size);
-  if (const auto got = file.read(place.data_position, raw); !got) return got;
+  if (auto got = file.read(place.data_position, raw); !got) return got;
   if (packed) {
     const auto unpacked = decompress(place.compression, raw, place.size, content.bytes);
     if (!unpacked) {
@@ -185,7 +185,7 @@ Result<void> load_chunk(const BagFile& file, const ChunkPlace& place, BagConnect
 
 Result<void> check_chunk_index(const BagFile& file, const ChunkPlace& place,
                                const ChunkContent& content) {
-  if (const auto agree = check_counts(file, place, content); !agree) return agree;
+  if (auto agree = check_counts(file, place, content); !agree) return agree;
   std::uint64_t position = place.end_position();
   std::size_t told = 0;
   for (std::uint32_t i = 0; i < place.index_records; ++i) {

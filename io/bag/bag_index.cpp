@@ -27,7 +27,7 @@ std::string shown(std::string_view text) {
 
 Result<void> check_magic(const BagFile& file) {
   std::vector<std::byte> bytes(std::min<std::uint64_t>(kBagMagic.size(), file.size()));
-  if (const auto got = file.read(0, bytes); !got) return got;
+  if (auto got = file.read(0, bytes); !got) return got;
   const std::string_view magic = as_text(bytes);
   if (magic == kBagMagic) return {};
   if (magic.empty()) return file.refuse(0, "expected a ROS 1 bag, found an empty file");
@@ -104,7 +104,7 @@ Result<void> read_chunk_info(const BagFile& file, std::uint64_t& position, BagIn
   if (!place) return tl::unexpected(place.error());
   place->start = *start;
   place->end = *end;
-  const auto counted = read_counts(file, *record, index, *place);
+  auto counted = read_counts(file, *record, index, *place);
   if (!counted) return counted;
   if (!place->counts.empty()) index.chunks.push_back(std::move(*place));
   position = record->end();

@@ -49,9 +49,9 @@ std::uint64_t BagPublisher::beside_index(std::uint64_t wished, std::uint64_t siz
 Result<void> BagPublisher::publish(std::uint64_t position, const BagIndexBytes& index) {
   std::vector<std::byte> bytes = index.connections;
   append(bytes, index.chunk_infos);
-  if (const auto written = output_->write_at(position, bytes); !written) return written;
+  if (auto written = output_->write_at(position, bytes); !written) return written;
   const auto header = file_header(position, index);
-  if (const auto written = output_->write_at(kBagMagic.size(), header); !written) return written;
+  if (auto written = output_->write_at(kBagMagic.size(), header); !written) return written;
   index_position_ = position;
   if (&index != &published_) published_ = index;
   return {};
@@ -63,18 +63,18 @@ Result<void> BagPublisher::make_room(std::uint64_t size) {
 }
 
 Result<void> BagPublisher::add_chunk(std::span<const std::byte> chunk, const BagIndexBytes& index) {
-  if (const auto made = make_room(chunk.size()); !made) return made;
-  if (const auto written = output_->write_at(end_, chunk); !written) return written;
+  if (auto made = make_room(chunk.size()); !made) return made;
+  if (auto written = output_->write_at(end_, chunk); !written) return written;
   const std::uint64_t end = end_ + chunk.size();
-  const auto published = publish(beside_index(end + room_, index.size()), index);
+  auto published = publish(beside_index(end + room_, index.size()), index);
   if (published) end_ = end;
   return published;
 }
 
 Result<void> BagPublisher::finish(const BagIndexBytes& index) {
-  if (const auto made = make_room(index.size()); !made) return made;
-  if (const auto published = publish(end_, index); !published) return published;
-  if (const auto cut = output_->truncate(end_ + index.size()); !cut) return cut;
+  if (auto made = make_room(index.size()); !made) return made;
+  if (auto published = publish(end_, index); !published) return published;
+  if (auto cut = output_->truncate(end_ + index.size()); !cut) return cut;
   return output_->close();
 }
 

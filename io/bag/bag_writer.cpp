@@ -111,7 +111,7 @@ Result<void> BagWriter::Impl::close_chunk() {
 }
 
 Result<void> BagWriter::Impl::close_file() {
-  if (const auto written = close_chunk(); !written) return written;
+  if (auto written = close_chunk(); !written) return written;
   return publisher.finish(index);
 }
 
@@ -190,7 +190,7 @@ Result<void> BagWriter::write(std::uint32_t connection, Time record_time,
   bag.end = bag.has_messages ? std::max(bag.end, record_time) : record_time;
   bag.has_messages = true;
   if (bag.chunk.size() < bag.options.chunk_size) return {};
-  const auto closed = bag.close_chunk();
+  auto closed = bag.close_chunk();
   if (!closed) bag.broken = closed.error();
   return closed;
 }
@@ -200,7 +200,7 @@ Result<void> BagWriter::close() {
   if (bag.broken) return tl::unexpected(*bag.broken);
   if (bag.closed) return {};
   bag.closed = true;
-  const auto outcome = bag.close_file();
+  auto outcome = bag.close_file();
   if (!outcome) bag.broken = outcome.error();
   return outcome;
 }

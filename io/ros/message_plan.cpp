@@ -159,10 +159,9 @@ Result<void> Planner::add_nested(const FieldDefinition& field, std::uint32_t nes
     return failure(fmt::format("messages nested deeper than {}", kMostDepth));
   }
   if (field.array == ArrayKind::kNone) {
-    for (std::size_t i = 0; i < plans_[nested].slots.size(); ++i) {
-      MessageSlot slot = plans_[nested].slots[i];
+    for (MessageSlot slot : plans_[nested].slots) {
       slot.path = field.name + "." + slot.path;
-      if (const auto added = add_slot(std::move(slot), plan); !added) return added;
+      if (auto added = add_slot(std::move(slot), plan); !added) return added;
     }
     return {};
   }
