@@ -19,7 +19,9 @@ struct MessageKey {
   std::uint64_t chunk = 0;   ///< position in the file
   std::uint32_t offset = 0;  ///< in the chunk
 
-  auto operator<=>(const MessageKey&) const = default;
+  bool operator<(const MessageKey& other) const {
+    return std::tie(time, chunk, offset) < std::tie(other.time, other.chunk, other.offset);
+  }
 };
 
 /// A chunk in memory, its messages in order of reading.
@@ -39,7 +41,7 @@ struct LoadedChunk {
 
 /// Heap order: the chunk with the earliest message on top.
 bool later(const std::unique_ptr<LoadedChunk>& a, const std::unique_ptr<LoadedChunk>& b) {
-  return a->key() > b->key();
+  return b->key() < a->key();
 }
 
 BagSummary summarize(const BagFile& file, const BagIndex& index) {
@@ -152,7 +154,7 @@ Result<void> BagReader::Impl::load(const ChunkPlace& place) {
   if (!got) return failure(got.error().message + "; --recover leaves out what is damaged");
   std::erase_if(content.messages, [&](const ChunkMessage& message) {
     const MessageKey key{message.time, place.position, message.offset};
-    return !chosen.contains(message.connection) || (last && key <= *last);
+    return !chosen.contains(message.connection) || (last && !(*last < key));
   });
   std::stable_sort(content.messages.begin(), content.messages.end(),
                    [](const ChunkMessage& a, const ChunkMessage& b) { return a.time < b.time; });
