@@ -304,11 +304,11 @@ def joint_rates():
 
 
 def legs_by_joints(folder):
-    """Feet FL and RR stand; names as on ANYmal, in another order; loads as Float32MultiArray."""
+    """Feet FL and FR stand; names as on ANYmal, in another order; loads as Float32MultiArray."""
     robot = Robot(folder, "joints_and_contacts")
     robot.imu(1.0, rate=(0.0, 0.0, TURNING))
     position, velocity = joints(0.0), joint_rates()
-    for leg in (1, 2):  # in the air: rates that would tell something else
+    for leg in (2, 3):  # in the air: rates that would tell something else
         for joint in range(3):
             velocity[3 * leg + joint] += 1.0
     names = [leg + "_" + part for leg in ("LF", "RF", "LH", "RH") for part in ("HAA", "HFE", "KFE")]
@@ -321,10 +321,10 @@ def legs_by_joints(folder):
         message.position = [position[i] for i in order]
         message.velocity = [velocity[i] for i in order]
         robot.bag.write("/robot/joints", message, stamp(now + 1_000_000))
-        robot.bag.write("/robot/foot_force", Float32MultiArray(data=[55.0, 3.0, 1.0, 61.0]),
+        robot.bag.write("/robot/foot_force", Float32MultiArray(data=[55.0, 61.0, 1.0, 3.0]),
                         stamp(now + 1_100_000))
         robot.expected.write(f"leg {now} {SPEED[0]!r} {SPEED[1]!r} {SPEED[2]!r} 0 0 {TURNING!r} "
-                             "1 0 0 1\n")
+                             "1 1 0 0\n")
     robot.close()
 
 

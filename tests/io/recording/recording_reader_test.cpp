@@ -263,6 +263,21 @@ TEST_F(RecordingReaderTest, NumbersThatAreNoneAreCountedAndPassedOn) {
   EXPECT_EQ(test::imu_of(read.deliveries).size(), 21U);
 }
 
+TEST_F(RecordingReaderTest, APoseWithoutRotationIsUprightAndCounted) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 20);
+  robot.add_clouds(kStart, 3);
+  OdometryContent content;
+  content.pose.rotation.coeffs().setZero();
+  robot.add("/odom", odometry_type(), kStart,
+            odometry_message({0, kStart, "odom"}, "base", content));
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_EQ(test::legs_of(read.deliveries).at(0).T_odom_base.rotation.w(), 1.0);
+  EXPECT_EQ(read.counts, (std::map<std::string, int>{{"pose_without_rotation", 1}}));
+}
+
 TEST_F(RecordingReaderTest, TruthOfAnotherFrameIsTurnedIntoThatOfTheBody) {
   RobotRecording robot(bag());
   Pose mounted;
