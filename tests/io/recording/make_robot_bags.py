@@ -288,7 +288,8 @@ def leg_angles(leg, foot):
 def resting_foot(leg, t):
     """In the base, which moves at SPEED and turns about z at TURNING; near t = 0."""
     side = 1.0 if leg % 2 == 0 else -1.0
-    foot = ((HIP_X if leg < 2 else -HIP_X) + 0.04 * leg, side * (HIP_Y + ABDUCTION + 0.02 * leg), -0.28)
+    foot = ((HIP_X if leg < 2 else -HIP_X) + 0.04 * leg,
+            side * (HIP_Y + ABDUCTION + 0.02 * leg), -0.28)
     p = [f - v * t for f, v in zip(foot, SPEED)]
     c, s = math.cos(-TURNING * t), math.sin(-TURNING * t)
     return [c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]]
