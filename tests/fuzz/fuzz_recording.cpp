@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "io/bag/bag_output.hpp"
@@ -37,6 +37,43 @@ class MemoryOutput final : public BagOutput {
   std::vector<std::byte>& bytes_;
 };
 
+/// Every kind of message that a recording is read from; topics are named after the types.
+std::vector<MessageType> fuzzed_types() {
+  const std::string header = "\n" + std::string(80, '=') +
+                             "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n";
+  const std::string rule = "\n" + std::string(80, '=') + "\nMSG: ";
+  const MessageType livox = {
+      "livox_ros_driver/CustomMsg", "",
+      "Header header\nuint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] rsvd\n"
+      "CustomPoint[] points\n" +
+          header + rule +
+          "livox_ros_driver/CustomPoint\n"
+          "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\n"
+          "uint8 line\n"};
+  const MessageType twist = {"geometry_msgs/TwistStamped", "",
+                             "Header header\nTwist twist\n" + header + rule +
+                                 "geometry_msgs/Twist\nVector3 linear\nVector3 angular\n" + rule +
+                                 "geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"};
+  return {imu_type(),           point_cloud_type(), odometry_type(), joint_state_type(),
+          foot_contacts_type(), transforms_type(),  livox,           twist};
+}
+
+/// Ways to read the same bag: legs as odometry, as joints with contacts, as twist; both clouds.
+std::vector<RecordingConfig> ways_to_read() {
+  RecordingConfig odometry;
+  odometry.topics.lidar = "/sensor_msgs/PointCloud2";
+  odometry.topics.leg_odometry = "/nav_msgs/Odometry";
+  RecordingConfig joints = odometry;
+  joints.topics.lidar = "/livox_ros_driver/CustomMsg";
+  joints.topics.leg_odometry = "none";
+  joints.topics.joint_states = "/sensor_msgs/JointState";
+  joints.topics.contacts = "/aims_msgs/FootContacts";
+  RecordingConfig twist = odometry;
+  twist.topics.leg_odometry = "/geometry_msgs/TwistStamped";
+  twist.topics.contacts = "/sensor_msgs/JointState";
+  return {odometry, joints, twist};
+}
+
 void demand(const Result<void>& outcome) {
   if (!outcome) std::abort();
 }
@@ -48,9 +85,7 @@ void fuzz_recording(std::span<const std::uint8_t> input) {
   {
     auto bag = BagWriter::create(std::make_unique<MemoryOutput>(bytes), "fuzz.bag",
                                  {BagCompression::kNone, 1 << 14});
-    const std::array<MessageType, 6> types = {imu_type(),           point_cloud_type(),
-                                              odometry_type(),      joint_state_type(),
-                                              foot_contacts_type(), transforms_type()};
+    const std::vector<MessageType> types = fuzzed_types();
     for (const MessageType& type : types) bag->add_connection("/" + type.name, type);
     // Each message: topic, time since the last [ms], length, bytes.
     ByteCursor cursor(std::as_bytes(input));
@@ -65,7 +100,7 @@ void fuzz_recording(std::span<const std::uint8_t> input) {
     demand(bag->close());
   }
   const MemoryFile file(bytes);
-  touch_recording(file.path(), false);
+  for (const RecordingConfig& way : ways_to_read()) touch_recording(file.path(), false, way);
 }
 
 }  // namespace aims

@@ -64,8 +64,9 @@ void touch_message(const MessageDecoder& decoder, std::span<const std::byte> byt
   }
 }
 
-void touch_recording(const std::filesystem::path& bag, bool recover) {
-  auto recording = RecordingReader::open(bag, RecordingConfig{}, {recover, kMemoryLimit});
+void touch_recording(const std::filesystem::path& bag, bool recover,
+                     const RecordingConfig& config) {
+  auto recording = RecordingReader::open(bag, config, {recover, kMemoryLimit});
   if (!recording) return;
   std::vector<Delivery> deliveries;
   // Record times may lie a century apart: a long step, and no more than a few.

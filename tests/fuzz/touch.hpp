@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 
+#include "io/recording/recording_config.hpp"
 #include "io/ros/message_decoder.hpp"
 
 namespace aims {
@@ -12,7 +13,8 @@ namespace aims {
 /// Decodes the bytes and looks at everything that a view offers.
 void touch_message(const MessageDecoder& decoder, std::span<const std::byte> bytes);
 
-/// Reads a recording to its end.
-void touch_recording(const std::filesystem::path& bag, bool recover);
+/// Reads a recording to its end, as `config` says.
+void touch_recording(const std::filesystem::path& bag, bool recover,
+                     const RecordingConfig& config = {});
 
 }  // namespace aims
