@@ -7,11 +7,9 @@
 #include <utility>
 
 #include "estimator/registry.hpp"
+#include "harness/bag_origin.hpp"
 #include "harness/stopwatch.hpp"
 #include "harness/stream.hpp"
-#include "io/bag_trajectory.hpp"
-#include "io/passages.hpp"
-#include "io/recording/recording_topics.hpp"
 #include "io/yaml_config.hpp"
 
 namespace aims {
@@ -28,13 +26,6 @@ void follow_rate(std::optional<double> recorded_hz, const char* key, double defa
   configured_hz = *recorded_hz;
   notes.push_back(
       fmt::format("estimator.{} = {:.4g}, the rate found in the recording", key, configured_hz));
-}
-
-Result<std::vector<Passage>> passages_of(const std::filesystem::path& bag) {
-  const auto text = read_bag_text(bag, std::string(kPassagesTopic));
-  if (!text) return tl::unexpected(text.error());
-  if (!*text) return std::vector<Passage>{};
-  return parse_passages(**text, fmt::format("{}:{}", bag.string(), kPassagesTopic));
 }
 
 EstimatorOutcome outcome_of(const TimedEstimator& timed) {
@@ -57,13 +48,12 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   for (const EstimatorOutcome& each : result.estimators) {
     input.estimates.push_back({each.name, each.name, "estimated here", each.report.trajectory});
   }
-  if (auto passages = passages_of(result.bag)) {
-    input.segments = config.scoring.segments.empty()
-                         ? segments_of(*passages)
-                         : segments_named(*passages, config.scoring.segments);
-    input.passages = std::move(*passages);
+  if (auto origin = bag_origin(result.bag)) {
+    if (input.scoring.segments.empty()) input.scoring.segments = origin->segments;
+    input.segments = segments_wanted(origin->passages, input.scoring.segments);
+    input.passages = std::move(origin->passages);
   } else {
-    result.setup.notes.push_back(passages.error().message);
+    result.setup.notes.push_back(origin.error().message);
   }
   auto scores = score_trajectories(std::move(input));
   if (scores) {

@@ -8,21 +8,19 @@
 #include <set>
 #include <utility>
 
+#include "harness/bag_origin.hpp"
 #include "harness/scenario.hpp"
 #include "harness/segment_list.hpp"
 #include "io/atomic_file.hpp"
-#include "io/bag_trajectory.hpp"
 #include "io/kitti.hpp"
 #include "io/number_lines.hpp"
 #include "io/passages.hpp"
+#include "io/recording/recording_topics.hpp"
 #include "io/trajectory_file.hpp"
 #include "io/yaml_config.hpp"
 
 namespace aims {
 namespace {
-
-constexpr const char* kTruthTopic = "/ground_truth/imu";
-constexpr const char* kPassagesTopic = "/aims/passages";
 
 /// The part of a configuration that scoring reads.
 struct ScoringSettings {
@@ -73,7 +71,8 @@ std::string name_of(const TrajectoryFile& file) { return file.file.stem().string
 Result<std::filesystem::path> read_truth(const ScoringRequest& request,
                                          const std::vector<StampList>& stamps,
                                          ScoringInput& input) {
-  auto file = read_trajectory(request.truth, {PoseRules::kStrict, kTruthTopic, stamps});
+  auto file =
+      read_trajectory(request.truth, {PoseRules::kStrict, std::string(kTruthImuTopic), stamps});
   if (!file) return tl::unexpected(file.error());
   input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
   input.truth = {name_of(*file), request.truth, file->kind, std::move(file->trajectory),
@@ -128,18 +127,14 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
   return {};
 }
 
-Result<std::vector<Passage>> passages_of(const ScoringRequest& request,
-                                         const std::filesystem::path& bag) {
-  if (!request.passages.empty()) {
-    const auto text = read_file(request.passages);
-    if (!text) return tl::unexpected(text.error());
-    return parse_passages(*text, request.passages.string());
-  }
-  if (bag.empty()) return std::vector<Passage>();
-  const auto text = read_bag_text(bag, kPassagesTopic);
+/// The file of passages, or what the truth's bag says of its own walk.
+Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag) {
+  if (request.passages.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
+  const auto text = read_file(request.passages);
   if (!text) return tl::unexpected(text.error());
-  if (!*text) return std::vector<Passage>();
-  return parse_passages(**text, fmt::format("{}:{}", bag.string(), kPassagesTopic));
+  auto passages = parse_passages(*text, request.passages.string());
+  if (!passages) return tl::unexpected(passages.error());
+  return BagOrigin{std::move(*passages), {}};
 }
 
 Result<std::vector<Segment>> segments_of_request(const ScoringRequest& request,
@@ -185,9 +180,10 @@ Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
   if (!stamps) return tl::unexpected(stamps.error());
   const auto bag = read_truth(request, *stamps, input);
   if (!bag) return tl::unexpected(bag.error());
-  auto passages = passages_of(request, *bag);
-  if (!passages) return tl::unexpected(passages.error());
-  input.passages = std::move(*passages);
+  auto origin = origin_of(request, *bag);
+  if (!origin) return tl::unexpected(origin.error());
+  input.passages = std::move(origin->passages);
+  if (input.scoring.segments.empty()) input.scoring.segments = std::move(origin->segments);
   auto segments = segments_of_request(request, input);
   if (!segments) return tl::unexpected(segments.error());
   input.segments = std::move(*segments);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// What a simulated bag says of its walk, for scoring; nothing of it reaches an estimator.
+struct BagOrigin {
+  std::vector<Passage> passages;      ///< of the reference points, in order of time
+  std::vector<std::string> segments;  ///< over which its scenario takes M_list; empty: all
+};
+
+/// Empty for a bag that was not simulated here. Error for passages that cannot be read.
+Result<BagOrigin> bag_origin(const std::filesystem::path& bag);
+
+}  // namespace aims
