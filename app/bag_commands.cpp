@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/options.hpp"
 #include "harness/bag_check.hpp"
 #include "harness/bag_info.hpp"
 #include "harness/estimate.hpp"
@@ -27,11 +28,6 @@ Result<BagInfo> info_of(const BagArguments& arguments) {
   const auto config = load_estimate_config(arguments.config, arguments.overrides);
   if (!config) return tl::unexpected(config.error());
   return bag_info(arguments.bag, config->recording, {arguments.recover});
-}
-
-int bad_input(const char* command, const Error& error) {
-  fmt::print(stderr, "aims {}: {}\n", command, error.message);
-  return kBadInput;
 }
 
 int info_command(const BagArguments& arguments) {
@@ -78,10 +74,8 @@ CLI::App* add_bag_command(CLI::App& app, const char* name, const char* meaning,
   auto* command = app.add_subcommand(name, meaning);
   command->add_option("bag", arguments->bag, "ROS 1 bag")->required();
   command->add_option("--config", arguments->config, "YAML file as for aims estimate");
-  command
-      ->add_option("--set", arguments->overrides, "key=value on top, e.g. recording.topics.imu=/i")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(*command, "--set", arguments->overrides,
+                 "key=value on top, e.g. recording.topics.imu=/i");
   command->add_flag("--recover", arguments->recover, "Read what is whole in a broken bag");
   return command;
 }

@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/options.hpp"
 #include "harness/comparison.hpp"
 
 namespace aims {
@@ -17,11 +18,6 @@ struct CompareArguments {
   std::string out;
   bool fail_on_worse = false;
 };
-
-int bad_input(const Error& error) {
-  fmt::print(stderr, "aims compare: {}\n", error.message);
-  return kBadInput;
-}
 
 void print_changes(const char* title, const Comparison& comparison, ChangeVerdict verdict) {
   if (count(comparison, verdict) == 0) return;
@@ -39,15 +35,15 @@ void print_comparison(const Comparison& comparison) {
 
 int compare_command(const CompareArguments& arguments) {
   const auto before = read_results(arguments.before);
-  if (!before) return bad_input(before.error());
+  if (!before) return bad_input("compare", before.error());
   const auto after = read_results(arguments.after);
-  if (!after) return bad_input(after.error());
+  if (!after) return bad_input("compare", after.error());
   const Comparison comparison = compare(*before, *after);
   print_comparison(comparison);
   if (!arguments.out.empty()) {
     const auto written =
         write_comparison(comparison, arguments.before, arguments.after, arguments.out);
-    if (!written) return bad_input(written.error());
+    if (!written) return bad_input("compare", written.error());
   }
   const bool worse = count(comparison, ChangeVerdict::kWorse) > 0;
   return arguments.fail_on_worse && worse ? kGateFailed : kOk;

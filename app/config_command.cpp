@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/options.hpp"
 #include "harness/scenario.hpp"
 
 namespace aims {
@@ -45,9 +46,7 @@ void add_config_command(CLI::App& app, const std::filesystem::path& scenario_fol
   auto arguments = std::make_shared<ConfigArguments>();
   command->add_option("scenario", arguments->scenario,
                       "Scenario file or name; the defaults alone when absent");
-  command->add_option("--set", arguments->overrides, "key=value on top of the scenario")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(*command, "--set", arguments->overrides, "key=value on top of the scenario");
   command->add_flag("--plain", arguments->plain, "Values only: a YAML file that loads as it is");
   command->footer("Example: aims config corridor --set lidar.range_max=30");
   command->callback([arguments, scenario_folder, &exit_code] {

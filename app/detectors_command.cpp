@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
+#include "app/options.hpp"
 #include "harness/detector_report.hpp"
 #include "harness/detectors.hpp"
 #include "harness/seeds.hpp"
@@ -26,7 +25,7 @@ struct DetectorArguments {
   std::string estimator = "aims";
   std::vector<std::string> overrides;
   std::string out = "out/detectors";
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int jobs = default_jobs();
   bool overwrite = false;
   bool quiet = false;
 };
@@ -92,12 +91,9 @@ void add_detectors_command(CLI::App& app, const fs::path& scenario_folder, int& 
       ->required();
   command->add_option("--seeds,--seed", arguments->seeds, "Seeds of each scenario (1-5)");
   command->add_option("--estimator", arguments->estimator, "Whose indices (aims)");
-  command->add_option("--set", arguments->overrides, "key=value on top of each scenario")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(*command, "--set", arguments->overrides, "key=value on top of each scenario");
   command->add_option("--out", arguments->out, "Folder for the results (out/detectors)");
-  command->add_option("--jobs", arguments->jobs, "Runs at a time; the results do not depend on it")
-      ->check(CLI::Range(1, 256));
+  add_jobs_option(*command, arguments->jobs, "Runs at a time; the results do not depend on it");
   command->add_flag("--overwrite", arguments->overwrite, "Replace results that exist");
   command->add_flag("--quiet", arguments->quiet, "No progress, the table alone");
   command->footer(

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
+#include "app/options.hpp"
 #include "app/progress_display.hpp"
 #include "harness/estimate.hpp"
 #include "harness/estimate_report.hpp"
@@ -28,7 +27,7 @@ struct EstimateArguments {
   std::vector<std::string> topics;
   std::vector<std::string> overrides;
   std::string out;
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int jobs = default_jobs();
   bool recover = false;
   bool overwrite = false;
   bool quiet = false;
@@ -69,16 +68,11 @@ void print_report(const EstimateResult& result, const fs::path& folder,
   for (const fs::path& picture : pictures_in(folder)) fmt::print("  {}\n", picture.string());
 }
 
-int bad_input(const Error& error) {
-  fmt::print(stderr, "aims estimate: {}\n", error.message);
-  return kBadInput;
-}
-
 int estimate_command(const EstimateArguments& arguments) {
   const auto config = config_of(arguments);
-  if (!config) return bad_input(config.error());
+  if (!config) return bad_input("estimate", config.error());
   auto folder = OutputFolder::create(folder_of(arguments), arguments.overwrite);
-  if (!folder) return bad_input(folder.error());
+  if (!folder) return bad_input("estimate", folder.error());
 
   watch_interrupt();
   ProgressDisplay display(arguments.bag, arguments.quiet, "read");
@@ -88,19 +82,19 @@ int estimate_command(const EstimateArguments& arguments) {
     return !interrupted();
   });
   display.close();
-  if (!result) return bad_input(result.error());
+  if (!result) return bad_input("estimate", result.error());
 
   if (auto ok = write_estimate(*config, *result, folder->path()); !ok) {
-    return bad_input(ok.error());
+    return bad_input("estimate", ok.error());
   }
   std::vector<std::string> warnings;
   if (!arguments.no_pictures) {
     const auto drawn = draw_estimate(*result, folder->path());
     if (!drawn) warnings.push_back(drawn.error().message);
   }
-  if (auto ok = folder->commit(); !ok) return bad_input(ok.error());
+  if (auto ok = folder->commit(); !ok) return bad_input("estimate", ok.error());
   print_report(*result, folder->final_path(), warnings);
-  if (result->broken) return bad_input(*result->broken);
+  if (result->broken) return bad_input("estimate", *result->broken);
   return result->complete ? kOk : kInterrupted;
 }
 
@@ -121,12 +115,9 @@ void add_estimate_command(CLI::App& app, int& exit_code) {
       ->delimiter(',');
   command->add_option("--config", arguments->config,
                       "YAML file with recording, estimator, scoring");
-  command->add_option("--set", arguments->overrides, "key=value on top; repeatable")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(*command, "--set", arguments->overrides, "key=value on top; repeatable");
   command->add_option("--out", arguments->out, "Folder for the results (out/NAME-estimate)");
-  command->add_option("--jobs", arguments->jobs, "Threads; the trajectories do not depend on it")
-      ->check(CLI::Range(1, 256));
+  add_jobs_option(*command, arguments->jobs, "Threads; the trajectories do not depend on it");
   command->add_flag("--recover", arguments->recover, "Read what is whole in a broken bag");
   command->add_flag("--overwrite", arguments->overwrite, "Replace results that exist");
   command->add_flag("--quiet", arguments->quiet, "No progress, the table alone");

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
+#include "app/options.hpp"
 #include "app/progress_display.hpp"
 #include "harness/experiment.hpp"
 #include "harness/pictures.hpp"
@@ -27,7 +26,7 @@ struct RunArguments {
   std::vector<std::string> estimators;
   std::vector<std::string> overrides;
   std::string out;
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int jobs = default_jobs();
   bool overwrite = false;
   bool quiet = false;
   bool no_pictures = false;
@@ -92,16 +91,11 @@ int exit_code_of(const Experiment& experiment) {
   return experiment.failures.empty() ? kOk : kGateFailed;
 }
 
-int bad_input(const Error& error) {
-  fmt::print(stderr, "aims run: {}\n", error.message);
-  return kBadInput;
-}
-
 int run_command(const RunArguments& arguments, const fs::path& folder) {
   const auto scenario = scenario_of(arguments, folder);
-  if (!scenario) return bad_input(scenario.error());
+  if (!scenario) return bad_input("run", scenario.error());
   const auto options = options_of(arguments, *scenario);
-  if (!options) return bad_input(options.error());
+  if (!options) return bad_input("run", options.error());
 
   watch_interrupt();
   ProgressDisplay display(scenario->name, arguments.quiet);
@@ -111,7 +105,7 @@ int run_command(const RunArguments& arguments, const fs::path& folder) {
         return !interrupted();
       });
   display.close();
-  if (!experiment) return bad_input(experiment.error());
+  if (!experiment) return bad_input("run", experiment.error());
   print_report(*scenario, *experiment);
   return exit_code_of(*experiment);
 }
@@ -127,12 +121,10 @@ void add_run_command(CLI::App& app, const fs::path& scenario_folder, int& exit_c
   command->add_option("--seed", arguments->seeds, "Seed, range or list: 3, 1-5, 1,4,7-9");
   command->add_option("--estimators", arguments->estimators, "Estimators to run, e.g. aims,lio")
       ->delimiter(',');
-  command->add_option("--set", arguments->overrides, "key=value on top of the scenario; repeatable")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(*command, "--set", arguments->overrides,
+                 "key=value on top of the scenario; repeatable");
   command->add_option("--out", arguments->out, "Folder for the results (out/SCENARIO-seed-N)");
-  command->add_option("--jobs", arguments->jobs, "Threads; the results do not depend on it")
-      ->check(CLI::Range(1, 256));
+  add_jobs_option(*command, arguments->jobs, "Threads; the results do not depend on it");
   command->add_flag("--overwrite", arguments->overwrite, "Replace results that exist");
   command->add_flag("--quiet", arguments->quiet, "No progress, the table alone");
   command->add_flag("--no-pictures", arguments->no_pictures, "Draw nothing");

@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/options.hpp"
 #include "harness/pictures.hpp"
 #include "harness/scoring_input.hpp"
 #include "harness/trajectory_report.hpp"
@@ -20,11 +21,6 @@ struct ScoreArguments {
   bool no_pictures = false;
 };
 
-int bad_input(const Error& error) {
-  fmt::print(stderr, "aims score: {}\n", error.message);
-  return kBadInput;
-}
-
 void print_report(const TrajectoryScores& scores, const TrajectoryReport& report) {
   fmt::print("{}\n{}\n{}", to_text(trajectory_source_table(scores)),
              to_text(trajectory_score_table(scores)), score_legend(scores));
@@ -36,25 +32,21 @@ void print_report(const TrajectoryScores& scores, const TrajectoryReport& report
 
 int score_command(const ScoreArguments& arguments) {
   auto input = read_scoring_input(arguments.request);
-  if (!input) return bad_input(input.error());
+  if (!input) return bad_input("score", input.error());
   const auto scores = score_trajectories(std::move(*input));
-  if (!scores) return bad_input(scores.error());
+  if (!scores) return bad_input("score", scores.error());
   const auto report = write_trajectory_report(
       *scores, {arguments.out, arguments.overwrite, !arguments.no_pictures});
-  if (!report) return bad_input(report.error());
+  if (!report) return bad_input("score", report.error());
   print_report(*scores, *report);
   return kOk;
 }
 
 void add_inputs(CLI::App& command, ScoringRequest& request) {
   command.add_option("--truth", request.truth, "True trajectory")->required();
-  command.add_option("--estimate", request.estimates, "Estimated trajectory; repeatable")
-      ->required()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_option("--name", request.names, "Name of each estimate, in their order")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(command, "--estimate", request.estimates, "Estimated trajectory; repeatable")
+      ->required();
+  add_repeatable(command, "--name", request.names, "Name of each estimate, in their order");
   command.add_option("--times", request.times, "Stamps of KITTI poses, one in seconds a line");
   command.add_option("--time-offset", request.time_offset_s,
                      "Seconds added to the stamps of the estimates");
@@ -70,9 +62,7 @@ void add_settings(CLI::App& command, ScoringRequest& request) {
                      "Ways that have an M_list: a-b=12.5:110.2 in seconds of the truth's stamps, "
                      "or a-d between passages; several with commas");
   command.add_option("--config", request.config, "YAML whose group 'scoring' counts");
-  command.add_option("--set", request.overrides, "scoring.key=value; repeatable")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(command, "--set", request.overrides, "scoring.key=value; repeatable");
 }
 
 }  // namespace

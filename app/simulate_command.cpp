@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
+#include "app/options.hpp"
 #include "app/progress_display.hpp"
 #include "harness/record.hpp"
 #include "harness/seeds.hpp"
@@ -71,16 +72,11 @@ void print_report(const RecordOutcome& outcome, const RecordOptions& options) {
   if (!outcome.complete) fmt::print("interrupted: the bag holds what was walked until then\n");
 }
 
-int bad_input(const Error& error) {
-  fmt::print(stderr, "aims simulate: {}\n", error.message);
-  return kBadInput;
-}
-
 int simulate_command(const SimulateArguments& arguments, const fs::path& folder) {
   const auto scenario = scenario_of(arguments, folder);
-  if (!scenario) return bad_input(scenario.error());
+  if (!scenario) return bad_input("simulate", scenario.error());
   const auto options = options_of(arguments, *scenario);
-  if (!options) return bad_input(options.error());
+  if (!options) return bad_input("simulate", options.error());
   watch_interrupt();
   ProgressDisplay display(scenario->name, arguments.quiet);
   const auto outcome = record(*scenario, *options, [&](const Progress& progress) {
@@ -88,7 +84,7 @@ int simulate_command(const SimulateArguments& arguments, const fs::path& folder)
     return !interrupted();
   });
   display.close();
-  if (!outcome) return bad_input(outcome.error());
+  if (!outcome) return bad_input("simulate", outcome.error());
   print_report(*outcome, *options);
   return outcome->complete ? kOk : kInterrupted;
 }
@@ -102,9 +98,8 @@ void add_simulate_command(CLI::App& app, const fs::path& scenario_folder, int& e
       ->required();
   command->add_option("-o,--out", arguments->out, "Bag to write, e.g. walk.bag")->required();
   command->add_option("--seed", arguments->seed, "Seed of the walk (the scenario's)");
-  command->add_option("--set", arguments->overrides, "key=value on top of the scenario; repeatable")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(*command, "--set", arguments->overrides,
+                 "key=value on top of the scenario; repeatable");
   command
       ->add_option("--fast-imu", arguments->fast_imu,
                    "Rate [Hz] of a second IMU topic, e.g. 200 (none)")

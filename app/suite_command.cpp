@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
+#include "app/options.hpp"
 #include "harness/families.hpp"
 #include "harness/seeds.hpp"
 #include "harness/suite.hpp"
@@ -30,7 +30,7 @@ struct SuiteArguments {
   std::vector<std::string> estimators;
   std::vector<std::string> overrides;
   std::string out = "out/suite";
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int jobs = default_jobs();
   bool trajectories = false;
   bool quiet = false;
 };
@@ -124,11 +124,6 @@ int exit_code_of(const Suite& suite) {
   return hold ? kOk : kGateFailed;
 }
 
-int bad_input(const Error& error) {
-  fmt::print(stderr, "aims suite: {}\n", error.message);
-  return kBadInput;
-}
-
 int suite_command(const SuiteArguments& arguments) {
   SuiteOptions options;
   options.out = arguments.out;
@@ -136,13 +131,13 @@ int suite_command(const SuiteArguments& arguments) {
   options.trajectories = arguments.trajectories;
   if (!arguments.seeds.empty()) {
     auto seeds = parse_seeds(arguments.seeds);
-    if (!seeds) return bad_input(seeds.error());
+    if (!seeds) return bad_input("suite", seeds.error());
     options.seeds = std::move(*seeds);
   }
   auto scenarios = scenarios_of(arguments);
-  if (!scenarios) return bad_input(scenarios.error());
+  if (!scenarios) return bad_input("suite", scenarios.error());
   if (scenarios->empty()) {
-    return bad_input({fmt::format("{}: holds no scenario", arguments.folder)});
+    return bad_input("suite", {fmt::format("{}: holds no scenario", arguments.folder)});
   }
   watch_interrupt();
   auto display = std::make_unique<SuiteDisplay>(arguments.quiet);
@@ -151,7 +146,7 @@ int suite_command(const SuiteArguments& arguments) {
     return !interrupted();
   });
   display.reset();
-  if (!suite) return bad_input(suite.error());
+  if (!suite) return bad_input("suite", suite.error());
   print_report(*suite, options.out);
   return exit_code_of(*suite);
 }
@@ -175,12 +170,9 @@ void add_suite_command(CLI::App& app, const fs::path& scenario_folder, int& exit
                       "Range or list: 1-10, 1,4,7-9; each scenario's own when absent");
   command->add_option("--estimators", arguments->estimators, "Instead of each scenario's own")
       ->delimiter(',');
-  command->add_option("--set", arguments->overrides, "key=value on top of every scenario")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeatable(*command, "--set", arguments->overrides, "key=value on top of every scenario");
   command->add_option("--out", arguments->out, "Folder that is filled or continued (out/suite)");
-  command->add_option("--jobs", arguments->jobs, "Runs at a time; the results do not depend on it")
-      ->check(CLI::Range(1, 256));
+  add_jobs_option(*command, arguments->jobs, "Runs at a time; the results do not depend on it");
   command->add_flag("--trajectories", arguments->trajectories,
                     "Keep trajectories and diagnostics of each run");
   command->add_flag("--quiet", arguments->quiet, "No progress");
