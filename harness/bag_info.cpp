@@ -13,6 +13,7 @@
 #include "io/recording/cloud_survey.hpp"
 #include "io/recording/message_values.hpp"
 #include "io/recording/recording_reader.hpp"
+#include "io/recording/topic_choice.hpp"
 #include "io/ros/message_decoder.hpp"
 
 namespace aims {
@@ -34,7 +35,7 @@ class Survey {
     if (!frames_.contains(connection.topic)) {
       frames_[connection.topic] = std::string(view->text("header.frame_id").value_or(""));
     }
-    if (connection.type == "sensor_msgs/PointCloud2" || connection.type.ends_with("/CustomMsg")) {
+    if (is_cloud_type(connection.type)) {
       clouds_.try_emplace(connection.topic, connection.topic).first->second.add(*view);
     } else if (connection.type == "sensor_msgs/Imu") {
       imus_.try_emplace(connection.topic, connection.topic)

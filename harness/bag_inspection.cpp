@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/recording/gravity_unit.hpp"
 #include "io/recording/median.hpp"
 #include "io/recording/message_values.hpp"
 #include "io/recording/point_table.hpp"
@@ -13,8 +14,7 @@ namespace aims {
 namespace {
 
 constexpr std::uint64_t kCloudsLookedAt = 20;
-constexpr double kStandardGravity = 9.80665;  ///< [m/s^2]
-constexpr std::size_t kUnitSamples = 100;     ///< of an IMU, to tell its unit
+constexpr std::size_t kUnitSamples = 100;  ///< of an IMU, to tell its unit
 
 std::string name_of(NumberType type) {
   constexpr std::string_view kNames[] = {"int8",   "uint8", "int16",  "uint16",  "int32",
@@ -84,8 +84,8 @@ ImuInfo ImuInspection::finish() {
 void ImuInspection::settle_unit() {
   std::vector<double> norms;
   for (const ImuSample& each : first_) norms.push_back(each.specific_force.norm());
-  const double usual = median(norms).value_or(kStandardGravity);
-  info_.in_g = usual > 0.5 && usual < 2.0;
+  const double usual = upper_median(norms).value_or(kStandardGravity);
+  info_.in_g = is_in_gravities(usual);
   unit_known_ = true;
   for (const ImuSample& each : first_) add_in_si(each);
   first_.clear();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/recording/topic_choice.hpp"
+
 namespace aims {
 namespace {
 
@@ -20,7 +22,7 @@ constexpr double kOddForce = 0.3;              ///< of a resting accelerometer f
 constexpr double kSlowImu = 100.0;             ///< [Hz]
 
 bool is_sensor(const TopicInfo& topic) {
-  return topic.type.starts_with("sensor_msgs/") || topic.type.ends_with("/CustomMsg") ||
+  return topic.type.starts_with("sensor_msgs/") || is_cloud_type(topic.type) ||
          topic.type == "nav_msgs/Odometry" || topic.type == "geometry_msgs/TwistStamped";
 }
 

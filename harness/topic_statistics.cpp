@@ -52,13 +52,13 @@ void TopicStatistics::finish(TopicInfo& info) {
   info.backwards = backwards_;
   info.first_stamp = first_;
   info.last_stamp = last_;
-  if (const auto usual = median(spacings_s_); usual && *usual > 0.0) {
+  if (const auto usual = upper_median(spacings_s_); usual && *usual > 0.0) {
     info.rate_hz = 1.0 / *usual;
     info.largest_gap_s = largest_gap_s_;
     info.loss = loss_of(spacings_s_, *usual);
   }
   if (offsets_s_.empty()) return;
-  info.median_offset_s = median(offsets_s_);
+  info.median_offset_s = upper_median(offsets_s_);
   const auto [smallest, largest] = std::minmax_element(offsets_s_.begin(), offsets_s_.end());
   info.smallest_offset_s = *smallest;
   info.largest_offset_s = *largest;

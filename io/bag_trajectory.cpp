@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/bag/bag_reader.hpp"
+#include "io/recording/message_values.hpp"
 #include "io/ros/message_decoder.hpp"
 
 namespace aims {
@@ -94,26 +95,15 @@ Result<std::string> choose_topic(const BagReader& bag, const std::string& given,
       name, bag.file().filename().string(), fitting.front(), listed(bag.connections(), true)));
 }
 
-std::optional<Eigen::Vector3d> vector_at(const MessageView& view, const std::string& path) {
-  const auto x = view.number(path + ".x");
-  const auto y = view.number(path + ".y");
-  const auto z = view.number(path + ".z");
-  if (!x || !y || !z) return std::nullopt;
-  return Eigen::Vector3d(*x, *y, *z);
-}
-
 /// A pose whose norm is one within rounding of float32 is normalized; others stay as they are.
 std::optional<StampedPose> pose_in(const MessageView& view, const PoseLayout& layout) {
   const auto stamp = view.time("header.stamp");
-  const auto position = vector_at(view, std::string(layout.position));
-  const std::string rotation(layout.rotation);
-  const auto q = vector_at(view, rotation);
-  const auto w = view.number(rotation + ".w");
-  if (!stamp || !position || !q || !w) return std::nullopt;
-  Eigen::Quaterniond quaternion(*w, q->x(), q->y(), q->z());
-  const double off = std::abs(quaternion.norm() - 1.0);
-  if (off > 1e-14 && off < 1e-3) quaternion.normalize();
-  return StampedPose{*stamp, {quaternion, *position}};
+  const auto position = vector_at(view, layout.position);
+  auto rotation = quaternion_at(view, layout.rotation);
+  if (!stamp || !position || !rotation) return std::nullopt;
+  const double off = std::abs(rotation->norm() - 1.0);
+  if (off > 1e-14 && off < 1e-3) rotation->normalize();
+  return StampedPose{*stamp, {*rotation, *position}};
 }
 
 /// Reads the messages of one topic, each by the definition of its own connection.

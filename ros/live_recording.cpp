@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <memory>
 #include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "harness/stopwatch.hpp"
 #include "ros/live_source.hpp"
 
 namespace aims {
@@ -25,17 +25,6 @@ constexpr Duration kKept = 10 * kSecond;  ///< of what is gathered, however long
 constexpr std::array<std::string_view, 6> kIgnoredTypes = {
     "sensor_msgs/Image", "sensor_msgs/CompressedImage", "stereo_msgs/DisparityImage",
     "rosgraph_msgs/Log", "rosgraph_msgs/Clock",         "visualization_msgs/MarkerArray"};
-
-class Timer {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  void restart() { start_ = std::chrono::steady_clock::now(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Collects what comes on all topics, at most `kKept` of it, and latched messages for ever.
 class Gathering {
@@ -51,7 +40,7 @@ class Gathering {
         transport_.subscribe(topic);
       }
     }
-    const Timer timer;
+    const Stopwatch timer;
     while (timer.seconds() < kPoll) {
       // Time 0: a simulated clock that has not begun.
       if (auto message = transport_.wait(kPoll); message && message->arrival > 0) {
@@ -110,8 +99,8 @@ Result<RecordingReader> open_live_recording(
     RosTransport& transport, const RecordingConfig& config, const LiveRecordingOptions& options,
     const EnoughFound& enough, const std::function<void(const std::string&)>& waiting) {
   Gathering gathering(transport);
-  const Timer since_start;
-  Timer since_complaint;
+  const Stopwatch since_start;
+  Stopwatch since_complaint;
   std::string missing = "no messages yet";
   while (transport.running()) {
     gathering.collect();
@@ -127,7 +116,7 @@ Result<RecordingReader> open_live_recording(
     }
     if (since_complaint.seconds() < kComplainEvery) continue;
     waiting(missing);
-    since_complaint.restart();
+    since_complaint = Stopwatch();
   }
   return failure(fmt::format("ended before it began: {}", missing));
 }

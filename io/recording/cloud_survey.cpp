@@ -106,7 +106,7 @@ std::optional<double> CloudSurvey::median_first(std::size_t field) const {
       all.push_back(cloud.ranges[field]->first);
     }
   }
-  return median(all);
+  return upper_median(all);
 }
 
 /// Whether that field holds times that pass with the sweep; if so, how to read them.
@@ -117,7 +117,7 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
     if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
     spans.push_back(cloud.ranges[field]->last - cloud.ranges[field]->first);
   }
-  const std::optional<double> span = median(spans);
+  const std::optional<double> span = upper_median(spans);
   if (!span || !(*span > 0.0)) return false;
   std::optional<double> unit = time_unit(*span, about);
   for (const Unit& each : kUnits) {
@@ -138,7 +138,7 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
   const bool from_stamp = std::abs(first) < kOtherOrigin;
   const bool has_base = std::any_of(clouds_.begin(), clouds_.end(),
                                     [](const Cloud& cloud) { return cloud.time_base.has_value(); });
-  const bool same_clock = std::abs(*median(behind)) < static_cast<double>(kLongestSweep);
+  const bool same_clock = std::abs(*upper_median(behind)) < static_cast<double>(kLongestSweep);
   if (has_base) {
     reading.clock = same_clock ? PointClock::kEpoch : PointClock::kStamp;
   } else if (!from_stamp) {
@@ -150,7 +150,8 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
 void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& reading,
                                std::vector<std::string>& notes) const {
   const Duration fallback = from_seconds(1.0 / config.lidar_rate);
-  const Duration about = std::min(median(spacings(stamps())).value_or(fallback), kLongestSweep);
+  const Duration about =
+      std::min(upper_median(spacings(stamps())).value_or(fallback), kLongestSweep);
   std::optional<Duration> span;
   for (std::size_t field = 0; field < time_fields_.size(); ++field) {
     if (!decide_clock(config, field, about, reading)) {
@@ -165,7 +166,7 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
       const auto length = point_time(range.last - range.first, reading.time_unit);
       if (length && *length > 0 && *length <= kLongestSweep) spans.push_back(*length);
     }
-    span = median(spans);
+    span = upper_median(spans);
     break;
   }
   const std::optional<Duration> period = sweep_period(stamps(), span);
@@ -215,8 +216,8 @@ void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& read
       firsts.push_back(first);
     }
   }
-  const double first = median(firsts).value_or(0.0);
-  const double latency = median(latencies).value_or(period);
+  const double first = upper_median(firsts).value_or(0.0);
+  const double latency = upper_median(latencies).value_or(period);
   // A cloud cannot arrive before its sweep is over. Exactly at its stamp: not an arrival at all.
   const bool too_early = latency < 0.5 * period && latency > -0.5 * period && latency != 0.0;
   const bool to_stamp = reading.clock == PointClock::kStamp || reading.clock == PointClock::kEpoch;

@@ -9,7 +9,7 @@ namespace aims {
 
 /// The upper median, or nothing of no values.
 template <class Value>
-std::optional<Value> median(std::vector<Value> values) {
+std::optional<Value> upper_median(std::vector<Value> values) {
   if (values.empty()) return std::nullopt;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

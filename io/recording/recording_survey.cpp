@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/recording/gravity_unit.hpp"
 #include "io/recording/median.hpp"
 #include "io/recording/sweep_period.hpp"
 
@@ -13,7 +14,6 @@ namespace aims {
 namespace {
 
 constexpr std::size_t kMostSamples = 2000;
-constexpr double kStandardGravity = 9.80665;
 constexpr double kFastestRobot = 35.0;  ///< where gyros of 2000 deg/s saturate [rad/s]
 /// Clocks of sensors and recorder that differ by more are different clocks.
 constexpr Duration kSameClock = 5 * kSecond;
@@ -129,7 +129,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
       notes.push_back(fmt::format("{}: stamps are all zero, record times are taken", topic));
       continue;
     }
-    const Duration latency = *median(seen_[i].latencies);
+    const Duration latency = *upper_median(seen_[i].latencies);
     if (role == Role::kImu) imu = latency;
     if (role == Role::kLidar) lidar = latency;
     const std::optional<Duration> first = imu ? imu : lidar;
@@ -150,10 +150,10 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
 void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
   std::vector<std::string>& notes = plan.setup.notes;
   plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
-  const double force = median(forces_).value_or(0.0);
+  const double force = upper_median(forces_).value_or(0.0);
   bool gravities = config_.imu_unit == ImuUnit::kGravities;
   if (config_.imu_unit == ImuUnit::kAuto && !forces_.empty()) {
-    gravities = force > 0.5 && force < 2.0;
+    gravities = is_in_gravities(force);
     if (!gravities && (force < 5.0 || force > 15.0)) {
       notes.push_back(
           fmt::format("specific force of {:.3g} at the start is neither gravity in m/s^2 "

@@ -49,7 +49,7 @@ std::optional<Duration> sweep_period(std::vector<Time> stamps, std::optional<Dur
   std::vector<Duration> each;
   for (const auto& [period, times] : periods) each.insert(each.end(), times, period);
   // Stamps that jitter: how long points fire tells the period better, if it is near.
-  const Duration usual = *median(each);
+  const Duration usual = *upper_median(each);
   const Duration fired = whole_rate(span.value_or(usual));
   return std::abs(fired - usual) <= usual / 4 ? fired : whole_rate(usual);
 }
@@ -77,7 +77,7 @@ std::optional<double> sample_rate(std::vector<Time> stamps) {
   const auto most = std::max_element(times.begin(), times.end(),
                                      [](auto& a, auto& b) { return a.second < b.second; });
   if (3 * most->second >= between.size()) return 1.0 / to_seconds(most->first);
-  const Duration usual = *median(between);
+  const Duration usual = *upper_median(between);
   const auto near = std::count_if(between.begin(), between.end(), [&](Duration each) {
     return std::abs(each - usual) < usual / 10;
   });

@@ -21,9 +21,7 @@ bool holds(std::string_view text, std::string_view part) {
          }) != text.end();
 }
 
-bool is_cloud(const BagConnection& c) {
-  return c.type == "sensor_msgs/PointCloud2" || c.type.ends_with("/CustomMsg");
-}
+bool is_cloud(const BagConnection& c) { return is_cloud_type(c.type); }
 bool is_imu(const BagConnection& c) { return c.type == "sensor_msgs/Imu"; }
 bool is_odometry(const BagConnection& c) { return c.type == "nav_msgs/Odometry"; }
 bool is_twist(const BagConnection& c) {
@@ -160,6 +158,10 @@ Result<std::string> beside(const Chooser& chooser, const Wish& wish, const std::
 }
 
 }  // namespace
+
+bool is_cloud_type(std::string_view type) {
+  return type == "sensor_msgs/PointCloud2" || type.ends_with("/CustomMsg");
+}
 
 std::string_view type_of(std::span<const BagConnection> connections, std::string_view topic) {
   const auto at = std::find_if(connections.begin(), connections.end(),

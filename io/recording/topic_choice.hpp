@@ -13,6 +13,9 @@
 
 namespace aims {
 
+/// Whether messages of that type are clouds that can be read: PointCloud2 or livox CustomMsg.
+bool is_cloud_type(std::string_view type);
+
 /// The topics that a recording is read from; empty where it has none or none is wanted. Errors name
 /// the file and list the topics that exist: for a missing topic, one of a wrong type, or several of
 /// a fitting type.
