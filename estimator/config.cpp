@@ -159,6 +159,7 @@ void describe(Fields& f, EstimatorConfig& c) {
   f.group("lidar", c.lidar);
   f.group("map", c.map);
   f.group("degeneracy", c.degeneracy);
+  f.group("directional", c.directional);
   f.group("queue", c.queue);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/config.hpp"
 #include "core/measurements.hpp"
+#include "estimator/directional_config.hpp"
 
 namespace aims {
 
@@ -108,9 +109,10 @@ struct QueueConfig {
 
 /// What tells the members of the family apart; everything else they share.
 struct FamilyMember {
-  bool leg = true;         ///< fuse leg odometry
-  bool hold_lost = false;  ///< repeat the last leg measurement where packets are missing
-  bool adaptive = true;    ///< false: gamma = 1, and the index is only recorded
+  bool leg = true;           ///< fuse leg odometry
+  bool hold_lost = false;    ///< repeat the last leg measurement where packets are missing
+  bool adaptive = true;      ///< false: gamma = 1, and the index is only recorded
+  bool directional = false;  ///< use `EstimatorConfig::directional`
 };
 
 /// Everything that the members of the family can be told.
@@ -121,6 +123,7 @@ struct EstimatorConfig {
   LidarUpdateConfig lidar;
   MapConfig map;
   DegeneracyConfig degeneracy;
+  DirectionalConfig directional;
   QueueConfig queue;
 };
 

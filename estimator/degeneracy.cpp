@@ -29,7 +29,7 @@ double consistency(const Vector6& innovation, const Matrix6& predicted_covarianc
   return std::isfinite(c) ? std::max(c, 0.0) : 0.0;
 }
 
-double consistency_full(const Vector15& innovation, const Matrix15& predicted_information) {
+double consistency_full(const ErrorVector& innovation, const ErrorMatrix& predicted_information) {
   const double c = innovation.dot(predicted_information * innovation);  // eq. (6)
   return std::isfinite(c) ? std::max(c, 0.0) : 0.0;
 }

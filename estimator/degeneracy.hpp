@@ -24,7 +24,7 @@ double effective_observability(double residual_variance, double sigma_0);
 double consistency(const Vector6& innovation, const Matrix6& predicted_covariance);
 
 /// C_IL, eq. (6), over the whole error state (15-D), given the inverse of the covariance.
-double consistency_full(const Vector15& innovation, const Matrix15& predicted_information);
+double consistency_full(const ErrorVector& innovation, const ErrorMatrix& predicted_information);
 
 /// D_k, eq. (7), in [0, 1]: 0 = healthy, 1 = degenerate.
 double degeneracy_severity(double O_lidar, double C_IL, const DegeneracyConfig& config);

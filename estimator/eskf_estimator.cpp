@@ -5,6 +5,7 @@
 #include "estimator/imu_propagation.hpp"
 #include "estimator/initialization.hpp"
 #include "estimator/leg_displacement_model.hpp"
+#include "estimator/leg_states.hpp"
 #include "estimator/leg_velocity_model.hpp"
 
 namespace aims {
@@ -57,6 +58,7 @@ bool EskfEstimator::start() {
   if (!initial) return false;
   if (!initial->stood_still) ++report_.counts["start.moving"];
   belief_ = initial->belief;
+  if (member_.directional) belief_ = open_leg_states(belief_, config_.directional.leg_states);
   time_ = initial->stamp;
   started_ = true;
   renew_clone();
@@ -132,7 +134,7 @@ void EskfEstimator::fuse_leg_displacement() {
   // eq. (11): R_leg' = R_leg / gamma_leg.
   const Eigen::Matrix3d noise =
       leg_displacement_noise(config_.leg, *measured) / lidar_update_.gamma_leg();
-  const Matrix15 prior_information = inverse_spd(belief_.covariance);
+  const ErrorMatrix prior_information = inverse_spd(belief_.covariance);
   const LinearMeasurement measurement =
       marginalise_clone(leg_displacement_model(clone_->T_odom_body, belief_.state, rig_.T_body_base,
                                                measured->translation, noise),
@@ -187,6 +189,9 @@ void EskfEstimator::predict_to(Time stamp) {
       clone_ = propagate_clone(*clone_, propagation_jacobian(before, segment, dt));
     }
     if (!segment.measured) ++report_.counts["imu.bridged"];
+  }
+  if (member_.directional) {
+    walk_leg_states(belief_, config_.directional.leg_states, to_seconds(stamp - time_));
   }
   time_ = stamp;
   queue_.imu().forget_before(stamp - kSecond);

@@ -39,13 +39,13 @@ NominalState propagate_state(const NominalState& state, const InertialSegment& s
   return next;
 }
 
-Matrix15 propagation_jacobian(const NominalState& state, const InertialSegment& segment,
-                              double dt) {
+ErrorMatrix propagation_jacobian(const NominalState& state, const InertialSegment& segment,
+                                 double dt) {
   using E = ErrorState;
   const Increment step = increment(state, segment, dt);
   const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
   const Eigen::Matrix3d force = hat(step.force);
-  Matrix15 F = Matrix15::Identity();
+  ErrorMatrix F = ErrorMatrix::Identity();
   block(F, E::kRotation, E::kRotation) = so3_exp(-step.angle).toRotationMatrix();
   block(F, E::kRotation, E::kGyroBias) = -so3_right_jacobian(step.angle) * dt;
   block(F, E::kVelocity, E::kRotation) = -R * hat(step.velocity);
@@ -58,14 +58,14 @@ Matrix15 propagation_jacobian(const NominalState& state, const InertialSegment& 
   return F;
 }
 
-Matrix15 propagation_noise(const ImuPropagationConfig& config, bool measured, double dt) {
+ErrorMatrix propagation_noise(const ImuPropagationConfig& config, bool measured, double dt) {
   using E = ErrorState;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const double gyro = measured ? config.gyro_noise : config.bridge_gyro_noise;
   const double force = measured ? config.accelerometer_noise : config.bridge_accelerometer_noise;
   const double gyro_density = gyro * gyro;
   const double force_density = force * force;
-  Matrix15 Q = Matrix15::Zero();
+  ErrorMatrix Q = ErrorMatrix::Zero();
   block(Q, E::kRotation, E::kRotation) = I * (gyro_density * dt);
   block(Q, E::kVelocity, E::kVelocity) = I * (force_density * dt);
   block(Q, E::kPosition, E::kPosition) = I * (force_density * dt * dt * dt / 3.0);
@@ -79,8 +79,8 @@ Matrix15 propagation_noise(const ImuPropagationConfig& config, bool measured, do
 
 Belief propagate(const Belief& belief, const InertialSegment& segment, double dt,
                  const ImuPropagationConfig& config) {
-  const Matrix15 F = propagation_jacobian(belief.state, segment, dt);
-  const Matrix15 covariance =
+  const ErrorMatrix F = propagation_jacobian(belief.state, segment, dt);
+  const ErrorMatrix covariance =
       F * belief.covariance * F.transpose() + propagation_noise(config, segment.measured, dt);
   return {propagate_state(belief.state, segment, dt, config.gravity),
           0.5 * (covariance + covariance.transpose())};

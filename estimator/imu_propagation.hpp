@@ -23,11 +23,12 @@ NominalState propagate_state(const NominalState& state, const InertialSegment& s
                              double gravity);
 
 /// Jacobian F of the error after `dt` in the error before it.
-Matrix15 propagation_jacobian(const NominalState& state, const InertialSegment& segment, double dt);
+ErrorMatrix propagation_jacobian(const NominalState& state, const InertialSegment& segment,
+                                 double dt);
 
 /// Covariance that `dt` [s] of inertial noise and bias walk add; isotropic, so that it
 /// is the same in body and odometry axes.
-Matrix15 propagation_noise(const ImuPropagationConfig& config, bool measured, double dt);
+ErrorMatrix propagation_noise(const ImuPropagationConfig& config, bool measured, double dt);
 
 /// The belief `dt` [s] later.
 Belief propagate(const Belief& belief, const InertialSegment& segment, double dt,

@@ -9,6 +9,9 @@ namespace {
 /// Fewer standing samples than this say nothing about biases.
 constexpr int kFewestSamples = 5;
 
+/// Variance of a state that is taken as known, and yet leaves the covariance invertible.
+constexpr double kKnown = 1e-16;
+
 struct Standing {
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();   ///< mean [rad/s]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< mean [m/s^2]
@@ -60,14 +63,14 @@ Eigen::Quaterniond level(const Eigen::Vector3d& force) {
   return (yaw_rotation(-yaw_of(tilt)) * tilt).normalized();
 }
 
-Matrix15 initial_covariance(const InitializationConfig& config, bool stood_still) {
+ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_still) {
   using E = ErrorState;
   // Without standing the start is little known: ten times the deviations, and any velocity.
   const double factor = stood_still ? 1.0 : 100.0;
   const auto variance = [factor](double sigma) {
     return Eigen::Matrix3d(factor * sigma * sigma * Eigen::Matrix3d::Identity());
   };
-  Matrix15 P = Matrix15::Zero();
+  ErrorMatrix P = ErrorMatrix::Zero();
   block(P, E::kRotation, E::kRotation) = variance(config.sigma_tilt);
   block(P, E::kRotation, E::kRotation)(2, 2) = config.sigma_yaw * config.sigma_yaw;
   block(P, E::kPosition, E::kPosition) =
@@ -77,6 +80,9 @@ Matrix15 initial_covariance(const InitializationConfig& config, bool stood_still
   block(P, E::kGyroBias, E::kGyroBias) = variance(config.sigma_gyro_bias);
   block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
       variance(config.sigma_accelerometer_bias);
+  // Members that learn the states of the legs open them.
+  block(P, E::kLegScale, E::kLegScale) = Eigen::Matrix3d::Identity() * kKnown;
+  block(P, E::kLegBias, E::kLegBias) = Eigen::Matrix3d::Identity() * kKnown;
   return P;
 }
 

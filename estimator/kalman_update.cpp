@@ -5,6 +5,23 @@
 #include <Eigen/LU>
 
 namespace aims {
+namespace {
+
+/// Covariance of the update whose gain is zero in all entries beyond the first `learned`, from the
+/// covariance of the full update (Joseph's form in information: K H = C A, K R K^T = C A C).
+ErrorMatrix considered(const ErrorMatrix& full, const ErrorMatrix& prior_information,
+                       const ErrorMatrix& measured, int learned) {
+  ErrorMatrix gain = full * measured;
+  gain.bottomRows(ErrorState::kSize - learned).setZero();
+  const ErrorMatrix kept = ErrorMatrix::Identity() - gain;
+  ErrorMatrix masked = full;
+  masked.bottomRows(ErrorState::kSize - learned).setZero();
+  const ErrorMatrix covariance = kept * inverse_spd(prior_information) * kept.transpose() +
+                                 masked * measured * masked.transpose();
+  return 0.5 * (covariance + covariance.transpose());
+}
+
+}  // namespace
 
 Information information_of(const LinearMeasurement& measurement) {
   const Eigen::Matrix<double, 3, ErrorState::kSize> weighted =
@@ -19,20 +36,25 @@ Information pose_information(const Matrix6& matrix, const Vector6& vector) {
   return information;
 }
 
-Matrix15 inverse_spd(const Matrix15& matrix) {
-  const Matrix15 inverse = matrix.llt().solve(Matrix15::Identity());
+ErrorMatrix inverse_spd(const ErrorMatrix& matrix) {
+  const ErrorMatrix inverse = matrix.llt().solve(ErrorMatrix::Identity());
   return 0.5 * (inverse + inverse.transpose());
 }
 
-Belief kalman_update(const NominalState& prior, const Matrix15& prior_information,
-                     const NominalState& linearization, const Information& measurements) {
-  const Vector15 offset = boxminus(linearization, prior);
-  const Matrix15 J = boxminus_jacobian(offset);
-  const Matrix15 weighted = J.transpose() * prior_information;
-  const Matrix15 posterior_information = weighted * J + measurements.matrix;
-  const Matrix15 covariance = inverse_spd(posterior_information);
-  const Vector15 delta = -covariance * (weighted * offset + measurements.vector);
-  const Matrix15 G = reset_jacobian(delta);
+Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
+                     const NominalState& linearization, const Information& measurements,
+                     int learned) {
+  const ErrorVector offset = boxminus(linearization, prior);
+  const ErrorMatrix J = boxminus_jacobian(offset);
+  const ErrorMatrix weighted = J.transpose() * prior_information;
+  const ErrorMatrix information = weighted * J;
+  ErrorMatrix covariance = inverse_spd(information + measurements.matrix);
+  ErrorVector delta = -covariance * (weighted * offset + measurements.vector);
+  if (learned < ErrorState::kSize) {
+    delta.tail(ErrorState::kSize - learned).setZero();
+    covariance = considered(covariance, information, measurements.matrix, learned);
+  }
+  const ErrorMatrix G = reset_jacobian(delta);
   return {boxplus(linearization, delta), G * covariance * G.transpose()};
 }
 

@@ -11,15 +11,15 @@ namespace aims {
 /// up to `noise` at the truth.
 struct LinearMeasurement {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-  Matrix3x15 jacobian = Matrix3x15::Zero();
+  Matrix3xError jacobian = Matrix3xError::Zero();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
 };
 
 /// What measurements of any number of rows say about the error state: A = H^T R^-1 H, b = H^T R^-1
 /// r.
 struct Information {
-  Matrix15 matrix = Matrix15::Zero();
-  Vector15 vector = Vector15::Zero();
+  ErrorMatrix matrix = ErrorMatrix::Zero();
+  ErrorVector vector = ErrorVector::Zero();
 };
 
 /// The information in one three-row measurement.
@@ -31,17 +31,20 @@ Information pose_information(const Matrix6& matrix, const Vector6& vector);
 /// Gaussian belief: nominal state and covariance of its error.
 struct Belief {
   NominalState state;
-  Matrix15 covariance = Matrix15::Identity();
+  ErrorMatrix covariance = ErrorMatrix::Identity();
 };
 
 /// Inverse of a covariance (symmetric, positive definite).
-Matrix15 inverse_spd(const Matrix15& matrix);
+ErrorMatrix inverse_spd(const ErrorMatrix& matrix);
 
 /// The one Kalman update, in information form: the belief after fusing `measurements`, linearised
 /// at `linearization`, with the prior whose state is `prior` and inverse covariance
 /// `prior_information`. With linearization == prior it is the plain update; elsewhere it is one
 /// step of the iterated update. The covariance belongs to the error about the returned state.
-Belief kalman_update(const NominalState& prior, const Matrix15& prior_information,
-                     const NominalState& linearization, const Information& measurements);
+/// Only the first `learned` entries of the error state are corrected: the rest are considered as
+/// uncertain, but kept (Schmidt-Kalman update).
+Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
+                     const NominalState& linearization, const Information& measurements,
+                     int learned = ErrorState::kSize);
 
 }  // namespace aims

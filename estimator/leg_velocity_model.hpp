@@ -7,8 +7,9 @@
 
 namespace aims {
 
-/// Leg odometry as relative motion over its interval: the velocity of the leg odometry's base in
-/// base axes, R_body_base^T (R^T v + (omega - b_g) x p_body_base).
+/// Leg odometry as relative motion over its interval: (1 + scale) u + bias, axis by axis, of the
+/// velocity u of the leg odometry's base in base axes, R_body_base^T (R^T v + (omega - b_g) x
+/// p_body_base).
 /// `measured` is that velocity [m/s], `angular_velocity` the gyro's reading in body axes [rad/s].
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
                                      const Eigen::Vector3d& angular_velocity,

@@ -71,7 +71,7 @@ bool LidarUpdate::moved(const NominalState& state, const NominalState& since, do
          (state.position - since.position).norm() > position;
 }
 
-Belief LidarUpdate::trial(const Belief& predicted, const Matrix15& prior_information,
+Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_information,
                           std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                           ScanDiagnostics& diagnostics) {
   Belief belief = predicted;
@@ -99,11 +99,11 @@ Belief LidarUpdate::trial(const Belief& predicted, const Matrix15& prior_informa
   return belief;
 }
 
-void LidarUpdate::assess(const Belief& predicted, const Matrix15& prior_information,
+void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_information,
                          const NominalState& trial_state, ScanDiagnostics& diagnostics) {
   const ResidualStatistics statistics = residual_statistics(residuals_);
   const double prior_sigma = diagnostics.residual_sigma_prior;
-  const Vector15 y = boxminus(trial_state, predicted.state);  // eq. (5)
+  const ErrorVector y = boxminus(trial_state, predicted.state);  // eq. (5)
   diagnostics.residual_mean = statistics.mean;
   diagnostics.residual_sigma = std::sqrt(statistics.variance);
   diagnostics.O_lidar = effective_observability(statistics.variance, degeneracy_.sigma_0);
@@ -121,7 +121,7 @@ void LidarUpdate::assess(const Belief& predicted, const Matrix15& prior_informat
 
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics) {
-  const Matrix15 prior_information = inverse_spd(predicted.covariance);
+  const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
   Belief belief = trial(predicted, prior_information, points, map, diagnostics);
   const bool matched = diagnostics.points_used >= lidar_.min_matches;
   if (matched) {

@@ -48,10 +48,10 @@ class LidarUpdate {
   void associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
                  const VoxelMap& map);
   Linearization linearize(const NominalState& state);
-  Belief trial(const Belief& predicted, const Matrix15& prior_information,
+  Belief trial(const Belief& predicted, const ErrorMatrix& prior_information,
                std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                ScanDiagnostics& diagnostics);
-  void assess(const Belief& predicted, const Matrix15& prior_information,
+  void assess(const Belief& predicted, const ErrorMatrix& prior_information,
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
   bool moved(const NominalState& state, const NominalState& since, double rotation,
              double position) const;

@@ -7,13 +7,13 @@ PoseClone clone_pose(const Belief& belief) {
   return {belief.state.T_odom_body(), pose_block(belief.covariance), pose_rows(belief.covariance)};
 }
 
-PoseClone propagate_clone(const PoseClone& clone, const Matrix15& F) {
+PoseClone propagate_clone(const PoseClone& clone, const ErrorMatrix& F) {
   return {clone.T_odom_body, clone.covariance, clone.cross_covariance * F.transpose()};
 }
 
 LinearMeasurement marginalise_clone(const RelativeMeasurement& measurement, const PoseClone& clone,
-                                    const Matrix15& state_information) {
-  const Matrix6x15 regression = clone.cross_covariance * state_information;
+                                    const ErrorMatrix& state_information) {
+  const Matrix6xError regression = clone.cross_covariance * state_information;
   const Matrix6 remainder = clone.covariance - regression * clone.cross_covariance.transpose();
   const Matrix3x6& J = measurement.clone_jacobian;
   LinearMeasurement m;

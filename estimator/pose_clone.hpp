@@ -13,7 +13,7 @@ namespace aims {
 struct PoseClone {
   Pose T_odom_body;
   Matrix6 covariance = Matrix6::Zero();
-  Matrix6x15 cross_covariance = Matrix6x15::Zero();  ///< clone by present state
+  Matrix6xError cross_covariance = Matrix6xError::Zero();  ///< clone by present state
 };
 
 /// The clone at its birth: the belief's pose, with an error that is the pose's own.
@@ -21,14 +21,14 @@ PoseClone clone_pose(const Belief& belief);
 
 /// The clone after the present error went through the propagation `F`: the clone stands still, so
 /// that process noise is new to it.
-PoseClone propagate_clone(const PoseClone& clone, const Matrix15& F);
+PoseClone propagate_clone(const PoseClone& clone, const ErrorMatrix& F);
 
 /// A linearised measurement of three rows that sees a clone and the present state: its residual is
 /// ~ residual + clone_jacobian c + jacobian d for the errors c of the clone and d of the state.
 struct RelativeMeasurement {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Matrix3x6 clone_jacobian = Matrix3x6::Zero();
-  Matrix3x15 jacobian = Matrix3x15::Zero();
+  Matrix3xError jacobian = Matrix3xError::Zero();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
 };
 
@@ -38,6 +38,6 @@ struct RelativeMeasurement {
 /// both (21-D), exact for the linearised measurement; the clone's own posterior is not formed.
 /// `state_information` is P_dd^-1.
 LinearMeasurement marginalise_clone(const RelativeMeasurement& measurement, const PoseClone& clone,
-                                    const Matrix15& state_information);
+                                    const ErrorMatrix& state_information);
 
 }  // namespace aims

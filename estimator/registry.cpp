@@ -13,9 +13,8 @@ namespace {
 
 using Factory = std::unique_ptr<Estimator> (*)(const EstimatorConfig&, const SensorRig&);
 
-template <bool leg, bool hold_lost, bool adaptive>
+template <FamilyMember member>
 std::unique_ptr<Estimator> eskf(const EstimatorConfig& config, const SensorRig& rig) {
-  const FamilyMember member{.leg = leg, .hold_lost = hold_lost, .adaptive = adaptive};
   return std::make_unique<EskfEstimator>(config, member, rig);
 }
 
@@ -25,14 +24,19 @@ std::unique_ptr<Estimator> dead_reckoning(const EstimatorConfig& config, const S
 
 constexpr std::array kEntries = {
     EstimatorEntry{"aims", "LiDAR, IMU and legs, weighted by the degeneracy index of the paper"},
+    EstimatorEntry{"aims_d", "beyond the paper: weights along axes, leg scale, level floor"},
     EstimatorEntry{"tfs", "fixed weights, lost leg packets unnoticed: the paper's ablation"},
     EstimatorEntry{"tfs_clean", "fixed weights, lost leg packets skipped"},
     EstimatorEntry{"lio", "LiDAR and IMU only, fixed weights"},
     EstimatorEntry{"leg", "leg odometry alone, as the robot reports it"},
 };
 constexpr std::array<Factory, kEntries.size()> kFactories = {
-    eskf<true, false, true>, eskf<true, true, false>, eskf<true, false, false>,
-    eskf<false, false, false>, dead_reckoning};
+    eskf<FamilyMember{.adaptive = true}>,
+    eskf<FamilyMember{.adaptive = false, .directional = true}>,
+    eskf<FamilyMember{.hold_lost = true, .adaptive = false}>,
+    eskf<FamilyMember{.adaptive = false}>,
+    eskf<FamilyMember{.leg = false, .adaptive = false}>,
+    dead_reckoning};
 
 std::string unknown_estimator_message(std::string_view name) {
   std::vector<std::string> names;

@@ -27,9 +27,9 @@ TEST(Degeneracy, ConsistencyIsTheSquaredMahalanobisLength) {
   const Vector6 y = (Vector6() << 1.0, 0.0, 0.0, 0.0, 2.0, 0.0).finished();
   const Matrix6 P = (Vector6() << 4.0, 1.0, 1.0, 1.0, 2.0, 1.0).finished().asDiagonal();
   EXPECT_DOUBLE_EQ(consistency(y, P), 0.25 + 2.0);
-  Vector15 full = Vector15::Zero();
+  ErrorVector full = ErrorVector::Zero();
   full.head<6>() = y;
-  EXPECT_DOUBLE_EQ(consistency_full(full, 2.0 * Matrix15::Identity()), 10.0);
+  EXPECT_DOUBLE_EQ(consistency_full(full, 2.0 * ErrorMatrix::Identity()), 10.0);
 }
 
 TEST(Degeneracy, SeverityReachesItsLimits) {

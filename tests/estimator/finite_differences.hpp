@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Eigenvalues>
+
 #include "estimator/error_state.hpp"
 
 namespace aims::test {
@@ -13,7 +15,7 @@ Eigen::Matrix<double, rows, ErrorState::kSize> numeric_jacobian(const NominalSta
   constexpr double kStep = 1e-5;
   Eigen::Matrix<double, rows, ErrorState::kSize> jacobian;
   for (int i = 0; i < ErrorState::kSize; ++i) {
-    const Vector15 step = kStep * Vector15::Unit(i);
+    const ErrorVector step = kStep * ErrorVector::Unit(i);
     jacobian.col(i) =
         (function(boxplus(state, step)) - function(boxplus(state, -step))) / (2.0 * kStep);
   }
@@ -28,7 +30,15 @@ inline NominalState some_state() {
   state.velocity = {0.8, -0.3, 0.2};
   state.gyro_bias = {0.01, -0.02, 0.03};
   state.accelerometer_bias = {0.1, 0.2, -0.1};
+  state.leg_scale = {0.05, -0.03, 0.1};
+  state.leg_bias = {0.02, -0.01, 0.03};
   return state;
+}
+
+/// S with S S^T = `covariance`, which may be singular.
+inline ErrorMatrix square_root(const ErrorMatrix& covariance) {
+  const Eigen::SelfAdjointEigenSolver<ErrorMatrix> solver(covariance);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 }  // namespace aims::test

@@ -17,10 +17,11 @@ InertialSegment some_segment() {
 TEST(ImuPropagation, JacobianMatchesFiniteDifferences) {
   const NominalState state = test::some_state();
   const NominalState next = propagate_state(state, some_segment(), 0.02, kGravity);
-  const Matrix15 numeric = test::numeric_jacobian<15>(state, [&](const NominalState& moved) {
-    return boxminus(propagate_state(moved, some_segment(), 0.02, kGravity), next);
-  });
-  const Matrix15 F = propagation_jacobian(state, some_segment(), 0.02);
+  const ErrorMatrix numeric =
+      test::numeric_jacobian<ErrorState::kSize>(state, [&](const NominalState& moved) {
+        return boxminus(propagate_state(moved, some_segment(), 0.02, kGravity), next);
+      });
+  const ErrorMatrix F = propagation_jacobian(state, some_segment(), 0.02);
   // Terms of third order in the step's angle are left out.
   EXPECT_LT((F - numeric).cwiseAbs().maxCoeff(), 5e-5);
 }
@@ -61,7 +62,7 @@ TEST(ImuPropagation, CoordinatedTurnFollowsTheCircle) {
 
 TEST(ImuPropagation, NoiseOfPartsAddsUpToTheNoiseOfTheWhole) {
   const ImuPropagationConfig config;
-  const Belief start{test::some_state(), Matrix15::Identity() * 1e-6};
+  const Belief start{test::some_state(), ErrorMatrix::Identity() * 1e-6};
   const InertialSegment slow{0, kSecond, Eigen::Vector3d::Zero(), {0.0, 0.0, kGravity}, true};
   const Belief whole = propagate(start, slow, 0.02, config);
   const Belief parts = propagate(propagate(start, slow, 0.008, config), slow, 0.012, config);
@@ -70,8 +71,8 @@ TEST(ImuPropagation, NoiseOfPartsAddsUpToTheNoiseOfTheWhole) {
 
 TEST(ImuPropagation, BridgedSpansAreLessCertain) {
   const ImuPropagationConfig config;
-  const Matrix15 measured = propagation_noise(config, true, 0.02);
-  const Matrix15 bridged = propagation_noise(config, false, 0.02);
+  const ErrorMatrix measured = propagation_noise(config, true, 0.02);
+  const ErrorMatrix bridged = propagation_noise(config, false, 0.02);
   EXPECT_TRUE((bridged.diagonal().array() >= measured.diagonal().array()).all());
   EXPECT_GT(bridged.trace(), 10.0 * measured.trace());
 }

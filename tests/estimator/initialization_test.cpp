@@ -65,8 +65,9 @@ TEST(Initialization, AMovingStartLevelsByTheMeanForceAndLeavesTheVelocityOpen) {
   EXPECT_FALSE(initial->stood_still);
   EXPECT_EQ(initial->stamp, samples.back().stamp);
   EXPECT_LT(initial->belief.state.rotation.angularDistance(tilt), 1e-2);
-  const Vector15 variance = initial->belief.covariance.diagonal();
-  EXPECT_GE(std::sqrt(segment(variance, ErrorState::kVelocity).minCoeff()), 0.7) << "the robot may be in full stride";
+  const ErrorVector variance = initial->belief.covariance.diagonal();
+  EXPECT_GE(std::sqrt(segment(variance, ErrorState::kVelocity).minCoeff()), 0.7)
+      << "the robot may be in full stride";
 }
 
 TEST(Initialization, MovingStartIsUncertain) {

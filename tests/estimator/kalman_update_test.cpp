@@ -15,40 +15,40 @@
 namespace aims {
 namespace {
 
-Matrix15 some_covariance(RandomStream& random) {
-  Matrix15 A;
-  for (int i = 0; i < 15; ++i) {
-    for (int j = 0; j < 15; ++j) A(i, j) = 0.02 * random.normal();
+ErrorMatrix some_covariance(RandomStream& random) {
+  ErrorMatrix A;
+  for (int i = 0; i < ErrorState::kSize; ++i) {
+    for (int j = 0; j < ErrorState::kSize; ++j) A(i, j) = 0.02 * random.normal();
   }
-  return A * A.transpose() + 1e-4 * Matrix15::Identity();
+  return A * A.transpose() + 1e-4 * ErrorMatrix::Identity();
 }
 
-Vector15 normal15(RandomStream& random) {
-  Vector15 v;
-  for (int i = 0; i < 15; ++i) v(i) = random.normal();
+ErrorVector normal_error(RandomStream& random) {
+  ErrorVector v;
+  for (int i = 0; i < ErrorState::kSize; ++i) v(i) = random.normal();
   return v;
 }
 
 TEST(KalmanUpdate, EqualsTheGainForm) {
   RandomStream random(1, "kalman");
-  const Matrix15 P = some_covariance(random);
+  const ErrorMatrix P = some_covariance(random);
   const NominalState state = test::some_state();
   const LinearMeasurement m = leg_velocity_model(state, Pose{}, {0.1, 0.2, 0.3}, {0.7, 0.0, 0.0},
                                                  0.04 * Eigen::Matrix3d::Identity());
   const Belief updated = kalman_update(state, inverse_spd(P), state, information_of(m));
   const Eigen::Matrix3d S = m.jacobian * P * m.jacobian.transpose() + m.noise;
-  const Eigen::Matrix<double, 15, 3> K = P * m.jacobian.transpose() * S.inverse();
-  const Vector15 delta = -K * m.residual;
-  const Matrix15 I_KH = Matrix15::Identity() - K * m.jacobian;
-  const Matrix15 joseph = I_KH * P * I_KH.transpose() + K * m.noise * K.transpose();
-  const Matrix15 G = reset_jacobian(delta);
+  const Eigen::Matrix<double, ErrorState::kSize, 3> K = P * m.jacobian.transpose() * S.inverse();
+  const ErrorVector delta = -K * m.residual;
+  const ErrorMatrix I_KH = ErrorMatrix::Identity() - K * m.jacobian;
+  const ErrorMatrix joseph = I_KH * P * I_KH.transpose() + K * m.noise * K.transpose();
+  const ErrorMatrix G = reset_jacobian(delta);
   EXPECT_LT((boxminus(updated.state, state) - delta).norm(), 1e-10);
   EXPECT_LT((updated.covariance - G * joseph * G.transpose()).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(KalmanUpdate, NothingMeasuredChangesNothing) {
   RandomStream random(2, "kalman");
-  const Matrix15 P = some_covariance(random);
+  const ErrorMatrix P = some_covariance(random);
   const NominalState state = test::some_state();
   const Belief same = kalman_update(state, inverse_spd(P), state, Information{});
   EXPECT_LT(boxminus(same.state, state).norm(), 1e-12);
@@ -57,7 +57,7 @@ TEST(KalmanUpdate, NothingMeasuredChangesNothing) {
 
 TEST(KalmanUpdate, IterationConvergesToTheSameStateFromElsewhere) {
   RandomStream random(3, "kalman");
-  const Matrix15 prior_information = inverse_spd(some_covariance(random));
+  const ErrorMatrix prior_information = inverse_spd(some_covariance(random));
   const NominalState prior = test::some_state();
   const auto iterate = [&](NominalState at) {
     for (int i = 0; i < 20; ++i) {
@@ -67,19 +67,19 @@ TEST(KalmanUpdate, IterationConvergesToTheSameStateFromElsewhere) {
     }
     return at;
   };
-  const NominalState elsewhere = boxplus(prior, 0.1 * normal15(random));
+  const NominalState elsewhere = boxplus(prior, 0.1 * normal_error(random));
   EXPECT_LT(boxminus(iterate(elsewhere), iterate(prior)).norm(), 1e-5);
 }
 
 /// One run of propagation, leg updates and updates by exact planes, all with noise drawn from their
-/// models; the normalised squared error of the belief at the end, chi-square with 15 dof.
+/// models; the normalised squared error of the belief at the end, chi-square with 21 dof.
 double normalised_error_of_a_run(std::uint64_t seed) {
   RandomStream random(seed, "nees");
   ImuPropagationConfig imu;
   imu.gyro_noise = 2e-3;
-  const Matrix15 P0 = 1e-4 * Matrix15::Identity();
+  const ErrorMatrix P0 = 1e-4 * ErrorMatrix::Identity();
   Belief belief{test::some_state(), P0};
-  NominalState truth = boxplus(belief.state, 1e-2 * normal15(random));
+  NominalState truth = boxplus(belief.state, 1e-2 * normal_error(random));
   const double dt = 0.02;
   const Pose T_body_base{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.05}};
   for (int step = 0; step < 200; ++step) {
@@ -91,8 +91,8 @@ double normalised_error_of_a_run(std::uint64_t seed) {
     const Eigen::Vector3d slip = Eigen::Vector3d::Zero();
     truth = propagate_state(truth, real, dt, imu.gravity);
     // The model's noise acts on the state, so it is drawn there.
-    const Matrix15 Q = propagation_noise(imu, true, dt);
-    truth = boxplus(truth, Q.llt().matrixL() * normal15(random));
+    const ErrorMatrix Q = propagation_noise(imu, true, dt);
+    truth = boxplus(truth, test::square_root(Q) * normal_error(random));
     belief = propagate(belief, measured, dt, imu);
     if (step % 2 == 0) {
       const Eigen::Matrix3d noise = 0.01 * Eigen::Matrix3d::Identity();
@@ -121,7 +121,7 @@ double normalised_error_of_a_run(std::uint64_t seed) {
                              pose_information(A, b));
     }
   }
-  const Vector15 error = boxminus(truth, belief.state);
+  const ErrorVector error = boxminus(truth, belief.state);
   return error.dot(belief.covariance.llt().solve(error));
 }
 
@@ -131,9 +131,9 @@ TEST(KalmanUpdate, NormalisedErrorLiesWithinItsChiSquareBounds) {
   for (int run = 0; run < kRuns; ++run) {
     sum += normalised_error_of_a_run(static_cast<std::uint64_t>(100 + run));
   }
-  // The sum is chi-square with 750 dof: 99.9 % of it lies within these bounds.
-  EXPECT_GT(sum, 627.0) << "seeds 100 to 149";
-  EXPECT_LT(sum, 882.0) << "seeds 100 to 149";
+  // The sum is chi-square with 1050 dof: 99.9 % of it lies within these bounds.
+  EXPECT_GT(sum, 905.0) << "seeds 100 to 149";
+  EXPECT_LT(sum, 1208.0) << "seeds 100 to 149";
 }
 
 }  // namespace

@@ -23,16 +23,16 @@ using MatrixJoint = Eigen::Matrix<double, kJointSize, kJointSize>;
 const Pose kT_body_base{so3_exp({0.1, -0.2, 0.3}), {0.2, -0.1, -0.05}};
 const Eigen::Matrix3d kNoise = 1e-4 * Eigen::Matrix3d::Identity();
 
-Vector15 normal15(RandomStream& random) {
-  Vector15 v;
+ErrorVector normal_error(RandomStream& random) {
+  ErrorVector v;
   for (int i = 0; i < ErrorState::kSize; ++i) v(i) = random.normal();
   return v;
 }
 
-Matrix15 some_covariance(RandomStream& random) {
-  Matrix15 A;
-  for (int i = 0; i < ErrorState::kSize; ++i) A.col(i) = 0.02 * normal15(random);
-  return A * A.transpose() + 1e-4 * Matrix15::Identity();
+ErrorMatrix some_covariance(RandomStream& random) {
+  ErrorMatrix A;
+  for (int i = 0; i < ErrorState::kSize; ++i) A.col(i) = 0.02 * normal_error(random);
+  return A * A.transpose() + 1e-4 * ErrorMatrix::Identity();
 }
 
 InertialSegment segment_at(int step) {
@@ -49,7 +49,7 @@ Eigen::Vector3d way(const Pose& T_odom_clone, const NominalState& state) {
 
 /// The belief after fusing the displacement `measured` since `clone`.
 Belief fuse(const Belief& belief, const PoseClone& clone, const Eigen::Vector3d& measured) {
-  const Matrix15 information = inverse_spd(belief.covariance);
+  const ErrorMatrix information = inverse_spd(belief.covariance);
   const RelativeMeasurement relative =
       leg_displacement_model(clone.T_odom_body, belief.state, kT_body_base, measured, kNoise);
   return kalman_update(belief.state, information, belief.state,
@@ -66,11 +66,12 @@ TEST(PoseClone, GivesTheStateOfTheJointUpdateInGainForm) {
       clone.covariance;
   for (int step = 0; step < 3; ++step) {
     MatrixJoint F = MatrixJoint::Identity();
-    F.topLeftCorner<15, 15>() = propagation_jacobian(belief.state, segment_at(step), kStep);
-    clone = propagate_clone(clone, F.topLeftCorner<15, 15>());
+    F.topLeftCorner<ErrorState::kSize, ErrorState::kSize>() =
+        propagation_jacobian(belief.state, segment_at(step), kStep);
+    clone = propagate_clone(clone, F.topLeftCorner<ErrorState::kSize, ErrorState::kSize>());
     belief = propagate(belief, segment_at(step), kStep, imu);
     P = F * P * F.transpose();
-    P.topLeftCorner<15, 15>() += propagation_noise(imu, true, kStep);
+    P.topLeftCorner<ErrorState::kSize, ErrorState::kSize>() += propagation_noise(imu, true, kStep);
   }
   const Eigen::Vector3d measured =
       way(clone.T_odom_body, belief.state) + Eigen::Vector3d(0.02, -0.01, 0.03);
@@ -80,13 +81,14 @@ TEST(PoseClone, GivesTheStateOfTheJointUpdateInGainForm) {
   H << m.jacobian, m.clone_jacobian;
   const Eigen::Matrix3d S = H * P * H.transpose() + kNoise;
   const Eigen::Matrix<double, kJointSize, 3> K = P * H.transpose() * S.inverse();
-  const Vector15 delta = -(K * m.residual).head<15>();
-  const Matrix15 G = reset_jacobian(delta);
+  const ErrorVector delta = -(K * m.residual).head<ErrorState::kSize>();
+  const ErrorMatrix G = reset_jacobian(delta);
   const MatrixJoint posterior = (MatrixJoint::Identity() - K * H) * P;
 
   const Belief updated = fuse(belief, clone, measured);
   EXPECT_LT((boxminus(updated.state, belief.state) - delta).norm(), 1e-9);
-  const Matrix15 expected = G * posterior.topLeftCorner<15, 15>() * G.transpose();
+  const ErrorMatrix expected =
+      G * posterior.topLeftCorner<ErrorState::kSize, ErrorState::kSize>() * G.transpose();
   EXPECT_LT((updated.covariance - expected).cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -99,19 +101,19 @@ TEST(PoseClone, ManyUpdatesGiveTheCovarianceOfOneBatch) {
   Belief belief{test::some_state(), some_covariance(random)};
   constexpr int kRandom = ErrorState::kSize * (kSteps + 1);
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kRandom, kRandom);
-  prior.topLeftCorner<15, 15>() = belief.covariance;
+  prior.topLeftCorner<ErrorState::kSize, ErrorState::kSize>() = belief.covariance;
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(ErrorState::kSize, kRandom);
-  map.leftCols<15>().setIdentity();
+  map.leftCols<ErrorState::kSize>().setIdentity();
   Eigen::MatrixXd rows(3 * kSteps, kRandom);
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::MatrixXd clone_map = map.topRows<ErrorState::kPoseSize>();
-    const Matrix15 F = propagation_jacobian(belief.state, segment_at(step), kStep);
+    const ErrorMatrix F = propagation_jacobian(belief.state, segment_at(step), kStep);
     const PoseClone clone = propagate_clone(clone_pose(belief), F);
     belief = propagate(belief, segment_at(step), kStep, imu);
     const int at = ErrorState::kSize * (step + 1);
     map = F * map;
-    map.middleCols<15>(at).setIdentity();
-    prior.block<15, 15>(at, at) = propagation_noise(imu, true, kStep);
+    map.middleCols<ErrorState::kSize>(at).setIdentity();
+    prior.block<ErrorState::kSize, ErrorState::kSize>(at, at) = propagation_noise(imu, true, kStep);
     const Eigen::Vector3d measured = way(clone.T_odom_body, belief.state);
     const RelativeMeasurement m =
         leg_displacement_model(clone.T_odom_body, belief.state, kT_body_base, measured, kNoise);
@@ -129,9 +131,9 @@ TEST(PoseClone, ManyUpdatesGiveTheCovarianceOfOneBatch) {
 
 TEST(PoseClone, DisplacementsNeverTellWhereTheRobotIs) {
   const ImuPropagationConfig imu;
-  Belief belief{test::some_state(), 1e-2 * Matrix15::Identity()};
+  Belief belief{test::some_state(), 1e-2 * ErrorMatrix::Identity()};
   for (int step = 0; step < 50; ++step) {
-    const Matrix15 F = propagation_jacobian(belief.state, segment_at(step), kStep);
+    const ErrorMatrix F = propagation_jacobian(belief.state, segment_at(step), kStep);
     const PoseClone clone = propagate_clone(clone_pose(belief), F);
     belief = propagate(belief, segment_at(step), kStep, imu);
     belief = fuse(belief, clone, way(clone.T_odom_body, belief.state));
@@ -142,25 +144,25 @@ TEST(PoseClone, DisplacementsNeverTellWhereTheRobotIs) {
 }
 
 /// One run of propagation and displacements, with noise drawn from their models; the normalised
-/// squared error at the end, chi-square with 15 dof.
+/// squared error at the end, chi-square with 21 dof.
 double normalised_error_of_a_run(std::uint64_t seed) {
   RandomStream random(seed, "clone.nees");
   const ImuPropagationConfig imu;
-  Belief belief{test::some_state(), 1e-4 * Matrix15::Identity()};
-  NominalState truth = boxplus(belief.state, 1e-2 * normal15(random));
+  Belief belief{test::some_state(), 1e-4 * ErrorMatrix::Identity()};
+  NominalState truth = boxplus(belief.state, 1e-2 * normal_error(random));
   for (int step = 0; step < 40; ++step) {
     const PoseClone born = clone_pose(belief);
     const Pose true_clone = truth.T_odom_body();
     const InertialSegment measured = segment_at(step);
     truth = propagate_state(truth, measured, kStep, imu.gravity);
-    const Matrix15 Q = propagation_noise(imu, true, kStep);
-    truth = boxplus(truth, Q.llt().matrixL() * normal15(random));
-    const Matrix15 F = propagation_jacobian(belief.state, measured, kStep);
+    const ErrorMatrix Q = propagation_noise(imu, true, kStep);
+    truth = boxplus(truth, test::square_root(Q) * normal_error(random));
+    const ErrorMatrix F = propagation_jacobian(belief.state, measured, kStep);
     const PoseClone clone = propagate_clone(born, F);
     belief = propagate(belief, measured, kStep, imu);
     belief = fuse(belief, clone, way(true_clone, truth) + 1e-2 * random.normal3());
   }
-  const Vector15 error = boxminus(truth, belief.state);
+  const ErrorVector error = boxminus(truth, belief.state);
   return error.dot(belief.covariance.llt().solve(error));
 }
 
@@ -169,9 +171,9 @@ TEST(PoseClone, NormalisedErrorLiesWithinItsChiSquareBounds) {
   for (int run = 0; run < 50; ++run) {
     sum += normalised_error_of_a_run(static_cast<std::uint64_t>(200 + run));
   }
-  // The sum is chi-square with 750 dof: 99.9 % of it lies within these bounds.
-  EXPECT_GT(sum, 627.0) << "seeds 200 to 249";
-  EXPECT_LT(sum, 882.0) << "seeds 200 to 249";
+  // The sum is chi-square with 1050 dof: 99.9 % of it lies within these bounds.
+  EXPECT_GT(sum, 905.0) << "seeds 200 to 249";
+  EXPECT_LT(sum, 1208.0) << "seeds 200 to 249";
 }
 
 }  // namespace

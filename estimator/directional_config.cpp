@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/directional_config.hpp"
+
+namespace aims {
+namespace {
+
+Spec spec(std::string unit, Range range, std::string meaning, std::string source = "") {
+  return {std::move(unit), range, std::move(meaning), std::move(source)};
+}
+
+template <class Config>
+void describe_switch(Fields& f, Config& c, std::string meaning) {
+  f.flag("enabled", c.enabled, spec("", any(), std::move(meaning)));
+}
+
+}  // namespace
+
+void describe(Fields& f, SpuriousConfig& c) {
+  describe_switch(f, c, "subtract the information that noisy normals give by chance");
+  f.number("map_sigma", c.map_sigma,
+           spec("m", positive(), "least error of a map point across its plane"));
+  f.number("lever", c.lever,
+           spec("m", positive(), "lever at which rotation is compared with position"));
+}
+
+void describe(Fields& f, LegStatesConfig& c) {
+  f.flag("scale", c.scale, spec("", any(), "estimate what share of the speed the legs misreport"));
+  f.flag("bias", c.bias, spec("", any(), "estimate a constant error of their speed"));
+  f.flag("hold", c.hold, spec("", any(), "learn both only where the LiDAR is trusted"));
+  f.number("scale_sigma", c.scale_sigma, spec("-", positive(), "scale before anything is known"));
+  f.number("scale_walk", c.scale_walk, spec("1/sqrt(s)", at_least(0), "random walk of the scale"));
+  f.number("bias_sigma", c.bias_sigma, spec("m/s", positive(), "bias before anything is known"));
+  f.number("bias_walk", c.bias_walk, spec("m/s/sqrt(s)", at_least(0), "random walk of the bias"));
+  f.number("trusted", c.trusted,
+           spec("-", in_range(0.0, 1.0),
+                "weight of the weakest axis, smoothed over a second, "
+                "above which the LiDAR teaches the legs"));
+}
+
+void describe(Fields& f, LegEvidenceConfig& c) {
+  describe_switch(f, c, "leg noise from stance, spread among stance legs, turning and packet age");
+}
+
+void describe(Fields& f, DisagreementConfig& c) {
+  describe_switch(f, c, "take weight from the LiDAR, or the legs, where they disagree for long");
+}
+
+void describe(Fields& f, StandstillConfig& c) {
+  describe_switch(f, c, "zero-velocity update while the robot stands still");
+}
+
+void describe(Fields& f, FloorConfig& c) {
+  describe_switch(f, c, "hold height and tilt by a level floor");
+}
+
+void describe(Fields& f, RobustConfig& c) {
+  describe_switch(f, c, "weigh each point by its residual");
+}
+
+void describe(Fields& f, DirectionalConfig& c) {
+  f.group("spurious", c.spurious);
+  f.group("leg_states", c.leg_states);
+  f.group("leg_evidence", c.leg_evidence);
+  f.group("disagreement", c.disagreement);
+  f.group("standstill", c.standstill);
+  f.group("floor", c.floor);
+  f.group("robust", c.robust);
+}
+
+}  // namespace aims
