@@ -32,8 +32,10 @@ struct ScanDiagnostics {
   Eigen::Vector3d innovation_position = Eigen::Vector3d::Zero();  ///< y_k, eq. (5) [m]
   double smallest_eigenvalue = 0.0;  ///< of the translation information [1/m^2]
   double condition_number = 0.0;     ///< of the translation information
-  double leg_innovation = 0.0;       ///< norm of the last leg innovation, over its interval [m/s]
-  int leg_updates = 0;               ///< since the last scan
+  double weak_weight = 1.0;     ///< of the weakest axis, once the information of chance is removed
+  double weak_ratio = 0.0;      ///< least ratio of information to what chance gives
+  double leg_innovation = 0.0;  ///< norm of the last leg innovation, over its interval [m/s]
+  int leg_updates = 0;          ///< since the last scan
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< after it, body axes [m^2]
   Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();  ///< after it, body axes [rad^2]
 };
