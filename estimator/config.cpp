@@ -125,6 +125,8 @@ void describe(Fields& f, MapConfig& c) {
   f.number("plane_min_ratio", c.plane_min_ratio,
            spec("-", at_least(1),
                 "least ratio of second to smallest principal variance; docs/decisions.md"));
+  f.number("map_sigma", c.map_sigma,
+           spec("m", positive(), "least error of a map point across its plane"));
 }
 
 void describe(Fields& f, DegeneracyConfig& c) {

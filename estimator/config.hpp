@@ -86,6 +86,7 @@ struct MapConfig {
   double plane_thickness = 0.06;    ///< the five neighbours lie this close to their plane [m]
   double plane_min_spread = 0.065;  ///< second principal deviation of the neighbours [m]
   double plane_min_ratio = 10.0;    ///< second over smallest principal variance [-]
+  double map_sigma = 0.01;          ///< least error of a map point across its plane [m]
 };
 
 /// Reliability assessment and adaptive weights, eqs. (3)-(12).

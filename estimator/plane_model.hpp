@@ -14,10 +14,14 @@ struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< n_i, unit
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< q_i, mean of the map points [m]
   bool valid = false;  ///< the points lie on it, and span it in two directions
+  /// Of the normal, odometry axes; across the normal it is zero.
+  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
 };
 
 /// The least-squares plane of `points`, judged by the map's thickness, spread and ratio: five
-/// points of one scan line do not define a plane.
+/// points of one scan line do not define a plane. The covariance of the normal is that of the fit,
+/// noise / (n lambda_i) about the two axes in the plane, with lambda_i the variances of the points
+/// along them and the noise of a point the larger of `map_sigma` and its estimate from the fit.
 Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config);
 
 /// One row of the point-to-plane model.
