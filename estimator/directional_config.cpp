@@ -17,10 +17,10 @@ void describe_switch(Fields& f, Config& c, std::string meaning) {
 
 void describe(Fields& f, SpuriousConfig& c) {
   describe_switch(f, c, "subtract the information that noisy normals give by chance");
-  f.number("map_sigma", c.map_sigma,
-           spec("m", positive(), "least error of a map point across its plane"));
-  f.number("lever", c.lever,
-           spec("m", positive(), "lever at which rotation is compared with position"));
+  f.number("significant", c.significant,
+           spec("-", at_least(1), "ratio to chance at which information is as likely real as not"));
+  f.number("spread", c.spread,
+           spec("-", positive(), "uncertainty of what chance gives, of its logarithm"));
 }
 
 void describe(Fields& f, LegStatesConfig& c) {

@@ -9,8 +9,8 @@ namespace aims {
 /// that remain.
 struct SpuriousConfig {
   bool enabled = true;
-  double map_sigma = 0.01;  ///< least error of a map point across its plane [m]
-  double lever = 5.0;       ///< at which rotation [rad] is compared with position [m]
+  double significant = 2.0;  ///< ratio to chance at which information is as likely real as not [-]
+  double spread = 0.25;      ///< of the logarithm of what chance gives [-]
 };
 
 /// Slow states of the leg odometry.

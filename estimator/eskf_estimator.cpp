@@ -29,7 +29,7 @@ EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& 
       rig_(rig),
       queue_(config),
       selection_(config.lidar),
-      lidar_update_(config.lidar, config.map, config.degeneracy, member.adaptive),
+      lidar_update_(config, member),
       map_(config.map),
       leg_integrator_(config.leg) {}
 
@@ -121,7 +121,7 @@ void EskfEstimator::fuse_leg_velocity(Time stamp, const Eigen::Vector3d& velocit
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
   accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state,
-                       information_of(measurement)));
+                       information_of(measurement), lidar_update_.learned()));
 }
 
 void EskfEstimator::fuse_leg_displacement() {

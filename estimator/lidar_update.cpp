@@ -9,6 +9,9 @@
 namespace aims {
 namespace {
 
+/// Share of one scan in the smoothed weight of the weakest axis: a second at 10 Hz.
+constexpr double kTrustGain = 0.1;
+
 /// Smallest eigenvalue and condition number of the translation information that remains when the
 /// rotation is unknown too (its Schur complement).
 void record_localizability(const Matrix6& information, ScanDiagnostics& diagnostics) {
@@ -25,13 +28,19 @@ void record_localizability(const Matrix6& information, ScanDiagnostics& diagnost
 
 }  // namespace
 
-LidarUpdate::LidarUpdate(const LidarUpdateConfig& lidar, const MapConfig& map,
-                         const DegeneracyConfig& degeneracy, bool adaptive)
-    : lidar_(lidar),
-      map_(map),
-      degeneracy_(degeneracy),
-      adaptive_(adaptive),
-      severity_(degeneracy.alpha) {}
+LidarUpdate::LidarUpdate(const EstimatorConfig& config, const FamilyMember& member)
+    : lidar_(config.lidar),
+      map_(config.map),
+      degeneracy_(config.degeneracy),
+      directional_(config.directional),
+      member_(member),
+      severity_(config.degeneracy.alpha) {}
+
+int LidarUpdate::learned() const {
+  const LegStatesConfig& legs = directional_.leg_states;
+  const bool hold = member_.directional && legs.hold && trust_ < legs.trusted;
+  return hold ? ErrorState::kMotionSize : ErrorState::kSize;
+}
 
 void LidarUpdate::associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
                             const VoxelMap& map) {
@@ -56,13 +65,28 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
     if (!(std::abs(row.residual) <= lidar_.residual_gate)) continue;
     sum.matrix.noalias() += row.jacobian * row.jacobian.transpose();
     sum.vector.noalias() += row.jacobian * row.residual;
+    if (member_.directional) {
+      sum.chance += chance_information(match.plane.normal_covariance, match.p_body, R);
+    }
     residuals_.push_back(row.residual);
   }
   const double weight = 1.0 / (lidar_.point_sigma * lidar_.point_sigma);
   sum.matrix *= weight;
   sum.vector *= weight;
+  sum.chance *= weight;
   sum.used = static_cast<int>(residuals_.size());
   return sum;
+}
+
+Information LidarUpdate::weighed(const Linearization& rows, double gamma,
+                                 ScanDiagnostics& diagnostics) const {
+  if (!member_.directional || !directional_.spurious.enabled) {
+    return pose_information(gamma * rows.matrix, gamma * rows.vector);
+  }
+  const AxisWeights axes = weigh_axes(rows.matrix, rows.chance, directional_.spurious);
+  diagnostics.weak_weight = axes.weights.minCoeff();
+  diagnostics.weak_ratio = axes.ratio(0);
+  return pose_information(axes.weigh_matrix(), axes.weigh_vector(rows.vector));
 }
 
 bool LidarUpdate::moved(const NominalState& state, const NominalState& since, double rotation,
@@ -90,7 +114,7 @@ Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_info
     if (rows.used < lidar_.min_matches) return predicted;
     const NominalState before = belief.state;
     belief = kalman_update(predicted.state, prior_information, before,
-                           pose_information(rows.matrix, rows.vector));
+                           weighed(rows, 1.0, diagnostics), learned());
     ++diagnostics.iterations;
     if (!moved(belief.state, before, lidar_.convergence_rotation, lidar_.convergence_position)) {
       break;
@@ -129,13 +153,13 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     diagnostics.points_used = rows.used;
     record_localizability(rows.matrix, diagnostics);
     assess(predicted, prior_information, belief.state, diagnostics);
-    gamma_lidar_ = adaptive_ ? lidar_reliability(severity_.value(), degeneracy_) : 1.0;
-    gamma_leg_ = adaptive_ ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
+    gamma_lidar_ = member_.adaptive ? lidar_reliability(severity_.value(), degeneracy_) : 1.0;
+    gamma_leg_ = member_.adaptive ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
     // eq. (9): R_lidar' = R_lidar / gamma_lidar, so the information of the trial's last
     // linearisation is multiplied by gamma_lidar.
-    belief =
-        kalman_update(predicted.state, prior_information, belief.state,
-                      pose_information(gamma_lidar_ * rows.matrix, gamma_lidar_ * rows.vector));
+    belief = kalman_update(predicted.state, prior_information, belief.state,
+                           weighed(rows, gamma_lidar_, diagnostics), learned());
+    trust_ += kTrustGain * (diagnostics.weak_weight - trust_);
   }
   diagnostics.D_smoothed = severity_.value();
   diagnostics.gamma_lidar = gamma_lidar_;

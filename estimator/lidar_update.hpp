@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "estimator/axis_weights.hpp"
 #include "estimator/config.hpp"
 #include "estimator/degeneracy.hpp"
 #include "estimator/estimator.hpp"
@@ -16,11 +17,10 @@ namespace aims {
 
 /// The LiDAR correction: an iterated trial update with the nominal noise, the degeneracy index that
 /// its residuals and innovation give, and the final update with the noise that the index asks for.
+/// The directional member weighs the information along the axes of the pose instead.
 class LidarUpdate {
  public:
-  /// With `adaptive` off the weights stay 1 and the index is only recorded.
-  LidarUpdate(const LidarUpdateConfig& lidar, const MapConfig& map,
-              const DegeneracyConfig& degeneracy, bool adaptive);
+  LidarUpdate(const EstimatorConfig& config, const FamilyMember& member);
 
   /// The belief after fusing `points` (body axes at the belief's instant) against `map`. Fills the
   /// index, weights and statistics of `diagnostics`. With too few planes the belief is returned as
@@ -30,6 +30,10 @@ class LidarUpdate {
 
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
+
+  /// Entries of the error state that measurements may correct: not the states of the legs, while
+  /// the weakest axis is not trusted.
+  int learned() const;
 
  private:
   /// A point with its plane.
@@ -42,12 +46,14 @@ class LidarUpdate {
   struct Linearization {
     Matrix6 matrix = Matrix6::Zero();  ///< H^T R^-1 H at nominal noise
     Vector6 vector = Vector6::Zero();  ///< H^T R^-1 r at nominal noise
+    Matrix6 chance = Matrix6::Zero();  ///< of the matrix, by the errors of the normals
     int used = 0;
   };
 
   void associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
                  const VoxelMap& map);
   Linearization linearize(const NominalState& state);
+  Information weighed(const Linearization& rows, double gamma, ScanDiagnostics& diagnostics) const;
   Belief trial(const Belief& predicted, const ErrorMatrix& prior_information,
                std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                ScanDiagnostics& diagnostics);
@@ -59,10 +65,12 @@ class LidarUpdate {
   LidarUpdateConfig lidar_;
   MapConfig map_;
   DegeneracyConfig degeneracy_;
-  bool adaptive_;
+  DirectionalConfig directional_;
+  FamilyMember member_;
   SeverityFilter severity_;
   double gamma_lidar_ = 1.0;
   double gamma_leg_ = 1.0;
+  double trust_ = 0.0;  ///< smoothed weight of the weakest axis
   std::vector<Match> matches_;
   std::vector<double> residuals_;
 };

@@ -27,8 +27,10 @@ TEST(LegVelocity, ResidualVanishesForThePointOnTheRigidBody) {
   const Eigen::Vector3d rate = kRate - state.gyro_bias;
   const Eigen::Vector3d of_base_in_odom =
       state.velocity + state.rotation * rate.cross(kT_body_base.translation);
-  const Eigen::Vector3d measured =
+  const Eigen::Vector3d of_base =
       (state.rotation * kT_body_base.rotation).conjugate() * of_base_in_odom;
+  const Eigen::Vector3d measured =
+      of_base + state.leg_scale.cwiseProduct(of_base) + state.leg_bias;
   const LinearMeasurement m =
       leg_velocity_model(state, kT_body_base, kRate, measured, Eigen::Matrix3d::Identity());
   EXPECT_LT(m.residual.norm(), 1e-12);
