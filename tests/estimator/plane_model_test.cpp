@@ -27,7 +27,9 @@ std::vector<Eigen::Vector3f> spread_on_plane(const Eigen::Vector3d& normal, doub
 }
 
 TEST(PlaneModel, JacobianMatchesFiniteDifferences) {
-  const Plane plane{Eigen::Vector3d(0.2, -0.5, 0.7).normalized(), {5.0, 1.0, 2.0}, true};
+  Plane plane;
+  plane.normal = Eigen::Vector3d(0.2, -0.5, 0.7).normalized();
+  plane.point = {5.0, 1.0, 2.0};
   const Eigen::Vector3d p(3.0, -4.0, 1.5);
   const auto residual = [&](const NominalState& s) {
     return Eigen::Matrix<double, 1, 1>(
@@ -47,6 +49,35 @@ TEST(PlaneModel, FitsExactPlanes) {
     const Plane plane = fit_plane(spread_on_plane(normal, 0.0, random), MapConfig{});
     ASSERT_TRUE(plane.valid);
     EXPECT_GT(std::abs(plane.normal.dot(normal)), 1.0 - 1e-6);
+  }
+}
+
+// Over many fits to the same spots with fresh noise, the squared error of the normal along any
+// tangent is what its covariance says.
+TEST(PlaneModel, CovarianceOfTheNormalIsThatOfManyFits) {
+  RandomStream random(3, "plane");
+  MapConfig config;
+  config.plane_min_ratio = 1.0;
+  config.plane_thickness = 1.0;
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.4, 0.8).normalized();
+  Eigen::Matrix3d measured = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d told = Eigen::Matrix3d::Zero();
+  constexpr int kFits = 4000;
+  for (int i = 0; i < kFits; ++i) {
+    const Plane plane = fit_plane(spread_on_plane(normal, config.map_sigma, random), config);
+    ASSERT_TRUE(plane.valid);
+    EXPECT_NEAR((plane.normal_covariance * plane.normal).norm(), 0.0, 1e-12);
+    const Eigen::Vector3d error =
+        plane.normal * std::copysign(1.0, plane.normal.dot(normal)) - normal;
+    measured += error * error.transpose() / kFits;
+    told += plane.normal_covariance / kFits;
+  }
+  // The noise is never taken to be below map_sigma and sometimes above: told on the safe side.
+  for (const Eigen::Vector3d& axis :
+       {normal.unitOrthogonal(), normal.cross(normal.unitOrthogonal())}) {
+    const double ratio = axis.dot(told * axis) / axis.dot(measured * axis);
+    EXPECT_GT(ratio, 1.0);
+    EXPECT_LT(ratio, 2.0);
   }
 }
 
