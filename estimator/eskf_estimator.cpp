@@ -11,11 +11,12 @@
 namespace aims {
 namespace {
 
-/// What the filter says of its pose error, in body axes.
-void record_covariance(const Belief& belief, ScanDiagnostics& diagnostics) {
+/// What the filter says of its pose error, in body axes; `anchor` is the covariance of the map.
+void record_covariance(const Belief& belief, const Eigen::Matrix3d& anchor,
+                       ScanDiagnostics& diagnostics) {
   using E = ErrorState;
   const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
-  const Eigen::Matrix3d position = block(belief.covariance, E::kPosition, E::kPosition);
+  const Eigen::Matrix3d position = block(belief.covariance, E::kPosition, E::kPosition) + anchor;
   diagnostics.position_covariance = R.transpose() * position * R;
   diagnostics.rotation_covariance = block(belief.covariance, E::kRotation, E::kRotation);
 }
@@ -173,7 +174,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   }
   renew_clone();
   extend_map();
-  record_covariance(belief_, diagnostics);
+  record_covariance(belief_, lidar_update_.map_anchor(), diagnostics);
   report_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   report_.diagnostics.push_back(diagnostics);
 }
@@ -211,7 +212,9 @@ void EskfEstimator::extend_map() {
   const Eigen::Matrix3f R = belief_.state.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f t = belief_.state.position.cast<float>();
   for (Eigen::Vector3f& point : insert_points_) point = R * point + t;
-  map_.insert(insert_points_, t);
+  const Eigen::Matrix3d position =
+      block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
+  map_.insert(insert_points_, t, (position + lidar_update_.map_anchor()).cast<float>());
 }
 
 bool EskfEstimator::accept(const Belief& updated) {

@@ -143,6 +143,18 @@ void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_infor
   severity_.update(diagnostics.D);                                              // eq. (12)
 }
 
+void LidarUpdate::rest_on(const VoxelMap& map, const Belief& predicted, const Belief& updated) {
+  anchored_.clear();
+  for (const Match& match : matches_) {
+    const Eigen::Vector3d place = updated.state.T_odom_body() * match.p_body;
+    anchored_.push_back({match.plane.normal, map.anchor_at(place.cast<float>()).cast<double>()});
+  }
+  const auto position = [](const Belief& belief) {
+    return Eigen::Matrix3d(block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition));
+  };
+  map_anchor_ = anchor_after_scan(map_anchor_, position(predicted), position(updated), anchored_);
+}
+
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics) {
   const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
@@ -159,6 +171,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     // linearisation is multiplied by gamma_lidar.
     belief = kalman_update(predicted.state, prior_information, belief.state,
                            weighed(rows, gamma_lidar_, diagnostics), learned());
+    if (member_.directional) rest_on(map, predicted, belief);
     trust_ += kTrustGain * (diagnostics.weak_weight - trust_);
   }
   diagnostics.D_smoothed = severity_.value();

@@ -10,6 +10,7 @@
 #include "estimator/degeneracy.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/kalman_update.hpp"
+#include "estimator/map_anchor.hpp"
 #include "estimator/plane_model.hpp"
 #include "estimator/voxel_map.hpp"
 
@@ -35,6 +36,9 @@ class LidarUpdate {
   /// the weakest axis is not trusted.
   int learned() const;
 
+  /// Covariance of the map that the position rests on, odometry axes [m^2]; anchor_after_scan.
+  const Eigen::Matrix3d& map_anchor() const { return map_anchor_; }
+
  private:
   /// A point with its plane.
   struct Match {
@@ -59,6 +63,7 @@ class LidarUpdate {
                ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const ErrorMatrix& prior_information,
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
+  void rest_on(const VoxelMap& map, const Belief& predicted, const Belief& updated);
   bool moved(const NominalState& state, const NominalState& since, double rotation,
              double position) const;
 
@@ -70,9 +75,11 @@ class LidarUpdate {
   SeverityFilter severity_;
   double gamma_lidar_ = 1.0;
   double gamma_leg_ = 1.0;
+  Eigen::Matrix3d map_anchor_ = Eigen::Matrix3d::Zero();
   double trust_ = 0.0;  ///< smoothed weight of the weakest axis
   std::vector<Match> matches_;
   std::vector<double> residuals_;
+  std::vector<AnchoredPlane> anchored_;
 };
 
 }  // namespace aims

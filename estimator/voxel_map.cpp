@@ -46,17 +46,21 @@ VoxelMap::VoxelMap(const MapConfig& config)
       max_merges_(std::clamp(config.max_merges, 1, 255)),
       max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {}
 
-void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center) {
+void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
+                      const Eigen::Matrix3f& anchor) {
   for (const Eigen::Vector3f& point : points) {
-    if (point.allFinite()) insert(point);
+    if (point.allFinite()) insert(point, anchor);
   }
   if (voxels_.size() > max_voxels_) drop_far(center);
 }
 
-void VoxelMap::insert(const Eigen::Vector3f& point) {
+void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor) {
   const std::uint64_t key = voxel_key(voxel_of(point, inverse_size_));
   const std::int32_t at = index_.find_or_insert(key, static_cast<std::int32_t>(voxels_.size()));
-  if (at == static_cast<std::int32_t>(voxels_.size())) voxels_.emplace_back().key = key;
+  if (at == static_cast<std::int32_t>(voxels_.size())) {
+    voxels_.emplace_back().key = key;
+    voxels_.back().anchor = anchor;
+  }
   Voxel& voxel = voxels_[at];
   int closest = -1;
   float least = spacing_ * spacing_;
@@ -80,6 +84,11 @@ void VoxelMap::insert(const Eigen::Vector3f& point) {
     voxel.z[i] = point.z();
     voxel.merged[i] = 1;
   }
+}
+
+Eigen::Matrix3f VoxelMap::anchor_at(const Eigen::Vector3f& point) const {
+  const std::int32_t at = index_.find(voxel_key(voxel_of(point, inverse_size_)));
+  return at == VoxelHash::kNone ? Eigen::Matrix3f::Zero() : voxels_[at].anchor;
 }
 
 void VoxelMap::search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,

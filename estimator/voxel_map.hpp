@@ -27,8 +27,13 @@ class VoxelMap {
   explicit VoxelMap(const MapConfig& config);
 
   /// Adds points in the odometry frame; non-finite ones are ignored. When there are too many
-  /// voxels afterwards, those farthest from `center` are dropped.
-  void insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center);
+  /// voxels afterwards, those farthest from `center` are dropped. Voxels that are new remember the
+  /// covariance `anchor` of the position from which they were first seen [m^2].
+  void insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
+              const Eigen::Matrix3f& anchor = Eigen::Matrix3f::Zero());
+
+  /// The covariance that the voxel around `point` remembers; zero where there is none [m^2].
+  Eigen::Matrix3f anchor_at(const Eigen::Vector3f& point) const;
 
   /// The up to five nearest map points within the gate (at most one voxel edge): exact.
   void nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const;
@@ -49,9 +54,10 @@ class VoxelMap {
     std::array<std::uint8_t, kCapacity> merged;
     std::uint64_t key = 0;
     int count = 0;
+    Eigen::Matrix3f anchor = Eigen::Matrix3f::Zero();
   };
 
-  void insert(const Eigen::Vector3f& point);
+  void insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor);
   void drop_far(const Eigen::Vector3f& center);
   static void search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
                      Neighbors& neighbors);
