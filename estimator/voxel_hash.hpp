@@ -70,6 +70,19 @@ class VoxelHash {
 
   std::size_t size() const { return size_; }
 
+  /// Slots the table has; memory is in proportion to it.
+  std::size_t capacity() const { return slots_.size(); }
+
+  /// Slots looked at to find `key`: 1 at best.
+  int probes(std::uint64_t key) const {
+    int count = 1;
+    for (std::size_t i = slot(key); slots_[i].generation == generation_ && slots_[i].key != key;
+         i = (i + 1) & (slots_.size() - 1)) {
+      ++count;
+    }
+    return count;
+  }
+
  private:
   struct Slot {
     std::uint64_t key = 0;
@@ -77,9 +90,12 @@ class VoxelHash {
     std::uint32_t generation = 0;
   };
 
+  /// Every bit of the key must reach the bits that are kept: voxels of a wall differ in one or two
+  /// coordinates only (finalizer of splitmix64).
   std::size_t slot(std::uint64_t key) const {
-    key *= 0x9E3779B97F4A7C15ULL;
-    return (key ^ (key >> 29U)) & (slots_.size() - 1);
+    key = (key ^ (key >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    key = (key ^ (key >> 27U)) * 0x94d049bb133111ebULL;
+    return (key ^ (key >> 31U)) & (slots_.size() - 1);
   }
 
   void grow() {
