@@ -19,6 +19,10 @@ void add_score_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);
 void add_detectors_command(CLI::App& app, const std::filesystem::path& scenario_folder,
                            int& exit_code);
+void add_ablate_command(CLI::App& app, const std::filesystem::path& scenario_folder,
+                        int& exit_code);
+void add_consistency_command(CLI::App& app, const std::filesystem::path& scenario_folder,
+                             int& exit_code);
 void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
 void add_config_command(CLI::App& app, const std::filesystem::path& scenario_folder,
                         int& exit_code);

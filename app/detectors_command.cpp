@@ -11,6 +11,7 @@
 #include "app/options.hpp"
 #include "harness/detector_report.hpp"
 #include "harness/detectors.hpp"
+#include "harness/estimator_spec.hpp"
 #include "harness/seeds.hpp"
 #include "harness/table.hpp"
 
@@ -33,7 +34,7 @@ struct DetectorArguments {
 Result<std::vector<Scenario>> scenarios_of(const DetectorArguments& arguments,
                                            const fs::path& folder) {
   std::vector<std::string> overrides = arguments.overrides;
-  overrides.push_back(fmt::format("estimators=[{}]", arguments.estimator));
+  overrides.push_back(estimators_setting({&arguments.estimator, 1}));
   std::vector<Scenario> scenarios;
   for (const std::string& given : arguments.scenarios) {
     const auto file = find_scenario(given, folder);

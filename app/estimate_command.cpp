@@ -12,6 +12,7 @@
 #include "app/progress_display.hpp"
 #include "harness/estimate.hpp"
 #include "harness/estimate_report.hpp"
+#include "harness/estimator_spec.hpp"
 #include "harness/output_folder.hpp"
 #include "harness/pictures.hpp"
 
@@ -37,7 +38,7 @@ struct EstimateArguments {
 Result<EstimateConfig> config_of(const EstimateArguments& arguments) {
   std::vector<std::string> overrides;
   if (!arguments.estimators.empty()) {
-    overrides.push_back(fmt::format("estimators=[{}]", fmt::join(arguments.estimators, ", ")));
+    overrides.push_back(estimators_setting(joined_specs(arguments.estimators)));
   }
   for (const std::string& topic : arguments.topics) {
     if (topic.find('=') == std::string::npos) {
@@ -106,7 +107,8 @@ void add_estimate_command(CLI::App& app, int& exit_code) {
   command->add_option("bag", arguments->bag, "ROS 1 bag, simulated or from a robot")->required();
   command
       ->add_option("--estimator,--estimators", arguments->estimators,
-                   "Estimators to run, e.g. aims,lio (aims)")
+                   "Estimators to run, e.g. aims,lio (aims) or\n"
+                   "loose=aims+leg.scale_sigma=0.1")
       ->delimiter(',');
   command
       ->add_option("--topics", arguments->topics,

@@ -25,6 +25,8 @@ constexpr const char* kFooter =
     "  aims score --truth truth.tum --estimate mine.tum --segments a-b=12.5:110.2\n"
     "  aims compare out/before out/after\n"
     "  aims detectors corridor corridor_smooth --seeds 1-5\n"
+    "  aims ablate dial_d30 dial_n30 --seeds 1-3\n"
+    "  aims consistency dial_z30 --seeds 1-50 --estimators aims_d,lio\n"
     "  aims simulate corridor -o walk.bag\n"
     "  aims estimate walk.bag --estimators aims,lio\n"
     "  aims info robot.bag\n"
@@ -50,6 +52,8 @@ int parse_and_run(int argc, char** argv) {
   aims::add_score_command(app, exit_code);
   aims::add_compare_command(app, exit_code);
   aims::add_detectors_command(app, scenarios, exit_code);
+  aims::add_ablate_command(app, scenarios, exit_code);
+  aims::add_consistency_command(app, scenarios, exit_code);
   aims::add_list_command(app, scenarios, exit_code);
   aims::add_config_command(app, scenarios, exit_code);
   try {

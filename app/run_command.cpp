@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
 #include "app/progress_display.hpp"
+#include "harness/estimator_spec.hpp"
 #include "harness/experiment.hpp"
 #include "harness/pictures.hpp"
 #include "harness/score_table.hpp"
@@ -37,7 +38,7 @@ Result<Scenario> scenario_of(const RunArguments& arguments, const fs::path& fold
   if (!file) return tl::unexpected(file.error());
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.estimators.empty()) {
-    overrides.push_back(fmt::format("estimators=[{}]", fmt::join(arguments.estimators, ", ")));
+    overrides.push_back(estimators_setting(joined_specs(arguments.estimators)));
   }
   return load_scenario(*file, overrides);
 }
@@ -119,7 +120,10 @@ void add_run_command(CLI::App& app, const fs::path& scenario_folder, int& exit_c
   command->add_option("scenario", arguments->scenario, "Scenario file, or its bare name")
       ->required();
   command->add_option("--seed", arguments->seeds, "Seed, range or list: 3, 1-5, 1,4,7-9");
-  command->add_option("--estimators", arguments->estimators, "Estimators to run, e.g. aims,lio")
+  command
+      ->add_option("--estimators", arguments->estimators,
+                   "Estimators to run, e.g. aims,lio or\n"
+                   "loose=aims+leg.scale_sigma=0.1")
       ->delimiter(',');
   add_repeatable(*command, "--set", arguments->overrides,
                  "key=value on top of the scenario; repeatable");

@@ -72,6 +72,7 @@ std::vector<WeakAxisError> weak_axis_errors(std::span<const PosePair> pairs,
     const PosePair& pair = pairs[*found];
     const Eigen::Vector3d& axis = scans[i].weak_axis_in_world;
     WeakAxisError error;
+    error.stamp = scans[i].stamp;
     error.equivalent_returns = scans[i].equivalent_returns;
     error.error_m = axis.dot(pair.estimate.translation - pair.truth.translation);
     error.bound_m = bound_along(bounds[i], axis);

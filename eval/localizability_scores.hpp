@@ -26,6 +26,7 @@ struct StatedCovariance {
 
 /// An estimator's error along the weak axis of one sweep.
 struct WeakAxisError {
+  Time stamp = 0;                   ///< of the sweep
   double equivalent_returns = 0.0;  ///< of the sweep
   double error_m = 0.0;             ///< signed; the axis' sign means nothing
   double bound_m = 0.0;             ///< posterior bound along the same axis

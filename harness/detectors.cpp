@@ -109,6 +109,10 @@ const std::vector<DegeneracyIndex>& degeneracy_indices() {
        [](const Scan& s) { return s.smallest_eigenvalue; }},
       {"condition_number", true, "Hinduja, Ho and Kaess 2019",
        [](const Scan& s) { return s.condition_number; }},
+      {"weak_weight", false, "own: information that noise would not give by chance",
+       [](const Scan& s) { return s.weak_weight; }},
+      {"weak_ratio", false, "own: least ratio of information to what chance gives",
+       [](const Scan& s) { return s.weak_ratio; }},
       {"points_used", false, "usual practice",
        [](const Scan& s) { return static_cast<double>(s.points_used); }}};
   return indices;

@@ -8,6 +8,7 @@
 
 #include "estimator/registry.hpp"
 #include "harness/bag_origin.hpp"
+#include "harness/estimator_spec.hpp"
 #include "harness/stopwatch.hpp"
 #include "harness/stream.hpp"
 #include "io/yaml_config.hpp"
@@ -66,8 +67,9 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
 }  // namespace
 
 void describe(Fields& fields, EstimateConfig& config) {
-  fields.texts("estimators", config.estimators,
-               {.unit = "-", .meaning = "who estimates, by name; `aims list` names them"});
+  fields.texts(
+      "estimators", config.estimators,
+      {.unit = "-", .meaning = "who estimates, by name (`aims list`), or LABEL=NAME+key=value"});
   fields.group("recording", config.recording);
   fields.group("estimator", config.estimator);
   fields.group("scoring", config.scoring);
@@ -81,12 +83,17 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
   }
   if (auto ok = apply_overrides(config, overrides); !ok) return tl::unexpected(ok.error());
   if (config.estimators.empty()) return failure("estimators: expected at least one name");
+  if (auto specs = check_estimator_specs(config.estimators); !specs) {
+    return failure("estimators: " + specs.error().message);
+  }
   return config;
 }
 
 Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
                           const std::string& recording) {
-  for (const std::string& name : config.estimators) {
+  for (const std::string& text : config.estimators) {
+    const auto spec = parse_estimator_spec(text);
+    const std::string name = spec ? spec->name : text;
     if (name == "lio" || setup.has_legs) continue;
     return failure(
         fmt::format("{}: estimator {} needs leg odometry, which is not found; name its topic "

@@ -74,6 +74,17 @@ Result<void> draw_degeneracy(const std::string& title, const std::string& subtit
        {series_of("lambda_min", *found, &Scan::smallest_eigenvalue)},
        true,
        false}};
+  const TimeSeries ratio = series_of("least over axes", *found, &Scan::weak_ratio);
+  const bool judged = std::any_of(ratio.points.begin(), ratio.points.end(),
+                                  [](const Eigen::Vector2d& point) { return point.y() > 0.0; });
+  if (judged) {
+    plot.panels.push_back({"Information over what chance gives", "[-]", {ratio}, true, false});
+    plot.panels.push_back({"Weight of the weakest axis",
+                           "[-]",
+                           {series_of("weak_weight", *found, &Scan::weak_weight)},
+                           false,
+                           true});
+  }
   for (const Passage& passage : passages) {
     plot.events.emplace_back(to_seconds(passage.stamp), passage.point);
   }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "eval/statistics.hpp"
+#include "harness/estimator_spec.hpp"
 #include "harness/suite_summary.hpp"
 
 namespace aims {
@@ -20,7 +21,7 @@ using Members = std::vector<const SuiteCase*>;
 FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
   FamilyPoint point;
   point.level = each.scenario.level;
-  const auto& own = each.scenario.estimators;
+  const auto own = labels_of(each.scenario.estimators);
   if (std::find(own.begin(), own.end(), estimator) == own.end()) return point;
   point.ate_m = summarize(each.runs, estimator, "ate_m").median;
   point.ate_interval = median_interval(each.runs, estimator, "ate_m");

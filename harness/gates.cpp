@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "eval/statistics.hpp"
+#include "harness/estimator_spec.hpp"
 
 namespace aims {
 namespace {
@@ -84,7 +85,7 @@ std::vector<GateCheck> check_gates(const Scenario& scenario, std::span<const Run
   std::vector<GateCheck> checks;
   if (runs.empty()) return checks;
   for (const Expectation& expectation : scenario.expect) {
-    const auto& ran = scenario.estimators;
+    const auto ran = labels_of(scenario.estimators);
     if (std::find(ran.begin(), ran.end(), expectation.estimator) == ran.end()) continue;
     checks.push_back(check_one(expectation, runs));
   }
@@ -119,8 +120,13 @@ std::string text_of(const Scenario& scenario, const GateCheck& check) {
 
 std::string reproducing_command(const Scenario& scenario, const GateCheck& check) {
   const std::string file = scenario.file.empty() ? scenario.name : scenario.file.string();
+  const auto asked =
+      std::find_if(scenario.estimators.begin(), scenario.estimators.end(),
+                   [&](const auto& spec) { return label_of(spec) == check.expectation.estimator; });
+  const bool found = asked != scenario.estimators.end();
   std::string command = fmt::format("aims run {} --seed {} --estimators {}", quoted(file),
-                                    fmt::join(check.seeds, ","), check.expectation.estimator);
+                                    fmt::join(check.seeds, ","),
+                                    quoted(found ? *asked : check.expectation.estimator));
   for (const std::string& setting : scenario.overrides) {
     if (!setting.starts_with("estimators=")) command += " --set " + quoted(setting);
   }

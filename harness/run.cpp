@@ -16,9 +16,10 @@ EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result
   outcome.map = timed.estimator().map_points();
   outcome.scores =
       score(outcome.report.trajectory, result.truth_trajectory, result.truth.passages, scoring);
-  outcome.weak_axis =
-      weak_axis_scores_of(outcome.report, result.truth_trajectory, result.localizability, scoring,
+  outcome.weak_axis_errors =
+      weak_axis_errors_of(outcome.report, result.truth_trajectory, result.localizability, scoring,
                           half_sweep(scenario.simulation));
+  outcome.weak_axis = weak_axis_scores(outcome.weak_axis_errors);
   outcome.scan_times_ms = timed.scan_times_ms();
   outcome.wall_s = timed.total_seconds();
   return outcome;

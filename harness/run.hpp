@@ -38,7 +38,8 @@ struct EstimatorOutcome {
   EstimatorReport report;
   std::vector<Eigen::Vector3f> map;  ///< in its odometry frame [m]
   Scores scores;
-  std::vector<WeakAxisScore> weak_axis;  ///< error along what the LiDAR cannot see
+  std::vector<WeakAxisError> weak_axis_errors;  ///< along what the LiDAR cannot see, by sweep
+  std::vector<WeakAxisScore> weak_axis;         ///< summary of them
   std::vector<double> scan_times_ms;
   double wall_s = 0.0;
 };

@@ -67,7 +67,11 @@ RunLocalizability run_localizability(const SimulationConfig& config, const Senso
                                      const Truth& truth, const Trajectory& truth_trajectory) {
   RunLocalizability result;
   result.scans = localizability_of(truth.scans, truth_trajectory);
-  result.bounds = posterior_bounds(motion_of(truth), truth.scans, bound_parameters(config, rig));
+  const std::vector<TrueMotion> motion = motion_of(truth);
+  BoundParameters parameters = bound_parameters(config, rig);
+  result.bounds = posterior_bounds(motion, truth.scans, parameters);
+  parameters.lidar = false;
+  result.bounds_without_lidar = posterior_bounds(motion, truth.scans, parameters);
   return result;
 }
 
@@ -75,7 +79,7 @@ Duration half_sweep(const SimulationConfig& config) {
   return from_seconds(0.5 / config.lidar.rate);
 }
 
-std::vector<WeakAxisScore> weak_axis_scores_of(const EstimatorReport& report,
+std::vector<WeakAxisError> weak_axis_errors_of(const EstimatorReport& report,
                                                const Trajectory& truth_trajectory,
                                                const RunLocalizability& localizability,
                                                const ScoreConfig& scoring, Duration tolerance) {
@@ -86,9 +90,8 @@ std::vector<WeakAxisScore> weak_axis_scores_of(const EstimatorReport& report,
   for (const ScanDiagnostics& scan : report.diagnostics) {
     stated.push_back({scan.stamp, scan.position_covariance});
   }
-  return weak_axis_scores(weak_axis_errors(aligned(pairs, align_start(pairs, scoring.anchor)),
-                                           stated, localizability.scans, localizability.bounds,
-                                           tolerance));
+  return weak_axis_errors(aligned(pairs, align_start(pairs, scoring.anchor)), stated,
+                          localizability.scans, localizability.bounds, tolerance);
 }
 
 CsvTable localizability_table(const RunLocalizability& localizability) {

@@ -20,6 +20,7 @@ namespace aims {
 struct RunLocalizability {
   std::vector<Localizability> scans;
   std::vector<PosteriorBound> bounds;
+  std::vector<PosteriorBound> bounds_without_lidar;  ///< of IMU and legs alone
 };
 
 /// The true parameters of the simulated sensors, as the posterior bound takes them. The white noise
@@ -34,8 +35,8 @@ RunLocalizability run_localizability(const SimulationConfig& config, const Senso
 /// Half of a sweep: how far a stamp may be from the sweep that it means.
 Duration half_sweep(const SimulationConfig& config);
 
-/// Errors of an estimator along the weak axis, over all sweeps and over each degeneracy level's.
-std::vector<WeakAxisScore> weak_axis_scores_of(const EstimatorReport& report,
+/// Errors of an estimator along the weak axis at each sweep.
+std::vector<WeakAxisError> weak_axis_errors_of(const EstimatorReport& report,
                                                const Trajectory& truth_trajectory,
                                                const RunLocalizability& localizability,
                                                const ScoreConfig& scoring, Duration tolerance);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "estimator/registry.hpp"
+#include "harness/estimator_spec.hpp"
 #include "io/config_dump.hpp"
 #include "io/yaml_config.hpp"
 #include "io/yaml_position.hpp"
@@ -16,9 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> check_estimator(std::string_view key, const std::string& name) {
+/// Error for an expectation of an estimator that there is not.
+Result<void> check_estimator(std::string_view key, const std::string& name,
+                             const Scenario& scenario) {
   std::vector<std::string> known;
   for (const EstimatorEntry& entry : estimator_registry()) known.emplace_back(entry.name);
+  for (const std::string& label : labels_of(scenario.estimators)) {
+    if (std::find(known.begin(), known.end(), label) == known.end()) known.push_back(label);
+  }
   if (std::find(known.begin(), known.end(), name) != known.end()) return {};
   const std::string near = near_match(name, known);
   return failure(fmt::format("{}: no estimator '{}'; expected one of {}{}", key, name,
@@ -47,13 +53,13 @@ Result<void> check_segments(const Scenario& scenario) {
 
 Result<void> check(const Scenario& scenario) {
   if (auto segments = check_segments(scenario); !segments) return segments;
-  for (const std::string& name : scenario.estimators) {
-    if (auto known = check_estimator("estimators", name); !known) return known;
+  if (auto specs = check_estimator_specs(scenario.estimators); !specs) {
+    return failure("estimators: " + specs.error().message);
   }
   for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
     const std::string key = fmt::format("expect.{}.estimator", i);
     const Expectation& expectation = scenario.expect[i];
-    if (auto known = check_estimator(key, expectation.estimator); !known) return known;
+    if (auto known = check_estimator(key, expectation.estimator, scenario); !known) return known;
     if (expectation.min == -kNoLimit && expectation.max == kNoLimit) {
       return failure(fmt::format("expect.{}: expected a limit, max or min", i));
     }
@@ -87,7 +93,8 @@ void describe(Fields& f, Scenario& s) {
   f.text("level_unit", s.level_unit, {.meaning = "unit of the level"});
   f.integer("seed", s.seed,
             {.unit = "-", .range = at_least(0), .meaning = "seed of every random stream"});
-  f.texts("estimators", s.estimators, {.meaning = "estimators that run on the stream"});
+  f.texts("estimators", s.estimators,
+          {.meaning = "estimators that run on the stream: NAME or LABEL=NAME+key=value"});
   describe(f, s.simulation);
   f.group("estimator", s.estimator);
   f.group("scoring", s.scoring);

@@ -28,7 +28,7 @@ inline constexpr double kNoLimit = 1e300;
 /// Limits that a score must hold over the seeds of an invocation, or it fails (exit code 1). `min`
 /// serves scores of which more is better, and errors that must not become small unnoticed.
 struct Expectation {
-  std::string estimator;   ///< name in the registry
+  std::string estimator;   ///< name in the registry, or a label of the scenario's estimators
   std::string score;       ///< dotted key inside the estimator's scores, e.g. "m_list_percent.a-b"
   double max = kNoLimit;   ///< in the score's own unit
   double min = -kNoLimit;  ///< in the score's own unit
@@ -48,6 +48,7 @@ struct Scenario {
   double level = 0.0;      ///< that quantity, in `level_unit`; scores of a family are drawn over it
   std::string level_unit;  ///< e.g. "m", "%"
   int seed = 1;
+  /// Specs (harness/estimator_spec.hpp) of who runs.
   std::vector<std::string> estimators = {"aims", "tfs", "tfs_clean", "lio", "leg"};
   SimulationConfig simulation;
   EstimatorConfig estimator;

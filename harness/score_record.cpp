@@ -7,6 +7,7 @@
 
 #include "estimator/registry.hpp"
 #include "eval/statistics.hpp"
+#include "harness/estimator_spec.hpp"
 #include "harness/gates.hpp"
 
 namespace aims {
@@ -199,9 +200,12 @@ RunRecord record_of(const Scenario& scenario, const RunResult& result, double dr
 }
 
 void take_estimators(const Scenario& scenario, const RunRecord& from, RunRecord& record) {
+  std::vector<std::string> names;
+  for (const EstimatorEntry& entry : estimator_registry()) names.emplace_back(entry.name);
+  for (const std::string& label : labels_of(scenario.estimators)) names.push_back(label);
+  for (const auto& [name, unused] : from.scores.at("estimators").items()) names.push_back(name);
   Json merged = Json::object();
-  for (const EstimatorEntry& entry : estimator_registry()) {
-    const std::string name(entry.name);
+  for (const std::string& name : names) {
     for (const RunRecord* each : {&std::as_const(record), &from}) {
       const Json& estimators = each->scores.at("estimators");
       if (!merged.contains(name) && estimators.contains(name)) merged[name] = estimators[name];
@@ -210,6 +214,13 @@ void take_estimators(const Scenario& scenario, const RunRecord& from, RunRecord&
   for (const auto& [name, seconds] : from.scores["times_s"]["estimators"].items()) {
     Json& times = record.scores["times_s"]["estimators"];
     if (merged.contains(name) && !times.contains(name)) times[name] = seconds;
+  }
+  for (const char* group : {"specs", "weak_axis_series"}) {
+    if (!from.scores.contains(group)) continue;
+    for (const auto& [name, value] : from.scores[group].items()) {
+      Json& own = record.scores[group];
+      if (merged.contains(name) && !own.contains(name)) own[name] = value;
+    }
   }
   record.scores["estimators"] = std::move(merged);
   record.scores["gates"] = gates_json(scenario, record);

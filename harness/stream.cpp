@@ -7,17 +7,22 @@
 #include <utility>
 
 #include "estimator/registry.hpp"
+#include "harness/estimator_spec.hpp"
 
 namespace aims {
 
-Result<std::vector<TimedEstimator>> make_estimators(std::span<const std::string> names,
+Result<std::vector<TimedEstimator>> make_estimators(std::span<const std::string> specs,
                                                     const EstimatorConfig& config,
                                                     const SensorRig& rig) {
   std::vector<TimedEstimator> estimators;
-  for (const std::string& name : names) {
-    auto made = make_estimator(name, config, rig);
+  for (const std::string& text : specs) {
+    const auto spec = parse_estimator_spec(text);
+    if (!spec) return tl::unexpected(spec.error());
+    const auto own = config_with(*spec, config);
+    if (!own) return tl::unexpected(own.error());
+    auto made = make_estimator(spec->name, *own, rig);
     if (!made) return tl::unexpected(made.error());
-    estimators.emplace_back(name, std::move(*made));
+    estimators.emplace_back(spec->label, std::move(*made));
   }
   return estimators;
 }

@@ -26,8 +26,9 @@ struct StreamEnd {
   std::optional<Error> error;  ///< the source broke; what came before it was estimated
 };
 
-/// The estimators of those names. Error for an unknown name.
-Result<std::vector<TimedEstimator>> make_estimators(std::span<const std::string> names,
+/// The estimators that the specs ask for (harness/estimator_spec.hpp), each under its label and
+/// with its settings on top of `config`. Error for a spec that cannot be read.
+Result<std::vector<TimedEstimator>> make_estimators(std::span<const std::string> specs,
                                                     const EstimatorConfig& config,
                                                     const SensorRig& rig);
 

@@ -18,6 +18,7 @@
 #include "harness/suite_progress.hpp"
 #include "harness/suite_report.hpp"
 #include "harness/unit_store.hpp"
+#include "harness/weak_axis_series.hpp"
 
 namespace aims {
 namespace {
@@ -95,6 +96,7 @@ Result<bool> run_item(const Scenario& scenario, const SuiteOptions& options, con
   if (!result) return tl::unexpected(result.error());
   if (!result->complete) return false;
   RunRecord record = record_of(lacking, *result, 0.0);
+  if (options.weak_axis_series) add_weak_axis_series(*result, record);
   if (options.trajectories) {
     const fs::path folder = store.folder_of(scenario.name, item.seed);
     fs::create_directories(folder);
@@ -171,7 +173,7 @@ Result<Suite> run_suite(std::vector<ScenarioFile> scenarios, const SuiteOptions&
   if (!suite) return suite;
   const auto lock = claim(options.out);
   if (!lock) return tl::unexpected(lock.error());
-  const UnitStore store(options.out);
+  const UnitStore store(options.out, options.weak_axis_series);
   std::vector<WorkItem> items = items_of(*suite, options, store);
   std::vector<WorkItem*> unfinished;
   for (WorkItem& item : items) {

@@ -25,6 +25,7 @@ struct SuiteOptions {
   std::filesystem::path out;         ///< folder that is filled, or continued
   int jobs = 1;                      ///< runs at a time, one thread each
   bool trajectories = false;         ///< keep what `aims run` writes of each run, not only scores
+  bool weak_axis_series = false;     ///< keep each run's errors along the weak axis over time
 };
 
 /// One scenario of a suite and its finished runs, by seed.

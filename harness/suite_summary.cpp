@@ -6,6 +6,7 @@
 #include "estimator/registry.hpp"
 #include "eval/statistics.hpp"
 #include "harness/code_version.hpp"
+#include "harness/estimator_spec.hpp"
 
 namespace aims {
 namespace {
@@ -49,7 +50,7 @@ Json case_json(const SuiteCase& each) {
   }
   for (const GateCheck& check : each.gates) json["gates"].push_back(gate_json(check));
   if (each.runs.empty()) return json;
-  for (const std::string& estimator : each.scenario.estimators) {
+  for (const std::string& estimator : labels_of(each.scenario.estimators)) {
     const std::size_t count = successes(each.runs, estimator);
     json["estimators"][estimator] = {
         {"runs", each.runs.size()},
@@ -90,10 +91,15 @@ std::vector<std::string> estimators_of(const Suite& suite) {
   std::vector<std::string> names;
   for (const EstimatorEntry& entry : estimator_registry()) {
     const bool ran = std::any_of(suite.cases.begin(), suite.cases.end(), [&](const auto& each) {
-      const auto& own = each.scenario.estimators;
+      const auto own = labels_of(each.scenario.estimators);
       return std::find(own.begin(), own.end(), entry.name) != own.end();
     });
     if (ran) names.emplace_back(entry.name);
+  }
+  for (const SuiteCase& each : suite.cases) {
+    for (const std::string& label : labels_of(each.scenario.estimators)) {
+      if (std::find(names.begin(), names.end(), label) == names.end()) names.push_back(label);
+    }
   }
   return names;
 }

@@ -38,7 +38,7 @@ Interval median_interval(std::span<const RunRecord> runs, const std::string& est
 /// Runs in which the estimator stayed localized to the end.
 std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator);
 
-/// Names of the estimators that any case ran, in the registry's order.
+/// Labels of the estimators that any case ran: names in the registry's order, then the others.
 std::vector<std::string> estimators_of(const Suite& suite);
 
 /// True for scores that depend on the machine and the moment.

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 
+#include "harness/estimator_spec.hpp"
+
 namespace aims {
 namespace {
 
 bool ran(const SuiteCase& each, const std::string& estimator) {
-  const auto& own = each.scenario.estimators;
+  const auto own = labels_of(each.scenario.estimators);
   return !each.runs.empty() && std::find(own.begin(), own.end(), estimator) != own.end();
 }
 
@@ -132,7 +134,7 @@ CsvTable suite_csv(const Suite& suite) {
   CsvTable table({"scenario", "family", "level", "seed", "estimator", "score", "value"});
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
-      for (const std::string& estimator : each.scenario.estimators) {
+      for (const std::string& estimator : labels_of(each.scenario.estimators)) {
         for (const std::string& key : score_keys(run, estimator)) {
           if (is_timing(key)) continue;
           table.add(each.scenario.name).add(each.scenario.family);
@@ -155,7 +157,7 @@ CsvTable timings_csv(const Suite& suite) {
                   "mean_per_scan_ms"});
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
-      for (const std::string& estimator : each.scenario.estimators) {
+      for (const std::string& estimator : labels_of(each.scenario.estimators)) {
         table.add(each.scenario.name).add(static_cast<std::int64_t>(run.seed)).add(estimator);
         table.add(run.scores.value("simulated_s", 0.0)).add(run.scores.value("wall_s", 0.0));
         table.add(run.scores["times_s"]["estimators"].value(estimator, 0.0));

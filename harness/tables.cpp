@@ -27,6 +27,8 @@ const std::vector<std::string> kDiagnosticsHeader = {"stamp_s",
                                                      "innovation_position_z",
                                                      "smallest_eigenvalue",
                                                      "condition_number",
+                                                     "weak_weight",
+                                                     "weak_ratio",
                                                      "leg_innovation",
                                                      "leg_updates",
                                                      "position_covariance_xx",
@@ -65,6 +67,7 @@ CsvTable diagnostics_table(const EstimatorOutcome& outcome) {
     add_vector(table, d.innovation_rotation);
     add_vector(table, d.innovation_position);
     table.add(d.smallest_eigenvalue).add(d.condition_number);
+    table.add(d.weak_weight).add(d.weak_ratio);
     table.add(d.leg_innovation).add(d.leg_updates);
     add_symmetric(table, d.position_covariance);
     add_symmetric(table, d.rotation_covariance);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "harness/code_version.hpp"
+#include "harness/estimator_spec.hpp"
 
 namespace aims {
 namespace {
@@ -21,10 +22,10 @@ std::uint64_t fnv1a(std::string_view text) {
 }
 
 /// The scenario with what does not change a run's numbers taken out.
-std::string deciding_text(const Scenario& scenario) {
+std::string deciding_text(const Scenario& scenario, const EstimatorConfig& estimator) {
   Scenario bare;
   bare.simulation = scenario.simulation;
-  bare.estimator = scenario.estimator;
+  bare.estimator = estimator;
   bare.scoring = scenario.scoring;
   return config_text(bare);
 }
@@ -32,8 +33,12 @@ std::string deciding_text(const Scenario& scenario) {
 }  // namespace
 
 std::string unit_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator) {
-  return fmt::format("{:016x}", fnv1a(fmt::format("{}\n{}\n{}\n{}", code_version(), seed, estimator,
-                                                  deciding_text(scenario))));
+  const auto spec = parse_estimator_spec(estimator);
+  const Result<EstimatorConfig> own =
+      spec ? config_with(*spec, scenario.estimator) : scenario.estimator;
+  return fmt::format(
+      "{:016x}", fnv1a(fmt::format("{}\n{}\n{}\n{}", code_version(), seed,
+                                   spec ? spec->name : estimator, deciding_text(scenario, *own))));
 }
 
 }  // namespace aims

@@ -10,8 +10,9 @@ namespace aims {
 
 /// Name of what one estimator yields on one seed of a scenario: 16 hexadecimal digits of a hash
 /// (FNV-1a, 64 bit) of everything that decides it, and of nothing else: the effective
-/// configuration of simulation, estimators and scoring, the seed, the estimator, the code's
-/// version. Names, descriptions, tags and expectations do not count, nor does where a file lies.
+/// configuration of simulation, scoring and the estimator with the settings of its spec, the seed,
+/// the estimator's name, the code's version. Labels, descriptions, tags and expectations do not
+/// count, nor does where a file lies.
 std::string unit_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator);
 
 }  // namespace aims

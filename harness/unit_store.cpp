@@ -5,8 +5,10 @@
 
 #include <system_error>
 
+#include "harness/estimator_spec.hpp"
 #include "harness/stored_results.hpp"
 #include "harness/unit_id.hpp"
+#include "harness/weak_axis_series.hpp"
 #include "io/atomic_file.hpp"
 
 namespace aims {
@@ -14,18 +16,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The id under which an estimator of the record was stored; empty when it has none.
-std::string stored_id(const RunRecord& record, const std::string& estimator) {
-  return record.scores.value("units", Json::object()).value(estimator, std::string());
+/// What is stored of `label` under "units" or "specs"; empty when there is nothing.
+std::string stored_text(const RunRecord& record, const char* group, const std::string& label) {
+  return record.scores.value(group, Json::object()).value(label, std::string());
 }
 
-/// Drops the estimators whose id is not what it would be now.
-void keep_current(const Scenario& scenario, std::uint64_t seed, StoredUnits& stored) {
+/// The spec that a label stands for: in the scenario, else in the record, else a bare name.
+std::string spec_of(const Scenario& scenario, const RunRecord& record, const std::string& label) {
+  for (const std::string& spec : scenario.estimators) {
+    if (label_of(spec) == label) return spec;
+  }
+  const std::string stored = stored_text(record, "specs", label);
+  return stored.empty() ? label : stored;
+}
+
+/// Drops the estimators whose id is not what it would be now, and those without a series that is
+/// wanted.
+void keep_current(const Scenario& scenario, std::uint64_t seed, bool series, StoredUnits& stored) {
+  const RunRecord& record = *stored.record;
   Json& estimators = stored.record->scores["estimators"];
   std::vector<std::string> stale;
-  for (const auto& [name, unused] : estimators.items()) {
-    if (stored_id(*stored.record, name) != unit_id(scenario, seed, name)) stale.push_back(name);
+  std::vector<std::string> bare;
+  for (const auto& [label, unused] : estimators.items()) {
+    const std::string id = unit_id(scenario, seed, spec_of(scenario, record, label));
+    if (stored_text(record, "units", label) != id) {
+      stale.push_back(label);
+    } else if (series && !holds_series(record, label)) {
+      bare.push_back(label);
+    }
   }
+  for (const std::string& label : bare) estimators.erase(label);
   for (const std::string& name : stale) estimators.erase(name);
   if (stale.empty()) return;
   stored.notes.push_back(fmt::format("{} seed {}: {} of another code or configuration, runs again",
@@ -34,7 +54,8 @@ void keep_current(const Scenario& scenario, std::uint64_t seed, StoredUnits& sto
 
 }  // namespace
 
-UnitStore::UnitStore(const fs::path& suite_folder) : folder_(suite_folder / "runs") {}
+UnitStore::UnitStore(const fs::path& suite_folder, bool series)
+    : folder_(suite_folder / "runs"), series_(series) {}
 
 fs::path UnitStore::folder_of(const std::string& scenario, std::uint64_t seed) const {
   return folder_ / scenario / fmt::format("seed-{}", seed);
@@ -46,14 +67,14 @@ StoredUnits UnitStore::find(const Scenario& scenario, std::uint64_t seed) const 
   if (fs::exists(file)) {
     if (auto record = read_record(file)) {
       stored.record = std::move(*record);
-      keep_current(scenario, seed, stored);
+      keep_current(scenario, seed, series_, stored);
     } else {
       stored.notes.push_back(record.error().message + "; runs again");
     }
   }
-  for (const std::string& name : scenario.estimators) {
-    if (!stored.record || !stored.record->scores["estimators"].contains(name)) {
-      stored.missing.push_back(name);
+  for (const std::string& spec : scenario.estimators) {
+    if (!stored.record || !stored.record->scores["estimators"].contains(label_of(spec))) {
+      stored.missing.push_back(spec);
     }
   }
   return stored;
@@ -61,10 +82,14 @@ StoredUnits UnitStore::find(const Scenario& scenario, std::uint64_t seed) const 
 
 Result<void> UnitStore::put(const Scenario& scenario, RunRecord& record) const {
   Json ids = Json::object();
-  for (const auto& [name, unused] : record.scores["estimators"].items()) {
-    ids[name] = unit_id(scenario, record.seed, name);
+  Json specs = Json::object();
+  for (const auto& [label, unused] : record.scores["estimators"].items()) {
+    const std::string spec = spec_of(scenario, record, label);
+    ids[label] = unit_id(scenario, record.seed, spec);
+    if (spec != label) specs[label] = spec;
   }
   record.scores["units"] = std::move(ids);
+  record.scores["specs"] = std::move(specs);
   const fs::path folder = folder_of(scenario.name, record.seed);
   std::error_code code;
   fs::create_directories(folder, code);

@@ -16,16 +16,17 @@ namespace aims {
 /// What a suite's folder already has of one scenario and seed.
 struct StoredUnits {
   std::optional<RunRecord> record;   ///< holds the estimators that need not run again, and no other
-  std::vector<std::string> missing;  ///< of the scenario's estimators: those that must run
+  std::vector<std::string> missing;  ///< of the scenario's estimators: specs of those that must run
   std::vector<std::string> notes;    ///< why something that is there must run again
 };
 
 /// The folder `runs/` of a suite: `SCENARIO/seed-N/scores.json`, one file per scenario and seed,
-/// that carries the id of each estimator's unit. A file is replaced whole, so that it is finished
-/// or is not there.
+/// that carries the id of each estimator's unit, and the spec of each that has a label. A file is
+/// replaced whole, so that it is finished or is not there.
 class UnitStore {
  public:
-  explicit UnitStore(const std::filesystem::path& suite_folder);
+  /// With `series`, an estimator counts as finished only with its errors along the weak axis.
+  explicit UnitStore(const std::filesystem::path& suite_folder, bool series = false);
 
   /// What is stored under the ids that the scenario's units have now. A file that cannot be read
   /// counts as not there.
@@ -38,6 +39,7 @@ class UnitStore {
 
  private:
   std::filesystem::path folder_;
+  bool series_ = false;
 };
 
 }  // namespace aims
