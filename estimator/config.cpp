@@ -101,6 +101,9 @@ void describe(Fields& f, LidarUpdateConfig& c) {
 }
 
 void describe(Fields& f, MapConfig& c) {
+  f.choice("planes", c.planes,
+           {{"neighbors", MapPlanes::kNeighbors}, {"voxels", MapPlanes::kVoxels}},
+           spec("", any(), "planes through the five nearest map points, or of voxels"));
   f.number("voxel_size", c.voxel_size,
            spec("m", in_range(0.05, 10.0), "edge of a voxel of the local map"));
   f.number("point_spacing", c.point_spacing,
@@ -125,8 +128,13 @@ void describe(Fields& f, MapConfig& c) {
   f.number("plane_min_ratio", c.plane_min_ratio,
            spec("-", at_least(1),
                 "least ratio of second to smallest principal variance; docs/decisions.md"));
+  f.number("plane_max_deviation", c.plane_max_deviation,
+           spec("m", positive(), "the points of a voxel deviate by less from its plane"));
+  f.integer("max_plane_points", c.max_plane_points,
+            spec("-", at_least(6), "points of a voxel after which its plane is frozen"));
+  f.number("range_sigma", c.range_sigma, spec("m", positive(), "noise of one return", "datasheet"));
   f.number("map_sigma", c.map_sigma,
-           spec("m", positive(), "least error of a map point across its plane"));
+           spec("m", positive(), "error of a map point that no averaging removes"));
 }
 
 void describe(Fields& f, DegeneracyConfig& c) {

@@ -73,20 +73,30 @@ struct LidarUpdateConfig {
   int min_matches = 30;                ///< fewer planes make no update
 };
 
+/// Where the planes of the map come from.
+enum class MapPlanes {
+  kNeighbors,  ///< through the five map points nearest to a return
+  kVoxels,     ///< of the voxel that a return lies in
+};
+
 /// Local map and its planes.
 struct MapConfig {
+  MapPlanes planes = MapPlanes::kNeighbors;
   double voxel_size = 0.5;      ///< hashed voxel; bounds the neighbour search [m]
   double point_spacing = 0.15;  ///< returns closer than this to a map point merge into it [m]
   int max_points_per_voxel = 32;
-  int max_merges = 20;              ///< returns that a map point averages before it is frozen
-  int max_voxels = 100000;          ///< beyond it the farthest are dropped
-  double insertion_voxel = 0.1;     ///< one point is inserted per voxel of the raw scan [m]
-  int max_insertions = 12000;       ///< bound on points per scan
-  double neighbor_gate = 0.5;       ///< the five neighbours lie within it [m]
-  double plane_thickness = 0.06;    ///< the five neighbours lie this close to their plane [m]
-  double plane_min_spread = 0.065;  ///< second principal deviation of the neighbours [m]
-  double plane_min_ratio = 10.0;    ///< second over smallest principal variance [-]
-  double map_sigma = 0.01;          ///< least error of a map point across its plane [m]
+  int max_merges = 20;                ///< returns that a map point averages before it is frozen
+  int max_voxels = 100000;            ///< beyond it the farthest are dropped
+  double insertion_voxel = 0.1;       ///< one point is inserted per voxel of the raw scan [m]
+  int max_insertions = 12000;         ///< bound on points per scan
+  double neighbor_gate = 0.5;         ///< the five neighbours lie within it [m]
+  double plane_thickness = 0.06;      ///< the five neighbours lie this close to their plane [m]
+  double plane_min_spread = 0.065;    ///< second principal deviation of the neighbours [m]
+  double plane_min_ratio = 10.0;      ///< second over smallest principal variance [-]
+  double plane_max_deviation = 0.03;  ///< of the points of a voxel across their plane [m]
+  int max_plane_points = 100;         ///< points of a voxel, after which its plane is frozen
+  double range_sigma = 0.02;          ///< noise of one return, as its datasheet gives it [m]
+  double map_sigma = 0.003;           ///< error of a map point that no averaging removes [m]
 };
 
 /// Reliability assessment and adaptive weights, eqs. (3)-(12).

@@ -47,11 +47,8 @@ void LidarUpdate::associate(const NominalState& state, std::span<const Eigen::Ve
   matches_.clear();
   const Eigen::Matrix3f R = state.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f t = state.position.cast<float>();
-  Neighbors neighbors;
   for (const Eigen::Vector3f& point : points) {
-    map.nearest(R * point + t, neighbors);
-    if (neighbors.count < Neighbors::kWanted) continue;
-    const Plane plane = fit_plane(neighbors.points, map_);
+    const Plane plane = map.plane_at(R * point + t);
     if (plane.valid) matches_.push_back({point.cast<double>(), plane});
   }
 }

@@ -9,47 +9,58 @@ namespace aims {
 namespace {
 
 /// First-order covariance of the normal of `count` points about their two axes in the plane: their
-/// error across it, taken from what is left of them but not below the map's, over their spread.
+/// error across it, what is left of them or `variance` [m^2] where that is larger, over their
+/// spread.
 Eigen::Matrix3d normal_covariance(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& scatter,
-                                  double count, const MapConfig& config) {
-  const Eigen::Vector3d& variance = scatter.eigenvalues();
-  const double seen = variance(0) * count / std::max(count - 3.0, 1.0);
-  const double across = std::max(seen, config.map_sigma * config.map_sigma);
+                                  double count, double variance) {
+  const Eigen::Vector3d& spread = scatter.eigenvalues();
+  const double seen = spread(0) * count / std::max(count - 3.0, 1.0);
+  const double across = std::max(seen, variance);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (int i = 1; i < 3; ++i) {
     const Eigen::Vector3d axis = scatter.eigenvectors().col(i);
-    sum += across / (count * std::max(variance(i), 1e-12)) * axis * axis.transpose();
+    sum += across / (count * std::max(spread(i), 1e-12)) * axis * axis.transpose();
   }
   return sum;
 }
 
 }  // namespace
 
-Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config) {
+Plane plane_of_moments(const PointMoments& moments, double min_spread, const MapConfig& config) {
   Plane plane;
-  if (points.size() < 3) return plane;
-  for (const Eigen::Vector3f& p : points) plane.point += p.cast<double>();
-  plane.point /= static_cast<double>(points.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d d = p.cast<double>() - plane.point;
-    scatter.noalias() += d * d.transpose();
-  }
-  scatter /= static_cast<double>(points.size());
+  plane.point = moments.mean;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(scatter);
+  solver.computeDirect(moments.scatter);
   plane.normal = solver.eigenvectors().col(0);
-  const double smallest = solver.eigenvalues()(0);
+  plane.thickness = std::sqrt(std::max(solver.eigenvalues()(0), 0.0));
   const double second = solver.eigenvalues()(1);
   if (!plane.normal.allFinite()) return plane;
-  if (second < config.plane_min_spread * config.plane_min_spread) return plane;
-  if (second < config.plane_min_ratio * smallest) return plane;
+  if (second < min_spread * min_spread) return plane;
+  if (second < config.plane_min_ratio * solver.eigenvalues()(0)) return plane;
+  plane.normal_covariance = normal_covariance(solver, moments.count, moments.point_variance);
+  plane.valid = true;
+  return plane;
+}
+
+Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config,
+                double point_variance) {
+  if (points.size() < 3) return {};
+  PointMoments moments;
+  moments.count = static_cast<double>(points.size());
+  moments.point_variance = point_variance;
+  for (const Eigen::Vector3f& p : points) moments.mean += p.cast<double>();
+  moments.mean /= moments.count;
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector3d d = p.cast<double>() - moments.mean;
+    moments.scatter.noalias() += d * d.transpose();
+  }
+  moments.scatter /= moments.count;
+  Plane plane = plane_of_moments(moments, config.plane_min_spread, config);
+  if (!plane.valid) return plane;
   for (const Eigen::Vector3f& p : points) {
     const double distance = plane.normal.dot(p.cast<double>() - plane.point);
-    if (std::abs(distance) > config.plane_thickness) return plane;
+    if (std::abs(distance) > config.plane_thickness) plane.valid = false;
   }
-  plane.normal_covariance = normal_covariance(solver, static_cast<double>(points.size()), config);
-  plane.valid = true;
   return plane;
 }
 

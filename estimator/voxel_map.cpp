@@ -35,16 +35,27 @@ float squared_gap(float inside, float size, int offset) {
   return gap * gap;
 }
 
+/// Variance of a map point across its plane: noise of the returns that it averages, and a rest.
+double point_variance(const Neighbors& neighbors, const MapConfig& config) {
+  double inverse_count = 0.0;
+  for (const std::uint8_t merged : neighbors.merged) inverse_count += 1.0 / merged;
+  inverse_count /= Neighbors::kWanted;
+  return config.map_sigma * config.map_sigma +
+         config.range_sigma * config.range_sigma * inverse_count;
+}
+
 }  // namespace
 
 VoxelMap::VoxelMap(const MapConfig& config)
-    : inverse_size_(static_cast<float>(1.0 / config.voxel_size)),
+    : config_(config),
+      inverse_size_(static_cast<float>(1.0 / config.voxel_size)),
       size_(static_cast<float>(config.voxel_size)),
       gate_(static_cast<float>(std::min(config.neighbor_gate, config.voxel_size))),
       spacing_(static_cast<float>(config.point_spacing)),
       max_points_per_voxel_(std::clamp(config.max_points_per_voxel, 1, kCapacity)),
       max_merges_(std::clamp(config.max_merges, 1, 255)),
-      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {}
+      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))),
+      planes_(config) {}
 
 void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
                       const Eigen::Matrix3f& anchor) {
@@ -52,6 +63,15 @@ void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vect
     if (point.allFinite()) insert(point, anchor);
   }
   if (voxels_.size() > max_voxels_) drop_far(center);
+  if (config_.planes == MapPlanes::kVoxels) planes_.insert(points, center);
+}
+
+Plane VoxelMap::plane_at(const Eigen::Vector3f& query) const {
+  if (config_.planes == MapPlanes::kVoxels) return planes_.plane_at(query);
+  Neighbors neighbors;
+  nearest(query, neighbors);
+  if (neighbors.count < Neighbors::kWanted) return {};
+  return fit_plane(neighbors.points, config_, point_variance(neighbors, config_));
 }
 
 void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor) {
@@ -108,10 +128,12 @@ void VoxelMap::search(const Voxel& voxel, const Eigen::Vector3f& query, float ga
     while (at > 0 && neighbors.squared_distances[at - 1] > squared[i]) {
       neighbors.squared_distances[at] = neighbors.squared_distances[at - 1];
       neighbors.points[at] = neighbors.points[at - 1];
+      neighbors.merged[at] = neighbors.merged[at - 1];
       --at;
     }
     neighbors.squared_distances[at] = squared[i];
     neighbors.points[at] = {voxel.x[i], voxel.y[i], voxel.z[i]};
+    neighbors.merged[at] = voxel.merged[i];
   }
 }
 

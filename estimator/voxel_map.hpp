@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimator/config.hpp"
+#include "estimator/plane_voxels.hpp"
 #include "estimator/voxel_hash.hpp"
 
 namespace aims {
@@ -17,6 +18,7 @@ struct Neighbors {
   static constexpr int kWanted = 5;
   std::array<Eigen::Vector3f, kWanted> points;
   std::array<float, kWanted> squared_distances{};  ///< [m^2]
+  std::array<std::uint8_t, kWanted> merged{};      ///< returns that each averages
   int count = 0;
 };
 
@@ -37,6 +39,9 @@ class VoxelMap {
 
   /// The up to five nearest map points within the gate (at most one voxel edge): exact.
   void nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const;
+
+  /// The plane of the map at a query, as `MapConfig::planes` says; invalid when there is none.
+  Plane plane_at(const Eigen::Vector3f& query) const;
 
   std::size_t voxel_count() const { return voxels_.size(); }
   bool empty() const { return voxels_.empty(); }
@@ -62,6 +67,7 @@ class VoxelMap {
   static void search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
                      Neighbors& neighbors);
 
+  MapConfig config_;
   float inverse_size_;
   float size_;
   float gate_;
@@ -71,6 +77,7 @@ class VoxelMap {
   std::size_t max_voxels_;
   VoxelHash index_;
   std::vector<Voxel> voxels_;
+  PlaneVoxels planes_;
 };
 
 }  // namespace aims
