@@ -51,6 +51,30 @@ void describe(Fields& f, StandstillConfig& c) {
 
 void describe(Fields& f, FloorConfig& c) {
   describe_switch(f, c, "hold height and tilt by a level floor");
+  f.number("radius", c.radius, spec("m", positive(), "where the floor is sought"));
+  f.number("min_height", c.min_height, spec("m", positive(), "least height above the floor"));
+  f.number("max_height", c.max_height, spec("m", positive(), "greatest height above the floor"));
+  f.number("max_slope", c.max_slope,
+           spec("-", positive(), "of the floor in body axes, where it is sought"));
+  f.number("band", c.band, spec("m", positive(), "points this close to the floor are on it"));
+  f.integer("min_points", c.min_points, spec("-", at_least(3), "points that make a floor"));
+  f.number("min_spread", c.min_spread,
+           spec("m", positive(), "least deviation of the floor's points along any direction"));
+  f.number("max_residual", c.max_residual,
+           spec("m", positive(), "root mean square distance of the floor's points from it"));
+  f.number("bend", c.bend, spec("m", positive(), "a part of the floor further off is not level"));
+  f.number("tilt", c.tilt, spec("rad", positive(), "a floor less tilted is level"));
+  f.number(
+      "max_tilt", c.max_tilt,
+      spec("rad", positive(), "a floor more tilted is not level, however unsure the attitude"));
+  f.number("step", c.step, spec("m", positive(), "change of height that makes another floor"));
+  f.number("settle", c.settle,
+           spec("m", at_least(0), "way on level floor before it is believed again"));
+  f.number("spacing", c.spacing, spec("m", at_least(0), "way between measurements of the floor"));
+  f.number("correlation_length", c.correlation_length,
+           spec("m", positive(), "over it the floor's unevenness repeats itself"));
+  f.number("sigma_tilt", c.sigma_tilt, spec("rad", positive(), "unevenness of a level floor"));
+  f.number("sigma_height", c.sigma_height, spec("m", positive(), "unevenness of a level floor"));
 }
 
 void describe(Fields& f, RobustConfig& c) {

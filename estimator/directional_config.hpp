@@ -40,9 +40,26 @@ struct StandstillConfig {
   bool enabled = true;
 };
 
-/// Level floor.
+/// Level floor: what counts as one, and how well it is one.
 struct FloorConfig {
   bool enabled = true;
+  double radius = 6.0;              ///< it is sought within it, horizontally [m]
+  double min_height = 0.15;         ///< of the body above it [m]
+  double max_height = 1.2;          ///< of the body above it [m]
+  double max_slope = 0.15;          ///< of it in body axes, where points are sought [-]
+  double band = 0.04;               ///< points this close to the plane are on it [m]
+  int min_points = 60;              ///< on it
+  double min_spread = 0.25;         ///< least deviation of its points along any direction [m]
+  double max_residual = 0.015;      ///< root mean square of what its points leave [m]
+  double bend = 0.02;               ///< a part that lies further off is not level with it [m]
+  double tilt = 7.5e-3;             ///< a floor less tilted is level [rad]
+  double max_tilt = 1.5e-2;         ///< one more tilted is not, however unsure the attitude [rad]
+  double step = 0.05;               ///< change of height that makes it another floor [m]
+  double settle = 1.0;              ///< way on level floor before it is believed again [m]
+  double spacing = 0.03;            ///< way between measurements [m]
+  double correlation_length = 0.7;  ///< over it the unevenness repeats itself [m]
+  double sigma_tilt = 1e-3;         ///< unevenness of a level floor, about either axis [rad]
+  double sigma_height = 5e-3;       ///< unevenness of a level floor [m]
 };
 
 /// Robust weight of each point.

@@ -32,6 +32,7 @@ EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& 
       selection_(config.lidar),
       lidar_update_(config, member),
       map_(config.map),
+      floor_(config.directional.floor),
       leg_integrator_(config.leg) {}
 
 void EskfEstimator::consume(const Delivery& delivery) {
@@ -60,6 +61,9 @@ bool EskfEstimator::start() {
   if (!initial->stood_still) ++report_.counts["start.moving"];
   belief_ = initial->belief;
   if (member_.directional) belief_ = open_leg_states(belief_, config_.directional.leg_states);
+  if (member_.directional && config_.directional.floor.enabled) {
+    belief_ = join_tilt_and_bias(belief_, config_.imu.gravity);
+  }
   time_ = initial->stamp;
   started_ = true;
   renew_clone();
@@ -168,6 +172,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   diagnostics.leg_updates = leg_updates_;
   leg_updates_ = 0;
   prepare_points(*scan, diagnostics);
+  if (member_.directional && config_.directional.floor.enabled) fuse_floor();
   if (!map_.empty()) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
     if (diagnostics.iterations == 0) ++report_.counts["lidar.no_update"];
@@ -206,6 +211,19 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
   deskew(scan, indices_, motion, match_points_);
   selection_.select(scan, config_.map.insertion_voxel, config_.map.max_insertions, indices_);
   deskew(scan, indices_, motion, insert_points_);
+}
+
+/// The floor of this scan, as long as it is level.
+void EskfEstimator::fuse_floor() {
+  const auto seen = fit_floor(insert_points_, config_.directional.floor);
+  const auto measurement = floor_.measure(belief_, seen);
+  if (floor_.verdict() == FloorVerdict::kUnseen) ++report_.counts["floor.unseen"];
+  if (floor_.verdict() == FloorVerdict::kNotLevel) ++report_.counts["floor.not_level"];
+  if (floor_.verdict() == FloorVerdict::kWaiting) ++report_.counts["floor.waiting"];
+  if (!measurement) return;
+  ++report_.counts["floor.used"];
+  accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state,
+                       information_of(*measurement), lidar_update_.learned()));
 }
 
 void EskfEstimator::extend_map() {

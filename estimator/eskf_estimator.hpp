@@ -6,6 +6,7 @@
 
 #include "estimator/config.hpp"
 #include "estimator/estimator.hpp"
+#include "estimator/floor.hpp"
 #include "estimator/kalman_update.hpp"
 #include "estimator/leg_displacement.hpp"
 #include "estimator/lidar_update.hpp"
@@ -45,6 +46,7 @@ class EskfEstimator : public Estimator {
   void bridge_silence(Time stamp);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void extend_map();
+  void fuse_floor();
   /// Takes the belief `updated`, unless it is unsound: then it is counted, and false returned.
   bool accept(const Belief& updated);
 
@@ -55,6 +57,7 @@ class EskfEstimator : public Estimator {
   ScanSelection selection_;
   LidarUpdate lidar_update_;
   VoxelMap map_;
+  FloorConstraint floor_;
   EstimatorReport report_;
 
   bool started_ = false;
