@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/measurements.hpp"
@@ -25,7 +26,15 @@ class ScanSelection {
   bool usable(const LidarPoint& point) const;
 
  private:
+  struct Candidate {
+    std::uint64_t key = 0;
+    std::int32_t index = 0;
+  };
+
+  void list_candidates(const LidarScan& scan, double voxel);
+
   LidarUpdateConfig config_;
+  std::vector<Candidate> candidates_;
   VoxelHash taken_{8192};
 };
 

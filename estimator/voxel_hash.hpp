@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -15,11 +14,16 @@ struct VoxelIndex {
   std::int32_t z = 0;
 };
 
+/// The largest integer not above `value`, which must fit.
+inline std::int32_t floor_to_int(float value) {
+  const auto towards_zero = static_cast<std::int32_t>(value);
+  return towards_zero - static_cast<std::int32_t>(value < static_cast<float>(towards_zero));
+}
+
 /// The voxel of edge 1 / inverse_size that holds `point`.
 inline VoxelIndex voxel_of(const Eigen::Vector3f& point, float inverse_size) {
-  return {static_cast<std::int32_t>(std::floor(point.x() * inverse_size)),
-          static_cast<std::int32_t>(std::floor(point.y() * inverse_size)),
-          static_cast<std::int32_t>(std::floor(point.z() * inverse_size))};
+  return {floor_to_int(point.x() * inverse_size), floor_to_int(point.y() * inverse_size),
+          floor_to_int(point.z() * inverse_size)};
 }
 
 /// 63-bit key, unique within +-2^20 voxels along each axis.
@@ -49,6 +53,9 @@ class VoxelHash {
       if (slots_[i].key == key) return slots_[i].value;
     }
   }
+
+  /// Asks for the memory of `key`, which will be wanted soon.
+  void prefetch(std::uint64_t key) const { __builtin_prefetch(&slots_[slot(key)]); }
 
   /// The value of `key`; when it is new, `value` is stored first.
   std::int32_t find_or_insert(std::uint64_t key, std::int32_t value) {
