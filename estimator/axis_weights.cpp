@@ -3,17 +3,28 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace aims {
+namespace {
 
-Matrix6 AxisWeights::weigh_matrix() const {
-  return back * weights.cwiseProduct(ratio).asDiagonal() * back.transpose();
+/// Keeps a block without any information invertible; far below one return's.
+constexpr double kNothing = 1e-9;
+
+Eigen::Matrix3d inverse(const Eigen::Matrix3d& information) {
+  return (information + kNothing * Eigen::Matrix3d::Identity()).inverse();
 }
 
-Vector6 AxisWeights::weigh_vector(const Vector6& b) const {
-  return back * weights.cwiseProduct(axes.transpose() * b);
+/// Information of a block when the other one, with information `other`, is unknown too.
+Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
+                                 const Eigen::Matrix3d& other) {
+  const Eigen::Matrix3d rest = block - cross * inverse(other) * cross.transpose();
+  return 0.5 * (rest + rest.transpose());
 }
+
+}  // namespace
 
 Matrix6 chance_information(const Eigen::Matrix3d& normal_covariance, const Eigen::Vector3d& p_body,
                            const Eigen::Matrix3d& R) {
@@ -33,23 +44,63 @@ double reality(double ratio, const SpuriousConfig& config) {
   return 0.5 * std::erfc(-deviations / std::sqrt(2.0));
 }
 
-AxisWeights weigh_axes(const Matrix6& A, const Matrix6& chance, const SpuriousConfig& config) {
-  AxisWeights result;
-  // A = (V^-T) D (V^-1) with V^T C V = I.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(A, chance);
-  if (solver.info() != Eigen::Success || !solver.eigenvectors().allFinite()) {
-    result.ratio.setZero();
-    result.weights.setZero();
-    return result;
+Eigen::Matrix3d BlockWeights::shrink() const {
+  return axes * weights.cwiseSqrt().asDiagonal() * axes.transpose();
+}
+
+BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
+                         const Eigen::Matrix3d& axes, const SpuriousConfig& config) {
+  BlockWeights block;
+  block.axes = axes;
+  const Eigen::Matrix3d covariance = inverse(information);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = axes.col(i);
+    const double known = 1.0 / axis.dot(covariance * axis);
+    const double ratio = std::max(known, 0.0) / std::max(axis.dot(chance * axis), kNothing);
+    block.ratio(i) = ratio;
+    block.weights(i) = ratio > 1.0 ? reality(ratio, config) * (ratio - 1.0) / ratio : 0.0;
   }
-  result.axes = solver.eigenvectors();
-  result.back = chance * result.axes;  // V^-T = C V
-  result.ratio = solver.eigenvalues().cwiseMax(0.0);
-  for (int i = 0; i < result.ratio.size(); ++i) {
-    const double ratio = result.ratio(i);
-    result.weights(i) = ratio > 1.0 ? reality(ratio, config) * (ratio - 1.0) / ratio : 0.0;
+  return block;
+}
+
+Eigen::Matrix3d steady_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& axes,
+                            double tolerance) {
+  const Eigen::Matrix3d split = axes.transpose() * information * axes;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < i; ++j) {
+      // A rotation by the angle a moves a * (difference of the variances) off the diagonal.
+      const double greater = std::max(split(i, i), split(j, j));
+      if (std::abs(split(i, j)) > tolerance * greater) {
+        return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors();
+      }
+    }
   }
-  return result;
+  return axes;
+}
+
+void AxisWeigher::assess(Block& block, const Eigen::Matrix3d& information,
+                         const Eigen::Matrix3d& chance) {
+  if (!block.started) block.smoothed = information;
+  block.started = true;
+  block.smoothed += config_.smoothing * (information - block.smoothed);
+  const Eigen::Matrix3d axes = steady_axes(block.smoothed, block.now.axes, config_.axis_tolerance);
+  block.now = weigh_block(information, chance, axes, config_);
+}
+
+void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R) {
+  const Eigen::Matrix3d turning = A.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d moving = A.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d cross = A.bottomLeftCorner<3, 3>();
+  assess(position_, schur_complement(moving, cross, turning), chance.bottomRightCorner<3, 3>());
+  assess(rotation_, R * schur_complement(turning, cross.transpose(), moving) * R.transpose(),
+         R * chance.topLeftCorner<3, 3>() * R.transpose());
+}
+
+Matrix6 AxisWeigher::shrink(const Eigen::Matrix3d& R) const {
+  Matrix6 T = Matrix6::Zero();
+  T.topLeftCorner<3, 3>() = R.transpose() * rotation_.now.shrink() * R;
+  T.bottomRightCorner<3, 3>() = position_.now.shrink();
+  return T;
 }
 
 }  // namespace aims

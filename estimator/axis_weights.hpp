@@ -6,34 +6,66 @@
 
 namespace aims {
 
-/// The information of a scan along six axes of the pose, against what noisy normals would give by
-/// chance. The axes are those of the pencil (A, C): A = V^-T diag(ratio) V^-1 and C = V^-T V^-1, so
-/// that neither the units of rotation and position nor the frame matter.
-struct AxisWeights {
-  Matrix6 axes = Matrix6::Identity();      ///< V, one axis per column
-  Matrix6 back = Matrix6::Identity();      ///< V^-T
-  Vector6 ratio = Vector6::Constant(1e9);  ///< of information to chance, ascending
-  Vector6 weights = Vector6::Ones();       ///< in [0, 1]
-
-  /// V^-T diag(w ratio) V^-1, the information that is kept.
-  Matrix6 weigh_matrix() const;
-
-  /// V^-T diag(w) V^T b, the part of a gradient that is kept.
-  Vector6 weigh_vector(const Vector6& b) const;
-};
-
-/// What the errors of one plane's normal add to A on average: M C M^T, M = [hat(p) R^T; I] the
-/// derivative of the row in the normal, C its covariance (odometry axes) and p in body axes [m].
+/// What the errors of one plane's normal add to A = H^T R^-1 H on average: M C M^T, with M =
+/// [hat(p) R^T; I] the derivative of the row in the normal, C the normal's covariance (odometry
+/// axes) and p in body axes [m].
 Matrix6 chance_information(const Eigen::Matrix3d& normal_covariance, const Eigen::Vector3d& p_body,
                            const Eigen::Matrix3d& R);
 
-/// Probability that information `ratio` times what chance gives is more than chance: chance itself
-/// is known but for a factor (log-normal).
+/// Probability that information of `ratio` times what chance gives is more than chance, which is
+/// itself known but for a factor (log-normal).
 double reality(double ratio, const SpuriousConfig& config);
 
-/// Information `A` = H^T R^-1 H without the part that normals of noise would give: `chance` is
-/// the expectation of dH^T R^-1 dH over their errors. Each axis keeps p (ratio - 1) / ratio of its
-/// information, p the probability that it is real (cf. Hatleskog and Alexis 2024).
-AxisWeights weigh_axes(const Matrix6& A, const Matrix6& chance, const SpuriousConfig& config);
+/// Three orthogonal axes of position or rotation, and how much of the information along each is
+/// kept.
+struct BlockWeights {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< one unit axis per column, odometry frame
+  Eigen::Vector3d ratio = Eigen::Vector3d::Zero();     ///< of information to chance
+  Eigen::Vector3d weights = Eigen::Vector3d::Ones();   ///< in [0, 1]
+
+  /// U diag(sqrt(w)) U^T, odometry frame.
+  Eigen::Matrix3d shrink() const;
+};
+
+/// The weights of one block whose information, with the other block unknown, is `information`,
+/// while `chance` is what normals of noise would give. Along each axis p (ratio - 1) / ratio is
+/// kept, p the probability that it is real (cf. Hatleskog and Alexis 2024).
+BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
+                         const Eigen::Matrix3d& axes, const SpuriousConfig& config);
+
+/// The axes along which `information` splits: `axes` again while they still split it to within
+/// `tolerance` [rad], its eigenvectors otherwise. Axes that wobble with the noise would let strong
+/// information leak into the weak axis, a little in every scan.
+Eigen::Matrix3d steady_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& axes,
+                            double tolerance);
+
+/// Removes from the information of scans what noisy normals give by chance, axis by axis, in
+/// position and in rotation.
+class AxisWeigher {
+ public:
+  explicit AxisWeigher(const SpuriousConfig& config) : config_(config) {}
+
+  /// Takes the information A of a scan and what `chance` adds to it (6x6, at the attitude R).
+  void assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R);
+
+  /// T of the scan: T A T and T b are what is kept, 6x6, error state's axes at attitude R.
+  Matrix6 shrink(const Eigen::Matrix3d& R) const;
+
+  const BlockWeights& position() const { return position_.now; }
+  const BlockWeights& rotation() const { return rotation_.now; }
+
+ private:
+  struct Block {
+    Eigen::Matrix3d smoothed = Eigen::Matrix3d::Zero();  ///< information, odometry frame
+    BlockWeights now;
+    bool started = false;
+  };
+
+  void assess(Block& block, const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance);
+
+  SpuriousConfig config_;
+  Block position_;
+  Block rotation_;
+};
 
 }  // namespace aims

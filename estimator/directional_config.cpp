@@ -21,6 +21,10 @@ void describe(Fields& f, SpuriousConfig& c) {
            spec("-", at_least(1), "ratio to chance at which information is as likely real as not"));
   f.number("spread", c.spread,
            spec("-", positive(), "uncertainty of what chance gives, of its logarithm"));
+  f.number("smoothing", c.smoothing,
+           spec("-", in_range(0.001, 1.0), "share of one scan in what tells the axes"));
+  f.number("axis_tolerance", c.axis_tolerance,
+           spec("rad", at_least(0), "within which the axes are kept"));
 }
 
 void describe(Fields& f, LegStatesConfig& c) {
@@ -39,14 +43,55 @@ void describe(Fields& f, LegStatesConfig& c) {
 
 void describe(Fields& f, LegEvidenceConfig& c) {
   describe_switch(f, c, "leg noise from stance, spread among stance legs, turning and packet age");
+  f.vector("velocity_sigma", c.velocity_sigma,
+           spec("m/s", positive(), "error of one sample in a firm stance, along the base's axes"));
+  f.number("correlation_time", c.correlation_time,
+           spec("s", in_range(0.0, 10.0), "for how long that error lasts"));
+  f.number("nominal_spread", c.nominal_spread,
+           spec("m/s", at_least(0), "among the velocities told by feet that stand firm"));
+  f.number("one_foot_sigma", c.one_foot_sigma,
+           spec("m/s", at_least(0), "added when a single foot stands"));
+  f.number("no_foot_sigma", c.no_foot_sigma,
+           spec("m/s", at_least(0), "added when no foot stands; bounds what a gap adds"));
+  f.number("turning_arm", c.turning_arm, spec("m", at_least(0), "added per rate of yaw"));
+  f.number("gap_growth", c.gap_growth,
+           spec("m/s^2", at_least(0), "added per time without packets"));
+  f.number("gate", c.gate,
+           spec("-", positive(), "chi-square above which the noise grows", "3 dof, 99.9 %"));
+  f.number("drop", c.drop,
+           spec("-", at_least(1), "growth of the variance beyond which a sample is dropped"));
+  f.number("longest_slip", c.longest_slip,
+           spec("s", at_least(0), "an innovation that lasts longer is believed"));
 }
 
 void describe(Fields& f, DisagreementConfig& c) {
   describe_switch(f, c, "take weight from the LiDAR, or the legs, where they disagree for long");
 }
 
+void describe(Fields& f, StartConfig& c) {
+  describe_switch(f, c, "start from the longest quiet stretch of a stand that is disturbed");
+  f.number("rate", c.rate, spec("rad/s", positive(), "deviation from its mean that ends a stretch"));
+  f.number("force", c.force,
+           spec("m/s^2", positive(), "deviation from its mean that ends a stretch"));
+  f.number("shortest", c.shortest, spec("s", at_least(0.05), "a shorter stretch tells no tilt"));
+}
+
 void describe(Fields& f, StandstillConfig& c) {
   describe_switch(f, c, "zero-velocity update while the robot stands still");
+  f.number("window", c.window,
+           spec("s", in_range(0.05, 0.9), "rest of IMU and legs; one measurement per window"));
+  f.number("rate", c.rate, spec("rad/s", positive(), "largest rate of a body at rest"));
+  f.number("force", c.force,
+           spec("m/s^2", positive(), "largest deviation of the force at rest from its mean"));
+  f.number("leg_speed", c.leg_speed, spec("m/s", positive(), "largest speed of legs at rest"));
+  f.number("joint_rate", c.joint_rate,
+           spec("rad/s", positive(), "largest root mean square rate of joints at rest"));
+  f.number("leg_smoothing", c.leg_smoothing, spec("s", positive(), "time constant of both"));
+  f.number("hysteresis", c.hysteresis,
+           spec("-", at_least(1), "factor by which a standing robot may exceed the limits"));
+  f.number("sigma_velocity", c.sigma_velocity, spec("m/s", positive(), "of a body at rest"));
+  f.number("sigma_rate", c.sigma_rate,
+           spec("rad/s", positive(), "of the mean rate of a body at rest"));
 }
 
 void describe(Fields& f, FloorConfig& c) {
@@ -81,14 +126,28 @@ void describe(Fields& f, RobustConfig& c) {
   describe_switch(f, c, "weigh each point by its residual");
 }
 
+void describe(Fields& f, SelectionConfig& c) {
+  describe_switch(f, c, "thin the rows of a scan where they repeat each other");
+  f.integer("max_rows", c.max_rows, spec("-", at_least(30), "rows kept of a scan"));
+}
+
+void describe(Fields& f, MapMemoryConfig& c) {
+  describe_switch(f, c, "use the map of the way out again on the way back");
+  f.integer("forget_after", c.forget_after,
+            spec("-", at_least(1), "else voxels are forgotten when unseen for so many scans"));
+}
+
 void describe(Fields& f, DirectionalConfig& c) {
   f.group("spurious", c.spurious);
   f.group("leg_states", c.leg_states);
   f.group("leg_evidence", c.leg_evidence);
   f.group("disagreement", c.disagreement);
+  f.group("start", c.start);
   f.group("standstill", c.standstill);
   f.group("floor", c.floor);
   f.group("robust", c.robust);
+  f.group("selection", c.selection);
+  f.group("map_memory", c.map_memory);
 }
 
 }  // namespace aims

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+
 #include "core/config.hpp"
 
 namespace aims {
@@ -11,6 +13,8 @@ struct SpuriousConfig {
   bool enabled = true;
   double significant = 2.0;  ///< ratio to chance at which information is as likely real as not [-]
   double spread = 0.25;      ///< of the logarithm of what chance gives [-]
+  double smoothing = 0.05;   ///< share of one scan in the information that tells the axes [-]
+  double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
 };
 
 /// Slow states of the leg odometry.
@@ -28,6 +32,17 @@ struct LegStatesConfig {
 /// Leg noise from its own evidence.
 struct LegEvidenceConfig {
   bool enabled = true;
+  /// Of one sample in a firm stance, base axes [m/s]; the scale is a state of its own.
+  Eigen::Vector3d velocity_sigma{0.03, 0.03, 0.03};
+  double correlation_time = 0.1;  ///< of that error: consecutive samples repeat it [s]
+  double nominal_spread = 0.03;   ///< among the velocities told by feet that stand firm [m/s]
+  double one_foot_sigma = 0.05;   ///< added when a single foot stands [m/s]
+  double no_foot_sigma = 0.5;     ///< added when no foot stands [m/s]
+  double turning_arm = 0.03;      ///< added per rate of yaw [m]
+  double gap_growth = 0.1;        ///< added per time without packets [m/s^2]
+  double gate = 16.3;             ///< chi-square, 3 dof, 99.9 %: above it the noise grows [-]
+  double drop = 100.0;            ///< growth of the variance beyond which a sample is dropped [-]
+  double longest_slip = 0.5;      ///< an innovation that lasts longer is believed [s]
 };
 
 /// Lasting disagreement of LiDAR and legs along an axis.
@@ -35,9 +50,26 @@ struct DisagreementConfig {
   bool enabled = true;
 };
 
+/// A start that may be shoved.
+struct StartConfig {
+  bool enabled = true;
+  double rate = 0.1;      ///< deviation from the mean of a quiet stretch that ends it [rad/s]
+  double force = 0.4;     ///< deviation from the mean of a quiet stretch that ends it [m/s^2]
+  double shortest = 0.3;  ///< a shorter stretch tells no tilt [s]
+};
+
 /// Standing still.
 struct StandstillConfig {
   bool enabled = true;
+  double window = 0.3;          ///< IMU and legs rest for so long; one measurement per window [s]
+  double rate = 0.03;           ///< largest rate of turn, and deviation from its mean [rad/s]
+  double force = 0.3;           ///< largest deviation of the force from its mean [m/s^2]
+  double leg_speed = 0.02;      ///< largest speed that the legs report, smoothed [m/s]
+  double joint_rate = 0.15;     ///< largest root mean square rate of the joints [rad/s]
+  double leg_smoothing = 0.05;  ///< of both, time constant [s]
+  double hysteresis = 1.5;      ///< a standing robot may exceed the limits by this factor [-]
+  double sigma_velocity = 0.01;  ///< of a body at rest [m/s]
+  double sigma_rate = 3e-3;      ///< of the mean rate of a body at rest [rad/s]
 };
 
 /// Level floor: what counts as one, and how well it is one.
@@ -67,24 +99,42 @@ struct RobustConfig {
   bool enabled = true;
 };
 
+/// Choice of rows by what they inform (row_selection.hpp).
+struct SelectionConfig {
+  bool enabled = true;
+  int max_rows = 600;  ///< point-to-plane rows kept of a scan
+};
+
+/// Re-use of the map from earlier in the walk.
+struct MapMemoryConfig {
+  bool enabled = true;     ///< false: voxels are forgotten when unseen for `forget_after`
+  int forget_after = 150;  ///< scans
+};
+
 /// What `aims_d` adds to the family, each part with its own switch.
 struct DirectionalConfig {
   SpuriousConfig spurious;
   LegStatesConfig leg_states;
   LegEvidenceConfig leg_evidence;
   DisagreementConfig disagreement;
+  StartConfig start;
   StandstillConfig standstill;
   FloorConfig floor;
   RobustConfig robust;
+  SelectionConfig selection;
+  MapMemoryConfig map_memory;
 };
 
 void describe(Fields& fields, SpuriousConfig& config);
 void describe(Fields& fields, LegStatesConfig& config);
 void describe(Fields& fields, LegEvidenceConfig& config);
 void describe(Fields& fields, DisagreementConfig& config);
+void describe(Fields& fields, StartConfig& config);
 void describe(Fields& fields, StandstillConfig& config);
 void describe(Fields& fields, FloorConfig& config);
 void describe(Fields& fields, RobustConfig& config);
+void describe(Fields& fields, SelectionConfig& config);
+void describe(Fields& fields, MapMemoryConfig& config);
 void describe(Fields& fields, DirectionalConfig& config);
 
 }  // namespace aims

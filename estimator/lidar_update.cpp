@@ -34,6 +34,7 @@ LidarUpdate::LidarUpdate(const EstimatorConfig& config, const FamilyMember& memb
       degeneracy_(config.degeneracy),
       directional_(config.directional),
       member_(member),
+      axes_(config.directional.spurious),
       severity_(config.degeneracy.alpha) {}
 
 int LidarUpdate::learned() const {
@@ -51,6 +52,26 @@ void LidarUpdate::associate(const NominalState& state, std::span<const Eigen::Ve
     const Plane plane = map.plane_at(R * point + t);
     if (plane.valid) matches_.push_back({point.cast<double>(), plane});
   }
+  if (member_.directional && directional_.selection.enabled) thin(state);
+}
+
+/// Keeps the matches that inform, and lets the others stand for those like them.
+void LidarUpdate::thin(const NominalState& state) {
+  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
+  jacobians_.clear();
+  std::erase_if(matches_, [&](const Match& match) {
+    const PlaneRow row = plane_row(match.plane, match.p_body, R, state.position);
+    const bool refused = !(std::abs(row.residual) <= lidar_.residual_gate);
+    if (!refused) jacobians_.push_back(row.jacobian);
+    return refused;
+  });
+  select_rows(jacobians_, directional_.selection.max_rows, kept_);
+  thinned_.clear();
+  for (const KeptRow& row : kept_) {
+    thinned_.push_back(matches_[static_cast<std::size_t>(row.index)]);
+    thinned_.back().weight = row.weight;
+  }
+  matches_.swap(thinned_);
 }
 
 LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
@@ -60,10 +81,11 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
   for (const Match& match : matches_) {
     const PlaneRow row = plane_row(match.plane, match.p_body, R, state.position);
     if (!(std::abs(row.residual) <= lidar_.residual_gate)) continue;
-    sum.matrix.noalias() += row.jacobian * row.jacobian.transpose();
-    sum.vector.noalias() += row.jacobian * row.residual;
+    const Vector6 weighted = match.weight * row.jacobian;
+    sum.matrix.noalias() += weighted * row.jacobian.transpose();
+    sum.vector.noalias() += weighted * row.residual;
     if (member_.directional) {
-      sum.chance += chance_information(match.plane.normal_covariance, match.p_body, R);
+      sum.chance += match.weight * chance_information(match.plane.normal_covariance, match.p_body, R);
     }
     residuals_.push_back(row.residual);
   }
@@ -75,15 +97,20 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
   return sum;
 }
 
+void LidarUpdate::assess_axes(const Linearization& rows, const NominalState& state,
+                              ScanDiagnostics& diagnostics) {
+  axes_.assess(rows.matrix, rows.chance, state.rotation.toRotationMatrix());
+  diagnostics.weak_weight = axes_.position().weights.minCoeff();
+  diagnostics.weak_ratio = axes_.position().ratio.minCoeff();
+}
+
 Information LidarUpdate::weighed(const Linearization& rows, double gamma,
-                                 ScanDiagnostics& diagnostics) const {
+                                 const NominalState& state) const {
   if (!member_.directional || !directional_.spurious.enabled) {
     return pose_information(gamma * rows.matrix, gamma * rows.vector);
   }
-  const AxisWeights axes = weigh_axes(rows.matrix, rows.chance, directional_.spurious);
-  diagnostics.weak_weight = axes.weights.minCoeff();
-  diagnostics.weak_ratio = axes.ratio(0);
-  return pose_information(axes.weigh_matrix(), axes.weigh_vector(rows.vector));
+  const Matrix6 T = axes_.shrink(state.rotation.toRotationMatrix());
+  return pose_information(T * rows.matrix * T, T * rows.vector);
 }
 
 bool LidarUpdate::moved(const NominalState& state, const NominalState& since, double rotation,
@@ -110,8 +137,9 @@ Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_info
     diagnostics.points_used = rows.used;
     if (rows.used < lidar_.min_matches) return predicted;
     const NominalState before = belief.state;
-    belief = kalman_update(predicted.state, prior_information, before,
-                           weighed(rows, 1.0, diagnostics), learned());
+    if (i == 0 && member_.directional) assess_axes(rows, before, diagnostics);
+    belief = kalman_update(predicted.state, prior_information, before, weighed(rows, 1.0, before),
+                           learned());
     ++diagnostics.iterations;
     if (!moved(belief.state, before, lidar_.convergence_rotation, lidar_.convergence_position)) {
       break;
@@ -167,7 +195,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     // eq. (9): R_lidar' = R_lidar / gamma_lidar, so the information of the trial's last
     // linearisation is multiplied by gamma_lidar.
     belief = kalman_update(predicted.state, prior_information, belief.state,
-                           weighed(rows, gamma_lidar_, diagnostics), learned());
+                           weighed(rows, gamma_lidar_, belief.state), learned());
     if (member_.directional) rest_on(map, predicted, belief);
     trust_ += kTrustGain * (diagnostics.weak_weight - trust_);
   }

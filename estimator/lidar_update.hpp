@@ -12,6 +12,7 @@
 #include "estimator/kalman_update.hpp"
 #include "estimator/map_anchor.hpp"
 #include "estimator/plane_model.hpp"
+#include "estimator/row_selection.hpp"
 #include "estimator/voxel_map.hpp"
 
 namespace aims {
@@ -44,6 +45,7 @@ class LidarUpdate {
   struct Match {
     Eigen::Vector3d p_body;
     Plane plane;
+    double weight = 1.0;  ///< rows like it that it stands for
   };
 
   /// The rows of all accepted matches at one pose.
@@ -56,8 +58,11 @@ class LidarUpdate {
 
   void associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
                  const VoxelMap& map);
+  void thin(const NominalState& state);
   Linearization linearize(const NominalState& state);
-  Information weighed(const Linearization& rows, double gamma, ScanDiagnostics& diagnostics) const;
+  Information weighed(const Linearization& rows, double gamma, const NominalState& state) const;
+  void assess_axes(const Linearization& rows, const NominalState& state,
+                   ScanDiagnostics& diagnostics);
   Belief trial(const Belief& predicted, const ErrorMatrix& prior_information,
                std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                ScanDiagnostics& diagnostics);
@@ -72,12 +77,16 @@ class LidarUpdate {
   DegeneracyConfig degeneracy_;
   DirectionalConfig directional_;
   FamilyMember member_;
+  AxisWeigher axes_;
   SeverityFilter severity_;
   double gamma_lidar_ = 1.0;
   double gamma_leg_ = 1.0;
   Eigen::Matrix3d map_anchor_ = Eigen::Matrix3d::Zero();
   double trust_ = 0.0;  ///< smoothed weight of the weakest axis
   std::vector<Match> matches_;
+  std::vector<Match> thinned_;
+  std::vector<Vector6> jacobians_;
+  std::vector<KeptRow> kept_;
   std::vector<double> residuals_;
   std::vector<AnchoredPlane> anchored_;
 };

@@ -25,6 +25,7 @@ PlaneVoxels::PlaneVoxels(const MapConfig& config) : config_(config) {
 }
 
 void PlaneVoxels::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center) {
+  ++insertions_;
   for (Level& level : levels_) {
     for (const Eigen::Vector3f& point : points) {
       if (point.allFinite()) insert(level, point);
@@ -44,6 +45,7 @@ void PlaneVoxels::insert(Level& level, const Eigen::Vector3f& point) const {
     level.voxels.back().origin = point.cast<double>();
   }
   Voxel& voxel = level.voxels[at];
+  voxel.seen = insertions_;
   if (voxel.count >= config_.max_plane_points) return;
   const Eigen::Vector3d d = point.cast<double>() - voxel.origin;
   voxel.sum += d;
@@ -85,11 +87,31 @@ void PlaneVoxels::drop_far(Level& level, const Eigen::Vector3f& center) const {
   std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(kept),
                    distances.end());
   const double limit = distances[kept];
-  std::erase_if(level.voxels, [&](const Voxel& v) { return squared_distance(v) >= limit; });
+  drop_if(level, [&](const Voxel& v) { return squared_distance(v) >= limit; });
+}
+
+void PlaneVoxels::forget_unseen(int insertions) {
+  const auto age = static_cast<std::uint32_t>(std::max(insertions, 0));
+  for (Level& level : levels_) {
+    drop_if(level, [&](const Voxel& v) { return insertions_ - v.seen >= age; });
+  }
+}
+
+template <class Predicate>
+void PlaneVoxels::drop_if(Level& level, const Predicate& predicate) {
+  if (std::erase_if(level.voxels, predicate) == 0) return;
   level.index.clear();
   for (std::size_t i = 0; i < level.voxels.size(); ++i) {
     level.index.find_or_insert(level.voxels[i].key, static_cast<std::int32_t>(i));
   }
+}
+
+std::size_t PlaneVoxels::memory() const {
+  std::size_t sum = 0;
+  for (const Level& level : levels_) {
+    sum += level.voxels.capacity() * sizeof(Voxel) + level.index.memory();
+  }
+  return sum;
 }
 
 std::size_t PlaneVoxels::voxel_count() const {

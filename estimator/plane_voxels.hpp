@@ -26,6 +26,12 @@ class PlaneVoxels {
   /// The plane of the coarsest voxel around `query` that holds one; invalid when none does.
   const Plane& plane_at(const Eigen::Vector3f& query) const;
 
+  /// Forgets the voxels that none of the last `insertions` calls of `insert` put a point in.
+  void forget_unseen(int insertions);
+
+  /// Memory that the voxels hold [bytes].
+  std::size_t memory() const;
+
   /// Voxels of all levels.
   std::size_t voxel_count() const;
 
@@ -38,6 +44,7 @@ class PlaneVoxels {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     int count = 0;
+    std::uint32_t seen = 0;  ///< the last insertion that put a point in it
     mutable int fitted = 0;  ///< points at the last fit
     mutable Plane plane;
   };
@@ -51,9 +58,12 @@ class PlaneVoxels {
 
   void insert(Level& level, const Eigen::Vector3f& point) const;
   void drop_far(Level& level, const Eigen::Vector3f& center) const;
+  template <class Predicate>
+  static void drop_if(Level& level, const Predicate& predicate);
   void fit(const Voxel& voxel, double min_spread) const;
 
   MapConfig config_;
+  std::uint32_t insertions_ = 0;
   std::array<Level, kLevels> levels_;
   Plane none_;
 };

@@ -77,8 +77,8 @@ class VoxelHash {
 
   std::size_t size() const { return size_; }
 
-  /// Slots the table has; memory is in proportion to it.
-  std::size_t capacity() const { return slots_.size(); }
+  /// Memory that the table holds [bytes].
+  std::size_t memory() const { return slots_.capacity() * sizeof(Slot); }
 
   /// Slots looked at to find `key`: 1 at best.
   int probes(std::uint64_t key) const {

@@ -59,6 +59,7 @@ VoxelMap::VoxelMap(const MapConfig& config)
 
 void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
                       const Eigen::Matrix3f& anchor) {
+  ++insertions_;
   for (const Eigen::Vector3f& point : points) {
     if (point.allFinite()) insert(point, anchor);
   }
@@ -82,6 +83,7 @@ void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& ancho
     voxels_.back().anchor = anchor;
   }
   Voxel& voxel = voxels_[at];
+  voxel.seen = insertions_;
   int closest = -1;
   float least = spacing_ * spacing_;
   for (int i = 0; i < voxel.count; ++i) {
@@ -167,11 +169,26 @@ void VoxelMap::drop_far(const Eigen::Vector3f& center) {
   std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(kept),
                    distances.end());
   const float limit = distances[kept];
-  std::erase_if(voxels_, [&](const Voxel& v) { return squared_distance(v) >= limit; });
+  drop_if([&](const Voxel& v) { return squared_distance(v) >= limit; });
+}
+
+void VoxelMap::forget_unseen(int insertions) {
+  const auto age = static_cast<std::uint32_t>(std::max(insertions, 0));
+  drop_if([&](const Voxel& v) { return insertions_ - v.seen >= age; });
+  planes_.forget_unseen(insertions);
+}
+
+template <class Predicate>
+void VoxelMap::drop_if(const Predicate& predicate) {
+  if (std::erase_if(voxels_, predicate) == 0) return;
   index_.clear();
   for (std::size_t i = 0; i < voxels_.size(); ++i) {
     index_.find_or_insert(voxels_[i].key, static_cast<std::int32_t>(i));
   }
+}
+
+std::size_t VoxelMap::memory() const {
+  return voxels_.capacity() * sizeof(Voxel) + index_.memory() + planes_.memory();
 }
 
 std::vector<Eigen::Vector3f> VoxelMap::points() const {

@@ -34,6 +34,9 @@ class VoxelMap {
   void insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
               const Eigen::Matrix3f& anchor = Eigen::Matrix3f::Zero());
 
+  /// Forgets the voxels that none of the last `insertions` calls of `insert` put a point in.
+  void forget_unseen(int insertions);
+
   /// The covariance that the voxel around `point` remembers; zero where there is none [m^2].
   Eigen::Matrix3f anchor_at(const Eigen::Vector3f& point) const;
 
@@ -42,6 +45,9 @@ class VoxelMap {
 
   /// The plane of the map at a query, as `MapConfig::planes` says; invalid when there is none.
   Plane plane_at(const Eigen::Vector3f& query) const;
+
+  /// Memory that the map holds [bytes].
+  std::size_t memory() const;
 
   std::size_t voxel_count() const { return voxels_.size(); }
   bool empty() const { return voxels_.empty(); }
@@ -59,11 +65,14 @@ class VoxelMap {
     std::array<std::uint8_t, kCapacity> merged;
     std::uint64_t key = 0;
     int count = 0;
+    std::uint32_t seen = 0;  ///< the last insertion that put a point in it
     Eigen::Matrix3f anchor = Eigen::Matrix3f::Zero();
   };
 
   void insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor);
   void drop_far(const Eigen::Vector3f& center);
+  template <class Predicate>
+  void drop_if(const Predicate& predicate);
   static void search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
                      Neighbors& neighbors);
 
@@ -75,6 +84,7 @@ class VoxelMap {
   int max_points_per_voxel_;
   int max_merges_;
   std::size_t max_voxels_;
+  std::uint32_t insertions_ = 0;
   VoxelHash index_;
   std::vector<Voxel> voxels_;
   PlaneVoxels planes_;
