@@ -33,6 +33,8 @@ EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& 
       lidar_update_(config, member),
       map_(config.map),
       floor_(config.directional.floor),
+      leg_evidence_(config.directional.leg_evidence, config.leg),
+      standstill_(config.directional.standstill),
       leg_integrator_(config.leg) {}
 
 void EskfEstimator::consume(const Delivery& delivery) {
@@ -55,8 +57,12 @@ void EskfEstimator::process_ready() {
 }
 
 bool EskfEstimator::start() {
+  const auto& samples = queue_.imu().samples();
+  const StartConfig& quiet = config_.directional.start;
   const auto initial =
-      initialize(queue_.imu().samples(), config_.initialization, config_.imu.gravity);
+      member_.directional && quiet.enabled
+          ? initialize_quietly(samples, config_.initialization, quiet, config_.imu.gravity)
+          : initialize(samples, config_.initialization, config_.imu.gravity);
   if (!initial) return false;
   if (!initial->stood_still) ++report_.counts["start.moving"];
   belief_ = initial->belief;
@@ -110,19 +116,55 @@ void EskfEstimator::take_leg(const LegOdometrySample& sample) {
   if (config_.leg.measurement == LegMeasurement::kDisplacement) {
     leg_integrator_.add(sample);
   } else {
-    fuse_leg_velocity(sample.stamp, sample.linear_velocity);
+    fuse_leg_velocity(sample);
   }
 }
 
-void EskfEstimator::fuse_leg_velocity(Time stamp, const Eigen::Vector3d& velocity) {
-  predict_to(stamp);
-  const Eigen::Vector3d rate =
-      queue_.imu().angular_velocity_at(stamp).value_or(belief_.state.gyro_bias);
+/// Covariance of one sample; `rate` is the gyro's reading in body axes [rad/s].
+Eigen::Matrix3d EskfEstimator::leg_noise(const LegOdometrySample& sample,
+                                         const Eigen::Vector3d& rate) {
+  if (member_.directional && config_.directional.leg_evidence.enabled) {
+    const Eigen::Matrix3d R_base_body = rig_.T_body_base.R().transpose();
+    return leg_evidence_.noise(sample, R_base_body * (rate - belief_.state.gyro_bias));
+  }
   // eq. (11): R_leg' = R_leg / gamma_leg.
-  const Eigen::Matrix3d noise =
-      leg_velocity_noise(config_.leg, velocity) / lidar_update_.gamma_leg();
-  const LinearMeasurement measurement =
-      leg_velocity_model(belief_.state, rig_.T_body_base, rate, velocity, noise);
+  return leg_velocity_noise(config_.leg, sample.linear_velocity) / lidar_update_.gamma_leg();
+}
+
+/// Whether the robot stands still; then that it does is what its legs have to say. The states of
+/// the legs are left alone: they are those of a walk.
+bool EskfEstimator::stands(const LegOdometrySample& sample) {
+  const StandstillConfig& config = config_.directional.standstill;
+  if (!member_.directional || !config.enabled) return false;
+  if (!standstill_.observe(sample, queue_.imu().samples(), belief_.state.gyro_bias)) return false;
+  const std::optional<ImuRest> rest = standstill_.due();
+  if (!rest) return true;
+  ++report_.counts["standstill.used"];
+  Information information = information_of(zero_velocity(belief_.state, config.sigma_velocity));
+  const Information bias =
+      information_of(resting_gyro(belief_.state, rest->rate, config.sigma_rate));
+  information.matrix += bias.matrix;
+  information.vector += bias.vector;
+  accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state, information,
+                       ErrorState::kMotionSize));
+  return true;
+}
+
+void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
+  predict_to(sample.stamp);
+  if (stands(sample)) return;
+  const Eigen::Vector3d rate =
+      queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
+  LinearMeasurement measurement = leg_velocity_model(
+      belief_.state, rig_.T_body_base, rate, sample.linear_velocity, leg_noise(sample, rate));
+  if (member_.directional && config_.directional.leg_evidence.enabled) {
+    const auto inflation = leg_evidence_.inflation(measurement, belief_.covariance);
+    if (!inflation) {
+      ++report_.counts["leg.refused"];
+      return;
+    }
+    measurement.noise *= *inflation;
+  }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
   accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state,

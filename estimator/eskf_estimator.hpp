@@ -9,10 +9,12 @@
 #include "estimator/floor.hpp"
 #include "estimator/kalman_update.hpp"
 #include "estimator/leg_displacement.hpp"
+#include "estimator/leg_evidence.hpp"
 #include "estimator/lidar_update.hpp"
 #include "estimator/measurement_queue.hpp"
 #include "estimator/pose_clone.hpp"
 #include "estimator/scan_selection.hpp"
+#include "estimator/standstill.hpp"
 #include "estimator/voxel_map.hpp"
 
 namespace aims {
@@ -39,7 +41,9 @@ class EskfEstimator : public Estimator {
   void correct(const LidarScanPtr& scan);
   void predict_to(Time stamp);
   void take_leg(const LegOdometrySample& sample);
-  void fuse_leg_velocity(Time stamp, const Eigen::Vector3d& velocity);
+  void fuse_leg_velocity(const LegOdometrySample& sample);
+  Eigen::Matrix3d leg_noise(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
+  bool stands(const LegOdometrySample& sample);
   void fuse_leg_displacement();
   void renew_clone();
   void hold_lost_legs(Time until);
@@ -64,6 +68,8 @@ class EskfEstimator : public Estimator {
   Time time_ = 0;  ///< of the belief
   Belief belief_;
   std::optional<LegOdometrySample> last_leg_;  ///< with the stamp moved on while held
+  LegEvidence leg_evidence_;
+  StandstillDetector standstill_;
   LegIntegrator leg_integrator_;               ///< since the last scan; displacement mode
   std::optional<PoseClone> clone_;             ///< at the last scan; displacement mode
   double leg_innovation_ = 0.0;

@@ -49,6 +49,26 @@ Standing average_standing(const std::deque<ImuSample>& samples, double settle,
   return standing;
 }
 
+/// The stretch of quiet samples that begins at `begin`: each keeps close to the mean of those
+/// before it, and all together to what a body at rest feels.
+Standing quiet_from(const std::deque<ImuSample>& samples, std::size_t begin,
+                    const InitializationConfig& config, const StartConfig& quiet, double gravity) {
+  Standing stretch;
+  for (std::size_t i = begin; i < samples.size(); ++i) {
+    const ImuSample& sample = samples[i];
+    const bool near =
+        stretch.count == 0 || ((sample.angular_velocity - stretch.rate).norm() <= quiet.rate &&
+                               (sample.specific_force - stretch.force).norm() <= quiet.force);
+    stretch.moved = !near || !is_still(sample, config, gravity);
+    if (stretch.moved) break;
+    ++stretch.count;
+    stretch.rate += (sample.angular_velocity - stretch.rate) / stretch.count;
+    stretch.force += (sample.specific_force - stretch.force) / stretch.count;
+    stretch.end = sample.stamp;
+  }
+  return stretch;
+}
+
 /// Mean specific force of all samples [m/s^2]: what a gait adds to gravity averages out.
 Eigen::Vector3d mean_force(const std::deque<ImuSample>& samples) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -86,6 +106,18 @@ ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_st
   return P;
 }
 
+/// The belief at the end of the stand, or at the newest sample where none was found.
+InitialBelief begin_with(const std::deque<ImuSample>& samples, const Standing& standing,
+                         bool enough, const InitializationConfig& config) {
+  InitialBelief initial;
+  initial.stamp = enough ? standing.end : samples.back().stamp;
+  initial.stood_still = enough;
+  initial.belief.state.rotation = level(enough ? standing.force : mean_force(samples));
+  if (enough) initial.belief.state.gyro_bias = standing.rate;
+  initial.belief.covariance = initial_covariance(config, enough);
+  return initial;
+}
+
 }  // namespace
 
 std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
@@ -96,13 +128,36 @@ std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
   if (span < from_seconds(config.duration) && !standing.moved) return std::nullopt;
   if (standing.count < kFewestSamples) standing = average_standing(samples, 0.0, config, gravity);
   const bool enough = standing.count >= kFewestSamples;
-  InitialBelief initial;
-  initial.stamp = enough ? standing.end : samples.back().stamp;
-  initial.stood_still = enough;
-  initial.belief.state.rotation = level(enough ? standing.force : mean_force(samples));
-  if (enough) initial.belief.state.gyro_bias = standing.rate;
-  initial.belief.covariance = initial_covariance(config, enough);
-  return initial;
+  return begin_with(samples, standing, enough, config);
+}
+
+std::optional<InitialBelief> initialize_quietly(const std::deque<ImuSample>& samples,
+                                                const InitializationConfig& config,
+                                                const StartConfig& quiet, double gravity) {
+  if (samples.empty()) return std::nullopt;
+  const Duration span = samples.back().stamp - samples.front().stamp;
+  if (span < from_seconds(config.settle)) return std::nullopt;
+  Standing best;
+  double longest = -1.0;
+  std::size_t best_begin = 0;
+  for (std::size_t begin = 0; begin < samples.size(); ++begin) {
+    const Time from = samples[begin].stamp;
+    if (samples.back().stamp - from < from_seconds(longest)) break;
+    const Standing stretch = quiet_from(samples, begin, config, quiet, gravity);
+    // The last of equally long stretches: the longer the robot has stood, the better it stands.
+    if (stretch.count == 0 || to_seconds(stretch.end - from) < longest) continue;
+    longest = to_seconds(stretch.end - from);
+    best = stretch;
+    best_begin = begin;
+  }
+  // Of a long stretch the end alone: before it the robot takes its stance.
+  const Time averaged = best.end - from_seconds(config.duration - config.settle);
+  while (best.count > 0 && samples[best_begin].stamp < averaged) ++best_begin;
+  if (best.count > 0) best = quiet_from(samples, best_begin, config, quiet, gravity);
+  const bool stands = best.count > 0 && !best.moved;
+  if (span < from_seconds(config.duration) && stands) return std::nullopt;
+  const bool enough = best.count >= kFewestSamples && longest >= quiet.shortest;
+  return begin_with(samples, best, enough, config);
 }
 
 }  // namespace aims

@@ -25,4 +25,11 @@ struct InitialBelief {
 std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
                                         const InitializationConfig& config, double gravity);
 
+/// The same for a robot that may be shoved meanwhile: from the longest stretch of samples that keep
+/// close to their own mean, in direction as well as size, so that a shove from the side does not
+/// pass for a tilt. The stand ends at the first disturbance after settling.
+std::optional<InitialBelief> initialize_quietly(const std::deque<ImuSample>& samples,
+                                                const InitializationConfig& config,
+                                                const StartConfig& quiet, double gravity);
+
 }  // namespace aims

@@ -80,5 +80,69 @@ TEST(Initialization, MovingStartIsUncertain) {
   EXPECT_FALSE(initial->stood_still);
 }
 
+std::optional<InitialBelief> quietly(const std::deque<ImuSample>& samples) {
+  return initialize_quietly(samples, InitializationConfig{}, StartConfig{}, kGravity);
+}
+
+/// The samples with a force [m/s^2] from the side added in [begin, end) [s].
+std::deque<ImuSample> shoved(std::deque<ImuSample> samples, double begin, double end,
+                             double force) {
+  for (ImuSample& sample : samples) {
+    const double t = to_seconds(sample.stamp);
+    if (t >= begin && t < end) sample.specific_force.y() += force;
+  }
+  return samples;
+}
+
+TEST(QuietInitialization, EqualsThePlainOneOfAnUndisturbedStandOnSlopes) {
+  for (const double slope_deg : {0.0, 5.0, 10.0, 15.0}) {
+    const double slope = slope_deg * M_PI / 180.0;
+    for (const Eigen::Vector3d& axis :
+         {Eigen::Vector3d(Eigen::Vector3d::UnitX()), Eigen::Vector3d(Eigen::Vector3d::UnitY())}) {
+      const auto samples = standing(so3_exp(slope * axis), {0.01, 0.0, -0.01}, 110);
+      const auto plain = initialize(samples, InitializationConfig{}, kGravity);
+      const auto quiet = quietly(samples);
+      ASSERT_TRUE(plain && quiet);
+      EXPECT_TRUE(quiet->stood_still);
+      EXPECT_EQ(quiet->stamp, samples.back().stamp);
+      EXPECT_LT(quiet->belief.state.rotation.angularDistance(so3_exp(slope * axis)), 1e-6);
+      EXPECT_LT(plain->belief.state.rotation.angularDistance(so3_exp(slope * axis)), 1e-6);
+    }
+  }
+}
+
+TEST(QuietInitialization, AShoveFromTheSideIsNoTilt) {
+  const auto level = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
+  const auto samples = shoved(level, 1.2, 1.6, 2.0);  // changes the force's size by 2 % only
+  const auto plain = initialize(samples, InitializationConfig{}, kGravity);
+  const auto quiet = quietly(samples);
+  ASSERT_TRUE(plain && quiet);
+  EXPECT_GT(plain->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 0.04);
+  EXPECT_LT(quiet->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
+  EXPECT_LT(quiet->stamp, from_seconds(1.21)) << "the shove is propagated, not averaged";
+}
+
+TEST(QuietInitialization, AShoveBeforeTheStandIsLeftOut) {
+  const auto level = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
+  const auto samples = shoved(level, 0.0, 0.55, 2.0);
+  const auto quiet = quietly(samples);
+  ASSERT_TRUE(quiet);
+  EXPECT_TRUE(quiet->stood_still);
+  EXPECT_EQ(quiet->stamp, samples.back().stamp);
+  EXPECT_LT(quiet->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
+}
+
+TEST(QuietInitialization, WithoutAQuietStretchTheStartIsAMovingOne) {
+  auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].specific_force.y() += i % 2 == 0 ? 2.0 : -2.0;
+  }
+  const auto quiet = quietly(samples);
+  ASSERT_TRUE(quiet);
+  EXPECT_FALSE(quiet->stood_still);
+  const ErrorVector variance = quiet->belief.covariance.diagonal();
+  EXPECT_GE(std::sqrt(segment(variance, ErrorState::kVelocity).minCoeff()), 0.7);
+}
+
 }  // namespace
 }  // namespace aims
