@@ -264,8 +264,7 @@ void EskfEstimator::fuse_floor() {
   if (floor_.verdict() == FloorVerdict::kWaiting) ++report_.counts["floor.waiting"];
   if (!measurement) return;
   ++report_.counts["floor.used"];
-  accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state,
-                       information_of(*measurement), lidar_update_.learned()));
+  accept(aims::fuse_floor(belief_, *measurement));
 }
 
 void EskfEstimator::extend_map() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/floor.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -107,6 +108,24 @@ LinearMeasurement FloorConstraint::rows(const Belief& predicted, const FloorPlan
   m.noise(2, 2) =
       repeats * (config_.sigma_height * config_.sigma_height + levels_[current_].variance);
   return m;
+}
+
+Belief fuse_floor(const Belief& predicted, const LinearMeasurement& measurement) {
+  using E = ErrorState;
+  const Matrix3xError& H = measurement.jacobian;
+  const ErrorMatrix& P = predicted.covariance;
+  const Eigen::Matrix3d innovation = H * P * H.transpose() + measurement.noise;
+  Eigen::Matrix<double, E::kSize, 3> gain = P * H.transpose() * innovation.inverse();
+  gain.middleRows<2>(E::kPosition.offset).setZero();
+  gain.middleRows<2>(E::kVelocity.offset).setZero();
+  gain.bottomRows<E::kSize - E::kMotionSize>().setZero();
+  const ErrorVector delta = -gain * measurement.residual;
+  const ErrorMatrix kept = ErrorMatrix::Identity() - gain * H;
+  const ErrorMatrix G = reset_jacobian(delta);
+  const ErrorMatrix covariance =
+      G * (kept * P * kept.transpose() + gain * measurement.noise * gain.transpose()) *
+      G.transpose();
+  return {boxplus(predicted.state, delta), 0.5 * (covariance + covariance.transpose())};
 }
 
 Belief join_tilt_and_bias(Belief belief, double gravity) {

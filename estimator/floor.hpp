@@ -63,6 +63,11 @@ class FloorConstraint {
   std::optional<Eigen::Vector3d> last_position_;
 };
 
+/// The belief after fusing a floor. Only rotation, height, vertical velocity and inertial biases
+/// are corrected (Schmidt-Kalman update). What a corridor leaves open is never quite level in the
+/// covariance, so that millimetres of height would move the pose along it by decimetres.
+Belief fuse_floor(const Belief& predicted, const LinearMeasurement& measurement);
+
 /// Joins the errors of tilt and accelerometer bias of a start that levelled itself by the mean
 /// specific force: one is the other over gravity, so that whatever corrects the tilt finds the
 /// bias. `covariance` blocks of rotation and vertical bias are kept.
