@@ -274,6 +274,8 @@ void EskfEstimator::extend_map() {
   const Eigen::Matrix3d position =
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
   map_.insert(insert_points_, t, (position + lidar_update_.map_anchor()).cast<float>());
+  const MapMemoryConfig& memory = config_.directional.map_memory;
+  if (member_.directional && !memory.enabled) map_.forget_unseen(memory.forget_after);
 }
 
 bool EskfEstimator::accept(const Belief& updated) {

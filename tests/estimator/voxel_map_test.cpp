@@ -102,6 +102,58 @@ TEST(VoxelMap, DropsTheFarthestVoxelsWhenFull) {
   }
 }
 
+/// Returns of a corridor along x, 10 m to both sides of `center`.
+Points corridor_around(const Eigen::Vector3f& center, std::uint64_t seed) {
+  Points points = random_points(seed, 500, 1.1);
+  for (Eigen::Vector3f& p : points) {
+    p = center + Eigen::Vector3f(9.0F * p.x(), p.y() > 0.0F ? 1.1F : -1.1F, p.z());
+  }
+  return points;
+}
+
+// Thirty kilometres: neither voxels nor the memory that holds them grow once the map is full, and
+// the robot always finds planes where it is. Both ways of finding planes.
+TEST(VoxelMap, AWalkOfManyKilometresStaysWithinItsMemory) {
+  for (const MapPlanes planes : {MapPlanes::kNeighbors, MapPlanes::kVoxels}) {
+    MapConfig config;
+    config.planes = planes;
+    config.max_voxels = 3000;
+    VoxelMap map(config);
+    std::size_t memory = 0;
+    for (int i = 0; i < 6000; ++i) {
+      const Eigen::Vector3f center(5.0F * static_cast<float>(i), 0.0F, 0.0F);
+      map.insert(corridor_around(center, static_cast<std::uint64_t>(i)), center);
+      ASSERT_LE(map.voxel_count(), 3000U);
+      if (i == 1000) memory = map.memory();
+      if (i > 1000) {
+        ASSERT_EQ(map.memory(), memory) << "at " << center.x() << " m";
+      }
+    }
+    const Eigen::Vector3f end(5.0F * 5999.0F, 0.0F, 0.0F);
+    int found = 0;
+    for (const Eigen::Vector3f& p : corridor_around(end, 7)) found += map.plane_at(p).valid;
+    EXPECT_GT(found, 100);
+  }
+}
+
+TEST(VoxelMap, ForgetsWhatItDidNotSeeForLong) {
+  VoxelMap map(MapConfig{});
+  const Eigen::Vector3f here(0.25F, 0.25F, 0.25F);
+  const Eigen::Vector3f there(20.25F, 0.25F, 0.25F);
+  map.insert(Points{here, there}, here);
+  for (int i = 0; i < 9; ++i) map.insert(Points{here}, here);
+  map.forget_unseen(10);
+  EXPECT_EQ(map.voxel_count(), 2U);
+  map.insert(Points{here}, here);
+  map.forget_unseen(10);
+  ASSERT_EQ(map.voxel_count(), 1U);
+  Neighbors neighbors;
+  map.nearest(here, neighbors);
+  EXPECT_EQ(neighbors.count, 1);
+  map.nearest(there, neighbors);
+  EXPECT_EQ(neighbors.count, 0);
+}
+
 TEST(VoxelMap, IgnoresPointsThatAreNoNumbers) {
   VoxelMap map(MapConfig{});
   const float nan = std::numeric_limits<float>::quiet_NaN();
