@@ -101,7 +101,7 @@ struct RobustConfig {
 
 /// Choice of rows by what they inform (row_selection.hpp).
 struct SelectionConfig {
-  bool enabled = true;
+  bool enabled = false;
   int max_rows = 600;  ///< point-to-plane rows kept of a scan
 };
 
