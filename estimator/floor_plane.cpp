@@ -17,6 +17,8 @@ constexpr double kBin = 0.06;
 constexpr double kLower = 0.5;
 /// Bands about the plane before the last: a trunk that is not parallel to the floor tilts it.
 constexpr std::array<double, 2> kWideBands{0.20, 0.10};
+/// Share of the free points below the body that lie on the floor; else it is one of several [-].
+constexpr double kLeastShare = 0.7;
 /// The floor's parts: four sectors, each near and far.
 constexpr int kParts = 8;
 /// Fewer points tell nothing of a part.
@@ -190,6 +192,7 @@ std::optional<FloorPlane> fit_floor(std::span<const Eigen::Vector3f> points,
   // The last band is applied twice, so that the plane and its points agree.
   for (int i = 0; i < 2; ++i) fit = refit(candidates, fit, config.band);
   if (fit.points < config.min_points || spread(fit) < config.min_spread) return std::nullopt;
+  if (fit.points < kLeastShare * static_cast<double>(candidates.size())) return std::nullopt;
   FloorPlane plane = plane_of(fit);
   if (!plane.normal.allFinite() || !(plane.residual <= config.max_residual)) return std::nullopt;
   if (plane.height < config.min_height || plane.height > config.max_height) return std::nullopt;

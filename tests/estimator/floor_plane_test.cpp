@@ -69,7 +69,7 @@ TEST(FloorPlane, FurnitureAlongOneSideDoesNotTiltIt) {
   FloorScene scene;  // Low and high boxes along the left wall, and a rear end wall.
   scene.height = [](double x, double y) {
     if (x < -2.2) return 3.0;
-    if (y > 0.5 && x > 0.5 && x < 2.5) return 0.25;
+    if (y > 0.7 && x > 1.8 && x < 2.4) return 0.25;
     return y > 0.6 && x > 3.0 ? 1.0 : 0.0;
   };
   const Pose pose = body_at(0.0, kHeight);
