@@ -56,9 +56,11 @@ BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = axes.col(i);
     const double known = 1.0 / axis.dot(covariance * axis);
-    const double ratio = std::max(known, 0.0) / std::max(axis.dot(chance * axis), kNothing);
+    const double by_chance = config.chance_share * axis.dot(chance * axis);
+    const double ratio = std::max(known, 0.0) / std::max(by_chance, kNothing);
     block.ratio(i) = ratio;
-    block.weights(i) = ratio > 1.0 ? reality(ratio, config) * (ratio - 1.0) / ratio : 0.0;
+    block.real(i) = reality(ratio, config);
+    block.weights(i) = ratio > 1.0 ? block.real(i) * (ratio - 1.0) / ratio : 0.0;
   }
   return block;
 }
@@ -79,21 +81,25 @@ Eigen::Matrix3d steady_axes(const Eigen::Matrix3d& information, const Eigen::Mat
 }
 
 void AxisWeigher::assess(Block& block, const Eigen::Matrix3d& information,
-                         const Eigen::Matrix3d& chance) {
-  if (!block.started) block.smoothed = information;
-  block.started = true;
-  block.smoothed += config_.smoothing * (information - block.smoothed);
+                         const Eigen::Matrix3d& chance, double share) {
+  // Chance starts as it is, information from nothing.
+  if (block.smoothed_chance.isZero(0.0)) block.smoothed_chance = chance;
+  block.smoothed += share * (information - block.smoothed);
+  block.smoothed_chance += share * (chance - block.smoothed_chance);
   const Eigen::Matrix3d axes = steady_axes(block.smoothed, block.now.axes, config_.axis_tolerance);
-  block.now = weigh_block(information, chance, axes, config_);
+  block.now = weigh_block(block.smoothed, block.smoothed_chance, axes, config_);
 }
 
-void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R) {
+void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R,
+                         double way) {
+  const double share = 1.0 - std::exp(-way / config_.stretch);
   const Eigen::Matrix3d turning = A.topLeftCorner<3, 3>();
   const Eigen::Matrix3d moving = A.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d cross = A.bottomLeftCorner<3, 3>();
-  assess(position_, schur_complement(moving, cross, turning), chance.bottomRightCorner<3, 3>());
+  assess(position_, schur_complement(moving, cross, turning), chance.bottomRightCorner<3, 3>(),
+         share);
   assess(rotation_, R * schur_complement(turning, cross.transpose(), moving) * R.transpose(),
-         R * chance.topLeftCorner<3, 3>() * R.transpose());
+         R * chance.topLeftCorner<3, 3>() * R.transpose(), share);
 }
 
 Matrix6 AxisWeigher::shrink(const Eigen::Matrix3d& R) const {

@@ -21,6 +21,7 @@ double reality(double ratio, const SpuriousConfig& config);
 struct BlockWeights {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< one unit axis per column, odometry frame
   Eigen::Vector3d ratio = Eigen::Vector3d::Zero();     ///< of information to chance
+  Eigen::Vector3d real = Eigen::Vector3d::Ones();      ///< probability of more than chance
   Eigen::Vector3d weights = Eigen::Vector3d::Ones();   ///< in [0, 1]
 
   /// U diag(sqrt(w)) U^T, odometry frame.
@@ -45,8 +46,10 @@ class AxisWeigher {
  public:
   explicit AxisWeigher(const SpuriousConfig& config) : config_(config) {}
 
-  /// Takes the information A of a scan and what `chance` adds to it (6x6, at the attitude R).
-  void assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R);
+  /// Takes the information A of a scan and what `chance` adds to it (6x6, at the attitude R), `way`
+  /// [m] after the scan before. It is judged over a stretch of way: what a robot sees again and
+  /// again while it stands is one draw of chance. Nothing is trusted before there is some way.
+  void assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R, double way);
 
   /// T of the scan: T A T and T b are what is kept, 6x6, error state's axes at attitude R.
   Matrix6 shrink(const Eigen::Matrix3d& R) const;
@@ -57,11 +60,12 @@ class AxisWeigher {
  private:
   struct Block {
     Eigen::Matrix3d smoothed = Eigen::Matrix3d::Zero();  ///< information, odometry frame
+    Eigen::Matrix3d smoothed_chance = Eigen::Matrix3d::Zero();
     BlockWeights now;
-    bool started = false;
   };
 
-  void assess(Block& block, const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance);
+  void assess(Block& block, const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
+              double share);
 
   SpuriousConfig config_;
   Block position_;

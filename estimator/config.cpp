@@ -132,9 +132,8 @@ void describe(Fields& f, MapConfig& c) {
            spec("m", positive(), "the points of a voxel deviate by less from its plane"));
   f.integer("max_plane_points", c.max_plane_points,
             spec("-", at_least(6), "points of a voxel after which its plane is frozen"));
-  f.number("range_sigma", c.range_sigma, spec("m", positive(), "noise of one return", "datasheet"));
   f.number("map_sigma", c.map_sigma,
-           spec("m", positive(), "error of a map point that no averaging removes"));
+           spec("m", positive(), "least error of a map point across its plane"));
 }
 
 void describe(Fields& f, DegeneracyConfig& c) {

@@ -95,8 +95,7 @@ struct MapConfig {
   double plane_min_ratio = 10.0;      ///< second over smallest principal variance [-]
   double plane_max_deviation = 0.03;  ///< of the points of a voxel across their plane [m]
   int max_plane_points = 100;         ///< points of a voxel, after which its plane is frozen
-  double range_sigma = 0.02;          ///< noise of one return, as its datasheet gives it [m]
-  double map_sigma = 0.003;           ///< error of a map point that no averaging removes [m]
+  double map_sigma = 0.001;           ///< least error of a map point across its plane [m]
 };
 
 /// Reliability assessment and adaptive weights, eqs. (3)-(12).

@@ -17,12 +17,15 @@ void describe_switch(Fields& f, Config& c, std::string meaning) {
 
 void describe(Fields& f, SpuriousConfig& c) {
   describe_switch(f, c, "subtract the information that noisy normals give by chance");
+  f.number("chance_share", c.chance_share,
+           spec("-", positive(),
+                "share of the chance information implied by plane fits that is "
+                "found between walls without features"));
   f.number("significant", c.significant,
            spec("-", at_least(1), "ratio to chance at which information is as likely real as not"));
   f.number("spread", c.spread,
            spec("-", positive(), "uncertainty of what chance gives, of its logarithm"));
-  f.number("smoothing", c.smoothing,
-           spec("-", in_range(0.001, 1.0), "share of one scan in what tells the axes"));
+  f.number("stretch", c.stretch, spec("m", positive(), "way over which information is judged"));
   f.number("axis_tolerance", c.axis_tolerance,
            spec("rad", at_least(0), "within which the axes are kept"));
 }
@@ -70,7 +73,8 @@ void describe(Fields& f, DisagreementConfig& c) {
 
 void describe(Fields& f, StartConfig& c) {
   describe_switch(f, c, "start from the longest quiet stretch of a stand that is disturbed");
-  f.number("rate", c.rate, spec("rad/s", positive(), "deviation from its mean that ends a stretch"));
+  f.number("rate", c.rate,
+           spec("rad/s", positive(), "deviation from its mean that ends a stretch"));
   f.number("force", c.force,
            spec("m/s^2", positive(), "deviation from its mean that ends a stretch"));
   f.number("shortest", c.shortest, spec("s", at_least(0.05), "a shorter stretch tells no tilt"));

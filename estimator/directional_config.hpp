@@ -11,9 +11,12 @@ namespace aims {
 /// that remain.
 struct SpuriousConfig {
   bool enabled = true;
-  double significant = 2.0;  ///< ratio to chance at which information is as likely real as not [-]
-  double spread = 0.25;      ///< of the logarithm of what chance gives [-]
-  double smoothing = 0.05;   ///< share of one scan in the information that tells the axes [-]
+  /// What is left of plane fits, edges and all, overstates the noise of normals: this share of the
+  /// chance information that it implies is found between walls without features.
+  double chance_share = 0.7;
+  double significant = 1.35;     ///< ratio to chance at which it is as likely real as not [-]
+  double spread = 0.05;          ///< of the logarithm of what chance gives [-]
+  double stretch = 1.5;          ///< way over which information is judged [m]
   double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
 };
 
@@ -26,7 +29,7 @@ struct LegStatesConfig {
   double scale_walk = 1e-3;  ///< [1/sqrt(s)]
   double bias_sigma = 0.01;  ///< at the start [m/s]
   double bias_walk = 1e-4;   ///< [m/s/sqrt(s)]
-  double trusted = 0.3;      ///< smoothed weight of the weakest axis above which the LiDAR is [-]
+  double trusted = 0.3;      ///< weight of the weakest axis above which the LiDAR is [-]
 };
 
 /// Leg noise from its own evidence.
@@ -61,13 +64,13 @@ struct StartConfig {
 /// Standing still.
 struct StandstillConfig {
   bool enabled = true;
-  double window = 0.3;          ///< IMU and legs rest for so long; one measurement per window [s]
-  double rate = 0.03;           ///< largest rate of turn, and deviation from its mean [rad/s]
-  double force = 0.3;           ///< largest deviation of the force from its mean [m/s^2]
-  double leg_speed = 0.02;      ///< largest speed that the legs report, smoothed [m/s]
-  double joint_rate = 0.15;     ///< largest root mean square rate of the joints [rad/s]
-  double leg_smoothing = 0.05;  ///< of both, time constant [s]
-  double hysteresis = 1.5;      ///< a standing robot may exceed the limits by this factor [-]
+  double window = 0.3;           ///< IMU and legs rest for so long; one measurement per window [s]
+  double rate = 0.03;            ///< largest rate of turn, and deviation from its mean [rad/s]
+  double force = 0.3;            ///< largest deviation of the force from its mean [m/s^2]
+  double leg_speed = 0.02;       ///< largest speed that the legs report, smoothed [m/s]
+  double joint_rate = 0.15;      ///< largest root mean square rate of the joints [rad/s]
+  double leg_smoothing = 0.05;   ///< of both, time constant [s]
+  double hysteresis = 1.5;       ///< a standing robot may exceed the limits by this factor [-]
   double sigma_velocity = 0.01;  ///< of a body at rest [m/s]
   double sigma_rate = 3e-3;      ///< of the mean rate of a body at rest [rad/s]
 };

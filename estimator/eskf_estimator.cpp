@@ -146,7 +146,7 @@ bool EskfEstimator::stands(const LegOdometrySample& sample) {
   information.matrix += bias.matrix;
   information.vector += bias.vector;
   accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state, information,
-                       ErrorState::kMotionSize));
+                       hold_legs(correct_all())));
   return true;
 }
 
@@ -155,8 +155,9 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   if (stands(sample)) return;
   const Eigen::Vector3d rate =
       queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
-  LinearMeasurement measurement = leg_velocity_model(
-      belief_.state, rig_.T_body_base, rate, sample.linear_velocity, leg_noise(sample, rate));
+  const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
+  LinearMeasurement measurement =
+      leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_noise(sample, rate));
   if (member_.directional && config_.directional.leg_evidence.enabled) {
     const auto inflation = leg_evidence_.inflation(measurement, belief_.covariance);
     if (!inflation) {
@@ -167,8 +168,12 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state,
-                       information_of(measurement), lidar_update_.learned()));
+  const ErrorMatrix prior_information = inverse_spd(belief_.covariance);
+  const Information information = information_of(measurement);
+  accept(lidar_update_.holds_legs()
+             ? kalman_update(belief_.state, prior_information, belief_.state, information,
+                             hold_legs(correct_all()))
+             : kalman_update(belief_.state, prior_information, belief_.state, information));
 }
 
 void EskfEstimator::fuse_leg_displacement() {

@@ -10,6 +10,7 @@
 #include "estimator/kalman_update.hpp"
 #include "estimator/leg_displacement.hpp"
 #include "estimator/leg_evidence.hpp"
+#include "estimator/leg_states.hpp"
 #include "estimator/lidar_update.hpp"
 #include "estimator/measurement_queue.hpp"
 #include "estimator/pose_clone.hpp"
@@ -70,8 +71,9 @@ class EskfEstimator : public Estimator {
   std::optional<LegOdometrySample> last_leg_;  ///< with the stamp moved on while held
   LegEvidence leg_evidence_;
   StandstillDetector standstill_;
-  LegIntegrator leg_integrator_;               ///< since the last scan; displacement mode
-  std::optional<PoseClone> clone_;             ///< at the last scan; displacement mode
+  StrideMean stride_mean_;
+  LegIntegrator leg_integrator_;    ///< since the last scan; displacement mode
+  std::optional<PoseClone> clone_;  ///< at the last scan; displacement mode
   double leg_innovation_ = 0.0;
   int leg_updates_ = 0;
 

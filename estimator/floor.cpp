@@ -111,21 +111,9 @@ LinearMeasurement FloorConstraint::rows(const Belief& predicted, const FloorPlan
 }
 
 Belief fuse_floor(const Belief& predicted, const LinearMeasurement& measurement) {
-  using E = ErrorState;
-  const Matrix3xError& H = measurement.jacobian;
-  const ErrorMatrix& P = predicted.covariance;
-  const Eigen::Matrix3d innovation = H * P * H.transpose() + measurement.noise;
-  Eigen::Matrix<double, E::kSize, 3> gain = P * H.transpose() * innovation.inverse();
-  gain.middleRows<2>(E::kPosition.offset).setZero();
-  gain.middleRows<2>(E::kVelocity.offset).setZero();
-  gain.bottomRows<E::kSize - E::kMotionSize>().setZero();
-  const ErrorVector delta = -gain * measurement.residual;
-  const ErrorMatrix kept = ErrorMatrix::Identity() - gain * H;
-  const ErrorMatrix G = reset_jacobian(delta);
-  const ErrorMatrix covariance =
-      G * (kept * P * kept.transpose() + gain * measurement.noise * gain.transpose()) *
-      G.transpose();
-  return {boxplus(predicted.state, delta), 0.5 * (covariance + covariance.transpose())};
+  const Eigen::Matrix3d up = Eigen::Vector3d::UnitZ() * Eigen::Vector3d::UnitZ().transpose();
+  return kalman_update(predicted.state, inverse_spd(predicted.covariance), predicted.state,
+                       information_of(measurement), hold_motion(hold_legs(correct_all()), up));
 }
 
 Belief join_tilt_and_bias(Belief belief, double gravity) {

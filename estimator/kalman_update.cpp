@@ -5,24 +5,6 @@
 #include <Eigen/LU>
 
 namespace aims {
-namespace {
-
-/// Covariance of the update whose gain is zero in all entries beyond the first `learned`, from the
-/// covariance of the full update (Joseph's form in information: K H = C A, K R K^T = C A C).
-ErrorMatrix considered(const ErrorMatrix& full, const ErrorMatrix& prior_information,
-                       const ErrorMatrix& measured, int learned) {
-  ErrorMatrix gain = full * measured;
-  gain.bottomRows(ErrorState::kSize - learned).setZero();
-  const ErrorMatrix kept = ErrorMatrix::Identity() - gain;
-  ErrorMatrix masked = full;
-  masked.bottomRows(ErrorState::kSize - learned).setZero();
-  const ErrorMatrix covariance = kept * inverse_spd(prior_information) * kept.transpose() +
-                                 masked * measured * masked.transpose();
-  return 0.5 * (covariance + covariance.transpose());
-}
-
-}  // namespace
-
 Information information_of(const LinearMeasurement& measurement) {
   const Eigen::Matrix<double, 3, ErrorState::kSize> weighted =
       measurement.noise.inverse() * measurement.jacobian;
@@ -42,20 +24,47 @@ ErrorMatrix inverse_spd(const ErrorMatrix& matrix) {
 }
 
 Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
+                     const NominalState& linearization, const Information& measurements) {
+  const ErrorVector offset = boxminus(linearization, prior);
+  const ErrorMatrix J = boxminus_jacobian(offset);
+  const ErrorMatrix weighted = J.transpose() * prior_information;
+  const ErrorMatrix posterior_information = weighted * J + measurements.matrix;
+  const ErrorMatrix covariance = inverse_spd(posterior_information);
+  const ErrorVector delta = -covariance * (weighted * offset + measurements.vector);
+  const ErrorMatrix G = reset_jacobian(delta);
+  return {boxplus(linearization, delta), G * covariance * G.transpose()};
+}
+
+Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
                      const NominalState& linearization, const Information& measurements,
-                     int learned) {
+                     const ErrorMatrix& mask) {
   const ErrorVector offset = boxminus(linearization, prior);
   const ErrorMatrix J = boxminus_jacobian(offset);
   const ErrorMatrix weighted = J.transpose() * prior_information;
   const ErrorMatrix information = weighted * J;
-  ErrorMatrix covariance = inverse_spd(information + measurements.matrix);
-  ErrorVector delta = -covariance * (weighted * offset + measurements.vector);
-  if (learned < ErrorState::kSize) {
-    delta.tail(ErrorState::kSize - learned).setZero();
-    covariance = considered(covariance, information, measurements.matrix, learned);
-  }
+  const ErrorMatrix full = inverse_spd(information + measurements.matrix);
+  const ErrorVector step = -full * (weighted * offset + measurements.vector);
+  // The mask acts on the whole way from the prior, of which `offset` is already gone.
+  const ErrorVector delta = mask * (offset + step) - offset;
+  // Joseph's form with K H = C A and K R K^T = C A C.
+  const ErrorMatrix gain = mask * full;
+  const ErrorMatrix kept = ErrorMatrix::Identity() - gain * measurements.matrix;
+  const ErrorMatrix covariance = kept * inverse_spd(information) * kept.transpose() +
+                                 gain * measurements.matrix * gain.transpose();
   const ErrorMatrix G = reset_jacobian(delta);
-  return {boxplus(linearization, delta), G * covariance * G.transpose()};
+  return {boxplus(linearization, delta),
+          G * (0.5 * (covariance + covariance.transpose())) * G.transpose()};
+}
+
+ErrorMatrix hold_legs(ErrorMatrix mask) {
+  mask.bottomRows<ErrorState::kSize - ErrorState::kMotionSize>().setZero();
+  return mask;
+}
+
+ErrorMatrix hold_motion(ErrorMatrix mask, const Eigen::Matrix3d& kept) {
+  block(mask, ErrorState::kPosition, ErrorState::kPosition) = kept;
+  block(mask, ErrorState::kVelocity, ErrorState::kVelocity) = kept;
+  return mask;
 }
 
 }  // namespace aims

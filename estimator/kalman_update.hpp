@@ -41,10 +41,22 @@ ErrorMatrix inverse_spd(const ErrorMatrix& matrix);
 /// at `linearization`, with the prior whose state is `prior` and inverse covariance
 /// `prior_information`. With linearization == prior it is the plain update; elsewhere it is one
 /// step of the iterated update. The covariance belongs to the error about the returned state.
-/// Only the first `learned` entries of the error state are corrected: the rest are considered as
-/// uncertain, but kept (Schmidt-Kalman update).
+Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
+                     const NominalState& linearization, const Information& measurements);
+
+/// The same with the gain K replaced by `mask` K: what the mask takes away is considered as
+/// uncertain, but not corrected (Schmidt-Kalman update). The covariance is that of this gain.
 Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
                      const NominalState& linearization, const Information& measurements,
-                     int learned = ErrorState::kSize);
+                     const ErrorMatrix& mask);
+
+/// The mask that corrects everything.
+inline ErrorMatrix correct_all() { return ErrorMatrix::Identity(); }
+
+/// `mask` without the states of the legs.
+ErrorMatrix hold_legs(ErrorMatrix mask);
+
+/// `mask` with correction of position and velocity only as `kept` (3x3, odometry axes) allows.
+ErrorMatrix hold_motion(ErrorMatrix mask, const Eigen::Matrix3d& kept);
 
 }  // namespace aims

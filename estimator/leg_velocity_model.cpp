@@ -7,22 +7,20 @@ namespace aims {
 
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
                                      const Eigen::Vector3d& angular_velocity,
-                                     const Eigen::Vector3d& measured,
-                                     const Eigen::Matrix3d& noise) {
+                                     const LegVelocity& legs, const Eigen::Matrix3d& noise) {
   using E = ErrorState;
   const Eigen::Matrix3d R_base_body = T_body_base.R().transpose();
   const Eigen::Matrix3d R_body_odom = state.rotation.conjugate().toRotationMatrix();
   const Eigen::Vector3d& lever = T_body_base.translation;
   const Eigen::Vector3d velocity_in_body = R_body_odom * state.velocity;
   const Eigen::Vector3d rate = angular_velocity - state.gyro_bias;
-  const Eigen::Vector3d velocity = R_base_body * (velocity_in_body + rate.cross(lever));
-  const Eigen::Vector3d gain = Eigen::Vector3d::Ones() + state.leg_scale;
   LinearMeasurement m;
-  m.residual = gain.cwiseProduct(velocity) + state.leg_bias - measured;
-  columns(m.jacobian, E::kRotation) = gain.asDiagonal() * R_base_body * hat(velocity_in_body);
-  columns(m.jacobian, E::kVelocity) = gain.asDiagonal() * R_base_body * R_body_odom;
-  columns(m.jacobian, E::kGyroBias) = gain.asDiagonal() * R_base_body * hat(lever);
-  columns(m.jacobian, E::kLegScale) = velocity.asDiagonal();
+  m.residual = R_base_body * (velocity_in_body + rate.cross(lever)) +
+               state.leg_scale.cwiseProduct(legs.stride_mean) + state.leg_bias - legs.measured;
+  columns(m.jacobian, E::kRotation) = R_base_body * hat(velocity_in_body);
+  columns(m.jacobian, E::kVelocity) = R_base_body * R_body_odom;
+  columns(m.jacobian, E::kGyroBias) = R_base_body * hat(lever);
+  columns(m.jacobian, E::kLegScale) = legs.stride_mean.asDiagonal();
   columns(m.jacobian, E::kLegBias).setIdentity();
   m.noise = noise;
   return m;

@@ -9,9 +9,6 @@
 namespace aims {
 namespace {
 
-/// Share of one scan in the smoothed weight of the weakest axis: a second at 10 Hz.
-constexpr double kTrustGain = 0.1;
-
 /// Smallest eigenvalue and condition number of the translation information that remains when the
 /// rotation is unknown too (its Schur complement).
 void record_localizability(const Matrix6& information, ScanDiagnostics& diagnostics) {
@@ -37,10 +34,15 @@ LidarUpdate::LidarUpdate(const EstimatorConfig& config, const FamilyMember& memb
       axes_(config.directional.spurious),
       severity_(config.degeneracy.alpha) {}
 
-int LidarUpdate::learned() const {
+bool LidarUpdate::holds_legs() const {
   const LegStatesConfig& legs = directional_.leg_states;
-  const bool hold = member_.directional && legs.hold && trust_ < legs.trusted;
-  return hold ? ErrorState::kMotionSize : ErrorState::kSize;
+  return member_.directional && legs.hold && axes_.position().weights.minCoeff() < legs.trusted;
+}
+
+ErrorMatrix LidarUpdate::scan_mask() const {
+  const ErrorMatrix mask = holds_legs() ? hold_legs(correct_all()) : correct_all();
+  const BlockWeights& position = axes_.position();
+  return hold_motion(mask, position.axes * position.real.asDiagonal() * position.axes.transpose());
 }
 
 void LidarUpdate::associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
@@ -85,7 +87,8 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
     sum.matrix.noalias() += weighted * row.jacobian.transpose();
     sum.vector.noalias() += weighted * row.residual;
     if (member_.directional) {
-      sum.chance += match.weight * chance_information(match.plane.normal_covariance, match.p_body, R);
+      sum.chance +=
+          match.weight * chance_information(match.plane.normal_covariance, match.p_body, R);
     }
     residuals_.push_back(row.residual);
   }
@@ -99,7 +102,9 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
 
 void LidarUpdate::assess_axes(const Linearization& rows, const NominalState& state,
                               ScanDiagnostics& diagnostics) {
-  axes_.assess(rows.matrix, rows.chance, state.rotation.toRotationMatrix());
+  const double way = last_position_ ? (state.position - *last_position_).norm() : 0.0;
+  last_position_ = state.position;
+  axes_.assess(rows.matrix, rows.chance, state.rotation.toRotationMatrix(), way);
   diagnostics.weak_weight = axes_.position().weights.minCoeff();
   diagnostics.weak_ratio = axes_.position().ratio.minCoeff();
 }
@@ -111,6 +116,16 @@ Information LidarUpdate::weighed(const Linearization& rows, double gamma,
   }
   const Matrix6 T = axes_.shrink(state.rotation.toRotationMatrix());
   return pose_information(T * rows.matrix * T, T * rows.vector);
+}
+
+Belief LidarUpdate::correct(const Belief& predicted, const ErrorMatrix& prior_information,
+                            const NominalState& linearization, const Linearization& rows,
+                            double gamma) const {
+  const Information information = weighed(rows, gamma, linearization);
+  if (!member_.directional || !directional_.spurious.enabled) {
+    return kalman_update(predicted.state, prior_information, linearization, information);
+  }
+  return kalman_update(predicted.state, prior_information, linearization, information, scan_mask());
 }
 
 bool LidarUpdate::moved(const NominalState& state, const NominalState& since, double rotation,
@@ -138,8 +153,7 @@ Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_info
     if (rows.used < lidar_.min_matches) return predicted;
     const NominalState before = belief.state;
     if (i == 0 && member_.directional) assess_axes(rows, before, diagnostics);
-    belief = kalman_update(predicted.state, prior_information, before, weighed(rows, 1.0, before),
-                           learned());
+    belief = correct(predicted, prior_information, before, rows, 1.0);
     ++diagnostics.iterations;
     if (!moved(belief.state, before, lidar_.convergence_rotation, lidar_.convergence_position)) {
       break;
@@ -194,10 +208,8 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     gamma_leg_ = member_.adaptive ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
     // eq. (9): R_lidar' = R_lidar / gamma_lidar, so the information of the trial's last
     // linearisation is multiplied by gamma_lidar.
-    belief = kalman_update(predicted.state, prior_information, belief.state,
-                           weighed(rows, gamma_lidar_, belief.state), learned());
+    belief = correct(predicted, prior_information, belief.state, rows, gamma_lidar_);
     if (member_.directional) rest_on(map, predicted, belief);
-    trust_ += kTrustGain * (diagnostics.weak_weight - trust_);
   }
   diagnostics.D_smoothed = severity_.value();
   diagnostics.gamma_lidar = gamma_lidar_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,9 +34,8 @@ class LidarUpdate {
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
 
-  /// Entries of the error state that measurements may correct: not the states of the legs, while
-  /// the weakest axis is not trusted.
-  int learned() const;
+  /// Whether the states of the legs are to be held: while the weakest axis is not trusted.
+  bool holds_legs() const;
 
   /// Covariance of the map that the position rests on, odometry axes [m^2]; anchor_after_scan.
   const Eigen::Matrix3d& map_anchor() const { return map_anchor_; }
@@ -61,6 +61,11 @@ class LidarUpdate {
   void thin(const NominalState& state);
   Linearization linearize(const NominalState& state);
   Information weighed(const Linearization& rows, double gamma, const NominalState& state) const;
+  /// What a scan may correct: nothing along axes that it does not see, whatever the covariance
+  /// says of their ties with those that it sees.
+  ErrorMatrix scan_mask() const;
+  Belief correct(const Belief& predicted, const ErrorMatrix& prior_information,
+                 const NominalState& linearization, const Linearization& rows, double gamma) const;
   void assess_axes(const Linearization& rows, const NominalState& state,
                    ScanDiagnostics& diagnostics);
   Belief trial(const Belief& predicted, const ErrorMatrix& prior_information,
@@ -82,7 +87,7 @@ class LidarUpdate {
   double gamma_lidar_ = 1.0;
   double gamma_leg_ = 1.0;
   Eigen::Matrix3d map_anchor_ = Eigen::Matrix3d::Zero();
-  double trust_ = 0.0;  ///< smoothed weight of the weakest axis
+  std::optional<Eigen::Vector3d> last_position_;  ///< at the last scan that was judged
   std::vector<Match> matches_;
   std::vector<Match> thinned_;
   std::vector<Vector6> jacobians_;

@@ -9,17 +9,14 @@ namespace aims {
 namespace {
 
 /// First-order covariance of the normal of `count` points about their two axes in the plane: their
-/// error across it, what is left of them or `variance` [m^2] where that is larger, over their
-/// spread.
+/// `variance` across it [m^2] over their spread.
 Eigen::Matrix3d normal_covariance(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& scatter,
                                   double count, double variance) {
-  const Eigen::Vector3d& spread = scatter.eigenvalues();
-  const double seen = spread(0) * count / std::max(count - 3.0, 1.0);
-  const double across = std::max(seen, variance);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (int i = 1; i < 3; ++i) {
     const Eigen::Vector3d axis = scatter.eigenvectors().col(i);
-    sum += across / (count * std::max(spread(i), 1e-12)) * axis * axis.transpose();
+    const double spread = std::max(scatter.eigenvalues()(i), 1e-12);
+    sum += variance / (count * spread) * axis * axis.transpose();
   }
   return sum;
 }
@@ -37,17 +34,17 @@ Plane plane_of_moments(const PointMoments& moments, double min_spread, const Map
   if (!plane.normal.allFinite()) return plane;
   if (second < min_spread * min_spread) return plane;
   if (second < config.plane_min_ratio * solver.eigenvalues()(0)) return plane;
-  plane.normal_covariance = normal_covariance(solver, moments.count, moments.point_variance);
+  const double left = solver.eigenvalues()(0) * moments.count / std::max(moments.count - 3.0, 1.0);
+  plane.normal_covariance =
+      normal_covariance(solver, moments.count, std::max(left, config.map_sigma * config.map_sigma));
   plane.valid = true;
   return plane;
 }
 
-Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config,
-                double point_variance) {
+Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config) {
   if (points.size() < 3) return {};
   PointMoments moments;
   moments.count = static_cast<double>(points.size());
-  moments.point_variance = point_variance;
   for (const Eigen::Vector3f& p : points) moments.mean += p.cast<double>();
   moments.mean /= moments.count;
   for (const Eigen::Vector3f& p : points) {

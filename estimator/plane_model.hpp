@@ -15,7 +15,7 @@ struct Plane {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< q_i, mean of the map points [m]
   double thickness = 0.0;                             ///< deviation of the map points across it [m]
   bool valid = false;  ///< the points lie on it, and span it in two directions
-  /// Of the normal, odometry axes; across the normal it is zero.
+  /// Of the normal, odometry axes, by what the fit leaves of its points; zero across the normal.
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
 };
 
@@ -24,7 +24,6 @@ struct PointMoments {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();     ///< [m]
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  ///< covariance of the points [m^2]
   double count = 0.0;
-  double point_variance = 0.0;  ///< of a point across the plane, at least [m^2]
 };
 
 /// The least-squares plane of points with these moments; valid when they spread in two directions
@@ -32,10 +31,8 @@ struct PointMoments {
 Plane plane_of_moments(const PointMoments& moments, double min_spread, const MapConfig& config);
 
 /// The least-squares plane of `points`, judged by the map's thickness, spread and ratio: five
-/// points of one scan line do not define a plane. `point_variance` is that of a point across the
-/// plane [m^2]; what is left of the fit replaces it where larger.
-Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config,
-                double point_variance);
+/// points of one scan line do not define a plane.
+Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config);
 
 /// One row of the point-to-plane model.
 struct PlaneRow {

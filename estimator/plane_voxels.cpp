@@ -57,7 +57,6 @@ void PlaneVoxels::fit(const Voxel& voxel, double min_spread) const {
   voxel.fitted = voxel.count;
   PointMoments moments;
   moments.count = voxel.count;
-  moments.point_variance = config_.map_sigma * config_.map_sigma;
   const Eigen::Vector3d mean = voxel.sum / moments.count;
   moments.mean = voxel.origin + mean;
   moments.scatter = voxel.squares / moments.count - mean * mean.transpose();

@@ -35,15 +35,6 @@ float squared_gap(float inside, float size, int offset) {
   return gap * gap;
 }
 
-/// Variance of a map point across its plane: noise of the returns that it averages, and a rest.
-double point_variance(const Neighbors& neighbors, const MapConfig& config) {
-  double inverse_count = 0.0;
-  for (const std::uint8_t merged : neighbors.merged) inverse_count += 1.0 / merged;
-  inverse_count /= Neighbors::kWanted;
-  return config.map_sigma * config.map_sigma +
-         config.range_sigma * config.range_sigma * inverse_count;
-}
-
 }  // namespace
 
 VoxelMap::VoxelMap(const MapConfig& config)
@@ -72,7 +63,7 @@ Plane VoxelMap::plane_at(const Eigen::Vector3f& query) const {
   Neighbors neighbors;
   nearest(query, neighbors);
   if (neighbors.count < Neighbors::kWanted) return {};
-  return fit_plane(neighbors.points, config_, point_variance(neighbors, config_));
+  return fit_plane(neighbors.points, config_);
 }
 
 void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor) {
@@ -130,12 +121,10 @@ void VoxelMap::search(const Voxel& voxel, const Eigen::Vector3f& query, float ga
     while (at > 0 && neighbors.squared_distances[at - 1] > squared[i]) {
       neighbors.squared_distances[at] = neighbors.squared_distances[at - 1];
       neighbors.points[at] = neighbors.points[at - 1];
-      neighbors.merged[at] = neighbors.merged[at - 1];
       --at;
     }
     neighbors.squared_distances[at] = squared[i];
     neighbors.points[at] = {voxel.x[i], voxel.y[i], voxel.z[i]};
-    neighbors.merged[at] = voxel.merged[i];
   }
 }
 

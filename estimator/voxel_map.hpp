@@ -18,7 +18,6 @@ struct Neighbors {
   static constexpr int kWanted = 5;
   std::array<Eigen::Vector3f, kWanted> points;
   std::array<float, kWanted> squared_distances{};  ///< [m^2]
-  std::array<std::uint8_t, kWanted> merged{};      ///< returns that each averages
   int count = 0;
 };
 

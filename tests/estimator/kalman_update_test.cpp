@@ -33,8 +33,9 @@ TEST(KalmanUpdate, EqualsTheGainForm) {
   RandomStream random(1, "kalman");
   const ErrorMatrix P = some_covariance(random);
   const NominalState state = test::some_state();
-  const LinearMeasurement m = leg_velocity_model(state, Pose{}, {0.1, 0.2, 0.3}, {0.7, 0.0, 0.0},
-                                                 0.04 * Eigen::Matrix3d::Identity());
+  const LinearMeasurement m =
+      leg_velocity_model(state, Pose{}, {0.1, 0.2, 0.3}, {{0.7, 0.0, 0.0}, {0.6, 0.1, 0.0}},
+                         0.04 * Eigen::Matrix3d::Identity());
   const Belief updated = kalman_update(state, inverse_spd(P), state, information_of(m));
   const Eigen::Matrix3d S = m.jacobian * P * m.jacobian.transpose() + m.noise;
   const Eigen::Matrix<double, ErrorState::kSize, 3> K = P * m.jacobian.transpose() * S.inverse();
@@ -61,8 +62,9 @@ TEST(KalmanUpdate, IterationConvergesToTheSameStateFromElsewhere) {
   const NominalState prior = test::some_state();
   const auto iterate = [&](NominalState at) {
     for (int i = 0; i < 20; ++i) {
-      const LinearMeasurement m = leg_velocity_model(at, Pose{}, {0.1, 0.2, 0.3}, {0.7, 0.2, 0.0},
-                                                     0.01 * Eigen::Matrix3d::Identity());
+      const LinearMeasurement m =
+          leg_velocity_model(at, Pose{}, {0.1, 0.2, 0.3}, {{0.7, 0.2, 0.0}, {0.6, 0.1, 0.0}},
+                             0.01 * Eigen::Matrix3d::Identity());
       at = kalman_update(prior, prior_information, at, information_of(m)).state;
     }
     return at;
@@ -88,7 +90,7 @@ double normalised_error_of_a_run(std::uint64_t seed) {
     const InertialSegment real{0, from_seconds(dt), rate + truth.gyro_bias,
                                force + truth.accelerometer_bias, true};
     InertialSegment measured = real;
-    const Eigen::Vector3d slip = Eigen::Vector3d::Zero();
+    const Eigen::Vector3d mean(0.6, 0.1, -0.2);
     truth = propagate_state(truth, real, dt, imu.gravity);
     // The model's noise acts on the state, so it is drawn there.
     const ErrorMatrix Q = propagation_noise(imu, true, dt);
@@ -97,10 +99,11 @@ double normalised_error_of_a_run(std::uint64_t seed) {
     if (step % 2 == 0) {
       const Eigen::Matrix3d noise = 0.01 * Eigen::Matrix3d::Identity();
       const LinearMeasurement exact =
-          leg_velocity_model(truth, T_body_base, measured.angular_velocity, slip, noise);
+          leg_velocity_model(truth, T_body_base, measured.angular_velocity,
+                             LegVelocity{Eigen::Vector3d::Zero(), mean}, noise);
       const Eigen::Vector3d reported = exact.residual + 0.1 * random.normal3();
-      const LinearMeasurement m =
-          leg_velocity_model(belief.state, T_body_base, measured.angular_velocity, reported, noise);
+      const LinearMeasurement m = leg_velocity_model(
+          belief.state, T_body_base, measured.angular_velocity, LegVelocity{reported, mean}, noise);
       belief = kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
                              information_of(m));
     }

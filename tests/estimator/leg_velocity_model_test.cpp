@@ -12,7 +12,7 @@ const Pose kT_body_base{so3_exp({0.1, -0.2, 0.3}), {0.2, -0.1, -0.05}};
 const Eigen::Vector3d kRate(0.7, -0.4, 0.9);
 
 TEST(LegVelocity, JacobianMatchesFiniteDifferences) {
-  const Eigen::Vector3d measured(0.6, 0.1, -0.1);
+  const LegVelocity measured{{0.6, 0.1, -0.1}, {0.5, 0.2, -0.3}};
   const Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();
   const NominalState state = test::some_state();
   const auto numeric = test::numeric_jacobian<3>(state, [&](const NominalState& moved) {
@@ -29,8 +29,8 @@ TEST(LegVelocity, ResidualVanishesForThePointOnTheRigidBody) {
       state.velocity + state.rotation * rate.cross(kT_body_base.translation);
   const Eigen::Vector3d of_base =
       (state.rotation * kT_body_base.rotation).conjugate() * of_base_in_odom;
-  const Eigen::Vector3d measured =
-      of_base + state.leg_scale.cwiseProduct(of_base) + state.leg_bias;
+  const Eigen::Vector3d mean(0.5, 0.2, -0.3);
+  const LegVelocity measured{of_base + state.leg_scale.cwiseProduct(mean) + state.leg_bias, mean};
   const LinearMeasurement m =
       leg_velocity_model(state, kT_body_base, kRate, measured, Eigen::Matrix3d::Identity());
   EXPECT_LT(m.residual.norm(), 1e-12);
