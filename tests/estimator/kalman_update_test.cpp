@@ -29,13 +29,16 @@ ErrorVector normal_error(RandomStream& random) {
   return v;
 }
 
+LinearMeasurement some_measurement(const NominalState& at) {
+  return leg_velocity_model(at, Pose{}, {0.1, 0.2, 0.3}, {{0.7, 0.0, 0.0}, {0.6, 0.1, 0.0}},
+                            0.04 * Eigen::Matrix3d::Identity());
+}
+
 TEST(KalmanUpdate, EqualsTheGainForm) {
   RandomStream random(1, "kalman");
   const ErrorMatrix P = some_covariance(random);
   const NominalState state = test::some_state();
-  const LinearMeasurement m =
-      leg_velocity_model(state, Pose{}, {0.1, 0.2, 0.3}, {{0.7, 0.0, 0.0}, {0.6, 0.1, 0.0}},
-                         0.04 * Eigen::Matrix3d::Identity());
+  const LinearMeasurement m = some_measurement(state);
   const Belief updated = kalman_update(state, inverse_spd(P), state, information_of(m));
   const Eigen::Matrix3d S = m.jacobian * P * m.jacobian.transpose() + m.noise;
   const Eigen::Matrix<double, ErrorState::kSize, 3> K = P * m.jacobian.transpose() * S.inverse();
@@ -71,6 +74,52 @@ TEST(KalmanUpdate, IterationConvergesToTheSameStateFromElsewhere) {
   };
   const NominalState elsewhere = boxplus(prior, 0.1 * normal_error(random));
   EXPECT_LT(boxminus(iterate(elsewhere), iterate(prior)).norm(), 1e-5);
+}
+
+TEST(KalmanUpdate, AMaskThatKeepsAllIsThePlainUpdate) {
+  RandomStream random(5, "mask");
+  const Belief prior{test::some_state(), some_covariance(random)};
+  const NominalState at = boxplus(prior.state, 0.01 * normal_error(random));
+  const ErrorMatrix information = inverse_spd(prior.covariance);
+  const Information m = information_of(some_measurement(at));
+  const Belief plain = kalman_update(prior.state, information, at, m);
+  const Belief masked = kalman_update(prior.state, information, at, m, correct_all());
+  EXPECT_LT(boxminus(plain.state, masked.state).norm(), 1e-9);
+  EXPECT_LT((plain.covariance - masked.covariance).norm(), 1e-9 * plain.covariance.norm());
+}
+
+TEST(KalmanUpdate, WhatAMaskHoldsStaysAndStaysAsUncertain) {
+  RandomStream random(6, "mask");
+  const Belief prior{test::some_state(), some_covariance(random)};
+  const Eigen::Matrix3d across =
+      Eigen::Matrix3d::Identity() - Eigen::Vector3d::UnitX() * Eigen::Vector3d::UnitX().transpose();
+  const Belief updated = kalman_update(prior.state, inverse_spd(prior.covariance), prior.state,
+                                       information_of(some_measurement(prior.state)),
+                                       hold_motion(hold_legs(correct_all()), across));
+  EXPECT_NEAR(updated.state.position.x(), prior.state.position.x(), 1e-12);
+  EXPECT_NEAR(updated.state.velocity.x(), prior.state.velocity.x(), 1e-12);
+  EXPECT_LT((updated.state.leg_scale - prior.state.leg_scale).norm(), 1e-12);
+  EXPECT_GT((updated.state.velocity - prior.state.velocity).norm(), 1e-6);
+  const int x = ErrorState::kPosition.offset;
+  EXPECT_NEAR(updated.covariance(x, x) / prior.covariance(x, x), 1.0, 1e-6);
+}
+
+TEST(KalmanUpdate, CovarianceOfAMaskedGainIsJosephsForm) {
+  RandomStream random(7, "mask");
+  const Belief prior{test::some_state(), some_covariance(random)};
+  const LinearMeasurement m = some_measurement(prior.state);
+  const ErrorMatrix& P = prior.covariance;
+  const Eigen::Matrix3d S = m.jacobian * P * m.jacobian.transpose() + m.noise;
+  const ErrorMatrix mask = hold_legs(correct_all());
+  const Eigen::Matrix<double, ErrorState::kSize, 3> K =
+      mask * P * m.jacobian.transpose() * S.inverse();
+  const ErrorMatrix kept = ErrorMatrix::Identity() - K * m.jacobian;
+  const ErrorMatrix G = reset_jacobian(-K * m.residual);
+  const ErrorMatrix expected =
+      G * (kept * P * kept.transpose() + K * m.noise * K.transpose()) * G.transpose();
+  const Belief updated =
+      kalman_update(prior.state, inverse_spd(P), prior.state, information_of(m), mask);
+  EXPECT_LT((updated.covariance - expected).norm(), 1e-8 * expected.norm());
 }
 
 /// One run of propagation, leg updates and updates by exact planes, all with noise drawn from their
