@@ -67,10 +67,6 @@ void describe(Fields& f, LegEvidenceConfig& c) {
            spec("s", at_least(0), "an innovation that lasts longer is believed"));
 }
 
-void describe(Fields& f, DisagreementConfig& c) {
-  describe_switch(f, c, "take weight from the LiDAR, or the legs, where they disagree for long");
-}
-
 void describe(Fields& f, StartConfig& c) {
   describe_switch(f, c, "start from the longest quiet stretch of a stand that is disturbed");
   f.number("rate", c.rate,
@@ -128,6 +124,9 @@ void describe(Fields& f, FloorConfig& c) {
 
 void describe(Fields& f, RobustConfig& c) {
   describe_switch(f, c, "weigh each point by its residual");
+  f.number("scale", c.scale,
+           spec("-", positive(), "deviations of a scan's residuals at which a weight is a half"));
+  f.number("least", c.least, spec("m", positive(), "deviation that is taken at least"));
 }
 
 void describe(Fields& f, SelectionConfig& c) {
@@ -145,7 +144,6 @@ void describe(Fields& f, DirectionalConfig& c) {
   f.group("spurious", c.spurious);
   f.group("leg_states", c.leg_states);
   f.group("leg_evidence", c.leg_evidence);
-  f.group("disagreement", c.disagreement);
   f.group("start", c.start);
   f.group("standstill", c.standstill);
   f.group("floor", c.floor);

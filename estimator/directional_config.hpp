@@ -25,7 +25,7 @@ struct LegStatesConfig {
   bool scale = true;         ///< estimate a scale per axis
   bool bias = true;          ///< estimate a bias per axis
   bool hold = true;          ///< learn them only where the LiDAR is trusted (Schmidt update)
-  double scale_sigma = 0.1;  ///< at the start [-]
+  double scale_sigma = 0.2;  ///< at the start [-]
   double scale_walk = 1e-3;  ///< [1/sqrt(s)]
   double bias_sigma = 0.01;  ///< at the start [m/s]
   double bias_walk = 1e-4;   ///< [m/s/sqrt(s)]
@@ -46,11 +46,6 @@ struct LegEvidenceConfig {
   double gate = 16.3;             ///< chi-square, 3 dof, 99.9 %: above it the noise grows [-]
   double drop = 100.0;            ///< growth of the variance beyond which a sample is dropped [-]
   double longest_slip = 0.5;      ///< an innovation that lasts longer is believed [s]
-};
-
-/// Lasting disagreement of LiDAR and legs along an axis.
-struct DisagreementConfig {
-  bool enabled = true;
 };
 
 /// A start that may be shoved.
@@ -100,6 +95,8 @@ struct FloorConfig {
 /// Robust weight of each point.
 struct RobustConfig {
   bool enabled = true;
+  double scale = 3.0;    ///< deviations of the scan's residuals at which a weight is a half [-]
+  double least = 0.015;  ///< deviation that is taken at least [m]
 };
 
 /// Choice of rows by what they inform (row_selection.hpp).
@@ -119,7 +116,6 @@ struct DirectionalConfig {
   SpuriousConfig spurious;
   LegStatesConfig leg_states;
   LegEvidenceConfig leg_evidence;
-  DisagreementConfig disagreement;
   StartConfig start;
   StandstillConfig standstill;
   FloorConfig floor;
@@ -131,7 +127,6 @@ struct DirectionalConfig {
 void describe(Fields& fields, SpuriousConfig& config);
 void describe(Fields& fields, LegStatesConfig& config);
 void describe(Fields& fields, LegEvidenceConfig& config);
-void describe(Fields& fields, DisagreementConfig& config);
 void describe(Fields& fields, StartConfig& config);
 void describe(Fields& fields, StandstillConfig& config);
 void describe(Fields& fields, FloorConfig& config);

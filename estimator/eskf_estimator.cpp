@@ -172,7 +172,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   const Information information = information_of(measurement);
   accept(lidar_update_.holds_legs()
              ? kalman_update(belief_.state, prior_information, belief_.state, information,
-                             hold_legs(correct_all()))
+                             hold_position(hold_legs(correct_all())))
              : kalman_update(belief_.state, prior_information, belief_.state, information));
 }
 

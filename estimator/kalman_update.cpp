@@ -61,6 +61,11 @@ ErrorMatrix hold_legs(ErrorMatrix mask) {
   return mask;
 }
 
+ErrorMatrix hold_position(ErrorMatrix mask) {
+  mask.middleRows<3>(ErrorState::kPosition.offset).setZero();
+  return mask;
+}
+
 ErrorMatrix hold_motion(ErrorMatrix mask, const Eigen::Matrix3d& kept) {
   block(mask, ErrorState::kPosition, ErrorState::kPosition) = kept;
   block(mask, ErrorState::kVelocity, ErrorState::kVelocity) = kept;

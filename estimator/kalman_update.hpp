@@ -56,6 +56,9 @@ inline ErrorMatrix correct_all() { return ErrorMatrix::Identity(); }
 /// `mask` without the states of the legs.
 ErrorMatrix hold_legs(ErrorMatrix mask);
 
+/// `mask` without the position.
+ErrorMatrix hold_position(ErrorMatrix mask);
+
 /// `mask` with correction of position and velocity only as `kept` (3x3, odometry axes) allows.
 ErrorMatrix hold_motion(ErrorMatrix mask, const Eigen::Matrix3d& kept);
 

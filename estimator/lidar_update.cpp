@@ -9,6 +9,9 @@
 namespace aims {
 namespace {
 
+/// Residuals of this size and less keep their full weight [m].
+constexpr double kNotRobust = 1e9;
+
 /// Smallest eigenvalue and condition number of the translation information that remains when the
 /// rotation is unknown too (its Schur complement).
 void record_localizability(const Matrix6& information, ScanDiagnostics& diagnostics) {
@@ -83,12 +86,13 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
   for (const Match& match : matches_) {
     const PlaneRow row = plane_row(match.plane, match.p_body, R, state.position);
     if (!(std::abs(row.residual) <= lidar_.residual_gate)) continue;
-    const Vector6 weighted = match.weight * row.jacobian;
+    const double ratio = row.residual / robust_scale_;
+    const double weight = match.weight / (1.0 + ratio * ratio);  // Cauchy
+    const Vector6 weighted = weight * row.jacobian;
     sum.matrix.noalias() += weighted * row.jacobian.transpose();
     sum.vector.noalias() += weighted * row.residual;
     if (member_.directional) {
-      sum.chance +=
-          match.weight * chance_information(match.plane.normal_covariance, match.p_body, R);
+      sum.chance += weight * chance_information(match.plane.normal_covariance, match.p_body, R);
     }
     residuals_.push_back(row.residual);
   }
@@ -98,6 +102,19 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
   sum.chance *= weight;
   sum.used = static_cast<int>(residuals_.size());
   return sum;
+}
+
+/// From the residuals of the last linearisation: their robust deviation, from the median of their
+/// magnitudes, times `RobustConfig::scale`.
+void LidarUpdate::set_robust_scale() {
+  if (!member_.directional || !directional_.robust.enabled || residuals_.empty()) return;
+  magnitudes_.clear();
+  for (const double residual : residuals_) magnitudes_.push_back(std::abs(residual));
+  const auto middle = magnitudes_.begin() + static_cast<std::ptrdiff_t>(magnitudes_.size() / 2);
+  std::nth_element(magnitudes_.begin(), middle, magnitudes_.end());
+  constexpr double kDeviationsOfMedian = 0.6745;  // of a normal distribution's magnitude
+  const double deviation = std::max(*middle / kDeviationsOfMedian, directional_.robust.least);
+  robust_scale_ = directional_.robust.scale * deviation;
 }
 
 void LidarUpdate::assess_axes(const Linearization& rows, const NominalState& state,
@@ -137,6 +154,7 @@ bool LidarUpdate::moved(const NominalState& state, const NominalState& since, do
 Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_information,
                           std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                           ScanDiagnostics& diagnostics) {
+  robust_scale_ = kNotRobust;
   Belief belief = predicted;
   NominalState associated_at = predicted.state;
   associate(associated_at, points, map);
@@ -152,6 +170,7 @@ Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_info
     diagnostics.points_used = rows.used;
     if (rows.used < lidar_.min_matches) return predicted;
     const NominalState before = belief.state;
+    set_robust_scale();
     if (i == 0 && member_.directional) assess_axes(rows, before, diagnostics);
     belief = correct(predicted, prior_information, before, rows, 1.0);
     ++diagnostics.iterations;

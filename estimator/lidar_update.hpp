@@ -66,6 +66,7 @@ class LidarUpdate {
   ErrorMatrix scan_mask() const;
   Belief correct(const Belief& predicted, const ErrorMatrix& prior_information,
                  const NominalState& linearization, const Linearization& rows, double gamma) const;
+  void set_robust_scale();
   void assess_axes(const Linearization& rows, const NominalState& state,
                    ScanDiagnostics& diagnostics);
   Belief trial(const Belief& predicted, const ErrorMatrix& prior_information,
@@ -92,7 +93,9 @@ class LidarUpdate {
   std::vector<Match> thinned_;
   std::vector<Vector6> jacobians_;
   std::vector<KeptRow> kept_;
+  double robust_scale_ = 1e9;  ///< residual at which the weight is a half [m]
   std::vector<double> residuals_;
+  std::vector<double> magnitudes_;
   std::vector<AnchoredPlane> anchored_;
 };
 
