@@ -116,10 +116,12 @@ std::string proposal_for(const Fields& fields, std::string_view key) {
   }
   const std::string sibling = near_match(name, siblings);
   if (!sibling.empty()) return prefix + sibling;
+  std::vector<std::string> of_that_name;
   for (const std::string& each : keys) {
-    if (each == name || each.ends_with("." + name)) return each;
+    if (each == name || each.ends_with("." + name)) of_that_name.push_back(each);
   }
-  return near_match(key, keys);
+  const std::string nearest = near_match(key, of_that_name.empty() ? keys : of_that_name);
+  return nearest.empty() && !of_that_name.empty() ? of_that_name.front() : nearest;
 }
 
 }  // namespace

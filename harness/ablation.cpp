@@ -15,8 +15,9 @@ bool is_flag(const Parameter& parameter) { return parameter.expected == "true or
 
 /// "floor" of "directional.floor.enabled", "leg_states_scale" of "directional.leg_states.scale".
 std::string part_of(const std::string& key, const std::string& group) {
-  std::string part = key.substr(group.size() + 1);
   constexpr std::string_view kEnabled = ".enabled";
+  std::string part = key.substr(group.size() + 1);
+  if (key == group + std::string(kEnabled)) part = key.substr(group.rfind('.') + 1);
   if (part.ends_with(kEnabled)) part.resize(part.size() - kEnabled.size());
   std::replace(part.begin(), part.end(), '.', '_');
   return part;

@@ -109,9 +109,9 @@ const std::vector<DegeneracyIndex>& degeneracy_indices() {
        [](const Scan& s) { return s.smallest_eigenvalue; }},
       {"condition_number", true, "Hinduja, Ho and Kaess 2019",
        [](const Scan& s) { return s.condition_number; }},
-      {"weak_weight", false, "own: information that noise would not give by chance",
+      {"weak_weight", false, "own: share of what a scan tells that is not noise",
        [](const Scan& s) { return s.weak_weight; }},
-      {"weak_ratio", false, "own: least ratio of information to what chance gives",
+      {"weak_ratio", false, "own: least ratio of what a scan tells to what noise gives by chance",
        [](const Scan& s) { return s.weak_ratio; }},
       {"points_used", false, "usual practice",
        [](const Scan& s) { return static_cast<double>(s.points_used); }}};
