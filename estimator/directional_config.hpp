@@ -14,7 +14,7 @@ struct SpuriousConfig {
   /// What is left of plane fits, edges and all, overstates the noise of normals: this share of the
   /// chance information that it implies is found between walls without features.
   double chance_share = 0.7;
-  double significant = 1.35;     ///< ratio to chance at which it is as likely real as not [-]
+  double significant = 1.8;      ///< ratio to chance at which it is as likely real as not [-]
   double spread = 0.05;          ///< of the logarithm of what chance gives [-]
   double stretch = 1.5;          ///< way over which information is judged [m]
   double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
