@@ -7,7 +7,7 @@ namespace aims {
 double chi_square_probability(double value, double dof);
 
 /// The value that a chi-square variable of `dof` > 0 degrees of freedom stays below with
-/// `probability` in (0, 1); to a relative 1e-10.
+/// `probability` in (0, 1).
 double chi_square_quantile(double probability, double dof);
 
 }  // namespace aims
