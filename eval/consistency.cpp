@@ -63,14 +63,14 @@ double root_mean(double squares, int count) { return count > 0 ? std::sqrt(squar
 ConsistencyInstant instant_of(double time_s, const Squares& sums) {
   ConsistencyInstant instant;
   instant.time_s = time_s;
-  instant.runs = sums.stated;
+  instant.covered = coverage_of(sums.covered, sums.stated, true);
   instant.nees = sums.mean_nees();
   instant.bounds = mean_nees_bounds(sums.stated);
   instant.error_rms_m = root_mean(sums.error, sums.count);
   instant.sigma_rms_m = root_mean(sums.sigma, sums.stated);
   instant.bound_rms_m = root_mean(sums.bound, sums.count);
   instant.leg_bound_rms_m = root_mean(sums.leg_bound, sums.count);
-  instant.covered = sums.stated > 0 ? static_cast<double>(sums.covered) / sums.stated : 0.0;
+  instant.efficiency = sums.efficiency();
   return instant;
 }
 
@@ -79,7 +79,7 @@ void judge_instants(Consistency& result) {
   int inside = 0;
   int above = 0;
   for (const ConsistencyInstant& instant : result.instants) {
-    if (instant.runs < 2 || 2 * instant.runs < result.runs) continue;
+    if (instant.covered.runs < 2 || 2 * instant.covered.runs < result.runs) continue;
     ++result.judged;
     inside += instant.inside();
     above += instant.above();
@@ -87,22 +87,6 @@ void judge_instants(Consistency& result) {
   if (result.judged == 0) return;
   result.inside_share = static_cast<double>(inside) / result.judged;
   result.above_share = static_cast<double>(above) / result.judged;
-}
-
-/// The end of the walk over all runs.
-void judge_end(std::span<const ConsistencyRun> runs, Consistency& result) {
-  Squares end;
-  for (const ConsistencyRun& run : runs) {
-    if (!run.empty()) end.add(run.back());
-  }
-  result.end = coverage_of(end.covered, end.stated, true);
-  result.end_nees = end.mean_nees();
-  result.end_nees_bounds = mean_nees_bounds(end.stated);
-  result.end_error_rms_m = root_mean(end.error, end.count);
-  result.end_sigma_rms_m = root_mean(end.sigma, end.stated);
-  result.end_bound_rms_m = root_mean(end.bound, end.count);
-  result.end_leg_bound_rms_m = root_mean(end.leg_bound, end.count);
-  result.end_efficiency = end.efficiency();
 }
 
 /// All samples, and the mean over runs of the means over time.
@@ -157,14 +141,16 @@ Coverage coverage_of(int inside, int runs, bool independent) {
 Consistency consistency_of(std::span<const ConsistencyRun> runs) {
   Consistency result;
   std::map<double, Squares> by_time;
+  Squares ends;
   for (const ConsistencyRun& run : runs) {
-    result.runs += !run.empty();
     for (const ConsistencySample& sample : run) by_time[sample.time_s].add(sample);
+    if (!run.empty()) ends.add(run.back());
   }
+  result.runs = ends.count;
   for (const auto& [time_s, sums] : by_time) result.instants.push_back(instant_of(time_s, sums));
+  result.end = instant_of(by_time.empty() ? 0.0 : by_time.rbegin()->first, ends);
   judge_instants(result);
   judge_all(runs, result);
-  judge_end(runs, result);
   return result;
 }
 

@@ -22,22 +22,6 @@ struct ConsistencySample {
 /// end of the walk.
 using ConsistencyRun = std::vector<ConsistencySample>;
 
-/// One instant over all runs that reach it.
-struct ConsistencyInstant {
-  double time_s = 0.0;
-  int runs = 0;                ///< that state a covariance here
-  std::optional<double> nees;  ///< mean over runs of error^2 over the stated variance
-  Interval bounds;             ///< 95 % of that mean, were the filter consistent: chi-square / runs
-  double error_rms_m = 0.0;    ///< over runs, as all that follows
-  double sigma_rms_m = 0.0;
-  double bound_rms_m = 0.0;
-  double leg_bound_rms_m = 0.0;
-  double covered = 0.0;  ///< share of runs inside 2 sigma
-
-  bool inside() const { return nees && *nees >= *bounds.low && *nees <= *bounds.high; }
-  bool above() const { return nees && *nees > *bounds.high; }
-};
-
 /// A share of runs with its 95 % interval (Wilson 1927).
 struct Coverage {
   int inside = 0;
@@ -46,26 +30,35 @@ struct Coverage {
   Interval interval;
 };
 
+/// One instant over all runs that reach it.
+struct ConsistencyInstant {
+  double time_s = 0.0;
+  Coverage covered;            ///< inside 2 sigma, of the runs that state a covariance here
+  std::optional<double> nees;  ///< mean over them of error^2 over the stated variance
+  Interval bounds;             ///< 95 % of that mean, were the filter consistent: chi-square / runs
+  double error_rms_m = 0.0;    ///< over runs, as all that follows
+  double sigma_rms_m = 0.0;
+  double bound_rms_m = 0.0;
+  double leg_bound_rms_m = 0.0;
+  std::optional<double> efficiency;  ///< bound over error, both rms
+
+  bool inside() const { return nees && *nees >= *bounds.low && *nees <= *bounds.high; }
+  bool above() const { return nees && *nees > *bounds.high; }
+};
+
 /// How an estimator's error along the weak axis agrees with what it states, over runs.
 struct Consistency {
   int runs = 0;
   std::vector<ConsistencyInstant> instants;
+  ConsistencyInstant end;              ///< each run's last sample; the time is the latest of them
   int judged = 0;                      ///< instants with at least two runs and half of all
   std::optional<double> inside_share;  ///< of them, with the mean NEES inside its bounds
   std::optional<double> above_share;   ///< of them, with the mean NEES above its bounds
   std::optional<double> mean_nees;     ///< mean over runs of their means over time
   Interval mean_nees_interval;         ///< 95 % bootstrap over runs
-  std::optional<double> end_nees;      ///< mean over runs at the end of the walk
-  Interval end_nees_bounds;            ///< 95 % of it, were the filter consistent
   Coverage along;                      ///< samples inside 2 sigma (no interval: they correlate)
-  Coverage end;                        ///< runs inside 2 sigma at the end of the walk
   double error_rms_m = 0.0;            ///< over runs and time
-  double end_error_rms_m = 0.0;        ///< over runs, at the end of the walk
-  double end_sigma_rms_m = 0.0;
-  double end_bound_rms_m = 0.0;
-  double end_leg_bound_rms_m = 0.0;
-  std::optional<double> efficiency;      ///< bound over error, both rms over runs and time
-  std::optional<double> end_efficiency;  ///< the same at the end of the walk
+  std::optional<double> efficiency;    ///< bound over error, both rms over runs and time
 };
 
 /// Bounds within which the mean over `runs` of a normalised squared error of one dimension lies

@@ -68,8 +68,9 @@ CsvTable csv_of(const ConsistencyStudy& study) {
                   "leg_bound_rms_m"});
   for (const ConsistencyCase& each : study.cases) {
     for (const ConsistencyInstant& at : each.result.instants) {
-      table.add(each.scenario).add(each.estimator).add(at.time_s).add(at.runs).add(at.nees);
-      table.add(at.bounds.low).add(at.bounds.high).add(at.inside()).add(at.covered);
+      table.add(each.scenario).add(each.estimator).add(at.time_s).add(at.covered.runs);
+      table.add(at.nees).add(at.bounds.low).add(at.bounds.high).add(at.inside());
+      table.add(at.covered.share);
       table.add(at.error_rms_m).add(at.sigma_rms_m).add(at.bound_rms_m).add(at.leg_bound_rms_m);
       table.end_row();
     }
@@ -88,15 +89,15 @@ Json coverage_json(const Coverage& coverage) {
           {"interval", interval_json(coverage.interval)}};
 }
 
-Json end_json(const Consistency& r) {
-  return {{"nees", json_of(r.end_nees)},
-          {"nees_bounds", interval_json(r.end_nees_bounds)},
-          {"two_sigma", coverage_json(r.end)},
-          {"error_rms_m", json_of(r.end_error_rms_m)},
-          {"sigma_rms_m", json_of(r.end_sigma_rms_m)},
-          {"bound_rms_m", json_of(r.end_bound_rms_m)},
-          {"leg_bound_rms_m", json_of(r.end_leg_bound_rms_m)},
-          {"efficiency", json_of(r.end_efficiency)}};
+Json end_json(const ConsistencyInstant& end) {
+  return {{"nees", json_of(end.nees)},
+          {"nees_bounds", interval_json(end.bounds)},
+          {"two_sigma", coverage_json(end.covered)},
+          {"error_rms_m", json_of(end.error_rms_m)},
+          {"sigma_rms_m", json_of(end.sigma_rms_m)},
+          {"bound_rms_m", json_of(end.bound_rms_m)},
+          {"leg_bound_rms_m", json_of(end.leg_bound_rms_m)},
+          {"efficiency", json_of(end.efficiency)}};
 }
 
 Json case_json(const ConsistencyCase& each) {
@@ -121,7 +122,7 @@ Json case_json(const ConsistencyCase& each) {
           {"two_sigma", coverage_json(r.along)},
           {"error_rms_m", json_of(r.error_rms_m)},
           {"efficiency", json_of(r.efficiency)},
-          {"end", end_json(r)},
+          {"end", end_json(r.end)},
           {"seeds", std::move(runs)}};
 }
 
@@ -142,7 +143,7 @@ TimePanel nees_panel(const Consistency& result) {
                   true,
                   false};
   for (const ConsistencyInstant& at : result.instants) {
-    if (!at.nees || at.runs < 1) continue;
+    if (!at.nees) continue;
     panel.series[0].points.emplace_back(at.time_s, *at.nees);
     panel.series[1].points.emplace_back(at.time_s, *at.bounds.low);
     panel.series[2].points.emplace_back(at.time_s, *at.bounds.high);
@@ -225,18 +226,16 @@ TextTable end_table(const ConsistencyStudy& study) {
   table.header = {"scenario",  "estimator", "error",   "stated",    "bound",
                   "leg bound", "NEES",      "of 1 in", "in 2 sigma"};
   for (const ConsistencyCase& each : study.cases) {
-    const Consistency& r = each.result;
-    std::string inside = fmt::format("{}/{}", r.end.inside, r.end.runs);
-    if (r.end.interval.low) {
-      inside += fmt::format(" [{:.2f}, {:.2f}]", *r.end.interval.low, *r.end.interval.high);
+    const ConsistencyInstant& end = each.result.end;
+    std::string inside = fmt::format("{}/{}", end.covered.inside, end.covered.runs);
+    if (const Interval& of = end.covered.interval; of.low) {
+      inside += fmt::format(" [{:.2f}, {:.2f}]", *of.low, *of.high);
     }
     table.rows.push_back(
-        {each.scenario, each.estimator, fmt::format("{:.3f}", r.end_error_rms_m),
-         fmt::format("{:.3f}", r.end_sigma_rms_m), fmt::format("{:.3f}", r.end_bound_rms_m),
-         fmt::format("{:.3f}", r.end_leg_bound_rms_m), text_of(r.end_nees, 2),
-         r.end_nees_bounds.low
-             ? fmt::format("[{:.2f}, {:.2f}]", *r.end_nees_bounds.low, *r.end_nees_bounds.high)
-             : "-",
+        {each.scenario, each.estimator, fmt::format("{:.3f}", end.error_rms_m),
+         fmt::format("{:.3f}", end.sigma_rms_m), fmt::format("{:.3f}", end.bound_rms_m),
+         fmt::format("{:.3f}", end.leg_bound_rms_m), text_of(end.nees, 2),
+         end.bounds.low ? fmt::format("[{:.2f}, {:.2f}]", *end.bounds.low, *end.bounds.high) : "-",
          inside});
   }
   return table;

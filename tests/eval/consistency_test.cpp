@@ -69,7 +69,7 @@ TEST(Consistency, OfAFilterThatStatesHalfItsErrorLiesAboveTheBounds) {
   EXPECT_GT(*result.above_share, 0.95);
   EXPECT_NEAR(*result.mean_nees, 4.0, 0.4);
   EXPECT_NEAR(*result.along.share, 0.6827, 0.03);
-  EXPECT_LT(*result.end.interval.high, 0.95);
+  EXPECT_LT(*result.end.covered.interval.high, 0.95);
 }
 
 TEST(Consistency, OfAFilterThatStatesTwiceItsErrorLiesBelowTheBounds) {
@@ -77,7 +77,7 @@ TEST(Consistency, OfAFilterThatStatesTwiceItsErrorLiesBelowTheBounds) {
   EXPECT_LT(*result.inside_share, 0.05);
   EXPECT_EQ(*result.above_share, 0.0);
   EXPECT_NEAR(*result.mean_nees, 0.25, 0.03);
-  EXPECT_GE(*result.end.share, 0.98);
+  EXPECT_GE(*result.end.covered.share, 0.98);
 }
 
 TEST(Consistency, BoundsOfTheMeanAreChiSquareOverItsDegreesOfFreedom) {
@@ -93,12 +93,12 @@ TEST(Consistency, EfficiencyIsTheBoundOverTheErrorBothRootMeanSquare) {
   const Consistency result = consistency_of(runs);
   EXPECT_NEAR(result.error_rms_m, std::sqrt((0.09 + 0.36 + 0.01 + 0.64) / 4.0), 1e-12);
   EXPECT_NEAR(*result.efficiency, std::sqrt(0.1 / 1.1), 1e-12);
-  EXPECT_NEAR(result.end_error_rms_m, std::sqrt(0.5), 1e-12);
-  EXPECT_NEAR(result.end_sigma_rms_m, 0.3, 1e-12);
-  EXPECT_NEAR(result.end_leg_bound_rms_m, 0.4, 1e-12);
-  EXPECT_NEAR(*result.end_efficiency, 0.2 / std::sqrt(0.5), 1e-12);
-  EXPECT_NEAR(*result.end_nees, 0.5 * (4.0 + 64.0 / 9.0), 1e-12);
-  EXPECT_EQ(result.end.inside, 1);
+  EXPECT_NEAR(result.end.error_rms_m, std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(result.end.sigma_rms_m, 0.3, 1e-12);
+  EXPECT_NEAR(result.end.leg_bound_rms_m, 0.4, 1e-12);
+  EXPECT_NEAR(*result.end.efficiency, 0.2 / std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(*result.end.nees, 0.5 * (4.0 + 64.0 / 9.0), 1e-12);
+  EXPECT_EQ(result.end.covered.inside, 1);
 }
 
 TEST(Consistency, CoverageCarriesTheWilsonInterval) {
@@ -116,10 +116,10 @@ TEST(Consistency, JudgesAnInstantByTheRunsThatStateACovarianceThere) {
   runs[1].erase(runs[1].begin());                       // a second without a sweep
   for (auto& sample : runs[2]) sample.sigma_m.reset();  // states nothing
   const Consistency result = consistency_of(runs);
-  EXPECT_EQ(result.instants[0].runs, 2);
-  EXPECT_EQ(result.instants[1].runs, 3);
-  EXPECT_EQ(result.instants[60].runs, 2);
-  EXPECT_EQ(result.end.runs, 3);
+  EXPECT_EQ(result.instants[0].covered.runs, 2);
+  EXPECT_EQ(result.instants[1].covered.runs, 3);
+  EXPECT_EQ(result.instants[60].covered.runs, 2);
+  EXPECT_EQ(result.end.covered.runs, 3);
   const double expected = std::pow(runs[3][0].error_m, 2) + std::pow(runs[0][0].error_m, 2);
   EXPECT_NEAR(*result.instants[0].nees, expected / 2.0 / 0.01, 1e-9);
 }
@@ -129,7 +129,7 @@ TEST(Consistency, OfNoRunsIsNoVerdict) {
   EXPECT_EQ(result.judged, 0);
   EXPECT_FALSE(result.inside_share);
   EXPECT_FALSE(result.mean_nees);
-  EXPECT_FALSE(result.end.share);
+  EXPECT_FALSE(result.end.covered.share);
 }
 
 }  // namespace
