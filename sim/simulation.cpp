@@ -66,6 +66,12 @@ Placement start_offset(const RobotConfig& config, std::uint64_t seed) {
   return offset;
 }
 
+/// One physics step under the push of that time.
+void step_pushed(Walker& walker, const Pushes& pushes) {
+  walker.world().push(pushes.force_at(walker.world().state().stamp));
+  walker.step();
+}
+
 /// Passages of the recording; those before its start are nobody's reference.
 std::vector<Passage> passages_since(const RouteFollower& route, Time start) {
   std::vector<Passage> passages = route.passages();
@@ -106,6 +112,7 @@ struct Simulation::Impl {
   SimulationConfig config;
   Scene scene;
   Walker walker;
+  Pushes pushes;
   RayCaster caster;
   Lidar lidar;
   Imu imu;
@@ -129,6 +136,7 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene buil
     : config(c),
       scene(std::move(built_scene)),
       walker(std::move(ready_walker)),
+      pushes(config.push, seed),
       caster(scene),
       lidar(config.lidar, caster, seed),
       imu(config.imu, walker.world().timestep(), seed),
@@ -210,7 +218,7 @@ void Simulation::Impl::record() {
 void Simulation::Impl::step() {
   {
     const Stopwatch watch(times.physics);
-    walker.step();
+    step_pushed(walker, pushes);
   }
   record();
 }
@@ -227,7 +235,10 @@ Result<Simulation> Simulation::create(const SimulationConfig& config, std::uint6
     return tl::unexpected(ok.error());
   }
   walker->settle();
-  while (to_seconds(walker->world().state().stamp) < config.recording_start) walker->step();
+  const Pushes pushes(config.push, seed);
+  while (to_seconds(walker->world().state().stamp) < config.recording_start) {
+    step_pushed(*walker, pushes);
+  }
   return Simulation(std::make_unique<Impl>(config, seed, std::move(scene), std::move(*walker)));
 }
 

@@ -39,15 +39,17 @@ void describe(Fields& f, SimulationConfig& c) {
   f.group("route", c.route);
   f.group("physics", c.physics);
   f.group("robot", c.robot);
+  f.group("push", c.push);
   f.group("imu", c.imu);
   f.group("leg_odometry", c.leg_odometry);
   f.group("lidar", c.lidar);
   f.group("links", c.links);
-  f.number("fast_imu_rate", c.fast_imu_rate,
-           {.unit = "Hz",
-            .range = in_range(0.0, 2000.0),
-            .meaning = "of a second output of the IMU, for recordings; estimators here do not get it",
-            .source = "other systems ask for 200 Hz or more; 0: none"});
+  f.number(
+      "fast_imu_rate", c.fast_imu_rate,
+      {.unit = "Hz",
+       .range = in_range(0.0, 2000.0),
+       .meaning = "of a second output of the IMU, for recordings; estimators here do not get it",
+       .source = "other systems ask for 200 Hz or more; 0: none"});
   f.number("recording_start", c.recording_start,
            {.unit = "s",
             .range = at_least(0),
@@ -62,6 +64,7 @@ Result<void> validate(const SimulationConfig& config) {
   const Duration timestep = from_seconds(config.physics.timestep);
   if (auto ok = validate(config.scene); !ok) return ok;
   if (auto ok = validate(config.route); !ok) return ok;
+  if (auto ok = validate(config.push); !ok) return ok;
   if (auto ok = validate(config.lidar); !ok) return ok;
   if (auto ok = validate(config.imu, timestep); !ok) return ok;
   if (auto ok = validate(config.leg_odometry, timestep); !ok) return ok;

@@ -8,6 +8,7 @@
 #include "sim/imu.hpp"
 #include "sim/leg_odometry.hpp"
 #include "sim/link/link.hpp"
+#include "sim/push.hpp"
 #include "sim/route.hpp"
 
 namespace aims {
@@ -40,6 +41,7 @@ struct SimulationConfig {
   RouteConfig route;
   PhysicsConfig physics;
   RobotConfig robot;
+  PushConfig push;
   ImuConfig imu;
   LegOdometryConfig leg_odometry;
   LidarConfig lidar;
