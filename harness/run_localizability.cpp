@@ -67,12 +67,16 @@ RunLocalizability run_localizability(const SimulationConfig& config, const Senso
                                      const Truth& truth, const Trajectory& truth_trajectory) {
   RunLocalizability result;
   result.scans = localizability_of(truth.scans, truth_trajectory);
-  const std::vector<TrueMotion> motion = motion_of(truth);
-  BoundParameters parameters = bound_parameters(config, rig);
-  result.bounds = posterior_bounds(motion, truth.scans, parameters);
-  parameters.lidar = false;
-  result.bounds_without_lidar = posterior_bounds(motion, truth.scans, parameters);
+  result.parameters = bound_parameters(config, rig);
+  result.bounds = posterior_bounds(motion_of(truth), truth.scans, result.parameters);
   return result;
+}
+
+std::vector<PosteriorBound> bounds_without_lidar(const Truth& truth,
+                                                 const RunLocalizability& localizability) {
+  BoundParameters parameters = localizability.parameters;
+  parameters.lidar = false;
+  return posterior_bounds(motion_of(truth), truth.scans, parameters);
 }
 
 Duration half_sweep(const SimulationConfig& config) {

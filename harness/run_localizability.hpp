@@ -16,11 +16,11 @@
 
 namespace aims {
 
-/// What a run's sweeps allow to know, by the truth: one entry of each per sweep.
+/// What a run's sweeps allow to know, by the truth: one localizability and bound per sweep.
 struct RunLocalizability {
   std::vector<Localizability> scans;
   std::vector<PosteriorBound> bounds;
-  std::vector<PosteriorBound> bounds_without_lidar;  ///< of IMU and legs alone
+  BoundParameters parameters;  ///< that the bounds hold for
 };
 
 /// The true parameters of the simulated sensors, as the posterior bound takes them. The white noise
@@ -31,6 +31,11 @@ BoundParameters bound_parameters(const SimulationConfig& config, const SensorRig
 /// Localizability and posterior bound of a run; `truth_trajectory` holds the truth's poses.
 RunLocalizability run_localizability(const SimulationConfig& config, const SensorRig& rig,
                                      const Truth& truth, const Trajectory& truth_trajectory);
+
+/// Posterior bound of IMU and legs alone, in the run that `truth` and `localizability` are of: one
+/// entry per sweep.
+std::vector<PosteriorBound> bounds_without_lidar(const Truth& truth,
+                                                 const RunLocalizability& localizability);
 
 /// Half of a sweep: how far a stamp may be from the sweep that it means.
 Duration half_sweep(const SimulationConfig& config);

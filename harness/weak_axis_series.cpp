@@ -10,14 +10,14 @@ namespace {
 constexpr const char* kGroup = "weak_axis_series";
 
 /// Deviation along the weak axis that IMU and legs allow, by the stamp of the sweep.
-std::map<Time, double> leg_bounds(const RunLocalizability& localizability) {
-  std::map<Time, double> bounds;
-  for (std::size_t i = 0; i < localizability.bounds_without_lidar.size(); ++i) {
-    const Localizability& scan = localizability.scans[i];
-    bounds[scan.stamp] =
-        bound_along(localizability.bounds_without_lidar[i], scan.weak_axis_in_world);
+std::map<Time, double> leg_bounds(const RunResult& result) {
+  const auto bounds = bounds_without_lidar(result.truth, result.localizability);
+  std::map<Time, double> by_stamp;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const Localizability& scan = result.localizability.scans[i];
+    by_stamp[scan.stamp] = bound_along(bounds[i], scan.weak_axis_in_world);
   }
-  return bounds;
+  return by_stamp;
 }
 
 Json series_json(const std::vector<WeakAxisError>& errors, const std::map<Time, double>& legs,
@@ -50,7 +50,7 @@ double number_in(const Json& json) { return json.is_number() ? json.get<double>(
 
 void add_weak_axis_series(const RunResult& result, RunRecord& record) {
   if (result.truth_trajectory.empty()) return;
-  const auto legs = leg_bounds(result.localizability);
+  const auto legs = leg_bounds(result);
   for (const EstimatorOutcome& outcome : result.estimators) {
     record.scores[kGroup][outcome.name] =
         series_json(outcome.weak_axis_errors, legs, result.truth_trajectory.front().stamp);
