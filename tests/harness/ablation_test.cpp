@@ -9,32 +9,18 @@
 #include "harness/consistency_study.hpp"
 #include "harness/weak_axis_series.hpp"
 #include "io/atomic_file.hpp"
+#include "tests/harness/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
+using test::keep_going;
+using test::options_for;
+using test::short_walk;
 
-bool keep_going(const SuiteProgress&) { return true; }
-
-std::vector<ScenarioFile> short_walk() {
-  Scenario scenario;
-  scenario.name = "short";
-  scenario.estimators = {"aims", "leg"};
-  scenario.simulation.scene.corridor.length = 10.0;
-  scenario.simulation.route.points = {{"a", 0.0, 0.0}, {"b", 1.0, 0.0}};
-  scenario.simulation.route.stand_before = 2.5;
-  return {{"short.yaml", scenario}};
-}
-
-SuiteOptions options_for(const fs::path& out, int jobs = 1) {
-  SuiteOptions options;
-  options.seeds = {1, 2};
-  options.out = out;
-  options.jobs = jobs;
-  return options;
-}
+std::vector<ScenarioFile> one_walk() { return {{"short.yaml", short_walk("short")}}; }
 
 std::size_t flags_below(const std::string& group) {
   EstimatorConfig config;
@@ -117,7 +103,7 @@ TEST(Ablation, RunsAllVariantsOnOneStreamAndContinues) {
   options.groups = {"directional.floor"};
   options.others = {"lio"};
   options.suite = options_for(folder.path() / "out", 2);
-  const auto first = run_ablation(short_walk(), options, keep_going);
+  const auto first = run_ablation(one_walk(), options, keep_going);
   ASSERT_TRUE(first) << first.error().message;
   EXPECT_EQ(first->suite.runs_done, 2U) << "a seed is simulated once for all variants";
   ASSERT_EQ(first->cases.at(0).rows.size(), 3U);
@@ -127,7 +113,7 @@ TEST(Ablation, RunsAllVariantsOnOneStreamAndContinues) {
   }
   const auto csv = read_file(folder.path() / "out" / "ablation.csv");
   options.suite.jobs = 1;
-  const auto again = run_ablation(short_walk(), options, keep_going);
+  const auto again = run_ablation(one_walk(), options, keep_going);
   ASSERT_TRUE(again);
   EXPECT_EQ(again->suite.runs_done, 0U);
   EXPECT_EQ(*csv, *read_file(folder.path() / "out" / "ablation.csv"));
@@ -136,8 +122,8 @@ TEST(Ablation, RunsAllVariantsOnOneStreamAndContinues) {
 TEST(ConsistencyStudy, KeepsASeriesPerSeedAndRunsWhatLacksIt) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
-  ASSERT_TRUE(run_suite(short_walk(), options_for(out), keep_going));
-  const auto study = run_consistency(short_walk(), options_for(out), keep_going);
+  ASSERT_TRUE(run_suite(one_walk(), options_for(out), keep_going));
+  const auto study = run_consistency(one_walk(), options_for(out), keep_going);
   ASSERT_TRUE(study) << study.error().message;
   EXPECT_EQ(study->suite.runs_done, 2U) << "a suite without series is no answer";
   ASSERT_EQ(study->cases.size(), 2U);
@@ -157,7 +143,7 @@ TEST(ConsistencyStudy, KeepsASeriesPerSeedAndRunsWhatLacksIt) {
     EXPECT_TRUE(fs::exists(out / name)) << name;
   }
   const auto csv = read_file(out / "consistency.csv");
-  const auto again = run_consistency(short_walk(), options_for(out, 2), keep_going);
+  const auto again = run_consistency(one_walk(), options_for(out, 2), keep_going);
   ASSERT_TRUE(again);
   EXPECT_EQ(again->suite.runs_done, 0U);
   EXPECT_EQ(*csv, *read_file(out / "consistency.csv"));

@@ -6,24 +6,15 @@
 #include <fstream>
 
 #include "io/tum.hpp"
+#include "tests/harness/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-Scenario short_walk() {
-  Scenario scenario;
-  scenario.name = "short_walk";
-  scenario.estimators = {"aims", "leg"};
-  scenario.simulation.scene.corridor.length = 10.0;
-  scenario.simulation.route.points = {{"a", 0.0, 0.0}, {"b", 2.0, 0.0}};
-  scenario.simulation.route.stand_before = 2.5;
-  return scenario;
-}
-
-bool keep_going(std::uint64_t, const Progress&) { return true; }
+using test::keep_going;
+using test::short_walk;
 
 Json read_json(const fs::path& file) { return Json::parse(std::ifstream(file)); }
 

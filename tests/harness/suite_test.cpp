@@ -11,39 +11,27 @@
 #include "harness/folder_lock.hpp"
 #include "harness/unit_id.hpp"
 #include "io/atomic_file.hpp"
+#include "tests/harness/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
+using test::keep_going;
+using test::options_for;
 
 Scenario short_walk(const std::string& name, double range) {
-  Scenario scenario;
-  scenario.name = name;
+  Scenario scenario = test::short_walk(name);
   scenario.family = "range";
   scenario.level = range;
   scenario.level_unit = "m";
-  scenario.estimators = {"aims", "leg"};
-  scenario.simulation.scene.corridor.length = 10.0;
-  scenario.simulation.route.points = {{"a", 0.0, 0.0}, {"b", 1.0, 0.0}};
-  scenario.simulation.route.stand_before = 2.5;
   scenario.simulation.lidar.range_max = range;
   return scenario;
 }
 
 std::vector<ScenarioFile> two_walks() {
   return {{"near.yaml", short_walk("near", 3.0)}, {"far.yaml", short_walk("far", 20.0)}};
-}
-
-bool keep_going(const SuiteProgress&) { return true; }
-
-SuiteOptions options_for(const fs::path& out, int jobs = 1) {
-  SuiteOptions options;
-  options.seeds = {1, 2};
-  options.out = out;
-  options.jobs = jobs;
-  return options;
 }
 
 Suite run_or_die(std::vector<ScenarioFile> scenarios, const SuiteOptions& options) {
