@@ -8,7 +8,7 @@
 
 #include "estimator/config.hpp"
 #include "estimator/plane_model.hpp"
-#include "estimator/voxel_hash.hpp"
+#include "estimator/voxel_store.hpp"
 
 namespace aims {
 
@@ -52,18 +52,13 @@ class PlaneVoxels {
   struct Level {
     float inverse_size = 2.0F;
     double min_spread = 0.0;  ///< second principal deviation of its points [m]
-    VoxelHash index;
-    std::vector<Voxel> voxels;
+    VoxelStore<Voxel> voxels;
   };
 
   void insert(Level& level, const Eigen::Vector3f& point) const;
-  void drop_far(Level& level, const Eigen::Vector3f& center) const;
-  template <class Predicate>
-  static void drop_if(Level& level, const Predicate& predicate);
   void fit(const Voxel& voxel, double min_spread) const;
 
   MapConfig config_;
-  std::uint32_t insertions_ = 0;
   std::array<Level, kLevels> levels_;
   Plane none_;
 };

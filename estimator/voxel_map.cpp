@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 namespace aims {
 namespace {
@@ -50,11 +48,13 @@ VoxelMap::VoxelMap(const MapConfig& config)
 
 void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
                       const Eigen::Matrix3f& anchor) {
-  ++insertions_;
+  voxels_.begin_insertion();
   for (const Eigen::Vector3f& point : points) {
     if (point.allFinite()) insert(point, anchor);
   }
-  if (voxels_.size() > max_voxels_) drop_far(center);
+  voxels_.limit(max_voxels_, [&center](const Voxel& v) {
+    return (Eigen::Vector3f(v.x[0], v.y[0], v.z[0]) - center).squaredNorm();
+  });
   if (config_.planes == MapPlanes::kVoxels) planes_.insert(points, center);
 }
 
@@ -67,14 +67,8 @@ Plane VoxelMap::plane_at(const Eigen::Vector3f& query) const {
 }
 
 void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor) {
-  const std::uint64_t key = voxel_key(voxel_of(point, inverse_size_));
-  const std::int32_t at = index_.find_or_insert(key, static_cast<std::int32_t>(voxels_.size()));
-  if (at == static_cast<std::int32_t>(voxels_.size())) {
-    voxels_.emplace_back().key = key;
-    voxels_.back().anchor = anchor;
-  }
-  Voxel& voxel = voxels_[at];
-  voxel.seen = insertions_;
+  Voxel& voxel = voxels_.touch(voxel_key(voxel_of(point, inverse_size_)));
+  if (voxel.count == 0) voxel.anchor = anchor;
   int closest = -1;
   float least = spacing_ * spacing_;
   for (int i = 0; i < voxel.count; ++i) {
@@ -100,8 +94,9 @@ void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& ancho
 }
 
 Eigen::Matrix3f VoxelMap::anchor_at(const Eigen::Vector3f& point) const {
-  const std::int32_t at = index_.find(voxel_key(voxel_of(point, inverse_size_)));
-  return at == VoxelHash::kNone ? Eigen::Matrix3f::Zero() : voxels_[at].anchor;
+  const Voxel* voxel = voxels_.find(voxel_key(voxel_of(point, inverse_size_)));
+  if (voxel == nullptr) return Eigen::Matrix3f::Zero();
+  return voxel->anchor;
 }
 
 void VoxelMap::search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
@@ -142,43 +137,17 @@ void VoxelMap::nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const
                             ? neighbors.squared_distances[Neighbors::kWanted - 1]
                             : gate;
     if (closest > reach) continue;
-    const std::int32_t at = index_.find(voxel_key({home.x + dx, home.y + dy, home.z + dz}));
-    if (at != VoxelHash::kNone) search(voxels_[at], query, gate, neighbors);
+    const Voxel* voxel = voxels_.find(voxel_key({home.x + dx, home.y + dy, home.z + dz}));
+    if (voxel != nullptr) search(*voxel, query, gate, neighbors);
   }
-}
-
-void VoxelMap::drop_far(const Eigen::Vector3f& center) {
-  const auto squared_distance = [&center](const Voxel& v) {
-    return (Eigen::Vector3f(v.x[0], v.y[0], v.z[0]) - center).squaredNorm();
-  };
-  std::vector<float> distances(voxels_.size());
-  std::transform(voxels_.begin(), voxels_.end(), distances.begin(), squared_distance);
-  // A tenth is freed at once, so that dropping stays rare.
-  const std::size_t kept = max_voxels_ - max_voxels_ / 10;
-  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(kept),
-                   distances.end());
-  const float limit = distances[kept];
-  drop_if([&](const Voxel& v) { return squared_distance(v) >= limit; });
 }
 
 void VoxelMap::forget_unseen(int insertions) {
-  const auto age = static_cast<std::uint32_t>(std::max(insertions, 0));
-  drop_if([&](const Voxel& v) { return insertions_ - v.seen >= age; });
+  voxels_.forget_unseen(insertions);
   planes_.forget_unseen(insertions);
 }
 
-template <class Predicate>
-void VoxelMap::drop_if(const Predicate& predicate) {
-  if (std::erase_if(voxels_, predicate) == 0) return;
-  index_.clear();
-  for (std::size_t i = 0; i < voxels_.size(); ++i) {
-    index_.find_or_insert(voxels_[i].key, static_cast<std::int32_t>(i));
-  }
-}
-
-std::size_t VoxelMap::memory() const {
-  return voxels_.capacity() * sizeof(Voxel) + index_.memory() + planes_.memory();
-}
+std::size_t VoxelMap::memory() const { return voxels_.memory() + planes_.memory(); }
 
 std::vector<Eigen::Vector3f> VoxelMap::points() const {
   std::vector<Eigen::Vector3f> all;

@@ -9,7 +9,7 @@
 
 #include "estimator/config.hpp"
 #include "estimator/plane_voxels.hpp"
-#include "estimator/voxel_hash.hpp"
+#include "estimator/voxel_store.hpp"
 
 namespace aims {
 
@@ -69,9 +69,6 @@ class VoxelMap {
   };
 
   void insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor);
-  void drop_far(const Eigen::Vector3f& center);
-  template <class Predicate>
-  void drop_if(const Predicate& predicate);
   static void search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
                      Neighbors& neighbors);
 
@@ -83,9 +80,7 @@ class VoxelMap {
   int max_points_per_voxel_;
   int max_merges_;
   std::size_t max_voxels_;
-  std::uint32_t insertions_ = 0;
-  VoxelHash index_;
-  std::vector<Voxel> voxels_;
+  VoxelStore<Voxel> voxels_;
   PlaneVoxels planes_;
 };
 
