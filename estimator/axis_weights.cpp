@@ -17,14 +17,13 @@ Eigen::Matrix3d inverse(const Eigen::Matrix3d& information) {
   return (information + kNothing * Eigen::Matrix3d::Identity()).inverse();
 }
 
-/// Information of a block when the other one, with information `other`, is unknown too.
+}  // namespace
+
 Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
                                  const Eigen::Matrix3d& other) {
   const Eigen::Matrix3d rest = block - cross * inverse(other) * cross.transpose();
   return 0.5 * (rest + rest.transpose());
 }
-
-}  // namespace
 
 Matrix6 chance_information(const Eigen::Matrix3d& normal_covariance, const Eigen::Vector3d& p_body,
                            const Eigen::Matrix3d& R) {
@@ -100,6 +99,10 @@ void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::M
          share);
   assess(rotation_, R * schur_complement(turning, cross.transpose(), moving) * R.transpose(),
          R * chance.topLeftCorner<3, 3>() * R.transpose(), share);
+}
+
+void AxisWeigher::discount(const Eigen::Vector3d& share) {
+  position_.now.weights = position_.now.weights.cwiseProduct(share);
 }
 
 Matrix6 AxisWeigher::shrink(const Eigen::Matrix3d& R) const {

@@ -12,6 +12,11 @@ namespace aims {
 Matrix6 chance_information(const Eigen::Matrix3d& normal_covariance, const Eigen::Vector3d& p_body,
                            const Eigen::Matrix3d& R);
 
+/// Information of a block when the other one, with information `other`, is unknown too: the Schur
+/// complement of `other`; `cross` is their common block, 3x3 each.
+Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
+                                 const Eigen::Matrix3d& other);
+
 /// Probability that information of `ratio` times what chance gives is more than chance, which is
 /// itself known but for a factor (log-normal).
 double reality(double ratio, const SpuriousConfig& config);
@@ -50,6 +55,9 @@ class AxisWeigher {
   /// [m] after the scan before. It is judged over a stretch of way: what a robot sees again and
   /// again while it stands is one draw of chance. Nothing is trusted before there is some way.
   void assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R, double way);
+
+  /// Keeps of the weights of the last scan's position only `share` along each of its axes.
+  void discount(const Eigen::Vector3d& share);
 
   /// T of the scan: T A T and T b are what is kept, 6x6, error state's axes at attitude R.
   Matrix6 shrink(const Eigen::Matrix3d& R) const;

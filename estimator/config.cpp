@@ -165,4 +165,9 @@ void describe(Fields& f, EstimatorConfig& c) {
   f.group("queue", c.queue);
 }
 
+EstimatorConfig config_of(const FamilyMember& member, EstimatorConfig config) {
+  if (!member.directional) config.directional = without_parts();
+  return config;
+}
+
 }  // namespace aims

@@ -137,6 +137,9 @@ struct EstimatorConfig {
   QueueConfig queue;
 };
 
+/// `config` as `member` takes it: without the parts of the directional member for any other.
+EstimatorConfig config_of(const FamilyMember& member, EstimatorConfig config);
+
 void describe(Fields& fields, ImuPropagationConfig& config);
 void describe(Fields& fields, InitializationConfig& config);
 void describe(Fields& fields, LegConfig& config);

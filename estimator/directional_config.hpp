@@ -14,7 +14,7 @@ struct SpuriousConfig {
   /// What is left of plane fits, edges and all, overstates the noise of normals: this share of the
   /// chance information that it implies is found between walls without features.
   double chance_share = 0.7;
-  double significant = 1.8;      ///< ratio to chance at which it is as likely real as not [-]
+  double significant = 1.6;      ///< ratio to chance at which it is as likely real as not [-]
   double spread = 0.05;          ///< of the logarithm of what chance gives [-]
   double stretch = 1.5;          ///< way over which information is judged [m]
   double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
@@ -36,7 +36,7 @@ struct LegStatesConfig {
 struct LegEvidenceConfig {
   bool enabled = true;
   /// Of one sample in a firm stance, base axes [m/s]; the scale is a state of its own.
-  Eigen::Vector3d velocity_sigma{0.03, 0.03, 0.03};
+  Eigen::Vector3d velocity_sigma{0.05, 0.05, 0.05};
   double correlation_time = 0.1;  ///< of that error: consecutive samples repeat it [s]
   double nominal_spread = 0.03;   ///< among the velocities told by feet that stand firm [m/s]
   double one_foot_sigma = 0.05;   ///< added when a single foot stands [m/s]
@@ -46,6 +46,16 @@ struct LegEvidenceConfig {
   double gate = 16.3;             ///< chi-square, 3 dof, 99.9 %: above it the noise grows [-]
   double drop = 100.0;            ///< growth of the variance beyond which a sample is dropped [-]
   double longest_slip = 0.5;      ///< an innovation that lasts longer is believed [s]
+};
+
+/// Lasting disagreement of scans and legs on how far the body has moved.
+struct DisagreementConfig {
+  bool enabled = true;
+  double window = 0.7;        ///< over which both are compared [s]
+  double gate = 3.0;          ///< deviations beyond which they disagree [-]
+  double lasting = 0.5;       ///< for so long, before it costs one of them weight [s]
+  double lidar_sigma = 0.01;  ///< of matching a scan, besides the noise of its returns [m]
+  double most = 100.0;        ///< growth of the variance of the one that is blamed [-]
 };
 
 /// A start that may be shoved.
@@ -116,6 +126,7 @@ struct DirectionalConfig {
   SpuriousConfig spurious;
   LegStatesConfig leg_states;
   LegEvidenceConfig leg_evidence;
+  DisagreementConfig disagreement;
   StartConfig start;
   StandstillConfig standstill;
   FloorConfig floor;
@@ -124,9 +135,13 @@ struct DirectionalConfig {
   MapMemoryConfig map_memory;
 };
 
+/// With none of the parts, as for the other members of the family.
+DirectionalConfig without_parts();
+
 void describe(Fields& fields, SpuriousConfig& config);
 void describe(Fields& fields, LegStatesConfig& config);
 void describe(Fields& fields, LegEvidenceConfig& config);
+void describe(Fields& fields, DisagreementConfig& config);
 void describe(Fields& fields, StartConfig& config);
 void describe(Fields& fields, StandstillConfig& config);
 void describe(Fields& fields, FloorConfig& config);

@@ -25,17 +25,18 @@ void record_covariance(const Belief& belief, const Eigen::Matrix3d& anchor,
 
 EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& member,
                              const SensorRig& rig)
-    : config_(config),
+    : config_(config_of(member, config)),
       member_(member),
       rig_(rig),
-      queue_(config),
-      selection_(config.lidar),
-      lidar_update_(config, member),
-      map_(config.map),
-      floor_(config.directional.floor),
-      leg_evidence_(config.directional.leg_evidence, config.leg),
-      standstill_(config.directional.standstill),
-      leg_integrator_(config.leg) {}
+      queue_(config_),
+      selection_(config_.lidar),
+      lidar_update_(config_, member),
+      map_(config_.map),
+      floor_(config_.directional.floor),
+      leg_evidence_(config_.directional.leg_evidence, config_.leg),
+      disagreement_(config_.directional.disagreement),
+      standstill_(config_.directional.standstill),
+      leg_integrator_(config_.leg) {}
 
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -60,14 +61,14 @@ bool EskfEstimator::start() {
   const auto& samples = queue_.imu().samples();
   const StartConfig& quiet = config_.directional.start;
   const auto initial =
-      member_.directional && quiet.enabled
+      quiet.enabled
           ? initialize_quietly(samples, config_.initialization, quiet, config_.imu.gravity)
           : initialize(samples, config_.initialization, config_.imu.gravity);
   if (!initial) return false;
   if (!initial->stood_still) ++report_.counts["start.moving"];
   belief_ = initial->belief;
-  if (member_.directional) belief_ = open_leg_states(belief_, config_.directional.leg_states);
-  if (member_.directional && config_.directional.floor.enabled) {
+  belief_ = open_leg_states(belief_, config_.directional.leg_states);
+  if (config_.directional.floor.enabled) {
     belief_ = join_tilt_and_bias(belief_, config_.imu.gravity);
   }
   time_ = initial->stamp;
@@ -123,7 +124,7 @@ void EskfEstimator::take_leg(const LegOdometrySample& sample) {
 /// Covariance of one sample; `rate` is the gyro's reading in body axes [rad/s].
 Eigen::Matrix3d EskfEstimator::leg_noise(const LegOdometrySample& sample,
                                          const Eigen::Vector3d& rate) {
-  if (member_.directional && config_.directional.leg_evidence.enabled) {
+  if (config_.directional.leg_evidence.enabled) {
     const Eigen::Matrix3d R_base_body = rig_.T_body_base.R().transpose();
     return leg_evidence_.noise(sample, R_base_body * (rate - belief_.state.gyro_bias));
   }
@@ -135,7 +136,7 @@ Eigen::Matrix3d EskfEstimator::leg_noise(const LegOdometrySample& sample,
 /// the legs are left alone: they are those of a walk.
 bool EskfEstimator::stands(const LegOdometrySample& sample) {
   const StandstillConfig& config = config_.directional.standstill;
-  if (!member_.directional || !config.enabled) return false;
+  if (!config.enabled) return false;
   if (!standstill_.observe(sample, queue_.imu().samples(), belief_.state.gyro_bias)) return false;
   const std::optional<ImuRest> rest = standstill_.due();
   if (!rest) return true;
@@ -150,6 +151,37 @@ bool EskfEstimator::stands(const LegOdometrySample& sample) {
   return true;
 }
 
+/// Tells the comparison of ways the body's velocity by this sample, and lets its verdict grow the
+/// sample's noise.
+void EskfEstimator::compare_ways(const LegOdometrySample& sample, const Eigen::Vector3d& rate,
+                                 LinearMeasurement& measurement) {
+  const Eigen::Matrix3d R_body_base = rig_.T_body_base.R();
+  const StanceEvidence stance =
+      compare_feet(sample, R_body_base.transpose() * (rate - belief_.state.gyro_bias));
+  LegMotionTold told;
+  told.stamp = sample.stamp;
+  const Eigen::Matrix3d R = belief_.state.rotation * R_body_base;
+  told.velocity = belief_.state.velocity - R * measurement.residual;
+  told.noise = R * measurement.noise * R.transpose() / config_.leg.rate_hz;
+  told.firm = is_firm(stance, config_.directional.leg_evidence);
+  disagreement_.add(told);
+  measurement.noise *= disagreement_.leg_growth();
+}
+
+/// After a scan: do scans and legs agree on the way?
+void EskfEstimator::judge_ways() {
+  if (!lidar_update_.fix()) return;
+  const Eigen::Matrix3d R =
+      belief_.state.rotation.toRotationMatrix() * rig_.T_body_base.R();  // odometry from base
+  const Eigen::Matrix3d speed = stride_mean_.value().asDiagonal();
+  using E = ErrorState;
+  const Eigen::Matrix3d drift =
+      speed * block(belief_.covariance, E::kLegScale, E::kLegScale) * speed +
+      block(belief_.covariance, E::kLegBias, E::kLegBias);
+  disagreement_.judge(*lidar_update_.fix(), R * drift * R.transpose());
+  lidar_update_.discount(disagreement_.lidar_share());
+}
+
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   predict_to(sample.stamp);
   if (stands(sample)) return;
@@ -158,7 +190,8 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
   LinearMeasurement measurement =
       leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_noise(sample, rate));
-  if (member_.directional && config_.directional.leg_evidence.enabled) {
+  if (config_.directional.disagreement.enabled) compare_ways(sample, rate, measurement);
+  if (config_.directional.leg_evidence.enabled) {
     const auto inflation = leg_evidence_.inflation(measurement, belief_.covariance);
     if (!inflation) {
       ++report_.counts["leg.refused"];
@@ -219,10 +252,11 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   diagnostics.leg_updates = leg_updates_;
   leg_updates_ = 0;
   prepare_points(*scan, diagnostics);
-  if (member_.directional && config_.directional.floor.enabled) fuse_floor();
+  if (config_.directional.floor.enabled) fuse_floor();
   if (!map_.empty()) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
     if (diagnostics.iterations == 0) ++report_.counts["lidar.no_update"];
+    if (config_.directional.disagreement.enabled) judge_ways();
   }
   renew_clone();
   extend_map();
@@ -243,9 +277,7 @@ void EskfEstimator::predict_to(Time stamp) {
     }
     if (!segment.measured) ++report_.counts["imu.bridged"];
   }
-  if (member_.directional) {
-    walk_leg_states(belief_, config_.directional.leg_states, to_seconds(stamp - time_));
-  }
+  walk_leg_states(belief_, config_.directional.leg_states, to_seconds(stamp - time_));
   time_ = stamp;
   queue_.imu().forget_before(stamp - kSecond);
 }
@@ -280,7 +312,7 @@ void EskfEstimator::extend_map() {
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
   map_.insert(insert_points_, t, (position + lidar_update_.map_anchor()).cast<float>());
   const MapMemoryConfig& memory = config_.directional.map_memory;
-  if (member_.directional && !memory.enabled) map_.forget_unseen(memory.forget_after);
+  if (!memory.enabled) map_.forget_unseen(memory.forget_after);
 }
 
 bool EskfEstimator::accept(const Belief& updated) {

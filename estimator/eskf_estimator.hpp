@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimator/config.hpp"
+#include "estimator/disagreement.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/floor.hpp"
 #include "estimator/kalman_update.hpp"
@@ -44,6 +45,9 @@ class EskfEstimator : public Estimator {
   void take_leg(const LegOdometrySample& sample);
   void fuse_leg_velocity(const LegOdometrySample& sample);
   Eigen::Matrix3d leg_noise(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
+  void compare_ways(const LegOdometrySample& sample, const Eigen::Vector3d& rate,
+                    LinearMeasurement& measurement);
+  void judge_ways();
   bool stands(const LegOdometrySample& sample);
   void fuse_leg_displacement();
   void renew_clone();
@@ -70,6 +74,7 @@ class EskfEstimator : public Estimator {
   Belief belief_;
   std::optional<LegOdometrySample> last_leg_;  ///< with the stamp moved on while held
   LegEvidence leg_evidence_;
+  Disagreement disagreement_;
   StandstillDetector standstill_;
   StrideMean stride_mean_;
   LegIntegrator leg_integrator_;    ///< since the last scan; displacement mode

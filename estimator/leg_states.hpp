@@ -21,6 +21,9 @@ class StrideMean {
   /// Takes a sample and returns the mean, base axes [m/s].
   const Eigen::Vector3d& update(const LegOdometrySample& sample);
 
+  /// The mean so far, base axes [m/s].
+  const Eigen::Vector3d& value() const { return mean_; }
+
  private:
   std::optional<Time> stamp_;
   Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/lidar_update.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 namespace aims {
 namespace {
 
-/// Residuals of this size and less keep their full weight [m].
-constexpr double kNotRobust = 1e9;
+/// A pose that shifts by less may be that of a robot that stands: no way [m].
+constexpr double kLeastWay = 0.05;
 
 /// Smallest eigenvalue and condition number of the translation information that remains when the
 /// rotation is unknown too (its Schur complement).
 void record_localizability(const Matrix6& information, ScanDiagnostics& diagnostics) {
-  const Eigen::Matrix3d rotation =
-      information.topLeftCorner<3, 3>() + 1e-9 * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d cross = information.topRightCorner<3, 3>();
   const Eigen::Matrix3d translation =
-      information.bottomRightCorner<3, 3>() - cross.transpose() * rotation.llt().solve(cross);
+      schur_complement(information.bottomRightCorner<3, 3>(), information.bottomLeftCorner<3, 3>(),
+                       information.topLeftCorner<3, 3>());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(translation, Eigen::EigenvaluesOnly);
   diagnostics.smallest_eigenvalue = std::max(solver.eigenvalues()(0), 0.0);
   diagnostics.condition_number =
@@ -30,7 +28,6 @@ void record_localizability(const Matrix6& information, ScanDiagnostics& diagnost
 
 LidarUpdate::LidarUpdate(const EstimatorConfig& config, const FamilyMember& member)
     : lidar_(config.lidar),
-      map_(config.map),
       degeneracy_(config.degeneracy),
       directional_(config.directional),
       member_(member),
@@ -39,7 +36,7 @@ LidarUpdate::LidarUpdate(const EstimatorConfig& config, const FamilyMember& memb
 
 bool LidarUpdate::holds_legs() const {
   const LegStatesConfig& legs = directional_.leg_states;
-  return member_.directional && legs.hold && axes_.position().weights.minCoeff() < legs.trusted;
+  return legs.hold && axes_.position().weights.minCoeff() < legs.trusted;
 }
 
 ErrorMatrix LidarUpdate::scan_mask() const {
@@ -57,7 +54,7 @@ void LidarUpdate::associate(const NominalState& state, std::span<const Eigen::Ve
     const Plane plane = map.plane_at(R * point + t);
     if (plane.valid) matches_.push_back({point.cast<double>(), plane});
   }
-  if (member_.directional && directional_.selection.enabled) thin(state);
+  if (directional_.selection.enabled) thin(state);
 }
 
 /// Keeps the matches that inform, and lets the others stand for those like them.
@@ -107,7 +104,7 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
 /// From the residuals of the last linearisation: their robust deviation, from the median of their
 /// magnitudes, times `RobustConfig::scale`.
 void LidarUpdate::set_robust_scale() {
-  if (!member_.directional || !directional_.robust.enabled || residuals_.empty()) return;
+  if (!directional_.robust.enabled || residuals_.empty()) return;
   magnitudes_.clear();
   for (const double residual : residuals_) magnitudes_.push_back(std::abs(residual));
   const auto middle = magnitudes_.begin() + static_cast<std::ptrdiff_t>(magnitudes_.size() / 2);
@@ -120,15 +117,17 @@ void LidarUpdate::set_robust_scale() {
 void LidarUpdate::assess_axes(const Linearization& rows, const NominalState& state,
                               ScanDiagnostics& diagnostics) {
   const double way = last_position_ ? (state.position - *last_position_).norm() : 0.0;
-  last_position_ = state.position;
-  axes_.assess(rows.matrix, rows.chance, state.rotation.toRotationMatrix(), way);
+  const bool went = !last_position_ || way >= kLeastWay;
+  if (went) last_position_ = state.position;
+  axes_.assess(rows.matrix, rows.chance, state.rotation.toRotationMatrix(), went ? way : 0.0);
+  axes_.discount(share_);
   diagnostics.weak_weight = axes_.position().weights.minCoeff();
   diagnostics.weak_ratio = axes_.position().ratio.minCoeff();
 }
 
 Information LidarUpdate::weighed(const Linearization& rows, double gamma,
                                  const NominalState& state) const {
-  if (!member_.directional || !directional_.spurious.enabled) {
+  if (!directional_.spurious.enabled) {
     return pose_information(gamma * rows.matrix, gamma * rows.vector);
   }
   const Matrix6 T = axes_.shrink(state.rotation.toRotationMatrix());
@@ -139,7 +138,7 @@ Belief LidarUpdate::correct(const Belief& predicted, const ErrorMatrix& prior_in
                             const NominalState& linearization, const Linearization& rows,
                             double gamma) const {
   const Information information = weighed(rows, gamma, linearization);
-  if (!member_.directional || !directional_.spurious.enabled) {
+  if (!directional_.spurious.enabled) {
     return kalman_update(predicted.state, prior_information, linearization, information);
   }
   return kalman_update(predicted.state, prior_information, linearization, information, scan_mask());
@@ -213,8 +212,22 @@ void LidarUpdate::rest_on(const VoxelMap& map, const Belief& predicted, const Be
   map_anchor_ = anchor_after_scan(map_anchor_, position(predicted), position(updated), anchored_);
 }
 
+LidarFix LidarUpdate::alone(const Linearization& rows, const NominalState& state,
+                            Time stamp) const {
+  constexpr double kNothing = 1e-6;  // keeps what no plane informs invertible
+  const Matrix6 covariance = (rows.matrix + kNothing * Matrix6::Identity()).inverse();
+  LidarFix fix;
+  fix.stamp = stamp;
+  fix.position = state.position - (covariance * rows.vector).tail<3>();
+  fix.covariance = covariance.bottomRightCorner<3, 3>();
+  fix.axes = axes_.position().axes;
+  fix.trusted = axes_.position().real;
+  return fix;
+}
+
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics) {
+  fix_.reset();
   const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
   Belief belief = trial(predicted, prior_information, points, map, diagnostics);
   const bool matched = diagnostics.points_used >= lidar_.min_matches;
@@ -227,6 +240,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     gamma_leg_ = member_.adaptive ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
     // eq. (9): R_lidar' = R_lidar / gamma_lidar, so the information of the trial's last
     // linearisation is multiplied by gamma_lidar.
+    if (member_.directional) fix_ = alone(rows, belief.state, diagnostics.stamp);
     belief = correct(predicted, prior_information, belief.state, rows, gamma_lidar_);
     if (member_.directional) rest_on(map, predicted, belief);
   }

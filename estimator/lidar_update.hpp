@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "estimator/axis_weights.hpp"
 #include "estimator/config.hpp"
 #include "estimator/degeneracy.hpp"
+#include "estimator/disagreement.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/kalman_update.hpp"
 #include "estimator/map_anchor.hpp"
@@ -23,6 +25,7 @@ namespace aims {
 /// The directional member weighs the information along the axes of the pose instead.
 class LidarUpdate {
  public:
+  /// The parts of `config.directional` are those of the member (`config_of`).
   LidarUpdate(const EstimatorConfig& config, const FamilyMember& member);
 
   /// The belief after fusing `points` (body axes at the belief's instant) against `map`. Fills the
@@ -37,10 +40,19 @@ class LidarUpdate {
   /// Whether the states of the legs are to be held: while the weakest axis is not trusted.
   bool holds_legs() const;
 
+  /// Where the last scan by itself puts the body; empty when it did not correct the belief, and for
+  /// other than the directional member.
+  const std::optional<LidarFix>& fix() const { return fix_; }
+
+  /// Keeps from now on only `share` of the weight along each axis of the position.
+  void discount(const Eigen::Vector3d& share) { share_ = share; }
+
   /// Covariance of the map that the position rests on, odometry axes [m^2]; anchor_after_scan.
   const Eigen::Matrix3d& map_anchor() const { return map_anchor_; }
 
  private:
+  static constexpr double kNotRobust = std::numeric_limits<double>::infinity();
+
   /// A point with its plane.
   struct Match {
     Eigen::Vector3d p_body;
@@ -74,12 +86,12 @@ class LidarUpdate {
                ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const ErrorMatrix& prior_information,
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
+  LidarFix alone(const Linearization& rows, const NominalState& state, Time stamp) const;
   void rest_on(const VoxelMap& map, const Belief& predicted, const Belief& updated);
   bool moved(const NominalState& state, const NominalState& since, double rotation,
              double position) const;
 
   LidarUpdateConfig lidar_;
-  MapConfig map_;
   DegeneracyConfig degeneracy_;
   DirectionalConfig directional_;
   FamilyMember member_;
@@ -88,12 +100,15 @@ class LidarUpdate {
   double gamma_lidar_ = 1.0;
   double gamma_leg_ = 1.0;
   Eigen::Matrix3d map_anchor_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d share_ = Eigen::Vector3d::Ones();
+  std::optional<LidarFix> fix_;
   std::optional<Eigen::Vector3d> last_position_;  ///< at the last scan that was judged
   std::vector<Match> matches_;
   std::vector<Match> thinned_;
   std::vector<Vector6> jacobians_;
   std::vector<KeptRow> kept_;
-  double robust_scale_ = 1e9;  ///< residual at which the weight is a half [m]
+  /// Residual at which the weight of a point is a half [m].
+  double robust_scale_ = kNotRobust;
   std::vector<double> residuals_;
   std::vector<double> magnitudes_;
   std::vector<AnchoredPlane> anchored_;

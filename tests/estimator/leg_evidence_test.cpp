@@ -133,11 +133,12 @@ TEST(LegEvidence, ABurstIsDampedAndALastingDisagreementBelieved) {
   LinearMeasurement measurement;
   columns(measurement.jacobian, ErrorState::kVelocity).setIdentity();
   const ErrorMatrix covariance = 1e-4 * ErrorMatrix::Identity();
+  const double ten_sigma = 10.0 * config.velocity_sigma.x();
   double in_burst = 0.0;
   double in_the_end = 0.0;
   for (Time t = 0; t < kSecond; t += 5 * kMillisecond) {
     measurement.noise = evidence.noise(firm_stance(t), kTurning);
-    measurement.residual = Eigen::Vector3d(t > 100 * kMillisecond ? 0.3 : 0.01, 0.0, 0.0);
+    measurement.residual = Eigen::Vector3d(t > 100 * kMillisecond ? ten_sigma : 0.01, 0.0, 0.0);
     const auto inflation = evidence.inflation(measurement, covariance);
     ASSERT_TRUE(inflation.has_value());
     if (t <= 100 * kMillisecond) {
