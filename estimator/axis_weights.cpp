@@ -37,9 +37,13 @@ Matrix6 chance_information(const Eigen::Matrix3d& normal_covariance, const Eigen
   return sum;
 }
 
-double reality(double ratio, const SpuriousConfig& config) {
+double significant_ratio(const SpuriousConfig& config, double way) {
+  return config.significant * (1.0 + config.start_excess * std::exp(-way / config.start_way));
+}
+
+double reality(double ratio, double significant, const SpuriousConfig& config) {
   if (!(ratio > 0.0)) return 0.0;
-  const double deviations = std::log(ratio / config.significant) / config.spread;
+  const double deviations = std::log(ratio / significant) / config.spread;
   return 0.5 * std::erfc(-deviations / std::sqrt(2.0));
 }
 
@@ -48,7 +52,8 @@ Eigen::Matrix3d BlockWeights::shrink() const {
 }
 
 BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
-                         const Eigen::Matrix3d& axes, const SpuriousConfig& config) {
+                         const Eigen::Matrix3d& axes, double significant,
+                         const SpuriousConfig& config) {
   BlockWeights block;
   block.axes = axes;
   const Eigen::Matrix3d covariance = inverse(information);
@@ -58,7 +63,7 @@ BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix
     const double by_chance = config.chance_share * axis.dot(chance * axis);
     const double ratio = std::max(known, 0.0) / std::max(by_chance, kNothing);
     block.ratio(i) = ratio;
-    block.real(i) = reality(ratio, config);
+    block.real(i) = reality(ratio, significant, config);
     block.weights(i) = ratio > 1.0 ? block.real(i) * (ratio - 1.0) / ratio : 0.0;
   }
   return block;
@@ -86,11 +91,13 @@ void AxisWeigher::assess(Block& block, const Eigen::Matrix3d& information,
   block.smoothed += share * (information - block.smoothed);
   block.smoothed_chance += share * (chance - block.smoothed_chance);
   const Eigen::Matrix3d axes = steady_axes(block.smoothed, block.now.axes, config_.axis_tolerance);
-  block.now = weigh_block(block.smoothed, block.smoothed_chance, axes, config_);
+  block.now = weigh_block(block.smoothed, block.smoothed_chance, axes,
+                          significant_ratio(config_, way_), config_);
 }
 
 void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R,
                          double way) {
+  way_ += way;
   const double share = 1.0 - std::exp(-way / config_.stretch);
   const Eigen::Matrix3d turning = A.topLeftCorner<3, 3>();
   const Eigen::Matrix3d moving = A.bottomRightCorner<3, 3>();

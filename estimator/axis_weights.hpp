@@ -17,9 +17,12 @@ Matrix6 chance_information(const Eigen::Matrix3d& normal_covariance, const Eigen
 Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
                                  const Eigen::Matrix3d& other);
 
+/// Ratio to chance at which information is as likely real as not, `way` [m] after the start.
+double significant_ratio(const SpuriousConfig& config, double way);
+
 /// Probability that information of `ratio` times what chance gives is more than chance, which is
-/// itself known but for a factor (log-normal).
-double reality(double ratio, const SpuriousConfig& config);
+/// itself known but for a factor (log-normal); one half at the ratio `significant`.
+double reality(double ratio, double significant, const SpuriousConfig& config);
 
 /// Three orthogonal axes of position or rotation, and how much of the information along each is
 /// kept.
@@ -37,7 +40,8 @@ struct BlockWeights {
 /// while `chance` is what normals of noise would give. Along each axis p (ratio - 1) / ratio is
 /// kept, p the probability that it is real (cf. Hatleskog and Alexis 2024).
 BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
-                         const Eigen::Matrix3d& axes, const SpuriousConfig& config);
+                         const Eigen::Matrix3d& axes, double significant,
+                         const SpuriousConfig& config);
 
 /// The axes along which `information` splits: `axes` again while they still split it to within
 /// `tolerance` [rad], its eigenvectors otherwise. Axes that wobble with the noise would let strong
@@ -76,6 +80,7 @@ class AxisWeigher {
               double share);
 
   SpuriousConfig config_;
+  double way_ = 0.0;  ///< since the start [m]
   Block position_;
   Block rotation_;
 };

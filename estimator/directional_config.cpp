@@ -36,6 +36,9 @@ void describe(Fields& f, SpuriousConfig& c) {
             "found between walls without features"});
   f.number("significant", c.significant,
            {"-", at_least(1), "ratio to chance at which information is as likely real as not"});
+  f.number("start_excess", c.start_excess,
+           {"-", at_least(0), "share more than that, asked for at the start"});
+  f.number("start_way", c.start_way, {"m", positive(), "way over which that falls off"});
   f.number("spread", c.spread,
            {"-", positive(), "uncertainty of what chance gives, of its logarithm"});
   f.number("stretch", c.stretch, {"m", positive(), "way over which information is judged"});

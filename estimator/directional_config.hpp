@@ -14,7 +14,11 @@ struct SpuriousConfig {
   /// What is left of plane fits, edges and all, overstates the noise of normals: this share of the
   /// chance information that it implies is found between walls without features.
   double chance_share = 0.7;
-  double significant = 1.6;      ///< ratio to chance at which it is as likely real as not [-]
+  double significant = 1.35;  ///< ratio to chance at which it is as likely real as not [-]
+  /// What a robot mapped while it stood is one draw of chance, seen again and again: at the start
+  /// this share more is asked for, which falls off over `start_way`.
+  double start_excess = 0.3;
+  double start_way = 5.0;        ///< [m]
   double spread = 0.05;          ///< of the logarithm of what chance gives [-]
   double stretch = 1.5;          ///< way over which information is judged [m]
   double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
@@ -22,14 +26,14 @@ struct SpuriousConfig {
 
 /// Slow states of the leg odometry.
 struct LegStatesConfig {
-  bool scale = true;         ///< estimate a scale per axis
-  bool bias = true;          ///< estimate a bias per axis
-  bool hold = true;          ///< learn them only where the LiDAR is trusted (Schmidt update)
-  double scale_sigma = 0.2;  ///< at the start [-]
-  double scale_walk = 1e-3;  ///< [1/sqrt(s)]
-  double bias_sigma = 0.01;  ///< at the start [m/s]
-  double bias_walk = 1e-4;   ///< [m/s/sqrt(s)]
-  double trusted = 0.3;      ///< weight of the weakest axis above which the LiDAR is [-]
+  bool scale = true;          ///< estimate a scale per axis
+  bool bias = true;           ///< estimate a bias per axis
+  bool hold = true;           ///< learn them only where the LiDAR is trusted (Schmidt update)
+  double scale_sigma = 0.12;  ///< at the start [-]
+  double scale_walk = 1e-3;   ///< [1/sqrt(s)]
+  double bias_sigma = 0.01;   ///< at the start [m/s]
+  double bias_walk = 1e-4;    ///< [m/s/sqrt(s)]
+  double trusted = 0.3;       ///< weight of the weakest axis above which the LiDAR is [-]
 };
 
 /// Leg noise from its own evidence.
@@ -61,9 +65,9 @@ struct DisagreementConfig {
 /// A start that may be shoved.
 struct StartConfig {
   bool enabled = true;
-  double rate = 0.1;      ///< deviation from the mean of a quiet stretch that ends it [rad/s]
-  double force = 0.4;     ///< deviation from the mean of a quiet stretch that ends it [m/s^2]
-  double shortest = 0.3;  ///< a shorter stretch tells no tilt [s]
+  double rate = 0.03;     ///< deviation from the mean of a quiet stretch that ends it [rad/s]
+  double force = 0.1;     ///< deviation from the mean of a quiet stretch that ends it [m/s^2]
+  double shortest = 0.2;  ///< a shorter stretch tells no tilt [s]
 };
 
 /// Standing still.

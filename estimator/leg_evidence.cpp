@@ -78,10 +78,13 @@ Eigen::Matrix3d LegEvidence::noise(const LegOdometrySample& sample,
 
 std::optional<double> LegEvidence::inflation(const LinearMeasurement& measurement,
                                              const ErrorMatrix& covariance) {
-  // One sample by itself is as good as its own variance, without what its neighbours repeat.
+  // One sample by itself is as good as its own variance, without what its neighbours repeat. That
+  // the legs' scale is unknown excuses no slip: a wrong scale lasts, and passes for that.
+  Matrix3xError jacobian = measurement.jacobian;
+  columns(jacobian, ErrorState::kLegScale).setZero();
+  columns(jacobian, ErrorState::kLegBias).setZero();
   const Eigen::Matrix3d expected =
-      measurement.jacobian * covariance * measurement.jacobian.transpose() +
-      measurement.noise / repeats_;
+      jacobian * covariance * jacobian.transpose() + measurement.noise / repeats_;
   const double distance = measurement.residual.dot(expected.llt().solve(measurement.residual));
   if (distance <= config_.gate || !last_) {
     outside_since_.reset();

@@ -122,10 +122,10 @@ TEST(AxisWeights, AxesStayWhileTheySplitTheInformation) {
 
 TEST(AxisWeights, RealityRisesThroughAHalfAtTheSignificantRatio) {
   const SpuriousConfig config;
-  EXPECT_DOUBLE_EQ(reality(config.significant, config), 0.5);
-  EXPECT_LT(reality(1.0, config), 1e-6);
-  EXPECT_GT(reality(3.0, config), 0.999);
-  EXPECT_EQ(reality(0.0, config), 0.0);
+  EXPECT_DOUBLE_EQ(reality(config.significant, config.significant, config), 0.5);
+  EXPECT_LT(reality(1.0, config.significant, config), 1e-6);
+  EXPECT_GT(reality(3.0, config.significant, config), 0.999);
+  EXPECT_EQ(reality(0.0, config.significant, config), 0.0);
 }
 
 }  // namespace
