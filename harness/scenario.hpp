@@ -49,7 +49,7 @@ struct Scenario {
   std::string level_unit;  ///< e.g. "m", "%"
   int seed = 1;
   /// Specs (harness/estimator_spec.hpp) of who runs.
-  std::vector<std::string> estimators = {"aims", "tfs", "tfs_clean", "lio", "leg"};
+  std::vector<std::string> estimators = {"aims", "aims_d", "tfs", "tfs_clean", "lio", "leg"};
   SimulationConfig simulation;
   EstimatorConfig estimator;
   ScoreConfig scoring;

@@ -51,7 +51,8 @@ class Recordings : public testing::CommandLine {
 };
 
 TEST_F(Recordings, EstimatingABagGivesTheBytesOfTheRun) {
-  const std::string estimators = " --estimators aims,tfs,tfs_clean,lio,leg --no-pictures --quiet ";
+  const std::string estimators =
+      " --estimators aims,aims_d,tfs,tfs_clean,lio,leg --no-pictures --quiet ";
   const Outcome run = aims("run " + scenario(kShortWalk) + estimators + "--out direct");
   ASSERT_EQ(run.exit_code, 0) << run.output;
   for (const char* compression : {"none", "lz4"}) {
@@ -59,7 +60,7 @@ TEST_F(Recordings, EstimatingABagGivesTheBytesOfTheRun) {
     ASSERT_EQ(made.exit_code, 0) << made.output;
     const Outcome estimate = aims("estimate walk.bag" + estimators + "--overwrite --out replayed");
     ASSERT_EQ(estimate.exit_code, 0) << estimate.output;
-    for (const char* name : {"aims", "tfs", "tfs_clean", "lio", "leg"}) {
+    for (const char* name : {"aims", "aims_d", "tfs", "tfs_clean", "lio", "leg"}) {
       const std::string file = std::string("/") + name + ".tum";
       EXPECT_EQ(text_of("direct" + file), text_of("replayed" + file)) << name << compression;
     }

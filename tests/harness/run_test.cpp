@@ -25,7 +25,7 @@ TEST(Run, GivesTheSameBytesOnOneThreadAndOnTwo) {
   const auto two = run(short_walk(), {.seed = 3, .jobs = 2}, keep_going);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(tum_text(one->truth_trajectory), tum_text(two->truth_trajectory));
-  ASSERT_EQ(one->estimators.size(), 5U);
+  ASSERT_EQ(one->estimators.size(), 6U);
   for (std::size_t i = 0; i < one->estimators.size(); ++i) {
     EXPECT_EQ(tum_text(one->estimators[i].report.trajectory),
               tum_text(two->estimators[i].report.trajectory))
