@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 #include "harness/code_version.hpp"
 #include "harness/estimator_spec.hpp"
 
@@ -32,13 +30,14 @@ std::string deciding_text(const Scenario& scenario, const EstimatorConfig& estim
 
 }  // namespace
 
+std::string text_hash(std::string_view text) { return fmt::format("{:016x}", fnv1a(text)); }
+
 std::string unit_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator) {
   const auto spec = parse_estimator_spec(estimator);
   const Result<EstimatorConfig> own =
       spec ? config_with(*spec, scenario.estimator) : scenario.estimator;
-  return fmt::format(
-      "{:016x}", fnv1a(fmt::format("{}\n{}\n{}\n{}", code_version(), seed,
-                                   spec ? spec->name : estimator, deciding_text(scenario, *own))));
+  return text_hash(fmt::format("{}\n{}\n{}\n{}", code_version(), seed,
+                               spec ? spec->name : estimator, deciding_text(scenario, *own)));
 }
 
 }  // namespace aims
