@@ -126,10 +126,11 @@ Fractions sobol_fractions(std::size_t points, std::size_t dimensions, RandomStre
   }
   boost::random::sobol sequence(dimensions);
   Fractions result(points, std::vector<double>(dimensions));
-  for (auto& point : result) {
+  for (std::size_t k = 0; k < points; ++k) {
     for (std::size_t i = 0; i < dimensions; ++i) {
-      const std::uint64_t bits = (sequence() ^ shifts[i]) >> (64 - kBits);
-      point[i] = std::ldexp(static_cast<double>(bits), -kBits);
+      const std::uint64_t unshifted = k == 0 ? 0 : sequence();  // Boost leaves the first point out
+      const std::uint64_t bits = (unshifted ^ shifts[i]) >> (64 - kBits);
+      result[k][i] = std::ldexp(static_cast<double>(bits), -kBits);
     }
   }
   return result;
