@@ -71,7 +71,7 @@ Json unit_json(const SweepUnit& unit, const UnitResult& result) {
   return json;
 }
 
-std::optional<UnitResult> result_in(const Json& json) {
+std::optional<UnitResult> result_in(const Json& json) try {
   if (!json.is_object() || json.value("schema", Json()) != kUnitSchema) return std::nullopt;
   UnitResult result;
   for (const UnitOutcome outcome : kOutcomes) {
@@ -83,6 +83,8 @@ std::optional<UnitResult> result_in(const Json& json) {
     if (outcome == UnitOutcome::kDone && !result.scores.is_object()) return std::nullopt;
     return result;
   }
+  return std::nullopt;
+} catch (const Json::exception&) {  // a value of another type
   return std::nullopt;
 }
 
