@@ -41,6 +41,7 @@ const std::vector<Confinement> kConfined = {
     {"cairo", {"render"}, false},
     {"yaml-cpp/", {"io"}, false},
     {"SQLiteCpp/", {"harness"}, false},
+    {"pagmo/", {"harness"}, false},
     {"CLI/", {"app", "ros"}, true},
     {"ros/ros.h", {"ros"}, false},
 };
