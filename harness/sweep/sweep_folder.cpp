@@ -73,19 +73,19 @@ std::string first_difference(const std::string& theirs, const std::string& ours)
   return "(fewer lines)";
 }
 
-/// Why the folder's plan and list are not these; empty when they are.
+/// Why the folder's units are not these; empty when they are, whatever else the plan says.
 std::string mismatch(const std::string& plan_there, const std::string& plan_here,
                      const std::string& list_there, const std::string& list_here) {
   const std::string code_there = line_of(plan_there, kCodeLine);
   if (code_there != code_version()) {
     return fmt::format("holds units of code {}, and this is code {}", code_there, code_version());
   }
+  if (list_there == list_here) return "";
   if (plan_there != plan_here) {
     return fmt::format("holds units of another plan, with '{}'",
                        first_difference(plan_there, plan_here));
   }
-  if (list_there != list_here) return "holds units of other scenarios: a scenario file has changed";
-  return "";
+  return "holds units of other scenarios: a scenario file has changed";
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ Result<void> SweepFolder::enter(const SweepPlan& plan, std::span<const SweepUnit
           "{}: {}; give another --out, or --renew to go on here (what is still valid is kept)",
           path_.string(), why));
     }
-    if (why.empty() && list_there) return {};
+    if (why.empty() && list_there && *plan_there == plan_here) return {};
   }
   if (auto written = write_file_atomically(plan_file, plan_here); !written) return written;
   return write_file_atomically(list_file, list_here);

@@ -45,6 +45,17 @@ Result<WalkMade> simulate(const Scenario& scenario, std::uint64_t seed, const fs
   return WalkMade{true, std::nullopt};
 }
 
+/// Removes what processes that were killed while they made `file` have left: gigabytes. Whoever
+/// holds the walk's lock may.
+void clear_remains(const fs::path& file) {
+  const std::string start = file.filename().string() + ".";
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(file.parent_path(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(start) && name.ends_with(".tmp")) fs::remove(entry.path(), ignored);
+  }
+}
+
 }  // namespace
 
 fs::path WalkCache::default_folder() {
@@ -80,6 +91,7 @@ Result<WalkMade> WalkCache::make(const Scenario& scenario, std::uint64_t seed) c
                                std::system_category().message(errno)));
   }
   if (has(id)) return WalkMade{};
+  clear_remains(file_of(id));
   auto made = simulate(scenario, seed, file_of(id));
   fs::remove(folder_ / (id + ".lock"), code);
   return made;
