@@ -88,7 +88,8 @@ class Filler {
     bind_number(unit_, 12, file.is_object() ? file.value("wall_s", Json()) : Json());
     finish(unit_);
     if (!file.is_object()) return;
-    for (const auto& [key, value] : file.value("settings", Json::object()).items()) {
+    const Json settings = file.value("settings", Json::object());
+    for (const auto& [key, value] : settings.items()) {
       if (value.is_string()) add_value(parameter_, key, setting_value(value.get<std::string>()));
     }
     add_scores(file.value("scores", Json()), "");
