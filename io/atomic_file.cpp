@@ -88,9 +88,10 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
   return write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
-Result<void> AtomicFile::commit() {
+Result<void> AtomicFile::commit(bool flush) {
   // Some file systems cannot flush and say EINVAL; that is no failure to write.
-  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) return refuse(errno);
+  if (flush && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+    return refuse(errno);
   // A full network disk may speak up only here.
   if (::close(std::exchange(descriptor_, -1)) != 0) return refuse(errno);
   if (::rename(temporary_.c_str(), file_.c_str()) != 0) return refuse(errno);

@@ -25,8 +25,9 @@ class AtomicFile {
 
   Result<void> write(std::string_view text);
   Result<void> write(std::span<const std::byte> bytes);
-  /// Flushes to the disk and puts the file in its place.
-  Result<void> commit();
+  /// Puts the file in its place; before that flushes it to the disk, unless `flush` is false: then
+  /// a power failure soon after may leave it short or with zeros.
+  Result<void> commit(bool flush = true);
 
  private:
   AtomicFile(std::filesystem::path file, std::string temporary, int descriptor);
