@@ -28,6 +28,7 @@ constexpr const char* kFooter =
     "  aims ablate dial_d30 dial_n30 --seeds 1-3\n"
     "  aims consistency dial_z30 --seeds 1-50 --estimators aims_d,lio\n"
     "  aims sweep --over degeneracy.eta=0:6:13 --scenarios corridor --seeds 1-5\n"
+    "  aims tune tuning/aims.yaml --out out/tune\n"
     "  aims simulate corridor -o walk.bag\n"
     "  aims estimate walk.bag --estimators aims,lio\n"
     "  aims info robot.bag\n"
@@ -57,6 +58,7 @@ int parse_and_run(int argc, char** argv) {
   aims::add_consistency_command(app, scenarios, exit_code);
   aims::add_sweep_command(app, scenarios, exit_code);
   aims::add_merge_command(app, exit_code);
+  aims::add_tune_command(app, scenarios, exit_code);
   aims::add_list_command(app, scenarios, exit_code);
   aims::add_config_command(app, scenarios, exit_code);
   try {

@@ -75,7 +75,8 @@ Points first_population(const std::vector<double>& start, const OptimizerOptions
   const std::vector<ParameterRange> cube(start.size(), {"", 0.0, 1.0, 0, false});
   Points points = {start};
   if (options.population > 1) {
-    const auto others = design(DesignKind::kSobol, cube, options.population - 1, options.seed);
+    const auto others = design(DesignKind::kSobol, cube, options.population - 1,
+                               static_cast<std::uint64_t>(options.seed));
     points.insert(points.end(), others.begin(), others.end());
   }
   return points;

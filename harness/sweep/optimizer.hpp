@@ -24,7 +24,7 @@ struct OptimizerOptions {
   int generations = 20;  ///< after the first population
   int population = 8;    ///< points of a generation; at least 5, of NSGA-II a multiple of 4
   double step = 0.25;    ///< first standard deviation of CMA-ES, in widths of the ranges
-  std::uint64_t seed = 1;
+  int seed = 1;
 };
 
 using Points = std::vector<std::vector<double>>;

@@ -71,7 +71,7 @@ TEST(Optimizer, SameSeedAsksForTheSamePoints) {
   for (const OptimizerKind kind :
        {OptimizerKind::kCmaes, OptimizerKind::kDe, OptimizerKind::kNsga2}) {
     const bool two = kind == OptimizerKind::kNsga2;
-    const auto run = [&](std::uint64_t seed) {
+    const auto run = [&](int seed) {
       OptimizerOptions options{.kind = kind, .generations = 6, .population = 8, .seed = seed};
       return minimize(batch_of(two ? two_bowls : bowl), {0.1, 0.2}, two ? 2 : 1, options)->points;
     };
