@@ -103,7 +103,7 @@ TEST_F(Sweeps, RecordUnitsThatTakeTooLongAndDoThemAgainWhenAsked) {
 }
 
 TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
-  expect_refused("--over leg.rate=1:2:2", {"unknown key 'leg.rate'", "leg.rate_hz"});
+  expect_refused("--over leg.rate_khz=1:2:2", {"unknown key 'leg.rate_khz'", "leg.rate_hz"});
   expect_refused("--over leg.rate_hz=2:1:2", {"leg.rate_hz=2:1:2", "reversed"});
   expect_refused("--over leg.rate_hz=5:5:3", {"empty"});
   expect_refused("--over 'leg.rate_hz=log(0,5,3)'", {"logarithm"});
