@@ -26,7 +26,10 @@ std::optional<UnitResult> UnitFolder::find(const std::string& id) const {
 Result<void> UnitFolder::put(const SweepUnit& unit, const UnitResult& result) const {
   std::error_code code;
   fs::create_directories(folder_, code);
-  return write_file_atomically(file_of(unit.id), unit_json(unit, result).dump(1) + "\n");
+  // Messages may hold what is no UTF-8, e.g. of a file's name.
+  const std::string text =
+      unit_json(unit, result).dump(1, ' ', false, Json::error_handler_t::replace);
+  return write_file_atomically(file_of(unit.id), text + "\n");
 }
 
 std::vector<std::string> UnitFolder::ids() const {
