@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/options.hpp"
+#include "harness/sweep/sweep_report.hpp"
 #include "harness/sweep/sweep_store.hpp"
 
 namespace aims {
@@ -21,7 +22,18 @@ constexpr std::size_t kMostShown = 10;  ///< units that are named one by one
 struct MergeArguments {
   std::vector<std::string> folders;
   std::string out;
+  std::string score = Objective{}.score;
 };
+
+/// Says what cannot be told; a sweep without ranges has no report.
+void report(const MergedSweep& sweep, const std::string& score, const fs::path& out) {
+  Objective objective;
+  objective.score = score;
+  std::vector<std::string> warnings;
+  const auto written = write_sweep_report(sweep, objective, out, warnings);
+  if (!written) warnings.push_back("no sweep.md: " + written.error().message);
+  for (const std::string& warning : warnings) fmt::print("note: {}\n", warning);
+}
 
 /// Names units that failed, and a few that are missing.
 void print_open(const MergedSweep& sweep) {
@@ -54,13 +66,14 @@ int merge_command(const MergeArguments& arguments) {
   auto written = write_sqlite(*sweep, out / "sweep.sqlite");
   if (written) written = write_sweep_csv(*sweep, out / "sweep.csv");
   if (!written) return bad_input("merge", written.error());
+  report(*sweep, arguments.score, out);
   fmt::print("{}\n", to_text(merge_table(*sweep)));
   print_open(*sweep);
   if (sweep->others > 0) {
     fmt::print("note: {} results of another plan, code or scenario are left out\n", sweep->others);
   }
-  fmt::print("{} of {} units done: {}, sweep.csv\n", sweep->count("done"), sweep->units.size(),
-             (out / "sweep.sqlite").string());
+  fmt::print("{} of {} units done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
+             sweep->units.size(), (out / "sweep.sqlite").string());
   return sweep->count("done") == sweep->units.size() ? kOk : kGateFailed;
 }
 
@@ -72,7 +85,10 @@ void add_merge_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<MergeArguments>();
   command->add_option("folder", arguments->folders, "Folders that aims sweep filled, or fills")
       ->required();
-  command->add_option("--out", arguments->out, "Folder for sweep.sqlite and sweep.csv (the first)");
+  command->add_option("--out", arguments->out,
+                      "Folder for sweep.sqlite, sweep.csv and sweep.md (the first)");
+  command->add_option("--score", arguments->score,
+                      "Key of scores.json that sweep.md is about (ate_m)");
   command->footer(
       "Examples:\n"
       "  aims merge out/sweep\n"

@@ -65,8 +65,9 @@ Result<std::vector<EstimatorSpec>> points_of(const SweepPlan& plan, const Estima
   const auto points =
       design(plan.design, *ranges, plan.samples, static_cast<std::uint64_t>(plan.design_seed));
   std::vector<EstimatorSpec> specs;
-  specs.reserve(estimators->size() * points.size());
+  specs.reserve(estimators->size() * (points.size() + 1));
   for (const EstimatorSpec& estimator : *estimators) {
+    if (plan.untuned) specs.push_back(estimator);
     for (const auto& point : points) specs.push_back(spec_at(estimator, *ranges, point));
   }
   return specs;
@@ -102,6 +103,8 @@ void describe(Fields& f, SweepPlan& p) {
   f.texts("over", p.over,
           {.meaning = "what is varied: KEY=LOW:HIGH:COUNT or KEY=log(LOW,HIGH,COUNT)"});
   f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
+  f.flag("untuned", p.untuned,
+         {.meaning = "also run the estimators without what is varied, to be compared with"});
   f.choice("design", p.design,
            {{"grid", DesignKind::kGrid},
             {"random", DesignKind::kRandom},

@@ -22,6 +22,7 @@ struct SweepPlan {
   std::vector<std::string> estimators = {"aims"};  ///< specs (harness/estimator_spec.hpp)
   std::vector<std::string> over;                   ///< ranges (harness/sweep/design.hpp)
   std::vector<std::string> set;                    ///< "key=value" on top of every scenario
+  bool untuned = false;  ///< also run the estimators without what is varied, to be compared with
   DesignKind design = DesignKind::kGrid;
   int samples = 64;      ///< points of every design but a grid
   int design_seed = 1;   ///< of those points

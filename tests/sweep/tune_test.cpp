@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "harness/sweep/analysis.hpp"
 #include "harness/sweep/tune_report.hpp"
 #include "io/yaml_config.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -184,8 +185,8 @@ TEST(Tune, KeepsWhatIsDoneWhenItIsInterrupted) {
 
 TEST(Tune, RefusesAScoreThatNoRunHas) {
   const auto result = tune(task_of(small_plan()), [](auto estimators, auto walks) {
-    return std::optional<WalkScores>(
-        WalkScores(estimators.size(), {walks.size(), std::vector<RunScore>(1)}));
+    const std::vector<std::vector<RunScore>> without(walks.size(), std::vector<RunScore>(1));
+    return Result<std::optional<WalkScores>>(WalkScores(estimators.size(), without));
   });
   ASSERT_FALSE(result);
   EXPECT_TRUE(says(result.error().message, "'ate_m'"));
@@ -227,17 +228,19 @@ TEST(TuneReport, OverlayLoadsOnTopOfAScenario) {
   EXPECT_EQ(scenario->estimator.degeneracy.w1, EstimatorConfig{}.degeneracy.w1);
 }
 
-TEST(TuneReport, SaysWhatWasFoundAndWhatDoesNotMatter) {
-  const TemporaryFolder folder;
-  std::vector<std::string> warnings;
-  TunePlan plan = small_plan();
-  plan.optimizer.generations = 20;
-  ASSERT_TRUE(write_tuning(*tuned(plan), folder.path(), warnings));
-  std::ifstream stream(folder.path() / "tune.md");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_TRUE(says(text, "The gain holds")) << text;
-  EXPECT_TRUE(says(text, "`degeneracy.alpha` does not matter")) << text;
-  EXPECT_FALSE(says(text, "`degeneracy.eta` does not matter"));
+TEST(TuneReport, SaysWhetherTheGainHolds) {
+  const auto report = [](const Bowl& bowl) {
+    const TemporaryFolder folder;
+    std::vector<std::string> warnings;
+    EXPECT_TRUE(write_tuning(*tuned(small_plan(), bowl), folder.path(), warnings));
+    std::ifstream stream(folder.path() / "tune.md");
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  const std::string holds = report({});
+  EXPECT_TRUE(says(holds, "The gain holds on what was held out")) << holds;
+  EXPECT_FALSE(says(holds, "`degeneracy.eta` does not matter")) << holds;
+  const std::string overfit = report({.overfit = true});
+  EXPECT_TRUE(says(overfit, "the tuned values are worse than the defaults")) << overfit;
 }
 
 }  // namespace
