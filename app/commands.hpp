@@ -23,6 +23,9 @@ void add_ablate_command(CLI::App& app, const std::filesystem::path& scenario_fol
                         int& exit_code);
 void add_consistency_command(CLI::App& app, const std::filesystem::path& scenario_folder,
                              int& exit_code);
+void add_sweep_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
+void add_merge_command(CLI::App& app, int& exit_code);
+void add_tune_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
 void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
 void add_config_command(CLI::App& app, const std::filesystem::path& scenario_folder,
                         int& exit_code);

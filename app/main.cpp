@@ -27,6 +27,8 @@ constexpr const char* kFooter =
     "  aims detectors corridor corridor_smooth --seeds 1-5\n"
     "  aims ablate dial_d30 dial_n30 --seeds 1-3\n"
     "  aims consistency dial_z30 --seeds 1-50 --estimators aims_d,lio\n"
+    "  aims sweep --over degeneracy.eta=0:6:13 --scenarios corridor --seeds 1-5\n"
+    "  aims tune tuning/aims.yaml --out out/tune\n"
     "  aims simulate corridor -o walk.bag\n"
     "  aims estimate walk.bag --estimators aims,lio\n"
     "  aims info robot.bag\n"
@@ -54,6 +56,9 @@ int parse_and_run(int argc, char** argv) {
   aims::add_detectors_command(app, scenarios, exit_code);
   aims::add_ablate_command(app, scenarios, exit_code);
   aims::add_consistency_command(app, scenarios, exit_code);
+  aims::add_sweep_command(app, scenarios, exit_code);
+  aims::add_merge_command(app, exit_code);
+  aims::add_tune_command(app, scenarios, exit_code);
   aims::add_list_command(app, scenarios, exit_code);
   aims::add_config_command(app, scenarios, exit_code);
   try {

@@ -10,7 +10,6 @@
 #include "harness/seeds.hpp"
 
 namespace aims {
-namespace {
 
 std::string duration_text(double seconds) {
   const int whole = static_cast<int>(seconds + 0.5);
@@ -18,8 +17,6 @@ std::string duration_text(double seconds) {
   if (whole < 3600) return fmt::format("{} min", (whole + 59) / 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
-
-}  // namespace
 
 void add_suite_options(CLI::App& command, SuiteSelection& selection, CLI::Option* names) {
   command.add_option("--folder", selection.folder,

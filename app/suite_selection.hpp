@@ -35,6 +35,9 @@ Result<std::vector<ScenarioFile>> scenarios_of(const SuiteSelection& selection);
 /// Seeds, folder and jobs.
 Result<SuiteOptions> suite_options(const SuiteSelection& selection);
 
+/// "45 s", "12 min" or "3 h 05 min".
+std::string duration_text(double seconds);
+
 /// Shows how far a suite is: a line that changes on a terminal, a line per run elsewhere.
 class SuiteDisplay {
  public:

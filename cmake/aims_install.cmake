@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What is installed, in two components: `runtime` is the program with its scenarios, `dev` the
+# What is installed, in two components: `runtime` is the program with its scenarios and scripts, `dev` the
 # libraries that a program of somebody else needs to estimate, read bags and score: core, estimator,
 # eval and io. The simulation, the pictures and the harness stay inside the program.
 include(CMakePackageConfigHelpers)
@@ -10,6 +10,8 @@ set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/aims)
 install(TARGETS aims RUNTIME COMPONENT runtime)
 install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPONENT runtime
   FILES_MATCHING PATTERN "*.yaml")
+install(DIRECTORY scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPONENT runtime
+  USE_SOURCE_PERMISSIONS)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/aims RENAME copyright
   COMPONENT runtime)
 

@@ -5,14 +5,30 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <utility>
 
 namespace aims {
 
 std::optional<FolderLock> FolderLock::take(const std::filesystem::path& folder) {
-  const int descriptor = open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  return lock(folder / ".lock", LOCK_EX | LOCK_NB);
+}
+
+std::optional<FolderLock> FolderLock::share(const std::filesystem::path& folder) {
+  return lock(folder / ".lock", LOCK_SH | LOCK_NB);
+}
+
+std::optional<FolderLock> FolderLock::wait(const std::filesystem::path& folder,
+                                           const std::string& name) {
+  return lock(folder / name, LOCK_EX);
+}
+
+std::optional<FolderLock> FolderLock::lock(const std::filesystem::path& file, int operation) {
+  const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor < 0) return std::nullopt;
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return FolderLock(descriptor);
+  int outcome = flock(descriptor, operation);
+  while (outcome != 0 && errno == EINTR) outcome = flock(descriptor, operation);
+  if (outcome == 0) return FolderLock(descriptor);
   close(descriptor);
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace aims {
 
@@ -12,11 +13,18 @@ class FolderLock {
  public:
   /// The lock, or nothing when another process holds it or the folder cannot be written.
   static std::optional<FolderLock> take(const std::filesystem::path& folder);
+  /// As `take`, together with others who share the folder; nothing when somebody has it alone.
+  static std::optional<FolderLock> share(const std::filesystem::path& folder);
+  /// The lock by the file `name` in the folder, once nobody else holds it; nothing when it cannot
+  /// be written.
+  static std::optional<FolderLock> wait(const std::filesystem::path& folder,
+                                        const std::string& name);
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;
   ~FolderLock();
 
  private:
+  static std::optional<FolderLock> lock(const std::filesystem::path& file, int operation);
   explicit FolderLock(int descriptor) : descriptor_(descriptor) {}
 
   int descriptor_;

@@ -5,7 +5,6 @@
 #include "harness/stream.hpp"
 
 namespace aims {
-namespace {
 
 EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result,
                             const Scenario& scenario) {
@@ -24,8 +23,6 @@ EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result
   outcome.wall_s = timed.total_seconds();
   return outcome;
 }
-
-}  // namespace
 
 Result<RunResult> run(const Scenario& scenario, const RunOptions& options,
                       const Observer& observer) {

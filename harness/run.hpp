@@ -11,6 +11,7 @@
 #include "eval/scores.hpp"
 #include "harness/run_localizability.hpp"
 #include "harness/scenario.hpp"
+#include "harness/timed_estimator.hpp"
 #include "sim/environment/scene.hpp"
 #include "sim/simulation.hpp"
 #include "sim/truth.hpp"
@@ -57,6 +58,10 @@ struct RunResult {
   RunLocalizability localizability;  ///< what the sweeps allow to know
   std::vector<EstimatorOutcome> estimators;
 };
+
+/// What an estimator that has finished came to, by the truth and localizability of `result`.
+EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result,
+                            const Scenario& scenario);
 
 /// Simulates the scenario, feeds every estimator the same stream, and scores each against truth.
 /// Error when the scenario cannot be simulated (robot in a wall, no path).

@@ -101,15 +101,6 @@ Json localizability_json(const RunLocalizability& run) {
           {"bound_end_m", std::move(bound)}};
 }
 
-Json estimator_json(const EstimatorOutcome& outcome) {
-  Json json = scores_json(outcome.scores);
-  json["weak_axis"] = weak_axis_json(outcome.weak_axis);
-  json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
-  json["poses"] = outcome.scores.poses;
-  json["counts"] = outcome.report.counts;
-  return json;
-}
-
 Json times_json(const RunResult& result, double drawing_s) {
   Json times = {{"physics", result.simulation_times.physics},
                 {"lidar", result.simulation_times.lidar},
@@ -163,6 +154,15 @@ Json scores_json(const Scores& scores) {
   json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
   add_relative_errors(json, scores);
   json["drift_m"] = drift_json(scores.drift);
+  return json;
+}
+
+Json estimator_json(const EstimatorOutcome& outcome) {
+  Json json = scores_json(outcome.scores);
+  json["weak_axis"] = weak_axis_json(outcome.weak_axis);
+  json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
+  json["poses"] = outcome.scores.poses;
+  json["counts"] = outcome.report.counts;
   return json;
 }
 

@@ -29,6 +29,9 @@ struct RunRecord {
 /// What scores.json holds of any estimate.
 Json scores_json(const Scores& scores);
 
+/// What scores.json holds of one estimator of a run.
+Json estimator_json(const EstimatorOutcome& outcome);
+
 /// The segments with their true straight lengths, which are the same for every estimate.
 Json segments_json(const Scores& scores);
 

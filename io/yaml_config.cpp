@@ -249,11 +249,16 @@ Result<void> load_config_text(std::string_view text, const std::string& name,
 }
 
 Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings) {
-  const Fields fields = collect();
+  Fields fields = collect();
   for (const std::string& setting : settings) {
+    if (setting.starts_with('@')) {
+      if (auto loaded = load_config(setting.substr(1), collect); !loaded) return loaded;
+      fields = collect();
+      continue;
+    }
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
-      return failure(fmt::format("--set {}: expected key=value", setting));
+      return failure(fmt::format("--set {}: expected key=value or @FILE", setting));
     }
     const std::string_view whole = setting;
     const auto assigned = assign(fields, whole.substr(0, equals), whole.substr(equals + 1));

@@ -30,7 +30,8 @@ Result<void> load_config(const std::filesystem::path& file, const CollectFields&
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect);
 
-/// Applies settings "key=value" in order; errors name the offending `--set`.
+/// Applies settings in order: "key=value", or "@FILE" for a YAML file as of `load_config`. Errors
+/// name the offending `--set`, or the file.
 Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings);
 
 /// `load_config` into any configuration that has a `describe`.

@@ -2,6 +2,7 @@
 #include "io/atomic_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -37,6 +38,25 @@ TEST(AtomicFile, WritesBytesAndNothingAtAll) {
   EXPECT_EQ(read_file(file).value(), "");
 }
 
+TEST(AtomicFile, InPiecesAppearsOnCommitAlone) {
+  const TemporaryFolder directory;
+  const fs::path file = directory.path() / "f.txt";
+  {
+    auto dropped = AtomicFile::create(file);
+    ASSERT_TRUE(dropped);
+    ASSERT_TRUE(dropped->write(std::string_view("half")));
+    EXPECT_FALSE(fs::exists(file));
+  }
+  EXPECT_EQ(files_in(directory.path()), 0U);
+  auto kept = AtomicFile::create(file);
+  ASSERT_TRUE(kept);
+  ASSERT_TRUE(kept->write(std::string_view("one ")));
+  ASSERT_TRUE(kept->write(std::string_view("two")));
+  ASSERT_TRUE(kept->commit());
+  EXPECT_EQ(read_file(file).value(), "one two");
+  EXPECT_EQ(files_in(directory.path()), 1U);
+}
+
 TEST(AtomicFile, ErrorsNameTheFileAndTheReason) {
   const TemporaryFolder directory;
   const fs::path orphan = directory.path() / "gone" / "f.txt";
@@ -57,7 +77,10 @@ TEST(AtomicFile, AFullDiskIsAnErrorAndKeepsTheOldContent) {
   const TemporaryFolder directory;
   const fs::path file = directory.path() / "f.txt";
   ASSERT_TRUE(write_file_atomically(file, "old"));
-  const fs::path temporary = file.string() + "." + std::to_string(::getpid()) + ".tmp";
+  std::array<char, 256> host{};
+  ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
+  const fs::path temporary =
+      file.string() + "." + host.data() + "." + std::to_string(::getpid()) + ".tmp";
   fs::create_symlink("/dev/full", temporary);
   const auto written = write_file_atomically(file, "new");
   ASSERT_FALSE(written);

@@ -229,6 +229,24 @@ TEST(Overrides, SetValuesInOrder) {
   EXPECT_EQ(c.name, "");
 }
 
+TEST(Overrides, FilesGoOnTopInOrder) {
+  const TemporaryFolder directory;
+  const auto file = write(directory.path() / "tuned.yaml",
+                          "inner: {eta: 4}\npoints:\n  - {name: x}\n  - {name: y}\n");
+  Sample c;
+  const std::vector<std::string> settings = {"inner.eta=1", "@" + file.string(), "inner.count=7",
+                                             "points.1.name=z"};
+  const auto applied = apply_overrides(c, settings);
+  ASSERT_TRUE(applied) << applied.error().message;
+  EXPECT_EQ(c.inner.eta, 4.0);
+  EXPECT_EQ(c.inner.count, 7);
+  ASSERT_EQ(c.points.size(), 2U);
+  EXPECT_EQ(c.points[1].name, "z");
+  const auto missing = apply_overrides(c, std::vector<std::string>{"@gone.yaml"});
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("gone.yaml"), std::string::npos);
+}
+
 TEST(Overrides, ErrorsSayThatTheyCameFromSet) {
   Sample c;
   const auto message = [&c](const std::string& setting) {
@@ -237,7 +255,7 @@ TEST(Overrides, ErrorsSayThatTheyCameFromSet) {
   EXPECT_EQ(message("inner.eat=1"),
             "--set inner.eat=1: unknown key 'inner.eat'; did you mean 'inner.eta'?");
   EXPECT_EQ(message("inner.eta=x"), "--set inner.eta=x: inner.eta: 'x' is not a number >= 0");
-  EXPECT_EQ(message("inner.eta"), "--set inner.eta: expected key=value");
+  EXPECT_EQ(message("inner.eta"), "--set inner.eta: expected key=value or @FILE");
   EXPECT_EQ(message("inner=1"),
             "--set inner=1: inner: a group of settings; expected one of its keys");
 }

@@ -40,6 +40,8 @@ const std::vector<Confinement> kConfined = {
     {"GL/", {"render"}, false},
     {"cairo", {"render"}, false},
     {"yaml-cpp/", {"io"}, false},
+    {"SQLiteCpp/", {"harness"}, false},
+    {"pagmo/", {"harness"}, false},
     {"CLI/", {"app", "ros"}, true},
     {"ros/ros.h", {"ros"}, false},
 };

@@ -29,7 +29,7 @@ contents() {
   done
 }
 contents "$program" bin/aims share/aims/scenarios/corridor.yaml \
-  share/aims/scenarios/stress/ramp_06.yaml share/doc/aims/copyright
+  share/aims/scenarios/stress/ramp_06.yaml share/aims/slurm/submit.sh share/doc/aims/copyright
 grep -qE '\.hpp$|\.a$|\.cmake$' "$work/contents" && fail "what others build with is in $program"
 contents "$libraries" include/aims/core/lie.hpp include/aims/estimator/registry.hpp \
   include/aims/eval/scores.hpp include/aims/io/recording/recording_reader.hpp \

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "harness/sweep/objective.hpp"
+#include "harness/sweep/sweep_store.hpp"
+
+namespace aims {
+
+/// The points of one estimator of a sweep, in one score.
+struct SweepResponse {
+  std::string estimator;  ///< with the settings that are not varied
+  ResponseTable table;
+  std::size_t incomplete = 0;  ///< points left out since not all of their walks are done
+};
+
+/// The units of a sweep as tables, one per estimator: the ranges are those of the plans, a point
+/// counts once all its walks are done. Without runs of the untuned estimator the tables have no
+/// `default_runs`. Error when no plan varies anything or a plan cannot be read.
+Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
+                                                   const std::string& score);
+
+/// Writes sweep.md with the best points, what matters, and pictures beside it (in a folder per
+/// estimator where there are several), so far as units are done. Where untuned runs are missing, a
+/// relative objective becomes one of plain scores. What cannot be drawn is named in `warnings`.
+Result<void> write_sweep_report(const MergedSweep& sweep, Objective objective,
+                                const std::filesystem::path& folder,
+                                std::vector<std::string>& warnings);
+
+}  // namespace aims

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "harness/sweep/walk_cache.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+#include <vector>
+
+#include "harness/code_version.hpp"
+#include "harness/folder_lock.hpp"
+#include "harness/stream.hpp"
+#include "harness/sweep/walk_file.hpp"
+#include "harness/unit_id.hpp"
+#include "sim/simulation.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the walk is of: the simulation's configuration alone.
+std::string simulation_text(const Scenario& scenario) {
+  Scenario bare;
+  bare.simulation = scenario.simulation;
+  return config_text(bare);
+}
+
+Result<WalkMade> simulate(const Scenario& scenario, std::uint64_t seed, const fs::path& file) {
+  auto simulation = Simulation::create(scenario.simulation, seed);
+  if (!simulation) return WalkMade{false, located(scenario, simulation.error()).message};
+  const std::string origin =
+      fmt::format("# simulator {}, scenario {}, seed {}\n{}", simulator_version(), scenario.name,
+                  seed, simulation_text(scenario));
+  auto writer = WalkWriter::create(file, simulation->rig(), origin);
+  if (!writer) return tl::unexpected(writer.error());
+  std::vector<Delivery> deliveries;
+  for (bool walking = true; walking;) {
+    deliveries.clear();
+    walking = simulation->advance(kStreamBatch, deliveries);
+    if (auto written = writer->write(deliveries); !written) return tl::unexpected(written.error());
+  }
+  if (auto done = writer->finish(simulation->truth()); !done) return tl::unexpected(done.error());
+  return WalkMade{true, std::nullopt};
+}
+
+/// Removes what processes that were killed while they made `file` have left: gigabytes. Whoever
+/// holds the walk's lock may.
+void clear_remains(const fs::path& file) {
+  const std::string start = file.filename().string() + ".";
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(file.parent_path(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(start) && name.ends_with(".tmp")) fs::remove(entry.path(), ignored);
+  }
+}
+
+}  // namespace
+
+fs::path WalkCache::default_folder() {
+  const auto folder_in = [](const char* variable) -> fs::path {
+    const char* value = std::getenv(variable);
+    return value == nullptr ? "" : value;
+  };
+  const fs::path cache = folder_in("XDG_CACHE_HOME");
+  if (cache.is_absolute()) return cache / "aims" / "walks";
+  const fs::path home = folder_in("HOME");
+  if (home.is_absolute()) return home / ".cache" / "aims" / "walks";
+  return fs::temp_directory_path() / "aims" / "walks";
+}
+
+std::string WalkCache::id_of(const Scenario& scenario, std::uint64_t seed) {
+  return text_hash(fmt::format("{}\n{}\n{}", simulator_version(), seed, simulation_text(scenario)));
+}
+
+bool WalkCache::has(const std::string& id) const {
+  std::error_code ignored;
+  return fs::exists(file_of(id), ignored);
+}
+
+Result<WalkMade> WalkCache::make(const Scenario& scenario, std::uint64_t seed) const {
+  const std::string id = id_of(scenario, seed);
+  if (has(id)) return WalkMade{};
+  std::error_code code;
+  fs::create_directories(folder_, code);
+  if (code) return failure(fmt::format("{}: {}", folder_.string(), code.message()));
+  const auto lock = FolderLock::wait(folder_, id + ".lock");
+  if (!lock) {
+    return failure(fmt::format("{}: cannot be locked: {}", file_of(id).string(),
+                               std::system_category().message(errno)));
+  }
+  if (has(id)) return WalkMade{};
+  clear_remains(file_of(id));
+  auto made = simulate(scenario, seed, file_of(id));
+  fs::remove(folder_ / (id + ".lock"), code);
+  return made;
+}
+
+}  // namespace aims
