@@ -15,7 +15,6 @@
 #include "harness/folder_lock.hpp"
 #include "harness/sweep/tune.hpp"
 #include "harness/sweep/tune_report.hpp"
-#include "io/atomic_file.hpp"
 
 namespace aims {
 namespace {
@@ -48,7 +47,7 @@ Result<FolderLock> claim(const fs::path& out, const TunePlan& plan) {
     return failure(
         fmt::format("{}: another tuning works there, or it cannot be written", out.string()));
   }
-  auto written = write_file_atomically(out / "tune.yaml", plan_text(plan));
+  auto written = write_plan(plan, out / "tune.yaml");
   if (!written) return tl::unexpected(written.error());
   return std::move(*lock);
 }
@@ -95,7 +94,7 @@ int finish(const TuneArguments& arguments, const TuneResult& result) {
   fmt::print("results: {}\n", (out / "tune.md").string());
   if (!result.complete) return kInterrupted;
   if (arguments.apply.empty()) return kOk;
-  if (auto written = write_file_atomically(arguments.apply, overlay_text(result)); !written) {
+  if (auto written = write_overlay(result, arguments.apply); !written) {
     return bad_input("tune", written.error());
   }
   fmt::print("values: {0}; to use them: --set @{0}\n", arguments.apply);

@@ -8,6 +8,7 @@
 
 #include "harness/seeds.hpp"
 #include "harness/sweep/sweep_plan.hpp"
+#include "io/atomic_file.hpp"
 #include "io/config_dump.hpp"
 #include "io/yaml_config.hpp"
 
@@ -155,6 +156,10 @@ Result<TunePlan> load_tune_plan(const fs::path& file) {
 std::string plan_text(const TunePlan& plan) {
   TunePlan copy = plan;
   return dump_config(fields_of(copy));
+}
+
+Result<void> write_plan(const TunePlan& plan, const fs::path& file) {
+  return write_file_atomically(file, plan_text(plan));
 }
 
 Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {

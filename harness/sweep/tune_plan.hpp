@@ -48,6 +48,9 @@ Result<TunePlan> load_tune_plan(const std::filesystem::path& file);
 /// The plan as YAML that loads again.
 std::string plan_text(const TunePlan& plan);
 
+/// Writes `plan_text` to a file, whole or not at all.
+Result<void> write_plan(const TunePlan& plan, const std::filesystem::path& file);
+
 /// A scenario's walk on one seed.
 struct Walk {
   std::shared_ptr<const Scenario> scenario;

@@ -274,7 +274,11 @@ Result<void> write_tuning(const TuneResult& result, const std::filesystem::path&
   if (!written) return written;
   written = write_file_atomically(folder / "tune.csv", csv_of(result).text());
   if (!written || result.chosen.empty() || result.tables.size() != 1) return written;
-  return write_file_atomically(folder / "tuned.yaml", overlay_text(result));
+  return write_overlay(result, folder / "tuned.yaml");
+}
+
+Result<void> write_overlay(const TuneResult& result, const std::filesystem::path& file) {
+  return write_file_atomically(file, overlay_text(result));
 }
 
 }  // namespace aims

@@ -17,6 +17,9 @@ namespace aims {
 /// Expects one objective and a chosen point.
 std::string overlay_text(const TuneResult& result);
 
+/// Writes `overlay_text` to a file, whole or not at all.
+Result<void> write_overlay(const TuneResult& result, const std::filesystem::path& file);
+
 /// A row per part of the walks: objective of the defaults, of the chosen point, and what is gained.
 TextTable outcome_table(const TuneResult& result);
 
