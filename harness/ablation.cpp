@@ -61,9 +61,7 @@ std::string changes_of(const Suite& suite, const std::string& label) {
     for (const std::string& text : each.scenario.estimators) {
       const auto spec = parse_estimator_spec(text);
       if (!spec || spec->label != label) continue;
-      std::string changes = spec->name;
-      for (const auto& [key, value] : spec->settings) changes += fmt::format("+{}={}", key, value);
-      return changes;
+      return unlabelled_text(*spec);
     }
   }
   return label;

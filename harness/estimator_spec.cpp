@@ -105,7 +105,11 @@ Result<EstimatorSpec> parse_estimator_spec(std::string_view text) {
 }
 
 std::string text_of(const EstimatorSpec& spec) {
-  std::string text = spec.label == spec.name ? spec.name : spec.label + "=" + spec.name;
+  return spec.label == spec.name ? unlabelled_text(spec) : spec.label + "=" + unlabelled_text(spec);
+}
+
+std::string unlabelled_text(const EstimatorSpec& spec) {
+  std::string text = spec.name;
   for (const auto& [key, value] : spec.settings) text += fmt::format("+{}={}", key, value);
   return text;
 }

@@ -29,6 +29,9 @@ Result<EstimatorSpec> parse_estimator_spec(std::string_view text);
 /// The text that `parse_estimator_spec` reads.
 std::string text_of(const EstimatorSpec& spec);
 
+/// The same without the label, `NAME+key=value`: what runs, whatever it is called.
+std::string unlabelled_text(const EstimatorSpec& spec);
+
 /// `base` with the settings of the spec on top. Error for an unknown key or value.
 Result<EstimatorConfig> config_with(const EstimatorSpec& spec, const EstimatorConfig& base);
 

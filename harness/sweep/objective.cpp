@@ -74,6 +74,11 @@ std::string text_of(const Objective& objective) {
                      objective.lost_penalty);
 }
 
+RunScore run_score(const UnitResult& unit, const std::string& score) {
+  return {score_in(unit, score),
+          unit.outcome != UnitOutcome::kDone || score_in(unit, "success") == 0.0};
+}
+
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
                                       std::span<const RunScore> reference) {
   std::vector<double> values;

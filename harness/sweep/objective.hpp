@@ -11,6 +11,7 @@
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "harness/sweep/design.hpp"
+#include "harness/sweep/sweep_unit.hpp"
 
 namespace aims {
 
@@ -36,6 +37,9 @@ struct RunScore {
   std::optional<double> value;  ///< none: the run has no such score
   bool lost = false;            ///< no success, or the run failed
 };
+
+/// That of a unit's result by the score's key. A unit that was not done is a lost run.
+RunScore run_score(const UnitResult& unit, const std::string& score);
 
 /// The statistic over the runs, plus the penalty times the share of lost runs. A lost run counts as
 /// the penalty in the statistic, or as its score where that is more. Where the objective is

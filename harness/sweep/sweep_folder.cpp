@@ -26,12 +26,8 @@ std::string plan_file_text(const SweepPlan& plan) {
 std::string unit_list(std::span<const SweepUnit> units) {
   CsvTable table({"id", "scenario", "seed", "estimator"});
   for (const SweepUnit& unit : units) {
-    std::string estimator = unit.estimator.name;
-    for (const auto& [key, value] : unit.estimator.settings) {
-      estimator += fmt::format("+{}={}", key, value);
-    }
     table.add(unit.id).add(unit.scenario->name).add(static_cast<std::int64_t>(unit.seed));
-    table.add(estimator).end_row();
+    table.add(unlabelled_text(unit.estimator)).end_row();
   }
   return table.text();
 }

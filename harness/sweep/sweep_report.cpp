@@ -98,8 +98,7 @@ std::optional<Placed> placed(const MergedUnit& unit, const Varied& varied,
                unit.file.value("seed", std::uint64_t{0})};
   const auto done = result_in(unit.file);
   if (!done) return std::nullopt;
-  result.score.value = score_in(*done, score);
-  result.score.lost = done->outcome != UnitOutcome::kDone || score_in(*done, "success") == 0.0;
+  result.score = run_score(*done, score);
   return result;
 }
 

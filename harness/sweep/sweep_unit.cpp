@@ -24,11 +24,8 @@ SweepUnit make_unit(std::shared_ptr<const Scenario> scenario, std::uint64_t seed
 }
 
 std::string text_of(const SweepUnit& unit) {
-  std::string text =
-      fmt::format("{} seed {} {}", unit.scenario->name, unit.seed, unit.estimator.name);
-  for (const auto& [key, value] : unit.estimator.settings)
-    text += fmt::format("+{}={}", key, value);
-  return text;
+  return fmt::format("{} seed {} {}", unit.scenario->name, unit.seed,
+                     unlabelled_text(unit.estimator));
 }
 
 std::string_view name_of(UnitOutcome outcome) {

@@ -133,14 +133,6 @@ class Tuning {
   TuneResult result_;
 };
 
-RunScore score_of(const std::optional<UnitResult>& unit, const std::string& score) {
-  RunScore run;
-  if (!unit) return run;
-  run.value = score_in(*unit, score);
-  run.lost = unit->outcome != UnitOutcome::kDone || score_in(*unit, "success") == 0.0;
-  return run;
-}
-
 /// By walk first, so that neighbours share an open walk.
 std::vector<SweepUnit> units_of(std::span<const EstimatorSpec> estimators,
                                 std::span<const Walk> walks) {
@@ -171,7 +163,9 @@ RunOnWalks run_by_units(UnitRunner& runner, const UnitObserver& observer,
     for (std::size_t i = 0; i < units.size(); ++i) {
       const auto result = runner.folder().find(units[i].id);
       auto& of_unit = scores[i % estimators.size()][i / estimators.size()];
-      for (const Objective& each : objectives) of_unit.push_back(score_of(result, each.score));
+      for (const Objective& each : objectives) {
+        of_unit.push_back(result ? run_score(*result, each.score) : RunScore{});
+      }
     }
     return scores;
   };
