@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** What a page is handed, `aims.page/1`, after payload.ts has turned references into arrays. */
+
+/** A number that may have no value; NaN plays this part inside arrays. */
+export type Maybe = number | null;
+export type Numbers = Float32Array;
+export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+
+export interface PagePayload {
+  schema: string;
+  kind: string;
+  title: string;
+  version?: string;
+}
+
+export interface ConfigChange {
+  key: string;
+  value: Json;
+  default: Json;
+  unit?: string | null;
+}
+
+export interface Scene {
+  /** Height of the floor [m]. */
+  floor: Maybe;
+  /** Pairs of points, xyz each, world [m]. */
+  edges: Numbers | null;
+  /** Corners of triangles, xyz each, world [m]. */
+  triangles: Numbers | null;
+  /** Least and greatest corner, xyz each, world [m]. */
+  bounds?: number[] | { min: number[]; max: number[] } | null;
+}
+
+export interface Passage {
+  name: string;
+  t: Maybe;
+  x: Maybe;
+  y: Maybe;
+  z: Maybe;
+}
+
+export interface Poses {
+  /** Stamps [s]. */
+  t: Numbers;
+  /** Positions, xyz each, world [m]. */
+  p: Numbers;
+  /** Unit quaternions, xyzw each, body to world. */
+  q: Numbers | null;
+}
+
+/** First and last stamp [s]. */
+export type Stretch = [number, number];
+
+export interface Localizability {
+  t: Numbers;
+  equivalent_returns: Numbers | null;
+  lambda_min: Numbers | null;
+  crb_sigma: Numbers | null;
+  /** Unit vectors, xyz each, world; the sign means nothing. */
+  weak_axis: Numbers | null;
+  bound_along: Numbers | null;
+  bound_lateral: Numbers | null;
+  bound_vertical: Numbers | null;
+  degenerate: { n10?: Stretch[] | null; n100?: Stretch[] | null; n1000?: Stretch[] | null };
+}
+
+export interface Legs {
+  t: Numbers;
+  /** Share of the samples that were lost, in [0, 1]. */
+  loss: Numbers | null;
+  /** True speed of the stance foot that slips most [m/s]. */
+  slip: Numbers | null;
+}
+
+/** Columns of one estimator; all as long as `t`, but `p` (3), `q` (4), `position_covariance` (6). */
+export interface EstimatorSeries {
+  t: Numbers;
+  p: Numbers | null;
+  q: Numbers | null;
+  /** Upper triangle xx xy xz yy yz zz, body axes [m^2]. */
+  position_covariance?: Numbers | null;
+  [column: string]: Numbers | null | undefined;
+}
+
+export interface CloudMap {
+  n: number;
+  min: number[];
+  max: number[];
+  /** xyz, each spread over [min, max] by 0..65535. */
+  p: Uint16Array;
+  /** Distance to the true surface, 0..255 for 0..0.5 m. */
+  error: Uint8Array | null;
+}
+
+export interface Estimator {
+  name: string;
+  lost_at: Maybe;
+  colour_index: number;
+  series: EstimatorSeries | null;
+  map: CloudMap | null;
+}
+
+export interface Picture {
+  name: string;
+  title: string;
+  /** base64 of a PNG. */
+  png: string;
+}
+
+export interface RunPayload extends PagePayload {
+  kind: "run";
+  scenario: {
+    name: string;
+    description?: string | null;
+    seed: Maybe;
+    simulated_s: Maybe;
+    complete: boolean | null;
+    robot?: { fell?: boolean | null; touched_wall?: boolean | null } | null;
+  };
+  command?: string | null;
+  config_yaml?: string | null;
+  config_changes?: ConfigChange[] | null;
+  /** scores.json as it was written. */
+  scores: Json;
+  scene: Scene | null;
+  passages: Passage[] | null;
+  truth: Poses | null;
+  localizability: Localizability | null;
+  legs: Legs | null;
+  estimators: Estimator[];
+  pictures: Picture[] | null;
+}

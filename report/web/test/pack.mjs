@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packs a payload as the C++ side does: typed arrays become references into a blob.
+import { deflateSync } from "node:zlib";
+
+const kKinds = new Map([[Float32Array, "f32"], [Uint16Array, "u16"], [Uint8Array, "u8"]]);
+
+/** base64 of the payload of `aims.page/1`; Float32Array, Uint16Array and Uint8Array go into the blob. */
+export function pack(payload) {
+  const parts = [];
+  let size = 0;
+  const json = JSON.stringify(payload, (_key, value) => {
+    const kind = ArrayBuffer.isView(value) ? kKinds.get(value.constructor) : undefined;
+    if (!kind) return typeof value === "number" && !Number.isFinite(value) ? null : value;
+    const bytes = Buffer.from(value.buffer, value.byteOffset, value.byteLength);
+    const at = size;
+    const padding = (8 - (bytes.length % 8)) % 8;
+    parts.push(bytes, Buffer.alloc(padding));
+    size += bytes.length + padding;
+    return { $: kind, at, n: value.length };
+  });
+  const text = Buffer.from(json, "utf8");
+  const head = Buffer.alloc(4);
+  head.writeUInt32LE(text.length);
+  const padding = Buffer.alloc((8 - ((4 + text.length) % 8)) % 8);
+  return deflateSync(Buffer.concat([head, text, padding, ...parts])).toString("base64");
+}
+
+function escapeHtml(text) {
+  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+}
+
+/** The page: the built template with its two marks replaced. */
+export function fillTemplate(template, payload) {
+  return template
+    .replace("__AIMS_TITLE__", () => escapeHtml(payload.title))
+    .replace("__AIMS_DATA__", () => pack(payload));
+}
