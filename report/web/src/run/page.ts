@@ -1,8 +1,102 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/** The page of one run. */
+import "./run.css";
 import type { RunPayload } from "../contract";
 import { h } from "../dom";
-import { themeButton } from "../theme";
+import { formatFixed, isNumber } from "../format";
+import { onTheme, seriesColor, themeButton } from "../theme";
+import { configSection } from "./config";
+import { picturesSection } from "./pictures";
+import { resultsSection } from "./results";
+import { cursorTimes, timeSpan } from "./series";
+import { Store } from "./store";
+import { timeline } from "./timeline";
+import { viewCard } from "./view";
+
+function badge(text: string, kind: "good" | "bad" | "plain"): HTMLElement {
+  return h("span", { class: `badge ${kind}` }, text);
+}
+
+function header(data: RunPayload): HTMLElement {
+  const scenario = data.scenario;
+  const robot = scenario.robot;
+  const badges = [
+    isNumber(scenario.seed) ? badge(`seed ${scenario.seed}`, "plain") : null,
+    isNumber(scenario.simulated_s) ? badge(`${formatFixed(scenario.simulated_s, 1)} s`, "plain") : null,
+    scenario.complete === false ? badge("interrupted", "bad") : null,
+    robot?.fell ? badge("the robot fell", "bad") : null,
+    robot?.touched_wall ? badge("touched a wall", "bad") : null,
+    data.version ? badge(`aims ${data.version}`, "plain") : null,
+  ];
+  return h("header", { class: "page-head" }, h("h1", {}, data.title || scenario.name),
+    h("span", { class: "badges" }, ...badges), themeButton(),
+    scenario.description ? h("p", { class: "soft description" }, scenario.description) : null);
+}
+
+/** Radio buttons, so that arrow keys switch between estimators as the platform does. */
+function chooser(data: RunPayload, store: Store): HTMLElement | null {
+  if (data.estimators.length === 0) return null;
+  const swatches: [HTMLElement, number][] = [];
+  const items = data.estimators.map((item, index) => {
+    const swatch = h("i", { class: "swatch" });
+    swatches.push([swatch, item.colour_index]);
+    return h("label", { class: "chip" },
+      h("input", { type: "radio", name: "estimator", value: index, checked: index === store.state.chosen, "data-estimator": item.name,
+        onchange: () => store.set({ chosen: index }) }),
+      swatch, item.name, isNumber(item.lost_at) ? h("span", { class: "lost" }, ` lost at ${formatFixed(item.lost_at, 0)} s`) : null);
+  });
+  const paint = () => { for (const [swatch, index] of swatches) swatch.style.background = seriesColor(index); };
+  paint();
+  onTheme(paint);
+  return h("fieldset", { class: "chooser" }, h("legend", {}, "Estimator"), ...items);
+}
+
+const kKeys: Record<string, (store: Store, large: boolean) => void> = {
+  ArrowLeft: (store, large) => store.step(large ? -10 : -1),
+  ArrowRight: (store, large) => store.step(large ? 10 : 1),
+  PageUp: (store) => store.step(100),
+  PageDown: (store) => store.step(-100),
+  Home: (store) => store.moveTo(store.span[0]),
+  End: (store) => store.moveTo(store.span[1]),
+  "+": (store) => store.zoomBy(0.5, store.state.cursor),
+  "=": (store) => store.zoomBy(0.5, store.state.cursor),
+  "-": (store) => store.zoomBy(2, store.state.cursor),
+  "0": (store) => store.zoomAll(),
+};
+/** Keys that scroll the page unless the timeline has the focus. */
+const kScrolling = new Set(["PageUp", "PageDown", "Home", "End"]);
+
+function keyboard(store: Store): void {
+  document.addEventListener("keydown", (event) => {
+    const target = event.target as Element;
+    if (event.ctrlKey || event.altKey || event.metaKey || target.closest("input, select, textarea, .table-frame, pre")) return;
+    const act = kKeys[event.key];
+    if (!act || (kScrolling.has(event.key) && !target.closest(".strips"))) return;
+    event.preventDefault();
+    act(store, event.shiftKey);
+  });
+}
+
+/** The chosen one at first: the first that was not lost, else the first. */
+function firstChoice(data: RunPayload): number {
+  const whole = data.estimators.findIndex((item) => !isNumber(item.lost_at));
+  return whole >= 0 ? whole : data.estimators.length - 1 < 0 ? -1 : 0;
+}
 
 export function renderRun(root: HTMLElement, data: RunPayload): void {
-  root.append(h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()));
+  data.estimators ??= [];
+  const times = cursorTimes(data);
+  const span = timeSpan(data);
+  const store = new Store({ cursor: times[Math.floor(times.length / 2)] ?? span[0], from: span[0], to: span[1],
+    chosen: firstChoice(data), level: "n100", coloring: "height", errorScale: "chosen" }, times, span);
+  const view = viewCard(data, store);
+  const strips = timeline(data, store);
+  const results = h("div", {}, resultsSection(data));
+  onTheme(() => results.replaceChildren(resultsSection(data)));
+  const pictures = picturesSection(data);
+  root.append(header(data), h("div", { class: "explore" }, h("div", { class: "left" }, chooser(data, store) ?? "", view.element), strips.element),
+    results, configSection(data), ...(pictures ? [pictures] : []));
+  keyboard(store);
+  view.start();
+  strips.start();
 }

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** Things of the 3D view: scene, cloud, ways, robot, axis, ellipsoid. World axes, z up, metres. */
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, EdgesGeometry, Group, Line,
+  LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Points, PointsMaterial, Quaternion, SphereGeometry,
+  Sprite, SpriteMaterial, Vector3, type ColorRepresentation,
+} from "three";
+import type { CloudMap, Numbers, Scene } from "../contract";
+import { ramp, rampTable } from "./ramps";
+
+export type Bounds = { min: Vector3; max: Vector3 };
+
+/** Takes the finite points of a list of xyz into the bounds. */
+export function extend(bounds: Bounds, list: Numbers | null | undefined): void {
+  const point = new Vector3();
+  for (let i = 0; list && i + 2 < list.length; i += 3) {
+    point.set(list[i]!, list[i + 1]!, list[i + 2]!);
+    if (!Number.isFinite(point.x + point.y + point.z)) continue;
+    bounds.min.min(point);
+    bounds.max.max(point);
+  }
+}
+
+function geometry(list: Float32Array): BufferGeometry {
+  return new BufferGeometry().setAttribute("position", new BufferAttribute(list, 3));
+}
+
+/** Faint wire and fainter surfaces of the scene. */
+export function sceneParts(scene: Scene, wire: ColorRepresentation): Group {
+  const group = new Group();
+  if (scene.triangles?.length) {
+    const material = new MeshBasicMaterial({ color: wire, transparent: true, opacity: 0.05, side: DoubleSide, depthWrite: false });
+    group.add(new Mesh(geometry(scene.triangles), material));
+  }
+  if (scene.edges?.length) {
+    group.add(new LineSegments(geometry(scene.edges), new LineBasicMaterial({ color: wire, transparent: true, opacity: 0.5 })));
+  }
+  return group;
+}
+
+/** Heights between which the colours of a map run: without the lowest and highest two percent [m]. */
+export function heightRange(map: CloudMap): [number, number] {
+  const heights = new Uint16Array(map.n);
+  for (let i = 0; i < map.n; ++i) heights[i] = map.p[3 * i + 2]!;
+  heights.sort();
+  const low = map.min[2] ?? 0;
+  const scale = ((map.max[2] ?? 0) - low) / 65535;
+  const pick = (share: number) => low + scale * (heights[Math.min(map.n - 1, Math.floor(share * map.n))] ?? 0);
+  return [pick(0.02), pick(0.98)];
+}
+
+/** Positions of a map [m]. */
+export function mapPositions(map: CloudMap): Float32Array {
+  const out = new Float32Array(3 * map.n);
+  for (let i = 0; i < out.length; ++i) {
+    const low = map.min[i % 3] ?? 0;
+    out[i] = low + (((map.max[i % 3] ?? 0) - low) * map.p[i]!) / 65535;
+  }
+  return out;
+}
+
+/** Points of a map coloured by height or by error. */
+export function cloud(map: CloudMap, coloring: "height" | "error", dark: boolean): Points {
+  const positions = mapPositions(map);
+  const table = rampTable(ramp(coloring, dark));
+  const [low, high] = heightRange(map);
+  const colors = new Uint8Array(3 * map.n);
+  for (let i = 0; i < map.n; ++i) {
+    const share = coloring === "error" ? (map.error?.[i] ?? 0) / 255 : (positions[3 * i + 2]! - low) / (high - low || 1);
+    const index = 3 * Math.round(255 * Math.min(Math.max(share, 0), 1));
+    colors.set(table.subarray(index, index + 3), 3 * i);
+  }
+  const points = geometry(positions).setAttribute("color", new BufferAttribute(colors, 3, true));
+  return new Points(points, new PointsMaterial({ size: 1.6, sizeAttenuation: false, vertexColors: true }));
+}
+
+/** A trajectory as a line; it breaks where a pose has no value. */
+export function way(positions: Numbers, ink: ColorRepresentation, opacity: number): LineSegments {
+  const pairs: number[] = [];
+  for (let i = 3; i + 2 < positions.length; i += 3) {
+    const pair = Array.from(positions.subarray(i - 3, i + 3));
+    if (pair.every(Number.isFinite)) pairs.push(...pair);
+  }
+  const material = new LineBasicMaterial({ color: ink, transparent: opacity < 1, opacity });
+  const line = new LineSegments(geometry(new Float32Array(pairs)), material);
+  line.renderOrder = 2;
+  return line;
+}
+
+/** Ring that keeps its size on the screen, so that a robot of half a metre is found in a hundred. */
+function marker(ink: string): Sprite {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext("2d")!;
+  context.strokeStyle = ink;
+  context.lineWidth = 7;
+  context.beginPath();
+  context.arc(32, 32, 26, 0, 2 * Math.PI);
+  context.stroke();
+  const sprite = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), sizeAttenuation: false, depthTest: false }));
+  sprite.renderOrder = 5;
+  return sprite;
+}
+
+/** Trunk with legs, body axes: the body's origin is at the rear of the trunk. */
+export function robot(ink: string): { group: Group; ring: Sprite } {
+  const group = new Group();
+  const faces = new MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.35, depthTest: false });
+  const edges = new LineBasicMaterial({ color: ink, depthTest: false });
+  const box = (length: number, width: number, height: number, x: number, y: number, z: number) => {
+    const shape = new BoxGeometry(length, width, height).translate(x, y, z);
+    const solid = new Mesh(shape, faces);
+    const outline = new LineSegments(new EdgesGeometry(shape), edges);
+    solid.renderOrder = 3;
+    outline.renderOrder = 4;
+    group.add(solid, outline);
+  };
+  box(0.55, 0.24, 0.12, 0.18, 0, -0.04);
+  box(0.12, 0.12, 0.1, 0.5, 0, 0);
+  for (const [x, y] of [[0, 1], [0, -1], [0.36, 1], [0.36, -1]] as const) box(0.05, 0.05, 0.3, x, 0.13 * y, -0.22);
+  const ring = marker(ink);
+  group.add(ring);
+  return { group, ring };
+}
+
+/** Line of two metres to either side of the origin, along x. */
+export function axisLine(ink: ColorRepresentation): Line {
+  const line = new Line(geometry(new Float32Array([-1, 0, 0, 1, 0, 0])), new LineBasicMaterial({ color: ink, depthTest: false }));
+  line.renderOrder = 6;
+  return line;
+}
+
+/** Unit sphere that `shapeEllipsoid` turns into an ellipsoid. */
+export function ellipsoid(ink: ColorRepresentation): Group {
+  const group = new Group();
+  const shape = new SphereGeometry(1, 24, 16);
+  const solid = new Mesh(shape, new MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.22, depthWrite: false, depthTest: false }));
+  const net = new LineSegments(new EdgesGeometry(new SphereGeometry(1, 12, 8), 1),
+    new LineBasicMaterial({ color: ink, transparent: true, opacity: 0.6, depthTest: false }));
+  solid.renderOrder = 3;
+  net.renderOrder = 4;
+  group.add(solid, net);
+  group.matrixAutoUpdate = false;
+  return group;
+}
+
+/**
+ * Matrix of the ellipsoid x' C^-1 x = scale^2 of a covariance in body axes (xx xy xz yy yz zz):
+ * R L with C = L L', so that no eigenvectors are needed. Null if C is not a covariance.
+ */
+export function ellipsoidMatrix(c: ArrayLike<number>, scale: number, at: Vector3, turn: Quaternion): Matrix4 | null {
+  const [xx, xy, xz, yy, yz, zz] = Array.from(c) as [number, number, number, number, number, number];
+  const floor = 1e-12;
+  if (![xx, xy, xz, yy, yz, zz].every(Number.isFinite) || xx < 0 || yy < 0 || zz < 0) return null;
+  const a = Math.sqrt(Math.max(xx, floor));
+  const b = xy / a, d = xz / a;
+  const e = Math.sqrt(Math.max(yy - b * b, floor));
+  const f = (yz - b * d) / e;
+  const g = Math.sqrt(Math.max(zz - d * d - f * f, floor));
+  const root = new Matrix4().set(a, 0, 0, 0, b, e, 0, 0, d, f, g, 0, 0, 0, 0, 1);
+  return new Matrix4().compose(at, turn, new Vector3(scale, scale, scale)).multiply(root);
+}
