@@ -21,14 +21,14 @@ export interface ConfigChange {
 }
 
 export interface Scene {
-  /** Height of the floor [m]. */
-  floor: Maybe;
+  /** Corners of the floor, xy each [m]. */
+  floor?: { min: number[]; max: number[]; flat?: boolean } | null;
   /** Pairs of points, xyz each, world [m]. */
   edges: Numbers | null;
   /** Corners of triangles, xyz each, world [m]. */
   triangles: Numbers | null;
   /** Least and greatest corner, xyz each, world [m]. */
-  bounds?: number[] | { min: number[]; max: number[] } | null;
+  bounds?: { min: number[]; max: number[] } | null;
 }
 
 export interface Passage {
@@ -109,6 +109,10 @@ export interface Picture {
 
 export interface RunPayload extends PagePayload {
   kind: "run";
+  /** What could not be read. */
+  notes?: string[] | null;
+  /** Every stamp is in seconds after this one [s]. */
+  t0_s?: Maybe;
   scenario: {
     name: string;
     description?: string | null;

@@ -30,7 +30,8 @@ function header(data: RunPayload): HTMLElement {
   ];
   return h("header", { class: "page-head" }, h("h1", {}, data.title || scenario.name),
     h("span", { class: "badges" }, ...badges), themeButton(),
-    scenario.description ? h("p", { class: "soft description" }, scenario.description) : null);
+    scenario.description ? h("p", { class: "soft description" }, scenario.description) : null,
+    ...(data.notes ?? []).map((note) => h("p", { class: "note description" }, String(note))));
 }
 
 /** Radio buttons, so that arrow keys switch between estimators as the platform does. */
