@@ -1,7 +1,145 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import type { PagePayload } from "../contract";
-import { h } from "../dom";
+/** The page of a sweep or a tuning: what is best, what matters, curves, a map, every point. */
+import "../charts/charts.css";
+import "./tuning.css";
+import { choice, facts, notes } from "../charts/controls";
+import { h, section } from "../dom";
+import { themeButton } from "../theme";
+import { curves } from "./curves";
+import { firstPair, map, type Pair } from "./map";
+import { pointsOf, scenariosOf, type TunedEstimator, type TuningPayload } from "./model";
+import { bestTable, outcome, pointTable, sensitivity } from "./tables";
 
-export function renderTuning(root: HTMLElement, data: PagePayload): void {
-  root.append(h("h1", {}, data.title));
+interface View {
+  estimator: TunedEstimator;
+  score: string;
+  cloud: boolean;
+  pair: Pair | null;
+  scenario: string | null;
+  heldOut: boolean;
+}
+
+function analysisOf(view: View) {
+  return view.estimator.analyses.find((each) => each.score === view.score);
+}
+
+function scoreChoices(data: TuningPayload, view: View) {
+  const analysed = view.estimator.analyses.map((each) => each.score);
+  return [
+    ...analysed.map((value) => ({ value, label: value })),
+    ...data.scores.filter((each) => !analysed.includes(each)).map((value) => ({ value, label: value, group: "points alone" })),
+  ];
+}
+
+function bestSection(view: View): HTMLElement {
+  const analysis = analysisOf(view);
+  if (!analysis) {
+    return section("best", "Best values", h("p", { class: "nothing" },
+      `Best values and sensitivity are told of ${view.estimator.analyses.map((each) => each.score).join(", ")}; of ${view.score} the points alone.`));
+  }
+  return section("best", "Best values", outcome(analysis), bestTable(view.estimator, analysis));
+}
+
+function sensitivitySection(view: View): HTMLElement | null {
+  const analysis = analysisOf(view);
+  return analysis ? section("sensitivity", "What matters", sensitivity(view.estimator, analysis)) : null;
+}
+
+function curveSection(data: TuningPayload, view: View, redraw: () => void): HTMLElement {
+  const analysis = analysisOf(view);
+  if (!analysis) view.cloud = true;
+  const kinds = [{ value: "cloud", label: "every point, by scenario" }];
+  if (analysis) kinds.unshift({ value: "slice", label: "one parameter, others at their defaults" });
+  return section("curves", "Over each parameter",
+    h("div", { class: "toolbar" }, choice("Show", kinds, view.cloud ? "cloud" : "slice", (value) => {
+      view.cloud = value === "cloud";
+      redraw();
+    })), curves(data, view.estimator, analysis, view.score, view.cloud),
+    h("p", { class: "soft" }, view.cloud ? "Median over the seeds of a scenario; ✕: a run was lost."
+      : "Bars and areas: 95 % intervals, over seeds where measured, else by the polynomial's error."));
+}
+
+function mapSection(view: View, redraw: () => void): HTMLElement | null {
+  const analysis = analysisOf(view);
+  if (!analysis || view.estimator.parameters.length < 2) return null;
+  const pair = view.pair ?? firstPair(analysis) ?? { first: 0, second: 1 };
+  return section("map", "Two parameters", map(view.estimator, analysis, pair, (next) => {
+    view.pair = next;
+    redraw();
+  }));
+}
+
+function pointSection(data: TuningPayload, view: View, redraw: () => void): HTMLElement {
+  const scenarios = scenariosOf(data);
+  const anyHeldOut = (data.held_out_units["done"] ?? 0) > 0;
+  return section("points", "Every point",
+    h("div", { class: "toolbar" },
+      choice("Scenario", [{ value: "", label: "all" }, ...scenarios.map((each, i) => ({ value: String(i), label: each }))],
+        view.scenario === null ? "" : String(scenarios.indexOf(view.scenario)), (value) => {
+          view.scenario = value === "" ? null : scenarios[Number(value)] ?? null;
+          redraw();
+        }),
+      anyHeldOut ? choice("Walks", [{ value: "tuned", label: "tuned on" }, { value: "held", label: "held out" }],
+        view.heldOut ? "held" : "tuned", (value) => {
+          view.heldOut = value === "held";
+          redraw();
+        }) : null),
+    h("div", { class: "tall" }, pointTable(data, view.estimator, view.score, view)));
+}
+
+/** Replaces a part by a new drawing of itself, whenever it is asked to. */
+function part(make: (redraw: () => void) => HTMLElement | null): HTMLElement {
+  const place = h("div", {});
+  const redraw = () => place.replaceChildren(...[make(redraw)].filter((each) => each !== null));
+  redraw();
+  return place;
+}
+
+function unitText(units: Record<string, number>): string {
+  const bad = ["failed", "crashed", "timed_out", "missing"].filter((key) => (units[key] ?? 0) > 0)
+    .map((key) => `${units[key]} ${key.replace("_", " ")}`);
+  return `${units["done"] ?? 0} of ${units["total"] ?? 0} done${bad.length > 0 ? `, ${bad.join(", ")}` : ""}`;
+}
+
+/** Fills `root` with the page of a sweep or a tuning. */
+export function renderTuning(root: HTMLElement, data: TuningPayload): void {
+  root.append(h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()));
+  root.append(facts([
+    ["units", unitText(data.units)],
+    ["held out", (data.held_out_units["total"] ?? 0) > 0 ? unitText(data.held_out_units) : null],
+    ["scenarios", scenariosOf(data).length], ["walks", data.walks.length],
+    ["points", data.estimators[0] ? pointsOf(data, data.estimators[0], "", { scenario: null, heldOut: false }).length : 0],
+  ]));
+  const told = notes(data.notes);
+  const plan = section("plan", "Plan", told, h("pre", { class: "plan" }, data.plan));
+  const first = data.estimators[0];
+  if (!first) {
+    root.append(section("best", "Best values", h("p", { class: "nothing" }, "No unit is done yet.")), plan);
+    return;
+  }
+  const view: View = {
+    estimator: first, score: first.analyses[0]?.score ?? data.scores[0] ?? "", cloud: first.analyses[0]?.curves.length === 0,
+    pair: null, scenario: null, heldOut: false,
+  };
+  const body = h("div", {});
+  const bar = h("div", { class: "toolbar" });
+  const draw = () => {
+    bar.replaceChildren(...[
+      data.estimators.length > 1 ? choice("Estimator", data.estimators.map((each, i) => ({ value: String(i), label: each.name })),
+        String(data.estimators.indexOf(view.estimator)), (value) => {
+          view.estimator = data.estimators[Number(value)] ?? view.estimator;
+          draw();
+        }) : h("span", { class: "soft" }, `Estimator ${view.estimator.name}`),
+      choice("Score", scoreChoices(data, view), view.score, (value) => {
+        view.score = value;
+        draw();
+      }),
+    ]);
+    body.replaceChildren(
+      h("div", { class: "pair" }, part(() => bestSection(view)), part(() => sensitivitySection(view))),
+      part((redraw) => curveSection(data, view, redraw)), part((redraw) => mapSection(view, redraw)),
+      part((redraw) => pointSection(data, view, redraw)));
+  };
+  draw();
+  root.append(bar, body, plan);
 }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** One axis of a chart: values to pixels, and where its ticks stand. */
+import { formatNumber } from "../format";
+
+export interface Axis {
+  log: boolean;
+  low: number;
+  high: number;
+  /** Position in [0, 1]; outside for values beyond the ends, NaN for what has no place. */
+  at: (value: number) => number;
+  ticks: { value: number; label: string }[];
+}
+
+function linearTicks(low: number, high: number, most: number): number[] {
+  const rough = (high - low) / Math.max(1, most);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= rough) ?? 10 * power;
+  const ticks: number[] = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) ticks.push(k * step);
+  return ticks;
+}
+
+function logTicks(low: number, high: number, most: number): number[] {
+  const first = Math.floor(Math.log10(low) + 1e-9);
+  const last = Math.ceil(Math.log10(high) - 1e-9);
+  const steps = last - first <= most / 3 ? [1, 2, 5] : [1];
+  const stride = Math.max(1, Math.ceil((last - first) / most));
+  const ticks: number[] = [];
+  for (let power = first; power <= last; power += stride) {
+    for (const step of steps) {
+      const value = step * 10 ** power;
+      if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9)) ticks.push(value);
+    }
+  }
+  return ticks.length > 1 ? ticks : linearTicks(low, high, most);
+}
+
+/** Ends that hold all values, with some air; [0, 1] for none. Log: of those above zero. */
+export function extent(values: Iterable<number>, log: boolean): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of values) {
+    if (!Number.isFinite(value) || (log && value <= 0)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  if (low > high) return log ? [0.1, 1] : [0, 1];
+  if (log) {
+    const air = Math.max(1.05, (high / low) ** 0.04);
+    return [low / air, high * air];
+  }
+  const air = high > low ? 0.04 * (high - low) : Math.max(Math.abs(high) * 0.1, 1e-3);
+  return [low - air, high + air];
+}
+
+/** An axis between those ends with about `most` ticks. */
+export function axis(ends: [number, number], log: boolean, most: number): Axis {
+  const [low, high] = ends;
+  const at = log
+    ? (value: number) =>
+        value > 0 ? Math.log(value / low) / Math.log(high / low) : NaN
+    : (value: number) => (value - low) / (high - low);
+  const values = log ? logTicks(low, high, most) : linearTicks(low, high, most);
+  return { log, low, high, at, ticks: values.map((value) => ({ value, label: tickLabel(value) })) };
+}
+
+function tickLabel(value: number): string {
+  if (value === 0 || Math.abs(value) < 1e-12) return "0";
+  const text = formatNumber(Number(value.toPrecision(6)), 6);
+  if (text.includes("e")) return formatNumber(value, 1);
+  return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** The suite against other results: before, after, and whether the change is beyond noise. */
+import { choice, notes } from "../charts/controls";
+import { h, section } from "../dom";
+import { formatNumber, isNumber } from "../format";
+import { sortableTable } from "../table";
+import { titleOf, type Comparison, type ScoreChange, type SuitePayload } from "./model";
+
+const kVerdicts: Record<string, string> = {
+  better: "▲ better", worse: "▼ worse", "one seed": "? one seed", none: "= within noise",
+};
+const kRank = ["worse", "better", "one seed", "none"];
+
+function verdictText(verdict: string): string {
+  return Object.hasOwn(kVerdicts, verdict) ? kVerdicts[verdict]! : verdict;
+}
+
+function signed(value: number): string {
+  return `${value > 0 ? "+" : ""}${formatNumber(value)}`;
+}
+
+function changeTable(data: SuitePayload, rows: ScoreChange[], caption: string): HTMLElement {
+  return sortableTable(rows, [
+    { title: "scenario", value: (row) => row.scenario },
+    { title: "estimator", value: (row) => row.estimator },
+    {
+      title: "score", value: (row) => row.score,
+      show: (row) => {
+        const { title, unit } = titleOf(data.headline, row.score);
+        return unit && row.score !== "success" ? `${title} [${unit}]` : title;
+      },
+    },
+    { title: "seeds", value: (row) => row.seeds },
+    { title: "before", value: (row) => row.before },
+    { title: "after", value: (row) => row.after },
+    {
+      title: "change", hint: "mean of the paired differences, after − before, with its 95 % interval",
+      value: (row) => row.change,
+      show: (row) => (isNumber(row.change) ? signed(row.change) : formatNumber(row.change)),
+      interval: (row) => isNumber(row.change_low) && isNumber(row.change_high) ? [row.change_low, row.change_high] : null,
+    },
+    {
+      title: "verdict", value: (row) => kRank.indexOf(row.verdict),
+      show: (row) => h("span", { class: `verdict-${row.verdict === "better" || row.verdict === "worse" ? row.verdict : "none"}` },
+        verdictText(row.verdict)),
+    },
+    {
+      title: "by chance", hint: "probability of better or worse if only chance gave the differences their signs",
+      value: (row) => row.false_alarm,
+    },
+  ], { caption, rowName: (row) => `${row.scenario}/${row.estimator}/${row.score}` });
+}
+
+function only(title: string, units: string[]): HTMLElement | null {
+  if (units.length === 0) return null;
+  return h("details", {}, h("summary", {}, `${title}: ${units.length}`), notes(units));
+}
+
+/** The section; none without other results. */
+export function compareSection(data: SuitePayload): HTMLElement | null {
+  const compare: Comparison | null = data.compare;
+  if (!compare) return null;
+  const spoken = (row: ScoreChange) => row.verdict === "better" || row.verdict === "worse";
+  let verdict = compare.changes.some(spoken) ? "spoken" : "all";
+  let score = "";
+  const place = h("div", {});
+  const scores = [...new Set(compare.changes.map((row) => row.score))];
+  const draw = () => {
+    const rows = compare.changes.filter((row) =>
+      (verdict === "all" || (verdict === "spoken" ? spoken(row) : row.verdict === verdict)) &&
+      (!score || row.score === score));
+    place.replaceChildren(rows.length > 0
+      ? changeTable(data, rows, `${rows.length} of ${compare.changes.length} comparisons`)
+      : h("p", { class: "nothing" }, compare.changes.length > 0
+          ? "No comparison has this verdict." : "The two have no scenario, seed and estimator in common."));
+  };
+  draw();
+  return section("compare", `${compare.after} against ${compare.before}`,
+    compare.summary ? h("p", {}, compare.summary) : null,
+    h("div", { class: "toolbar" },
+      choice("Verdict", [
+        { value: "spoken", label: "better or worse" },
+        ...kRank.map((each) => ({ value: each, label: verdictText(each) })), { value: "all", label: "all" },
+      ], verdict, (value) => { verdict = value; draw(); }),
+      choice("Score", [{ value: "", label: "all" },
+        ...scores.map((each) => ({ value: each, label: titleOf(data.headline, each).title }))], "",
+      (value) => { score = value; draw(); })),
+    place, only(`Only in ${compare.before}`, compare.only_before), only(`Only in ${compare.after}`, compare.only_after));
+}

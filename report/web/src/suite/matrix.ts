@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** The matrix scenario × estimator: value, colour, success, and the way to the runs. */
+import { choice, tick, type Choice } from "../charts/controls";
+import { h, section } from "../dom";
+import { formatNumber, isNumber, kNone } from "../format";
+import { details } from "./details";
+import {
+  estimatorsOf, kSuccessRate, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
+  type SuitePayload, type SuiteScenario,
+} from "./model";
+
+interface View {
+  score: string;
+  statistic: "median" | "worst";
+  shade: "matrix" | "row";
+  group: string;
+  text: string;
+  lostOnly: boolean;
+  /** Estimator that rows are ordered by; null: as the suite has them. */
+  sortBy: string | null;
+  descending: boolean;
+}
+
+function scoreChoices(data: SuitePayload): Choice[] {
+  const keys = scoreKeysOf(data);
+  const headline = data.headline.filter((each) => keys.includes(each.key))
+    .map((each) => ({ value: each.key, label: `${each.title} [${each.unit}]` }));
+  const others = keys.filter((key) => !data.headline.some((each) => each.key === key))
+    .map((key) => ({ value: key, label: key, group: "all scores" }));
+  return [...headline, { value: kSuccessRate, label: "success rate" }, ...others];
+}
+
+/** Families and tags of the scenarios, as what the matrix can be cut down to. */
+function groupChoices(data: SuitePayload): Choice[] {
+  const families = new Set<string>();
+  const tags = new Set<string>();
+  for (const each of data.suite.scenarios) {
+    if (each.family) families.add(each.family);
+    for (const tag of each.tags ?? []) tags.add(tag);
+  }
+  return [
+    { value: "", label: `all ${data.suite.scenarios.length}` },
+    ...[...families].map((each) => ({ value: `family:${each}`, label: each, group: "family" })),
+    ...[...tags].map((each) => ({ value: `tag:${each}`, label: each, group: "tag" })),
+  ];
+}
+
+function lostAny(scenario: SuiteScenario): boolean {
+  return Object.values(scenario.estimators).some((each) => each.successes < each.runs);
+}
+
+/** Members of a family together, where its first one stands, by their level. */
+function inOrder(scenarios: SuiteScenario[]): SuiteScenario[] {
+  const group = (each: SuiteScenario) => (each.family ? `family:${each.family}` : `scenario:${each.name}`);
+  const groups = [...new Set(scenarios.map(group))];
+  const place = new Map(groups.map((each, i) => [each, i]));
+  const level = (each: SuiteScenario) => (isNumber(each.level) ? each.level : 0);
+  return [...scenarios].sort((a, b) => place.get(group(a))! - place.get(group(b))! || level(a) - level(b));
+}
+
+function rowsOf(data: SuitePayload, view: View): SuiteScenario[] {
+  const wanted = view.text.toLowerCase();
+  const rows = inOrder(data.suite.scenarios).filter((each) =>
+    (!view.group || view.group === `family:${each.family}` ||
+      (each.tags ?? []).some((tag) => view.group === `tag:${tag}`)) &&
+    each.name.toLowerCase().includes(wanted) && (!view.lostOnly || lostAny(each)));
+  const { sortBy } = view;
+  if (sortBy === null) return rows;
+  const key = (each: SuiteScenario) => valueOf(each, sortBy, view.score, view.statistic);
+  return rows.sort((a, b) => {
+    const x = key(a);
+    const y = key(b);
+    if (x === null || y === null) return Number(x === null) - Number(y === null);
+    return view.descending ? y - x : x - y;
+  });
+}
+
+/** From values to [0, 1], in the logarithm where all are above zero. */
+function shadeOf(values: number[]): (value: number) => number {
+  const low = Math.min(...values);
+  const high = Math.max(...values);
+  if (!(high > low)) return () => 0;
+  if (low > 0) return (value) => Math.log(value / low) / Math.log(high / low);
+  return (value) => (value - low) / (high - low);
+}
+
+function numbers(rows: SuiteScenario[], estimators: string[], view: View): number[] {
+  return rows.flatMap((row) => estimators.map((each) => valueOf(row, each, view.score, view.statistic)))
+    .filter(isNumber);
+}
+
+function levelText(row: SuiteScenario): string | null {
+  return row.family && isNumber(row.level) ? `${row.family} ${row.level} ${row.level_unit ?? ""}` : null;
+}
+
+/** Which text is best in a row: the least, of the success rate the greatest. */
+function bestOf(row: SuiteScenario, estimators: string[], view: View): string | null {
+  const values = numbers([row], estimators, view);
+  if (values.length < 2 || view.score.includes("signed")) return null;
+  return formatNumber(view.score === kSuccessRate ? Math.max(...values) : Math.min(...values));
+}
+
+function intervalText(row: SuiteScenario, estimator: string, view: View): string | null {
+  const score = summaryOf(row, estimator)?.scores[view.score];
+  if (view.statistic !== "median" || !score) return null;
+  const { median_low: low, median_high: high } = score;
+  return isNumber(low) && isNumber(high) ? `${formatNumber(low)} to ${formatNumber(high)}` : null;
+}
+
+interface Cells {
+  row: SuiteScenario;
+  view: View;
+  shade: (value: number) => number;
+  best: string | null;
+  open: (scenario: SuiteScenario, estimator: string) => void;
+}
+
+function cell({ row, view, shade, best, open }: Cells, estimator: string): HTMLElement {
+  const summary = summaryOf(row, estimator);
+  if (!summary) return h("td", { class: "matrix-cell none" }, h("span", { class: "soft" }, "not run"));
+  const value = valueOf(row, estimator, view.score, view.statistic);
+  const lost = summary.runs - summary.successes;
+  const text = formatNumber(value);
+  const of = lost > 0 ? `✕ ${lost} of ${summary.runs} lost` : `${summary.runs} of ${summary.runs}`;
+  const interval = intervalText(row, estimator, view);
+  const amount = isNumber(value) ? Math.round(100 * shade(value)) : 0;
+  const button = h("button", {
+    type: "button", class: "cell", tabindex: -1,
+    "aria-label": `${row.name}, ${estimator}: ${text === kNone ? "no value" : text}` +
+      `${interval ? `, ${interval}` : ""}; ${lost > 0 ? `${lost} of ${summary.runs} lost` : "none lost"}`,
+    onclick: () => open(row, estimator),
+  }, h("span", { class: "value" }, text),
+    interval ? h("span", { class: "interval" }, interval) : null,
+    lost > 0 || summary.runs > 1 ? h("span", { class: "runs" }, of) : null);
+  return h("td", {
+    class: ["matrix-cell", lost > 0 ? "lost" : "", text === best ? "best" : ""].join(" ").trim(),
+    style: `--share: ${view.score === kSuccessRate ? 100 - amount : amount}%`,
+    "data-value": isNumber(value) ? value : null, "data-estimator": estimator,
+  }, button);
+}
+
+/** Seeds as links to their pages, where there are any. */
+function links(data: SuitePayload, row: SuiteScenario): HTMLElement {
+  const runs = runsOf(data, row.name).filter((run) => run.href);
+  return h("td", { class: "text runs-links" }, ...runs.flatMap((run) => [
+    h("a", { href: run.href, "aria-label": `run of ${row.name}, seed ${run.seed}` }, run.seed), " "]));
+}
+
+function head(data: SuitePayload, estimators: string[], view: View, changed: () => void): HTMLElement {
+  const sortHead = (name: string | null, title: string) => {
+    const on = view.sortBy === name;
+    const press = () => {
+      view.descending = on && name !== null ? !view.descending : false;
+      view.sortBy = name;
+      changed();
+    };
+    return h("th", { scope: "col", "aria-sort": on && name !== null ? (view.descending ? "descending" : "ascending") : "none" },
+      h("button", { type: "button", class: "sort", onclick: press }, title));
+  };
+  return h("thead", {}, h("tr", {}, sortHead(null, "scenario"),
+    ...estimators.map((each) => sortHead(each, each)),
+    data.runs.some((run) => run.href) ? h("th", { scope: "col", class: "plain" }, "runs, by seed") : null));
+}
+
+/** One tab stop for all cells; arrow keys go between them. */
+function walkByArrows(table: HTMLElement): void {
+  const rows = () => [...table.querySelectorAll<HTMLElement>("tbody tr")]
+    .map((row) => [...row.querySelectorAll<HTMLElement>("button.cell")]);
+  rows()[0]?.[0]?.setAttribute("tabindex", "0");
+  table.addEventListener("focusin", (event) => {
+    const target = event.target as HTMLElement;
+    if (!target.classList.contains("cell")) return;
+    for (const each of rows().flat()) each.setAttribute("tabindex", each === target ? "0" : "-1");
+  });
+  table.addEventListener("keydown", (event) => {
+    const grid = rows();
+    const y = grid.findIndex((row) => row.includes(event.target as HTMLElement));
+    if (y < 0) return;
+    const x = grid[y]!.indexOf(event.target as HTMLElement);
+    const step = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const row = grid[Math.min(grid.length - 1, Math.max(0, y + step[1]!))]!;
+    row[Math.min(row.length - 1, Math.max(0, x + step[0]!))]?.focus();
+  });
+}
+
+function scaleBar(values: number[], view: View, unit: string): HTMLElement | null {
+  if (view.shade === "row" || values.length === 0) return null;
+  const low = Math.min(...values);
+  const high = Math.max(...values);
+  const [from, to] = view.score === kSuccessRate ? [high, low] : [low, high];
+  const law = low > 0 && high > low ? ", in the logarithm" : "";
+  return h("div", { class: "scale" }, `${formatNumber(from)} ${unit}`, h("span", { class: "scale-bar heat" }),
+    `${formatNumber(to)} ${unit}${law}`);
+}
+
+function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: () => void): HTMLElement {
+  const estimators = estimatorsOf(data);
+  const rows = rowsOf(data, view);
+  const { title, unit } = titleOf(data.headline, view.score);
+  if (rows.length === 0) return h("p", { class: "nothing" }, "No scenario is left by this choice.");
+  const all = numbers(rows, estimators, view);
+  const byMatrix = shadeOf(all);
+  const anyLink = data.runs.some((run) => run.href);
+  const body = rows.map((row) => {
+    const shade = view.shade === "row" ? shadeOf(numbers([row], estimators, view)) : byMatrix;
+    const cells: Cells = { row, view, shade, best: bestOf(row, estimators, view), open };
+    return h("tr", { "data-row": row.name }, h("th", { scope: "row", title: levelText(row) }, row.name),
+      ...estimators.map((each) => cell(cells, each)), anyLink ? links(data, row) : null);
+  });
+  const what = view.score === kSuccessRate ? title : `${view.statistic} of ${title}${unit ? ` [${unit}]` : ""}`;
+  const caption = `${what}${view.score === kSuccessRate ? "" : " over seeds, with its 95 % interval where known"}; ` +
+    `${rows.length} scenarios`;
+  const table = h("table", { class: "matrix", "aria-label": caption },
+    head(data, estimators, view, changed), h("tbody", {}, ...body));
+  walkByArrows(table);
+  return h("div", {}, h("p", { class: "soft" }, caption), h("div", { class: "table-frame matrix-frame" }, table), scaleBar(all, view, unit));
+}
+
+/** The section with the matrix, its choices and what is told of the chosen cell. */
+export function matrixSection(data: SuitePayload): HTMLElement {
+  if (data.suite.scenarios.length === 0) {
+    return section("matrix", "Scenarios and estimators",
+      h("p", { class: "nothing" }, "No scenario of this suite has a finished run yet."));
+  }
+  const scores = scoreChoices(data);
+  const first = scores.find((each) => each.value === "ate_m") ?? scores[0]!;
+  const view: View = {
+    score: first.value, statistic: "median", shade: "matrix", group: "", text: "", lostOnly: false,
+    sortBy: null, descending: false,
+  };
+  const place = h("div", {});
+  const told = h("div", { class: "cell-details", "aria-live": "polite" });
+  const open: Cells["open"] = (scenario, estimator) => {
+    told.replaceChildren(details(data, scenario, estimator, () => told.replaceChildren()));
+    told.scrollIntoView({ block: "nearest" });
+  };
+  const draw = () => place.replaceChildren(matrix(data, view, open, draw));
+  const change = <Key extends keyof View>(key: Key) => (value: View[Key]) => {
+    view[key] = value;
+    draw();
+  };
+  const search = h("input", { type: "search", placeholder: "part of a name", "aria-label": "Scenarios with this in their name" });
+  search.addEventListener("input", () => change("text")(search.value));
+  draw();
+  return section("matrix", "Scenarios and estimators",
+    h("div", { class: "toolbar" },
+      choice("Score", scores, first.value, change("score")),
+      choice("of the runs", [{ value: "median", label: "median" }, { value: "worst", label: "worst" }], "median",
+        (value) => change("statistic")(value === "worst" ? "worst" : "median")),
+      choice("Colour", [{ value: "matrix", label: "over all" }, { value: "row", label: "row by row" }], "matrix",
+        (value) => change("shade")(value === "row" ? "row" : "matrix")),
+      choice("Scenarios", groupChoices(data), "", change("group")), search,
+      tick("only with lost runs", false, change("lostOnly"))),
+    place, told,
+    h("p", { class: "soft" }, "Bold: the best of its row. ✕ and hatching: runs that were lost before the end; the value is over the runs that have one."));
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** The suite page's data, and questions that its parts share. */
+import type { Maybe, PagePayload } from "../contract";
+import { own } from "../dom";
+import { isNumber } from "../format";
+
+export interface ScoreSummary {
+  median: Maybe;
+  worst: Maybe;
+  count: number;
+  median_low?: Maybe;
+  median_high?: Maybe;
+}
+
+export interface EstimatorSummary {
+  runs: number;
+  successes: number;
+  success_rate: Maybe;
+  scores: Record<string, ScoreSummary>;
+}
+
+export interface Gate {
+  estimator: string;
+  score: string;
+  statistic: string;
+  max: Maybe;
+  min: Maybe;
+  value: Maybe;
+  holds: boolean;
+}
+
+export interface SuiteScenario {
+  name: string;
+  tags?: string[];
+  family?: string;
+  level?: Maybe;
+  level_unit?: string;
+  seeds: number[];
+  fell?: number[];
+  gates?: Gate[];
+  estimators: Record<string, EstimatorSummary>;
+}
+
+export interface FamilyPoint {
+  level: number;
+  ate_m: Maybe;
+  ate_low_m: Maybe;
+  ate_high_m: Maybe;
+  m_list_percent: Maybe;
+  m_list_low_percent: Maybe;
+  m_list_high_percent: Maybe;
+  success_rate: Maybe;
+  runs: number;
+}
+
+export interface Family {
+  name: string;
+  level_unit: string;
+  mildest_level: number;
+  median_equivalent_returns?: Maybe[];
+  estimators: Record<string, { breaks_at: number[]; points: FamilyPoint[] }>;
+}
+
+export interface Run {
+  scenario: string;
+  seed: number;
+  href: string | null;
+  estimators: Record<string, Record<string, Maybe | boolean | string>>;
+}
+
+export interface RocScore {
+  scenario: string | null;
+  level: string;
+  index: string;
+  runs: number;
+  scans: number;
+  degenerate: number;
+  auc: Maybe;
+  auc_low: Maybe;
+  auc_high: Maybe;
+  detections: Maybe;
+  onsets: number;
+  missed: number;
+  median_delay_s: Maybe;
+  /** Share of false alarms and of detections, by turns. */
+  curve: Float32Array;
+}
+
+export interface Detectors {
+  estimator: string;
+  false_alarms: number;
+  equivalent_returns_below: Record<string, number>;
+  indices: Record<string, { degenerate_when: string; source: string }>;
+  runs: unknown[];
+  scores: RocScore[];
+  warnings?: string[];
+}
+
+export interface ScoreChange {
+  scenario: string;
+  estimator: string;
+  score: string;
+  seeds: number;
+  before: Maybe;
+  after: Maybe;
+  change: Maybe;
+  change_low: Maybe;
+  change_high: Maybe;
+  verdict: string;
+  false_alarm: Maybe;
+}
+
+export interface Comparison {
+  before: string;
+  after: string;
+  summary?: string;
+  changes: ScoreChange[];
+  only_before: string[];
+  only_after: string[];
+}
+
+export interface Headline {
+  key: string;
+  title: string;
+  unit: string;
+}
+
+export interface SuitePayload extends PagePayload {
+  kind: "suite";
+  suite: {
+    code?: string;
+    complete?: boolean;
+    interval?: string;
+    scenarios: SuiteScenario[];
+    families?: Family[];
+    failures?: { scenario?: string; seed?: Maybe; message?: string }[];
+  };
+  headline: Headline[];
+  runs: Run[];
+  roc: Detectors | null;
+  compare: Comparison | null;
+  notes?: string[];
+}
+
+/** Share of runs that stayed localized; not a score of scores.json, but shown like one. */
+export const kSuccessRate = "success rate";
+
+/** Every estimator of the suite, in the order in which they appear. */
+export function estimatorsOf(data: SuitePayload): string[] {
+  const names = new Set<string>();
+  for (const scenario of data.suite.scenarios) {
+    for (const name of Object.keys(scenario.estimators)) names.add(name);
+  }
+  return [...names];
+}
+
+/** Every score of the suite. */
+export function scoreKeysOf(data: SuitePayload): string[] {
+  const keys = new Set<string>();
+  for (const scenario of data.suite.scenarios) {
+    for (const each of Object.values(scenario.estimators)) {
+      for (const key of Object.keys(each.scores ?? {})) keys.add(key);
+    }
+  }
+  return [...keys];
+}
+
+/** Title and unit of a score; of one that is not a headline score its key. */
+export function titleOf(headline: Headline[], key: string): { title: string; unit: string } {
+  const found = headline.find((each) => each.key === key);
+  if (found) return { title: found.title, unit: found.unit };
+  if (key === kSuccessRate) return { title: "success", unit: "share of runs" };
+  const end = key.slice(key.lastIndexOf("_") + 1);
+  const unit = key.startsWith("m_list_percent") || key.startsWith("m_list_signed_percent") ? "%"
+    : key.includes("_rad") ? "rad" : end === "s" ? "s" : key.includes("_m") || end === "m" ? "m" : "";
+  return { title: key, unit };
+}
+
+export function summaryOf(scenario: SuiteScenario, estimator: string): EstimatorSummary | undefined {
+  return own<EstimatorSummary>(scenario.estimators, estimator);
+}
+
+/** What a cell shows: the statistic of the score, or the success rate. */
+export function valueOf(
+  scenario: SuiteScenario, estimator: string, score: string, statistic: "median" | "worst"
+): Maybe {
+  const summary = summaryOf(scenario, estimator);
+  if (!summary) return null;
+  if (score === kSuccessRate) return isNumber(summary.success_rate) ? summary.success_rate : null;
+  const value = own<ScoreSummary>(summary.scores, score)?.[statistic];
+  return isNumber(value) ? value : null;
+}
+
+/** Pages and scores of that scenario's runs, by seed. */
+export function runsOf(data: SuitePayload, scenario: string): Run[] {
+  return data.runs.filter((run) => run.scenario === scenario);
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** The objective over two parameters. */
+import { choice } from "../charts/controls";
+import { heatMap, type HeatMark } from "../charts/heat_map";
+import { h } from "../dom";
+import { axisLabel, type Analysis, type Slice, type TunedEstimator } from "./model";
+
+export interface Pair {
+  first: number;
+  second: number;
+}
+
+/** The pair that the objective depends on most, where that is known and its map is there. */
+export function firstPair(analysis: Analysis): Pair | null {
+  const total = analysis.sensitivity?.trustworthy ? analysis.sensitivity.total : [];
+  const weight = (slice: Slice) => (total[slice.first] ?? 0) + (total[slice.second ?? 0] ?? 0);
+  const best = analysis.maps.reduce<Slice | null>((most, each) => !most || weight(each) > weight(most) ? each : most, null);
+  return best && best.second !== undefined ? { first: best.first, second: best.second } : null;
+}
+
+function marksOf(own: TunedEstimator, analysis: Analysis, x: number, y: number): HeatMark[] {
+  const [px, py] = [own.parameters[x]!, own.parameters[y]!];
+  const marks: HeatMark[] = [{ x: px.default, y: py.default, name: "default", ring: false }];
+  if (analysis.best) marks.push({ x: analysis.best.values[x]!, y: analysis.best.values[y]!, name: "best point", ring: true });
+  return marks;
+}
+
+/** Map of the chosen pair, in the order that was chosen. */
+export function map(own: TunedEstimator, analysis: Analysis, pair: Pair, changed: (pair: Pair) => void): HTMLElement {
+  const names = own.parameters.map((each, i) => ({ value: String(i), label: each.name }));
+  const { first: x, second: y } = pair;
+  const slice = analysis.maps.find((each) =>
+    (each.first === x && each.second === y) || (each.first === y && each.second === x));
+  const turned = slice?.first !== x;
+  const choose = (nextX: number, nextY: number) => changed(nextX === nextY
+    ? { first: nextX, second: nextX === x ? x : y === nextX ? x : y } : { first: nextX, second: nextY });
+  const bar = h("div", { class: "toolbar" },
+    choice("Across", names, String(x), (value) => choose(Number(value), Number(value) === y ? x : y)),
+    choice("Up", names, String(y), (value) => choose(Number(value) === x ? y : x, Number(value))));
+  if (!slice || !slice.y || x === y) {
+    return h("div", {}, bar, h("p", { class: "nothing" },
+      "Neither a grid of points nor a polynomial through them tells this map."));
+  }
+  const [xs, ys] = turned ? [slice.y, slice.x] : [slice.x, slice.y];
+  const cells = Array.from(slice.value, (value, i) => ({ x: xs[i]!, y: ys[i]!, value }));
+  const [px, py] = [own.parameters[x]!, own.parameters[y]!];
+  return h("div", {}, bar, heatMap(cells, {
+    label: `Objective over ${px.name} and ${py.name}`, xLabel: axisLabel(px), yLabel: axisLabel(py),
+    valueLabel: "objective", xLog: px.log, yLog: py.log, marks: marksOf(own, analysis, x, y),
+  }), h("p", { class: "soft" }, slice.measured ? "Measured at each point of the grid." :
+    "By the polynomial through all points, other parameters at their defaults."));
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** The tuning page's data, and questions that its parts share. */
+import type { Maybe, Numbers, PagePayload } from "../contract";
+import { isNumber } from "../format";
+
+export type Interval = [Maybe, Maybe];
+
+export interface Parameter {
+  name: string;
+  unit: string;
+  meaning?: string;
+  low: number;
+  high: number;
+  log: boolean;
+  default: number;
+}
+
+export interface Best {
+  values: number[];
+  between: Interval[];
+  objective: Maybe;
+  objective_interval: Interval;
+  defaults: Maybe;
+  gain: Maybe;
+  gain_interval: Interval;
+  /** Best minus default, in widths of the range. */
+  distance: number[];
+}
+
+export interface Sensitivity {
+  points: number;
+  logarithmic: boolean;
+  trustworthy: boolean;
+  terms: number;
+  error: number;
+  explained: number;
+  first: number[];
+  total: number[];
+  total_interval: Interval[];
+  second: number[][];
+  does_not_matter: boolean[];
+}
+
+/** The objective along one parameter, or over two; others at their defaults. */
+export interface Slice {
+  first: number;
+  second?: number;
+  /** "": all scenarios. */
+  family: string;
+  /** By the design's own points; else by the polynomial. */
+  measured: boolean;
+  x: Numbers;
+  y?: Numbers;
+  value: Numbers;
+  low: Numbers;
+  high: Numbers;
+}
+
+export interface Analysis {
+  score: string;
+  objective: string;
+  relative: boolean;
+  points: number;
+  seeds: number;
+  incomplete: number;
+  best: Best | null;
+  why_no_best?: string;
+  sensitivity: Sensitivity | null;
+  why_no_sensitivity?: string;
+  curves: Slice[];
+  maps: Slice[];
+}
+
+export interface Walk {
+  scenario: string;
+  family: string;
+  seed: number;
+}
+
+export interface TunedEstimator {
+  name: string;
+  parameters: Parameter[];
+  points: { values: Numbers; untuned: Uint8Array; generation: Numbers | null };
+  /** A unit each: point, walk, outcome (0 done, 1 failed, 2 crashed, 3 timed out), scores by turns. */
+  rows: { point: Numbers; walk: Numbers; outcome: Uint8Array; lost: Uint8Array; held_out: Uint8Array; scores: Numbers };
+  analyses: Analysis[];
+}
+
+export interface TuningPayload extends PagePayload {
+  kind: "tuning";
+  source: "sweep" | "tune";
+  plan: string;
+  units: Record<string, number>;
+  held_out_units: Record<string, number>;
+  scores: string[];
+  walks: Walk[];
+  estimators: TunedEstimator[];
+  notes?: string[];
+}
+
+/** A point of the design with its scores over the walks that are asked for. */
+export interface Point {
+  index: number;
+  untuned: boolean;
+  values: number[];
+  generation: number;
+  /** Median over the walks; NaN for none. */
+  score: number;
+  walks: number;
+  lost: number;
+}
+
+function median(values: number[]): number {
+  const known = values.filter(Number.isFinite).sort((a, b) => a - b);
+  if (known.length === 0) return NaN;
+  const middle = Math.floor(known.length / 2);
+  return known.length % 2 === 1 ? known[middle]! : (known[middle - 1]! + known[middle]!) / 2;
+}
+
+/** Which walks of the data are asked for. */
+export interface WalkChoice {
+  /** null: all. */
+  scenario: string | null;
+  heldOut: boolean;
+}
+
+/** The estimator's points that were run on any of the walks, with the median of that score. */
+export function pointsOf(data: TuningPayload, own: TunedEstimator, score: string, choice: WalkChoice): Point[] {
+  const count = own.parameters.length;
+  const column = data.scores.indexOf(score);
+  const width = data.scores.length;
+  const values = new Map<number, number[]>();
+  const lost = new Map<number, number>();
+  own.rows.point.forEach((point, row) => {
+    const walk = data.walks[own.rows.walk[row]!];
+    if ((own.rows.held_out[row] === 1) !== choice.heldOut) return;
+    if (choice.scenario !== null && walk?.scenario !== choice.scenario) return;
+    if (!values.has(point)) values.set(point, []);
+    values.get(point)!.push(column < 0 ? NaN : own.rows.scores[row * width + column]!);
+    lost.set(point, (lost.get(point) ?? 0) + own.rows.lost[row]!);
+  });
+  return [...values].map(([index, scores]) => ({
+    index, untuned: own.points.untuned[index] === 1,
+    values: Array.from(own.points.values.subarray(index * count, (index + 1) * count)),
+    generation: own.points.generation?.[index] ?? NaN,
+    score: median(scores), walks: scores.length, lost: lost.get(index) ?? 0,
+  }));
+}
+
+export function scenariosOf(data: TuningPayload): string[] {
+  return [...new Set(data.walks.map((walk) => walk.scenario))];
+}
+
+export function axisLabel(parameter: Parameter): string {
+  return parameter.unit && parameter.unit !== "-" ? `${parameter.name} [${parameter.unit}]` : parameter.name;
+}
+
+/** Both ends of an interval, where it has them. */
+export function ends(interval: Interval | undefined): [number, number] | null {
+  if (!interval) return null;
+  const [low, high] = interval;
+  return isNumber(low) && isNumber(high) ? [low, high] : null;
+}
