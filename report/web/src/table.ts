@@ -91,7 +91,7 @@ function cell<Row>(row: Row, column: Column<Row>, first: boolean, best: string |
     `${formatNumber(interval[0])} to ${formatNumber(interval[1])}`));
 }
 
-/** The table in a frame that scrolls sideways where the window is narrow. */
+/** The table below its caption, in a frame that scrolls sideways where the window is narrow. */
 export function sortableTable<Row>(
   rows: Row[], columns: Column<Row>[], options: TableOptions<Row>
 ): HTMLElement {
@@ -118,6 +118,7 @@ export function sortableTable<Row>(
   });
   fill(rows);
   if (options.sortBy !== undefined) sortBy(options.sortBy, "ascending");
-  return h("div", { class: "table-frame", tabindex: 0, role: "region", "aria-label": options.caption },
-    h("table", {}, h("caption", {}, options.caption), h("thead", {}, h("tr", {}, ...heads)), body));
+  const table = h("table", { "aria-label": options.caption }, h("thead", {}, h("tr", {}, ...heads)), body);
+  return h("div", { class: "table-block" }, h("p", { class: "caption" }, options.caption),
+    h("div", { class: "table-frame", tabindex: 0, role: "region", "aria-label": options.caption }, table));
 }

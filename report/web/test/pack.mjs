@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packs a payload as the C++ side does: typed arrays become references into a blob.
-import { deflateSync } from "node:zlib";
+import { deflateSync, inflateSync } from "node:zlib";
 
 const kKinds = new Map([[Float32Array, "f32"], [Uint16Array, "u16"], [Uint8Array, "u8"]]);
 
@@ -29,9 +29,22 @@ function escapeHtml(text) {
   return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
 }
 
-/** The page: the built template with its two marks replaced. */
+/** The page: the built template with its two marks replaced in one pass, for a title may look like a mark. */
 export function fillTemplate(template, payload) {
-  return template
-    .replace("__AIMS_TITLE__", () => escapeHtml(payload.title))
-    .replace("__AIMS_DATA__", () => pack(payload));
+  const fills = { __AIMS_TITLE__: escapeHtml(payload.title), __AIMS_DATA__: pack(payload) };
+  return template.replace(/__AIMS_TITLE__|__AIMS_DATA__/g, (mark) => fills[mark]);
+}
+
+/** Payload of a page as an object, its arrays in place: the other way round. */
+export function payloadOf(html) {
+  const base64 = html.match(/<script id="aims-data" type="text\/plain">([^<]*)<\/script>/)[1];
+  const bytes = inflateSync(Buffer.from(base64, "base64"));
+  const length = bytes.readUInt32LE(0);
+  const blob = bytes.subarray(Math.ceil((4 + length) / 8) * 8);
+  const types = { f32: Float32Array, u16: Uint16Array, u8: Uint8Array };
+  return JSON.parse(bytes.subarray(4, 4 + length).toString("utf8"), (_key, value) => {
+    const type = types[value?.$];
+    if (!type) return value;
+    return new type(Uint8Array.from(blob.subarray(value.at, value.at + value.n * type.BYTES_PER_ELEMENT)).buffer);
+  });
 }

@@ -67,7 +67,17 @@ function linearRange(low: number | null, high: number | null): uPlot.Range.MinMa
   return [low >= 0 ? Math.max(0, low - margin) : low - margin, high + margin];
 }
 
-/** 1e-5, 1e+0, 1e+5 on a logarithmic axis are 10⁻⁵, 1, 10⁵: short, and no wider than the axis. */
+/** Powers of ten of a logarithmic axis, thinned to what `space` allows; none in between. */
+function decades(low: number, high: number, count: number): number[] {
+  const first = Math.ceil(Math.log10(low) - 1e-9);
+  const last = Math.floor(Math.log10(high) + 1e-9);
+  const step = Math.max(1, Math.ceil((last - first) / Math.max(count, 1)));
+  const list: number[] = [];
+  for (let power = first; power <= last; power += step) list.push(Number(`1e${power}`));
+  return list;
+}
+
+/** Short text of an axis value, no wider than the axis. */
 function axisText(value: number | null): string {
   if (value === null) return "";
   const size = Math.abs(value);
@@ -83,7 +93,7 @@ export class Panel {
   private readonly sigma: HTMLElement | null;
 
   constructor(private readonly spec: PanelSpec, private readonly backdrop: Backdrop, width: number,
-    private readonly window: { from: number; to: number }, withTime: boolean) {
+    private readonly window: { from: number; to: number }, private readonly named: boolean, withTime: boolean) {
     this.values = spec.curves.map((curve) => ({ curve, shown: h("output", { "data-series": curve.label }) }));
     this.sigma = spec.band ? h("output", { "data-series": "3 sigma" }) : null;
     const body = h("div", { class: "panel-body" });
@@ -96,7 +106,7 @@ export class Panel {
   }
 
   private head(): HTMLElement {
-    const legend = this.values.map(({ curve, shown }) => {
+    const legend = [...this.values].sort((a, b) => (b.curve.width ?? 0) - (a.curve.width ?? 0)).map(({ curve, shown }) => {
       const swatch = h("i", { class: "swatch" });
       swatch.style.background = curve.color;
       if (curve.dash) swatch.classList.add("dashed");
@@ -141,7 +151,7 @@ export class Panel {
     const last = spec.curves.length + 1;
     return {
       width, height,
-      padding: [4, 6, withTime ? 0 : 4, 0],
+      padding: [6, 6, withTime ? 0 : 6, 0],
       cursor: { show: false },
       legend: { show: false },
       scales: {
@@ -153,8 +163,9 @@ export class Panel {
       },
       axes: [
         { ...axis, show: withTime, size: 22, gap: 2, space: 60, values: (_plot, list) => list.map((value) => `${axisText(value)} s`) },
-        { ...axis, size: kAxisWidth, gap: 4, space: spec.log ? 16 : 22,
-          values: (_plot, list) => list.map(axisText) },
+        { ...axis, size: kAxisWidth, gap: 4, space: spec.log ? 16 : 18,
+          values: (_plot, list) => list.map(axisText),
+          ...(spec.log ? { splits: (_plot: uPlot, _axis: number, low: number, high: number) => decades(low, high, 4), filter: (_plot: uPlot, list: number[]) => list } : {}) },
       ],
       series: this.series(),
       bands: spec.band ? [{ series: [last, last + 1], fill: withAlpha(spec.band.color, 0.14) }] : [],
@@ -202,7 +213,7 @@ export class Panel {
       ctx.moveTo(x, bbox.top);
       ctx.lineTo(x, bbox.top + bbox.height);
       ctx.stroke();
-      if (!mark.text) continue;
+      if (!mark.text || !this.named) continue;
       const right = x > bbox.left + bbox.width - 60 * devicePixelRatio;
       ctx.textAlign = right ? "right" : "left";
       ctx.fillText(mark.text.slice(0, 24), x + (right ? -3 : 3) * devicePixelRatio, bbox.top + 1);

@@ -81,7 +81,7 @@ export function way(positions: Numbers, ink: ColorRepresentation, opacity: numbe
     const pair = Array.from(positions.subarray(i - 3, i + 3));
     if (pair.every(Number.isFinite)) pairs.push(...pair);
   }
-  const material = new LineBasicMaterial({ color: ink, transparent: opacity < 1, opacity });
+  const material = new LineBasicMaterial({ color: ink, transparent: true, opacity, depthTest: false });
   const line = new LineSegments(geometry(new Float32Array(pairs)), material);
   line.renderOrder = 2;
   return line;

@@ -5,7 +5,7 @@ import { h, section } from "../dom";
 
 export function pictureImage(picture: Picture): HTMLImageElement {
   const base64 = /^[A-Za-z0-9+/=\s]*$/.test(picture.png) ? picture.png : "";
-  return h("img", { src: `data:image/png;base64,${base64}`, alt: picture.title || picture.name, loading: "lazy" });
+  return h("img", { src: `data:image/png;base64,${base64}`, alt: picture.title || picture.name });
 }
 
 export function picturesSection(data: RunPayload): HTMLElement | null {

@@ -50,8 +50,8 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   const columns: Column<Row>[] = [
     nameColumn,
     ...segmentNames(data).map((name) => score(`M_list(${name})`, "%", ["m_list_percent", name],
-      "Error of the straight distance between reference points, eq. (13)", 2)),
-    score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)", 2),
+      "Error of the straight distance between reference points, eq. (13)", 3)),
+    score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)", 3),
     { title: "Outcome", value: (row) => outcome(row) },
   ];
   return sortableTable(list, columns, { caption: "As the paper’s tables I and II; – has no value, bold is best of those not lost. " +
@@ -78,7 +78,7 @@ function errorTable(list: Row[]): HTMLElement {
     score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE lateral to the way"),
     score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE above the way"),
     score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
-    score("time, mean", "ms", ["time_per_scan_ms", "mean"], "From one scan to the next"),
+    score("time", "ms", ["time_per_scan_ms", "mean"], "From one scan to the next"),
     score("p99", "ms", ["time_per_scan_ms", "p99"], "99th percentile of the time from one scan to the next"),
   ], { caption: "Errors against the truth and time per scan", rowName: (row) => row.name });
 }

@@ -150,20 +150,20 @@ export function timeline(data: RunPayload, store: Store): { element: HTMLElement
   const behind: Backdrop = { shaded: [], marks: [] };
   let panels: Panel[] = [];
   const width = () => Math.max(stack.clientWidth, 160);
+  const cursor = () => { for (const panel of panels) panel.showCursor(store.state.cursor); };
   const build = () => {
     for (const panel of panels) panel.destroy();
     Object.assign(behind, backdrop(data, store.state));
     const specs = panelSpecs(data, store.state);
-    panels = specs.map((spec, i) => new Panel(spec, behind, width(), window, i === specs.length - 1));
+    panels = specs.map((spec, i) => new Panel(spec, behind, width(), window, i === 0, i === specs.length - 1));
     strips.replaceChildren(...panels.map((panel) => panel.element));
     if (panels.length === 0) strips.append(h("p", { class: "nothing" }, "Nothing over time was recorded."));
-    for (const panel of panels) panel.showCursor(store.state.cursor);
+    requestAnimationFrame(cursor);
   };
   const redraw = () => {
     Object.assign(window, { from: store.state.from, to: store.state.to });
     for (const panel of panels) panel.showWindow();
   };
-  const cursor = () => { for (const panel of panels) panel.showCursor(store.state.cursor); };
   pointer(stack, store, (clientX) => panels[0]?.timeAt(clientX) ?? store.state.cursor);
   store.on(["chosen", "errorScale", "level"], build);
   store.on(["from", "to"], () => { redraw(); requestAnimationFrame(cursor); });

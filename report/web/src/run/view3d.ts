@@ -219,7 +219,7 @@ export class View3D {
     const size = box.getSize(new Vector3());
     const reach = Math.max(size.length(), 2);
     this.controls.target.copy(center);
-    if (preset === "orbit") this.showOrbit(center, size, reach);
+    if (preset === "orbit") this.showOrbit(box, center, size);
     else this.showFlat(preset, center, size, reach);
     this.controls.enableRotate = preset === "orbit";
     this.controls.update();
@@ -227,12 +227,22 @@ export class View3D {
     this.draw();
   }
 
-  private showOrbit(center: Vector3, size: Vector3, reach: number): void {
+  /** From the side and above, as near as all corners of the box allow. */
+  private showOrbit(box: Box3, center: Vector3, size: Vector3): void {
     const longX = size.x >= size.y;
-    const away = new Vector3(longX ? -0.5 : -0.9, longX ? -0.9 : -0.5, 0.75).normalize();
-    const wide = Math.min(1, this.perspective.aspect);
-    this.perspective.position.copy(center).addScaledVector(away, (0.75 * reach) / wide);
-    this.controls.object = this.perspective;
+    const away = new Vector3(longX ? -0.9 : -0.4, longX ? -0.4 : -0.9, 0.45).normalize();
+    const camera = this.perspective;
+    const tangent = Math.tan((camera.fov * Math.PI) / 360);
+    const right = new Vector3().crossVectors(new Vector3(0, 0, 1), away).normalize();
+    const up = new Vector3().crossVectors(away, right);
+    let distance = 1;
+    for (let i = 0; i < 8; ++i) {
+      const corner = new Vector3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z).sub(center);
+      const across = Math.max(Math.abs(corner.dot(right)) / camera.aspect, Math.abs(corner.dot(up)));
+      distance = Math.max(distance, corner.dot(away) + (1.04 * across) / tangent);
+    }
+    camera.position.copy(center).addScaledVector(away, distance);
+    this.controls.object = camera;
   }
 
   private showFlat(preset: Preset, center: Vector3, size: Vector3, reach: number): void {
