@@ -130,10 +130,7 @@ Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& 
     written = write_file_atomically(folder / "estimate.json", estimate_json(result).dump(2) + "\n");
   }
   for (const EstimatorOutcome& each : result.estimators) {
-    if (written) written = write_tum(folder / (each.name + ".tum"), each.report.trajectory);
-    if (written) {
-      written = write_csv(folder / (each.name + ".diagnostics.csv"), diagnostics_table(each));
-    }
+    if (written) written = write_estimator(each, folder);
   }
   if (written && !result.truth.empty()) {
     written = write_tum(folder / "truth.tum", result.truth);

@@ -5,20 +5,22 @@
 
 #include "harness/tables.hpp"
 #include "io/atomic_file.hpp"
+#include "io/ply.hpp"
 #include "io/tum.hpp"
 
 namespace aims {
-namespace {
 
 namespace fs = std::filesystem;
 
 Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder) {
   auto written = write_tum(folder / (outcome.name + ".tum"), outcome.report.trajectory);
   if (!written) return written;
+  if (!outcome.map.empty()) {
+    written = write_ply(folder / (outcome.name + ".map.ply"), outcome.map);
+    if (!written) return written;
+  }
   return write_csv(folder / (outcome.name + ".diagnostics.csv"), diagnostics_table(outcome));
 }
-
-}  // namespace
 
 Result<void> write_streams(const Scenario& scenario, const RunResult& result,
                            const fs::path& folder) {
@@ -29,6 +31,7 @@ Result<void> write_streams(const Scenario& scenario, const RunResult& result,
   if (written) written = write_csv(folder / "passages.csv", passages_table(result.truth.passages));
   if (written)
     written = write_csv(folder / "localizability.csv", localizability_table(result.localizability));
+  if (written) written = write_csv(folder / "legs.csv", legs_table(result.legs));
   for (const EstimatorOutcome& outcome : result.estimators) {
     if (written) written = write_estimator(outcome, folder);
   }

@@ -33,12 +33,15 @@ Result<RunResult> run(const Scenario& scenario, const RunOptions& options,
   if (!estimators) return tl::unexpected(estimators.error());
 
   const double expected_s = to_seconds(simulation->expected_duration());
-  const StreamEnd end =
-      stream([&](std::vector<Delivery>& batch) { return simulation->advance(kStreamBatch, batch); },
-             *estimators, options.jobs,
-             [&] {
-               return observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
-             });
+  LegPackets leg_packets;
+  const auto next_batch = [&](std::vector<Delivery>& batch) {
+    const bool more = simulation->advance(kStreamBatch, batch);
+    leg_packets.count(batch);
+    return more;
+  };
+  const StreamEnd end = stream(next_batch, *estimators, options.jobs, [&] {
+    return observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
+  });
   RunResult result;
   result.seed = options.seed;
   result.complete = !end.stopped;
@@ -49,6 +52,7 @@ Result<RunResult> run(const Scenario& scenario, const RunOptions& options,
   result.truth_trajectory = body_trajectory(result.truth);
   result.localizability = run_localizability(scenario.simulation, simulation->rig(), result.truth,
                                              result.truth_trajectory);
+  result.legs = leg_stretches(scenario.simulation, leg_packets, result.truth, simulation->now());
   for (const TimedEstimator& each : *estimators) {
     result.estimators.push_back(outcome_of(each, result, scenario));
   }

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "estimator/estimator.hpp"
 #include "eval/scores.hpp"
+#include "harness/run_legs.hpp"
 #include "harness/run_localizability.hpp"
 #include "harness/scenario.hpp"
 #include "harness/timed_estimator.hpp"
@@ -56,6 +57,7 @@ struct RunResult {
   Truth truth;
   Trajectory truth_trajectory;       ///< T_world_body at the physics rate
   RunLocalizability localizability;  ///< what the sweeps allow to know
+  std::vector<LegStretch> legs;      ///< what became of the leg odometry, from the start
   std::vector<EstimatorOutcome> estimators;
 };
 

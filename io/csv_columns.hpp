@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+/// A table of comma-separated values (as CsvTable writes them) by the names of its columns.
+class CsvColumns {
+ public:
+  /// Every row must have as many cells as the header and end in a line end, so that a file that was
+  /// cut short is noticed. Errors: "name:line: ...".
+  static Result<CsvColumns> parse(std::string_view text, const std::string& name);
+  /// Reads a file with `parse`.
+  static Result<CsvColumns> read(const std::filesystem::path& file);
+
+  std::size_t rows() const { return rows_; }
+  const std::vector<std::string>& header() const { return header_; }
+  bool has(std::string_view column) const { return index_.contains(column); }
+
+  /// The numbers of a column, NaN for an empty cell, 1 and 0 for true and false; no numbers when
+  /// the table has no such column. Error for a cell that is neither.
+  Result<std::vector<double>> numbers(std::string_view column) const;
+
+  /// The cells of a column as they are; none when the table has no such column.
+  std::vector<std::string> texts(std::string_view column) const;
+
+ private:
+  const std::string& cell(std::size_t row, std::size_t column) const {
+    return cells_[row * header_.size() + column];
+  }
+
+  std::string name_;
+  std::vector<std::string> header_;
+  std::map<std::string, std::size_t, std::less<>> index_;  ///< column of each name
+  std::vector<std::string> cells_;                         ///< row by row
+  std::vector<int> lines_;                                 ///< at which each row begins
+  std::size_t rows_ = 0;
+};
+
+}  // namespace aims
