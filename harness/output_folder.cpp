@@ -31,7 +31,8 @@ Result<void> check_replaceable(const fs::path& path, bool overwrite) {
   }
   const bool holds_results = fs::exists(path / "scores.json") ||
                              fs::exists(path / "summary.json") ||
-                             fs::exists(path / "detectors.json");
+                             fs::exists(path / "detectors.json") ||
+                             fs::exists(path / "render.json");
   if (holds_results || (fs::is_directory(path) && fs::is_empty(path))) return {};
   return failure(fmt::format("{}: holds no results (no scores.json), so it is not overwritten",
                              path.string()));

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "eval/alignment.hpp"
 #include "harness/estimator_pictures.hpp"
+#include "harness/start_anchor.hpp"
 #include "render/robot_pictures.hpp"
 #include "render/trajectory_plot.hpp"
 #include "sim/quadruped_model.hpp"
@@ -23,17 +23,6 @@ std::string subtitle_of(const RunResult& result) {
   return fmt::format("seed {}, {:.0f} s simulated", result.seed, result.simulated_s);
 }
 
-/// The estimate laid onto the truth at its start, by position and heading.
-Trajectory in_world(const EstimatorOutcome& outcome, const RunResult& result,
-                    const ScoreConfig& scoring) {
-  Trajectory estimate = valid_part(outcome.report.trajectory);
-  const auto pairs = associate(estimate, result.truth_trajectory, scoring.association,
-                               from_seconds(scoring.association_tolerance));
-  const Pose T_world_odom = align_start(pairs, scoring.anchor).T_truth_estimate;
-  for (StampedPose& each : estimate) each.pose = T_world_odom * each.pose;
-  return estimate;
-}
-
 Result<void> draw_trajectories(const Scenario& scenario, const RunResult& result,
                                const fs::path& folder) {
   TrajectoryPlot plot;
@@ -43,7 +32,8 @@ Result<void> draw_trajectories(const Scenario& scenario, const RunResult& result
   plot.truth = thinned(result.truth_trajectory, kDrawnSpacing);
   plot.passages = result.truth.passages;
   for (const EstimatorOutcome& outcome : result.estimators) {
-    plot.estimates.push_back({outcome.name, in_world(outcome, result, scenario.scoring)});
+    plot.estimates.push_back({outcome.name, anchored(outcome.report.trajectory,
+                                                     result.truth_trajectory, scenario.scoring)});
   }
   return write_trajectory_plot(folder / "trajectories.png", plot);
 }

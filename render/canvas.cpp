@@ -51,7 +51,10 @@ SurfacePtr make_surface(const std::string& ending, const std::string& file, int 
   if (ending == ".png")
     return SurfacePtr(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
   if (ending == ".svg") return SurfacePtr(cairo_svg_surface_create(file.c_str(), width, height));
-  return SurfacePtr(cairo_pdf_surface_create(file.c_str(), width, height));
+  SurfacePtr surface(cairo_pdf_surface_create(file.c_str(), width, height));
+  // The same picture is the same file: without this cairo writes the time of day into it.
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
+  return surface;
 }
 
 std::string reason(cairo_status_t status) { return cairo_status_to_string(status); }
@@ -71,7 +74,7 @@ struct Canvas::Impl {
     context.reset();
     surface.reset();
     std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
+    if (!partial.empty()) std::filesystem::remove(partial, ignored);
   }
 };
 
@@ -98,6 +101,37 @@ Result<Canvas> Canvas::create(const std::filesystem::path& path, int width, int 
   set_color(impl->context.get(), background);
   cairo_paint(impl->context.get());
   return Canvas(std::move(impl));
+}
+
+Canvas Canvas::over(const Image& picture) {
+  auto impl = std::make_unique<Impl>();
+  impl->surface.reset(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, picture.width, picture.height));
+  impl->context.reset(cairo_create(impl->surface.get()));
+  Canvas canvas(std::move(impl));
+  canvas.image(picture,
+               {0.0, 0.0, static_cast<double>(picture.width), static_cast<double>(picture.height)});
+  return canvas;
+}
+
+Image Canvas::pixels() const {
+  cairo_surface_t* surface = impl_->surface.get();
+  if (cairo_surface_get_type(surface) != CAIRO_SURFACE_TYPE_IMAGE) return {};
+  cairo_surface_flush(surface);
+  Image picture(cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
+  const unsigned char* data = cairo_image_surface_get_data(surface);
+  const int stride = cairo_image_surface_get_stride(surface);
+  for (int row = 0; row < picture.height; ++row) {
+    const auto* line =
+        reinterpret_cast<const std::uint32_t*>(data + static_cast<std::ptrdiff_t>(row) * stride);
+    for (int column = 0; column < picture.width; ++column) {
+      const std::uint32_t value = line[column];
+      picture.set(column, row,
+                  {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
+                   static_cast<std::uint8_t>(value)});
+    }
+  }
+  return picture;
 }
 
 void Canvas::fill(const Rect& area, Color color) {
@@ -132,6 +166,15 @@ void Canvas::line(const std::vector<Eigen::Vector2d>& points, const Stroke& stro
     drawing = finite;
   }
   cairo_stroke(cr);
+}
+
+void Canvas::squares(const std::vector<Eigen::Vector2d>& centers, double size, Color color) {
+  cairo_t* cr = impl_->context.get();
+  set_color(cr, color);
+  for (const Eigen::Vector2d& center : centers) {
+    cairo_rectangle(cr, center.x() - 0.5 * size, center.y() - 0.5 * size, size, size);
+  }
+  cairo_fill(cr);
 }
 
 void Canvas::disc(const Eigen::Vector2d& center, double radius, Color color) {

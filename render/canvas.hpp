@@ -50,6 +50,8 @@ class Canvas {
   /// Error for an unknown ending or a path that cannot be written.
   static Result<Canvas> create(const std::filesystem::path& path, int width, int height,
                                Color background = {1.0, 1.0, 1.0});
+  /// A canvas over `picture` that becomes no file: `pixels` gives what was drawn.
+  static Canvas over(const Image& picture);
   Canvas(Canvas&&) noexcept;
   Canvas& operator=(Canvas&&) noexcept;
   ~Canvas();
@@ -60,6 +62,8 @@ class Canvas {
   void fill(const std::vector<Eigen::Vector2d>& corners, Color color);
   /// Line through the points [px]; a non-finite point interrupts it.
   void line(const std::vector<Eigen::Vector2d>& points, const Stroke& stroke);
+  /// Squares of `size` around the points [px], as one shape.
+  void squares(const std::vector<Eigen::Vector2d>& centers, double size, Color color);
   void disc(const Eigen::Vector2d& center, double radius, Color color);
   void text(const Eigen::Vector2d& at, const std::string& text, const TextStyle& style);
   double text_width(const std::string& text, const TextStyle& style);  ///< [px]
@@ -68,6 +72,9 @@ class Canvas {
   /// Nothing is drawn outside `area` until `unclip`.
   void clip(const Rect& area);
   void unclip();
+
+  /// What was drawn so far; empty for .svg and .pdf.
+  Image pixels() const;
 
   /// Writes the file. Error when it cannot be written.
   Result<void> finish();

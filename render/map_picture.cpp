@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 
+#include "render/palette.hpp"
 #include "render/plot.hpp"
 #include "render/point_raster.hpp"
+#include "render/roof_cut.hpp"
 
 namespace aims {
 namespace {
@@ -21,6 +22,8 @@ constexpr double kTop = 64.0;
 constexpr double kBetween = 58.0;  ///< below each strip, for its ticks
 constexpr double kMaxHeight = 1100.0;
 constexpr std::array<std::uint8_t, 3> kDark = {18, 20, 26};
+constexpr std::size_t kMostSquares = 40'000;  ///< beyond it a vector picture is slow to open
+constexpr std::size_t kTints = 32;            ///< of squares, which share a shape by colour
 
 /// Value below which the fraction `share` of `values` lies; reorders them.
 double percentile(std::vector<float>& values, double share) {
@@ -46,22 +49,14 @@ std::vector<Eigen::Vector3f> finite_points(const std::vector<Eigen::Vector3f>& p
   return finite;
 }
 
-/// Drops what is higher than `section` over the lowest point of its 2 m cell.
+/// Drops what is higher than `section` over the floor around it.
 void open_roof(std::vector<Eigen::Vector3f>& points, double section) {
-  constexpr float kCell = 2.0F;
-  const auto cell_of = [](const Eigen::Vector3f& p) {
-    const auto column = static_cast<std::int64_t>(std::floor(p.x() / kCell));
-    const auto row = static_cast<std::int64_t>(std::floor(p.y() / kCell));
-    return (column << 32) + row;
-  };
-  std::unordered_map<std::int64_t, float> floor;  // looked up only, never walked through
-  for (const Eigen::Vector3f& point : points) {
-    const auto [entry, fresh] = floor.try_emplace(cell_of(point), point.z());
-    if (!fresh) entry->second = std::min(entry->second, point.z());
+  const std::vector<bool> under = under_roof(points, section);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (under[i]) points[kept++] = points[i];
   }
-  std::erase_if(points, [&](const Eigen::Vector3f& point) {
-    return point.z() > floor.at(cell_of(point)) + static_cast<float>(section);
-  });
+  points.resize(kept);
 }
 
 /// What the view makes of a position: right and up in the picture, and towards the viewer.
@@ -171,26 +166,95 @@ struct Sheet {
   std::vector<Eigen::Vector2d> track;
   RasterWindow window;
   Layout layout;
-  int point_size = 1;  ///< [px]
+  int point_size = 1;            ///< [px]
+  bool squares = false;          ///< points as vector shapes
+  double pixels_per_unit = 1.0;  ///< of points as pixels
 };
 
-void draw_strip(Canvas& canvas, const Sheet& sheet, int strip) {
-  const Layout& layout = sheet.layout;
-  const double length = layout.width / layout.scale;
+RasterWindow window_of(const Sheet& sheet, int strip) {
+  const double length = sheet.layout.width / sheet.layout.scale;
   RasterWindow part = sheet.window;
   part.u_min += strip * length;
   part.u_max = part.u_min + length;
+  return part;
+}
+
+/// The nearest point of each cell of the strip's grid, with the cell as large as a point.
+std::vector<RasterPoint> visible_points(const Sheet& sheet, int strip) {
+  const RasterWindow part = window_of(sheet, strip);
+  const double per_metre = sheet.layout.scale / sheet.point_size;
+  const auto columns = static_cast<std::size_t>(sheet.layout.width / sheet.point_size) + 1;
+  const auto rows = static_cast<std::size_t>(sheet.layout.height / sheet.point_size) + 1;
+  std::vector<const RasterPoint*> nearest(columns * rows, nullptr);
+  for (const RasterPoint& point : sheet.points) {
+    if (point.u < part.u_min || point.u > part.u_max || point.v < part.v_min ||
+        point.v > part.v_max) {
+      continue;
+    }
+    const auto column = static_cast<std::size_t>((point.u - part.u_min) * per_metre);
+    const auto row = static_cast<std::size_t>((point.v - part.v_min) * per_metre);
+    const RasterPoint*& kept =
+        nearest[std::min(row, rows - 1) * columns + std::min(column, columns - 1)];
+    if (kept == nullptr || kept->nearness < point.nearness) kept = &point;
+  }
+  std::vector<RasterPoint> visible;
+  for (const RasterPoint* point : nearest) {
+    if (point != nullptr) visible.push_back(*point);
+  }
+  return visible;
+}
+
+void draw_squares(Canvas& canvas, const Sheet& sheet, int strip, const Panel& panel,
+                  const Rect& area) {
+  std::array<std::vector<Eigen::Vector2d>, kTints> centers;
+  for (const RasterPoint& point : visible_points(sheet, strip)) {
+    const float share = std::clamp(point.height, 0.0F, 1.0F);
+    const auto tint = std::min(kTints - 1, static_cast<std::size_t>(share * kTints));
+    centers[tint].push_back(to_pixels(panel, area, {point.u, point.v}));
+  }
+  canvas.fill(area, {kDark[0] / 255.0, kDark[1] / 255.0, kDark[2] / 255.0});
+  for (std::size_t tint = 0; tint < kTints; ++tint) {
+    if (centers[tint].empty()) continue;
+    const double share = (static_cast<double>(tint) + 0.5) / kTints;
+    canvas.squares(centers[tint], sheet.point_size, height_color(share));
+  }
+}
+
+void draw_pixels(Canvas& canvas, const Sheet& sheet, int strip, const Rect& area) {
+  const double density = sheet.pixels_per_unit;
+  canvas.image(
+      raster_points(sheet.points, window_of(sheet, strip), static_cast<int>(density * area.width),
+                    static_cast<int>(density * area.height),
+                    static_cast<int>(density * sheet.point_size), kDark),
+      area);
+}
+
+/// How a vector picture shows its points.
+void choose_points(Sheet& sheet) {
+  std::size_t count = 0;
+  for (int strip = 0; strip < sheet.layout.strips; ++strip) {
+    count += visible_points(sheet, strip).size();
+  }
+  sheet.squares = count <= kMostSquares;
+  sheet.pixels_per_unit = 2.0;
+}
+
+void draw_strip(Canvas& canvas, const Sheet& sheet, int strip) {
+  const Layout& layout = sheet.layout;
+  const RasterWindow part = window_of(sheet, strip);
   const Rect area{kLeft, kTop + strip * (layout.height + kBetween), layout.width, layout.height};
   Panel panel;
   panel.x = {strip + 1 == layout.strips ? "x [m]" : "", part.u_min, part.u_max};
   panel.y = {sheet.view == MapView::kAbove ? "y [m]" : "z [m]", part.v_min, part.v_max};
   draw_panel(canvas, area, panel);
-  canvas.image(raster_points(sheet.points, part, static_cast<int>(layout.width),
-                             static_cast<int>(layout.height), sheet.point_size, kDark),
-               area);
   std::vector<Eigen::Vector2d> line;
   for (const Eigen::Vector2d& point : sheet.track) line.push_back(to_pixels(panel, area, point));
   canvas.clip(area);
+  if (sheet.squares) {
+    draw_squares(canvas, sheet, strip, panel, area);
+  } else {
+    draw_pixels(canvas, sheet, strip, area);
+  }
   canvas.line(line, {{0.0, 0.0, 0.0, 0.6}, 2.6});
   canvas.line(line, {{1.0, 1.0, 1.0}, 1.1});
   if (!line.empty()) canvas.disc(line.front(), 4.0, {1.0, 1.0, 1.0});
@@ -201,7 +265,7 @@ std::string subtitle(const MapPicture& map, MapView view, std::size_t finite, in
   std::string text = view == MapView::kAbove
                          ? fmt::format("from above, cut open {:.1f} m over the floor", map.section)
                          : "from the side, looking along +y";
-  text += fmt::format("  ·  {} points, odometry frame, equal scales", finite);
+  text += fmt::format("  ·  {} points, {}, equal scales", finite, map.frame);
   if (strips > 1) text += fmt::format(", {} strips one after the other", strips);
   if (finite < map.points.size())
     text += fmt::format("  ·  {} points are not finite", map.points.size() - finite);
@@ -226,10 +290,11 @@ Result<void> write_map_picture(const std::filesystem::path& path, MapView view,
   const std::size_t finite = points.size();
   const HeightRange heights = map.heights.value_or(map_heights(points));
   if (view == MapView::kAbove) open_roof(points, map.section);
-  Sheet sheet{view, raster_of(view, points, heights), track_of(view, map.trajectory), {}, {}, 1};
+  Sheet sheet{view, raster_of(view, points, heights), track_of(view, map.trajectory), {}, {}};
   sheet.window = window_of(sheet.points, sheet.track);
   sheet.layout = layout_of(sheet.window, map.width - kLeft - kRight);
   sheet.point_size = point_size(sheet.points, sheet.layout.scale);
+  if (path.extension() != ".png") choose_points(sheet);
   const int height = static_cast<int>(std::ceil(sheet.layout.total()));
   auto canvas = Canvas::create(path, map.width, height);
   if (!canvas) return tl::unexpected(canvas.error());

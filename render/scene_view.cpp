@@ -19,6 +19,7 @@ namespace aims {
 namespace {
 
 constexpr int kMaxGeoms = 20000;
+constexpr double kFieldOfViewDeg = 50.0;  ///< from the lower edge to the upper
 
 struct ModelDeleter {
   void operator()(mjModel* model) const { mj_deleteModel(model); }
@@ -50,7 +51,7 @@ Result<ModelPtr> load_model(const std::string& mjcf) {
 void set_quality(mjModel& model, const ViewConfig& config) {
   model.vis.global.offwidth = config.width;
   model.vis.global.offheight = config.height;
-  model.vis.global.fovy = 50.0F;
+  model.vis.global.fovy = static_cast<float>(kFieldOfViewDeg);
   model.vis.quality.offsamples = config.samples;
   model.vis.quality.shadowsize = 4096;
   // Near and far plane and shadow box are in units of the model's extent: keep them in metres,
@@ -63,6 +64,24 @@ void set_quality(mjModel& model, const ViewConfig& config) {
     std::fill(color, color + 3, 0.42F);
   }
   std::fill(model.vis.headlight.specular, model.vis.headlight.specular + 3, 0.15F);
+}
+
+void set_sky(mjModel& model, const Color& color) {
+  const std::array<double, 3> rgb = {color.red, color.green, color.blue};
+  for (int i = 0; i < model.ntex; ++i) {
+    if (model.tex_type[i] != mjTEXTURE_SKYBOX) continue;
+    const int values = 3 * model.tex_width[i] * model.tex_height[i];
+    for (int k = 0; k < values; ++k) {
+      const double value = 255.0 * rgb[static_cast<std::size_t>(k % 3)];
+      model.tex_rgb[model.tex_adr[i] + k] = static_cast<mjtByte>(std::lround(value));
+    }
+  }
+}
+
+/// Pixels per metre at a distance of one metre.
+float focal_length(const ViewConfig& config) {
+  const double half = 0.5 * kFieldOfViewDeg * std::numbers::pi / 180.0;
+  return static_cast<float>(0.5 * config.height / std::tan(half));
 }
 
 /// Replaces the scene's lamps by one high above, leaning towards the camera: the robot is lit from
@@ -147,6 +166,7 @@ Result<SceneView> SceneView::create(const std::string& mjcf, const std::vector<f
   std::copy_n(height_field.begin(), std::min(height_field.size(), capacity),
               impl->model->hfield_data);
   set_quality(*impl->model, config);
+  if (config.sky) set_sky(*impl->model, *config.sky);
   impl->data.reset(mj_makeData(impl->model.get()));
   auto gl = OffscreenContext::create();
   if (!gl) return tl::unexpected(gl.error());
@@ -161,7 +181,8 @@ Result<SceneView> SceneView::create(const std::string& mjcf, const std::vector<f
   return SceneView(std::move(impl));
 }
 
-Result<Image> SceneView::draw(const std::vector<double>& qpos, const Camera& camera) {
+Result<Image> SceneView::draw(const std::vector<double>& qpos, const Camera& camera,
+                              const ViewOverlay& overlay) {
   mjModel* model = impl_->model.get();
   if (qpos.size() != static_cast<std::size_t>(model->nq)) {
     return failure(fmt::format("the model to draw has {} joint positions, the snapshot {}",
@@ -185,6 +206,7 @@ Result<Image> SceneView::draw(const std::vector<double>& qpos, const Camera& cam
   set_lamp(impl_->scene, camera);
   const mjrRect viewport{0, 0, impl_->config.width, impl_->config.height};
   mjr_render(viewport, &impl_->scene, &impl_->context);
+  draw_overlay(overlay, focal_length(impl_->config));
   return read_picture(viewport, impl_->context);
 }
 

@@ -3,11 +3,14 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "render/image.hpp"
+#include "render/palette.hpp"
+#include "render/view_overlay.hpp"
 
 namespace aims {
 
@@ -27,6 +30,7 @@ struct ViewConfig {
   int height = 720;  ///< [px]
   int samples = 4;   ///< per pixel; 0: edges are not smoothed
   bool shadows = true;
+  std::optional<Color> sky;  ///< one colour for what has no end; none: as the document says
 };
 
 /// A MuJoCo model ready to be drawn in any configuration. Stays in the thread that made it.
@@ -40,9 +44,10 @@ class SceneView {
   SceneView& operator=(SceneView&&) noexcept;
   ~SceneView();
 
-  /// The picture with the joints at `qpos`. Error when `qpos` has the wrong length or is not
-  /// finite.
-  Result<Image> draw(const std::vector<double>& qpos, const Camera& camera);
+  /// The picture with the joints at `qpos` and the overlay's dots and lines. Error when `qpos` has
+  /// the wrong length or is not finite.
+  Result<Image> draw(const std::vector<double>& qpos, const Camera& camera,
+                     const ViewOverlay& overlay = {});
 
  private:
   struct Impl;

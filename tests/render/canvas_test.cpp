@@ -111,5 +111,39 @@ TEST(Canvas, LeavesNothingBehindWithoutFinish) {
   EXPECT_EQ(folder.files(), 0U);
 }
 
+TEST(Canvas, OverAPictureKeepsItAndDrawsOnIt) {
+  Image picture(8, 6);
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 8; ++column) {
+      picture.set(column, row,
+                  {static_cast<std::uint8_t>(30 * column), 7, static_cast<std::uint8_t>(40 * row)});
+    }
+  }
+  Canvas canvas = Canvas::over(picture);
+  EXPECT_EQ(canvas.pixels().rgb, picture.rgb);
+  canvas.squares({{2.0, 2.0}, {6.0, 4.0}}, 2.0, {1.0, 1.0, 1.0});
+  const Image drawn = canvas.pixels();
+  EXPECT_EQ(drawn.pixel(1, 1)[1], 255);
+  EXPECT_EQ(drawn.pixel(6, 4)[1], 255);
+  EXPECT_EQ(drawn.pixel(4, 2), picture.pixel(4, 2));
+}
+
+TEST(Canvas, PdfHoldsNoTimeOfDay) {
+  const PictureFolder folder;
+  auto canvas = Canvas::create(folder / "a.pdf", 50, 50);
+  ASSERT_TRUE(canvas && canvas->finish());
+  std::ifstream file(folder / "a.pdf", std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text.rfind("%PDF-", 0), 0U);
+  EXPECT_EQ(text.find("(D:20"), std::string::npos) << "an identical picture would differ";
+}
+
+TEST(Canvas, HasNoPixelsOfAVectorPicture) {
+  const PictureFolder folder;
+  const auto canvas = Canvas::create(folder / "a.svg", 50, 50);
+  ASSERT_TRUE(canvas);
+  EXPECT_EQ(canvas->pixels().width, 0);
+}
+
 }  // namespace
 }  // namespace aims

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "render/palette.hpp"
 #include "render/point_raster.hpp"
@@ -140,6 +143,42 @@ TEST(MapPicture, NamesThePathThatCannotBeWritten) {
   const auto written = write_map_picture(folder / "missing/a.png", MapView::kSide, {});
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("missing/a.png"), std::string::npos);
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A wall of points so dense that every cell of a picture holds one.
+std::vector<Eigen::Vector3f> dense_wall(float length, float height) {
+  std::vector<Eigen::Vector3f> points;
+  for (float x = 0.0F; x < length; x += 0.01F) {
+    for (float z = 0.0F; z < height; z += 0.01F) points.emplace_back(x, 0.0F, z);
+  }
+  return points;
+}
+
+TEST(MapPicture, DrawsFewPointsAsShapesInAVectorPicture) {
+  const PictureFolder folder;
+  MapPicture map;
+  map.points = dense_wall(4.0F, 0.2F);
+  ASSERT_TRUE(write_map_picture(folder / "a.svg", MapView::kSide, map));
+  const std::string svg = text_of(folder / "a.svg");
+  EXPECT_EQ(svg.find("<image"), std::string::npos);
+  const auto closings =
+      std::count(svg.begin(), svg.end(), 'Z') + std::count(svg.begin(), svg.end(), 'z');
+  EXPECT_GT(closings, 1000) << "a square is a closed path";
+}
+
+TEST(MapPicture, DrawsManyPointsAsPixelsInAVectorPicture) {
+  const PictureFolder folder;
+  MapPicture map;
+  map.points = dense_wall(12.0F, 10.0F);
+  ASSERT_TRUE(write_map_picture(folder / "a.svg", MapView::kSide, map));
+  const std::string svg = text_of(folder / "a.svg");
+  EXPECT_NE(svg.find("<image"), std::string::npos);
+  EXPECT_LT(svg.size(), 8'000'000U);
 }
 
 }  // namespace
