@@ -20,6 +20,8 @@ packages() { grep -v '^#' scripts/packages.txt; }
 
 missing_packages() {
   local package
+  # Debian's npm comes with Debian's node; where another node is in use, its npm is on the PATH.
+  command -v npm >/dev/null || echo nodejs npm
   for package in $(packages); do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || echo "$package"
   done

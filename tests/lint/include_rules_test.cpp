@@ -24,7 +24,10 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
     {"render",
      {"core/", "render/", "sim/environment/scene", "sim/truth.hpp", "sim/quadruped_model.hpp"}},
     {"harness", {"core/", "estimator/", "sim/", "eval/", "io/", "render/", "harness/"}},
-    {"app", {"core/", "harness/", "app/"}},
+    {"report",
+     {"core/", "eval/", "io/", "render/", "harness/", "report/", "sim/environment/scene",
+      "sim/environment/triangles.hpp"}},
+    {"app", {"core/", "harness/", "report/", "app/"}},
     {"ros", {"core/", "estimator/", "io/", "harness/", "ros/"}},
 };
 
@@ -36,12 +39,13 @@ struct Confinement {
 };
 const std::vector<Confinement> kConfined = {
     {"mujoco/", {"sim", "render"}, false},
-    {"embree3/", {"sim"}, false},
+    {"embree3/", {"sim", "report"}, false},
     {"GL/", {"render"}, false},
     {"cairo", {"render"}, false},
     {"yaml-cpp/", {"io"}, false},
     {"SQLiteCpp/", {"harness"}, false},
     {"pagmo/", {"harness"}, false},
+    {"zlib.h", {"render", "report"}, false},
     {"CLI/", {"app", "ros"}, true},
     {"ros/ros.h", {"ros"}, false},
 };

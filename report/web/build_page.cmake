@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Script: cmake -DWEB=report/web -DOUT=... -DNPM=... -DNODE=... -DREQUIRED=AUTO|ON -P build_page.cmake
+#   -- modules   installs what package-lock.json names into OUT/node_modules, writes OUT/modules.stamp
+#   -- page      bundles WEB into OUT/page.html, writes its inputs to OUT/page.d
+# Where that does not work, as without the registry, the page is an empty file: the build goes on,
+# and `aims report` says so. With REQUIRED=ON it is an error instead.
+math(EXPR last "${CMAKE_ARGC} - 1")
+set(part ${CMAKE_ARGV${last}})
+
+function(give_up what log)
+  if(REQUIRED STREQUAL "ON")
+    message(FATAL_ERROR "${what}:\n${log}")
+  endif()
+  message(WARNING "${what}: `aims report` will write no pages. Once npm works, remove ${OUT} and build again.\n${log}")
+endfunction()
+
+if(part STREQUAL "modules")
+  file(MAKE_DIRECTORY ${OUT})
+  configure_file(${WEB}/package.json ${OUT}/package.json COPYONLY)
+  configure_file(${WEB}/package-lock.json ${OUT}/package-lock.json COPYONLY)
+  execute_process(COMMAND ${NPM} ci --no-audit --no-fund --prefix ${OUT}
+    RESULT_VARIABLE code OUTPUT_VARIABLE log ERROR_VARIABLE log)
+  if(code EQUAL 0)
+    file(WRITE ${OUT}/modules.stamp "installed\n")
+  else()
+    file(WRITE ${OUT}/modules.stamp "missing\n")
+    give_up("npm ci failed" "${log}")
+  endif()
+  return()
+endif()
+
+# The inputs are whatever lies among the sources: a file that is added counts as well.
+file(GLOB_RECURSE inputs ${WEB}/src/*)
+list(SORT inputs)
+list(JOIN inputs " \\\n  " inputs)
+file(WRITE ${OUT}/page.d "${OUT}/page.html: \\\n  ${inputs}\n")
+file(READ ${OUT}/modules.stamp installed)
+if(NOT installed STREQUAL "installed\n")
+  file(WRITE ${OUT}/page.html "")
+  return()
+endif()
+execute_process(COMMAND ${NODE} ${WEB}/build.mjs --modules ${OUT}/node_modules --out ${OUT}
+  RESULT_VARIABLE code OUTPUT_VARIABLE log ERROR_VARIABLE log)
+if(NOT code EQUAL 0)
+  # Installed but not bundled is a mistake in the sources, whatever is required.
+  message(FATAL_ERROR "bundling the report page failed:\n${log}")
+endif()
