@@ -32,7 +32,7 @@ function logTicks(low: number, high: number, most: number): number[] {
       if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9)) ticks.push(value);
     }
   }
-  return ticks.length > 1 ? ticks : linearTicks(low, high, most);
+  return ticks.length > 2 ? ticks : linearTicks(low, high, most);
 }
 
 /** Ends that hold all values, with some air; [0, 1] for none. Log: of those above zero. */

@@ -17,7 +17,7 @@ export interface Mark {
   high?: number;
   /** Said besides the numbers when the mark is read. */
   note?: string;
-  /** Drawn as a cross: a run that was lost. */
+  /** Drawn as a cross: lost; without a value at the upper edge. */
   lost?: boolean;
 }
 
@@ -178,14 +178,15 @@ function drawLine(frame: Frame, line: Line, aside: number, places: Place[]): SVG
   let lost = "";
   for (const mark of line.marks) {
     const x = px(frame, mark.x) + aside;
-    const y = py(frame, mark.y);
-    if (!Number.isFinite(x) || !Number.isFinite(y)) {
+    const known = Number.isFinite(py(frame, mark.y));
+    if (!Number.isFinite(x) || (!known && !mark.lost)) {
       pen = "M";
       continue;
     }
+    const y = known ? py(frame, mark.y) : frame.top + 6;
     places.push({ line, mark, px: x, py: y });
-    path += `${pen}${x.toFixed(1)},${y.toFixed(1)}`;
-    pen = "L";
+    if (known) path += `${pen}${x.toFixed(1)},${y.toFixed(1)}`;
+    pen = known ? "L" : "M";
     if (mark.lost) {
       lost += `M${(x - 4).toFixed(1)},${(y - 4).toFixed(1)}l8,8m0,-8l-8,8`;
     } else {

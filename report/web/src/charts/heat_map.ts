@@ -119,6 +119,11 @@ export function heatMap(cells: HeatCell[], options: HeatOptions): HTMLElement {
     const frame: Frame = { x, y, left, top: 8, width: inner, height: height - 52 };
     const spanX = (i: number) => [xEdges[i]!, xEdges[i + 1]!].map((edge) => left + x.at(edge) * inner) as [number, number];
     const spanY = (i: number) => [yEdges[i + 1]!, yEdges[i]!].map((edge) => frame.top + (1 - y.at(edge)) * frame.height) as [number, number];
+    const marked = (x0: number, x1: number, y0: number, y1: number) => options.marks.some((mark) => {
+      const mx = left + x.at(mark.x) * inner;
+      const my = frame.top + (1 - y.at(mark.y)) * frame.height;
+      return mx >= x0 && mx <= x1 && my >= y0 && my <= y1;
+    });
     const numbers = xs.length <= 9 && inner / xs.length > 48;
     const ring = svg("rect", { class: "ring", width: 0, height: 0 });
     const drawing = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", tabindex: 0, "aria-label": options.label });
@@ -134,7 +139,7 @@ export function heatMap(cells: HeatCell[], options: HeatOptions): HTMLElement {
       }));
       if (numbers) {
         drawing.append(svg("text", {
-          x: (x0 + x1) / 2, y: (y0 + y1) / 2 + 4, "text-anchor": "middle",
+          x: (x0 + x1) / 2, y: (y0 + y1) / 2 + (marked(x0, x1, y0, y1) ? 24 : 4), "text-anchor": "middle",
           style: `fill: ${share > 55 ? "var(--card)" : "var(--ink)"}`,
         }, known ? formatNumber(value) : "none"));
       }
@@ -183,5 +188,5 @@ export function heatMap(cells: HeatCell[], options: HeatOptions): HTMLElement {
   return h("figure", { class: "heat-map" }, stage, says,
     h("div", { class: "scale" }, formatNumber(scale.low), h("span", { class: "scale-bar deep" }),
       `${formatNumber(scale.high)}${law}`,
-      ...options.marks.map((mark) => `${mark.ring ? "◯" : "✕"} ${mark.name}`)));
+      ...options.marks.map((mark) => h("span", {}, `${mark.ring ? "◯" : "✕"} ${mark.name}`))));
 }

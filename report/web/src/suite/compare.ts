@@ -30,7 +30,7 @@ function changeTable(data: SuitePayload, rows: ScoreChange[], caption: string): 
         return unit && row.score !== "success" ? `${title} [${unit}]` : title;
       },
     },
-    { title: "seeds", value: (row) => row.seeds },
+    { title: "seeds", value: (row) => row.seeds, show: (row) => String(row.seeds) },
     { title: "before", value: (row) => row.before },
     { title: "after", value: (row) => row.after },
     {

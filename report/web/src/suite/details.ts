@@ -52,7 +52,7 @@ function scoreTable(data: SuitePayload, scenario: SuiteScenario, estimator: stri
         ? [score.median_low, score.median_high] : null,
     },
     { title: "worst", value: ([, score]) => score.worst },
-    { title: "runs with a value", value: ([, score]) => score.count },
+    { title: "runs with a value", value: ([, score]) => score.count, show: ([, score]) => String(score.count) },
   ], { caption: "All scores, over seeds", rowName: ([key]) => key });
 }
 

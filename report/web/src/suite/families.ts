@@ -64,7 +64,7 @@ function table(family: Family, names: string[], quantity: Quantity): HTMLElement
     });
   }
   const columns: Column<TableRow>[] = [
-    { title: "level", unit: family.level_unit, value: (row) => row.level },
+    { title: "level", unit: family.level_unit, value: (row) => row.level, show: (row) => String(row.level) },
     { title: "equivalent returns", value: (row) => row.returns, hint: "along the weak axis, median of the sweeps, by the truth" },
     ...names.map((name): Column<TableRow> => ({
       title: name, value: (row) => row.of.get(name)?.[quantity.value],

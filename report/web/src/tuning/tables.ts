@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** What the analysis says in numbers: best values, sensitivity, and every point. */
 import { h } from "../dom";
-import { formatNumber, isNumber, kNone } from "../format";
+import { formatFixed, formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type Column } from "../table";
 import {
   axisLabel, ends, pointsOf, type Analysis, type Point, type TunedEstimator, type TuningPayload, type WalkChoice,
@@ -44,7 +44,7 @@ export function bestTable(own: TunedEstimator, analysis: Analysis): HTMLElement 
     { title: "default", value: ({ parameter }) => parameter.default },
     { title: "best", value: ({ i }) => best.values[i], interval: ({ i }) => ends(best.between[i]) },
     {
-      title: "way from default", unit: "of the range", value: ({ i }) => best.distance[i],
+      title: "moved", unit: "of range", hint: "best minus default, in widths of the range", value: ({ i }) => best.distance[i],
       show: ({ i }) => `${(best.distance[i] ?? 0) > 0 ? "+" : ""}${formatNumber(best.distance[i], 2)}`,
     },
   ], { caption: "Best values, with where the best lies when seeds are drawn again", rowName: ({ parameter }) => parameter.name });
@@ -102,10 +102,10 @@ export function pointTable(data: TuningPayload, own: TunedEstimator, score: stri
       title: parameter.name, ...(parameter.unit && parameter.unit !== "-" ? { unit: parameter.unit } : {}),
       value: (point) => point.values[i],
     })),
-    { title: "walks", value: (point) => point.walks },
+    { title: "walks", value: (point) => point.walks, show: (point) => String(point.walks) },
     { title: "lost", value: (point) => point.lost, show: (point) => (point.lost > 0 ? `✕ ${point.lost}` : "0") },
   ];
-  if (own.points.generation) columns.push({ title: "generation", value: (point) => point.generation });
+  if (own.points.generation) columns.push({ title: "generation", value: (point) => point.generation, show: (point) => formatFixed(point.generation, 0) });
   return sortableTable(points, columns, {
     caption: `${points.length} points, median of ${score} over ${choice.scenario ?? "all walks"}${choice.heldOut ? ", held out" : ""}`,
     rowName: (point) => String(point.index), sortBy: 1,

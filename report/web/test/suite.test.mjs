@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { keepPicture, overflows, stage, whySkipped } from "./made_up.mjs";
+import { comparison, detectors, kHostile, suite } from "./suite_fixtures.mjs";
+
+const skip = whySkipped();
+let pages;
+before(async () => { if (!skip) pages = await stage(); });
+after(async () => { await pages?.close(); });
+
+const cell = (page, row, estimator) =>
+  page.locator(`[id="matrix"] tr[data-row="${row}"] td[data-estimator="${estimator}"]`);
+const values = (page, estimator) => page.locator(`#matrix td[data-estimator="${estimator}"]`)
+  .evaluateAll((cells) => cells.map((each) => each.dataset.value ?? null));
+
+test("the matrix shows the suite's own numbers", { skip }, async () => {
+  const data = suite();
+  const { page, troubles, ready } = await pages.show(data);
+  assert.equal(ready, "true");
+  for (const scenario of data.suite.scenarios) {
+    for (const [name, each] of Object.entries(scenario.estimators)) {
+      const shown = await cell(page, scenario.name, name).getAttribute("data-value");
+      const median = each.scores.ate_m.median;
+      assert.equal(shown === null ? null : Number(shown), median);
+    }
+  }
+  await page.locator("#matrix").getByLabel("of the runs").selectOption("worst");
+  assert.equal(Number(await cell(page, "dial_2", "a").getAttribute("data-value")), data.suite.scenarios[1].estimators.a.scores.ate_m.worst);
+  await page.locator("#matrix").getByLabel("Score").selectOption("m_list_percent.all");
+  assert.equal(Number(await cell(page, "alone", "a").getAttribute("data-value")), data.suite.scenarios[3].estimators.a.scores["m_list_percent.all"].worst);
+  assert.deepEqual(troubles, []);
+});
+
+test("a lost run is told in words, not by colour alone", { skip }, async () => {
+  const { page } = await pages.show(suite());
+  assert.match(await cell(page, "dial_3", "b").innerText(), /✕ 3 of 3 lost/);
+  assert.doesNotMatch(await cell(page, "dial_3", "a").innerText(), /lost/);
+  await page.getByLabel("only with lost runs").check();
+  assert.equal(await page.locator("#matrix tbody tr").count(), 1);
+});
+
+test("rows sort by an estimator, those without a value last", { skip }, async () => {
+  const { page } = await pages.show(suite());
+  await page.locator("#matrix thead button").filter({ hasText: /^b$/ }).click();
+  await page.locator("#matrix thead button").filter({ hasText: /^b$/ }).click();
+  const shown = await values(page, "b");
+  assert.equal(shown.pop(), null);
+  assert.deepEqual(shown.map(Number), [...shown.map(Number)].sort((x, y) => y - x));
+});
+
+test("a cell opens its runs, and runs link to their pages", { skip }, async () => {
+  const { page } = await pages.show(suite());
+  await cell(page, "dial_3", "b").locator("button").click();
+  const told = page.locator(".cell-details");
+  assert.match(await told.innerText(), /✕ lost at 12.5 s: error_limit/);
+  assert.equal(await told.locator("a").first().getAttribute("href"), "runs/dial_3/seed-1/report.html");
+  assert.equal(await page.locator('#matrix tr[data-row="alone"] .runs-links a').count(), 1);
+});
+
+test("arrow keys walk the matrix and Enter opens a cell", { skip }, async () => {
+  const { page } = await pages.show(suite());
+  await cell(page, "dial_1", "a").locator("button").focus();
+  for (const key of ["ArrowDown", "ArrowRight", "Enter"]) await page.keyboard.press(key);
+  assert.match(await page.locator(".cell-details h3").innerText(), /^dial_2, b$/);
+  assert.equal(await page.locator('#matrix button.cell[tabindex="0"]').count(), 1);
+});
+
+test("the dial has a line per estimator, with intervals, over level and truth", { skip }, async () => {
+  const { page, troubles } = await pages.show(suite());
+  const chart = page.locator("#families figure.chart");
+  assert.equal(await chart.locator("g.series").count(), 2);
+  const bars = await chart.locator('g[data-series="a"] .bars').getAttribute("d");
+  assert.equal(bars.match(/V/g).length, 3);
+  assert.equal(await chart.locator("path.lost").count(), 1);
+  await chart.locator("svg[role=img]").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.match(await chart.locator(".readout").innerText(), /^a: ATE \[m\] 0\.0123 \[0\.00984, 0\.0160\] at dial \[step\] 1/);
+  await page.locator("#families select").nth(2).selectOption("truth");
+  assert.equal((await page.locator('#families g[data-series="a"] .bars').getAttribute("d")).match(/V/g).length, 2);
+  await chart.getByRole("button", { name: "b", exact: true }).click();
+  assert.equal(await page.locator("#families g.series").count(), 1);
+  assert.deepEqual(troubles, []);
+});
+
+test("ROC curves come with the areas under them", { skip }, async () => {
+  const { page, troubles } = await pages.show({ ...suite(), roc: detectors() });
+  assert.equal(await page.locator("#roc g.series").count(), 2);
+  assert.equal(await page.locator('#roc tr[data-row="D"] td').first().getAttribute("data-value"), "0.7321");
+  await page.locator("#roc").getByLabel("Degenerate below").selectOption("n10");
+  assert.match(await page.locator("#roc .nothing").innerText(), /no curve/);
+  assert.deepEqual(troubles, []);
+});
+
+test("before and after shows what is beyond noise first", { skip }, async () => {
+  const { page } = await pages.show({ ...suite(), compare: comparison() });
+  const rows = page.locator("#compare tbody tr");
+  assert.equal(await rows.count(), 2);
+  assert.match(await rows.nth(0).innerText(), /▲ better/);
+  assert.match(await rows.nth(0).innerText(), /−0\.130 to −0\.0900/);
+  assert.match(await rows.nth(1).innerText(), /▼ worse/);
+  await page.locator("#compare").getByLabel("Verdict").selectOption("all");
+  assert.equal(await rows.count(), 3);
+  assert.match(await page.locator("#compare").innerText(), /Only in new: 1/);
+});
+
+test("hostile names stay names", { skip }, async () => {
+  const names = [kHostile, "__proto__", "constructor", "x".repeat(300)];
+  const data = { ...suite({ first: kHostile, names }), roc: detectors(kHostile), compare: comparison(kHostile), title: kHostile, notes: [kHostile] };
+  data.suite.families[0].name = kHostile;
+  const { page, troubles, ready } = await pages.show(data, { width: 390 });
+  assert.equal(ready, "true");
+  assert.equal(await page.evaluate(() => window.broken), undefined);
+  assert.equal(await page.locator("#matrix tbody th").first().innerText(), kHostile);
+  assert.equal(await page.locator("img").count(), 0);
+  assert.equal(await overflows(page), false);
+  assert.deepEqual(troubles, []);
+});
+
+test("an empty suite, one scenario and values that are none give a page", { skip }, async () => {
+  const empty = suite();
+  Object.assign(empty.suite, { scenarios: [], families: [], complete: false });
+  empty.runs = [];
+  const first = await pages.show(empty);
+  assert.equal(first.ready, "true");
+  assert.match(await first.page.locator("body").innerText(), /No scenario of this suite has a finished run yet/);
+  const one = suite({ names: ["only"] });
+  one.suite.families = [];
+  for (const each of Object.values(one.suite.scenarios[0].estimators)) {
+    for (const score of Object.values(each.scores)) Object.assign(score, { median: NaN, worst: NaN, median_low: NaN, median_high: NaN });
+  }
+  const second = await pages.show(one);
+  assert.equal(second.ready, "true");
+  assert.equal(await second.page.locator("#matrix tbody tr").count(), 1);
+  assert.equal(await cell(second.page, "only", "a").locator(".value").innerText(), "–");
+  assert.deepEqual([...first.troubles, ...second.troubles], []);
+});
+
+test("it fits 1280 and 390 pixels, light and dark", { skip }, async () => {
+  for (const [width, dark] of [[1280, false], [1280, true], [390, false], [390, true]]) {
+    const { page, troubles, context } = await pages.show({ ...suite(), roc: detectors(), compare: comparison() }, { width, dark });
+    assert.equal(await overflows(page), false, `${width}`);
+    await keepPicture(page, `suite-${width}-${dark ? "dark" : "light"}`);
+    assert.deepEqual(troubles, []);
+    await context.close();
+  }
+});

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { keepPicture, overflows, stage, whySkipped } from "./made_up.mjs";
+import { kHostile, tuning } from "./suite_fixtures.mjs";
+
+const skip = whySkipped();
+let pages;
+before(async () => { if (!skip) pages = await stage(); });
+after(async () => { await pages?.close(); });
+
+test("best values and shares are those of the analysis", { skip }, async () => {
+  const data = tuning();
+  const { page, troubles, ready } = await pages.show(data);
+  assert.equal(ready, "true");
+  const { best, sensitivity } = data.estimators[0].analyses[0];
+  assert.equal(Number(await page.locator("[data-best]").getAttribute("data-best")), best.objective);
+  const eta = page.locator('#best tr[data-row="degeneracy.eta"]');
+  assert.match(await eta.innerText(), /6\.00\s*4\.00 to 6\.00/);
+  const rows = page.locator("#sensitivity .share-row");
+  assert.equal(Number(await rows.nth(0).getAttribute("data-total")), sensitivity.total[0]);
+  assert.match(await rows.nth(0).innerText(), /95\.0 % \[90\.0, 98\.0\], alone 88\.0 %/);
+  assert.match(await rows.nth(1).innerText(), /does not matter/);
+  assert.deepEqual(troubles, []);
+});
+
+test("each parameter has a curve with intervals, or every point by scenario", { skip }, async () => {
+  const { page, troubles } = await pages.show(tuning());
+  const charts = page.locator("#curves figure.chart");
+  assert.equal(await charts.count(), 2);
+  assert.equal((await charts.nth(0).locator(".bars").getAttribute("d")).match(/V/g).length, 4);
+  await page.locator("#curves").getByLabel("Show").selectOption("cloud");
+  assert.equal(await charts.nth(0).locator("g.series").count(), 2);
+  assert.equal(await charts.nth(0).locator("path.lost").count(), 1);
+  await page.getByLabel("Score").selectOption("m_end_m");
+  assert.match(await page.locator("#best").innerText(), /of m_end_m the points alone/);
+  assert.equal(await charts.nth(0).locator("g.series").count(), 2);
+  assert.deepEqual(troubles, []);
+});
+
+test("the map has a cell per pair of values and can be turned", { skip }, async () => {
+  const { page } = await pages.show(tuning());
+  const cells = page.locator("#map rect.cell");
+  assert.equal(await cells.count(), 12);
+  assert.match(await page.locator("#map .axis-label").first().textContent(), /eta/);
+  await page.locator("#map").getByLabel("Across").selectOption("1");
+  assert.equal(await cells.count(), 12);
+  assert.match(await page.locator("#map .axis-label").first().textContent(), /kappa/);
+  await page.locator("#map svg[role=img]").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.match(await page.locator("#map .readout").innerText(), /objective 1\.00 at degeneracy\.kappa 1\.00, degeneracy\.eta 0/);
+});
+
+test("the points sort, the least score first and in bold, lost ones never best", { skip }, async () => {
+  const { page } = await pages.show(tuning());
+  const rows = page.locator("#points tbody tr");
+  assert.equal(await rows.count(), 13);
+  const scores = (await page.locator("#points tbody tr td:nth-child(2)").evaluateAll((cells) =>
+    cells.map((each) => each.dataset.value))).map(Number);
+  assert.deepEqual(scores, [...scores].sort((a, b) => a - b));
+  assert.equal(await page.locator("#points td.best").count(), 1);
+  await page.locator("#points").getByRole("button", { name: /degeneracy.kappa/ }).click();
+  assert.equal(await rows.first().locator("td").nth(2).getAttribute("data-value"), "1");
+  await page.locator("#points").getByLabel("Scenario").selectOption("1");
+  assert.match(await page.locator("#points .caption").innerText(), /over garage/);
+});
+
+test("hostile names, nothing done and one scenario give a page", { skip }, async () => {
+  const hostile = await pages.show({ ...tuning({ parameter: kHostile, scenarios: [kHostile] }), title: kHostile }, { width: 390 });
+  assert.equal(hostile.ready, "true");
+  assert.equal(await hostile.page.evaluate(() => window.broken), undefined);
+  assert.equal(await hostile.page.locator("img").count(), 0);
+  assert.equal(await overflows(hostile.page), false);
+  const none = await pages.show({ ...tuning(), estimators: [], walks: [] });
+  assert.match(await none.page.locator("body").innerText(), /No unit is done yet/);
+  const bare = tuning();
+  Object.assign(bare.estimators[0].analyses[0], { best: null, why_no_best: "none of 0 points", sensitivity: null, curves: [], maps: [] });
+  bare.estimators[0].rows.scores.fill(NaN);
+  const third = await pages.show(bare);
+  assert.equal(third.ready, "true");
+  assert.match(await third.page.locator("#best").innerText(), /No best point: none of 0 points/);
+  assert.deepEqual([...hostile.troubles, ...none.troubles, ...third.troubles], []);
+});
+
+test("it fits 1280 and 390 pixels, light and dark", { skip }, async () => {
+  for (const [width, dark] of [[1280, false], [390, true]]) {
+    const { page, troubles, context } = await pages.show(tuning(), { width, dark });
+    assert.equal(await overflows(page), false, `${width}`);
+    await keepPicture(page, `tuning-${width}-${dark ? "dark" : "light"}`);
+    assert.deepEqual(troubles, []);
+    await context.close();
+  }
+});
