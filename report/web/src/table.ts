@@ -112,7 +112,8 @@ export function sortableTable<Row>(
       const ascending = heads[index]!.getAttribute("aria-sort") === "ascending";
       sortBy(index, ascending ? "descending" : "ascending");
     };
-    heads.push(h("th", { scope: "col", "aria-sort": "none", title: column.hint },
+    const words = rows.length > 0 && typeof column.value(rows[0]!) === "string";
+    heads.push(h("th", { scope: "col", "aria-sort": "none", title: column.hint, class: words ? "text" : null },
       h("button", { type: "button", class: "sort", onclick: press }, column.title,
         column.unit ? h("span", { class: "unit" }, ` ${column.unit}`) : null)));
   });

@@ -9,7 +9,7 @@ import { configSection } from "./config";
 import { picturesSection } from "./pictures";
 import { resultsSection } from "./results";
 import { cursorTimes, timeSpan } from "./series";
-import { Store } from "./store";
+import { Store, type Level } from "./store";
 import { timeline } from "./timeline";
 import { viewCard } from "./view";
 
@@ -84,12 +84,18 @@ function firstChoice(data: RunPayload): number {
   return whole >= 0 ? whole : data.estimators.length - 1 < 0 ? -1 : 0;
 }
 
+/** Level shaded at first: below 100 returns, or whichever the run has stretches of. */
+function firstLevel(data: RunPayload): Level {
+  const degenerate = data.localizability?.degenerate;
+  return (["n100", "n1000", "n10"] as const).find((level) => (degenerate?.[level]?.length ?? 0) > 0) ?? "n100";
+}
+
 export function renderRun(root: HTMLElement, data: RunPayload): void {
   data.estimators ??= [];
   const times = cursorTimes(data);
   const span = timeSpan(data);
   const store = new Store({ cursor: times[Math.floor(times.length / 2)] ?? span[0], from: span[0], to: span[1],
-    chosen: firstChoice(data), level: "n100", coloring: "height", errorScale: "chosen" }, times, span);
+    chosen: firstChoice(data), level: firstLevel(data), coloring: "height", errorScale: "chosen" }, times, span);
   const view = viewCard(data, store);
   const strips = timeline(data, store);
   const results = h("div", {}, resultsSection(data));

@@ -173,7 +173,7 @@ export class Panel {
     };
   }
 
-  /** Degenerate stretches and thresholds, behind the curves. */
+  /** Degenerate stretches, behind the curves. */
   private drawBackdrop(plot: uPlot): void {
     const { ctx, bbox } = plot;
     ctx.save();
@@ -185,10 +185,19 @@ export class Panel {
       const left = plot.valToPos(from, "x", true);
       ctx.fillRect(left, bbox.top, Math.max(plot.valToPos(to, "x", true) - left, devicePixelRatio), bbox.height);
     }
+    ctx.restore();
+  }
+
+  /** Thresholds, over the grid. */
+  private drawLevels(plot: uPlot): void {
+    const { ctx, bbox } = plot;
+    ctx.save();
     ctx.strokeStyle = color("--ink-soft");
+    ctx.lineWidth = devicePixelRatio;
     ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
     for (const level of this.spec.levels ?? []) {
       const y = Math.round(plot.valToPos(level, "y", true)) + 0.5;
+      if (!(y > bbox.top && y < bbox.top + bbox.height)) continue;
       ctx.beginPath();
       ctx.moveTo(bbox.left, y);
       ctx.lineTo(bbox.left + bbox.width, y);
@@ -199,6 +208,7 @@ export class Panel {
 
   /** Passages and losses, over the curves. */
   private drawMarks(plot: uPlot): void {
+    this.drawLevels(plot);
     const { ctx, bbox } = plot;
     ctx.save();
     ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;

@@ -33,14 +33,14 @@ function everyone(data: RunPayload, chosen: number, name: string, all: boolean):
   return curves;
 }
 
-function truthPanels(data: RunPayload): PanelSpec[] {
+function truthPanels(data: RunPayload, chosenLevel: Level): PanelSpec[] {
   const truth = data.localizability;
   const returns = track(truth?.t, truth?.equivalent_returns);
   const panels: PanelSpec[] = [];
   if (returns) {
     panels.push({ id: "localizability", title: "Localizability, truth", unit: "equivalent returns", log: true,
       hint: "Returns of a facing surface that would tell as much along the weakest axis; by the truth, whoever estimates",
-      curves: [{ label: "truth", track: returns, color: color("--truth") }], levels: kLevels.map(({ returns: n }) => n) });
+      curves: [{ label: "truth", track: returns, color: color("--truth") }], levels: kLevels.filter(({ level }) => level === chosenLevel).map(({ returns: n }) => n) });
   }
   return panels;
 }
@@ -86,12 +86,12 @@ export function panelSpecs(data: RunPayload, state: Readonly<State>): PanelSpec[
   const innovations = parts(chosen, [["innovation", "position m", seriesColor(0)],
     ["innovation_rotation", "rotation rad", seriesColor(1)]]);
   const panels: PanelSpec[] = [
-    ...truthPanels(data),
+    ...truthPanels(data, state.level),
     ...indexPanels(chosen),
     legPanel(data),
     { id: "innovation", title: "Innovation", hint: "LiDAR-updated minus predicted, eq. (5)", curves: innovations },
     ...errorPanels(data, state),
-    { id: "time", title: "Time per scan", unit: "ms", curves: everyone(data, state.chosen, "time_ms", true) },
+    { id: "time", title: "Time per scan", unit: "ms", log: true, hint: "From one scan to the next", curves: everyone(data, state.chosen, "time_ms", true) },
   ];
   return panels.filter((panel) => panel.curves.length > 0);
 }

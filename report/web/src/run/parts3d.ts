@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** Things of the 3D view: scene, cloud, ways, robot, axis, ellipsoid. World axes, z up, metres. */
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, EdgesGeometry, Group, Line,
-  LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Points, PointsMaterial, Quaternion, SphereGeometry,
+  BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, ConeGeometry, CylinderGeometry, DoubleSide, EdgesGeometry,
+  Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Points, PointsMaterial, Quaternion, SphereGeometry,
   Sprite, SpriteMaterial, Vector3, type ColorRepresentation,
 } from "three";
 import type { CloudMap, Numbers, Scene } from "../contract";
@@ -123,11 +123,19 @@ export function robot(ink: string): { group: Group; ring: Sprite } {
   return { group, ring };
 }
 
-/** Line of two metres to either side of the origin, along x. */
-export function axisLine(ink: ColorRepresentation): Line {
-  const line = new Line(geometry(new Float32Array([-1, 0, 0, 1, 0, 0])), new LineBasicMaterial({ color: ink, depthTest: false }));
-  line.renderOrder = 6;
-  return line;
+/** Arrow with two heads along x, from -1 to 1. */
+export function axisArrow(ink: ColorRepresentation): Group {
+  const group = new Group();
+  const material = new MeshBasicMaterial({ color: ink, depthTest: false });
+  const shapes = [new CylinderGeometry(0.025, 0.025, 1.6, 8).rotateZ(Math.PI / 2),
+    new ConeGeometry(0.09, 0.3, 12).rotateZ(-Math.PI / 2).translate(0.85, 0, 0),
+    new ConeGeometry(0.09, 0.3, 12).rotateZ(Math.PI / 2).translate(-0.85, 0, 0)];
+  for (const shape of shapes) {
+    const part = new Mesh(shape, material);
+    part.renderOrder = 6;
+    group.add(part);
+  }
+  return group;
 }
 
 /** Unit sphere that `shapeEllipsoid` turns into an ellipsoid. */

@@ -8,9 +8,21 @@ export function pictureImage(picture: Picture): HTMLImageElement {
   return h("img", { src: `data:image/png;base64,${base64}`, alt: picture.title || picture.name });
 }
 
+/** Picture in a figure; pressing it shows it as large as the window. */
+function figure(picture: Picture): HTMLElement {
+  const title = picture.title || picture.name;
+  const open = () => {
+    const dialog = h("dialog", { class: "large", "aria-label": title, onclick: () => dialog.close(), onclose: () => dialog.remove() },
+      pictureImage(picture), h("form", { method: "dialog" }, h("button", {}, "Close")));
+    document.body.append(dialog);
+    dialog.showModal();
+  };
+  return h("figure", {}, h("button", { type: "button", class: "picture", "aria-label": `Enlarge: ${title}`, onclick: open }, pictureImage(picture)),
+    h("figcaption", {}, title));
+}
+
 export function picturesSection(data: RunPayload): HTMLElement | null {
   const pictures = data.pictures ?? [];
   if (pictures.length === 0) return null;
-  return section("pictures", "Pictures", h("div", { class: "pictures" }, ...pictures.map((picture) =>
-    h("figure", {}, pictureImage(picture), h("figcaption", {}, picture.title || picture.name)))));
+  return section("pictures", "Pictures", h("div", { class: "pictures" }, ...pictures.map(figure)));
 }

@@ -36,9 +36,8 @@ const nameColumn: Column<Row> = { title: "Method", value: (row) => row.name, sho
 const success = (row: Row) => at(row.scores, "success") === true;
 
 /** Column of a score that is better the smaller it is; a lost estimator is not best. */
-function score(title: string, unit: string, path: string[], hint?: string, decimals?: number): Column<Row> {
-  return { title, unit, hint, best: "low", eligible: success, value: (row) => numberAt(row.scores, ...path),
-    ...(decimals === undefined ? {} : { show: (row: Row) => formatFixed(numberAt(row.scores, ...path), decimals) }) };
+function score(title: string, unit: string, path: string[], hint?: string): Column<Row> {
+  return { title, unit, hint, best: "low", eligible: success, value: (row) => numberAt(row.scores, ...path) };
 }
 
 function segmentNames(data: RunPayload): string[] {
@@ -50,8 +49,8 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   const columns: Column<Row>[] = [
     nameColumn,
     ...segmentNames(data).map((name) => score(`M_list(${name})`, "%", ["m_list_percent", name],
-      "Error of the straight distance between reference points, eq. (13)", 3)),
-    score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)", 3),
+      "Error of the straight distance between reference points, eq. (13)")),
+    score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
     { title: "Outcome", value: (row) => outcome(row) },
   ];
   return sortableTable(list, columns, { caption: "As the paper’s tables I and II; – has no value, bold is best of those not lost. " +

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** The 3D view: built once, drawn again only when something has changed. */
 import {
-  Box3, Color, Group, Line, LineSegments, OrthographicCamera, PerspectiveCamera, Points, Quaternion,
+  Box3, Color, Group, LineSegments, Mesh, OrthographicCamera, PerspectiveCamera, Points, Quaternion, Sprite,
   Scene as Stage, Vector3, WebGLRenderer, type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { RunPayload } from "../contract";
 import { color, seriesColor, theme } from "../theme";
-import { axisLine, cloud, ellipsoid, ellipsoidMatrix, extend, robot, sceneParts, way, type Bounds } from "./parts3d";
+import { axisArrow, cloud, ellipsoid, ellipsoidMatrix, extend, robot, sceneParts, way, type Bounds } from "./parts3d";
 import { indexAt, quaternionAt, vectorAt } from "./series";
 import type { State } from "./store";
 
@@ -24,12 +24,12 @@ export function hasWebGl(): boolean {
   }
 }
 
+/** Gives back what an object holds on the graphics card. */
 function dispose(object: Object3D): void {
   object.traverse((node) => {
-    if (node instanceof LineSegments || node instanceof Points || node instanceof Line) {
-      node.geometry.dispose();
-      (node.material as { dispose(): void }).dispose();
-    }
+    if (node instanceof Sprite) node.material.map?.dispose();
+    if (node instanceof LineSegments || node instanceof Points || node instanceof Mesh) node.geometry.dispose();
+    if ("material" in node) (node.material as { dispose(): void }).dispose();
   });
   object.removeFromParent();
 }
@@ -43,8 +43,7 @@ export class View3D {
   private readonly flat = new OrthographicCamera(-1, 1, 1, -1, -5000, 5000);
   private readonly controls: OrbitControls;
   private readonly bounds: Bounds;
-  private fixed: Group[] = [];
-  private moving: { truth: ReturnType<typeof robot>; estimate: ReturnType<typeof robot>; axis: Line; cloud: Group } | null = null;
+  private moving: { truth: ReturnType<typeof robot>; estimate: ReturnType<typeof robot>; axis: Group; cloud: Group } | null = null;
   private preset: Preset = "orbit";
   private follow = false;
   private stretch = 1;
@@ -61,6 +60,7 @@ export class View3D {
     this.controls = new OrbitControls(this.perspective, this.canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.draw());
+    this.canvas.addEventListener("webglcontextrestored", () => this.draw());
     this.bounds = this.extent();
     this.ellipsoidScale = this.chooseEllipsoidScale();
     this.build();
@@ -87,29 +87,22 @@ export class View3D {
 
   /** Everything anew, in the colours of the theme. */
   private build(): void {
-    for (const group of this.fixed) dispose(group);
-    this.fixed = [];
-    this.world.clear();
+    for (const child of [...this.world.children]) dispose(child);
     this.stage.background = new Color(color("--scene"));
-    if (this.data.scene) this.add(sceneParts(this.data.scene, color("--wire")));
+    if (this.data.scene) this.world.add(sceneParts(this.data.scene, color("--wire")));
     this.addCloud();
     this.addWays();
     const ink = seriesColor(this.data.estimators[this.state.chosen]?.colour_index ?? 0);
-    this.moving = { truth: robot(color("--truth")), estimate: robot(ink), axis: axisLine(color("--weak")), cloud: ellipsoid(ink) };
+    this.moving = { truth: robot(color("--truth")), estimate: robot(ink), axis: axisArrow(color("--weak")), cloud: ellipsoid(ink) };
     this.world.add(this.moving.truth.group, this.moving.estimate.group, this.moving.axis, this.moving.cloud);
     this.move();
-  }
-
-  private add(group: Group): void {
-    this.fixed.push(group);
-    this.world.add(group);
   }
 
   private addCloud(): void {
     const map = this.data.estimators[this.state.chosen]?.map;
     if (!map || !(map.n > 0)) return;
     const coloring = this.state.coloring === "error" && map.error ? "error" : "height";
-    this.add(new Group().add(cloud(map, coloring, theme() === "dark")));
+    this.world.add(new Group().add(cloud(map, coloring, theme() === "dark")));
   }
 
   private addWays(): void {
@@ -119,7 +112,7 @@ export class View3D {
       if (item.series?.p) group.add(way(item.series.p, seriesColor(item.colour_index), chosen ? 1 : 0.55));
     });
     if (this.data.truth) group.add(way(this.data.truth.p, color("--truth"), 1));
-    this.add(group);
+    this.world.add(group);
   }
 
   /** Puts what stands at the cursor in its place. */
@@ -284,13 +277,17 @@ export class View3D {
     });
   }
 
-  /** Rings of about eleven pixels whatever the camera. */
+  /** Rings of about eleven pixels whatever the camera, and an axis that is not lost in a long corridor. */
   private sizeRings(): void {
-    const height = this.canvas.clientHeight || 1;
+    if (!this.moving) return;
+    const pixel = 1 / (this.canvas.clientHeight || 1);
     const flat = this.controls.object === this.flat;
-    const share = 22 / height;
-    const size = flat ? (share * (this.flat.top - this.flat.bottom)) / this.flat.zoom
-      : share * 2 * Math.tan((this.perspective.fov * Math.PI) / 360);
-    for (const ring of [this.moving?.truth.ring, this.moving?.estimate.ring]) ring?.scale.set(size, size, 1);
+    const tangent = 2 * Math.tan((this.perspective.fov * Math.PI) / 360);
+    const flatSize = (this.flat.top - this.flat.bottom) / this.flat.zoom;
+    const ring = 22 * pixel * (flat ? flatSize : tangent);
+    for (const { ring: sprite } of [this.moving.truth, this.moving.estimate]) sprite.scale.set(ring, ring, 1);
+    const here = this.world.localToWorld(this.moving.axis.position.clone());
+    const away = flat ? flatSize : tangent * here.distanceTo(this.perspective.position);
+    this.moving.axis.scale.setScalar(Math.max(1, 34 * pixel * away));
   }
 }
