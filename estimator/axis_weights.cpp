@@ -48,7 +48,13 @@ double reality(double ratio, double significant, const SpuriousConfig& config) {
 }
 
 Eigen::Matrix3d BlockWeights::shrink() const {
-  return axes * weights.cwiseSqrt().asDiagonal() * axes.transpose();
+  return axes * taken.cwiseProduct(share).cwiseSqrt().asDiagonal() * axes.transpose();
+}
+
+Eigen::Matrix3d BlockWeights::pull() const {
+  // Without information beyond chance there is no shift to be found either.
+  const Eigen::Vector3d told = (share.array() > 0.0).select(taken, 0.0);
+  return axes * told.asDiagonal() * axes.transpose();
 }
 
 BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
@@ -64,8 +70,9 @@ BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix
     const double ratio = std::max(known, 0.0) / std::max(by_chance, kNothing);
     block.ratio(i) = ratio;
     block.real(i) = reality(ratio, significant, config);
-    block.weights(i) = ratio > 1.0 ? block.real(i) * (ratio - 1.0) / ratio : 0.0;
+    block.share(i) = ratio > 1.0 ? (ratio - 1.0) / ratio : 0.0;
   }
+  block.taken = block.real;
   return block;
 }
 
@@ -93,6 +100,7 @@ void AxisWeigher::assess(Block& block, const Eigen::Matrix3d& information,
   const Eigen::Matrix3d axes = steady_axes(block.smoothed, block.now.axes, config_.axis_tolerance);
   block.now = weigh_block(block.smoothed, block.smoothed_chance, axes,
                           significant_ratio(config_, way_), config_);
+  if (way_ < config_.trusting_way) block.now.taken.setOnes();
 }
 
 void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R,
@@ -109,14 +117,16 @@ void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::M
 }
 
 void AxisWeigher::discount(const Eigen::Vector3d& share) {
-  position_.now.weights = position_.now.weights.cwiseProduct(share);
+  position_.now.taken = position_.now.taken.cwiseProduct(share);
 }
 
-Matrix6 AxisWeigher::shrink(const Eigen::Matrix3d& R) const {
-  Matrix6 T = Matrix6::Zero();
-  T.topLeftCorner<3, 3>() = R.transpose() * rotation_.now.shrink() * R;
-  T.bottomRightCorner<3, 3>() = position_.now.shrink();
-  return T;
+KeptOfScan AxisWeigher::kept(const Eigen::Matrix3d& R) const {
+  KeptOfScan kept{Matrix6::Zero(), Matrix6::Zero()};
+  kept.T.topLeftCorner<3, 3>() = R.transpose() * rotation_.now.shrink() * R;
+  kept.T.bottomRightCorner<3, 3>() = position_.now.shrink();
+  kept.P.topLeftCorner<3, 3>() = R.transpose() * rotation_.now.pull() * R;
+  kept.P.bottomRightCorner<3, 3>() = position_.now.pull();
+  return kept;
 }
 
 }  // namespace aims

@@ -26,19 +26,36 @@ double reality(double ratio, double significant, const SpuriousConfig& config);
 
 /// Three orthogonal axes of position or rotation, and how much of the information along each is
 /// kept.
+///
+/// The information along an axis is that of what is there and of chance, A = A_real + A_chance. A
+/// shift of the body by s turns up in the vector as b = A_real s: noise in the normals, which is
+/// new from place to place, adds to A and nothing to the mean of b. So b is left whole and A is
+/// brought down to A_real, that a scan corrects the whole shift; then both count as far as they are
+/// taken.
 struct BlockWeights {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< one unit axis per column, odometry frame
   Eigen::Vector3d ratio = Eigen::Vector3d::Zero();     ///< of information to chance
   Eigen::Vector3d real = Eigen::Vector3d::Ones();      ///< probability of more than chance
-  Eigen::Vector3d weights = Eigen::Vector3d::Ones();   ///< in [0, 1]
+  Eigen::Vector3d taken = Eigen::Vector3d::Ones();     ///< for real: `real`, or 1 on trust
+  Eigen::Vector3d share = Eigen::Vector3d::Ones();     ///< of the information beyond chance, [0, 1]
 
-  /// U diag(sqrt(w)) U^T, odometry frame.
+  /// What is known to be real of the information, in [0, 1].
+  Eigen::Vector3d proven() const { return real.cwiseProduct(share); }
+  /// U diag(sqrt(taken share)) U^T on both sides of the information, odometry frame.
   Eigen::Matrix3d shrink() const;
+  /// U diag(taken) U^T before the vector, odometry frame.
+  Eigen::Matrix3d pull() const;
+};
+
+/// What is kept of a scan: T A T and P b.
+struct KeptOfScan {
+  Matrix6 T;
+  Matrix6 P;
 };
 
 /// The weights of one block whose information, with the other block unknown, is `information`,
-/// while `chance` is what normals of noise would give. Along each axis p (ratio - 1) / ratio is
-/// kept, p the probability that it is real (cf. Hatleskog and Alexis 2024).
+/// while `chance` is what normals of noise would give: the share (ratio - 1) / ratio along each
+/// axis (cf. Hatleskog and Alexis 2024), taken as far as it is real.
 BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
                          const Eigen::Matrix3d& axes, double significant,
                          const SpuriousConfig& config);
@@ -57,14 +74,15 @@ class AxisWeigher {
 
   /// Takes the information A of a scan and what `chance` adds to it (6x6, at the attitude R), `way`
   /// [m] after the scan before. It is judged over a stretch of way: what a robot sees again and
-  /// again while it stands is one draw of chance. Nothing is trusted before there is some way.
+  /// again while it stands is one draw of chance. Nothing is beyond chance before there is some
+  /// way; from there on what is beyond it is taken on trust for `SpuriousConfig::trusting_way`.
   void assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R, double way);
 
-  /// Keeps of the weights of the last scan's position only `share` along each of its axes.
+  /// Takes of the last scan's position only `share` along each of its axes.
   void discount(const Eigen::Vector3d& share);
 
-  /// T of the scan: T A T and T b are what is kept, 6x6, error state's axes at attitude R.
-  Matrix6 shrink(const Eigen::Matrix3d& R) const;
+  /// Of the last scan, in the error state's axes at attitude R.
+  KeptOfScan kept(const Eigen::Matrix3d& R) const;
 
   const BlockWeights& position() const { return position_.now; }
   const BlockWeights& rotation() const { return rotation_.now; }

@@ -39,6 +39,8 @@ void describe(Fields& f, SpuriousConfig& c) {
   f.number("start_excess", c.start_excess,
            {"-", at_least(0), "share more than that, asked for at the start"});
   f.number("start_way", c.start_way, {"m", positive(), "way over which that falls off"});
+  f.number("trusting_way", c.trusting_way,
+           {"m", at_least(0), "way from the start over which information need not be significant"});
   f.number("spread", c.spread,
            {"-", positive(), "uncertainty of what chance gives, of its logarithm"});
   f.number("stretch", c.stretch, {"m", positive(), "way over which information is judged"});

@@ -17,8 +17,11 @@ struct SpuriousConfig {
   double significant = 1.35;  ///< ratio to chance at which it is as likely real as not [-]
   /// What a robot mapped while it stood is one draw of chance, seen again and again: at the start
   /// this share more is asked for, which falls off over `start_way`.
-  double start_excess = 0.3;
-  double start_way = 5.0;        ///< [m]
+  double start_excess = 0.15;
+  double start_way = 5.0;  ///< [m]
+  /// From the start and over this way what is beyond chance is taken for real before it is proven:
+  /// the map that it is to be proven by is only as sharp as the poses that draw it [m].
+  double trusting_way = 5.0;
   double spread = 0.05;          ///< of the logarithm of what chance gives [-]
   double stretch = 1.5;          ///< way over which information is judged [m]
   double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
@@ -40,7 +43,7 @@ struct LegStatesConfig {
 struct LegEvidenceConfig {
   bool enabled = true;
   /// Of one sample in a firm stance, base axes [m/s]; the scale is a state of its own.
-  Eigen::Vector3d velocity_sigma{0.05, 0.05, 0.05};
+  Eigen::Vector3d velocity_sigma{0.07, 0.07, 0.07};
   double correlation_time = 0.1;  ///< of that error: consecutive samples repeat it [s]
   double nominal_spread = 0.03;   ///< among the velocities told by feet that stand firm [m/s]
   double one_foot_sigma = 0.05;   ///< added when a single foot stands [m/s]

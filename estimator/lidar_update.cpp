@@ -36,13 +36,13 @@ LidarUpdate::LidarUpdate(const EstimatorConfig& config, const FamilyMember& memb
 
 bool LidarUpdate::holds_legs() const {
   const LegStatesConfig& legs = directional_.leg_states;
-  return legs.hold && axes_.position().weights.minCoeff() < legs.trusted;
+  return legs.hold && axes_.position().proven().minCoeff() < legs.trusted;
 }
 
 ErrorMatrix LidarUpdate::scan_mask() const {
   const ErrorMatrix mask = holds_legs() ? hold_legs(correct_all()) : correct_all();
   const BlockWeights& position = axes_.position();
-  return hold_motion(mask, position.axes * position.real.asDiagonal() * position.axes.transpose());
+  return hold_motion(mask, position.axes * position.taken.asDiagonal() * position.axes.transpose());
 }
 
 void LidarUpdate::associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
@@ -121,7 +121,7 @@ void LidarUpdate::assess_axes(const Linearization& rows, const NominalState& sta
   if (went) last_position_ = state.position;
   axes_.assess(rows.matrix, rows.chance, state.rotation.toRotationMatrix(), went ? way : 0.0);
   axes_.discount(share_);
-  diagnostics.weak_weight = axes_.position().weights.minCoeff();
+  diagnostics.weak_weight = axes_.position().proven().minCoeff();
   diagnostics.weak_ratio = axes_.position().ratio.minCoeff();
 }
 
@@ -130,8 +130,8 @@ Information LidarUpdate::weighed(const Linearization& rows, double gamma,
   if (!directional_.spurious.enabled) {
     return pose_information(gamma * rows.matrix, gamma * rows.vector);
   }
-  const Matrix6 T = axes_.shrink(state.rotation.toRotationMatrix());
-  return pose_information(T * rows.matrix * T, T * rows.vector);
+  const KeptOfScan kept = axes_.kept(state.rotation.toRotationMatrix());
+  return pose_information(kept.T * rows.matrix * kept.T, kept.P * rows.vector);
 }
 
 Belief LidarUpdate::correct(const Belief& predicted, const ErrorMatrix& prior_information,
