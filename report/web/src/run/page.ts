@@ -44,7 +44,7 @@ function chooser(data: RunPayload, store: Store): HTMLElement | null {
     return h("label", { class: "chip" },
       h("input", { type: "radio", name: "estimator", value: index, checked: index === store.state.chosen, "data-estimator": item.name,
         onchange: () => store.set({ chosen: index }) }),
-      swatch, item.name, isNumber(item.lost_at) ? h("span", { class: "lost" }, ` lost at ${formatFixed(item.lost_at, 0)} s`) : null);
+      swatch, h("bdi", {}, item.name), isNumber(item.lost_at) ? h("span", { class: "lost" }, ` lost at ${formatFixed(item.lost_at, 0)} s`) : null);
   });
   const paint = () => { for (const [swatch, index] of swatches) swatch.style.background = seriesColor(index); };
   paint();

@@ -110,7 +110,7 @@ export class Panel {
       const swatch = h("i", { class: "swatch" });
       swatch.style.background = curve.color;
       if (curve.dash) swatch.classList.add("dashed");
-      return h("span", { class: "legend-item" }, swatch, `${curve.label} `, shown);
+      return h("span", { class: "legend-item" }, swatch, h("bdi", {}, curve.label), " ", shown);
     });
     if (this.spec.band && this.sigma) {
       const swatch = h("i", { class: "swatch wide" });

@@ -5,6 +5,9 @@ import {
   Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Points, PointsMaterial, Quaternion, SphereGeometry,
   Sprite, SpriteMaterial, Vector3, type ColorRepresentation,
 } from "three";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import type { CloudMap, Numbers, Scene } from "../contract";
 import { ramp, rampTable } from "./ramps";
 
@@ -71,18 +74,19 @@ export function cloud(map: CloudMap, coloring: "height" | "error", dark: boolean
     colors.set(table.subarray(index, index + 3), 3 * i);
   }
   const points = geometry(positions).setAttribute("color", new BufferAttribute(colors, 3, true));
-  return new Points(points, new PointsMaterial({ size: 1.6, sizeAttenuation: false, vertexColors: true }));
+  return new Points(points, new PointsMaterial({ size: 2, sizeAttenuation: false, vertexColors: true }));
 }
 
-/** A trajectory as a line; it breaks where a pose has no value. */
-export function way(positions: Numbers, ink: ColorRepresentation, opacity: number): LineSegments {
+/** A trajectory as a line of that many pixels; it breaks where a pose has no value. Null without two poses. */
+export function way(positions: Numbers, ink: ColorRepresentation, width: number, opacity: number): LineSegments2 | null {
   const pairs: number[] = [];
   for (let i = 3; i + 2 < positions.length; i += 3) {
     const pair = Array.from(positions.subarray(i - 3, i + 3));
     if (pair.every(Number.isFinite)) pairs.push(...pair);
   }
-  const material = new LineBasicMaterial({ color: ink, transparent: true, opacity, depthTest: false });
-  const line = new LineSegments(geometry(new Float32Array(pairs)), material);
+  if (pairs.length === 0) return null;
+  const material = new LineMaterial({ color: ink, linewidth: width, transparent: true, opacity, depthTest: false });
+  const line = new LineSegments2(new LineSegmentsGeometry().setPositions(pairs), material);
   line.renderOrder = 2;
   return line;
 }
@@ -105,7 +109,7 @@ function marker(ink: string): Sprite {
 /** Trunk with legs, body axes: the body's origin is at the rear of the trunk. */
 export function robot(ink: string): { group: Group; ring: Sprite } {
   const group = new Group();
-  const faces = new MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.35, depthTest: false });
+  const faces = new MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.2, depthTest: false });
   const edges = new LineBasicMaterial({ color: ink, depthTest: false });
   const box = (length: number, width: number, height: number, x: number, y: number, z: number) => {
     const shape = new BoxGeometry(length, width, height).translate(x, y, z);
@@ -117,7 +121,7 @@ export function robot(ink: string): { group: Group; ring: Sprite } {
   };
   box(0.55, 0.24, 0.12, 0.18, 0, -0.04);
   box(0.12, 0.12, 0.1, 0.5, 0, 0);
-  for (const [x, y] of [[0, 1], [0, -1], [0.36, 1], [0.36, -1]] as const) box(0.05, 0.05, 0.3, x, 0.13 * y, -0.22);
+  for (const [x, y] of [[0, 1], [0, -1], [0.36, 1], [0.36, -1]] as const) box(0.04, 0.04, 0.3, x, 0.13 * y, -0.22);
   const ring = marker(ink);
   group.add(ring);
   return { group, ring };

@@ -29,7 +29,7 @@ function rows(data: RunPayload): Row[] {
 function nameCell(row: Row): Child {
   const swatch = h("i", { class: "swatch" });
   if (row.colour !== null) swatch.style.background = seriesColor(row.colour);
-  return h("span", { class: "estimator-name" }, swatch, row.name);
+  return h("span", { class: "estimator-name", title: row.name }, swatch, h("bdi", {}, row.name));
 }
 
 const nameColumn: Column<Row> = { title: "Method", value: (row) => row.name, show: nameCell };

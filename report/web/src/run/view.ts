@@ -61,7 +61,7 @@ function mapKey(data: RunPayload, state: Readonly<State>): HTMLElement | null {
 function inkKey(text: string, ink: string, kind = ""): HTMLElement {
   const swatch = h("i", { class: `swatch ${kind}`.trim() });
   swatch.style.background = ink;
-  return h("span", { class: "legend-item" }, swatch, text);
+  return h("span", { class: "legend-item" }, swatch, h("bdi", {}, text));
 }
 
 function legend(data: RunPayload, state: Readonly<State>, scale: number): HTMLElement {

@@ -105,14 +105,19 @@ export class View3D {
     this.world.add(new Group().add(cloud(map, coloring, theme() === "dark")));
   }
 
+  /** The chosen one and the truth are thick, and drawn last. */
   private addWays(): void {
-    const group = new Group();
-    this.data.estimators.forEach((item, index) => {
-      const chosen = index === this.state.chosen;
-      if (item.series?.p) group.add(way(item.series.p, seriesColor(item.colour_index), chosen ? 1 : 0.55));
+    const { estimators, truth } = this.data;
+    const add = (positions: Float32Array | null | undefined, ink: string, width: number, opacity: number) => {
+      const line = positions ? way(positions, ink, width, opacity) : null;
+      if (line) this.world.add(line);
+    };
+    estimators.forEach((item, index) => {
+      if (index !== this.state.chosen) add(item.series?.p, seriesColor(item.colour_index), 1.25, 0.7);
     });
-    if (this.data.truth) group.add(way(this.data.truth.p, color("--truth"), 1));
-    this.world.add(group);
+    const chosen = estimators[this.state.chosen];
+    add(chosen?.series?.p, seriesColor(chosen?.colour_index ?? 0), 3, 1);
+    add(truth?.p, color("--truth"), 1.5, 1);
   }
 
   /** Puts what stands at the cursor in its place. */
@@ -185,8 +190,8 @@ export class View3D {
   private near(target: Vector3): void {
     this.moveTarget(target);
     const distance = this.controls.object.position.distanceTo(this.controls.target);
-    if (this.controls.object === this.perspective && distance > 9) {
-      this.perspective.position.sub(this.controls.target).setLength(9).add(this.controls.target);
+    if (this.controls.object === this.perspective && distance > 6) {
+      this.perspective.position.sub(this.controls.target).setLength(6).add(this.controls.target);
     } else if (this.controls.object === this.flat) {
       this.flat.zoom = (this.flat.top - this.flat.bottom) / 6;
       this.flat.updateProjectionMatrix();
@@ -277,7 +282,7 @@ export class View3D {
     });
   }
 
-  /** Rings of about eleven pixels whatever the camera, and an axis that is not lost in a long corridor. */
+  /** Rings of about eleven pixels, gone where the robot itself is larger; an axis that is not lost in a long corridor. */
   private sizeRings(): void {
     if (!this.moving) return;
     const pixel = 1 / (this.canvas.clientHeight || 1);
@@ -285,9 +290,12 @@ export class View3D {
     const tangent = 2 * Math.tan((this.perspective.fov * Math.PI) / 360);
     const flatSize = (this.flat.top - this.flat.bottom) / this.flat.zoom;
     const ring = 22 * pixel * (flat ? flatSize : tangent);
-    for (const { ring: sprite } of [this.moving.truth, this.moving.estimate]) sprite.scale.set(ring, ring, 1);
-    const here = this.world.localToWorld(this.moving.axis.position.clone());
+    const here = this.world.localToWorld(this.moving.estimate.group.position.clone());
     const away = flat ? flatSize : tangent * here.distanceTo(this.perspective.position);
+    for (const { ring: sprite } of [this.moving.truth, this.moving.estimate]) {
+      sprite.scale.set(ring, ring, 1);
+      sprite.visible = 30 * pixel * away > 0.6;
+    }
     this.moving.axis.scale.setScalar(Math.max(1, 34 * pixel * away));
   }
 }
