@@ -39,7 +39,9 @@ const result = await build({
 
 const textOf = (name) => result.outputFiles.find((file) => file.path.endsWith(name)).text.trim();
 // Neither a script nor a style sheet may hold what would end its own element.
-const script = textOf(".js").replace(/<\/script/gi, "<\\/script").replace(/<!--/g, "<\\!--");
+const script = textOf(".js")
+  .replace(/<\/script/gi, "<\\/script")
+  .replace(/<!--/g, "<\\!--");
 const style = textOf(".css").replace(/<\/style/gi, "<\\/style");
 const hash = createHash("sha256").update(script, "utf8").digest("base64");
 
@@ -57,4 +59,7 @@ await writeFile(path.join(out, "page.js"), script);
 await writeFile(path.join(out, "page.css"), style);
 await writeFile(path.join(out, "page.html"), page);
 const kilobytes = (text) => `${Math.round(text.length / 1024)} KB`;
-console.log(`${out}: page.js ${kilobytes(script)}, page.css ${kilobytes(style)}, page.html ${kilobytes(page)}`);
+console.log(
+  `${out}: page.js ${kilobytes(script)}, page.css ${kilobytes(style)}, ` +
+    `page.html ${kilobytes(page)}`,
+);

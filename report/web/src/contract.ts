@@ -72,7 +72,7 @@ export interface Legs {
   slip: Numbers | null;
 }
 
-/** Columns of one estimator; all as long as `t`, but `p` (3), `q` (4), `position_covariance` (6). */
+/** Columns of an estimator, as long as `t`; `p` 3, `q` 4, `position_covariance` 6 per sample. */
 export interface EstimatorSeries {
   t: Numbers;
   p: Numbers | null;

@@ -4,9 +4,11 @@
 type Attribute = string | number | boolean | null | undefined | ((event: never) => void);
 export type Child = Node | string | number | null | undefined | false;
 
-/** An element; `on…` attributes are listeners, `true` is an empty attribute, null and false are left out. */
+/** An element; `on…` attributes are listeners, `true` is empty, null and false are left out. */
 export function h<Tag extends keyof HTMLElementTagNameMap>(
-  tag: Tag, attributes: Record<string, Attribute> = {}, ...children: Child[]
+  tag: Tag,
+  attributes: Record<string, Attribute> = {},
+  ...children: Child[]
 ): HTMLElementTagNameMap[Tag] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -26,12 +28,18 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
 /** Section with a heading; `id` also makes it a target of the page's contents. */
 export function section(id: string, title: string, ...children: Child[]): HTMLElement {
   const heading = h("h2", { id: `${id}-title` }, title);
-  return h("section", { id, class: "card", "aria-labelledby": `${id}-title` }, heading, ...children);
+  return h(
+    "section",
+    { id, class: "card", "aria-labelledby": `${id}-title` },
+    heading,
+    ...children,
+  );
 }
 
 /** Own property of an object that came as JSON; a key such as `constructor` finds nothing else. */
 export function own<Value>(object: unknown, key: string): Value | undefined {
-  if (typeof object !== "object" || object === null || !Object.hasOwn(object, key)) return undefined;
+  if (typeof object !== "object" || object === null || !Object.hasOwn(object, key))
+    return undefined;
   return (object as Record<string, Value>)[key];
 }
 

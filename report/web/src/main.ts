@@ -11,7 +11,9 @@ import { renderTuning } from "./tuning/tuning";
 
 type Render = (root: HTMLElement, data: never) => void | Promise<void>;
 const kPages = new Map<string, Render>([
-  ["run", renderRun], ["suite", renderSuite], ["tuning", renderTuning],
+  ["run", renderRun],
+  ["suite", renderSuite],
+  ["tuning", renderTuning],
 ]);
 
 function nextFrame(): Promise<void> {
@@ -27,7 +29,8 @@ async function start(): Promise<void> {
     const data: PagePayload = await decodePayload(source.textContent ?? "");
     source.remove();
     const render = kPages.get(data.kind);
-    if (!render) throw new Error(`data: a page of kind ${String(data.kind)}, expected run, suite or tuning`);
+    if (!render)
+      throw new Error(`data: a page of kind ${String(data.kind)}, expected run, suite or tuning`);
     if (data.title) document.title = data.title;
     root.classList.add(`${data.kind}-page`);
     await render(root, data as never);
@@ -37,7 +40,9 @@ async function start(): Promise<void> {
   } catch (error) {
     console.error(error);
     const text = error instanceof Error ? error.message : String(error);
-    root.replaceChildren(h("p", { class: "failure", role: "alert" }, `This page cannot be shown. ${text}`));
+    root.replaceChildren(
+      h("p", { class: "failure", role: "alert" }, `This page cannot be shown. ${text}`),
+    );
     mark["ready"] = "failed";
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** Payload: base64 of zlib of (u32 JSON length, JSON, padding to 8 bytes, blob); see docs/report.md. */
+/** Payload: base64 of zlib of (u32 length of JSON, JSON, padding to 8, blob); docs/report.md. */
 import type { PagePayload } from "./contract";
 
 const kArrays = { f32: Float32Array, u16: Uint16Array, u8: Uint8Array } as const;
@@ -13,7 +13,12 @@ interface Reference {
 
 function isReference(value: object): value is Reference {
   const { $, at, n } = value as Partial<Reference>;
-  return typeof $ === "string" && Object.hasOwn(kArrays, $) && Number.isInteger(at) && Number.isInteger(n);
+  return (
+    typeof $ === "string" &&
+    Object.hasOwn(kArrays, $) &&
+    Number.isInteger(at) &&
+    Number.isInteger(n)
+  );
 }
 
 function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
@@ -33,8 +38,10 @@ function resolve(reference: Reference, blob: ArrayBuffer, start: number): ArrayB
   const at = start + reference.at;
   const size = reference.n * type.BYTES_PER_ELEMENT;
   if (reference.at < 0 || reference.n < 0 || at + size > blob.byteLength) {
-    throw new Error(`data: an array of ${reference.n} at ${reference.at} lies outside the block of ` +
-      `${blob.byteLength - start} bytes`);
+    throw new Error(
+      `data: an array of ${reference.n} at ${reference.at} lies outside the block of ` +
+        `${blob.byteLength - start} bytes`,
+    );
   }
   if (at % type.BYTES_PER_ELEMENT === 0) return new type(blob, at, reference.n);
   return new type(blob.slice(at, at + size));
@@ -59,7 +66,9 @@ export async function decodePayload(base64: string): Promise<PagePayload> {
   if (buffer.byteLength < 4) throw new Error("data: too short to hold a length");
   const length = new DataView(buffer).getUint32(0, true);
   if (4 + length > buffer.byteLength) throw new Error(`data: JSON of ${length} bytes is cut off`);
-  const payload = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))) as PagePayload;
+  const payload = JSON.parse(
+    new TextDecoder().decode(new Uint8Array(buffer, 4, length)),
+  ) as PagePayload;
   if (payload.schema !== "aims.page/1") {
     throw new Error(`data: schema ${String(payload.schema)}, expected aims.page/1`);
   }

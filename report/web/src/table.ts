@@ -41,7 +41,9 @@ function compare(a: CellValue, b: CellValue): number {
 }
 
 function isMissing(value: CellValue): boolean {
-  return value === null || value === undefined || (typeof value === "number" && Number.isNaN(value));
+  return (
+    value === null || value === undefined || (typeof value === "number" && Number.isNaN(value))
+  );
 }
 
 /** Rows in order; those without a value come last either way, equal ones keep their order. */
@@ -72,36 +74,65 @@ function bestText<Row>(rows: Row[], column: Column<Row>): string | null {
   for (const row of rows) {
     const value = column.value(row);
     if (!isNumber(value) || (column.eligible && !column.eligible(row))) continue;
-    if (!best || rank(value) < best.rank) best = { rank: rank(value), text: String(shown(row, column)) };
+    if (!best || rank(value) < best.rank)
+      best = { rank: rank(value), text: String(shown(row, column)) };
   }
   return best ? best.text : null;
 }
 
-function cell<Row>(row: Row, column: Column<Row>, first: boolean, best: string | null): HTMLElement {
+function cell<Row>(
+  row: Row,
+  column: Column<Row>,
+  first: boolean,
+  best: string | null,
+): HTMLElement {
   const value = column.value(row);
   const content = shown(row, column);
-  const isBest = best !== null && isNumber(value) && String(content) === best &&
+  const isBest =
+    best !== null &&
+    isNumber(value) &&
+    String(content) === best &&
     (!column.eligible || column.eligible(row));
   const interval = column.interval?.(row);
-  return h(first ? "th" : "td", {
-    class: [typeof value === "string" ? "text" : "number", isBest ? "best" : ""].join(" ").trim(),
-    scope: first ? "row" : null,
-    "data-value": isNumber(value) ? value : null,
-  }, content, interval && h("span", { class: "interval" },
-    `${formatNumber(interval[0])} to ${formatNumber(interval[1])}`));
+  return h(
+    first ? "th" : "td",
+    {
+      class: [typeof value === "string" ? "text" : "number", isBest ? "best" : ""].join(" ").trim(),
+      scope: first ? "row" : null,
+      "data-value": isNumber(value) ? value : null,
+    },
+    content,
+    interval &&
+      h(
+        "span",
+        { class: "interval" },
+        `${formatNumber(interval[0])} to ${formatNumber(interval[1])}`,
+      ),
+  );
 }
 
 /** The table below its caption, in a frame that scrolls sideways where the window is narrow. */
 export function sortableTable<Row>(
-  rows: Row[], columns: Column<Row>[], options: TableOptions<Row>
+  rows: Row[],
+  columns: Column<Row>[],
+  options: TableOptions<Row>,
 ): HTMLElement {
   const body = h("tbody");
   const heads: HTMLElement[] = [];
   const best = columns.map((column) => bestText(rows, column));
   const fill = (order: Row[]) => {
-    body.replaceChildren(...order.map((row) => h("tr", {
-      "data-row": options.rowName?.(row), class: options.rowClass?.(row) || null,
-    }, ...columns.map((column, i) => cell(row, column, i === 0, best[i] ?? null)))));
+    body.replaceChildren(
+      ...order.map((row) =>
+        h(
+          "tr",
+          {
+            "data-row": options.rowName?.(row),
+            class: options.rowClass?.(row) || null,
+          },
+          ...columns.map((column, i) => cell(row, column, i === 0, best[i] ?? null)),
+        ),
+      ),
+    );
   };
   const sortBy = (index: number, order: Order) => {
     heads.forEach((head, i) => head.setAttribute("aria-sort", i === index ? order : "none"));
@@ -113,13 +144,35 @@ export function sortableTable<Row>(
       sortBy(index, ascending ? "descending" : "ascending");
     };
     const words = rows.length > 0 && typeof column.value(rows[0]!) === "string";
-    heads.push(h("th", { scope: "col", "aria-sort": "none", title: column.hint, class: words ? "text" : null },
-      h("button", { type: "button", class: "sort", onclick: press }, column.title,
-        column.unit ? h("span", { class: "unit" }, ` ${column.unit}`) : null)));
+    heads.push(
+      h(
+        "th",
+        { scope: "col", "aria-sort": "none", title: column.hint, class: words ? "text" : null },
+        h(
+          "button",
+          { type: "button", class: "sort", onclick: press },
+          column.title,
+          column.unit ? h("span", { class: "unit" }, ` ${column.unit}`) : null,
+        ),
+      ),
+    );
   });
   fill(rows);
   if (options.sortBy !== undefined) sortBy(options.sortBy, "ascending");
-  const table = h("table", { "aria-label": options.caption }, h("thead", {}, h("tr", {}, ...heads)), body);
-  return h("div", { class: "table-block" }, h("p", { class: "caption" }, options.caption),
-    h("div", { class: "table-frame", tabindex: 0, role: "region", "aria-label": options.caption }, table));
+  const table = h(
+    "table",
+    { "aria-label": options.caption },
+    h("thead", {}, h("tr", {}, ...heads)),
+    body,
+  );
+  return h(
+    "div",
+    { class: "table-block" },
+    h("p", { class: "caption" }, options.caption),
+    h(
+      "div",
+      { class: "table-frame", tabindex: 0, role: "region", "aria-label": options.caption },
+      table,
+    ),
+  );
 }

@@ -53,8 +53,11 @@ export function startTheme(): void {
 /** Button that changes the theme. */
 export function themeButton(): HTMLElement {
   const label = () => (theme() === "dark" ? "Light" : "Dark");
-  const button = h("button", { type: "button", class: "quiet", "aria-label": "Change between light and dark" },
-    label());
+  const button = h(
+    "button",
+    { type: "button", class: "quiet", "aria-label": "Change between light and dark" },
+    label(),
+  );
   button.addEventListener("click", () => {
     const next = theme() === "dark" ? "light" : "dark";
     try {
@@ -64,6 +67,8 @@ export function themeButton(): HTMLElement {
     }
     apply(next);
   });
-  onTheme(() => { button.textContent = label(); });
+  onTheme(() => {
+    button.textContent = label();
+  });
   return button;
 }

@@ -14,19 +14,45 @@ export const hasChromium = () => existsSync(kChromium);
 
 /** A browser; without WebGL if asked for. */
 export function launch({ webgl = true } = {}) {
-  const graphics = webgl ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] : ["--disable-gpu", "--disable-3d-apis"];
-  return chromium.launch({ executablePath: kChromium, args: ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--force-device-scale-factor=1", ...graphics] });
+  const graphics = webgl
+    ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    : ["--disable-gpu", "--disable-3d-apis"];
+  return chromium.launch({
+    executablePath: kChromium,
+    args: [
+      "--headless",
+      "--no-sandbox",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      "--force-device-scale-factor=1",
+      ...graphics,
+    ],
+  });
 }
 
-/** Opens a file and waits for its ready mark; `troubles` gathers console errors, exceptions and requests. */
-export async function open(browser, file, { width = 1280, height = 800, dark = false, touch = false } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", hasTouch: touch, offline: false });
+/** Opens a file, waits for its ready mark; `troubles` are console errors, exceptions, requests. */
+export async function open(
+  browser,
+  file,
+  { width = 1280, height = 800, dark = false, touch = false } = {},
+) {
+  const context = await browser.newContext({
+    viewport: { width, height },
+    colorScheme: dark ? "dark" : "light",
+    hasTouch: touch,
+    offline: false,
+  });
   const page = await context.newPage();
   page.setDefaultTimeout(60000);
   const troubles = [];
   const url = pathToFileURL(path.resolve(file)).href;
-  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) troubles.push(`${message.type()}: ${message.text()}`); });
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type()))
+      troubles.push(`${message.type()}: ${message.text()}`);
+  });
   page.on("pageerror", (error) => troubles.push(`exception: ${error.message}`));
   page.on("request", (request) => {
     const to = request.url();
@@ -35,10 +61,21 @@ export async function open(browser, file, { width = 1280, height = 800, dark = f
   const start = Date.now();
   await page.goto(url);
   await page.waitForFunction(() => document.documentElement.dataset.ready !== undefined);
-  return { page, context, troubles, readyMs: Date.now() - start, ready: await page.evaluate(() => document.documentElement.dataset.ready) };
+  return {
+    page,
+    context,
+    troubles,
+    readyMs: Date.now() - start,
+    ready: await page.evaluate(() => document.documentElement.dataset.ready),
+  };
 }
 
 /** Lets two frames pass. */
 export function settle(page) {
-  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+  return page.evaluate(
+    () =>
+      new Promise((done) =>
+        requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))),
+      ),
+  );
 }

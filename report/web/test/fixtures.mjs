@@ -1,187 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Made-up runs: `node test/fixtures.mjs PAGE_HTML DIR` writes one page per case, without a simulation.
+// Made-up runs: `node test/fixtures.mjs PAGE_HTML DIR` writes a page per case.
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
-import { deflateSync } from "node:zlib";
+import { run } from "./made_run.mjs";
 import { fillTemplate } from "./pack.mjs";
 
-/** Uniform numbers in [0, 1), the same every time. */
-export function generator(seed) {
-  let state = seed >>> 0;
-  return () => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return state / 4294967296;
-  };
-}
-
-function crcOf(bytes) {
-  let crc = ~0;
-  for (const byte of bytes) {
-    crc ^= byte;
-    for (let i = 0; i < 8; ++i) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
-  }
-  return ~crc >>> 0;
-}
-
-/** A PNG with a stripe, as base64. */
-function picture(width, height) {
-  const chunk = (type, body) => {
-    const out = Buffer.alloc(12 + body.length);
-    out.writeUInt32BE(body.length, 0);
-    out.write(type, 4, "latin1");
-    body.copy(out, 8);
-    out.writeUInt32BE(crcOf(out.subarray(4, 8 + body.length)), 8 + body.length);
-    return out;
-  };
-  const head = Buffer.from([0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0]);
-  head.writeUInt32BE(width, 0);
-  head.writeUInt32BE(height, 4);
-  const rows = Buffer.alloc(height * (width + 1), 240);
-  for (let y = 0; y < height; ++y) {
-    rows[y * (width + 1)] = 0;
-    rows[y * (width + 1) + 1 + Math.floor((y / height) * width)] = 0;
-  }
-  const signature = Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]);
-  return Buffer.concat([signature, chunk("IHDR", head), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]).toString("base64");
-}
-
-const kLength = 78.6;
-
-/** Where the robot is: out along x, a turn, back; `share` of the walk in [0, 1]. */
-function poseAt(share) {
-  const out = Math.min(share, 0.49) / 0.49;
-  const back = Math.max(share - 0.51, 0) / 0.49;
-  const yaw = Math.PI * Math.min(Math.max((share - 0.49) / 0.02, 0), 1);
-  return { x: kLength * (share < 0.5 ? out : 1 - back), y: 0.05 * Math.sin(40 * share), z: 0.42 + 0.004 * Math.sin(900 * share), yaw };
-}
-
-function boxEdges([x0, y0, z0], [x1, y1, z1]) {
-  const c = (i) => [i & 1 ? x1 : x0, i & 2 ? y1 : y0, i & 4 ? z1 : z0];
-  const pairs = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
-  return pairs.flatMap(([a, b]) => [...c(a), ...c(b)]);
-}
-
-function scene() {
-  const edges = boxEdges([-3, -1.1, 0], [kLength + 3, 1.1, 2.6]);
-  for (let x = 4; x < kLength; x += 8) edges.push(...boxEdges([x, -1.25, 0], [x + 0.9, -1.1, 2.05]));
-  return { floor: null, edges: Float32Array.from(edges), triangles: null, bounds: null };
-}
-
-function map(count, drift, random) {
-  const min = [-3, -1.3, -0.2];
-  const max = [kLength + 3, 1.3, 2.9];
-  const p = new Uint16Array(3 * count);
-  const error = new Uint8Array(count);
-  for (let i = 0; i < count; ++i) {
-    const x = -3 + (kLength + 6) * random();
-    const wall = random();
-    const lift = drift * (x / kLength) ** 2;
-    const y = wall < 0.35 ? -1.1 : wall < 0.7 ? 1.1 : -1.1 + 2.2 * random();
-    const z = (wall < 0.7 ? 2.6 * random() : wall < 0.9 ? 0 : 2.6) + lift;
-    [x, y, z].forEach((value, axis) => {
-      p[3 * i + axis] = Math.round((65535 * Math.min(Math.max(value - min[axis], 0), max[axis] - min[axis])) / (max[axis] - min[axis]));
-    });
-    error[i] = Math.min(255, Math.round((255 * Math.abs(lift)) / 0.5));
-  }
-  return { n: count, min, max, p, error };
-}
-
-/** Columns of an estimator that drifts by so much [m] and stops when it is lost. */
-function estimator(name, index, drift, count, end, random, lostAt, points) {
-  const series = { t: new Float32Array(count), p: new Float32Array(3 * count), q: new Float32Array(4 * count), position_covariance: new Float32Array(6 * count) };
-  const names = ["D", "D_smoothed", "O_lidar", "C_IL", "gamma_lidar", "gamma_leg", "lambda_min", "innovation", "innovation_rotation",
-    "weak_weight", "error_along", "error_lateral", "error_vertical", "sigma_along", "sigma_lateral", "sigma_vertical", "time_ms"];
-  for (const column of names) series[column] = new Float32Array(count);
-  let smooth = 0;
-  for (let i = 0; i < count; ++i) {
-    const share = count > 1 ? i / (count - 1) : 0.3;
-    const t = count > 1 ? 2 + (end - 2) * share : 2;
-    const inside = share > 0.1 && share < 0.9 && Math.abs(share - 0.5) > 0.03;
-    const pose = poseAt(share);
-    const grown = drift * share ** 1.5;
-    const noise = () => random() - 0.5;
-    const D = Math.min(1, Math.max(0, (inside ? 0.62 : 0.12) + 0.2 * noise()));
-    smooth = i === 0 ? D : 0.9 * smooth + 0.1 * D;
-    const error = { along: grown + 0.01 * noise(), lateral: 0.1 * grown + 0.004 * noise(), vertical: 0.4 * grown * Math.sin(6 * share) + 0.004 * noise() };
-    const sigma = { along: 0.01 + 0.06 * share, lateral: 0.004 + 0.01 * share, vertical: 0.004 + 0.02 * share };
-    series.t[i] = t;
-    series.p.set([pose.x + error.along * Math.cos(pose.yaw), pose.y + error.lateral, pose.z + error.vertical], 3 * i);
-    series.q.set([0, 0, Math.sin(pose.yaw / 2), Math.cos(pose.yaw / 2)], 4 * i);
-    series.position_covariance.set([sigma.along ** 2, 0, 0, sigma.lateral ** 2, 0, sigma.vertical ** 2], 6 * i);
-    for (const axis of ["along", "lateral", "vertical"]) {
-      series[`error_${axis}`][i] = error[axis];
-      series[`sigma_${axis}`][i] = sigma[axis];
-    }
-    Object.entries({ D, D_smoothed: smooth, O_lidar: 1 - 0.8 * D, C_IL: 10 ** (2 * noise() + (inside ? 1 : 0)), gamma_lidar: Math.exp(-3 * smooth),
-      gamma_leg: share > 0.6 && share < 0.65 ? 0.1 : 0.95, lambda_min: (inside ? 3e3 : 4e4) * (1 + 0.4 * noise()), innovation: 0.01 * random() * (inside ? 2 : 1),
-      innovation_rotation: 0.002 * random(), weak_weight: inside ? 0.2 + 0.1 * random() : 1, time_ms: 5 + 3 * random() + index })
-      .forEach(([key, value]) => { series[key][i] = value; });
-  }
-  return { name, lost_at: lostAt, colour_index: index, series, map: points > 0 ? map(points, drift, random) : null };
-}
-
-function scoresOf(item, random) {
-  const value = () => 0.3 * random();
-  return { success: item.lost_at === null, lost_at_s: item.lost_at, m_list_percent: { "a-b": value(), "b-a": item.lost_at === null ? value() : null, all: value() },
-    m_end_m: value(), ate_m: value(), ate_se3_m: value(), max_error_m: value(), max_error_z_m: value(), rpe_1m: { translation_m: value(), rotation_rad: value() },
-    rpe_10m: { translation_m: value(), rotation_rad: value() }, drift_m: { rmse: { along: value(), lateral: value(), vertical: value(), heading_rad: value() } },
-    weak_axis: { all: { scans: 2000, error_rms_m: value(), bound_rms_m: 0.02, efficiency: 0.3, nees: 1.2 }, n100: { scans: 900, error_rms_m: value(), bound_rms_m: 0.02, efficiency: 0.3, nees: 1.4 } },
-    time_per_scan_ms: { mean: 5 + value(), p50: 5, p99: 8 + value() } };
-}
-
-/** A walk along a corridor; options: names, count of samples, points per map. */
-export function run({ names = ["aims_d", "aims", "lio", "tfs"], count = 2380, points = 20000, title = "corridor, seed 1", seconds = 240 } = {}) {
-  const random = generator(7);
-  const drifts = [0.05, 0.16, 0.4, 6, 11, 2];
-  const estimators = names.map((name, i) => estimator(name, i, drifts[i % 6], count, seconds, random, i === 3 ? 181.4 : null, i === 3 ? 0 : points));
-  const samples = Math.max(count, 1);
-  const truth = { t: new Float32Array(samples), p: new Float32Array(3 * samples), q: new Float32Array(4 * samples) };
-  const local = { t: new Float32Array(samples), equivalent_returns: new Float32Array(samples), lambda_min: new Float32Array(samples), weak_axis: new Float32Array(3 * samples) };
-  for (let i = 0; i < samples; ++i) {
-    const share = samples > 1 ? i / (samples - 1) : 0.3;
-    const pose = poseAt(share);
-    const inside = share > 0.1 && share < 0.9 && Math.abs(share - 0.5) > 0.03;
-    truth.t[i] = local.t[i] = samples > 1 ? 2 + (seconds - 2) * share : 2;
-    truth.p.set([pose.x, pose.y, pose.z], 3 * i);
-    truth.q.set([0, 0, Math.sin(pose.yaw / 2), Math.cos(pose.yaw / 2)], 4 * i);
-    local.equivalent_returns[i] = (inside ? 40 : 900) * (0.7 + 0.6 * random());
-    local.lambda_min[i] = local.equivalent_returns[i] / 0.0004;
-    local.weak_axis.set([1, 0.02, 0], 3 * i);
-  }
-  const legs = { t: truth.t, loss: truth.t.map((_, i) => (i / samples > 0.6 && i / samples < 0.65 ? 0.9 : 0.02 * (random() > 0.9))), slip: truth.t.map(() => (random() > 0.98 ? 0.4 * random() : 0.02)) };
-  return {
-    schema: "aims.page/1", kind: "run", title, version: "0.0.0",
-    scenario: { name: title, description: "made up: a corridor of 78.6 m, out and back", seed: 1, simulated_s: seconds, complete: true, robot: { fell: false, touched_wall: false } },
-    command: `aims run corridor --seed 1 --estimators ${names.join(",")}`, config_yaml: "name: corridor\nseed: 1\n",
-    config_changes: [{ key: "scene.corridor.length", value: 78.6, default: 40, unit: "m" }, { key: "route.speed", value: 0.7, default: 0.5, unit: "m/s" }],
-    scores: { schema: "aims.scores/1", segments: [{ name: "a-b", length_m: 78.6 }, { name: "b-a", length_m: 78.6 }],
-      localizability: { scans: samples, median_equivalent_returns: 44, degenerate_share: { n10: 0, n100: 0.74, n1000: 0.93 }, bound_end_m: { along: 0.02, lateral: 0.004, vertical: 0.005 } },
-      estimators: Object.fromEntries(estimators.map((item) => [item.name, scoresOf(item, random)])), gates: [] },
-    scene: scene(),
-    passages: [{ name: "a", t: 5, x: 0, y: 0, z: 0.4 }, { name: "b", t: seconds / 2, x: kLength, y: 0, z: 0.4 }],
-    truth, localizability: { ...local, crb_sigma: null, bound_along: null, bound_lateral: null, bound_vertical: null,
-      degenerate: { n10: [], n100: [[2 + 0.1 * seconds, 0.47 * seconds], [0.53 * seconds, 0.9 * seconds]], n1000: [[5, 0.95 * seconds]] } },
-    legs, estimators, pictures: [{ name: "trajectories", title: "Trajectories", png: picture(320, 200) }, { name: "robot_start", title: "The robot at the start", png: picture(320, 240) }],
-  };
-}
-
-const kHostile = ["<script>document.title='taken'</script>", "__proto__", "\"><img src=x onerror=\"console.error('taken')\">", "constructor ${1} \u202e 名前 " + "x".repeat(120)];
+const kHostile = [
+  "<script>document.title='taken'</script>",
+  "__proto__",
+  '"><img src=x onerror="console.error(\'taken\')">',
+  "constructor ${1} \u202e 名前 " + "x".repeat(120),
+];
 
 function hostile() {
-  const page = run({ names: kHostile, count: 200, points: 500, title: "<script>console.error('taken')</script></title>__AIMS_DATA__ $& $'" });
+  const page = run({
+    names: kHostile,
+    count: 200,
+    points: 500,
+    title: "<script>console.error('taken')</script></title>__AIMS_DATA__ $& $'",
+  });
   page.scenario.description = "</script><script>console.error('taken')</script>";
   page.config_yaml = "name: </pre><script>console.error('taken')</script>\n";
-  page.config_changes.push({ key: "<b>key</b>", value: "<i>value</i>", default: null, unit: "<u>m</u>" });
+  page.config_changes.push({
+    key: "<b>key</b>",
+    value: "<i>value</i>",
+    default: null,
+    unit: "<u>m</u>",
+  });
   page.passages[0].name = "<svg onload=console.error('taken')>";
-  page.pictures.push({ name: "x\" onerror=\"console.error('taken')", title: "<b>no picture</b>", png: "not base64 \" onerror=" });
-  page.scores = JSON.parse(JSON.stringify(page.scores).replace(/"b-a"/g, JSON.stringify("<b>b</b>-a")));
+  page.pictures.push({
+    name: "x\" onerror=\"console.error('taken')",
+    title: "<b>no picture</b>",
+    png: 'not base64 " onerror=',
+  });
+  page.scores = JSON.parse(
+    JSON.stringify(page.scores).replace(/"b-a"/g, JSON.stringify("<b>b</b>-a")),
+  );
   return page;
 }
 
 function notNumbers() {
   const page = run({ count: 300, points: 0 });
   for (const item of page.estimators) {
-    for (const [key, values] of Object.entries(item.series)) if (key !== "t") values.fill(NaN, 0, Math.floor(values.length / 2));
+    for (const [key, values] of Object.entries(item.series))
+      if (key !== "t") values.fill(NaN, 0, Math.floor(values.length / 2));
   }
   page.estimators[1].series.p.fill(NaN);
   page.estimators[2].series.D.fill(NaN);
@@ -194,13 +56,43 @@ function notNumbers() {
 }
 
 function empty() {
-  return { schema: "aims.page/1", kind: "run", title: "empty", version: "0.0.0", scenario: { name: "empty", description: null, seed: null, simulated_s: null, complete: false, robot: null },
-    command: null, config_yaml: null, config_changes: null, scores: null, scene: null, passages: null, truth: null, localizability: null, legs: null, estimators: [], pictures: null };
+  return {
+    schema: "aims.page/1",
+    kind: "run",
+    title: "empty",
+    version: "0.0.0",
+    scenario: {
+      name: "empty",
+      description: null,
+      seed: null,
+      simulated_s: null,
+      complete: false,
+      robot: null,
+    },
+    command: null,
+    config_yaml: null,
+    config_changes: null,
+    scores: null,
+    scene: null,
+    passages: null,
+    truth: null,
+    localizability: null,
+    legs: null,
+    estimators: [],
+    pictures: null,
+  };
 }
 
 export const kCases = {
   run: () => run(),
-  large: () => run({ names: ["aims_d", "aims", "lio", "tfs", "leg"], count: 6000, points: 60000, seconds: 900, title: "long walk, seed 1" }),
+  large: () =>
+    run({
+      names: ["aims_d", "aims", "lio", "tfs", "leg"],
+      count: 6000,
+      points: 60000,
+      seconds: 900,
+      title: "long walk, seed 1",
+    }),
   hostile,
   "not-numbers": notNumbers,
   "one-scan": () => run({ count: 1, points: 30 }),

@@ -2,9 +2,13 @@
 // Packs a payload as the C++ side does: typed arrays become references into a blob.
 import { deflateSync, inflateSync } from "node:zlib";
 
-const kKinds = new Map([[Float32Array, "f32"], [Uint16Array, "u16"], [Uint8Array, "u8"]]);
+const kKinds = new Map([
+  [Float32Array, "f32"],
+  [Uint16Array, "u16"],
+  [Uint8Array, "u8"],
+]);
 
-/** base64 of the payload of `aims.page/1`; Float32Array, Uint16Array and Uint8Array go into the blob. */
+/** base64 of the payload of `aims.page/1`; typed arrays go into the blob. */
 export function pack(payload) {
   const parts = [];
   let size = 0;
@@ -29,7 +33,7 @@ function escapeHtml(text) {
   return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
 }
 
-/** The page: the built template with its two marks replaced in one pass, for a title may look like a mark. */
+/** The page: both marks of the template replaced in one pass, for a title may look like one. */
 export function fillTemplate(template, payload) {
   const fills = { __AIMS_TITLE__: escapeHtml(payload.title), __AIMS_DATA__: pack(payload) };
   return template.replace(/__AIMS_TITLE__|__AIMS_DATA__/g, (mark) => fills[mark]);
@@ -45,6 +49,8 @@ export function payloadOf(html) {
   return JSON.parse(bytes.subarray(4, 4 + length).toString("utf8"), (_key, value) => {
     const type = types[value?.$];
     if (!type) return value;
-    return new type(Uint8Array.from(blob.subarray(value.at, value.at + value.n * type.BYTES_PER_ELEMENT)).buffer);
+    return new type(
+      Uint8Array.from(blob.subarray(value.at, value.at + value.n * type.BYTES_PER_ELEMENT)).buffer,
+    );
   });
 }

@@ -1,320 +1,84 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page of a run in a real browser. What is tested, by the environment:
 //   AIMS_REPORT_PAGE       the built template: pages are made up with it (test/fixtures.mjs)
-//   AIMS_REPORT_PAGES      folder with run/report.html and run/scores.json, and others, of real runs
+//   AIMS_REPORT_PAGES      folder with run/report.html, run/scores.json and others, of real runs
 //   AIMS_REPORT_MODULES    node_modules with playwright-core
 //   AIMS_REPORT_ARTIFACTS  where screenshots and made-up pages are kept
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
-import { mkdir, readFile } from "node:fs/promises";
-import os from "node:os";
+import { readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { after, before, describe, test } from "node:test";
 import { hasChromium, kChromium, launch, open, settle } from "./browser.mjs";
 import { kCases, writeFixtures } from "./fixtures.mjs";
-import { payloadOf } from "./pack.mjs";
+import { assertHolds, assertRunPage, cursorOf, kArtifacts } from "./run_checks.mjs";
 
 const template = process.env.AIMS_REPORT_PAGE;
 const pages = process.env.AIMS_REPORT_PAGES;
-const artifacts = process.env.AIMS_REPORT_ARTIFACTS ?? path.join(os.tmpdir(), "aims-report-artifacts");
 const skip = hasChromium() ? false : `no ${kChromium}`;
 
-/** Index of the value nearest to `value`. */
-function nearest(list, value) {
-  let best = 0;
-  for (let i = 1; i < list.length; ++i) if (Math.abs(list[i] - value) < Math.abs(list[best] - value)) best = i;
-  return best;
-}
-
-async function shoot(page, name, fullPage = false) {
-  await mkdir(artifacts, { recursive: true });
-  await page.screenshot({ path: path.join(artifacts, `${name}.png`), fullPage });
-}
-
-/** Value that a strip shows at the cursor; undefined if there is no such curve. */
-function shown(page, panel, series) {
-  return page.evaluate(([id, name]) => {
-    for (const output of document.querySelectorAll(`[data-panel="${id}"] output`)) {
-      if (output.dataset.series === name) return output.dataset.value;
+describe(
+  "made-up runs",
+  { skip: skip || (template ? false : "AIMS_REPORT_PAGE is not set") },
+  () => {
+    let browser;
+    let files;
+    before(async () => {
+      files = await writeFixtures(template, path.join(kArtifacts, "pages"));
+      browser = await launch();
+    });
+    after(() => browser?.close());
+    test("a run is drawn, and its cursor, zoom, estimators and tables work", async () => {
+      await assertRunPage(
+        browser,
+        files.run,
+        "made-up-run",
+        JSON.parse(JSON.stringify(kCases.run().scores)),
+      );
+    });
+    for (const name of ["hostile", "not-numbers", "one-scan", "empty"]) {
+      test(`a run of ${name} gives a correct page`, () =>
+        assertHolds(browser, files[name], `made-up-${name}`));
     }
-    return undefined;
-  }, [panel, series]);
-}
-
-const cursorOf = (page) => page.evaluate(() => Number(document.querySelector("[data-clock]").dataset.value));
-
-/** How many different colours the 3D canvas holds. */
-function canvasColors(page) {
-  return page.evaluate(() => {
-    const source = document.querySelector(".view-frame canvas");
-    const copy = Object.assign(document.createElement("canvas"), { width: source.width, height: source.height });
-    const context = copy.getContext("2d");
-    context.drawImage(source, 0, 0);
-    const data = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
-    return new Set(data).size;
-  });
-}
-
-/** Share of a strip's pixels that something was drawn on. */
-function stripInk(page, panel) {
-  return page.evaluate((id) => {
-    const canvas = document.querySelector(`[data-panel="${id}"] canvas`);
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let drawn = 0;
-    for (let i = 3; i < data.length; i += 4) drawn += data[i] > 0;
-    return drawn / (data.length / 4);
-  }, panel);
-}
-
-/** Cells of a table by row and title of column: { value (in full or null), best, text }. */
-function tableCells(page, selector) {
-  return page.evaluate((where) => {
-    const table = document.querySelector(`${where} table`);
-    if (!table) return null;
-    const titles = [...table.querySelectorAll("thead th")].map((head) => head.textContent.trim());
-    return [...table.querySelectorAll("tbody tr")].map((row) => ({ name: row.dataset.row, cells: Object.fromEntries([...row.children].map((cell, i) =>
-      [titles[i], { value: cell.dataset.value === undefined ? null : Number(cell.dataset.value), best: cell.classList.contains("best"), text: cell.textContent }])) }));
-  }, selector);
-}
-
-/** Every number of the first two tables equals that of scores.json. */
-async function assertTablesEqual(page, scores) {
-  const near = (cell, value, what) => {
-    if (value === null || value === undefined) assert.equal(cell.value, null, what);
-    else assert.equal(cell.value, value, what);
-  };
-  const paper = await tableCells(page, '[data-table="paper"]');
-  assert.deepEqual(new Set(paper.map((row) => row.name)), new Set(Object.keys(scores.estimators)));
-  for (const { name, cells } of paper) {
-    for (const { name: segment } of scores.segments ?? []) {
-      near(cells[`M_list(${segment}) %`], scores.estimators[name].m_list_percent?.[segment], `${name} M_list(${segment})`);
-    }
-    near(cells["M_end m"], scores.estimators[name].m_end_m, `${name} M_end`);
-  }
-  for (const { name, cells } of await tableCells(page, '[data-table="errors"]')) {
-    const own = scores.estimators[name];
-    near(cells["ATE m"], own.ate_m, `${name} ATE`);
-    near(cells["max m"], own.max_error_m, `${name} max`);
-    near(cells["max z m"], own.max_error_z_m, `${name} max z`);
-    near(cells["RPE 10 m m"], own.rpe_10m?.translation_m, `${name} RPE`);
-    near(cells["along m"], own.drift_m?.rmse?.along, `${name} drift along`);
-    near(cells["heading rad"], own.drift_m?.rmse?.heading_rad, `${name} drift heading`);
-    near(cells["p99 ms"], own.time_per_scan_ms?.p99, `${name} time`);
-  }
-}
-
-/** Bold is the least M_end among those that were not lost. */
-async function assertBestIsBold(page, scores) {
-  const eligible = Object.entries(scores.estimators).filter(([, own]) => own.success === true && Number.isFinite(own.m_end_m));
-  const rows = await tableCells(page, '[data-table="paper"]');
-  if (eligible.length === 0 || rows.length < 2) return;
-  const [best] = eligible.reduce((a, b) => (b[1].m_end_m < a[1].m_end_m ? b : a));
-  assert.ok(rows.find((row) => row.name === best).cells["M_end m"].best, `${best} is in bold`);
-  for (const row of rows) if (scores.estimators[row.name].success !== true) assert.ok(!row.cells["M_end m"].best, `${row.name} is not`);
-}
-
-async function assertSorts(page) {
-  const head = page.locator('[data-table="errors"] thead th').nth(1);
-  const values = async () => (await tableCells(page, '[data-table="errors"]')).map((row) => row.cells["ATE m"].value).filter((value) => value !== null);
-  await head.locator("button").click();
-  assert.equal(await head.getAttribute("aria-sort"), "ascending");
-  const up = await values();
-  assert.deepEqual(up, [...up].sort((a, b) => a - b));
-  await head.locator("button").focus();
-  await page.keyboard.press("Enter");
-  assert.equal(await head.getAttribute("aria-sort"), "descending");
-  const down = await values();
-  assert.deepEqual(down, [...down].sort((a, b) => b - a));
-}
-
-/** What the strips and the readout show at the cursor is the payload's sample there. */
-async function assertCursorAgrees(page, payload, chosen) {
-  const cursor = await cursorOf(page);
-  const { series } = payload.estimators[chosen];
-  const index = nearest(series.t, cursor);
-  for (const [panel, name, key] of [["index", "D", "D"], ["weights", "γ lidar", "gamma_lidar"], ["error_along", payload.estimators[chosen].name, "error_along"]]) {
-    if (!series[key] || !series[key].some(Number.isFinite)) continue;
-    assert.equal(Number(await shown(page, panel, name)), series[key][index], `${panel} ${name} at ${cursor} s`);
-  }
-  const text = await page.textContent('[data-readout="estimate"]');
-  const fixed = [0, 1, 2].map((axis) => series.p[3 * index + axis].toFixed(2).replace(/^-0\.00$/, "0.00").replace("-", "−"));
-  assert.equal(text, `${fixed.join(", ")} m`);
-}
-
-async function assertCursorMoves(page, payload) {
-  const chosen = await page.evaluate(() => Number(document.querySelector("input[name=estimator]:checked").value));
-  await assertCursorAgrees(page, payload, chosen);
-  const strip = page.locator('[data-plot]').first();
-  await strip.scrollIntoViewIfNeeded();
-  const box = await strip.boundingBox();
-  const before = { cursor: await cursorOf(page), text: await page.textContent('[data-readout="truth"]') };
-  await page.mouse.move(box.x + 0.5 * box.width, box.y + 20);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 0.3 * box.width, box.y + 20, { steps: 4 });
-  await page.mouse.up();
-  await settle(page);
-  const dragged = await cursorOf(page);
-  assert.ok(dragged < before.cursor, `${dragged} s is before ${before.cursor} s`);
-  assert.notEqual(await page.textContent('[data-readout="truth"]'), before.text, "the robot moved");
-  await assertCursorAgrees(page, payload, chosen);
-  await page.locator(".strips").focus();
-  await page.keyboard.press("ArrowRight");
-  await settle(page);
-  const stepped = await cursorOf(page);
-  assert.ok(stepped > dragged && stepped - dragged < 1, `one scan on: ${dragged} to ${stepped} s`);
-  await assertCursorAgrees(page, payload, chosen);
-  await page.keyboard.press("Home");
-  await settle(page);
-  assert.ok(await cursorOf(page) < dragged);
-}
-
-/** All strips share the window of time: marking one with shift changes the ticks of the last. */
-async function assertZoomLinks(page) {
-  const shot = () => page.evaluate(() => [...document.querySelectorAll(".panel canvas")].map((canvas) => canvas.toDataURL()));
-  const whole = await shot();
-  const strip = page.locator('[data-plot]').first();
-  const box = await strip.boundingBox();
-  await page.keyboard.down("Shift");
-  await page.mouse.move(box.x + 0.4 * box.width, box.y + 20);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 0.5 * box.width, box.y + 20, { steps: 4 });
-  await page.mouse.up();
-  await page.keyboard.up("Shift");
-  await settle(page);
-  const zoomed = await shot();
-  zoomed.forEach((picture, i) => assert.notEqual(picture, whole[i], `strip ${i} zoomed`));
-  await page.keyboard.press("0");
-  await settle(page);
-}
-
-async function assertSwitches(page, payload) {
-  const count = payload.estimators.length;
-  for (let index = 0; index < count; ++index) {
-    await page.locator("input[name=estimator]").nth(index).check({ force: true });
-    await settle(page);
-    if (payload.estimators[index].series) await assertCursorAgrees(page, payload, index);
-  }
-}
-
-async function assertNarrow(browser, file, name) {
-  const { page, context, troubles } = await open(browser, file, { width: 390, height: 844, touch: true });
-  const width = await page.evaluate(() => document.documentElement.scrollWidth);
-  assert.ok(width <= 390, `${width} px wide in a window of 390`);
-  assert.deepEqual(troubles, []);
-  await shoot(page, `${name}-390`, true);
-  await context.close();
-}
-
-async function assertNoWebGl(file, name, pictures) {
-  const browser = await launch({ webgl: false });
-  try {
-    const { page, troubles, ready } = await open(browser, file);
-    assert.equal(ready, "true");
-    assert.deepEqual(troubles, []);
-    assert.equal(await page.locator(".view-frame canvas").count(), 0);
-    const fallback = page.locator('[data-view="fallback"]');
-    assert.ok(await fallback.isVisible());
-    if (pictures) assert.ok(await fallback.locator("img").evaluate((image) => image.naturalWidth) > 0, "the picture is shown");
-    await shoot(page, `${name}-no-webgl`);
-  } finally {
-    await browser.close();
-  }
-}
-
-/** Everything that a page of a run with results must do. */
-async function assertRunPage(browser, file, name, scores) {
-  const payload = payloadOf(await readFile(file, "utf8"));
-  const { page, context, troubles, readyMs, ready } = await open(browser, file);
-  assert.equal(ready, "true", troubles.join("\n"));
-  console.log(`# ${name}: ready after ${readyMs} ms`);
-  await shoot(page, `${name}-light`);
-  assert.ok(await canvasColors(page) > 20, "the 3D view drew");
-  assert.ok(await stripInk(page, "index") > 0.01, "the strips drew");
-  await assertTablesEqual(page, scores);
-  await assertBestIsBold(page, scores);
-  await assertCursorMoves(page, payload);
-  await assertZoomLinks(page);
-  await assertSwitches(page, payload);
-  await assertSorts(page);
-  for (const preset of ["top", "side"]) {
-    await page.locator(`[data-preset="${preset}"]`).click();
-    await settle(page);
-    assert.ok(await canvasColors(page) > 5, `the view from the ${preset} drew`);
-    await shoot(page, `${name}-${preset}`);
-  }
-  assert.deepEqual(troubles, []);
-  await context.close();
-  const dark = await open(browser, file, { dark: true });
-  assert.equal(await dark.page.evaluate(() => document.documentElement.dataset.theme), "dark");
-  await shoot(dark.page, `${name}-dark`, true);
-  assert.deepEqual(dark.troubles, []);
-  await dark.context.close();
-  await assertNarrow(browser, file, name);
-  await assertNoWebGl(file, name, (payload.pictures ?? []).length > 0);
-}
-
-/** A page of whatever run: it becomes ready, nothing runs that came as a name, nothing is requested. */
-async function assertHolds(browser, file, name) {
-  const { page, context, troubles, ready } = await open(browser, file);
-  assert.equal(ready, "true", troubles.join("\n"));
-  await page.keyboard.press("ArrowRight");
-  for (const radio of await page.locator("input[name=estimator]").all()) await radio.check({ force: true });
-  await settle(page);
-  assert.equal(await page.locator("main script, main svg script, main b, main i:not(.swatch):not(.ramp), main u").count(), 0, "no name became markup");
-  assert.notEqual(await page.title(), "taken", "no name ran");
-  assert.equal(await page.evaluate(() => window.broken), undefined, "no name ran");
-  assert.deepEqual(troubles, []);
-  await shoot(page, name, true);
-  await context.close();
-  await assertNarrow(browser, file, name);
-}
-
-describe("made-up runs", { skip: skip || (template ? false : "AIMS_REPORT_PAGE is not set") }, () => {
-  let browser;
-  let files;
-  before(async () => {
-    files = await writeFixtures(template, path.join(artifacts, "pages"));
-    browser = await launch();
-  });
-  after(() => browser?.close());
-  test("a run is drawn, and its cursor, zoom, estimators and tables work", async () => {
-    await assertRunPage(browser, files.run, "made-up-run", JSON.parse(JSON.stringify(kCases.run().scores)));
-  });
-  for (const name of ["hostile", "not-numbers", "one-scan", "empty"]) {
-    test(`a run of ${name} gives a correct page`, () => assertHolds(browser, files[name], `made-up-${name}`));
-  }
-  test("hostile names are shown as they are", async () => {
-    const { page, context } = await open(browser, files.hostile);
-    const names = await page.locator("input[name=estimator]").evaluateAll((list) => list.map((input) => input.dataset.estimator));
-    assert.deepEqual(names, kCases.hostile().estimators.map((item) => item.name));
-    assert.equal(await page.textContent("h1"), kCases.hostile().title);
-    await context.close();
-  });
-  test("six thousand samples of five estimators answer a key within a few frames", async () => {
-    const { page, context, troubles } = await open(browser, files.large);
-    await page.locator(".strips").focus();
-    const before = await cursorOf(page);
-    for (let i = 0; i < 5; ++i) await page.keyboard.press("Shift+ArrowRight");
-    await settle(page);
-    assert.ok(await cursorOf(page) > before);
-    assert.deepEqual(troubles, []);
-    await context.close();
-  });
-  test("a page whose data are cut says so", async () => {
-    const text = await readFile(files.run, "utf8");
-    const { writeFile } = await import("node:fs/promises");
-    const cut = path.join(artifacts, "pages", "cut.html");
-    await writeFile(cut, text.replace(/(<script id="aims-data"[^>]*>.{4000})[^<]*/s, "$1"));
-    const { page, context, ready } = await open(browser, cut);
-    assert.equal(ready, "failed");
-    assert.match(await page.textContent("[role=alert]"), /cannot be shown/);
-    await context.close();
-  });
-});
+    test("hostile names are shown as they are", async () => {
+      const { page, context } = await open(browser, files.hostile);
+      const names = await page
+        .locator("input[name=estimator]")
+        .evaluateAll((list) => list.map((input) => input.dataset.estimator));
+      assert.deepEqual(
+        names,
+        kCases.hostile().estimators.map((item) => item.name),
+      );
+      assert.equal(await page.textContent("h1"), kCases.hostile().title);
+      await context.close();
+    });
+    test("six thousand samples of five estimators answer a key within a few frames", async () => {
+      const { page, context, troubles } = await open(browser, files.large);
+      await page.locator(".strips").focus();
+      const before = await cursorOf(page);
+      for (let i = 0; i < 5; ++i) await page.keyboard.press("Shift+ArrowRight");
+      await settle(page);
+      assert.ok((await cursorOf(page)) > before);
+      assert.deepEqual(troubles, []);
+      await context.close();
+    });
+    test("a page whose data are cut says so", async () => {
+      const text = await readFile(files.run, "utf8");
+      const cut = path.join(kArtifacts, "pages", "cut.html");
+      await writeFile(cut, text.replace(/(<script id="aims-data"[^>]*>.{4000})[^<]*/s, "$1"));
+      const { page, context, ready } = await open(browser, cut);
+      assert.equal(ready, "failed");
+      assert.match(await page.textContent("[role=alert]"), /cannot be shown/);
+      await context.close();
+    });
+  },
+);
 
 describe("real runs", { skip: skip || (pages ? false : "AIMS_REPORT_PAGES is not set") }, () => {
   let browser;
-  before(async () => { browser = await launch(); });
+  before(async () => {
+    browser = await launch();
+  });
   after(() => browser?.close());
   const file = (name) => path.join(pages ?? "", name, "report.html");
   test("the page of a run agrees with its scores.json", async () => {
@@ -322,7 +86,10 @@ describe("real runs", { skip: skip || (pages ? false : "AIMS_REPORT_PAGES is not
     await assertRunPage(browser, file("run"), "run", scores);
   });
   for (const name of ["hostile", "bare"]) {
-    test(`the page of the run ${name} holds`, { skip: pages && !existsSync(file(name)) ? `no ${file(name)}` : false },
-      () => assertHolds(browser, file(name), name));
+    test(
+      `the page of the run ${name} holds`,
+      { skip: pages && !existsSync(file(name)) ? `no ${file(name)}` : false },
+      () => assertHolds(browser, file(name), name),
+    );
   }
 });

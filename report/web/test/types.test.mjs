@@ -13,18 +13,34 @@ const web = path.join(path.dirname(fileURLToPath(import.meta.url)), "..");
 const modules = path.resolve(process.env.AIMS_REPORT_MODULES ?? path.join(web, "node_modules"));
 const compiler = path.join(modules, "typescript/bin/tsc");
 
-test("the sources pass the type checker", { skip: existsSync(compiler) ? false : `no ${compiler}` }, async () => {
-  const folder = await mkdtemp(path.join(os.tmpdir(), "aims-types-"));
-  try {
-    const project = path.join(folder, "tsconfig.json");
-    await writeFile(project, JSON.stringify({
-      extends: path.join(web, "tsconfig.json"),
-      compilerOptions: { paths: { "three": [`${modules}/@types/three`], "three/*": [`${modules}/@types/three/*`], "*": [`${modules}/*`] }, types: [] },
-      include: [path.join(web, "src")],
-    }));
-    const { status, stdout } = spawnSync(process.execPath, [compiler, "--project", project], { encoding: "utf8" });
-    assert.equal(status, 0, stdout);
-  } finally {
-    await rm(folder, { recursive: true, force: true });
-  }
-});
+test(
+  "the sources pass the type checker",
+  { skip: existsSync(compiler) ? false : `no ${compiler}` },
+  async () => {
+    const folder = await mkdtemp(path.join(os.tmpdir(), "aims-types-"));
+    try {
+      const project = path.join(folder, "tsconfig.json");
+      await writeFile(
+        project,
+        JSON.stringify({
+          extends: path.join(web, "tsconfig.json"),
+          compilerOptions: {
+            paths: {
+              three: [`${modules}/@types/three`],
+              "three/*": [`${modules}/@types/three/*`],
+              "*": [`${modules}/*`],
+            },
+            types: [],
+          },
+          include: [path.join(web, "src")],
+        }),
+      );
+      const { status, stdout } = spawnSync(process.execPath, [compiler, "--project", project], {
+        encoding: "utf8",
+      });
+      assert.equal(status, 0, stdout);
+    } finally {
+      await rm(folder, { recursive: true, force: true });
+    }
+  },
+);

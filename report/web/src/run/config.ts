@@ -12,16 +12,26 @@ function textOf(value: Json | undefined): string {
 
 /** Button that copies a text; where the clipboard is shut it selects the text instead. */
 export function copyButton(text: string, source: HTMLElement): HTMLElement {
-  const button = h("button", { type: "button", class: "quiet", onclick: async () => {
-    try {
-      await navigator.clipboard.writeText(text);
-      button.textContent = "Copied";
-    } catch {
-      getSelection()?.selectAllChildren(source);
-      button.textContent = "Selected";
-    }
-    setTimeout(() => { button.textContent = "Copy"; }, 1500);
-  } }, "Copy");
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "quiet",
+      onclick: async () => {
+        try {
+          await navigator.clipboard.writeText(text);
+          button.textContent = "Copied";
+        } catch {
+          getSelection()?.selectAllChildren(source);
+          button.textContent = "Selected";
+        }
+        setTimeout(() => {
+          button.textContent = "Copy";
+        }, 1500);
+      },
+    },
+    "Copy",
+  );
   return button;
 }
 
@@ -29,16 +39,41 @@ export function configSection(data: RunPayload): HTMLElement {
   const command = h("code", { "data-command": true }, data.command ?? kNone);
   const yaml = h("code", {}, data.config_yaml ?? "");
   const changes = data.config_changes ?? [];
-  const table = changes.length === 0 ? h("p", { class: "nothing" }, "Nothing differs from the defaults.")
-    : sortableTable<ConfigChange>(changes, [
-      { title: "Key", value: (row) => row.key },
-      { title: "Value", value: (row) => textOf(row.value), show: (row) => h("strong", {}, textOf(row.value)) },
-      { title: "Default", value: (row) => textOf(row.default) },
-      { title: "Unit", value: (row) => row.unit ?? "" },
-    ], { caption: "What differs from the defaults", rowName: (row) => row.key });
-  return section("config", "Configuration",
+  const table =
+    changes.length === 0
+      ? h("p", { class: "nothing" }, "Nothing differs from the defaults.")
+      : sortableTable<ConfigChange>(
+          changes,
+          [
+            { title: "Key", value: (row) => row.key },
+            {
+              title: "Value",
+              value: (row) => textOf(row.value),
+              show: (row) => h("strong", {}, textOf(row.value)),
+            },
+            { title: "Default", value: (row) => textOf(row.default) },
+            { title: "Unit", value: (row) => row.unit ?? "" },
+          ],
+          { caption: "What differs from the defaults", rowName: (row) => row.key },
+        );
+  return section(
+    "config",
+    "Configuration",
     h("p", { class: "soft" }, "The command that repeats this run:"),
-    h("div", { class: "command" }, h("pre", { tabindex: 0 }, command), copyButton(data.command ?? "", command)),
+    h(
+      "div",
+      { class: "command" },
+      h("pre", { tabindex: 0 }, command),
+      copyButton(data.command ?? "", command),
+    ),
     table,
-    data.config_yaml ? h("details", {}, h("summary", {}, "Effective configuration, config.yaml"), h("pre", { class: "yaml", tabindex: 0 }, yaml)) : null);
+    data.config_yaml
+      ? h(
+          "details",
+          {},
+          h("summary", {}, "Effective configuration, config.yaml"),
+          h("pre", { class: "yaml", tabindex: 0 }, yaml),
+        )
+      : null,
+  );
 }

@@ -22,16 +22,23 @@ function header(data: RunPayload): HTMLElement {
   const robot = scenario.robot;
   const badges = [
     isNumber(scenario.seed) ? badge(`seed ${scenario.seed}`, "plain") : null,
-    isNumber(scenario.simulated_s) ? badge(`${formatFixed(scenario.simulated_s, 1)} s`, "plain") : null,
+    isNumber(scenario.simulated_s)
+      ? badge(`${formatFixed(scenario.simulated_s, 1)} s`, "plain")
+      : null,
     scenario.complete === false ? badge("interrupted", "bad") : null,
     robot?.fell ? badge("the robot fell", "bad") : null,
     robot?.touched_wall ? badge("touched a wall", "bad") : null,
     data.version ? badge(`aims ${data.version}`, "plain") : null,
   ];
-  return h("header", { class: "page-head" }, h("h1", {}, data.title || scenario.name),
-    h("span", { class: "badges" }, ...badges), themeButton(),
+  return h(
+    "header",
+    { class: "page-head" },
+    h("h1", {}, data.title || scenario.name),
+    h("span", { class: "badges" }, ...badges),
+    themeButton(),
     scenario.description ? h("p", { class: "soft description" }, scenario.description) : null,
-    ...(data.notes ?? []).map((note) => h("p", { class: "note description" }, String(note))));
+    ...(data.notes ?? []).map((note) => h("p", { class: "note description" }, String(note))),
+  );
 }
 
 /** Radio buttons, so that arrow keys switch between estimators as the platform does. */
@@ -41,12 +48,27 @@ function chooser(data: RunPayload, store: Store): HTMLElement | null {
   const items = data.estimators.map((item, index) => {
     const swatch = h("i", { class: "swatch" });
     swatches.push([swatch, item.colour_index]);
-    return h("label", { class: "chip" },
-      h("input", { type: "radio", name: "estimator", value: index, checked: index === store.state.chosen, "data-estimator": item.name,
-        onchange: () => store.set({ chosen: index }) }),
-      swatch, h("bdi", {}, item.name), isNumber(item.lost_at) ? h("span", { class: "lost" }, ` lost at ${formatFixed(item.lost_at, 0)} s`) : null);
+    return h(
+      "label",
+      { class: "chip" },
+      h("input", {
+        type: "radio",
+        name: "estimator",
+        value: index,
+        checked: index === store.state.chosen,
+        "data-estimator": item.name,
+        onchange: () => store.set({ chosen: index }),
+      }),
+      swatch,
+      h("bdi", {}, item.name),
+      isNumber(item.lost_at)
+        ? h("span", { class: "lost" }, ` lost at ${formatFixed(item.lost_at, 0)} s`)
+        : null,
+    );
   });
-  const paint = () => { for (const [swatch, index] of swatches) swatch.style.background = seriesColor(index); };
+  const paint = () => {
+    for (const [swatch, index] of swatches) swatch.style.background = seriesColor(index);
+  };
   paint();
   onTheme(paint);
   return h("fieldset", { class: "chooser" }, h("legend", {}, "Estimator"), ...items);
@@ -70,7 +92,13 @@ const kScrolling = new Set(["PageUp", "PageDown", "Home", "End"]);
 function keyboard(store: Store): void {
   document.addEventListener("keydown", (event) => {
     const target = event.target as Element;
-    if (event.ctrlKey || event.altKey || event.metaKey || target.closest("input, select, textarea, .table-frame, pre")) return;
+    if (
+      event.ctrlKey ||
+      event.altKey ||
+      event.metaKey ||
+      target.closest("input, select, textarea, .table-frame, pre")
+    )
+      return;
     const act = kKeys[event.key];
     if (!act || (kScrolling.has(event.key) && !target.closest(".strips"))) return;
     event.preventDefault();
@@ -87,22 +115,46 @@ function firstChoice(data: RunPayload): number {
 /** Level shaded at first: below 100 returns, or whichever the run has stretches of. */
 function firstLevel(data: RunPayload): Level {
   const degenerate = data.localizability?.degenerate;
-  return (["n100", "n1000", "n10"] as const).find((level) => (degenerate?.[level]?.length ?? 0) > 0) ?? "n100";
+  return (
+    (["n100", "n1000", "n10"] as const).find((level) => (degenerate?.[level]?.length ?? 0) > 0) ??
+    "n100"
+  );
 }
 
 export function renderRun(root: HTMLElement, data: RunPayload): void {
   data.estimators ??= [];
   const times = cursorTimes(data);
   const span = timeSpan(data);
-  const store = new Store({ cursor: times[Math.floor(times.length / 2)] ?? span[0], from: span[0], to: span[1],
-    chosen: firstChoice(data), level: firstLevel(data), coloring: "height", errorScale: "chosen" }, times, span);
+  const store = new Store(
+    {
+      cursor: times[Math.floor(times.length / 2)] ?? span[0],
+      from: span[0],
+      to: span[1],
+      chosen: firstChoice(data),
+      level: firstLevel(data),
+      coloring: "height",
+      errorScale: "chosen",
+    },
+    times,
+    span,
+  );
   const view = viewCard(data, store);
   const strips = timeline(data, store);
   const results = h("div", {}, resultsSection(data));
   onTheme(() => results.replaceChildren(resultsSection(data)));
   const pictures = picturesSection(data);
-  root.append(header(data), h("div", { class: "explore" }, h("div", { class: "left" }, chooser(data, store) ?? "", view.element), strips.element),
-    results, configSection(data), ...(pictures ? [pictures] : []));
+  root.append(
+    header(data),
+    h(
+      "div",
+      { class: "explore" },
+      h("div", { class: "left" }, chooser(data, store) ?? "", view.element),
+      strips.element,
+    ),
+    results,
+    configSection(data),
+    ...(pictures ? [pictures] : []),
+  );
   keyboard(store);
   view.start();
   strips.start();

@@ -3,16 +3,22 @@
 import type { Estimator, RunPayload, Stretch } from "../contract";
 import { isNumber } from "../format";
 import { color, seriesColor } from "../theme";
-import type { Backdrop, Curve, Mark, PanelSpec } from "./panel";
+import type { Curve, PanelSpec } from "./panel";
+import type { Backdrop, Mark } from "./panel_paint";
 import { column, track } from "./series";
 import type { Level, State } from "./store";
 
 export const kLevels: { level: Level; returns: number }[] = [
-  { level: "n10", returns: 10 }, { level: "n100", returns: 100 }, { level: "n1000", returns: 1000 },
+  { level: "n10", returns: 10 },
+  { level: "n100", returns: 100 },
+  { level: "n1000", returns: 1000 },
 ];
 
 /** Curves of several columns of one estimator; those that the folder lacks are left out. */
-function parts(estimator: Estimator | undefined, list: [name: string, label: string, color: string, dash?: number[]][]): Curve[] {
+function parts(
+  estimator: Estimator | undefined,
+  list: [name: string, label: string, color: string, dash?: number[]][],
+): Curve[] {
   return list.flatMap(([name, label, ink, dash]) => {
     const found = column(estimator, name);
     return found ? [{ label, track: found, color: ink, dash }] : [];
@@ -21,13 +27,22 @@ function parts(estimator: Estimator | undefined, list: [name: string, label: str
 
 /** The same column of every estimator, the chosen one last, so that it lies on top. */
 function everyone(data: RunPayload, chosen: number, name: string, all: boolean): Curve[] {
-  const order = data.estimators.map((_, index) => index).sort((a, b) => Number(a === chosen) - Number(b === chosen));
+  const order = data.estimators
+    .map((_, index) => index)
+    .sort((a, b) => Number(a === chosen) - Number(b === chosen));
   const curves = order.flatMap((index): Curve[] => {
     const estimator = data.estimators[index]!;
     const found = column(estimator, name);
     if (!found) return [];
-    return [{ label: estimator.name, track: found, color: seriesColor(estimator.colour_index),
-      width: index === chosen ? 1.75 : 1, counts: all || index === chosen }];
+    return [
+      {
+        label: estimator.name,
+        track: found,
+        color: seriesColor(estimator.colour_index),
+        width: index === chosen ? 1.75 : 1,
+        counts: all || index === chosen,
+      },
+    ];
   });
   if (!curves.some((curve) => curve.counts)) for (const curve of curves) curve.counts = true;
   return curves;
@@ -38,24 +53,61 @@ function truthPanels(data: RunPayload, chosenLevel: Level): PanelSpec[] {
   const returns = track(truth?.t, truth?.equivalent_returns);
   const panels: PanelSpec[] = [];
   if (returns) {
-    panels.push({ id: "localizability", title: "Localizability, truth", unit: "equivalent returns", log: true,
-      hint: "Returns of a facing surface that would tell as much along the weakest axis; by the truth, whoever estimates",
-      curves: [{ label: "truth", track: returns, color: color("--truth") }], levels: kLevels.filter(({ level }) => level === chosenLevel).map(({ returns: n }) => n) });
+    panels.push({
+      id: "localizability",
+      title: "Localizability, truth",
+      unit: "equivalent returns",
+      log: true,
+      hint: "By the truth: returns of a facing surface that would tell as much of the weak axis",
+      curves: [{ label: "truth", track: returns, color: color("--truth") }],
+      levels: kLevels.filter(({ level }) => level === chosenLevel).map(({ returns: n }) => n),
+    });
   }
   return panels;
 }
 
 function indexPanels(estimator: Estimator | undefined): PanelSpec[] {
-  const blue = seriesColor(0), orange = seriesColor(1), green = seriesColor(2), pink = seriesColor(3);
+  const blue = seriesColor(0),
+    orange = seriesColor(1),
+    green = seriesColor(2),
+    pink = seriesColor(3);
   return [
-    { id: "index", title: "Degeneracy index", range: [-0.03, 1.03], hint: "D_k, its smoothed value, and O_lidar, eqs. (4), (7), (12)",
-      curves: parts(estimator, [["O_lidar", "O_lidar", green, [5, 3]], ["D", "D", orange], ["D_smoothed", "D smoothed", blue]]) },
-    { id: "consistency", title: "C_IL", log: true, hint: "Squared innovation normalised by the predicted covariance, eq. (6)",
-      curves: parts(estimator, [["C_IL", "C_IL", pink]]) },
-    { id: "weights", title: "Weights", range: [-0.03, 1.03], hint: "Reliabilities of LiDAR and legs, eqs. (8), (10); weight of the weakest axis",
-      curves: parts(estimator, [["gamma_lidar", "γ lidar", blue], ["gamma_leg", "γ leg", orange], ["weak_weight", "weak axis", green, [5, 3]]]) },
-    { id: "eigenvalue", title: "Smallest eigenvalue", log: true, hint: "Of the scan's information, as the estimator sees it",
-      curves: parts(estimator, [["lambda_min", "λ min", blue]]) },
+    {
+      id: "index",
+      title: "Degeneracy index",
+      range: [-0.03, 1.03],
+      hint: "D_k, its smoothed value, and O_lidar, eqs. (4), (7), (12)",
+      curves: parts(estimator, [
+        ["O_lidar", "O_lidar", green, [5, 3]],
+        ["D", "D", orange],
+        ["D_smoothed", "D smoothed", blue],
+      ]),
+    },
+    {
+      id: "consistency",
+      title: "C_IL",
+      log: true,
+      hint: "Squared innovation normalised by the predicted covariance, eq. (6)",
+      curves: parts(estimator, [["C_IL", "C_IL", pink]]),
+    },
+    {
+      id: "weights",
+      title: "Weights",
+      range: [-0.03, 1.03],
+      hint: "Reliabilities of LiDAR and legs, eqs. (8), (10); weight of the weakest axis",
+      curves: parts(estimator, [
+        ["gamma_lidar", "γ lidar", blue],
+        ["gamma_leg", "γ leg", orange],
+        ["weak_weight", "weak axis", green, [5, 3]],
+      ]),
+    },
+    {
+      id: "eigenvalue",
+      title: "Smallest eigenvalue",
+      log: true,
+      hint: "Of the scan's information, as the estimator sees it",
+      curves: parts(estimator, [["lambda_min", "λ min", blue]]),
+    },
   ];
 }
 
@@ -64,43 +116,70 @@ function legPanel(data: RunPayload): PanelSpec {
   const loss = track(legs?.t, legs?.loss);
   const slip = track(legs?.t, legs?.slip);
   const curves: Curve[] = [];
-  if (loss) curves.push({ label: "loss", track: loss, color: seriesColor(3), area: true, width: 0.75 });
+  if (loss)
+    curves.push({ label: "loss", track: loss, color: seriesColor(3), area: true, width: 0.75 });
   if (slip) curves.push({ label: "slip m/s", track: slip, color: seriesColor(0), width: 1 });
-  return { id: "legs", title: "Legs, truth", hint: "Share of samples lost per 0.1 s, and true speed of the stance foot that slips most [m/s]", curves };
+  return {
+    id: "legs",
+    title: "Legs, truth",
+    hint: "Share of samples lost per 0.1 s; true speed of the standing foot that slips most",
+    curves,
+  };
 }
 
 function errorPanels(data: RunPayload, state: Readonly<State>): PanelSpec[] {
   const chosen = data.estimators[state.chosen];
   return ["along", "lateral", "vertical"].map((axis) => {
     const sigma = column(chosen, `sigma_${axis}`);
-    return { id: `error_${axis}`, title: `Error ${axis}`, unit: "m",
-      hint: "Estimate minus truth in the body's axes, anchored at the start; band: three of the stated standard deviations",
+    return {
+      id: `error_${axis}`,
+      title: `Error ${axis}`,
+      unit: "m",
+      hint: "Estimate minus truth, anchored at the start; band: three stated standard deviations",
       curves: everyone(data, state.chosen, `error_${axis}`, state.errorScale === "all"),
-      ...(sigma && chosen ? { band: { sigma, color: seriesColor(chosen.colour_index) } } : {}) };
+      ...(sigma && chosen ? { band: { sigma, color: seriesColor(chosen.colour_index) } } : {}),
+    };
   });
 }
 
 /** Strips from the truth down to the time per scan; those without data are left out. */
 export function panelSpecs(data: RunPayload, state: Readonly<State>): PanelSpec[] {
   const chosen = data.estimators[state.chosen];
-  const innovations = parts(chosen, [["innovation", "position m", seriesColor(0)],
-    ["innovation_rotation", "rotation rad", seriesColor(1)]]);
+  const innovations = parts(chosen, [
+    ["innovation", "position m", seriesColor(0)],
+    ["innovation_rotation", "rotation rad", seriesColor(1)],
+  ]);
   const panels: PanelSpec[] = [
     ...truthPanels(data, state.level),
     ...indexPanels(chosen),
     legPanel(data),
-    { id: "innovation", title: "Innovation", hint: "LiDAR-updated minus predicted, eq. (5)", curves: innovations },
+    {
+      id: "innovation",
+      title: "Innovation",
+      hint: "LiDAR-updated minus predicted, eq. (5)",
+      curves: innovations,
+    },
     ...errorPanels(data, state),
-    { id: "time", title: "Time per scan", unit: "ms", log: true, hint: "From one scan to the next", curves: everyone(data, state.chosen, "time_ms", true) },
+    {
+      id: "time",
+      title: "Time per scan",
+      unit: "ms",
+      log: true,
+      hint: "From one scan to the next",
+      curves: everyone(data, state.chosen, "time_ms", true),
+    },
   ];
   return panels.filter((panel) => panel.curves.length > 0);
 }
 
-/** Degenerate stretches at the chosen level, reference points, and where the chosen estimator was lost. */
+/** Degenerate stretches at the chosen level, reference points, where the chosen one was lost. */
 export function backdrop(data: RunPayload, state: Readonly<State>): Backdrop {
   const stretches = data.localizability?.degenerate?.[state.level];
-  const shaded = Array.isArray(stretches) ? stretches.filter((pair): pair is Stretch => isNumber(pair?.[0]) && isNumber(pair?.[1])) : [];
-  const marks: Mark[] = (data.passages ?? []).filter((passage) => isNumber(passage.t))
+  const shaded = Array.isArray(stretches)
+    ? stretches.filter((pair): pair is Stretch => isNumber(pair?.[0]) && isNumber(pair?.[1]))
+    : [];
+  const marks: Mark[] = (data.passages ?? [])
+    .filter((passage) => isNumber(passage.t))
     .map((passage) => ({ t: passage.t!, text: passage.name, color: color("--ink-soft") }));
   const lost = data.estimators[state.chosen]?.lost_at;
   if (isNumber(lost)) marks.push({ t: lost, text: "lost", color: color("--bad") });

@@ -1,9 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** Things of the 3D view: scene, cloud, ways, robot, axis, ellipsoid. World axes, z up, metres. */
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, ConeGeometry, CylinderGeometry, DoubleSide, EdgesGeometry,
-  Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Points, PointsMaterial, Quaternion, SphereGeometry,
-  Sprite, SpriteMaterial, Vector3, type ColorRepresentation,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  CanvasTexture,
+  ConeGeometry,
+  CylinderGeometry,
+  DoubleSide,
+  EdgesGeometry,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  Points,
+  PointsMaterial,
+  Quaternion,
+  SphereGeometry,
+  Sprite,
+  SpriteMaterial,
+  Vector3,
+  type ColorRepresentation,
 } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -32,23 +51,35 @@ function geometry(list: Float32Array): BufferGeometry {
 export function sceneParts(scene: Scene, wire: ColorRepresentation): Group {
   const group = new Group();
   if (scene.triangles?.length) {
-    const material = new MeshBasicMaterial({ color: wire, transparent: true, opacity: 0.05, side: DoubleSide, depthWrite: false });
+    const material = new MeshBasicMaterial({
+      color: wire,
+      transparent: true,
+      opacity: 0.05,
+      side: DoubleSide,
+      depthWrite: false,
+    });
     group.add(new Mesh(geometry(scene.triangles), material));
   }
   if (scene.edges?.length) {
-    group.add(new LineSegments(geometry(scene.edges), new LineBasicMaterial({ color: wire, transparent: true, opacity: 0.5 })));
+    group.add(
+      new LineSegments(
+        geometry(scene.edges),
+        new LineBasicMaterial({ color: wire, transparent: true, opacity: 0.5 }),
+      ),
+    );
   }
   return group;
 }
 
-/** Heights between which the colours of a map run: without the lowest and highest two percent [m]. */
+/** Heights [m] between which a map's colours run: all but two percent at either end. */
 export function heightRange(map: CloudMap): [number, number] {
   const heights = new Uint16Array(map.n);
   for (let i = 0; i < map.n; ++i) heights[i] = map.p[3 * i + 2]!;
   heights.sort();
   const low = map.min[2] ?? 0;
   const scale = ((map.max[2] ?? 0) - low) / 65535;
-  const pick = (share: number) => low + scale * (heights[Math.min(map.n - 1, Math.floor(share * map.n))] ?? 0);
+  const pick = (share: number) =>
+    low + scale * (heights[Math.min(map.n - 1, Math.floor(share * map.n))] ?? 0);
   return [pick(0.02), pick(0.98)];
 }
 
@@ -69,29 +100,46 @@ export function cloud(map: CloudMap, coloring: "height" | "error", dark: boolean
   const [low, high] = heightRange(map);
   const colors = new Uint8Array(3 * map.n);
   for (let i = 0; i < map.n; ++i) {
-    const share = coloring === "error" ? (map.error?.[i] ?? 0) / 255 : (positions[3 * i + 2]! - low) / (high - low || 1);
+    const share =
+      coloring === "error"
+        ? (map.error?.[i] ?? 0) / 255
+        : (positions[3 * i + 2]! - low) / (high - low || 1);
     const index = 3 * Math.round(255 * Math.min(Math.max(share, 0), 1));
     colors.set(table.subarray(index, index + 3), 3 * i);
   }
   const points = geometry(positions).setAttribute("color", new BufferAttribute(colors, 3, true));
-  return new Points(points, new PointsMaterial({ size: 2, sizeAttenuation: false, vertexColors: true }));
+  return new Points(
+    points,
+    new PointsMaterial({ size: 2, sizeAttenuation: false, vertexColors: true }),
+  );
 }
 
-/** A trajectory as a line of that many pixels; it breaks where a pose has no value. Null without two poses. */
-export function way(positions: Numbers, ink: ColorRepresentation, width: number, opacity: number): LineSegments2 | null {
+/** A trajectory, so many pixels wide, broken where a pose has no value; null without any. */
+export function way(
+  positions: Numbers,
+  ink: ColorRepresentation,
+  width: number,
+  opacity: number,
+): LineSegments2 | null {
   const pairs: number[] = [];
   for (let i = 3; i + 2 < positions.length; i += 3) {
     const pair = Array.from(positions.subarray(i - 3, i + 3));
     if (pair.every(Number.isFinite)) pairs.push(...pair);
   }
   if (pairs.length === 0) return null;
-  const material = new LineMaterial({ color: ink, linewidth: width, transparent: true, opacity, depthTest: false });
+  const material = new LineMaterial({
+    color: ink,
+    linewidth: width,
+    transparent: true,
+    opacity,
+    depthTest: false,
+  });
   const line = new LineSegments2(new LineSegmentsGeometry().setPositions(pairs), material);
   line.renderOrder = 2;
   return line;
 }
 
-/** Ring that keeps its size on the screen, so that a robot of half a metre is found in a hundred. */
+/** Ring that keeps its size on the screen, to find half a metre of robot in a hundred. */
 function marker(ink: string): Sprite {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 64;
@@ -101,7 +149,13 @@ function marker(ink: string): Sprite {
   context.beginPath();
   context.arc(32, 32, 26, 0, 2 * Math.PI);
   context.stroke();
-  const sprite = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), sizeAttenuation: false, depthTest: false }));
+  const sprite = new Sprite(
+    new SpriteMaterial({
+      map: new CanvasTexture(canvas),
+      sizeAttenuation: false,
+      depthTest: false,
+    }),
+  );
   sprite.renderOrder = 5;
   return sprite;
 }
@@ -109,7 +163,12 @@ function marker(ink: string): Sprite {
 /** Trunk with legs, body axes: the body's origin is at the rear of the trunk. */
 export function robot(ink: string): { group: Group; ring: Sprite } {
   const group = new Group();
-  const faces = new MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.2, depthTest: false });
+  const faces = new MeshBasicMaterial({
+    color: ink,
+    transparent: true,
+    opacity: 0.2,
+    depthTest: false,
+  });
   const edges = new LineBasicMaterial({ color: ink, depthTest: false });
   const box = (length: number, width: number, height: number, x: number, y: number, z: number) => {
     const shape = new BoxGeometry(length, width, height).translate(x, y, z);
@@ -121,7 +180,13 @@ export function robot(ink: string): { group: Group; ring: Sprite } {
   };
   box(0.55, 0.24, 0.12, 0.18, 0, -0.04);
   box(0.12, 0.12, 0.1, 0.5, 0, 0);
-  for (const [x, y] of [[0, 1], [0, -1], [0.36, 1], [0.36, -1]] as const) box(0.04, 0.04, 0.3, x, 0.13 * y, -0.22);
+  for (const [x, y] of [
+    [0, 1],
+    [0, -1],
+    [0.36, 1],
+    [0.36, -1],
+  ] as const)
+    box(0.04, 0.04, 0.3, x, 0.13 * y, -0.22);
   const ring = marker(ink);
   group.add(ring);
   return { group, ring };
@@ -131,9 +196,11 @@ export function robot(ink: string): { group: Group; ring: Sprite } {
 export function axisArrow(ink: ColorRepresentation): Group {
   const group = new Group();
   const material = new MeshBasicMaterial({ color: ink, depthTest: false });
-  const shapes = [new CylinderGeometry(0.025, 0.025, 1.6, 8).rotateZ(Math.PI / 2),
+  const shapes = [
+    new CylinderGeometry(0.025, 0.025, 1.6, 8).rotateZ(Math.PI / 2),
     new ConeGeometry(0.09, 0.3, 12).rotateZ(-Math.PI / 2).translate(0.85, 0, 0),
-    new ConeGeometry(0.09, 0.3, 12).rotateZ(Math.PI / 2).translate(-0.85, 0, 0)];
+    new ConeGeometry(0.09, 0.3, 12).rotateZ(Math.PI / 2).translate(-0.85, 0, 0),
+  ];
   for (const shape of shapes) {
     const part = new Mesh(shape, material);
     part.renderOrder = 6;
@@ -146,9 +213,20 @@ export function axisArrow(ink: ColorRepresentation): Group {
 export function ellipsoid(ink: ColorRepresentation): Group {
   const group = new Group();
   const shape = new SphereGeometry(1, 24, 16);
-  const solid = new Mesh(shape, new MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.22, depthWrite: false, depthTest: false }));
-  const net = new LineSegments(new EdgesGeometry(new SphereGeometry(1, 12, 8), 1),
-    new LineBasicMaterial({ color: ink, transparent: true, opacity: 0.6, depthTest: false }));
+  const solid = new Mesh(
+    shape,
+    new MeshBasicMaterial({
+      color: ink,
+      transparent: true,
+      opacity: 0.22,
+      depthWrite: false,
+      depthTest: false,
+    }),
+  );
+  const net = new LineSegments(
+    new EdgesGeometry(new SphereGeometry(1, 12, 8), 1),
+    new LineBasicMaterial({ color: ink, transparent: true, opacity: 0.6, depthTest: false }),
+  );
   solid.renderOrder = 3;
   net.renderOrder = 4;
   group.add(solid, net);
@@ -160,12 +238,25 @@ export function ellipsoid(ink: ColorRepresentation): Group {
  * Matrix of the ellipsoid x' C^-1 x = scale^2 of a covariance in body axes (xx xy xz yy yz zz):
  * R L with C = L L', so that no eigenvectors are needed. Null if C is not a covariance.
  */
-export function ellipsoidMatrix(c: ArrayLike<number>, scale: number, at: Vector3, turn: Quaternion): Matrix4 | null {
-  const [xx, xy, xz, yy, yz, zz] = Array.from(c) as [number, number, number, number, number, number];
+export function ellipsoidMatrix(
+  c: ArrayLike<number>,
+  scale: number,
+  at: Vector3,
+  turn: Quaternion,
+): Matrix4 | null {
+  const [xx, xy, xz, yy, yz, zz] = Array.from(c) as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
   const floor = 1e-12;
   if (![xx, xy, xz, yy, yz, zz].every(Number.isFinite) || xx < 0 || yy < 0 || zz < 0) return null;
   const a = Math.sqrt(Math.max(xx, floor));
-  const b = xy / a, d = xz / a;
+  const b = xy / a,
+    d = xz / a;
   const e = Math.sqrt(Math.max(yy - b * b, floor));
   const f = (yz - b * d) / e;
   const g = Math.sqrt(Math.max(zz - d * d - f * f, floor));

@@ -12,13 +12,30 @@ export function pictureImage(picture: Picture): HTMLImageElement {
 function figure(picture: Picture): HTMLElement {
   const title = picture.title || picture.name;
   const open = () => {
-    const dialog = h("dialog", { class: "large", "aria-label": title, onclick: () => dialog.close(), onclose: () => dialog.remove() },
-      pictureImage(picture), h("form", { method: "dialog" }, h("button", {}, "Close")));
+    const dialog = h(
+      "dialog",
+      {
+        class: "large",
+        "aria-label": title,
+        onclick: () => dialog.close(),
+        onclose: () => dialog.remove(),
+      },
+      pictureImage(picture),
+      h("form", { method: "dialog" }, h("button", {}, "Close")),
+    );
     document.body.append(dialog);
     dialog.showModal();
   };
-  return h("figure", {}, h("button", { type: "button", class: "picture", "aria-label": `Enlarge: ${title}`, onclick: open }, pictureImage(picture)),
-    h("figcaption", {}, title));
+  return h(
+    "figure",
+    {},
+    h(
+      "button",
+      { type: "button", class: "picture", "aria-label": `Enlarge: ${title}`, onclick: open },
+      pictureImage(picture),
+    ),
+    h("figcaption", {}, title),
+  );
 }
 
 export function picturesSection(data: RunPayload): HTMLElement | null {

@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** Colour ramps for points: height as in the pictures' spirit (cividis), error from blue to orange. */
+/** Colour ramps for points: height by cividis, error from blue to orange. */
 
 type Rgb = [number, number, number];
 
-/** Cividis, Nunez et al. 2018: even in lightness, and the same to readers who confuse red and green. */
+/** Cividis, Nunez et al. 2018: even in lightness, the same to who confuses red and green. */
 const kHeight: Rgb[] = [
-  [0, 34, 78], [18, 53, 112], [59, 73, 108], [87, 93, 109], [112, 113, 115],
-  [138, 134, 120], [165, 156, 116], [195, 179, 105], [225, 204, 85], [254, 232, 56],
+  [0, 34, 78],
+  [18, 53, 112],
+  [59, 73, 108],
+  [87, 93, 109],
+  [112, 113, 115],
+  [138, 134, 120],
+  [165, 156, 116],
+  [195, 179, 105],
+  [225, 204, 85],
+  [254, 232, 56],
 ];
 /** Blue is on the surface, orange and red away from it. */
-const kError: Rgb[] = [[0, 114, 178], [86, 180, 233], [196, 196, 186], [230, 159, 0], [213, 94, 0], [150, 40, 0]];
+const kError: Rgb[] = [
+  [0, 114, 178],
+  [86, 180, 233],
+  [196, 196, 186],
+  [230, 159, 0],
+  [213, 94, 0],
+  [150, 40, 0],
+];
 /** On a dark ground the ramp of heights starts lighter. */
 const kHeightDark: Rgb[] = [[62, 92, 160], [92, 108, 150], [112, 120, 140], ...kHeight.slice(5)];
 
@@ -22,7 +37,8 @@ export function rampColor(stops: Rgb[], share: number): Rgb {
   const place = Math.min(Math.max(Number.isFinite(share) ? share : 0, 0), 1) * (stops.length - 1);
   const index = Math.min(Math.floor(place), stops.length - 2);
   const rest = place - index;
-  const a = stops[index]!, b = stops[index + 1]!;
+  const a = stops[index]!,
+    b = stops[index + 1]!;
   return [0, 1, 2].map((i) => a[i]! + rest * (b[i]! - a[i]!)) as Rgb;
 }
 

@@ -20,10 +20,17 @@ const numberAt = (object: unknown, ...path: string[]): CellValue => {
 /** Estimators in the payload's order, then those that only scores.json knows. */
 function rows(data: RunPayload): Row[] {
   const scores = own<object>(data.scores, "estimators") ?? {};
-  const known = data.estimators.map((item: Estimator): Row => ({ name: item.name, colour: item.colour_index, scores: own(scores, item.name) }));
+  const known = data.estimators.map((item: Estimator): Row => ({
+    name: item.name,
+    colour: item.colour_index,
+    scores: own(scores, item.name),
+  }));
   const names = new Set(known.map((row) => row.name));
   const others = Object.keys(scores).filter((name) => !names.has(name));
-  return [...known, ...others.map((name): Row => ({ name, colour: null, scores: own(scores, name) }))];
+  return [
+    ...known,
+    ...others.map((name): Row => ({ name, colour: null, scores: own(scores, name) })),
+  ];
 }
 
 function nameCell(row: Row): Child {
@@ -37,7 +44,14 @@ const success = (row: Row) => at(row.scores, "success") === true;
 
 /** Column of a score that is better the smaller it is; a lost estimator is not best. */
 function score(title: string, unit: string, path: string[], hint?: string): Column<Row> {
-  return { title, unit, hint, best: "low", eligible: success, value: (row) => numberAt(row.scores, ...path) };
+  return {
+    title,
+    unit,
+    hint,
+    best: "low",
+    eligible: success,
+    value: (row) => numberAt(row.scores, ...path),
+  };
 }
 
 function segmentNames(data: RunPayload): string[] {
@@ -48,13 +62,23 @@ function segmentNames(data: RunPayload): string[] {
 function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   const columns: Column<Row>[] = [
     nameColumn,
-    ...segmentNames(data).map((name) => score(`M_list(${name})`, "%", ["m_list_percent", name],
-      "Error of the straight distance between reference points, eq. (13)")),
+    ...segmentNames(data).map((name) =>
+      score(
+        `M_list(${name})`,
+        "%",
+        ["m_list_percent", name],
+        "Error of the straight distance between reference points, eq. (13)",
+      ),
+    ),
     score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
     { title: "Outcome", value: (row) => outcome(row) },
   ];
-  return sortableTable(list, columns, { caption: "As the paper’s tables I and II; – has no value, bold is best of those not lost. " +
-    "One walk, one seed: there are no intervals; several seeds give them.", rowName: (row) => row.name });
+  return sortableTable(list, columns, {
+    caption:
+      "As the paper’s tables I and II; – has no value, bold is best of those not lost. " +
+      "One walk, one seed: there are no intervals; several seeds give them.",
+    rowName: (row) => row.name,
+  });
 }
 
 function outcome(row: Row): string {
@@ -65,30 +89,53 @@ function outcome(row: Row): string {
 }
 
 function errorTable(list: Row[]): HTMLElement {
-  return sortableTable(list, [
-    nameColumn,
-    score("ATE", "m", ["ate_m"], "RMSE of position, anchored at the start"),
-    score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
-    score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
-    score("max z", "m", ["max_error_z_m"], "Largest height error"),
-    score("RPE 1 m", "m", ["rpe_1m", "translation_m"], "Relative pose error per metre walked"),
-    score("RPE 10 m", "m", ["rpe_10m", "translation_m"], "Relative pose error per ten metres walked"),
-    score("along", "m", ["drift_m", "rmse", "along"], "RMSE along the way"),
-    score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE lateral to the way"),
-    score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE above the way"),
-    score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
-    score("time", "ms", ["time_per_scan_ms", "mean"], "From one scan to the next"),
-    score("p99", "ms", ["time_per_scan_ms", "p99"], "99th percentile of the time from one scan to the next"),
-  ], { caption: "Errors against the truth and time per scan", rowName: (row) => row.name });
+  return sortableTable(
+    list,
+    [
+      nameColumn,
+      score("ATE", "m", ["ate_m"], "RMSE of position, anchored at the start"),
+      score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
+      score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
+      score("max z", "m", ["max_error_z_m"], "Largest height error"),
+      score("RPE 1 m", "m", ["rpe_1m", "translation_m"], "Relative pose error per metre walked"),
+      score(
+        "RPE 10 m",
+        "m",
+        ["rpe_10m", "translation_m"],
+        "Relative pose error per ten metres walked",
+      ),
+      score("along", "m", ["drift_m", "rmse", "along"], "RMSE along the way"),
+      score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE lateral to the way"),
+      score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE above the way"),
+      score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
+      score("time", "ms", ["time_per_scan_ms", "mean"], "From one scan to the next"),
+      score(
+        "p99",
+        "ms",
+        ["time_per_scan_ms", "p99"],
+        "99th percentile of the time from one scan to the next",
+      ),
+    ],
+    { caption: "Errors against the truth and time per scan", rowName: (row) => row.name },
+  );
 }
 
 function weakTable(list: Row[]): HTMLElement | null {
   const levels = ["all", "n1000", "n100", "n10"].filter((level) =>
-    list.some((row) => Number(at(row.scores, "weak_axis", level, "scans")) > 0));
+    list.some((row) => Number(at(row.scores, "weak_axis", level, "scans")) > 0),
+  );
   if (levels.length === 0) return null;
-  const words: Record<string, string> = { all: "all scans", n1000: "below 1000", n100: "below 100", n10: "below 10 returns" };
-  interface Cell extends Row { level: string }
-  const cells: Cell[] = levels.flatMap((level) => list.map((row) => ({ ...row, level })))
+  const words: Record<string, string> = {
+    all: "all scans",
+    n1000: "below 1000",
+    n100: "below 100",
+    n10: "below 10 returns",
+  };
+  interface Cell extends Row {
+    level: string;
+  }
+  const cells: Cell[] = levels
+    .flatMap((level) => list.map((row) => ({ ...row, level })))
     .filter((row) => at(row.scores, "weak_axis", row.level) !== undefined);
   const get = (name: string) => (row: Cell) => numberAt(row.scores, "weak_axis", row.level, name);
   const columns: Column<Cell>[] = [
@@ -96,28 +143,51 @@ function weakTable(list: Row[]): HTMLElement | null {
     { title: "Scans", value: (row) => `${words[row.level] ?? row.level}` },
     { title: "count", value: get("scans"), show: (row) => formatFixed(get("scans")(row), 0) },
     { title: "error rms", unit: "m", value: get("error_rms_m") },
-    { title: "bound rms", unit: "m", value: get("bound_rms_m"), hint: "Posterior Cramér–Rao bound against a known map" },
-    { title: "efficiency", value: get("efficiency"), hint: "Bound over error: 1 is as good as can be" },
-    { title: "NEES", value: get("nees"), hint: "Error² over the stated variance: 1 is consistent, above it overconfident" },
+    {
+      title: "bound rms",
+      unit: "m",
+      value: get("bound_rms_m"),
+      hint: "Posterior Cramér–Rao bound against a known map",
+    },
+    {
+      title: "efficiency",
+      value: get("efficiency"),
+      hint: "Bound over error: 1 is as good as can be",
+    },
+    {
+      title: "NEES",
+      value: get("nees"),
+      hint: "Error² over the stated variance: 1 is consistent, above it overconfident",
+    },
   ];
-  return sortableTable(cells, columns, { caption: "Along each sweep’s weakest axis, over all sweeps and over degenerate ones",
-    rowName: (row) => `${row.name} ${row.level}` });
+  return sortableTable(cells, columns, {
+    caption: "Along each sweep’s weakest axis, over all sweeps and over degenerate ones",
+    rowName: (row) => `${row.name} ${row.level}`,
+  });
 }
 
 function gateTable(data: RunPayload): HTMLElement | null {
   const gates = own<unknown>(data.scores, "gates");
   if (!Array.isArray(gates) || gates.length === 0) return null;
   const text = (row: unknown, key: string) => String(own(row, key) ?? "");
-  const limit = (row: unknown, key: string) => (isNumber(own(row, key)) ? formatNumber(own(row, key)) : kNone);
+  const limit = (row: unknown, key: string) =>
+    isNumber(own(row, key)) ? formatNumber(own(row, key)) : kNone;
   const held = (row: unknown) => own(row, "holds") ?? own(row, "passed") ?? own(row, "ok");
-  return sortableTable<unknown>(gates, [
-    { title: "Estimator", value: (row) => text(row, "estimator") },
-    { title: "Score", value: (row) => text(row, "score") || text(row, "metric") },
-    { title: "at least", value: (row) => numberAt(row, "min"), show: (row) => limit(row, "min") },
-    { title: "at most", value: (row) => numberAt(row, "max"), show: (row) => limit(row, "max") },
-    { title: "value", value: (row) => numberAt(row, "value") },
-    { title: "holds", value: (row) => (held(row) === true ? "yes" : held(row) === false ? "no" : kNone) },
-  ], { caption: "What the scenario expects" });
+  return sortableTable<unknown>(
+    gates,
+    [
+      { title: "Estimator", value: (row) => text(row, "estimator") },
+      { title: "Score", value: (row) => text(row, "score") || text(row, "metric") },
+      { title: "at least", value: (row) => numberAt(row, "min"), show: (row) => limit(row, "min") },
+      { title: "at most", value: (row) => numberAt(row, "max"), show: (row) => limit(row, "max") },
+      { title: "value", value: (row) => numberAt(row, "value") },
+      {
+        title: "holds",
+        value: (row) => (held(row) === true ? "yes" : held(row) === false ? "no" : kNone),
+      },
+    ],
+    { caption: "What the scenario expects" },
+  );
 }
 
 /** What the truth says of the walk, whoever estimates. */
@@ -128,15 +198,28 @@ function truthLine(data: RunPayload): HTMLElement | null {
     const value = at(truth, "degenerate_share", level);
     return isNumber(value) ? `${formatFixed(100 * value, 0)} %` : kNone;
   };
-  return h("p", { class: "soft" }, `By the truth: ${formatNumber(at(truth, "median_equivalent_returns"))} equivalent returns along the weakest axis ` +
-    `(median); below 10 in ${share("n10")} of the scans, below 100 in ${share("n100")}, below 1000 in ${share("n1000")}. ` +
-    `Bound at the end, 1σ: along ${formatNumber(at(truth, "bound_end_m", "along"))} m, lateral ` +
-    `${formatNumber(at(truth, "bound_end_m", "lateral"))} m, vertical ${formatNumber(at(truth, "bound_end_m", "vertical"))} m.`);
+  const bound = (axis: string) => formatNumber(at(truth, "bound_end_m", axis));
+  return h(
+    "p",
+    { class: "soft" },
+    `By the truth: ${formatNumber(at(truth, "median_equivalent_returns"))} equivalent returns ` +
+      `along the weakest axis (median); below 10 in ${share("n10")} of the scans, ` +
+      `below 100 in ${share("n100")}, below 1000 in ${share("n1000")}. Bound at the end, 1σ: ` +
+      `along ${bound("along")} m, lateral ${bound("lateral")} m, vertical ${bound("vertical")} m.`,
+  );
 }
 
 export function resultsSection(data: RunPayload): HTMLElement {
   const list = rows(data);
-  if (list.length === 0) return section("results", "Results", h("p", { class: "nothing" }, "No estimator was scored."));
-  return section("results", "Results", truthLine(data), h("div", { "data-table": "paper" }, paperTable(data, list)),
-    h("div", { "data-table": "errors" }, errorTable(list)), weakTable(list), gateTable(data));
+  if (list.length === 0)
+    return section("results", "Results", h("p", { class: "nothing" }, "No estimator was scored."));
+  return section(
+    "results",
+    "Results",
+    truthLine(data),
+    h("div", { "data-table": "paper" }, paperTable(data, list)),
+    h("div", { "data-table": "errors" }, errorTable(list)),
+    weakTable(list),
+    gateTable(data),
+  );
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** Columns of the payload: samples at an instant, and columns of several clocks on one axis of time. */
+/** Columns of the payload: samples at an instant, several clocks on one axis of time. */
 import type { Estimator, Numbers, RunPayload } from "../contract";
 import { isNumber } from "../format";
 import { nearestIndex } from "./store";
@@ -18,7 +18,10 @@ export function column(estimator: Estimator | undefined, name: string): Track | 
 }
 
 /** Track of a column that may be missing. */
-export function track(times: Numbers | null | undefined, values: Numbers | null | undefined): Track | null {
+export function track(
+  times: Numbers | null | undefined,
+  values: Numbers | null | undefined,
+): Track | null {
   if (!times || !values || times.length === 0 || values.length < times.length) return null;
   return values.some((value) => Number.isFinite(value)) ? { times, values } : null;
 }
@@ -43,14 +46,22 @@ export function valueAt(item: Track, seconds: number): number {
 }
 
 /** Three numbers of a list of xyz, null if one has no value. */
-export function vectorAt(list: Numbers | null | undefined, index: number): [number, number, number] | null {
+export function vectorAt(
+  list: Numbers | null | undefined,
+  index: number,
+): [number, number, number] | null {
   if (!list || index < 0 || 3 * index + 2 >= list.length) return null;
-  const x = list[3 * index]!, y = list[3 * index + 1]!, z = list[3 * index + 2]!;
+  const x = list[3 * index]!,
+    y = list[3 * index + 1]!,
+    z = list[3 * index + 2]!;
   return Number.isFinite(x + y + z) ? [x, y, z] : null;
 }
 
 /** Four numbers of a list of xyzw; the identity if it has none there. */
-export function quaternionAt(list: Numbers | null | undefined, index: number): [number, number, number, number] {
+export function quaternionAt(
+  list: Numbers | null | undefined,
+  index: number,
+): [number, number, number, number] {
   if (!list || index < 0 || 4 * index + 3 >= list.length) return [0, 0, 0, 1];
   const q = [0, 1, 2, 3].map((i) => list[4 * index + i]!) as [number, number, number, number];
   return Number.isFinite(q[0] + q[1] + q[2] + q[3]) ? q : [0, 0, 0, 1];
@@ -61,7 +72,7 @@ export type Aligned = [number[], ...(number | null | undefined)[][]];
 /** Float32 of stamps a millisecond apart or less are the same instant. */
 const key = (seconds: number) => Math.round(seconds * 1000);
 
-/** Tracks on the union of their stamps: undefined where a track has no sample, null where it has no value. */
+/** Tracks on the union of their stamps: undefined without a sample, null without a value. */
 export function align(tracks: Track[], positiveOnly = false): Aligned {
   const stamps = new Set<number>();
   const clocks = new Set(tracks.map((item) => item.times));
@@ -75,16 +86,21 @@ export function align(tracks: Track[], positiveOnly = false): Aligned {
     for (let i = 0; i < times.length; ++i) {
       const index = place.get(key(times[i]!));
       const value = values[i]!;
-      if (index !== undefined) out[index] = Number.isFinite(value) && !(positiveOnly && value <= 0) ? value : null;
+      if (index !== undefined)
+        out[index] = Number.isFinite(value) && !(positiveOnly && value <= 0) ? value : null;
     }
     return out;
   });
   return [keys.map((value) => value / 1000), ...columns];
 }
 
-/** Where the cursor may stand [s]: the scans of an estimator, else the truth's samples, ascending. */
+/** Where the cursor may stand [s]: scans of an estimator, else samples of the truth; ascending. */
 export function cursorTimes(data: RunPayload): number[] {
-  const candidates = [...data.estimators.map((item) => item.series?.t), data.localizability?.t, data.truth?.t];
+  const candidates = [
+    ...data.estimators.map((item) => item.series?.t),
+    data.localizability?.t,
+    data.truth?.t,
+  ];
   let longest: Numbers | null = null;
   for (const times of candidates) {
     if (times && times.length > (longest?.length ?? 0)) longest = times;
@@ -96,7 +112,12 @@ export function cursorTimes(data: RunPayload): number[] {
 export function timeSpan(data: RunPayload): [number, number] {
   let first = Infinity;
   let last = -Infinity;
-  const all = [data.truth?.t, data.localizability?.t, data.legs?.t, ...data.estimators.map((item) => item.series?.t)];
+  const all = [
+    data.truth?.t,
+    data.localizability?.t,
+    data.legs?.t,
+    ...data.estimators.map((item) => item.series?.t),
+  ];
   for (const times of all) {
     for (const seconds of times ?? []) {
       if (!Number.isFinite(seconds)) continue;

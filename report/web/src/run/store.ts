@@ -27,7 +27,11 @@ export class Store {
   private scheduled = false;
 
   /** `times`: where the cursor may stand [s], ascending; `span`: all of the run [s]. */
-  constructor(private current: State, readonly times: number[], readonly span: [number, number]) {}
+  constructor(
+    private current: State,
+    readonly times: number[],
+    readonly span: [number, number],
+  ) {}
 
   get state(): Readonly<State> {
     return this.current;

@@ -5,7 +5,8 @@ import type { RunPayload } from "../contract";
 import { h } from "../dom";
 import { formatFixed, formatTime } from "../format";
 import { onTheme } from "../theme";
-import { Panel, type Backdrop } from "./panel";
+import { Panel } from "./panel";
+import type { Backdrop } from "./panel_paint";
 import { backdrop, kLevels, panelSpecs } from "./panels";
 import type { ErrorScale, Level, Store } from "./store";
 
@@ -13,8 +14,15 @@ const kPlaySpeed = 8;
 
 /** Buttons and the slider above the strips. */
 function controls(store: Store): HTMLElement {
-  const slider = h("input", { type: "range", class: "scrubber", min: 0, max: Math.max(store.times.length - 1, 0), step: 1,
-    "aria-label": "Cursor", oninput: () => store.moveTo(store.times[Number(slider.value)] ?? 0) });
+  const slider = h("input", {
+    type: "range",
+    class: "scrubber",
+    min: 0,
+    max: Math.max(store.times.length - 1, 0),
+    step: 1,
+    "aria-label": "Cursor",
+    oninput: () => store.moveTo(store.times[Number(slider.value)] ?? 0),
+  });
   const clock = h("output", { class: "clock", "data-clock": true });
   const play = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, "Play");
   player(store, play);
@@ -34,11 +42,25 @@ function controls(store: Store): HTMLElement {
     return cursor >= from && cursor <= to ? cursor : (from + to) / 2;
   };
   const button = (text: string, label: string, press: () => void) =>
-    h("button", { type: "button", class: "quiet", "aria-label": label, title: label, onclick: press }, text);
-  return h("div", { class: "transport" }, play, slider, clock, h("span", { class: "buttons" },
-    button("−", "Zoom out (−)", () => store.zoomBy(2, middle())),
-    button("+", "Zoom in (+)", () => store.zoomBy(0.5, middle())),
-    button("All", "Show the whole run (0)", () => store.zoomAll())));
+    h(
+      "button",
+      { type: "button", class: "quiet", "aria-label": label, title: label, onclick: press },
+      text,
+    );
+  return h(
+    "div",
+    { class: "transport" },
+    play,
+    slider,
+    clock,
+    h(
+      "span",
+      { class: "buttons" },
+      button("−", "Zoom out (−)", () => store.zoomBy(2, middle())),
+      button("+", "Zoom in (+)", () => store.zoomBy(0.5, middle())),
+      button("All", "Show the whole run (0)", () => store.zoomAll()),
+    ),
+  );
 }
 
 /** Lets a button move the cursor on its own, eight times as fast as the robot walked. */
@@ -69,17 +91,41 @@ function player(store: Store, button: HTMLElement): void {
 }
 
 function choices(data: RunPayload, store: Store): HTMLElement {
-  const level = h("select", { "data-control": "level", onchange: () => store.set({ level: level.value as Level }) },
-    ...kLevels.map(({ level: name, returns }) => h("option", { value: name, selected: name === store.state.level }, `below ${returns} returns`)));
-  const scale = h("select", { "data-control": "error-scale", onchange: () => store.set({ errorScale: scale.value as ErrorScale }) },
-    h("option", { value: "chosen", selected: store.state.errorScale === "chosen" }, "the chosen one"),
-    h("option", { value: "all", selected: store.state.errorScale === "all" }, "all"));
-  return h("div", { class: "choices" },
-    data.localizability ? h("label", {}, h("i", { class: "swatch shade" }), "degenerate ", level) : null,
-    data.estimators.length > 1 ? h("label", {}, "error axis fits ", scale) : null);
+  const level = h(
+    "select",
+    { "data-control": "level", onchange: () => store.set({ level: level.value as Level }) },
+    ...kLevels.map(({ level: name, returns }) =>
+      h(
+        "option",
+        { value: name, selected: name === store.state.level },
+        `below ${returns} returns`,
+      ),
+    ),
+  );
+  const scale = h(
+    "select",
+    {
+      "data-control": "error-scale",
+      onchange: () => store.set({ errorScale: scale.value as ErrorScale }),
+    },
+    h(
+      "option",
+      { value: "chosen", selected: store.state.errorScale === "chosen" },
+      "the chosen one",
+    ),
+    h("option", { value: "all", selected: store.state.errorScale === "all" }, "all"),
+  );
+  return h(
+    "div",
+    { class: "choices" },
+    data.localizability
+      ? h("label", {}, h("i", { class: "swatch shade" }), "degenerate ", level)
+      : null,
+    data.estimators.length > 1 ? h("label", {}, "error axis fits ", scale) : null,
+  );
 }
 
-/** Dragging moves the cursor; with shift it marks a window to zoom to; two fingers or ctrl+wheel zoom. */
+/** Dragging moves the cursor, with shift it marks where to zoom; so do two fingers, ctrl+wheel. */
 function pointer(stack: HTMLElement, store: Store, timeAt: (clientX: number) => number): void {
   const down = new Map<number, number>();
   const selection = h("div", { class: "selection", hidden: true });
@@ -98,7 +144,12 @@ function pointer(stack: HTMLElement, store: Store, timeAt: (clientX: number) => 
     stack.setPointerCapture(event.pointerId);
     if (down.size === 2) {
       const [a, b] = [...down.values()] as [number, number];
-      spread = { distance: Math.abs(a - b), from: store.state.from, to: store.state.to, center: timeAt((a + b) / 2) };
+      spread = {
+        distance: Math.abs(a - b),
+        from: store.state.from,
+        to: store.state.to,
+        center: timeAt((a + b) / 2),
+      };
     } else if (event.shiftKey) {
       anchor = event.clientX;
     } else {
@@ -111,7 +162,10 @@ function pointer(stack: HTMLElement, store: Store, timeAt: (clientX: number) => 
     if (spread && down.size === 2) {
       const [a, b] = [...down.values()] as [number, number];
       const factor = spread.distance / Math.max(Math.abs(a - b), 10);
-      store.zoomTo(spread.center - (spread.center - spread.from) * factor, spread.center + (spread.to - spread.center) * factor);
+      store.zoomTo(
+        spread.center - (spread.center - spread.from) * factor,
+        spread.center + (spread.to - spread.center) * factor,
+      );
     } else if (anchor !== null) {
       mark(anchor, event.clientX);
     } else if (!spread) {
@@ -131,33 +185,58 @@ function pointer(stack: HTMLElement, store: Store, timeAt: (clientX: number) => 
   stack.addEventListener("pointerup", up);
   stack.addEventListener("pointercancel", up);
   stack.addEventListener("dblclick", () => store.zoomAll());
-  stack.addEventListener("wheel", (event) => {
-    if (!(event.ctrlKey || event.shiftKey || event.metaKey)) return;
-    event.preventDefault();
-    const amount = event.deltaY || event.deltaX;
-    store.zoomBy(Math.exp(Math.sign(amount) * Math.min(Math.abs(amount), 100) * 0.003), timeAt(event.clientX));
-  }, { passive: false });
+  stack.addEventListener(
+    "wheel",
+    (event) => {
+      if (!(event.ctrlKey || event.shiftKey || event.metaKey)) return;
+      event.preventDefault();
+      const amount = event.deltaY || event.deltaX;
+      store.zoomBy(
+        Math.exp(Math.sign(amount) * Math.min(Math.abs(amount), 100) * 0.003),
+        timeAt(event.clientX),
+      );
+    },
+    { passive: false },
+  );
 }
 
 /** The timeline, filled once it is in the document and has a width. */
-export function timeline(data: RunPayload, store: Store): { element: HTMLElement; start: () => void } {
-  const stack = h("div", { class: "strips", tabindex: 0, role: "group",
-    "aria-label": "Timeline: arrow keys move the cursor, plus and minus zoom" });
+export function timeline(
+  data: RunPayload,
+  store: Store,
+): { element: HTMLElement; start: () => void } {
+  const stack = h("div", {
+    class: "strips",
+    tabindex: 0,
+    role: "group",
+    "aria-label": "Timeline: arrow keys move the cursor, plus and minus zoom",
+  });
   const strips = h("div");
   stack.append(strips);
-  const element = h("section", { class: "card timeline", "aria-label": "Timeline" }, controls(store), choices(data, store), stack);
+  const element = h(
+    "section",
+    { class: "card timeline", "aria-label": "Timeline" },
+    controls(store),
+    choices(data, store),
+    stack,
+  );
   const window = { from: store.state.from, to: store.state.to };
   const behind: Backdrop = { shaded: [], marks: [] };
   let panels: Panel[] = [];
   const width = () => Math.max(stack.clientWidth, 160);
-  const cursor = () => { for (const panel of panels) panel.showCursor(store.state.cursor); };
+  const cursor = () => {
+    for (const panel of panels) panel.showCursor(store.state.cursor);
+  };
   const build = () => {
     for (const panel of panels) panel.destroy();
     Object.assign(behind, backdrop(data, store.state));
     const specs = panelSpecs(data, store.state);
-    panels = specs.map((spec, i) => new Panel(spec, behind, width(), window, i === 0, i === specs.length - 1));
+    panels = specs.map(
+      (spec, i) => new Panel(spec, behind, width(), window, i === 0, i === specs.length - 1),
+    );
     strips.replaceChildren(...panels.map((panel) => panel.element));
-    if (panels.length === 0) strips.append(h("p", { class: "nothing" }, "Nothing over time was recorded."));
+    if (panels.length === 0)
+      strips.append(h("p", { class: "nothing" }, "Nothing over time was recorded."));
     requestAnimationFrame(cursor);
   };
   const redraw = () => {
@@ -166,7 +245,10 @@ export function timeline(data: RunPayload, store: Store): { element: HTMLElement
   };
   pointer(stack, store, (clientX) => panels[0]?.timeAt(clientX) ?? store.state.cursor);
   store.on(["chosen", "errorScale", "level"], build);
-  store.on(["from", "to"], () => { redraw(); requestAnimationFrame(cursor); });
+  store.on(["from", "to"], () => {
+    redraw();
+    requestAnimationFrame(cursor);
+  });
   store.on(["cursor"], cursor);
   onTheme(build);
   let drawn = 0;
@@ -176,5 +258,12 @@ export function timeline(data: RunPayload, store: Store): { element: HTMLElement
     for (const panel of panels) panel.resize(drawn);
     requestAnimationFrame(cursor);
   };
-  return { element, start: () => { drawn = width(); build(); new ResizeObserver(fit).observe(stack); } };
+  return {
+    element,
+    start: () => {
+      drawn = width();
+      build();
+      new ResizeObserver(fit).observe(stack);
+    },
+  };
 }

@@ -4,46 +4,94 @@ import type { RunPayload } from "../contract";
 import { h } from "../dom";
 import { formatFixed, formatNumber } from "../format";
 import { color, onTheme, seriesColor, theme } from "../theme";
+import type { Preset } from "./camera3d";
 import { heightRange } from "./parts3d";
 import { pictureImage } from "./pictures";
 import { ramp, rampGradient } from "./ramps";
 import { indexAt, valueAt, vectorAt, track } from "./series";
 import type { Coloring, State, Store } from "./store";
-import { hasWebGl, View3D, type Preset } from "./view3d";
+import { hasWebGl, View3D } from "./view3d";
 
 function fallback(data: RunPayload): HTMLElement {
   const pictures = data.pictures ?? [];
   const best = pictures.find((item) => item.name.includes("trajector")) ?? pictures[0];
-  const text = "This browser offers no WebGL: a picture of the trajectories in place of the 3D view.";
-  return h("div", { class: "view-fallback", "data-view": "fallback" },
-    h("p", { class: "soft" }, best ? text : "This browser offers no WebGL, and the folder holds no picture."),
-    best ? pictureImage(best) : null);
+  const text =
+    "This browser offers no WebGL: a picture of the trajectories in place of the 3D view.";
+  return h(
+    "div",
+    { class: "view-fallback", "data-view": "fallback" },
+    h(
+      "p",
+      { class: "soft" },
+      best ? text : "This browser offers no WebGL, and the folder holds no picture.",
+    ),
+    best ? pictureImage(best) : null,
+  );
 }
 
 /** Group of buttons of which one is pressed. */
 function presets(view: View3D): HTMLElement {
-  const names: [Preset, string][] = [["orbit", "Orbit"], ["top", "Top"], ["side", "Side"]];
-  const buttons = names.map(([preset, text]) => h("button", { type: "button", "data-preset": preset,
-    "aria-pressed": String(preset === "orbit"), onclick: () => {
-      view.show(preset);
-      for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset["preset"] === preset));
-    } }, text));
+  const names: [Preset, string][] = [
+    ["orbit", "Orbit"],
+    ["top", "Top"],
+    ["side", "Side"],
+  ];
+  const buttons = names.map(([preset, text]) =>
+    h(
+      "button",
+      {
+        type: "button",
+        "data-preset": preset,
+        "aria-pressed": String(preset === "orbit"),
+        onclick: () => {
+          view.show(preset);
+          for (const button of buttons)
+            button.setAttribute("aria-pressed", String(button.dataset["preset"] === preset));
+        },
+      },
+      text,
+    ),
+  );
   return h("span", { class: "segmented", role: "group", "aria-label": "View from" }, ...buttons);
 }
 
 function controls(data: RunPayload, store: Store, view: View3D): HTMLElement {
-  const follow = h("button", { type: "button", "aria-pressed": "false", onclick: () => {
-    const next = follow.getAttribute("aria-pressed") !== "true";
-    follow.setAttribute("aria-pressed", String(next));
-    view.setFollow(next);
-  } }, "Follow");
-  const coloring = h("select", { "data-control": "coloring", onchange: () => store.set({ coloring: coloring.value as Coloring }) },
-    h("option", { value: "height" }, "height"), h("option", { value: "error" }, "error"));
-  const stretch = h("select", { "data-control": "stretch", onchange: () => view.setStretch(Number(stretch.value)) },
-    ...[1, 5, 20].map((factor) => h("option", { value: factor }, `${factor}×`)));
+  const follow = h(
+    "button",
+    {
+      type: "button",
+      "aria-pressed": "false",
+      onclick: () => {
+        const next = follow.getAttribute("aria-pressed") !== "true";
+        follow.setAttribute("aria-pressed", String(next));
+        view.follow(next);
+      },
+    },
+    "Follow",
+  );
+  const coloring = h(
+    "select",
+    {
+      "data-control": "coloring",
+      onchange: () => store.set({ coloring: coloring.value as Coloring }),
+    },
+    h("option", { value: "height" }, "height"),
+    h("option", { value: "error" }, "error"),
+  );
+  const stretch = h(
+    "select",
+    { "data-control": "stretch", onchange: () => view.setStretch(Number(stretch.value)) },
+    ...[1, 5, 20].map((factor) => h("option", { value: factor }, `${factor}×`)),
+  );
   const maps = data.estimators.some((item) => item.map && item.map.n > 0);
-  return h("div", { class: "view-controls" }, presets(view), follow,
-    maps ? h("label", {}, "map by ", coloring) : null, h("label", {}, "height ", stretch));
+  return h(
+    "div",
+    { class: "view-controls" },
+    presets(view),
+    follow,
+    maps ? h("label", {}, "map by ", coloring) : null,
+    h("label", {}, "height ", stretch),
+  );
 }
 
 /** Ramp of the map's colours with its ends. */
@@ -54,8 +102,15 @@ function mapKey(data: RunPayload, state: Readonly<State>): HTMLElement | null {
   const [low, high] = byError ? [0, 0.5] : heightRange(map);
   const bar = h("i", { class: "ramp" });
   bar.style.background = rampGradient(ramp(byError ? "error" : "height", theme() === "dark"));
-  return h("span", { class: "legend-item", "data-key": byError ? "error" : "height" }, byError ? "map error" : "map height",
-    " ", formatFixed(low, 2), bar, `${formatFixed(high, 2)}${byError ? "+" : ""} m`);
+  return h(
+    "span",
+    { class: "legend-item", "data-key": byError ? "error" : "height" },
+    byError ? "map error" : "map height",
+    " ",
+    formatFixed(low, 2),
+    bar,
+    `${formatFixed(high, 2)}${byError ? "+" : ""} m`,
+  );
 }
 
 function inkKey(text: string, ink: string, kind = ""): HTMLElement {
@@ -67,12 +122,21 @@ function inkKey(text: string, ink: string, kind = ""): HTMLElement {
 function legend(data: RunPayload, state: Readonly<State>, scale: number): HTMLElement {
   const chosen = data.estimators[state.chosen];
   const covariance = chosen?.series?.position_covariance;
-  return h("div", { class: "view-legend" },
+  return h(
+    "div",
+    { class: "view-legend" },
     data.truth ? inkKey("truth", color("--truth")) : null,
     chosen ? inkKey(chosen.name, seriesColor(chosen.colour_index)) : null,
     data.localizability?.weak_axis ? inkKey("weak axis", color("--weak")) : null,
-    covariance && chosen ? inkKey(`3σ ellipsoid${scale > 1 ? `, drawn ${scale}×` : ""}`, seriesColor(chosen.colour_index), "dot") : null,
-    mapKey(data, state));
+    covariance && chosen
+      ? inkKey(
+          `3σ ellipsoid${scale > 1 ? `, drawn ${scale}×` : ""}`,
+          seriesColor(chosen.colour_index),
+          "dot",
+        )
+      : null,
+    mapKey(data, state),
+  );
 }
 
 /** Where the robot is at the cursor, in words. */
@@ -83,19 +147,34 @@ function readout(data: RunPayload, state: Readonly<State>): HTMLElement {
   const index = indexAt(chosen?.series?.t, state.cursor);
   const estimate = vectorAt(chosen?.series?.p, index);
   const returns = track(data.localizability?.t, data.localizability?.equivalent_returns);
-  const place = (point: number[] | null) => (point ? point.map((value) => formatFixed(value, 2)).join(", ") : "–");
-  const apart = truth && estimate ? Math.hypot(...truth.map((value, i) => value - estimate[i]!)) : NaN;
+  const place = (point: number[] | null) =>
+    point ? point.map((value) => formatFixed(value, 2)).join(", ") : "–";
+  const apart =
+    truth && estimate ? Math.hypot(...truth.map((value, i) => value - estimate[i]!)) : NaN;
   const item = (name: string, key: string, text: string) =>
-    h("span", {}, h("span", { class: "soft" }, `${name} `), h("output", { "data-readout": key }, text));
-  return h("div", { class: "readout" },
+    h(
+      "span",
+      {},
+      h("span", { class: "soft" }, `${name} `),
+      h("output", { "data-readout": key }, text),
+    );
+  return h(
+    "div",
+    { class: "readout" },
     item("truth", "truth", `${place(truth)} m`),
     chosen ? item("estimate", "estimate", `${place(estimate)} m`) : null,
     chosen ? item("apart", "apart", `${formatNumber(apart)} m`) : null,
-    returns ? item("equivalent returns", "returns", formatNumber(valueAt(returns, state.cursor))) : null);
+    returns
+      ? item("equivalent returns", "returns", formatNumber(valueAt(returns, state.cursor)))
+      : null,
+  );
 }
 
 /** The view; `start` draws it once it is in the document. */
-export function viewCard(data: RunPayload, store: Store): { element: HTMLElement; start: () => void } {
+export function viewCard(
+  data: RunPayload,
+  store: Store,
+): { element: HTMLElement; start: () => void } {
   const words = h("div", {}, readout(data, store.state));
   store.on(["cursor", "chosen"], () => words.replaceChildren(readout(data, store.state)));
   const element = h("section", { class: "card view", "aria-label": "3D view" });
@@ -112,10 +191,22 @@ export function viewCard(data: RunPayload, store: Store): { element: HTMLElement
   showKey();
   element.append(controls(data, store, view), frame, key, words);
   store.on(["cursor"], () => view.update(store.state, false));
-  store.on(["chosen", "coloring"], () => { view.update(store.state, true); showKey(); });
-  onTheme(() => { view.update(store.state, true); showKey(); });
+  store.on(["chosen", "coloring"], () => {
+    view.update(store.state, true);
+    showKey();
+  });
+  onTheme(() => {
+    view.update(store.state, true);
+    showKey();
+  });
   const fit = () => view.resize(frame.clientWidth, frame.clientHeight);
-  return { element, start: () => { fit(); new ResizeObserver(fit).observe(frame); } };
+  return {
+    element,
+    start: () => {
+      fit();
+      new ResizeObserver(fit).observe(frame);
+    },
+  };
 }
 
 function create(data: RunPayload, store: Store): View3D | null {

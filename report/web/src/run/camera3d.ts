@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** Where the 3D view is seen from: presets, following the robot, sizes on the screen. */
+import { Box3, OrthographicCamera, PerspectiveCamera, Vector3, type Camera } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Bounds } from "./parts3d";
+
+export type Preset = "orbit" | "top" | "side";
+
+/** How far from the robot the camera follows [m]. */
+const kNear = 6;
+
+export class CameraRig {
+  private readonly perspective = new PerspectiveCamera(45, 1, 0.05, 5000);
+  private readonly flat = new OrthographicCamera(-1, 1, 1, -1, -5000, 5000);
+  private readonly controls: OrbitControls;
+  private preset: Preset = "orbit";
+  private follows = false;
+  /** Heights are drawn so many times larger. */
+  stretch = 1;
+
+  /** Calls `changed` when the reader moves the camera; `bounds` is what the presets show [m]. */
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly bounds: Bounds,
+    changed: () => void,
+  ) {
+    this.perspective.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.perspective, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener("change", changed);
+  }
+
+  get camera(): Camera {
+    return this.controls.object;
+  }
+
+  /** Height of the window, where `world` lies [m]. */
+  heightAt(world: Vector3): number {
+    if (this.controls.object === this.flat)
+      return (this.flat.top - this.flat.bottom) / this.flat.zoom;
+    return this.angle() * world.distanceTo(this.perspective.position);
+  }
+
+  /** Height of the window as a scale of sprites that keep their size. */
+  spriteHeight(): number {
+    if (this.controls.object === this.flat)
+      return (this.flat.top - this.flat.bottom) / this.flat.zoom;
+    return this.angle();
+  }
+
+  private angle(): number {
+    return 2 * Math.tan((this.perspective.fov * Math.PI) / 360);
+  }
+
+  /** Keeps beside `target` from now on, or goes back to the preset. */
+  follow(follows: boolean, target: Vector3 | null): void {
+    this.follows = follows;
+    this.controls.zoomToCursor = !follows;
+    if (!follows) this.show(this.preset, null);
+    else if (target) this.approach(target);
+  }
+
+  /** Goes with the robot if it follows. */
+  track(world: Vector3): void {
+    if (!this.follows) return;
+    const target = new Vector3(world.x, world.y, world.z * this.stretch);
+    const step = target.clone().sub(this.controls.target);
+    this.controls.target.copy(target);
+    this.controls.object.position.add(step);
+    this.controls.update();
+  }
+
+  private approach(target: Vector3): void {
+    this.track(target);
+    const offset = this.controls.object.position.clone().sub(this.controls.target);
+    if (this.controls.object === this.perspective && offset.length() > kNear) {
+      this.perspective.position.copy(this.controls.target).add(offset.setLength(kNear));
+    } else if (this.controls.object === this.flat) {
+      this.flat.zoom = (this.flat.top - this.flat.bottom) / kNear;
+      this.flat.updateProjectionMatrix();
+    }
+    this.controls.update();
+  }
+
+  /** Turns to one of the views, all of the run in it, or near `target` while it follows. */
+  show(preset: Preset, target: Vector3 | null): void {
+    this.preset = preset;
+    const box = new Box3(this.bounds.min.clone(), this.bounds.max.clone());
+    box.min.z *= this.stretch;
+    box.max.z *= this.stretch;
+    const center = box.getCenter(new Vector3());
+    this.controls.target.copy(center);
+    if (preset === "orbit") this.showOrbit(box, center);
+    else this.showFlat(preset, box, center);
+    this.controls.enableRotate = preset === "orbit";
+    this.controls.update();
+    if (this.follows && target) this.approach(target);
+  }
+
+  /** From the side and above, as near as all corners of the box allow. */
+  private showOrbit(box: Box3, center: Vector3): void {
+    const size = box.getSize(new Vector3());
+    const longX = size.x >= size.y;
+    const away = new Vector3(longX ? -0.9 : -0.4, longX ? -0.4 : -0.9, 0.45).normalize();
+    const camera = this.perspective;
+    const tangent = Math.tan((camera.fov * Math.PI) / 360);
+    const right = new Vector3().crossVectors(new Vector3(0, 0, 1), away).normalize();
+    const up = new Vector3().crossVectors(away, right);
+    let distance = 1;
+    for (let i = 0; i < 8; ++i) {
+      const corner = new Vector3(
+        i & 1 ? box.max.x : box.min.x,
+        i & 2 ? box.max.y : box.min.y,
+        i & 4 ? box.max.z : box.min.z,
+      ).sub(center);
+      const across = Math.max(
+        Math.abs(corner.dot(right)) / camera.aspect,
+        Math.abs(corner.dot(up)),
+      );
+      distance = Math.max(distance, corner.dot(away) + (1.04 * across) / tangent);
+    }
+    camera.position.copy(center).addScaledVector(away, distance);
+    this.controls.object = camera;
+  }
+
+  private showFlat(preset: Preset, box: Box3, center: Vector3): void {
+    const size = box.getSize(new Vector3());
+    const reach = Math.max(size.length(), 2);
+    const longX = size.x >= size.y;
+    const up =
+      preset === "top"
+        ? longX
+          ? new Vector3(0, 1, 0)
+          : new Vector3(-1, 0, 0)
+        : new Vector3(0, 0, 1);
+    const away =
+      preset === "top"
+        ? new Vector3(0, 0, 1)
+        : longX
+          ? new Vector3(0, -1, 0)
+          : new Vector3(1, 0, 0);
+    const width = Math.max(longX ? size.x : size.y, 1) * 1.06;
+    const height = Math.max(preset === "side" ? size.z : longX ? size.y : size.x, 0.5) * 1.15;
+    const aspect = this.perspective.aspect;
+    const half = Math.max(height, width / aspect) / 2;
+    this.flat.top = half;
+    this.flat.bottom = -half;
+    this.flat.left = -half * aspect;
+    this.flat.right = half * aspect;
+    this.flat.zoom = 1;
+    this.flat.up.copy(up);
+    this.flat.position.copy(center).addScaledVector(away, reach);
+    this.flat.lookAt(center);
+    this.flat.updateProjectionMatrix();
+    this.controls.object = this.flat;
+  }
+
+  setAspect(aspect: number, target: Vector3 | null): void {
+    this.perspective.aspect = aspect;
+    this.perspective.updateProjectionMatrix();
+    this.show(this.preset, target);
+  }
+}

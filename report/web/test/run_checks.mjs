@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a page of a run must do, in a real browser. Screenshots go to AIMS_REPORT_ARTIFACTS.
+import assert from "node:assert/strict";
+import { mkdir, readFile } from "node:fs/promises";
+import os from "node:os";
+import path from "node:path";
+import { launch, open, settle } from "./browser.mjs";
+import { payloadOf } from "./pack.mjs";
+
+export const kArtifacts =
+  process.env.AIMS_REPORT_ARTIFACTS ?? path.join(os.tmpdir(), "aims-report-artifacts");
+
+/** Index of the value nearest to `value`. */
+function nearest(list, value) {
+  let best = 0;
+  for (let i = 1; i < list.length; ++i)
+    if (Math.abs(list[i] - value) < Math.abs(list[best] - value)) best = i;
+  return best;
+}
+
+async function shoot(page, name, fullPage = false) {
+  await mkdir(kArtifacts, { recursive: true });
+  await page.screenshot({ path: path.join(kArtifacts, `${name}.png`), fullPage });
+}
+
+/** Value that a strip shows at the cursor; undefined if there is no such curve. */
+function shown(page, panel, series) {
+  return page.evaluate(
+    ([id, name]) => {
+      for (const output of document.querySelectorAll(`[data-panel="${id}"] output`)) {
+        if (output.dataset.series === name) return output.dataset.value;
+      }
+      return undefined;
+    },
+    [panel, series],
+  );
+}
+
+export const cursorOf = (page) =>
+  page.evaluate(() => Number(document.querySelector("[data-clock]").dataset.value));
+
+/** How many different colours the 3D canvas holds. */
+function canvasColors(page) {
+  return page.evaluate(() => {
+    const source = document.querySelector(".view-frame canvas");
+    const copy = Object.assign(document.createElement("canvas"), {
+      width: source.width,
+      height: source.height,
+    });
+    const context = copy.getContext("2d");
+    context.drawImage(source, 0, 0);
+    const data = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
+    return new Set(data).size;
+  });
+}
+
+/** Share of a strip's pixels that something was drawn on. */
+function stripInk(page, panel) {
+  return page.evaluate((id) => {
+    const canvas = document.querySelector(`[data-panel="${id}"] canvas`);
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let drawn = 0;
+    for (let i = 3; i < data.length; i += 4) drawn += data[i] > 0;
+    return drawn / (data.length / 4);
+  }, panel);
+}
+
+/** Cells of a table by row and title of column: { value (in full or null), best, text }. */
+function tableCells(page, selector) {
+  return page.evaluate((where) => {
+    const table = document.querySelector(`${where} table`);
+    if (!table) return null;
+    const titles = [...table.querySelectorAll("thead th")].map((head) => head.textContent.trim());
+    return [...table.querySelectorAll("tbody tr")].map((row) => ({
+      name: row.dataset.row,
+      cells: Object.fromEntries(
+        [...row.children].map((cell, i) => [
+          titles[i],
+          {
+            value: cell.dataset.value === undefined ? null : Number(cell.dataset.value),
+            best: cell.classList.contains("best"),
+            text: cell.textContent,
+          },
+        ]),
+      ),
+    }));
+  }, selector);
+}
+
+/** Every number of the first two tables equals that of scores.json. */
+async function assertTablesEqual(page, scores) {
+  const near = (cell, value, what) => {
+    if (value === null || value === undefined) assert.equal(cell.value, null, what);
+    else assert.equal(cell.value, value, what);
+  };
+  const paper = await tableCells(page, '[data-table="paper"]');
+  assert.deepEqual(new Set(paper.map((row) => row.name)), new Set(Object.keys(scores.estimators)));
+  for (const { name, cells } of paper) {
+    for (const { name: segment } of scores.segments ?? []) {
+      near(
+        cells[`M_list(${segment}) %`],
+        scores.estimators[name].m_list_percent?.[segment],
+        `${name} M_list(${segment})`,
+      );
+    }
+    near(cells["M_end m"], scores.estimators[name].m_end_m, `${name} M_end`);
+  }
+  for (const { name, cells } of await tableCells(page, '[data-table="errors"]')) {
+    const own = scores.estimators[name];
+    near(cells["ATE m"], own.ate_m, `${name} ATE`);
+    near(cells["max m"], own.max_error_m, `${name} max`);
+    near(cells["max z m"], own.max_error_z_m, `${name} max z`);
+    near(cells["RPE 10 m m"], own.rpe_10m?.translation_m, `${name} RPE`);
+    near(cells["along m"], own.drift_m?.rmse?.along, `${name} drift along`);
+    near(cells["heading rad"], own.drift_m?.rmse?.heading_rad, `${name} drift heading`);
+    near(cells["p99 ms"], own.time_per_scan_ms?.p99, `${name} time`);
+  }
+}
+
+/** Bold is the least M_end among those that were not lost. */
+async function assertBestIsBold(page, scores) {
+  const eligible = Object.entries(scores.estimators).filter(
+    ([, own]) => own.success === true && Number.isFinite(own.m_end_m),
+  );
+  const rows = await tableCells(page, '[data-table="paper"]');
+  if (eligible.length === 0 || rows.length < 2) return;
+  const [best] = eligible.reduce((a, b) => (b[1].m_end_m < a[1].m_end_m ? b : a));
+  assert.ok(rows.find((row) => row.name === best).cells["M_end m"].best, `${best} is in bold`);
+  for (const row of rows)
+    if (scores.estimators[row.name].success !== true)
+      assert.ok(!row.cells["M_end m"].best, `${row.name} is not`);
+}
+
+async function assertSorts(page) {
+  const head = page.locator('[data-table="errors"] thead th').nth(1);
+  const values = async () =>
+    (await tableCells(page, '[data-table="errors"]'))
+      .map((row) => row.cells["ATE m"].value)
+      .filter((value) => value !== null);
+  await head.locator("button").click();
+  assert.equal(await head.getAttribute("aria-sort"), "ascending");
+  const up = await values();
+  assert.deepEqual(
+    up,
+    [...up].sort((a, b) => a - b),
+  );
+  await head.locator("button").focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await head.getAttribute("aria-sort"), "descending");
+  const down = await values();
+  assert.deepEqual(
+    down,
+    [...down].sort((a, b) => b - a),
+  );
+}
+
+/** What the strips and the readout show at the cursor is the payload's sample there. */
+async function assertCursorAgrees(page, payload, chosen) {
+  const cursor = await cursorOf(page);
+  const { series } = payload.estimators[chosen];
+  const index = nearest(series.t, cursor);
+  for (const [panel, name, key] of [
+    ["index", "D", "D"],
+    ["weights", "γ lidar", "gamma_lidar"],
+    ["error_along", payload.estimators[chosen].name, "error_along"],
+  ]) {
+    if (!series[key] || !series[key].some(Number.isFinite)) continue;
+    assert.equal(
+      Number(await shown(page, panel, name)),
+      series[key][index],
+      `${panel} ${name} at ${cursor} s`,
+    );
+  }
+  const text = await page.textContent('[data-readout="estimate"]');
+  const fixed = [0, 1, 2].map((axis) =>
+    series.p[3 * index + axis]
+      .toFixed(2)
+      .replace(/^-0\.00$/, "0.00")
+      .replace("-", "−"),
+  );
+  assert.equal(text, `${fixed.join(", ")} m`);
+}
+
+async function assertCursorMoves(page, payload) {
+  const chosen = await page.evaluate(() =>
+    Number(document.querySelector("input[name=estimator]:checked").value),
+  );
+  await assertCursorAgrees(page, payload, chosen);
+  const strip = page.locator("[data-plot]").first();
+  await strip.scrollIntoViewIfNeeded();
+  const box = await strip.boundingBox();
+  const before = {
+    cursor: await cursorOf(page),
+    text: await page.textContent('[data-readout="truth"]'),
+  };
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 20);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + 20, { steps: 4 });
+  await page.mouse.up();
+  await settle(page);
+  const dragged = await cursorOf(page);
+  assert.ok(dragged < before.cursor, `${dragged} s is before ${before.cursor} s`);
+  assert.notEqual(await page.textContent('[data-readout="truth"]'), before.text, "the robot moved");
+  await assertCursorAgrees(page, payload, chosen);
+  await page.locator(".strips").focus();
+  await page.keyboard.press("ArrowRight");
+  await settle(page);
+  const stepped = await cursorOf(page);
+  assert.ok(stepped > dragged && stepped - dragged < 1, `one scan on: ${dragged} to ${stepped} s`);
+  await assertCursorAgrees(page, payload, chosen);
+  await page.keyboard.press("Home");
+  await settle(page);
+  assert.ok((await cursorOf(page)) < dragged);
+}
+
+/** All strips share the window of time: marking one with shift changes the ticks of the last. */
+async function assertZoomLinks(page) {
+  const shot = () =>
+    page.evaluate(() =>
+      [...document.querySelectorAll(".panel canvas")].map((canvas) => canvas.toDataURL()),
+    );
+  const whole = await shot();
+  const strip = page.locator("[data-plot]").first();
+  const box = await strip.boundingBox();
+  await page.keyboard.down("Shift");
+  await page.mouse.move(box.x + 0.4 * box.width, box.y + 20);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 20, { steps: 4 });
+  await page.mouse.up();
+  await page.keyboard.up("Shift");
+  await settle(page);
+  const zoomed = await shot();
+  zoomed.forEach((picture, i) => assert.notEqual(picture, whole[i], `strip ${i} zoomed`));
+  await page.keyboard.press("0");
+  await settle(page);
+}
+
+async function assertSwitches(page, payload) {
+  const count = payload.estimators.length;
+  for (let index = 0; index < count; ++index) {
+    await page.locator("input[name=estimator]").nth(index).check({ force: true });
+    await settle(page);
+    if (payload.estimators[index].series) await assertCursorAgrees(page, payload, index);
+  }
+}
+
+async function assertNarrow(browser, file, name) {
+  const { page, context, troubles } = await open(browser, file, {
+    width: 390,
+    height: 844,
+    touch: true,
+  });
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(width <= 390, `${width} px wide in a window of 390`);
+  assert.deepEqual(troubles, []);
+  await shoot(page, `${name}-390`, true);
+  await context.close();
+}
+
+async function assertNoWebGl(file, name, pictures) {
+  const browser = await launch({ webgl: false });
+  try {
+    const { page, troubles, ready } = await open(browser, file);
+    assert.equal(ready, "true");
+    assert.deepEqual(troubles, []);
+    assert.equal(await page.locator(".view-frame canvas").count(), 0);
+    const fallback = page.locator('[data-view="fallback"]');
+    assert.ok(await fallback.isVisible());
+    if (pictures)
+      assert.ok(
+        (await fallback.locator("img").evaluate((image) => image.naturalWidth)) > 0,
+        "the picture is shown",
+      );
+    await shoot(page, `${name}-no-webgl`);
+  } finally {
+    await browser.close();
+  }
+}
+
+/** Everything that a page of a run with results must do. */
+export async function assertRunPage(browser, file, name, scores) {
+  const payload = payloadOf(await readFile(file, "utf8"));
+  const { page, context, troubles, readyMs, ready } = await open(browser, file);
+  assert.equal(ready, "true", troubles.join("\n"));
+  console.log(`# ${name}: ready after ${readyMs} ms`);
+  await shoot(page, `${name}-light`);
+  assert.ok((await canvasColors(page)) > 20, "the 3D view drew");
+  assert.ok((await stripInk(page, "index")) > 0.01, "the strips drew");
+  await assertTablesEqual(page, scores);
+  await assertBestIsBold(page, scores);
+  await assertCursorMoves(page, payload);
+  await assertZoomLinks(page);
+  await assertSwitches(page, payload);
+  await assertSorts(page);
+  for (const preset of ["top", "side"]) {
+    await page.locator(`[data-preset="${preset}"]`).click();
+    await settle(page);
+    assert.ok((await canvasColors(page)) > 5, `the view from the ${preset} drew`);
+    await shoot(page, `${name}-${preset}`);
+  }
+  assert.deepEqual(troubles, []);
+  await context.close();
+  const dark = await open(browser, file, { dark: true });
+  assert.equal(await dark.page.evaluate(() => document.documentElement.dataset.theme), "dark");
+  await shoot(dark.page, `${name}-dark`, true);
+  assert.deepEqual(dark.troubles, []);
+  await dark.context.close();
+  await assertNarrow(browser, file, name);
+  await assertNoWebGl(file, name, (payload.pictures ?? []).length > 0);
+}
+
+/** A page of whatever run becomes ready, runs nothing that came as a name, requests nothing. */
+export async function assertHolds(browser, file, name) {
+  const { page, context, troubles, ready } = await open(browser, file);
+  assert.equal(ready, "true", troubles.join("\n"));
+  await page.keyboard.press("ArrowRight");
+  for (const radio of await page.locator("input[name=estimator]").all())
+    await radio.check({ force: true });
+  await settle(page);
+  assert.equal(
+    await page
+      .locator("main script, main svg script, main b, main i:not(.swatch):not(.ramp), main u")
+      .count(),
+    0,
+    "no name became markup",
+  );
+  assert.notEqual(await page.title(), "taken", "no name ran");
+  assert.equal(await page.evaluate(() => window.broken), undefined, "no name ran");
+  assert.deepEqual(troubles, []);
+  await shoot(page, name, true);
+  await context.close();
+  await assertNarrow(browser, file, name);
+}
