@@ -9,6 +9,8 @@ namespace aims {
 /// Each adds one subcommand; when it is given, its work's exit code goes to `exit_code`.
 /// `scenario_folder` is where bare scenario names are looked up.
 void add_run_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
+void add_render_command(CLI::App& app, const std::filesystem::path& scenario_folder,
+                        int& exit_code);
 void add_simulate_command(CLI::App& app, const std::filesystem::path& scenario_folder,
                           int& exit_code);
 void add_estimate_command(CLI::App& app, int& exit_code);

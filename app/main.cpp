@@ -29,6 +29,7 @@ constexpr const char* kFooter =
     "  aims consistency dial_z30 --seeds 1-50 --estimators aims_d,lio\n"
     "  aims sweep --over degeneracy.eta=0:6:13 --scenarios corridor --seeds 1-5\n"
     "  aims tune tuning/aims.yaml --out out/tune\n"
+    "  aims render corridor --out out/render\n"
     "  aims simulate corridor -o walk.bag\n"
     "  aims estimate walk.bag --estimators aims,lio\n"
     "  aims info robot.bag\n"
@@ -46,6 +47,7 @@ int parse_and_run(int argc, char** argv) {
       aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
   int exit_code = aims::kOk;
   aims::add_run_command(app, scenarios, exit_code);
+  aims::add_render_command(app, scenarios, exit_code);
   aims::add_simulate_command(app, scenarios, exit_code);
   aims::add_estimate_command(app, exit_code);
   aims::add_info_command(app, exit_code);

@@ -16,13 +16,15 @@
 namespace aims {
 namespace {
 
-constexpr double kLeft = 84.0;    ///< margins around the strips [px]
-constexpr double kRight = 150.0;  ///< with the colour scale
-constexpr double kTop = 64.0;
+constexpr double kLeft = 84.0;     ///< margins around the strips [px]
+constexpr double kRight = 150.0;   ///< with the colour scale
+constexpr double kMargin = 28.0;   ///< right of the subtitle
+constexpr double kTop = 64.0;      ///< with a subtitle of one line
 constexpr double kBetween = 58.0;  ///< below each strip, for its ticks
 constexpr double kMaxHeight = 1100.0;
 constexpr std::array<std::uint8_t, 3> kDark = {18, 20, 26};
 constexpr std::size_t kMostSquares = 40'000;  ///< beyond it a vector picture is slow to open
+constexpr int kLargestSquare = 6;             ///< [px]; 0.6 mm where 1800 px are a page's width
 constexpr std::size_t kTints = 32;            ///< of squares, which share a shape by colour
 
 /// Value below which the fraction `share` of `values` lies; reorders them.
@@ -117,8 +119,9 @@ struct Layout {
   double scale = 1.0;  ///< [px/m]
   double width = 0.0;  ///< of a strip [px]
   double height = 0.0;
+  double top = kTop;  ///< of the first strip [px]
 
-  double total() const { return kTop + strips * (height + kBetween); }
+  double total() const { return top + strips * (height + kBetween); }
 };
 
 Layout layout_of(RasterWindow& window, double width) {
@@ -127,7 +130,7 @@ Layout layout_of(RasterWindow& window, double width) {
   Layout best;
   for (int strips = 1; strips <= 4; ++strips) {
     const double scale = width * strips / length;
-    const Layout layout{strips, scale, width, std::round(scale * across)};
+    const Layout layout{strips, scale, width, std::round(scale * across), kTop};
     if (strips == 1 || layout.total() <= kMaxHeight) best = layout;
   }
   if (best.total() > kMaxHeight) {  // as high as wide: the height decides
@@ -229,20 +232,26 @@ void draw_pixels(Canvas& canvas, const Sheet& sheet, int strip, const Rect& area
       area);
 }
 
-/// How a vector picture shows its points.
+/// How a vector picture shows its points: as the smallest squares that are not too many.
 void choose_points(Sheet& sheet) {
-  std::size_t count = 0;
-  for (int strip = 0; strip < sheet.layout.strips; ++strip) {
-    count += visible_points(sheet, strip).size();
+  const int size = sheet.point_size;
+  for (; sheet.point_size <= kLargestSquare; ++sheet.point_size) {
+    std::size_t count = 0;
+    for (int strip = 0; strip < sheet.layout.strips; ++strip) {
+      count += visible_points(sheet, strip).size();
+    }
+    sheet.squares = count <= kMostSquares;
+    if (sheet.squares) return;
   }
-  sheet.squares = count <= kMostSquares;
+  sheet.point_size = size;
   sheet.pixels_per_unit = 2.0;
 }
 
 void draw_strip(Canvas& canvas, const Sheet& sheet, int strip) {
   const Layout& layout = sheet.layout;
   const RasterWindow part = window_of(sheet, strip);
-  const Rect area{kLeft, kTop + strip * (layout.height + kBetween), layout.width, layout.height};
+  const Rect area{kLeft, layout.top + strip * (layout.height + kBetween), layout.width,
+                  layout.height};
   Panel panel;
   panel.x = {strip + 1 == layout.strips ? "x [m]" : "", part.u_min, part.u_max};
   panel.y = {sheet.view == MapView::kAbove ? "y [m]" : "z [m]", part.v_min, part.v_max};
@@ -295,20 +304,22 @@ Result<void> write_map_picture(const std::filesystem::path& path, MapView view,
   sheet.layout = layout_of(sheet.window, map.width - kLeft - kRight);
   sheet.point_size = point_size(sheet.points, sheet.layout.scale);
   if (path.extension() != ".png") choose_points(sheet);
+  const Heading heading(map.title, subtitle(map, view, finite, sheet.layout.strips),
+                        map.width - kLeft - kMargin);
+  sheet.layout.top += heading.extra_height();
   const int height = static_cast<int>(std::ceil(sheet.layout.total()));
   auto canvas = Canvas::create(path, map.width, height);
   if (!canvas) return tl::unexpected(canvas.error());
-  canvas->text({kLeft, 20.0}, map.title, {.size = 19.0, .bold = true});
-  canvas->text({kLeft, 44.0}, subtitle(map, view, finite, sheet.layout.strips),
-               {.size = 13.0, .color = {0.35, 0.35, 0.35}});
+  heading.draw(*canvas, kLeft, 20.0);
   for (int strip = 0; strip < sheet.layout.strips; ++strip) draw_strip(*canvas, sheet, strip);
   if (finite == 0) {
-    canvas->text({kLeft + sheet.layout.width / 2.0, kTop + sheet.layout.height / 2.0 - 24.0},
-                 "the map has no points",
-                 {.size = 20.0, .color = {0.9, 0.9, 0.9}, .horizontal = Align::kCenter});
+    canvas->text(
+        {kLeft + sheet.layout.width / 2.0, sheet.layout.top + sheet.layout.height / 2.0 - 24.0},
+        "the map has no points",
+        {.size = 20.0, .color = {0.9, 0.9, 0.9}, .horizontal = Align::kCenter});
   }
-  const double bar = std::min(420.0, sheet.layout.total() - kTop - kBetween);
-  draw_color_bar(*canvas, {map.width - kRight + 42.0, kTop, 18.0, bar},
+  const double bar = std::min(420.0, sheet.layout.total() - sheet.layout.top - kBetween);
+  draw_color_bar(*canvas, {map.width - kRight + 42.0, sheet.layout.top, 18.0, bar},
                  {"height z [m]", heights.min, heights.max});
   return canvas->finish();
 }

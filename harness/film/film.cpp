@@ -22,7 +22,7 @@
 namespace aims {
 namespace {
 
-constexpr double kSection = 2.1;  ///< height over the floor at which map and walls are cut [m]
+constexpr double kSection = 1.6;  ///< height over the floor at which map and walls are cut [m]
 constexpr Color kGround{0.070, 0.080, 0.105};
 constexpr std::array<std::uint8_t, 4> kEdge = {150, 165, 190, 70};
 constexpr std::array<std::uint8_t, 4> kTruth = {255, 255, 255, 255};
@@ -55,6 +55,19 @@ Eigen::Vector3d smooth_position(const Trajectory& truth, Time stamp) {
     ++count;
   }
   return sum / count;
+}
+
+/// The lines with what is higher over the floor than the cut brought down to it.
+std::vector<ViewLine> cut_edges(const Scene& scene) {
+  std::vector<ViewLine> edges;
+  for (auto& edge : scene_edges(scene)) {
+    for (Eigen::Vector3f& point : edge) {
+      const double top = floor_height(scene.floor, point.x(), point.y()) + kSection;
+      point.z() = std::min(point.z(), static_cast<float>(top));
+    }
+    edges.push_back({std::move(edge), kEdge});
+  }
+  return edges;
 }
 
 /// Heading [deg] from the start to the farthest point of the way.
@@ -147,20 +160,24 @@ void Film::Impl::color_points() {
   plan.emplace(std::move(flat), way, config.width, config.height);
 }
 
+/// The robot stands above the middle, since the plan lies below it; the camera looks along the way
+/// from a little aside, and steeply enough to see over the near wall.
 Camera Film::Impl::camera(Time stamp) const {
   Camera result;
-  result.target = smooth_position(walk.truth, stamp);
   const bool top = config.view == FilmView::kTop;
-  result.azimuth_deg = top ? 90.0 : azimuth_deg + 24.0;
-  result.elevation_deg = top ? -90.0 : -34.0;
-  result.distance = (top ? 16.0 : 8.5) * (config.still ? 0.6 : 1.0);
+  result.azimuth_deg = top ? azimuth_deg + 90.0 : azimuth_deg + 17.0;
+  result.elevation_deg = top ? -90.0 : -33.0;
+  result.distance = (top ? 13.0 : 8.5) * (config.still ? 0.55 : 1.0);
+  const double azimuth = result.azimuth_deg * std::numbers::pi / 180.0;
+  const Eigen::Vector3d ahead(std::cos(azimuth), std::sin(azimuth), 0.0);
+  result.target = smooth_position(walk.truth, stamp) - 0.08 * result.distance * ahead;
   return result;
 }
 
 ViewOverlay Film::Impl::overlay(Time stamp) const {
   ViewOverlay result;
   result.points = {points.data(), count(stamp)};
-  result.point_diameter = 0.055F;
+  result.point_diameter = config.still ? 0.020F : 0.045F;
   const auto unit = static_cast<float>(config.height / 400.0);
   result.least_diameter = 1.2F * unit;
   result.lines = edges;
@@ -186,6 +203,8 @@ std::size_t Film::Impl::count(Time stamp) const {
 void Film::Impl::label(Canvas& canvas, Time stamp) const {
   const double unit = config.height / 400.0;
   const double left = 14.0 * unit;
+  canvas.fill(Rect{0.0, 0.0, static_cast<double>(config.width), 52.0 * unit},
+              {0.05, 0.06, 0.08, 0.72});
   const Color light{0.94, 0.95, 0.97};
   const NamedTrajectory& shown = walk.estimates.front();
   canvas.text({left, 20.0 * unit}, walk.scenario,
@@ -220,7 +239,7 @@ Result<Film> Film::create(const FilmedWalk& walk, const FilmConfig& config) {
   auto impl = std::make_unique<Impl>(walk, config);
   impl->map = cut_map(walk.map);
   impl->color_points();
-  for (auto& edge : scene_edges(walk.scene)) impl->edges.push_back({std::move(edge), kEdge});
+  impl->edges = cut_edges(walk.scene);
   impl->azimuth_deg = way_out_deg(walk.truth);
   if (auto shown = impl->show_scene(walk.snapshots.front().stamp); !shown) {
     return tl::unexpected(shown.error());

@@ -9,7 +9,7 @@
 namespace aims {
 namespace {
 
-constexpr double kMargin = 2.5;  ///< around the way [m]
+constexpr double kMargin = 2.0;  ///< around the way [m]
 constexpr std::array<std::uint8_t, 3> kGround = {13, 15, 20};
 
 RasterWindow window_around(std::span<const Eigen::Vector2d> way) {
@@ -40,7 +40,7 @@ FilmPlan::FilmPlan(std::vector<RasterPoint> points, std::span<const Eigen::Vecto
   const double edge = 14.0 * unit_;
   const double length = window_.u_max - window_.u_min;
   const double across = window_.v_max - window_.v_min;
-  const double scale = std::min((width - 2.0 * edge) / length, 0.30 * height / across);
+  const double scale = std::min((width - 2.0 * edge) / length, 0.20 * height / across);
   area_.width = std::floor(scale * length);
   area_.height = std::floor(scale * across);
   area_.x = std::floor(edge);
@@ -56,9 +56,9 @@ Eigen::Vector2d FilmPlan::to_pixels(const Eigen::Vector2d& point) const {
 void FilmPlan::draw(Canvas& canvas, std::size_t count, const Eigen::Vector2d& robot,
                     double heading) const {
   const std::span<const RasterPoint> shown(points_.data(), std::min(count, points_.size()));
-  const Image map =
-      raster_points({shown.begin(), shown.end()}, window_, static_cast<int>(area_.width),
-                    static_cast<int>(area_.height), std::max(1, static_cast<int>(unit_)), kGround);
+  const Image map = raster_points({shown.begin(), shown.end()}, window_,
+                                  static_cast<int>(area_.width), static_cast<int>(area_.height),
+                                  std::max(1, static_cast<int>(std::lround(1.2 * unit_))), kGround);
   canvas.image(map, area_);
   canvas.outline(area_, {{1.0, 1.0, 1.0, 0.25}, unit_});
   const Eigen::Vector2d at = to_pixels(robot);

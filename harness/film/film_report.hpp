@@ -35,7 +35,7 @@ struct FilmOptions {
   PictureSize still_size{2400, 1350};
   PictureSize video_size{640, 400};
   FilmView view = FilmView::kFollow;
-  double frame_rate = 10.0;    ///< of the video [Hz]
+  double frame_rate = 12.0;    ///< of the video [Hz]
   double seconds = 8.0;        ///< length of the video [s]
   std::optional<double> at_s;  ///< instant of the still; none: three quarters of the way [s]
 

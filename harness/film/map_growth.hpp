@@ -19,7 +19,7 @@ struct GrownPoint {
 
 /// How sweeps become the map that a film shows.
 struct MapGrowthConfig {
-  float spacing = 0.06F;  ///< edge of the cubes that hold one point each [m]
+  float spacing = 0.04F;  ///< edge of the cubes that hold one point each [m]
   float reach = 15.0F;    ///< longest range of a return that is kept [m]
   int every_scan = 2;     ///< every n-th sweep is laid down
 };
