@@ -56,6 +56,10 @@ std::string summary_text(const Comparison& comparison);
 /// What got better, worse, or differs on one seed, as a table; empty rows when nothing.
 TextTable change_table(const Comparison& comparison, ChangeVerdict verdict);
 
+/// What compare.json holds; `before` and `after` name the two.
+Json comparison_json(const Comparison& comparison, const std::string& before,
+                     const std::string& after);
+
 /// Writes compare.json (schema aims.compare/1) and compare.md into `folder`, which is made.
 Result<void> write_comparison(const Comparison& comparison, const std::string& before,
                               const std::string& after, const std::filesystem::path& folder);

@@ -41,24 +41,6 @@ Json change_json(const ScoreChange& change) {
           {"false_alarm", change.false_alarm}};
 }
 
-Json comparison_json(const Comparison& comparison, const std::string& before,
-                     const std::string& after) {
-  Json json = {{"schema", kComparisonSchema},
-               {"before", before},
-               {"after", after},
-               {"compared", comparison.changes.size()},
-               {"better", count(comparison, ChangeVerdict::kBetter)},
-               {"worse", count(comparison, ChangeVerdict::kWorse)},
-               {"expected_false_alarms", comparison.expected_false_alarms},
-               {"changes", Json::array()},
-               {"only_before", comparison.only_before},
-               {"only_after", comparison.only_after}};
-  for (const ScoreChange& change : comparison.changes) {
-    json["changes"].push_back(change_json(change));
-  }
-  return json;
-}
-
 std::string list_markdown(const char* title, const std::vector<std::string>& units) {
   if (units.empty()) return "";
   return fmt::format("\n## {}\n\n- {}\n", title, fmt::join(units, "\n- "));
@@ -79,6 +61,24 @@ std::string comparison_markdown(const Comparison& comparison, const std::string&
 }
 
 }  // namespace
+
+Json comparison_json(const Comparison& comparison, const std::string& before,
+                     const std::string& after) {
+  Json json = {{"schema", kComparisonSchema},
+               {"before", before},
+               {"after", after},
+               {"compared", comparison.changes.size()},
+               {"better", count(comparison, ChangeVerdict::kBetter)},
+               {"worse", count(comparison, ChangeVerdict::kWorse)},
+               {"expected_false_alarms", comparison.expected_false_alarms},
+               {"changes", Json::array()},
+               {"only_before", comparison.only_before},
+               {"only_after", comparison.only_after}};
+  for (const ScoreChange& change : comparison.changes) {
+    json["changes"].push_back(change_json(change));
+  }
+  return json;
+}
 
 std::string summary_text(const Comparison& comparison) {
   std::string text = fmt::format(

@@ -29,14 +29,58 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
-/// What the plans vary, each key once, and their settings of the estimators.
-struct Varied {
-  std::vector<ParameterRange> ranges;
-  EstimatorConfig base;
+/// The runs of one estimator, by point and walk.
+struct Collected {
+  EstimatorSpec estimator;
+  std::vector<Values> order;  ///< of points, as they appear
+  std::map<Values, std::map<std::size_t, RunScore>> runs;
 };
 
-Result<Varied> varied_in(const MergedSweep& sweep) {
-  Varied varied;
+std::size_t index_of(const ResponseCase& on, Walks& walks) {
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    if (walks[i].scenario == on.scenario && walks[i].seed == on.seed) return i;
+  }
+  walks.push_back(on);
+  return walks.size() - 1;
+}
+
+/// The runs in the order of the walks; none unless all are there.
+std::optional<std::vector<RunScore>> all_runs(const std::map<std::size_t, RunScore>& by_walk,
+                                              std::size_t walks) {
+  if (by_walk.size() != walks) return std::nullopt;
+  std::vector<RunScore> runs;
+  for (const auto& [walk, run] : by_walk) runs.push_back(run);
+  return runs;
+}
+
+Result<SweepResponse> response_of(const Collected& collected, const VariedParameters& varied,
+                                  const Walks& walks) {
+  SweepResponse response;
+  response.estimator = text_of(collected.estimator);
+  ResponseTable& table = response.table;
+  table.ranges = varied.ranges;
+  table.cases = walks;
+  auto defaults = untuned_values(collected.estimator, varied);
+  if (!defaults) return tl::unexpected(defaults.error());
+  table.defaults = std::move(*defaults);
+  for (const Values& values : collected.order) {
+    auto runs = all_runs(collected.runs.at(values), walks.size());
+    if (!runs) {
+      ++response.incomplete;
+    } else if (values.empty()) {
+      table.default_runs = std::move(*runs);
+    } else {
+      table.points.push_back(values);
+      table.runs.push_back(std::move(*runs));
+    }
+  }
+  return response;
+}
+
+}  // namespace
+
+Result<VariedParameters> varied_in(const MergedSweep& sweep) {
+  VariedParameters varied;
   for (const std::string& text : sweep.plans) {
     SweepPlan plan;
     if (auto read = load_config_text(text, "plan.yaml", plan); !read) {
@@ -64,20 +108,11 @@ Result<Varied> varied_in(const MergedSweep& sweep) {
   return varied;
 }
 
-/// A unit's estimator without what is varied, and its values of that.
-struct Placed {
-  EstimatorSpec estimator;
-  Values values;
-  ResponseCase on;
-  RunScore score;
-};
-
-std::optional<Placed> placed(const MergedUnit& unit, const Varied& varied,
-                             const std::string& score) {
+std::optional<PlacedUnit> placed_unit(const MergedUnit& unit, const VariedParameters& varied) {
   if (unit.outcome() == "missing") return std::nullopt;
-  Placed result;
-  result.estimator.name = unit.file.value("estimator", "");
-  result.estimator.label = result.estimator.name;
+  PlacedUnit placed;
+  placed.estimator.name = unit.file.value("estimator", "");
+  placed.estimator.label = placed.estimator.name;
   std::map<std::string, std::string> settings;
   const Json all_settings = unit.file.value("settings", Json::object());
   for (const auto& [key, value] : all_settings.items()) {
@@ -88,74 +123,33 @@ std::optional<Placed> placed(const MergedUnit& unit, const Varied& varied,
     if (found == settings.end()) continue;
     const auto value = number_of(found->second);
     if (!value) return std::nullopt;
-    result.values.push_back(*value);
+    placed.values.push_back(*value);
     settings.erase(found);
   }
-  if (!result.values.empty() && result.values.size() != varied.ranges.size()) return std::nullopt;
-  result.estimator.settings.assign(settings.begin(), settings.end());
+  if (!placed.values.empty() && placed.values.size() != varied.ranges.size()) return std::nullopt;
+  placed.estimator.settings.assign(settings.begin(), settings.end());
   const std::string family = unit.file.value("family", "");
-  result.on = {unit.listed.scenario, family.empty() ? unit.listed.scenario : family,
+  placed.on = {unit.listed.scenario, family.empty() ? unit.listed.scenario : family,
                unit.file.value("seed", std::uint64_t{0})};
-  const auto done = result_in(unit.file);
-  if (!done) return std::nullopt;
-  result.score = run_score(*done, score);
-  return result;
+  auto result = result_in(unit.file);
+  if (!result) return std::nullopt;
+  placed.result = std::move(*result);
+  return placed;
 }
 
-/// The runs of one estimator, by point and walk.
-struct Collected {
-  EstimatorSpec estimator;
-  std::vector<Values> order;  ///< of points, as they appear
-  std::map<Values, std::map<std::size_t, RunScore>> runs;
-};
-
-std::size_t index_of(const ResponseCase& on, Walks& walks) {
-  for (std::size_t i = 0; i < walks.size(); ++i) {
-    if (walks[i].scenario == on.scenario && walks[i].seed == on.seed) return i;
-  }
-  walks.push_back(on);
-  return walks.size() - 1;
-}
-
-/// The runs in the order of the walks; none unless all are there.
-std::optional<std::vector<RunScore>> all_runs(const std::map<std::size_t, RunScore>& by_walk,
-                                              std::size_t walks) {
-  if (by_walk.size() != walks) return std::nullopt;
-  std::vector<RunScore> runs;
-  for (const auto& [walk, run] : by_walk) runs.push_back(run);
-  return runs;
-}
-
-Result<SweepResponse> response_of(const Collected& collected, const Varied& varied,
-                                  const Walks& walks) {
-  SweepResponse response;
-  response.estimator = text_of(collected.estimator);
-  ResponseTable& table = response.table;
-  table.ranges = varied.ranges;
-  table.cases = walks;
-  auto config = config_with(collected.estimator, varied.base);
+Result<std::vector<double>> untuned_values(const EstimatorSpec& estimator,
+                                           const VariedParameters& varied) {
+  auto config = config_with(estimator, varied.base);
   if (!config) return tl::unexpected(config.error());
   const Fields fields = fields_of(*config);
+  std::vector<double> values;
   for (const ParameterRange& range : varied.ranges) {
     const Parameter* parameter = fields.find(range.key);
     if (parameter == nullptr) return failure(unknown_key_message(fields, range.key));
-    table.defaults.push_back(number_of(parameter->text()).value_or(range.low));
+    values.push_back(number_of(parameter->text()).value_or(range.low));
   }
-  for (const Values& values : collected.order) {
-    auto runs = all_runs(collected.runs.at(values), walks.size());
-    if (!runs) {
-      ++response.incomplete;
-    } else if (values.empty()) {
-      table.default_runs = std::move(*runs);
-    } else {
-      table.points.push_back(values);
-      table.runs.push_back(std::move(*runs));
-    }
-  }
-  return response;
+  return values;
 }
-
-}  // namespace
 
 Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
                                                    const std::string& score) {
@@ -165,7 +159,7 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
   std::vector<std::string> names;
   std::map<std::string, Collected> by_name;
   for (const MergedUnit& unit : sweep.units) {
-    const auto found = placed(unit, *varied, score);
+    const auto found = placed_unit(unit, *varied);
     if (!found) continue;
     const std::string name = text_of(found->estimator);
     Collected& collected = by_name[name];
@@ -174,7 +168,7 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
       collected.estimator = found->estimator;
     }
     if (!collected.runs.contains(found->values)) collected.order.push_back(found->values);
-    collected.runs[found->values][index_of(found->on, walks)] = found->score;
+    collected.runs[found->values][index_of(found->on, walks)] = run_score(found->result, score);
   }
   std::vector<SweepResponse> responses;
   for (const std::string& name : names) {

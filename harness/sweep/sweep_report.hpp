@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,30 @@
 #include "harness/sweep/sweep_store.hpp"
 
 namespace aims {
+
+/// What the plans of a sweep vary, each key once, and what they set of the estimators besides.
+struct VariedParameters {
+  std::vector<ParameterRange> ranges;
+  EstimatorConfig base;  ///< without what is varied
+};
+
+/// Error when no plan varies anything or a plan cannot be read.
+Result<VariedParameters> varied_in(const MergedSweep& sweep);
+
+/// Where a unit stands in a design.
+struct PlacedUnit {
+  EstimatorSpec estimator;     ///< with the settings that are not varied
+  std::vector<double> values;  ///< of each range; empty: the untuned estimator
+  ResponseCase on;
+  UnitResult result;
+};
+
+/// None for a unit that has no file, or values of some ranges alone.
+std::optional<PlacedUnit> placed_unit(const MergedUnit& unit, const VariedParameters& varied);
+
+/// The untuned value of each range for that estimator. Error for a setting or key that is unknown.
+Result<std::vector<double>> untuned_values(const EstimatorSpec& estimator,
+                                           const VariedParameters& varied);
 
 /// The points of one estimator of a sweep, in one score.
 struct SweepResponse {
