@@ -15,7 +15,12 @@ export const hasChromium = () => existsSync(kChromium);
 /** A browser; without WebGL if asked for. */
 export function launch({ webgl = true } = {}) {
   const graphics = webgl
-    ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    ? [
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--disable-accelerated-2d-canvas",
+        "--disable-gpu-rasterization",
+      ]
     : ["--disable-gpu", "--disable-3d-apis"];
   return chromium.launch({
     executablePath: kChromium,
@@ -46,7 +51,7 @@ export async function open(
     offline: false,
   });
   const page = await context.newPage();
-  page.setDefaultTimeout(60000);
+  page.setDefaultTimeout(180000);
   const troubles = [];
   const url = pathToFileURL(path.resolve(file)).href;
   page.on("console", (message) => {

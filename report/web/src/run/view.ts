@@ -10,7 +10,7 @@ import { pictureImage } from "./pictures";
 import { ramp, rampGradient } from "./ramps";
 import { indexAt, valueAt, vectorAt, track } from "./series";
 import type { Coloring, State, Store } from "./store";
-import { hasWebGl, View3D } from "./view3d";
+import { View3D, webGlKind } from "./view3d";
 
 function fallback(data: RunPayload): HTMLElement {
   const pictures = data.pictures ?? [];
@@ -178,7 +178,7 @@ export function viewCard(
   const words = h("div", {}, readout(data, store.state));
   store.on(["cursor", "chosen"], () => words.replaceChildren(readout(data, store.state)));
   const element = h("section", { class: "card view", "aria-label": "3D view" });
-  const view = hasWebGl() ? create(data, store) : null;
+  const view = create(data, store);
   if (!view) {
     element.append(fallback(data), words);
     return { element, start: () => {} };
@@ -211,7 +211,8 @@ export function viewCard(
 
 function create(data: RunPayload, store: Store): View3D | null {
   try {
-    return new View3D(data, store.state);
+    const kind = webGlKind();
+    return kind ? new View3D(data, store.state, kind === "card") : null;
   } catch {
     return null;
   }

@@ -30,14 +30,17 @@ import {
 import { indexAt, quaternionAt, vectorAt } from "./series";
 import type { State } from "./store";
 
-/** Can this browser draw with WebGL 2? */
-export function hasWebGl(): boolean {
+/** How this browser draws with WebGL 2: on a graphics card, in software, or not at all. */
+export function webGlKind(): "card" | "software" | null {
   try {
     const context = document.createElement("canvas").getContext("webgl2");
-    context?.getExtension("WEBGL_lose_context")?.loseContext();
-    return context !== null;
+    if (!context) return null;
+    const info = context.getExtension("WEBGL_debug_renderer_info");
+    const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+    context.getExtension("WEBGL_lose_context")?.loseContext();
+    return /swiftshader|llvmpipe|software/i.test(name) ? "software" : "card";
   } catch {
-    return false;
+    return null;
   }
 }
 
@@ -98,12 +101,14 @@ export class View3D {
   /** How much larger than three sigma the ellipsoid is drawn. */
   readonly ellipsoidScale: number;
 
+  /** `smooth`: edges without steps, four times the work where there is no graphics card. */
   constructor(
     private readonly data: RunPayload,
     private state: Readonly<State>,
+    smooth: boolean,
   ) {
     this.renderer = new WebGLRenderer({
-      antialias: true,
+      antialias: smooth,
       preserveDrawingBuffer: true,
       powerPreference: "low-power",
     });
