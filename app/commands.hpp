@@ -17,6 +17,7 @@ void add_estimate_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
 void add_suite_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
+void add_report_command(CLI::App& app, int& exit_code);
 void add_score_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);
 void add_detectors_command(CLI::App& app, const std::filesystem::path& scenario_folder,

@@ -23,6 +23,7 @@ constexpr const char* kFooter =
     "  aims run corridor --set lidar.range_max=30 --set estimator.degeneracy.eta=5\n"
     "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
     "  aims score --truth truth.tum --estimate mine.tum --segments a-b=12.5:110.2\n"
+    "  aims report out/corridor-seed-1\n"
     "  aims compare out/before out/after\n"
     "  aims detectors corridor corridor_smooth --seeds 1-5\n"
     "  aims ablate dial_d30 dial_n30 --seeds 1-3\n"
@@ -53,6 +54,7 @@ int parse_and_run(int argc, char** argv) {
   aims::add_info_command(app, exit_code);
   aims::add_check_command(app, exit_code);
   aims::add_suite_command(app, scenarios, exit_code);
+  aims::add_report_command(app, exit_code);
   aims::add_score_command(app, exit_code);
   aims::add_compare_command(app, exit_code);
   aims::add_detectors_command(app, scenarios, exit_code);

@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
 #include "app/progress_display.hpp"
+#include "app/report_command.hpp"
 #include "harness/estimator_spec.hpp"
 #include "harness/experiment.hpp"
 #include "harness/pictures.hpp"
@@ -31,6 +32,7 @@ struct RunArguments {
   bool overwrite = false;
   bool quiet = false;
   bool no_pictures = false;
+  bool no_report = false;
 };
 
 Result<Scenario> scenario_of(const RunArguments& arguments, const fs::path& folder) {
@@ -108,6 +110,7 @@ int run_command(const RunArguments& arguments, const fs::path& folder) {
   display.close();
   if (!experiment) return bad_input("run", experiment.error());
   print_report(*scenario, *experiment);
+  if (!arguments.no_report) show_reports(experiment->folder);
   return exit_code_of(*experiment);
 }
 
@@ -132,6 +135,7 @@ void add_run_command(CLI::App& app, const fs::path& scenario_folder, int& exit_c
   command->add_flag("--overwrite", arguments->overwrite, "Replace results that exist");
   command->add_flag("--quiet", arguments->quiet, "No progress, the table alone");
   command->add_flag("--no-pictures", arguments->no_pictures, "Draw nothing");
+  command->add_flag("--no-report", arguments->no_report, "Write no page (report.html)");
   command->footer(
       "Examples:\n"
       "  aims run scenarios/corridor.yaml\n"

@@ -10,6 +10,7 @@
 #include "app/exit_code.hpp"
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
+#include "app/report_command.hpp"
 #include "app/suite_selection.hpp"
 #include "harness/families.hpp"
 #include "harness/suite.hpp"
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 struct SuiteArguments {
   SuiteSelection selection;
   bool trajectories = false;
+  bool no_report = false;
 };
 
 void print_matrix(const char* title, const TextTable& table) {
@@ -77,6 +79,7 @@ int suite_command(const SuiteArguments& arguments) {
   display.close();
   if (!suite) return bad_input("suite", suite.error());
   print_report(*suite, options->out);
+  if (!arguments.no_report) show_reports(options->out);
   return exit_code_of(*suite);
 }
 
@@ -100,6 +103,7 @@ void add_suite_command(CLI::App& app, const fs::path& scenario_folder, int& exit
       ->delimiter(',');
   command->add_flag("--trajectories", arguments->trajectories,
                     "Keep trajectories and diagnostics of each run");
+  command->add_flag("--no-report", arguments->no_report, "Write no pages (report.html)");
   command->footer(
       "Examples:\n"
       "  aims suite --tags dial --seeds 1-10 --out out/dial\n"

@@ -23,14 +23,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Pictures of a run's folder that its page shows, and what they are.
-constexpr std::array<std::pair<const char*, const char*>, 5> kPictures = {
+constexpr std::array<std::pair<const char*, const char*>, 4> kPictures = {
     {{"robot_start", "The robot at the start"},
      {"robot_middle", "The robot on its way"},
      {"robot_turn", "The robot at the turn"},
-     {"trajectories", "Trajectories over the plan; height and error along the way"},
-     {"degeneracy", "Degeneracy index and weights over time"}}};
+     {"trajectories", "Trajectories over the plan; height and error along the way"}}};
 /// Pictures beyond this size are left out [bytes].
-constexpr std::uintmax_t kLargestPicture = 512 * 1024;
+constexpr std::uintmax_t kLargestPicture = 256 * 1024;
 
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word) {

@@ -142,7 +142,7 @@ TEST_F(RunPage, OfAWalkAlongTheCorridorStaysUnderFiveMegabytes) {
   const auto page = run_page(folder_.path() / "run");
   ASSERT_TRUE(page);
   const std::size_t data = payload_text(*page).size();
-  const auto pictures = 5U * 250U * 1024U * 4U / 3U;
+  const auto pictures = 4U * 200U * 1024U * 4U / 3U;
   EXPECT_LT(2 * data + pictures + page_template().size(), 5U * 1024U * 1024U) << data;
 }
 
