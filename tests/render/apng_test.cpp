@@ -143,6 +143,12 @@ TEST(Apng, FfmpegDecodesTheSameFrames) {
 
 /// Decodes every frame and writes pixel values, sum by sum, into the page.
 constexpr const char* kDecodingPage = R"(<body><pre id="out">nothing</pre><script>
+let done = false;
+const wait = () => {  // the page's clock stands still while others decode: spend time on purpose
+  for (let i = 0, x = 0; i < 2e7; ++i) x += i * i;
+  if (!done) setTimeout(wait, 100);
+};
+wait();
 (async () => {
   const bytes = Uint8Array.from(atob("@"), c => c.charCodeAt(0));
   const decoder = new ImageDecoder({data: bytes, type: "image/png"});
@@ -161,6 +167,7 @@ constexpr const char* kDecodingPage = R"(<body><pre id="out">nothing</pre><scrip
     text += ` ${sum}`;
   }
   document.getElementById("out").textContent = text;
+  done = true;
 })();
 </script></body>)";
 
