@@ -52,9 +52,7 @@ Eigen::Matrix3d BlockWeights::shrink() const {
 }
 
 Eigen::Matrix3d BlockWeights::pull() const {
-  // Without information beyond chance there is no shift to be found either.
-  const Eigen::Vector3d told = (share.array() > 0.0).select(taken, 0.0);
-  return axes * told.asDiagonal() * axes.transpose();
+  return axes * taken.cwiseProduct(whole).asDiagonal() * axes.transpose();
 }
 
 BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
@@ -71,6 +69,7 @@ BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix
     block.ratio(i) = ratio;
     block.real(i) = reality(ratio, significant, config);
     block.share(i) = ratio > 1.0 ? (ratio - 1.0) / ratio : 0.0;
+    block.whole(i) = std::min(config.amplification * block.share(i), 1.0);
   }
   block.taken = block.real;
   return block;

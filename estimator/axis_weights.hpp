@@ -29,8 +29,8 @@ double reality(double ratio, double significant, const SpuriousConfig& config);
 ///
 /// The information along an axis is that of what is there and of chance, A = A_real + A_chance. A
 /// shift of the body by s turns up in the vector as b = A_real s: noise in the normals, which is
-/// new from place to place, adds to A and nothing to the mean of b. So b is left whole and A is
-/// brought down to A_real, that a scan corrects the whole shift; then both count as far as they are
+/// new from place to place, adds to A and nothing to the mean of b. So A is brought down to A_real
+/// and b is left whole, that a scan corrects the whole shift; then both count as far as they are
 /// taken.
 struct BlockWeights {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< one unit axis per column, odometry frame
@@ -38,12 +38,13 @@ struct BlockWeights {
   Eigen::Vector3d real = Eigen::Vector3d::Ones();      ///< probability of more than chance
   Eigen::Vector3d taken = Eigen::Vector3d::Ones();     ///< for real: `real`, or 1 on trust
   Eigen::Vector3d share = Eigen::Vector3d::Ones();     ///< of the information beyond chance, [0, 1]
+  Eigen::Vector3d whole = Eigen::Vector3d::Ones();     ///< part of the vector that counts if taken
 
   /// What is known to be real of the information, in [0, 1].
   Eigen::Vector3d proven() const { return real.cwiseProduct(share); }
   /// U diag(sqrt(taken share)) U^T on both sides of the information, odometry frame.
   Eigen::Matrix3d shrink() const;
-  /// U diag(taken) U^T before the vector, odometry frame.
+  /// U diag(taken whole) U^T before the vector, odometry frame.
   Eigen::Matrix3d pull() const;
 };
 

@@ -44,6 +44,8 @@ void describe(Fields& f, SpuriousConfig& c) {
   f.number("spread", c.spread,
            {"-", positive(), "uncertainty of what chance gives, of its logarithm"});
   f.number("stretch", c.stretch, {"m", positive(), "way over which information is judged"});
+  f.number("amplification", c.amplification,
+           {"-", at_least(1), "most that a step is lengthened for chance in its information"});
   f.number("axis_tolerance", c.axis_tolerance,
            {"rad", at_least(0), "within which the axes are kept"});
 }

@@ -22,8 +22,11 @@ struct SpuriousConfig {
   /// From the start and over this way what is beyond chance is taken for real before it is proven:
   /// the map that it is to be proven by is only as sharp as the poses that draw it [m].
   double trusting_way = 5.0;
-  double spread = 0.05;          ///< of the logarithm of what chance gives [-]
-  double stretch = 1.5;          ///< way over which information is judged [m]
+  double spread = 0.05;  ///< of the logarithm of what chance gives [-]
+  double stretch = 1.5;  ///< way over which information is judged [m]
+  /// A step along an axis is lengthened by the inverse of the share of its information that is
+  /// beyond chance, and no further than by this: at the start that share lags behind.
+  double amplification = 3.0;
   double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
 };
 
