@@ -154,22 +154,20 @@ async function assertSorts(page) {
   );
 }
 
-/** What the strips and the readout show at the cursor is the payload's sample there. */
+/** What strips and readout show is the payload's sample at the cursor; none if none is near. */
 async function assertCursorAgrees(page, payload, chosen) {
   const cursor = await cursorOf(page);
   const { series } = payload.estimators[chosen];
   const index = nearest(series.t, cursor);
+  const near = Math.abs(series.t[index] - cursor) <= 0.5;
   for (const [panel, name, key] of [
     ["index", "D", "D"],
     ["weights", "γ lidar", "gamma_lidar"],
     ["error_along", payload.estimators[chosen].name, "error_along"],
   ]) {
     if (!series[key] || !series[key].some(Number.isFinite)) continue;
-    assert.equal(
-      Number(await shown(page, panel, name)),
-      series[key][index],
-      `${panel} ${name} at ${cursor} s`,
-    );
+    const value = Number(await shown(page, panel, name));
+    assert.equal(value, near ? series[key][index] : NaN, `${panel} ${name} at ${cursor} s`);
   }
   const text = await page.textContent('[data-readout="estimate"]');
   const fixed = [0, 1, 2].map((axis) =>
@@ -178,7 +176,7 @@ async function assertCursorAgrees(page, payload, chosen) {
       .replace(/^-0\.00$/, "0.00")
       .replace("-", "−"),
   );
-  assert.equal(text, `${fixed.join(", ")} m`);
+  assert.equal(text, near ? `${fixed.join(", ")} m` : "– m");
 }
 
 async function assertCursorMoves(page, payload) {

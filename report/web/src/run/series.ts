@@ -94,18 +94,12 @@ export function align(tracks: Track[], positiveOnly = false): Aligned {
   return [keys.map((value) => value / 1000), ...columns];
 }
 
-/** Where the cursor may stand [s]: scans of an estimator, else samples of the truth; ascending. */
+/** Where the cursor may stand [s]: sweeps, else samples of an estimator or the truth; ascending. */
 export function cursorTimes(data: RunPayload): number[] {
-  const candidates = [
-    ...data.estimators.map((item) => item.series?.t),
-    data.localizability?.t,
-    data.truth?.t,
-  ];
-  let longest: Numbers | null = null;
-  for (const times of candidates) {
-    if (times && times.length > (longest?.length ?? 0)) longest = times;
-  }
-  return longest ? [...longest].filter(isNumber).sort((a, b) => a - b) : [];
+  const estimators = data.estimators.map((item) => item.series?.t);
+  const longest = estimators.sort((a, b) => (b?.length ?? 0) - (a?.length ?? 0))[0];
+  const found = [data.localizability?.t, longest, data.truth?.t].find((times) => times?.length);
+  return found ? [...found].filter(isNumber).sort((a, b) => a - b) : [];
 }
 
 /** First and last stamp of anything [s]; a second around a single one, 0 to 1 without any. */
