@@ -85,6 +85,24 @@ std::string message_of(const fs::path& folder, const PageOptions& options = {}) 
   return page ? "" : page.error().message;
 }
 
+PageOptions against(const fs::path& folder) {
+  PageOptions options;
+  options.against = folder;
+  return options;
+}
+
+PageOptions with_detectors(const fs::path& folder) {
+  PageOptions options;
+  options.detectors = folder;
+  return options;
+}
+
+PageOptions laid_into(const fs::path& folder) {
+  PageOptions options;
+  options.out_folder = folder;
+  return options;
+}
+
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -119,7 +137,7 @@ TEST(SuitePage, LinksToTheRunsThatHaveAPageFromWhereItLies) {
   write_walk_suite(suite);
   put(suite / "runs/walk/seed-3/report.html", "");
   const auto own = suite_page(suite, {});
-  const auto other = suite_page(suite, {.out_folder = folder.path() / "elsewhere"});
+  const auto other = suite_page(suite, laid_into(folder.path() / "elsewhere"));
   ASSERT_TRUE(own && other);
   EXPECT_TRUE(own->json["runs"][0]["href"].is_null());
   EXPECT_EQ(own->json["runs"][2]["href"], "runs/walk/seed-3/report.html");
@@ -169,13 +187,13 @@ TEST(SuitePage, DetectorsThatAreAskedForMustBeThereOthersNeedNot) {
   const TemporaryFolder folder;
   write_walk_suite(folder.path());
   EXPECT_TRUE(suite_page(folder.path(), {})->json["roc"].is_null());
-  EXPECT_TRUE(says(message_of(folder.path(), {.detectors = folder.path() / "no"}), "no"));
+  EXPECT_TRUE(says(message_of(folder.path(), with_detectors(folder.path() / "no")), "no"));
   put(folder.path() / "detectors.json", R"({"schema": "aims.scores/1"})");
   const auto page = suite_page(folder.path(), {});
   ASSERT_TRUE(page);
   EXPECT_TRUE(page->json["roc"].is_null());
   EXPECT_TRUE(says(page->json["notes"][0], "expected a document of schema aims.detectors/1"));
-  EXPECT_TRUE(says(message_of(folder.path(), {.detectors = folder.path()}), "aims.detectors/1"));
+  EXPECT_TRUE(says(message_of(folder.path(), with_detectors(folder.path())), "aims.detectors/1"));
 }
 
 TEST(SuitePage, ComparesAsAimsCompareDoesTheOtherBeingBefore) {
@@ -184,7 +202,7 @@ TEST(SuitePage, ComparesAsAimsCompareDoesTheOtherBeingBefore) {
   const fs::path after = folder.path() / "after";
   write_walk_suite(before);
   write_walk_suite(after, 0.5);
-  const auto page = suite_page(after, {.against = before});
+  const auto page = suite_page(after, against(before));
   ASSERT_TRUE(page) << page.error().message;
   const auto expected = compare(*read_results(before), *read_results(after));
   Json json = page->json["compare"];
@@ -192,7 +210,7 @@ TEST(SuitePage, ComparesAsAimsCompareDoesTheOtherBeingBefore) {
   json.erase("summary");
   EXPECT_EQ(json, comparison_json(expected, "before", "after"));
   EXPECT_GT(json["worse"], 0);
-  EXPECT_TRUE(says(message_of(after, {.against = folder.path() / "no"}), "no results"));
+  EXPECT_TRUE(says(message_of(after, against(folder.path() / "no")), "no finished results"));
 }
 
 TEST(SuitePage, ASuiteWithoutRunsIsAPage) {
