@@ -17,6 +17,7 @@ constexpr double kTop = 104.0;         ///< of the panels [px]
 constexpr double kBelow = 64.0;        ///< [px]
 constexpr double kBar = 18.0;          ///< width of the scale [px]
 constexpr double kRight = 110.0;       ///< for the scale and its label [px]
+constexpr double kMargin = 28.0;       ///< right of the subtitle [px]
 constexpr Color kNothing{0.85, 0.85, 0.85};
 
 /// Borders of the cells around sorted centres, halfway to the neighbours on the axis' scale.
@@ -112,22 +113,23 @@ Panel frame_of(const FieldPlot& plot, const FieldPanel& source) {
 
 Result<void> write_field_plot(const std::filesystem::path& path, const FieldPlot& plot) {
   const auto panels = static_cast<double>(std::max<std::size_t>(1, plot.panels.size()));
-  const double width = kLeft + panels * kPanelPitch + kRight - 60.0;
-  auto canvas = Canvas::create(path, static_cast<int>(std::max(width, 700.0)),
-                               static_cast<int>(kTop + kSide + kBelow));
+  const double width = std::max(kLeft + panels * kPanelPitch + kRight - 60.0, 700.0);
+  const Heading heading(plot.title, plot.subtitle, width - kLeft - kMargin);
+  const double top = kTop + heading.extra_height();
+  auto canvas =
+      Canvas::create(path, static_cast<int>(width), static_cast<int>(top + kSide + kBelow));
   if (!canvas) return tl::unexpected(canvas.error());
-  canvas->text({kLeft, 22.0}, plot.title, {.size = 19.0, .bold = true});
-  canvas->text({kLeft, 46.0}, plot.subtitle, {.size = 13.0, .color = {0.35, 0.35, 0.35}});
+  heading.draw(*canvas, kLeft);
   const Axis scale = value_axis(plot);
   double x = kLeft;
   for (const FieldPanel& panel : plot.panels) {
-    const Rect area{x, kTop, kSide, kSide};
+    const Rect area{x, top, kSide, kSide};
     const Panel frame = frame_of(plot, panel);
     draw_cells(*canvas, area, frame, panel, plot, scale);
     draw_panel(*canvas, area, frame);
     x += kPanelPitch;
   }
-  draw_color_bar(*canvas, {x - kPanelPitch + kSide + 24.0, kTop, kBar, kSide}, scale);
+  draw_color_bar(*canvas, {x - kPanelPitch + kSide + 24.0, top, kBar, kSide}, scale);
   return canvas->finish();
 }
 

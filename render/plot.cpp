@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace aims {
 namespace {
@@ -14,6 +15,9 @@ constexpr double kTickLength = 5.0;
 constexpr double kLegendRow = 22.0;
 constexpr double kPanelTop = 40.0;     ///< above a panel, for its title
 constexpr double kPanelBottom = 50.0;  ///< below a panel, for ticks and label
+constexpr double kSubtitleRow = 18.0;
+const TextStyle kTitle{.size = 19.0, .bold = true};
+const TextStyle kSubtitle{.size = 13.0, .color = {0.35, 0.35, 0.35}};
 const Color kGrid{0.88, 0.88, 0.88};
 const Color kFrame{0.25, 0.25, 0.25};
 const Color kArea{0.80, 0.80, 0.80};
@@ -93,6 +97,45 @@ void draw_own_legend(Canvas& canvas, const Rect& area, const Panel& panel) {
 
 }  // namespace
 
+std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style) {
+  Canvas ruler = Canvas::over(Image(1, 1));
+  std::vector<std::string> lines;
+  std::string line;
+  for (std::size_t begin = 0; begin < text.size();) {
+    // A word with the spaces before it, which go when it begins a line.
+    const std::size_t word = std::min(text.find_first_not_of(' ', begin), text.size());
+    const std::size_t end = std::min(text.find(' ', word), text.size());
+    const std::string longer = line + text.substr(begin, end - begin);
+    if (!line.empty() && ruler.text_width(longer, style) > width) {
+      lines.push_back(std::exchange(line, text.substr(word, end - word)));
+      if (line == "\u00b7") line.clear();  // the break separates enough
+    } else if (line.empty()) {
+      line = text.substr(word, end - word);
+    } else {
+      line = longer;
+    }
+    begin = end;
+  }
+  if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+Heading::Heading(std::string text, const std::string& subtitle, double width)
+    : title(std::move(text)), lines(wrapped(subtitle, width, kSubtitle)) {}
+
+double Heading::extra_height() const {
+  return lines.empty() ? 0.0 : kSubtitleRow * static_cast<double>(lines.size() - 1);
+}
+
+void Heading::draw(Canvas& canvas, double left, double title_y) const {
+  canvas.text({left, title_y}, title, kTitle);
+  double y = title_y + 24.0;
+  for (const std::string& line : lines) {
+    canvas.text({left, y}, line, kSubtitle);
+    y += kSubtitleRow;
+  }
+}
+
 double panel_width(int figure_width) { return figure_width - kLeftMargin - kRightMargin; }
 
 Eigen::Vector2d to_pixels(const Panel& panel, const Rect& area, const Eigen::Vector2d& point) {
@@ -170,16 +213,16 @@ void draw_color_bar(Canvas& canvas, const Rect& area, const Axis& axis) {
 
 Result<void> write_figure(const std::filesystem::path& path, const Figure& figure) {
   constexpr double kHeader = 34.0;
-  const double subtitle = figure.subtitle.empty() ? 0.0 : 22.0;
+  const double width = panel_width(figure.width);
+  const Heading heading(figure.title, figure.subtitle, width);
+  const double subtitle = heading.lines.empty() ? 0.0 : 22.0 + heading.extra_height();
   // The legend needs at most two rows for the estimators of one run.
   const double legend = figure.legend.empty() ? 0.0 : (figure.legend.size() > 7 ? 2.0 : 1.0) * 24.0;
   double height = kHeader + subtitle + legend + 8.0;
   for (const Panel& panel : figure.panels) height += kPanelTop + panel.height + kPanelBottom;
   auto canvas = Canvas::create(path, figure.width, static_cast<int>(std::ceil(height)));
   if (!canvas) return tl::unexpected(canvas.error());
-  const double width = panel_width(figure.width);
-  canvas->text({kLeftMargin, 22.0}, figure.title, {.size = 19.0, .bold = true});
-  canvas->text({kLeftMargin, 46.0}, figure.subtitle, {.size = 13.0, .color = {0.35, 0.35, 0.35}});
+  heading.draw(*canvas, kLeftMargin);
   draw_legend(*canvas, {kLeftMargin, kHeader + subtitle + 4.0}, width, figure.legend);
   double y = kHeader + subtitle + legend + 8.0;
   for (const Panel& panel : figure.panels) {

@@ -67,6 +67,20 @@ struct Figure {
   int width = 1800;  ///< [px]; the height follows from the panels
 };
 
+/// The text in lines of at most that width [px], broken at spaces; a longer word stays whole.
+std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style);
+
+/// A picture's title, and its subtitle in as many lines as the width takes.
+struct Heading {
+  std::string title;
+  std::vector<std::string> lines;
+
+  Heading(std::string title, const std::string& subtitle, double width);
+  double extra_height() const;  ///< of all lines but the first [px]
+  /// `left` is where the text begins [px]; the title stands `title_y` from the top.
+  void draw(Canvas& canvas, double left, double title_y = 22.0) const;
+};
+
 /// Pixel position of a data point when `axis` spans `area`; y of the canvas grows downwards.
 Eigen::Vector2d to_pixels(const Panel& panel, const Rect& area, const Eigen::Vector2d& point);
 

@@ -53,14 +53,15 @@ Result<void> write_roc_plot(const std::filesystem::path& path, const RocPlot& pl
   for (const RocPanel& panel : plot.panels) rows = std::max(rows, panel.series.size());
   const auto panels = static_cast<double>(std::max<std::size_t>(1, plot.panels.size()));
   const double width = kLeft + panels * kPanelPitch - 60.0;
-  const double height = kTop + kSide + kLegendTop + static_cast<double>(rows) * kLegendRow + 16.0;
+  const Heading heading(plot.title, plot.subtitle, width - kLeft - 28.0);
+  const double top = kTop + heading.extra_height();
+  const double height = top + kSide + kLegendTop + static_cast<double>(rows) * kLegendRow + 16.0;
   auto canvas = Canvas::create(path, static_cast<int>(width), static_cast<int>(height));
   if (!canvas) return tl::unexpected(canvas.error());
-  canvas->text({kLeft, 22.0}, plot.title, {.size = 19.0, .bold = true});
-  canvas->text({kLeft, 46.0}, plot.subtitle, {.size = 13.0, .color = {0.35, 0.35, 0.35}});
+  heading.draw(*canvas, kLeft);
   double x = kLeft;
   for (const RocPanel& panel : plot.panels) {
-    draw(*canvas, {x, kTop, kSide, kSide}, panel);
+    draw(*canvas, {x, top, kSide, kSide}, panel);
     x += kPanelPitch;
   }
   return canvas->finish();

@@ -58,8 +58,12 @@ std::vector<Tick> logarithmic_ticks(double min, double max) {
     }
     return ticks;
   };
-  const std::vector<Tick> powers = collect({1.0});
-  return powers.size() >= 3 ? powers : collect({1.0, 2.0, 5.0});
+  constexpr std::size_t kLeast = 3;
+  for (const auto factors : {std::initializer_list<double>{1.0}, {1.0, 2.0, 5.0}}) {
+    auto ticks = collect(factors);
+    if (ticks.size() >= kLeast) return ticks;
+  }
+  return linear_ticks(min, max, 6);  // less than a decade: nearly even there
 }
 
 }  // namespace aims

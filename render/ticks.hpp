@@ -17,7 +17,8 @@ struct Tick {
 std::vector<Tick> linear_ticks(double min, double max, int max_count);
 
 /// Ticks at powers of ten inside [min, max], with 2 and 5 in between when there are fewer than
-/// three; empty when the interval is empty, not finite or not positive.
+/// three, and evenly spaced ones when even those are fewer; empty when the interval is empty, not
+/// finite or not positive.
 std::vector<Tick> logarithmic_ticks(double min, double max);
 
 }  // namespace aims

@@ -47,6 +47,17 @@ TEST(FieldPlot, CellsHaveTheColoursOfTheirValuesAndEqualShares) {
   EXPECT_NEAR(pixels_of(image, 0.5), 7.0 * kCell, kLines * 7.0 * kCell);
 }
 
+TEST(FieldPlot, LongSubtitlesAreNotCut) {
+  const test::PictureFolder folder;
+  FieldPlot plot = plot_of({{0, 1, 1.0}, {1, 1, 2.0}, {0, 10, 1.5}, {1, 10, 1.2}});
+  plot.subtitle =
+      "mean of m_list_percent.all over that of the defaults, a lost run counts 10; by a polynomial "
+      "through the points";
+  ASSERT_TRUE(write_field_plot(folder / "field.png", plot));
+  const Image image = test::read_png(folder / "field.png");
+  EXPECT_EQ(test::ink_right_of(image, image.width - 10), 0);
+}
+
 TEST(FieldPlot, TakesGapsAndNothing) {
   const TemporaryFolder folder;
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -27,6 +27,22 @@ double luminance(const std::array<std::uint8_t, 3>& rgb) {
   return 0.2126 * linear(rgb[0]) + 0.7152 * linear(rgb[1]) + 0.0722 * linear(rgb[2]);
 }
 
+TEST(MapPicture, LongSubtitlesAreNotCut) {
+  const PictureFolder folder;
+  MapPicture map;
+  map.title = "a map";
+  map.width = 700;
+  for (int i = 0; i < 2000; ++i) {
+    map.points.emplace_back(0.02F * static_cast<float>(i), i % 2 == 0 ? 1.0F : -1.0F, 0.5F);
+  }
+  map.points.emplace_back(std::nanf(""), 0.0F, 0.0F);
+  for (const MapView view : {MapView::kAbove, MapView::kSide}) {
+    ASSERT_TRUE(write_map_picture(folder / "a.png", view, map));
+    const Image image = read_png(folder / "a.png");
+    EXPECT_EQ(test::ink_right_of(image, image.width - 10), 0);
+  }
+}
+
 TEST(HeightColor, GrowsLighterWithHeight) {
   const auto table = height_table();
   for (std::size_t i = 8; i < table.size(); ++i) {

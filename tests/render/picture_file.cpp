@@ -3,6 +3,7 @@
 
 #include <cairo.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iterator>
 
@@ -28,6 +29,16 @@ Image read_png(const std::filesystem::path& path) {
   }
   cairo_surface_destroy(surface);
   return image;
+}
+
+int ink_right_of(const Image& image, int column) {
+  int count = 0;
+  for (int row = 0; row < image.height; ++row) {
+    for (int x = std::max(0, column); x < image.width; ++x) {
+      count += image.pixel(x, row) != std::array<std::uint8_t, 3>{255, 255, 255} ? 1 : 0;
+    }
+  }
+  return count;
 }
 
 int count_pixels(const Image& image, const std::array<int, 3>& color, int tolerance) {

@@ -28,6 +28,9 @@ Image read_png(const std::filesystem::path& path);
 /// Of the first curve of a plot.
 inline constexpr std::array<int, 3> kBlue = {0, 114, 178};
 
+/// How many pixels from that column on are not white: of what is cut at the right edge.
+int ink_right_of(const Image& image, int column);
+
 /// How many pixels have that colour, within
 /// `tolerance` per component.
 int count_pixels(const Image& image, const std::array<int, 3>& color, int tolerance = 12);

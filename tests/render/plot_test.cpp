@@ -63,6 +63,60 @@ TEST(Ticks, OfALogarithmicAxisStandAtPowersOfTen) {
             (std::vector<std::string>{"2", "5", "10", "20", "50"}));
 }
 
+TEST(Ticks, OfALogarithmicAxisOfLessThanADecadeAreSeveral) {
+  EXPECT_EQ(labels(logarithmic_ticks(0.9, 1.32)),
+            (std::vector<std::string>{"0.9", "1.0", "1.1", "1.2", "1.3"}));
+  for (const double min : {0.011, 0.3, 1.9, 2.1, 7.0, 640.0}) {
+    for (const double factor : {1.02, 1.2, 1.44, 2.0, 4.0, 9.0, 40.0}) {
+      const auto ticks = logarithmic_ticks(min, factor * min);
+      EXPECT_GE(ticks.size(), 2U) << min << " " << factor;
+      for (const Tick& tick : ticks) {
+        EXPECT_GE(tick.value, min * (1.0 - 1e-6));
+        EXPECT_LE(tick.value, factor * min * (1.0 + 1e-6));
+      }
+    }
+  }
+}
+
+TEST(Wrapped, LinesFitAndHaveAllWordsInOrder) {
+  const TextStyle style{.size = 13.0};
+  const std::string text =
+      "mean of ate_m over that of the defaults, a lost run counts 10; measured";
+  Canvas ruler = Canvas::over(Image(1, 1));
+  for (const double width : {90.0, 200.0, 300.0, 2000.0}) {
+    std::string joined;
+    for (const std::string& line : wrapped(text, width, style)) {
+      EXPECT_LE(ruler.text_width(line, style), width) << line;
+      joined += (joined.empty() ? "" : " ") + line;
+    }
+    EXPECT_EQ(joined, text);
+  }
+  EXPECT_EQ(wrapped("a verylongword b", 20.0, style),
+            (std::vector<std::string>{"a", "verylongword", "b"}));
+  EXPECT_EQ(wrapped("first  \u00b7  second", 40.0, style),
+            (std::vector<std::string>{"first", "second"}));
+  EXPECT_TRUE(wrapped("", 100.0, style).empty());
+}
+
+TEST(Plot, LongSubtitlesTakeMoreLinesAndAreNotCut) {
+  const PictureFolder folder;
+  const auto drawn = [&](const std::string& subtitle) {
+    Panel panel;
+    panel.x = {"x [m]", 0.0, 1.0};
+    panel.y = {"y [m]", 0.0, 1.0};
+    panel.height = 100.0;
+    Figure figure{.title = "title", .subtitle = subtitle, .panels = {panel}, .width = 400};
+    EXPECT_TRUE(write_figure(folder / "a.png", figure));
+    return read_png(folder / "a.png");
+  };
+  std::string text = "word";
+  const int height = drawn(text).height;
+  for (int i = 0; i < 30; ++i) text += " word";
+  const Image image = drawn(text);
+  EXPECT_GT(image.height, height + 30);
+  EXPECT_EQ(test::ink_right_of(image, image.width - 10), 0);
+}
+
 TEST(Plot, PutsDataPointsWhereTheAxesSay) {
   Panel panel;
   panel.x = {"x [m]", 10.0, 20.0};
