@@ -26,7 +26,7 @@ struct SpuriousConfig {
   double stretch = 1.5;  ///< way over which information is judged [m]
   /// A step along an axis is lengthened by the inverse of the share of its information that is
   /// beyond chance, and no further than by this: at the start that share lags behind.
-  double amplification = 3.0;
+  double amplification = 2.5;
   double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
 };
 
