@@ -65,6 +65,7 @@ export function drawMarks(plot: uPlot, marks: Mark[], named: boolean): void {
     const x = Math.round(plot.valToPos(mark.t, "x", true)) + 0.5;
     ctx.strokeStyle = mark.color;
     ctx.fillStyle = mark.color;
+    ctx.lineWidth = devicePixelRatio;
     ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
     ctx.beginPath();
     ctx.moveTo(x, bbox.top);

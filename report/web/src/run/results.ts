@@ -217,9 +217,13 @@ export function resultsSection(data: RunPayload): HTMLElement {
     "results",
     "Results",
     truthLine(data),
-    h("div", { "data-table": "paper" }, paperTable(data, list)),
-    h("div", { "data-table": "errors" }, errorTable(list)),
-    weakTable(list),
-    gateTable(data),
+    h(
+      "div",
+      { class: "tables" },
+      h("div", { "data-table": "paper" }, paperTable(data, list)),
+      h("div", { "data-table": "errors" }, errorTable(list)),
+      weakTable(list),
+      gateTable(data),
+    ),
   );
 }

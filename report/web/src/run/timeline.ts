@@ -11,6 +11,9 @@ import { backdrop, kLevels, panelSpecs } from "./panels";
 import type { ErrorScale, Level, Store } from "./store";
 
 const kPlaySpeed = 8;
+const kHint =
+  "Drag: cursor; with Shift, or Ctrl and wheel: zoom. Keys: ← → a scan, with Shift ten; + − 0 zoom.";
+const kTouchHint = "Drag: cursor. Two fingers: zoom.";
 
 /** Buttons and the slider above the strips. */
 function controls(store: Store): HTMLElement {
@@ -219,6 +222,7 @@ export function timeline(
     controls(store),
     choices(data, store),
     stack,
+    h("p", { class: "soft hint" }, matchMedia("(pointer: coarse)").matches ? kTouchHint : kHint),
   );
   const window = { from: store.state.from, to: store.state.to };
   const behind: Backdrop = { shaded: [], marks: [] };
