@@ -20,8 +20,8 @@ export function outcome(analysis: Analysis): HTMLElement {
   const { best } = analysis;
   if (!best) return h("p", {}, `No best point: ${analysis.why_no_best ?? "no point is complete yet"}.`);
   const gain = isNumber(best.gain)
-    ? ` The untuned values have ${formatNumber(best.defaults)}: ${best.gain >= 0 ? "less" : "more"} by ` +
-      `${percent(Math.abs(best.gain))}${best.gain >= 0 ? bracket(ends(best.gain_interval), 100, " %") : ""}.`
+    ? ` The untuned values have ${formatNumber(best.defaults)}; the gain is ${percent(best.gain)}` +
+      `${bracket(ends(best.gain_interval), 100, " %")}.`
     : " The untuned values were not run on all walks, so that there is nothing to hold it against.";
   const sure = analysis.seeds < 2 ? "One seed tells nothing of the spread: there are no intervals."
     : `Intervals: 95 % bootstraps over ${analysis.seeds} seeds${analysis.seeds < 10 ? ", too narrow for so few" : ""}.`;
@@ -79,7 +79,7 @@ export function sensitivity(own: TunedEstimator, analysis: Analysis): HTMLElemen
         (found.does_not_matter[i] ? "; does not matter" : "")));
   });
   return h("div", {}, h("div", { class: "shares" }, ...bars), h("p", { class: "soft" },
-    `In total (light) and alone (dark), with the 95 % interval of the total. ${said}`), interactions(own, found.second));
+    `Wide bars: in total, with its 95 % interval; narrow bars: alone. ${said}`), interactions(own, found.second));
 }
 
 function interactions(own: TunedEstimator, second: number[][]): HTMLElement | null {
