@@ -7,7 +7,7 @@ import { sortableTable } from "../table";
 import { titleOf, type Comparison, type ScoreChange, type SuitePayload } from "./model";
 
 const kVerdicts: Record<string, string> = {
-  better: "▲ better", worse: "▼ worse", "one seed": "? one seed", none: "= within noise",
+  better: "▲ better", worse: "▼ worse", "one seed": "? one seed", none: "= nothing beyond noise",
 };
 const kRank = ["worse", "better", "one seed", "none"];
 
@@ -42,7 +42,7 @@ function changeTable(data: SuitePayload, rows: ScoreChange[], caption: string): 
     {
       title: "verdict", value: (row) => kRank.indexOf(row.verdict),
       show: (row) => h("span", { class: `verdict-${row.verdict === "better" || row.verdict === "worse" ? row.verdict : "none"}` },
-        verdictText(row.verdict)),
+        row.verdict === "none" && row.seeds === 1 ? "= too small to matter" : verdictText(row.verdict)),
     },
     {
       title: "by chance", hint: "probability of better or worse if only chance gave the differences their signs",
@@ -61,7 +61,8 @@ export function compareSection(data: SuitePayload): HTMLElement | null {
   const compare: Comparison | null = data.compare;
   if (!compare) return null;
   const spoken = (row: ScoreChange) => row.verdict === "better" || row.verdict === "worse";
-  let verdict = compare.changes.some(spoken) ? "spoken" : "all";
+  let verdict = compare.changes.some(spoken) ? "spoken"
+    : compare.changes.some((row) => row.verdict === "one seed") ? "one seed" : "all";
   let score = "";
   const place = h("div", {});
   const scores = [...new Set(compare.changes.map((row) => row.score))];
