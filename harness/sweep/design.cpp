@@ -87,11 +87,6 @@ const Parameter* integer_parameter(const Fields& fields, const std::string& key)
   return parameter != nullptr && parameter->expected.starts_with(kInteger) ? parameter : nullptr;
 }
 
-bool is_number(const Parameter& parameter) {
-  return !parameter.sequence &&
-         (parameter.expected.starts_with("a number") || parameter.expected.starts_with(kInteger));
-}
-
 std::vector<std::vector<double>> grid(std::span<const ParameterRange> ranges, std::size_t size) {
   std::vector<std::vector<double>> points(size, std::vector<double>(ranges.size()));
   std::size_t repeats = size;
@@ -195,29 +190,6 @@ Result<DesignKind> parse_design_kind(std::string_view text) {
   return failure(fmt::format("design '{}': expected one of grid, random, sobol, lhs", text));
 }
 
-Result<void> check_ranges(std::span<const ParameterRange> ranges, const EstimatorConfig& base) {
-  EstimatorConfig config = base;
-  const Fields fields = fields_of(config);
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const ParameterRange& range = ranges[i];
-    const Parameter* parameter = fields.find(range.key);
-    if (parameter == nullptr) return failure(unknown_key_message(fields, range.key));
-    if (!is_number(*parameter)) {
-      return failure(fmt::format("range '{}': '{}' is {}, and only numbers have ranges",
-                                 text_of(range), range.key, parameter->expected));
-    }
-    const Range& allowed = parameter->spec.range;
-    if (!allowed.contains(range.low) || !allowed.contains(range.high)) {
-      return failure(fmt::format("range '{}': expected {}", text_of(range), parameter->expected));
-    }
-    for (std::size_t k = 0; k < i; ++k) {
-      if (ranges[k].key != range.key) continue;
-      return failure(fmt::format("range '{}': a second range of '{}'", text_of(range), range.key));
-    }
-  }
-  return {};
-}
-
 Result<std::size_t> design_size(DesignKind kind, std::span<const ParameterRange> ranges,
                                 int samples) {
   if (ranges.empty()) return failure("no range of a parameter is given; " + std::string(kForms));
@@ -272,6 +244,7 @@ EstimatorSpec spec_at(const EstimatorSpec& base, std::span<const ParameterRange>
   const Fields fields = fields_of(config);
   EstimatorSpec spec = base;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (!ranges[i].of_estimator) continue;
     const std::string& key = ranges[i].key;
     const bool whole = integer_parameter(fields, key) != nullptr;
     std::erase_if(spec.settings, [&](const auto& setting) { return setting.first == key; });

@@ -17,11 +17,12 @@ namespace aims {
 /// What a parameter is varied over. Written `KEY=LOW:HIGH:COUNT` or `KEY=log(LOW,HIGH,COUNT)`; the
 /// count, which a grid alone needs, may be left out.
 struct ParameterRange {
-  std::string key;    ///< relative to `estimator.`, e.g. "degeneracy.eta"
+  std::string key;    ///< below `estimator.`, e.g. "degeneracy.eta", or else the scenario's own
   double low = 0.0;   ///< in the parameter's own unit
   double high = 0.0;  ///< in the parameter's own unit, >= low
   int count = 0;      ///< values on a grid, both ends included; 0: not stated
   bool log = false;   ///< evenly spaced in the logarithm
+  bool of_estimator = true;  ///< false: of the simulation or the scoring
 
   bool operator==(const ParameterRange&) const = default;
 };
@@ -39,6 +40,7 @@ inline constexpr std::size_t kMostPoints = 10'000'000;
 
 /// The range that `text` describes. Errors name the text and what was expected: no number, a
 /// reversed or empty range, fewer values than its ends need, the logarithm of what is not positive.
+/// Whose the key is `range_key` tells (harness/sweep/range_key.hpp).
 Result<ParameterRange> parse_range(std::string_view text);
 
 /// The text that `parse_range` reads.
@@ -46,10 +48,6 @@ std::string text_of(const ParameterRange& range);
 
 /// The kind of "grid", "random", "sobol" or "lhs".
 Result<DesignKind> parse_design_kind(std::string_view text);
-
-/// Error for a key that `base` does not have or that is not a number (with a near match), for a
-/// bound that its parameter does not allow, and for two ranges of one key.
-Result<void> check_ranges(std::span<const ParameterRange> ranges, const EstimatorConfig& base);
 
 /// Points of that design: a grid's from its ranges alone, `samples` of every other. Error for no
 /// range, a grid's range without a count, no sample, and more than `kMostPoints` points.
@@ -69,8 +67,8 @@ double fraction_of(const ParameterRange& range, double value);
 std::vector<std::vector<double>> design(DesignKind kind, std::span<const ParameterRange> ranges,
                                         int samples, std::uint64_t seed);
 
-/// `base` with the point's values on top: the parameters replace settings of the same keys. A
-/// parameter that is a whole number is rounded.
+/// `base` with the point's values of the estimator's parameters on top: they replace settings of
+/// the same keys. A parameter that is a whole number is rounded.
 EstimatorSpec spec_at(const EstimatorSpec& base, std::span<const ParameterRange> ranges,
                       std::span<const double> point);
 

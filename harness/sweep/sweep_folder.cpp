@@ -27,7 +27,7 @@ std::string unit_list(std::span<const SweepUnit> units) {
   CsvTable table({"id", "scenario", "seed", "estimator"});
   for (const SweepUnit& unit : units) {
     table.add(unit.id).add(unit.scenario->name).add(static_cast<std::int64_t>(unit.seed));
-    table.add(unlabelled_text(unit.estimator)).end_row();
+    table.add(point_text(unit)).end_row();
   }
   return table.text();
 }

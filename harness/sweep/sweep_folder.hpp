@@ -19,7 +19,7 @@ struct ListedUnit {
   std::string id;
   std::string scenario;
   std::string seed;
-  std::string estimator;  ///< with its settings
+  std::string estimator;  ///< with its settings and those of the scenario
 };
 
 /// The folder of a sweep: plan.yaml, units.csv, units/ID.json, shards/I-of-N/.lock.

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 #include <utility>
 
 #include "harness/catalogue.hpp"
 #include "harness/seeds.hpp"
+#include "harness/sweep/range_key.hpp"
+#include "harness/sweep/scenario_variants.hpp"
 #include "harness/unit_id.hpp"
 #include "io/config_dump.hpp"
 #include "io/yaml_config.hpp"
@@ -31,16 +34,6 @@ Result<void> add_scenario(Result<Scenario> scenario, Scenarios& scenarios) {
   return {};
 }
 
-Result<std::vector<ParameterRange>> ranges_of(const SweepPlan& plan) {
-  std::vector<ParameterRange> ranges;
-  for (const std::string& text : plan.over) {
-    auto range = parse_range(text);
-    if (!range) return tl::unexpected(range.error());
-    ranges.push_back(std::move(*range));
-  }
-  return ranges;
-}
-
 Result<std::vector<EstimatorSpec>> estimators_of(const SweepPlan& plan) {
   if (plan.estimators.empty()) return failure("estimators: the plan names none, e.g. [aims]");
   if (auto specs = check_estimator_specs(plan.estimators); !specs) {
@@ -53,41 +46,73 @@ Result<std::vector<EstimatorSpec>> estimators_of(const SweepPlan& plan) {
   return estimators;
 }
 
+/// An estimator at a point of the design, and the scenario there.
+struct PlannedPoint {
+  EstimatorSpec estimator;
+  ScenarioVariant variant;
+};
+
 /// The estimators at every point of the design, or as they are when nothing is varied.
-Result<std::vector<EstimatorSpec>> points_of(const SweepPlan& plan, const EstimatorConfig& base) {
-  auto estimators = estimators_of(plan);
-  const auto ranges = ranges_of(plan);
-  if (!ranges) return tl::unexpected(ranges.error());
-  if (!estimators || ranges->empty()) return estimators;
-  if (auto right = check_ranges(*ranges, base); !right) return tl::unexpected(right.error());
-  const auto size = design_size(plan.design, *ranges, plan.samples);
-  if (!size) return tl::unexpected(size.error());
-  const auto points =
-      design(plan.design, *ranges, plan.samples, static_cast<std::uint64_t>(plan.design_seed));
-  std::vector<EstimatorSpec> specs;
-  specs.reserve(estimators->size() * (points.size() + 1));
-  for (const EstimatorSpec& estimator : *estimators) {
-    if (plan.untuned) specs.push_back(estimator);
-    for (const auto& point : points) specs.push_back(spec_at(estimator, *ranges, point));
+Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
+                                            std::span<const ParameterRange> ranges,
+                                            const std::shared_ptr<const Scenario>& scenario) {
+  const auto estimators = estimators_of(plan);
+  if (!estimators) return tl::unexpected(estimators.error());
+  ScenarioVariants variants(scenario, ranges);
+  std::vector<std::vector<double>> points;
+  if (!ranges.empty()) {
+    if (auto right = check_ranges(ranges, *scenario); !right) return tl::unexpected(right.error());
+    const auto size = design_size(plan.design, ranges, plan.samples);
+    if (!size) return tl::unexpected(size.error());
+    points =
+        design(plan.design, ranges, plan.samples, static_cast<std::uint64_t>(plan.design_seed));
   }
-  return specs;
+  std::vector<PlannedPoint> planned;
+  planned.reserve(estimators->size() * (points.size() + 1));
+  for (const EstimatorSpec& estimator : *estimators) {
+    if (plan.untuned || ranges.empty()) planned.push_back({estimator, variants.untouched()});
+    for (const auto& point : points) {
+      auto variant = variants.at(point);
+      if (!variant) return tl::unexpected(variant.error());
+      planned.push_back({spec_at(estimator, ranges, point), std::move(*variant)});
+    }
+  }
+  return planned;
 }
 
+/// Points that share a walk on each seed, with the part of their units' ids that seeds share.
+struct WalkGroup {
+  struct Member {
+    const PlannedPoint* point = nullptr;
+    const UnitIds* ids = nullptr;
+    std::string key;
+  };
+  std::vector<Member> members;
+};
+
 /// Adds one scenario's units but those whose ids are known already.
-Result<void> add_units(const std::shared_ptr<const Scenario>& scenario,
-                       std::span<const std::uint64_t> seeds, std::span<const EstimatorSpec> points,
+Result<void> add_units(std::span<const std::uint64_t> seeds, std::span<const PlannedPoint> points,
                        std::set<std::string>& known, std::vector<SweepUnit>& units) {
-  const UnitIds ids(*scenario);
-  std::vector<std::string> keys;
-  for (const EstimatorSpec& point : points) {
-    auto key = ids.estimator_key(point);
+  std::map<const Scenario*, UnitIds> ids;
+  std::map<std::string, std::size_t> index;
+  std::vector<WalkGroup> groups;
+  for (const PlannedPoint& point : points) {
+    const Scenario& scenario = *point.variant.scenario;
+    const UnitIds& own = ids.try_emplace(&scenario, scenario).first->second;
+    auto key = own.estimator_key(point.estimator);
     if (!key) return tl::unexpected(key.error());
-    keys.push_back(std::move(*key));
+    const auto [at, is_new] = index.emplace(point.variant.walk, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[at->second].members.push_back({&point, &own, std::move(*key)});
   }
-  for (const std::uint64_t seed : seeds) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      std::string id = ids.id(seed, keys[i]);
-      if (known.insert(id).second) units.push_back({scenario, seed, points[i], std::move(id)});
+  for (const WalkGroup& group : groups) {
+    for (const std::uint64_t seed : seeds) {
+      for (const auto& [point, own, key] : group.members) {
+        std::string id = own->id(seed, key);
+        if (!known.insert(id).second) continue;
+        units.push_back({point->variant.scenario, seed, point->estimator, std::move(id),
+                         point->variant.settings});
+      }
     }
   }
   return {};
@@ -101,7 +126,8 @@ void describe(Fields& f, SweepPlan& p) {
   f.text("seeds", p.seeds, {.meaning = "of every scenario: 3, 1-5 or 1,4,7-9"});
   f.texts("estimators", p.estimators, {.meaning = "NAME or LABEL=NAME+key=value"});
   f.texts("over", p.over,
-          {.meaning = "what is varied: KEY=LOW:HIGH:COUNT or KEY=log(LOW,HIGH,COUNT)"});
+          {.meaning = "what is varied, any number of `aims config`: KEY=LOW:HIGH:COUNT or "
+                      "KEY=log(LOW,HIGH,COUNT)"});
   f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
   f.flag("untuned", p.untuned,
          {.meaning = "also run the estimators without what is varied, to be compared with"});
@@ -149,7 +175,9 @@ Result<Scenarios> plan_scenarios(std::span<const std::string> names,
     }
   }
   if (!scenarios.empty()) return scenarios;
-  return failure("no scenario is given: expected scenarios or tags");
+  return failure(
+      "no scenario is given, so that there is no unit: expected scenarios or tags, e.g. "
+      "scenarios: [corridor]");
 }
 
 Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan, const fs::path& folder) {
@@ -157,12 +185,14 @@ Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan, const fs::path&
   if (!scenarios) return tl::unexpected(scenarios.error());
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());
+  const auto ranges = parse_ranges(plan.over);
+  if (!ranges) return tl::unexpected(ranges.error());
   std::vector<SweepUnit> units;
   std::set<std::string> ids;
   for (const auto& scenario : *scenarios) {
-    const auto points = points_of(plan, scenario->estimator);
+    const auto points = points_of(plan, *ranges, scenario);
     if (!points) return tl::unexpected(points.error());
-    auto added = add_units(scenario, *seeds, *points, ids, units);
+    auto added = add_units(*seeds, *points, ids, units);
     if (!added) return tl::unexpected(added.error());
   }
   return units;

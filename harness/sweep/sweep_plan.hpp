@@ -44,8 +44,9 @@ Result<std::vector<std::shared_ptr<const Scenario>>> plan_scenarios(
     std::span<const std::string> scenarios, std::span<const std::string> tags,
     std::span<const std::string> settings, const std::filesystem::path& folder);
 
-/// The plan's units: by scenario, seed, estimator, point, so that those on one walk stand together;
-/// none twice (points of a whole number may round to one). Error for a range, estimator or scenario
+/// The plan's units: by scenario, what is varied of the simulation, seed, estimator, point, so that
+/// those on one walk stand together; none twice (points of a whole number may round to one, and one
+/// may be what the untuned estimator has). Error for a range, estimator or scenario
 /// that is not right, a value that a parameter does not allow, and a plan without any unit.
 Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan,
                                           const std::filesystem::path& scenario_folder);

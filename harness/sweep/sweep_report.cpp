@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "harness/sweep/range_key.hpp"
 #include "harness/sweep/response_report.hpp"
 #include "io/atomic_file.hpp"
 #include "io/yaml_config.hpp"
@@ -53,6 +54,20 @@ std::optional<std::vector<RunScore>> all_runs(const std::map<std::size_t, RunSco
   return runs;
 }
 
+/// Where the untuned values are a point of the design, one unit serves both and is listed once.
+void add_untuned_point(ResponseTable& table) {
+  const auto& values = table.defaults;
+  if (table.default_runs.empty()) return;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool in_design = std::any_of(table.points.begin(), table.points.end(),
+                                       [&](const Values& each) { return each[i] == values[i]; });
+    if (!in_design) return;
+  }
+  if (std::find(table.points.begin(), table.points.end(), values) != table.points.end()) return;
+  table.points.push_back(values);
+  table.runs.push_back(table.default_runs);
+}
+
 Result<SweepResponse> response_of(const Collected& collected, const VariedParameters& varied,
                                   const Walks& walks) {
   SweepResponse response;
@@ -74,6 +89,7 @@ Result<SweepResponse> response_of(const Collected& collected, const VariedParame
       table.runs.push_back(std::move(*runs));
     }
   }
+  if (response.incomplete == 0) add_untuned_point(table);
   return response;
 }
 
@@ -86,12 +102,12 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     if (auto read = load_config_text(text, "plan.yaml", plan); !read) {
       return tl::unexpected(read.error());
     }
-    for (const std::string& over : plan.over) {
-      auto range = parse_range(over);
-      if (!range) return tl::unexpected(range.error());
+    auto ranges = parse_ranges(plan.over);
+    if (!ranges) return tl::unexpected(ranges.error());
+    for (ParameterRange& range : *ranges) {
       const bool known = std::any_of(varied.ranges.begin(), varied.ranges.end(),
-                                     [&](const auto& each) { return each.key == range->key; });
-      if (!known) varied.ranges.push_back(std::move(*range));
+                                     [&](const auto& each) { return each.key == range.key; });
+      if (!known) varied.ranges.push_back(std::move(range));
     }
     const Fields fields = fields_of(varied.base);
     for (const std::string& setting : plan.set) {
@@ -105,6 +121,14 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     }
   }
   if (varied.ranges.empty()) return failure("the sweep varies nothing: no range in its plan");
+  for (const MergedUnit& unit : sweep.units) {
+    if (!unit.file.is_object()) continue;
+    const Json untuned = unit.file.value("untuned", Json::object());
+    for (const auto& [key, text] : untuned.items()) {
+      const auto value = text.is_string() ? number_of(text.get<std::string>()) : std::nullopt;
+      if (value) varied.scenario_values.emplace(key, *value);
+    }
+  }
   return varied;
 }
 
@@ -144,6 +168,11 @@ Result<std::vector<double>> untuned_values(const EstimatorSpec& estimator,
   const Fields fields = fields_of(*config);
   std::vector<double> values;
   for (const ParameterRange& range : varied.ranges) {
+    if (!range.of_estimator) {
+      const auto known = varied.scenario_values.find(range.key);
+      values.push_back(known == varied.scenario_values.end() ? range.low : known->second);
+      continue;
+    }
     const Parameter* parameter = fields.find(range.key);
     if (parameter == nullptr) return failure(unknown_key_message(fields, range.key));
     values.push_back(number_of(parameter->text()).value_or(range.low));

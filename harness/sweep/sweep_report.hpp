@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ namespace aims {
 struct VariedParameters {
   std::vector<ParameterRange> ranges;
   EstimatorConfig base;  ///< without what is varied
+  /// What scenarios have themselves of varied keys that are not the estimator's; that of the first
+  /// one where they differ.
+  std::map<std::string, double> scenario_values;
 };
 
 /// Error when no plan varies anything or a plan cannot be read.

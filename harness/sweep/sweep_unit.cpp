@@ -23,9 +23,16 @@ SweepUnit make_unit(std::shared_ptr<const Scenario> scenario, std::uint64_t seed
   return {std::move(scenario), seed, std::move(estimator), std::move(id)};
 }
 
+std::string point_text(const SweepUnit& unit) {
+  std::string text = unlabelled_text(unit.estimator);
+  for (const ScenarioSetting& each : unit.scenario_settings) {
+    text += fmt::format("+{}={}", each.key, each.value);
+  }
+  return text;
+}
+
 std::string text_of(const SweepUnit& unit) {
-  return fmt::format("{} seed {} {}", unit.scenario->name, unit.seed,
-                     unlabelled_text(unit.estimator));
+  return fmt::format("{} seed {} {}", unit.scenario->name, unit.seed, point_text(unit));
 }
 
 std::string_view name_of(UnitOutcome outcome) {
@@ -52,6 +59,11 @@ std::optional<double> score_in(const UnitResult& result, const std::string& key)
 Json unit_json(const SweepUnit& unit, const UnitResult& result) {
   Json settings = Json::object();
   for (const auto& [key, value] : unit.estimator.settings) settings[key] = value;
+  Json untuned = Json::object();
+  for (const ScenarioSetting& each : unit.scenario_settings) {
+    settings[each.key] = each.value;
+    untuned[each.key] = each.untuned;
+  }
   Json json = {{"schema", kUnitSchema},
                {"id", unit.id},
                {"code", code_version()},
@@ -62,6 +74,7 @@ Json unit_json(const SweepUnit& unit, const UnitResult& result) {
                {"estimator", unit.estimator.name},
                {"settings", std::move(settings)},
                {"outcome", name_of(result.outcome)}};
+  if (!untuned.empty()) json["untuned"] = std::move(untuned);
   if (!result.message.empty()) json["message"] = result.message;
   if (!result.scores.is_null()) json["scores"] = result.scores;
   json["wall_s"] = result.wall_s;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "harness/estimator_spec.hpp"
@@ -17,18 +18,30 @@ namespace aims {
 /// Version of the layout of a unit's file; see docs/scaling.md.
 inline constexpr std::string_view kUnitSchema = "aims.unit/1";
 
+/// A value that a unit's scenario has instead of its own.
+struct ScenarioSetting {
+  std::string key;      ///< e.g. "links.leg_odometry.loss"
+  std::string value;    ///< as in YAML
+  std::string untuned;  ///< what the scenario has itself
+};
+
 /// The least piece of work: one estimator with its settings on one walk. The same unit gives the
 /// same scores wherever and whenever it is done.
 struct SweepUnit {
-  std::shared_ptr<const Scenario> scenario;
+  std::shared_ptr<const Scenario> scenario;  ///< with its settings on top
   std::uint64_t seed = 0;
   EstimatorSpec estimator;
   std::string id;  ///< harness/unit_id.hpp: of scenario, seed, estimator, settings, code version
+  std::vector<ScenarioSetting> scenario_settings = {};  ///< what a sweep varies of the scenario
 };
 
 /// The unit of those parts under its id.
 SweepUnit make_unit(std::shared_ptr<const Scenario> scenario, std::uint64_t seed,
                     EstimatorSpec estimator);
+
+/// "aims+degeneracy.eta=3+links.lidar.loss=0.1": the estimator with its settings, and what is set
+/// of the scenario.
+std::string point_text(const SweepUnit& unit);
 
 /// "corridor seed 1 aims+degeneracy.eta=3", for messages.
 std::string text_of(const SweepUnit& unit);

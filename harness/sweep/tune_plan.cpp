@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "harness/seeds.hpp"
+#include "harness/sweep/range_key.hpp"
 #include "harness/sweep/sweep_plan.hpp"
 #include "io/atomic_file.hpp"
 #include "io/config_dump.hpp"
@@ -34,19 +35,26 @@ Result<std::vector<double>> untuned(const TuneTask& task, const Scenario& scenar
   return values;
 }
 
-Result<void> read_ranges(TuneTask& task, const EstimatorConfig& base) {
+Result<void> read_ranges(TuneTask& task, const Scenario& base) {
   if (task.plan.over.empty()) {
     return failure("over: the plan varies nothing; expected ranges, e.g. [\"degeneracy.eta=0:6\"]");
   }
-  for (const std::string& text : task.plan.over) {
-    auto range = parse_range(text);
-    if (!range) return tl::unexpected(range.error());
-    if (range->low == range->high) {
-      return failure(fmt::format("range '{}': one value leaves nothing to tune", text));
+  auto ranges = parse_ranges(task.plan.over);
+  if (!ranges) return tl::unexpected(ranges.error());
+  task.ranges = std::move(*ranges);
+  if (auto right = check_ranges(task.ranges, base); !right) return right;
+  for (const ParameterRange& range : task.ranges) {
+    if (range.low == range.high) {
+      return failure(fmt::format("range '{}': one value leaves nothing to tune", text_of(range)));
     }
-    task.ranges.push_back(std::move(*range));
+    if (range.of_estimator) continue;
+    return failure(
+        fmt::format("range '{}': '{}' is no key of the estimator, and an optimizer that may change "
+                    "it would make the task easier; expected keys below estimator., or aims sweep "
+                    "for what such a key does",
+                    text_of(range), range.key));
   }
-  return check_ranges(task.ranges, base);
+  return {};
 }
 
 Result<void> check_objectives(const TunePlan& plan) {
@@ -171,8 +179,8 @@ Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {
   if (auto checked = check_objectives(plan); !checked) return tl::unexpected(checked.error());
   const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, plan.set, folder);
   if (!scenarios) return tl::unexpected(scenarios.error());
-  const EstimatorConfig& base = scenarios->front()->estimator;
-  if (auto read = read_ranges(task, base); !read) return tl::unexpected(read.error());
+  if (auto read = read_ranges(task, *scenarios->front()); !read)
+    return tl::unexpected(read.error());
   auto defaults = untuned(task, *scenarios->front());
   if (!defaults) return tl::unexpected(defaults.error());
   task.defaults = std::move(*defaults);

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/sweep/range_key.hpp"
+
 namespace aims {
 namespace {
 
@@ -39,7 +41,9 @@ bool says(const std::string& message, const std::string& part) {
 }
 
 std::string check(const std::vector<std::string>& texts) {
-  const auto checked = check_ranges(ranges_of(texts), {});
+  const auto ranges = parse_ranges(texts);
+  if (!ranges) return ranges.error().message;
+  const auto checked = check_ranges(*ranges, {});
   return checked ? "" : checked.error().message;
 }
 

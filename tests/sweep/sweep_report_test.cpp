@@ -98,6 +98,41 @@ TEST(SweepReport, LeavesOutPointsThatAreNotDoneOnAllWalks) {
   EXPECT_EQ(responses->front().table.points.size(), 11U);
 }
 
+TEST(SweepReport, OneUnitIsBothTheUntunedOneAndAPointOfTheGrid) {
+  MergedSweep sweep = sweep_over_eta(true);
+  const std::string own = fmt::format("{}", EstimatorConfig{}.degeneracy.eta);
+  std::erase_if(sweep.units, [&](const MergedUnit& unit) {
+    return unit.file["settings"].value(kEta, "") == own;
+  });
+  const auto responses = sweep_responses(sweep, "ate_m");
+  ASSERT_TRUE(responses);
+  const ResponseTable& table = responses->front().table;
+  ASSERT_EQ(table.points.size(), 13U);
+  EXPECT_EQ(table.points.back(), table.defaults);
+  EXPECT_EQ(table.runs.back()[1].value, table.default_runs[1].value);
+}
+
+TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
+  MergedSweep sweep;
+  sweep.plans = {"over: [\"links.leg_odometry.loss=0:0.5:6\"]\nscenarios: [corridor]\n"};
+  for (int seed = 1; seed <= 2; ++seed) {
+    sweep.units.push_back(unit_of("corridor", seed, Json::object(), 0.1));
+    for (int k = 0; k <= 5; ++k) {
+      const Json settings = {{"links.leg_odometry.loss", fmt::format("{}", 0.1 * k)}};
+      sweep.units.push_back(unit_of("corridor", seed, settings, 0.1 + 0.02 * k * seed));
+      sweep.units.back().file["untuned"] = {{"links.leg_odometry.loss", "0.05"}};
+    }
+  }
+  const auto responses = sweep_responses(sweep, "ate_m");
+  ASSERT_TRUE(responses) << responses.error().message;
+  const ResponseTable& table = responses->front().table;
+  EXPECT_EQ(table.defaults, std::vector<double>{0.05});
+  EXPECT_EQ(table.points.size(), 6U);
+  const TemporaryFolder folder;
+  EXPECT_TRUE(says(report_of(sweep, folder.path()), "| links.leg_odometry.loss |"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "links.leg_odometry.loss.png"));
+}
+
 TEST(SweepReport, FailedUnitsCountAsLost) {
   MergedSweep sweep = sweep_over_eta(true);
   sweep.units[1].file["outcome"] = "crashed";

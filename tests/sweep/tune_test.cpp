@@ -120,6 +120,12 @@ TEST(TunePlan, FindsWalksAndUntunedValues) {
                                                 config.degeneracy.alpha}));
 }
 
+TEST(TunePlan, TakesTheEstimatorsKeysInFullToo) {
+  TunePlan plan = small_plan();
+  plan.over = {"estimator.degeneracy.eta=0:6"};
+  EXPECT_EQ(task_of(plan).ranges.front().key, "degeneracy.eta");
+}
+
 TEST(TunePlan, HeldOutScenariosAloneTakeTheTunedSeeds) {
   TunePlan plan = small_plan();
   plan.held_out = {{"corridor_smooth"}, {}, ""};
@@ -137,6 +143,10 @@ TEST(TunePlan, RefusalSaysWhatWasExpected) {
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over.clear(); }), "expected ranges"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"degeneracy.eta=3:3:1"}; }), "one value"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"degeneracy.et=0:6"}; }), "did you mean"));
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"links.lidar.loss=0:0.5"}; }),
+                   "would make the task easier"));
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"scoring.lost_error_offset=0.1:5"}; }),
+                   "is no key of the estimator"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.scenarios.clear(); }), "no scenario"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.scenarios = {"coridor"}; }), "corridor"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.seeds = "x"; }), "'x'"));
