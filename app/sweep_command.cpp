@@ -26,7 +26,7 @@ struct SweepArguments {
   std::string shard = "1/1";
   std::vector<std::string> only;
   std::string out = "out/sweep";
-  std::string cache;
+  CacheArguments cache;
   int jobs = default_jobs();
   bool list = false;
   bool walks_only = false;
@@ -38,7 +38,10 @@ struct SweepArguments {
 Result<SweepOptions> options_of(const SweepArguments& arguments) {
   SweepOptions options;
   options.out = arguments.out;
-  options.cache = arguments.cache;
+  options.cache = arguments.cache.folder;
+  const auto limit = limit_of(arguments.cache);
+  if (!limit) return tl::unexpected(limit.error());
+  options.cache_limit = *limit;
   options.jobs = arguments.jobs;
   options.retry = arguments.retry;
   options.renew = arguments.renew;
@@ -58,6 +61,7 @@ void print_units(std::span<const SweepUnit> units) {
 void print_report(const UnitRun& run, const SweepArguments& arguments) {
   fmt::print("{} units done, {} of them failed; {} found finished; {} walks simulated\n", run.done,
              run.failed, run.reused, run.walks);
+  print_pruned(run.pruned, arguments.cache);
   if (!run.complete) fmt::print("interrupted: the same command continues\n");
   if (run.failed > 0) fmt::print("why: aims merge {0}; again: --retry\n", arguments.out);
   fmt::print("results: {}; into one database: aims merge {}\n",
@@ -91,12 +95,12 @@ int sweep_command(const SweepArguments& arguments, const fs::path& folder) {
 void add_sweep_command(CLI::App& app, const fs::path& scenario_folder, int& exit_code) {
   auto* command = app.add_subcommand(
       "sweep",
-      "Evaluate estimators over ranges of their parameters; continues what was interrupted");
+      "Evaluate estimators over ranges of their parameters or the simulation's; continues what was "
+      "interrupted");
   auto arguments = std::make_shared<SweepArguments>();
   add_plan_options(*command, arguments->plan);
   command->add_option("--out", arguments->out, "Folder that is filled or continued (out/sweep)");
-  command->add_option("--cache", arguments->cache,
-                      "Folder of simulated walks, shared by all sweeps (~/.cache/aims/walks)");
+  add_cache_options(*command, arguments->cache);
   add_jobs_option(*command, arguments->jobs,
                   "Processes at a time; the results do not depend on it");
   command->add_option("--shard", arguments->shard, "I/N: part I of N of the units");
@@ -111,6 +115,8 @@ void add_sweep_command(CLI::App& app, const fs::path& scenario_folder, int& exit
       "Examples:\n"
       "  aims sweep --over degeneracy.eta=0:6:13 --over 'degeneracy.kappa=log(1,100,9)' \\\n"
       "      --scenarios corridor,dial_r05 --seeds 1-5 --out out/eta\n"
+      "  aims sweep --over links.leg_odometry.loss=0:0.5:6 --estimators aims,leg --scenarios "
+      "corridor\n"
       "  aims sweep plan.yaml --jobs 2\n"
       "  aims sweep plan.yaml --shard 2/8          # one of eight parts, see docs/scaling.md\n"
       "The same command again continues. Exit codes: as of aims; 1 when units failed.");

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "app/interrupt.hpp"
@@ -13,6 +15,8 @@
 
 namespace aims {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double kLineEvery = 10.0;  ///< of a log that is no terminal [s]
 
@@ -32,7 +36,8 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
       ->delimiter(',');
   add_repeatable(command, "--over", arguments.over,
                  "KEY=LOW:HIGH:COUNT or KEY=log(LOW,HIGH,COUNT), keys below\n"
-                 "estimator., e.g. degeneracy.eta=0:6:13; repeatable");
+                 "estimator. or of the scenario, e.g. degeneracy.eta=0:6:13,\n"
+                 "links.leg_odometry.loss=0:0.5:6; repeatable");
   add_repeatable(command, "--set", arguments.set, "key=value on top of every scenario; repeatable");
   command.add_option("--design", arguments.design, "grid, random, sobol or lhs (grid)");
   command.add_option("--samples", arguments.samples, "Points of every design but a grid (64)");
@@ -70,6 +75,40 @@ Result<SweepPlan> plan_of(const PlanArguments& arguments) {
     }
   }
   return plan;
+}
+
+void add_cache_options(CLI::App& command, CacheArguments& arguments) {
+  command.add_option("--cache", arguments.folder,
+                     "Folder of simulated walks, shared by all sweeps and tunings\n"
+                     "(~/.cache/aims/walks)");
+  command.add_option("--cache-limit", arguments.limit_gb,
+                     "GB of walks that are kept there; those used longest ago go\n"
+                     "first, none that is in use; 0: any (20)");
+}
+
+Result<std::uintmax_t> limit_of(const CacheArguments& arguments) {
+  constexpr double kMost = 1e9;
+  if (!(arguments.limit_gb >= 0.0 && arguments.limit_gb <= kMost)) {
+    return failure(
+        fmt::format("--cache-limit {}: expected GB, 0 (any) or more", arguments.limit_gb));
+  }
+  if (arguments.limit_gb == 0.0) return 0;
+  return static_cast<std::uintmax_t>(std::max(1.0, 1e9 * arguments.limit_gb));
+}
+
+void print_pruned(const CachePruned& pruned, const CacheArguments& arguments) {
+  const fs::path folder =
+      arguments.folder.empty() ? WalkCache::default_folder() : fs::path(arguments.folder);
+  if (pruned.walks > 0) {
+    fmt::print(
+        "{}: {} walks that were used longest ago are removed, {:.3g} GB (--cache-limit {})\n",
+        folder.string(), pruned.walks, 1e-9 * static_cast<double>(pruned.bytes),
+        arguments.limit_gb);
+  }
+  const double left_gb = 1e-9 * static_cast<double>(pruned.left);
+  if (arguments.limit_gb == 0.0 || left_gb <= arguments.limit_gb) return;
+  fmt::print("{}: {:.3g} GB of walks are in use, more than --cache-limit {}\n", folder.string(),
+             left_gb, arguments.limit_gb);
 }
 
 UnitObserver UnitDisplay::observer() {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,21 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments);
 
 /// The plan of the file with the options on top: what is given replaces what the file says.
 Result<SweepPlan> plan_of(const PlanArguments& arguments);
+
+/// Where simulated walks are kept, and how many.
+struct CacheArguments {
+  std::string folder;                   ///< empty: the default
+  double limit_gb = kCacheLimit / 1e9;  ///< 0: any
+};
+
+/// --cache and --cache-limit.
+void add_cache_options(CLI::App& command, CacheArguments& arguments);
+
+/// The limit in bytes. Error for a size that is none.
+Result<std::uintmax_t> limit_of(const CacheArguments& arguments);
+
+/// Says what went from the cache, and when more is needed than it may hold; else nothing.
+void print_pruned(const CachePruned& pruned, const CacheArguments& arguments);
 
 /// Shows how far units are: a line that changes on a terminal, now and then a line elsewhere.
 class UnitDisplay {

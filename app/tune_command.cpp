@@ -26,17 +26,28 @@ struct TuneArguments {
   std::string folder;
   std::string out = "out/tune";
   std::string apply;
-  std::string cache;
+  CacheArguments cache;
   int jobs = default_jobs();
   bool retry = false;
   bool quiet = false;
 };
 
+/// A folder that is not there, is a tuning's, or holds nothing but what one that just began leaves.
+bool holds_tuning_or_nothing(const fs::path& out) {
+  std::error_code ignored;
+  if (!fs::exists(out, ignored) || fs::exists(out / "tune.yaml", ignored)) return true;
+  if (!fs::is_directory(out, ignored)) return false;
+  for (const auto& entry : fs::directory_iterator(out, ignored)) {
+    const fs::path name = entry.path().filename();
+    if (name != ".lock" && name.extension() != ".tmp") return false;
+  }
+  return true;
+}
+
 /// Makes the folder and keeps others out. Error when it is something else or in use.
 Result<FolderLock> claim(const fs::path& out, const TunePlan& plan) {
   std::error_code code;
-  const bool is_new = !fs::exists(out) || fs::is_empty(out, code);
-  if (!is_new && !fs::exists(out / "tune.yaml")) {
+  if (!holds_tuning_or_nothing(out)) {
     return failure(
         fmt::format("{}: exists and is no tuning's folder; give another --out", out.string()));
   }
@@ -64,10 +75,12 @@ Result<void> check_apply(const TuneArguments& arguments, const TunePlan& plan) {
   return failure(fmt::format("--apply {}: no folder {}", arguments.apply, folder.string()));
 }
 
-Result<TuneResult> work(const TuneArguments& arguments, const TuneTask& task) {
+Result<TuneResult> work(const TuneArguments& arguments, std::uintmax_t cache_limit,
+                        const TuneTask& task) {
   UnitOptions options;
   options.units = fs::path(arguments.out) / "units";
-  if (!arguments.cache.empty()) options.cache = arguments.cache;
+  if (!arguments.cache.folder.empty()) options.cache = arguments.cache.folder;
+  options.cache_limit = cache_limit;
   options.jobs = arguments.jobs;
   options.timeout_s = task.plan.timeout;
   options.retry = arguments.retry;
@@ -76,6 +89,7 @@ Result<TuneResult> work(const TuneArguments& arguments, const TuneTask& task) {
   UnitDisplay display(arguments.quiet);
   auto result = tune(task, run_by_units(runner, display.observer(), task.plan.objectives));
   display.close();
+  print_pruned(runner.pruned(), arguments.cache);
   return result;
 }
 
@@ -105,12 +119,14 @@ int tune_command(const TuneArguments& arguments, const fs::path& scenario_folder
   const auto plan = load_tune_plan(arguments.plan);
   if (!plan) return bad_input("tune", plan.error());
   if (auto right = check_apply(arguments, *plan); !right) return bad_input("tune", right.error());
+  const auto limit = limit_of(arguments.cache);
+  if (!limit) return bad_input("tune", limit.error());
   const auto task =
       tune_task(*plan, arguments.folder.empty() ? scenario_folder : fs::path(arguments.folder));
   if (!task) return bad_input("tune", Error{arguments.plan + ": " + task.error().message});
   const auto lock = claim(arguments.out, *plan);
   if (!lock) return bad_input("tune", lock.error());
-  const auto result = work(arguments, *task);
+  const auto result = work(arguments, *limit, *task);
   if (!result) return bad_input("tune", result.error());
   return finish(arguments, *result);
 }
@@ -129,8 +145,7 @@ void add_tune_command(CLI::App& app, const fs::path& scenario_folder, int& exit_
   command->add_option(
       "--apply", arguments->apply,
       "Write the values there as a file for --set @FILE, with where they come from");
-  command->add_option("--cache", arguments->cache,
-                      "Folder of simulated walks, shared with sweeps (~/.cache/aims/walks)");
+  add_cache_options(*command, arguments->cache);
   add_jobs_option(*command, arguments->jobs,
                   "Processes at a time; the results do not depend on it");
   command->add_flag("--retry", arguments->retry, "Do units that failed before again");

@@ -19,12 +19,17 @@ class FolderLock {
   /// be written.
   static std::optional<FolderLock> wait(const std::filesystem::path& folder,
                                         const std::string& name);
+  /// The lock of a file itself, alone or together with others who share it; nothing when it is not
+  /// there or somebody has it otherwise.
+  static std::optional<FolderLock> take_file(const std::filesystem::path& file);
+  static std::optional<FolderLock> share_file(const std::filesystem::path& file);
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;
   ~FolderLock();
 
  private:
-  static std::optional<FolderLock> lock(const std::filesystem::path& file, int operation);
+  static std::optional<FolderLock> lock(const std::filesystem::path& file, int operation,
+                                        int flags);
   explicit FolderLock(int descriptor) : descriptor_(descriptor) {}
 
   int descriptor_;

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -63,6 +64,18 @@ Result<Claim> claim(const fs::path& out, const Shard& shard) {
                              shard.count));
 }
 
+/// The walks of units that other shards may still do.
+std::set<std::string> shared_walks(std::span<const SweepUnit> units, const Shard& shard) {
+  std::set<std::string> walks;
+  if (shard.count == 1) return walks;
+  std::set<std::pair<const Scenario*, std::uint64_t>> known;
+  for (const SweepUnit& unit : units) {
+    if (!known.emplace(unit.scenario.get(), unit.seed).second) continue;
+    walks.insert(WalkCache::id_of(*unit.scenario, unit.seed));
+  }
+  return walks;
+}
+
 }  // namespace
 
 Result<Shard> parse_shard(std::string_view text) {
@@ -96,6 +109,8 @@ Result<UnitRun> run_sweep(const SweepPlan& plan, std::span<const SweepUnit> unit
   UnitOptions unit_options;
   unit_options.units = folder.units().path();
   if (!options.cache.empty()) unit_options.cache = options.cache;
+  unit_options.cache_limit = options.cache_limit;
+  unit_options.kept_walks = shared_walks(units, options.shard);
   unit_options.jobs = options.jobs;
   unit_options.timeout_s = plan.timeout;
   unit_options.retry = options.retry;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -28,7 +29,8 @@ std::span<const SweepUnit> part_of(std::span<const SweepUnit> units, const Shard
 struct SweepOptions {
   std::filesystem::path out;    ///< folder that is filled or continued
   std::filesystem::path cache;  ///< of simulated walks; empty: `WalkCache::default_folder()`
-  int jobs = 1;                 ///< processes at a time
+  std::uintmax_t cache_limit = kCacheLimit;  ///< of those walks [bytes]; 0: any
+  int jobs = 1;                              ///< processes at a time
   Shard shard;
   bool retry = false;       ///< do what failed before again
   bool renew = false;       ///< take the plan although the folder is of another plan or code

@@ -29,6 +29,8 @@ struct WalkWork {
 
   const Scenario& scenario() const { return *units.front()->scenario; }
   std::uint64_t seed() const { return units.front()->seed; }
+  /// Its walk is needed by units that are not started.
+  bool is_waited_for() const { return state != State::kReady || next < units.size(); }
   bool has_unit() const { return state == State::kReady && next < units.size(); }
 };
 
@@ -85,6 +87,7 @@ class UnitRunner::Schedule {
   }
 
   Result<UnitRun> run() {
+    prune();
     while (run_.complete) {
       if (auto started = start_all(); !started) return tl::unexpected(started.error());
       if (pool_.is_idle()) break;
@@ -96,6 +99,7 @@ class UnitRunner::Schedule {
     run_.done = progress_.done;
     run_.failed = progress_.failed;
     run_.walks = progress_.walks;
+    run_.pruned = runner_.pruned();
     return run_;
   }
 
@@ -173,6 +177,7 @@ class UnitRunner::Schedule {
   Result<void> take_walk(WalkWork& walk, const EndedProcess& ended, const Json& said) {
     walk.state = WalkWork::State::kReady;
     progress_.walks += said.value("made", false) ? 1 : 0;
+    if (said.value("made", false)) prune();
     const bool crashed = ended.end != ProcessEnd::kReturned;
     if (!crashed && !said.contains("refusal")) return {};
     const std::string why = crashed ? ended.text : said["refusal"].get<std::string>();
@@ -193,6 +198,15 @@ class UnitRunner::Schedule {
     ++progress_.done;
     if (said.value("failed", false)) ++progress_.failed;
     return {};
+  }
+
+  /// Keeps the cache within its limit, but for walks that are still to be read.
+  void prune() {
+    std::set<std::string> kept = runner_.options_.kept_walks;
+    for (const WalkWork& walk : walks_) {
+      if (runner_.options_.walks_only || walk.is_waited_for()) kept.insert(walk.id);
+    }
+    runner_.prune(std::move(kept));
   }
 
   /// Stores what its own process could not.
@@ -248,11 +262,21 @@ Result<const RecordedWalk*> UnitRunner::open(const std::string& id, const Scenar
   const auto same = [&id](const OpenWalk& each) { return each.id == id; };
   const auto known = std::find_if(open_.begin(), open_.end(), same);
   if (known != open_.end()) return known->walk.get();
+  // Without a lock the walk may go while it is read, which takes nothing from who has it open.
+  auto in_use = cache_.use(id);
   auto walk = open_walk(cache_.file_of(id), scenario);
   if (!walk) return tl::unexpected(walk.error());
   if (open_.size() == kOpenWalks) open_.erase(open_.begin());
-  open_.push_back({id, std::make_unique<const RecordedWalk>(std::move(*walk))});
+  open_.push_back({id, std::make_unique<const RecordedWalk>(std::move(*walk)), std::move(in_use)});
   return open_.back().walk.get();
+}
+
+void UnitRunner::prune(std::set<std::string> kept) {
+  if (options_.cache_limit == 0) return;
+  const CachePruned now = cache_.prune(options_.cache_limit, kept);
+  pruned_.walks += now.walks;
+  pruned_.bytes += now.bytes;
+  pruned_.left = now.left;
 }
 
 }  // namespace aims

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,13 +23,19 @@
 
 namespace aims {
 
+/// What a cache of walks may hold unless told otherwise [bytes].
+inline constexpr std::uintmax_t kCacheLimit = 20'000'000'000;
+
 struct UnitOptions {
   std::filesystem::path units;  ///< folder of results, one file per unit
   std::filesystem::path cache = WalkCache::default_folder();  ///< of simulated walks
-  int jobs = 1;             ///< processes at a time; the results do not depend on it
-  double timeout_s = 0.0;   ///< wall time that a unit is given [s]; 0: any
-  bool retry = false;       ///< do what failed before again
-  bool walks_only = false;  ///< simulate what is missing and evaluate nothing
+  /// Of the cache's walks [bytes]; 0: any. Units' walks stay while they wait for them.
+  std::uintmax_t cache_limit = kCacheLimit;
+  std::set<std::string> kept_walks = {};  ///< ids that others wait for
+  int jobs = 1;                           ///< processes at a time; the results do not depend on it
+  double timeout_s = 0.0;                 ///< wall time that a unit is given [s]; 0: any
+  bool retry = false;                     ///< do what failed before again
+  bool walks_only = false;                ///< simulate what is missing and evaluate nothing
 };
 
 /// How far the units have come.
@@ -49,6 +58,7 @@ struct UnitRun {
   std::size_t reused = 0;  ///< found finished
   std::size_t walks = 0;   ///< simulated now
   bool complete = true;    ///< false when the observer ended it early
+  CachePruned pruned;      ///< from the cache, in all runs of the runner
 };
 
 /// Runs an estimator over a walk; `evaluate`, but for tests.
@@ -72,23 +82,30 @@ class UnitRunner {
 
   const UnitFolder& folder() const { return folder_; }
 
+  /// What went from the cache so far.
+  const CachePruned& pruned() const { return pruned_; }
+
  private:
   class Schedule;
   struct OpenWalk {
     std::string id;
     std::unique_ptr<const RecordedWalk> walk;
+    std::optional<FolderLock> in_use;
   };
 
   std::string walk_id(const SweepUnit& unit);
   /// The open walk; opens it, and closes the one that was opened first when there are many.
   Result<const RecordedWalk*> open(const std::string& id, const Scenario& scenario);
+  /// Keeps the cache within its limit, but for the walks of these ids.
+  void prune(std::set<std::string> kept);
 
   UnitOptions options_;
   Evaluate evaluate_;
   UnitFolder folder_;
   WalkCache cache_;
   std::map<std::pair<std::shared_ptr<const Scenario>, std::uint64_t>, std::string> walk_ids_;
-  std::vector<OpenWalk> open_;  ///< kept from run to run
+  std::list<OpenWalk> open_;  ///< kept from run to run
+  CachePruned pruned_;
 };
 
 }  // namespace aims

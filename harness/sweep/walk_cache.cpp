@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
+#include <tuple>
 #include <vector>
 
 #include "harness/code_version.hpp"
-#include "harness/folder_lock.hpp"
 #include "harness/stream.hpp"
 #include "harness/sweep/walk_file.hpp"
 #include "harness/unit_id.hpp"
@@ -43,6 +44,30 @@ Result<WalkMade> simulate(const Scenario& scenario, std::uint64_t seed, const fs
   }
   if (auto done = writer->finish(simulation->truth()); !done) return tl::unexpected(done.error());
   return WalkMade{true, std::nullopt};
+}
+
+/// A walk of the cache.
+struct CachedWalk {
+  fs::path file;
+  std::uintmax_t bytes = 0;
+  fs::file_time_type used;
+};
+
+/// Every whole walk of the folder, the one that was used longest ago first.
+std::vector<CachedWalk> walks_in(const fs::path& folder) {
+  std::vector<CachedWalk> walks;
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    if (entry.path().extension() != ".walk") continue;
+    CachedWalk walk{entry.path(), entry.file_size(code), {}};
+    if (code) continue;  // another process has removed it just now
+    walk.used = entry.last_write_time(code);
+    if (!code) walks.push_back(std::move(walk));
+  }
+  std::sort(walks.begin(), walks.end(), [](const CachedWalk& a, const CachedWalk& b) {
+    return std::tie(a.used, a.file) < std::tie(b.used, b.file);
+  });
+  return walks;
 }
 
 /// Removes what processes that were killed while they made `file` have left: gigabytes. Whoever
@@ -95,6 +120,31 @@ Result<WalkMade> WalkCache::make(const Scenario& scenario, std::uint64_t seed) c
   auto made = simulate(scenario, seed, file_of(id));
   fs::remove(folder_ / (id + ".lock"), code);
   return made;
+}
+
+std::optional<FolderLock> WalkCache::use(const std::string& id) const {
+  auto lock = FolderLock::share_file(file_of(id));
+  // Another user's walk keeps its time: it counts as used when it was made.
+  std::error_code ignored;
+  if (lock) fs::last_write_time(file_of(id), fs::file_time_type::clock::now(), ignored);
+  return lock;
+}
+
+CachePruned WalkCache::prune(std::uintmax_t limit, const std::set<std::string>& kept) const {
+  const std::vector<CachedWalk> walks = walks_in(folder_);
+  CachePruned pruned;
+  for (const CachedWalk& walk : walks) pruned.left += walk.bytes;
+  for (const CachedWalk& walk : walks) {
+    if (pruned.left <= limit) break;
+    if (kept.contains(walk.file.stem().string())) continue;
+    const auto lock = FolderLock::take_file(walk.file);
+    std::error_code code;
+    if (!lock || !fs::remove(walk.file, code)) continue;
+    ++pruned.walks;
+    pruned.bytes += walk.bytes;
+    pruned.left -= walk.bytes;
+  }
+  return pruned;
 }
 
 }  // namespace aims

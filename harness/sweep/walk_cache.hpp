@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "core/error.hpp"
+#include "harness/folder_lock.hpp"
 #include "harness/scenario.hpp"
 
 namespace aims {
@@ -15,6 +17,13 @@ namespace aims {
 struct WalkMade {
   bool simulated = false;              ///< now; false: it was there, or is refused
   std::optional<std::string> refusal;  ///< why the scenario cannot be simulated
+};
+
+/// What keeping a cache within its limit came to.
+struct CachePruned {
+  std::size_t walks = 0;     ///< removed
+  std::uintmax_t bytes = 0;  ///< of them
+  std::uintmax_t left = 0;   ///< bytes of the walks that stayed
 };
 
 /// Walks by content: each that was ever simulated is one file, named after everything that decides
@@ -38,6 +47,14 @@ class WalkCache {
   /// Simulates the walk unless it is there. While another process makes it, waits. What cannot be
   /// simulated (robot in a wall, no path) is refused; error when the folder cannot be written.
   Result<WalkMade> make(const Scenario& scenario, std::uint64_t seed) const;
+
+  /// Keeps the walk from being pruned, by any process, as long as the lock lives, and notes that it
+  /// was used now. Nothing when it is not there.
+  std::optional<FolderLock> use(const std::string& id) const;
+
+  /// Removes walks, those that were used longest ago first, until all are `limit` bytes at most.
+  /// Those with ids in `kept` stay, and so do those in use: then more than `limit` may be left.
+  CachePruned prune(std::uintmax_t limit, const std::set<std::string>& kept) const;
 
   const std::filesystem::path& path() const { return folder_; }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 
@@ -151,6 +152,37 @@ TEST_F(Units, MakeABrokenWalkAnew) {
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->walks, 1U);
   EXPECT_EQ(run->failed, 0U);
+}
+
+TEST_F(Units, KeepTheCacheWithinItsLimitButForTheirOwnWalks) {
+  const TemporaryFolder cache;
+  const fs::path old = cache.path() / "0123456789abcdef.walk";
+  std::ofstream(old) << "of an earlier sweep";
+  fs::last_write_time(old, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  const fs::path other = cache.path() / "fedcba9876543210.walk";
+  std::ofstream(other) << "of another shard";
+  UnitOptions small = options();
+  small.cache = cache.path();
+  small.cache_limit = 1;
+  small.kept_walks = {"fedcba9876543210"};
+  const auto scenario = shared(short_walk());
+  const std::vector<SweepUnit> units = {unit_of(scenario, "leg", 1), unit_of(scenario, "leg", 2)};
+  UnitRunner runner(small);
+  const auto run = runner.run(units, keep_going);
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->failed, 0U);
+  EXPECT_EQ(run->walks, 2U);
+  EXPECT_EQ(run->pruned.walks, 1U) << "those of the units are open";
+  EXPECT_EQ(run->pruned.bytes, 19U);
+  EXPECT_GT(run->pruned.left, 1U);
+  EXPECT_FALSE(fs::exists(old));
+  EXPECT_TRUE(fs::exists(other));
+
+  small.cache_limit = 0;
+  std::ofstream(old) << "of an earlier sweep";
+  small.units = folder_.path() / "again";
+  ASSERT_TRUE(UnitRunner(small).run(units, keep_going));
+  EXPECT_TRUE(fs::exists(old)) << "any size";
 }
 
 TEST_F(Units, EndWhenTheObserverHasEnough) {

@@ -2,7 +2,11 @@
 #include "harness/sweep/walk_cache.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
+#include <chrono>
 #include <fstream>
 
 #include "harness/run.hpp"
@@ -169,6 +173,78 @@ TEST(WalkCache, RefusesWhatCannotBeSimulatedAndLeavesNothing) {
   ASSERT_TRUE(made) << made.error().message;
   ASSERT_TRUE(made->refusal);
   EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+/// A cache with walks of 1000 bytes, used an hour apart in the order of their names.
+class FullCache : public ::testing::Test {
+ protected:
+  FullCache() {
+    const auto now = fs::file_time_type::clock::now();
+    for (int i = 0; i < 4; ++i) {
+      std::ofstream(cache_.file_of(kIds[i])) << std::string(1000, 'w');
+      fs::last_write_time(cache_.file_of(kIds[i]), now - std::chrono::hours(10 - i));
+    }
+    std::ofstream(folder_.path() / "a.walk.node7.4711.tmp") << "being made";
+  }
+
+  /// Names of those that are there.
+  std::string left() const {
+    std::string names;
+    for (const char* id : kIds) names += cache_.has(id) ? id : "";
+    return names;
+  }
+
+  static constexpr std::array<const char*, 4> kIds = {"a", "b", "c", "d"};
+  TemporaryFolder folder_;
+  WalkCache cache_{folder_.path()};
+};
+
+TEST_F(FullCache, LosesWhatWasUsedLongestAgoUntilItFits) {
+  const CachePruned nothing = cache_.prune(4000, {});
+  EXPECT_EQ(nothing.walks, 0U);
+  EXPECT_EQ(nothing.left, 4000U);
+  const CachePruned pruned = cache_.prune(2500, {});
+  EXPECT_EQ(left(), "cd");
+  EXPECT_EQ(pruned.walks, 2U);
+  EXPECT_EQ(pruned.bytes, 2000U);
+  EXPECT_EQ(pruned.left, 2000U);
+  EXPECT_TRUE(fs::exists(folder_.path() / "a.walk.node7.4711.tmp")) << "its maker's";
+  EXPECT_EQ(WalkCache(folder_.path() / "nowhere").prune(0, {}).walks, 0U);
+}
+
+TEST_F(FullCache, KeepsWhatIsInUseOrWaitedFor) {
+  {
+    const auto in_use = cache_.use("b");
+    ASSERT_TRUE(in_use);
+    const auto twice = cache_.use("b");
+    EXPECT_TRUE(twice) << "any number may use it";
+    const CachePruned pruned = cache_.prune(1, {"c"});
+    EXPECT_EQ(left(), "bc");
+    EXPECT_EQ(pruned.left, 2000U) << "more than the limit";
+  }
+  cache_.prune(1, {});
+  EXPECT_EQ(left(), "");
+  EXPECT_FALSE(cache_.use("b"));
+  EXPECT_FALSE(cache_.has("b")) << "asking made none";
+}
+
+TEST_F(FullCache, CountsAWalkAsUsedWhenItIsUsed) {
+  EXPECT_TRUE(cache_.use("a"));
+  cache_.prune(2000, {});
+  EXPECT_EQ(left(), "ad");
+}
+
+TEST_F(FullCache, KeepsWhatAnotherProcessUses) {
+  const auto in_use = cache_.use("a");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const bool kept = WalkCache(folder_.path()).prune(1, {}).left == 1000;
+    ::_exit(kept ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(left(), "a");
 }
 
 TEST(WalkCache, AFolderThatCannotBeWrittenIsAnError) {
