@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -109,6 +110,12 @@ TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
   expect_refused("--over 'leg.rate_hz=log(0,5,3)'", {"logarithm"});
   expect_refused("--over leg.rate_hz=-1:5:3", {"leg.rate_hz", "expected a number > 0"});
   expect_refused("--over leg.rate_hz=x", {"KEY=LOW:HIGH:COUNT"});
+  expect_refused("--over links.leg_odometry.los=0:1:2", {"did you mean 'links.leg_odometry.loss'"});
+  expect_refused("--over links.leg_odometry.loss=0:2:3",
+                 {"links.leg_odometry.loss=0:2:3", "a number in [0, 1]"});
+  expect_refused("--over imu.gyro_bias_walk=0:1:3", {"expected 'estimator.imu.gyro_bias_walk'"});
+  expect_refused("--over seed=1:5:5", {"'seeds'"});
+  expect_refused("--cache-limit=-1", {"--cache-limit -1", "expected GB"});
   expect_refused("--design sobbol", {"design", "sobol"});
   expect_refused("--samples 0", {"samples", ">= 1"});
   expect_refused("--shard 3/2", {"--shard", "'3/2'"});
@@ -129,6 +136,88 @@ TEST_F(Sweeps, AreRefusedBesideAnotherAndInAFolderOfAnotherPlan) {
       shell("flock out/.lock '" AIMS_COMMAND "' sweep plan.yaml --cache walks --quiet --out out");
   EXPECT_EQ(beside.exit_code, 2) << beside.output;
   EXPECT_TRUE(holds(beside, "out: another sweep works there")) << beside.output;
+}
+
+TEST_F(Sweeps, OverTheSimulationMakeAWalkPerValue) {
+  const Outcome done =
+      sweep("--out out --over links.leg_odometry.loss=0:0.9:3 --over leg.rate_hz=100:200:2");
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  EXPECT_TRUE(holds(done, "6 units done, 0 of them failed; 0 found finished; 3 walks simulated"))
+      << done.output;
+  ASSERT_EQ(aims("merge out").exit_code, 0);
+  const auto table = read_file(folder_.path() / "out" / "sweep.csv");
+  ASSERT_TRUE(table);
+  EXPECT_NE(table->find("links.leg_odometry.loss"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "links.leg_odometry.loss.png"));
+  const Outcome other = sweep("--out other --over scoring.lost_error_offset=0.5:2:3");
+  EXPECT_TRUE(holds(other, "3 units done, 0 of them failed; 0 found finished; 1 walks simulated"))
+      << other.output;
+}
+
+TEST_F(Sweeps, KeepWhatIsFinishedAtCtrlCAndContinue) {
+  ASSERT_EQ(sweep("--out out --over leg.rate_hz=100:200:101 --walks-only").exit_code, 0);
+  const std::string command =
+      "sweep plan.yaml --cache walks --quiet --jobs 1 --out out "
+      "--over leg.rate_hz=100:200:101";
+  const Outcome ended = shell(
+      "{ '" AIMS_COMMAND "' " + command +
+      " & pid=$!; until ls out/units/*.json >first 2>&1 || ! kill -0 $pid; do sleep 0.01; done; "
+      "kill -INT $pid; wait $pid; }");
+  EXPECT_EQ(ended.exit_code, 130) << ended.output;
+  EXPECT_TRUE(holds(ended, "interrupted: the same command continues")) << ended.output;
+  std::size_t finished = 0;
+  for (const auto& entry : fs::directory_iterator(folder_.path() / "out" / "units")) {
+    EXPECT_EQ(entry.path().extension(), ".json") << entry.path();
+    ++finished;
+  }
+  EXPECT_GE(finished, 1U);
+  ASSERT_LT(finished, 101U) << "Ctrl-C came too late to tell";
+  const Outcome rest = aims(command);
+  EXPECT_EQ(rest.exit_code, 0) << rest.output;
+  EXPECT_TRUE(holds(rest, std::to_string(101 - finished) + " units done, 0 of them failed; " +
+                              std::to_string(finished) + " found finished; 0 walks"))
+      << rest.output;
+}
+
+TEST_F(Sweeps, SayWhatGoesFromTheCacheOfWalks) {
+  fs::create_directories(folder_.path() / "walks");
+  const fs::path old = folder_.path() / "walks" / "0123456789abcdef.walk";
+  std::ofstream(old) << std::string(5'000'000, 'w');
+  fs::last_write_time(old, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  EXPECT_FALSE(holds(sweep("--out out"), "removed")) << "20 GB may stay";
+  EXPECT_TRUE(fs::exists(old));
+  const Outcome outcome = sweep("--out out --retry --cache-limit 0.001");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_TRUE(holds(outcome, "walks: ")) << outcome.output;
+  EXPECT_TRUE(holds(outcome, " GB (--cache-limit 0.001)")) << outcome.output;
+  EXPECT_FALSE(fs::exists(old));
+}
+
+TEST_F(Sweeps, AreRefusedInAFolderOfAnotherCode) {
+  ASSERT_EQ(sweep("--out out").exit_code, 0);
+  const fs::path file = folder_.path() / "out" / "plan.yaml";
+  std::string text = read_file(file).value();
+  text.replace(text.find("# code ") + 7, 4, "beef");
+  std::ofstream(file) << text;
+  expect_refused("--out out", {"out: holds units of code beef", "this is code", "--renew"});
+  const Outcome renewed = sweep("--out out --renew");
+  EXPECT_EQ(renewed.exit_code, 0) << renewed.output;
+  EXPECT_TRUE(holds(renewed, "3 found finished")) << "their ids say which code they are of";
+}
+
+TEST_F(Sweeps, EndWithTheFileThatNoSpaceIsLeftFor) {
+  fs::create_directories(folder_.path() / "small");
+  if (shell("unshare -rm mount -t tmpfs -o size=48k tmpfs small").exit_code != 0) {
+    GTEST_SKIP() << "no disk of a few kilobytes can be mounted here";
+  }
+  const Outcome full = shell(
+      "unshare -rm sh -c 'mount -t tmpfs -o size=48k tmpfs small && \"$0\" sweep plan.yaml "
+      "--cache walks --quiet --over leg.rate_hz=100:200:40 --out small/out; code=$?; "
+      "find small -name \"*.tmp\"; exit $code' '" AIMS_COMMAND "'");
+  EXPECT_EQ(full.exit_code, 2) << full.output;
+  EXPECT_TRUE(holds(full, "small/out/units/")) << full.output;
+  EXPECT_TRUE(holds(full, "No space left on device")) << full.output;
+  EXPECT_FALSE(holds(full, ".tmp")) << "nothing half-written remains: " << full.output;
 }
 
 TEST_F(Sweeps, SayWhichFileAFullDiskCouldNotTake) {
