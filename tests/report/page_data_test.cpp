@@ -106,7 +106,8 @@ TEST(PageTemplate, ThatIsEmbeddedHasEachMarkOnceAndLoadsNothing) {
     ASSERT_NE(first, std::string_view::npos) << mark;
     EXPECT_EQ(html.find(mark, first + 1), std::string_view::npos) << mark;
   }
-  for (const std::string_view link : {"<link", "src=\"http", "@import"}) {
+  for (const std::string_view link :
+       {"rel=\"stylesheet\"", "src=\"http", "href=\"http", "@import"}) {
     EXPECT_EQ(html.find(link), std::string_view::npos) << link;
   }
 }
