@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace aims {
@@ -95,6 +96,14 @@ void draw_own_legend(Canvas& canvas, const Rect& area, const Panel& panel) {
   draw_legend(canvas, {area.right() - width, area.y - 30.0}, width + 60.0, entries);
 }
 
+/// A line without a dot at its end: the break separates enough.
+std::string without_separator(std::string line) {
+  constexpr std::string_view kDot = "\u00b7";
+  if (line.ends_with(kDot)) line.resize(line.size() - kDot.size());
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
 }  // namespace
 
 std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style) {
@@ -107,8 +116,8 @@ std::vector<std::string> wrapped(const std::string& text, double width, const Te
     const std::size_t end = std::min(text.find(' ', word), text.size());
     const std::string longer = line + text.substr(begin, end - begin);
     if (!line.empty() && ruler.text_width(longer, style) > width) {
-      lines.push_back(std::exchange(line, text.substr(word, end - word)));
-      if (line == "\u00b7") line.clear();  // the break separates enough
+      lines.push_back(without_separator(std::exchange(line, text.substr(word, end - word))));
+      line = without_separator(line);
     } else if (line.empty()) {
       line = text.substr(word, end - word);
     } else {

@@ -54,14 +54,19 @@ std::optional<std::vector<RunScore>> all_runs(const std::map<std::size_t, RunSco
   return runs;
 }
 
-/// Where the untuned values are a point of the design, one unit serves both and is listed once.
+bool on_grid(const ParameterRange& range, double value) {
+  for (int k = 0; k < range.count; ++k) {
+    if (value_at(range, range.count == 1 ? 0.0 : k / double(range.count - 1)) == value) return true;
+  }
+  return false;
+}
+
+/// Where the untuned values are a point of the grid, one unit serves both and is listed once.
 void add_untuned_point(ResponseTable& table) {
   const auto& values = table.defaults;
   if (table.default_runs.empty()) return;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool in_design = std::any_of(table.points.begin(), table.points.end(),
-                                       [&](const Values& each) { return each[i] == values[i]; });
-    if (!in_design) return;
+    if (!on_grid(table.ranges[i], values[i])) return;
   }
   if (std::find(table.points.begin(), table.points.end(), values) != table.points.end()) return;
   table.points.push_back(values);
