@@ -24,7 +24,6 @@ constexpr double kBetween = 58.0;  ///< below each strip, for its ticks
 constexpr double kMaxHeight = 1100.0;
 constexpr std::array<std::uint8_t, 3> kDark = {18, 20, 26};
 constexpr std::size_t kMostSquares = 40'000;  ///< beyond it a vector picture is slow to open
-constexpr int kLargestSquare = 6;             ///< [px]; 0.6 mm where 1800 px are a page's width
 constexpr std::size_t kTints = 32;            ///< of squares, which share a shape by colour
 
 /// Value below which the fraction `share` of `values` lies; reorders them.
@@ -169,9 +168,8 @@ struct Sheet {
   std::vector<Eigen::Vector2d> track;
   RasterWindow window;
   Layout layout;
-  int point_size = 1;            ///< [px]
-  bool squares = false;          ///< points as vector shapes
-  double pixels_per_unit = 1.0;  ///< of points as pixels
+  int point_size = 1;    ///< [px]
+  bool squares = false;  ///< points as vector shapes
 };
 
 RasterWindow window_of(const Sheet& sheet, int strip) {
@@ -224,27 +222,22 @@ void draw_squares(Canvas& canvas, const Sheet& sheet, int strip, const Panel& pa
 }
 
 void draw_pixels(Canvas& canvas, const Sheet& sheet, int strip, const Rect& area) {
-  const double density = sheet.pixels_per_unit;
-  canvas.image(
-      raster_points(sheet.points, window_of(sheet, strip), static_cast<int>(density * area.width),
-                    static_cast<int>(density * area.height),
-                    static_cast<int>(density * sheet.point_size), kDark),
-      area);
+  canvas.image(raster_points(sheet.points, window_of(sheet, strip), static_cast<int>(area.width),
+                             static_cast<int>(area.height), sheet.point_size, kDark),
+               area);
 }
 
 /// How a vector picture shows its points: as the smallest squares that are not too many.
-void choose_points(Sheet& sheet) {
-  const int size = sheet.point_size;
-  for (; sheet.point_size <= kLargestSquare; ++sheet.point_size) {
-    std::size_t count = 0;
+void choose_squares(Sheet& sheet) {
+  const auto count = [&sheet] {
+    std::size_t sum = 0;
     for (int strip = 0; strip < sheet.layout.strips; ++strip) {
-      count += visible_points(sheet, strip).size();
+      sum += visible_points(sheet, strip).size();
     }
-    sheet.squares = count <= kMostSquares;
-    if (sheet.squares) return;
-  }
-  sheet.point_size = size;
-  sheet.pixels_per_unit = 2.0;
+    return sum;
+  };
+  while (count() > kMostSquares) ++sheet.point_size;
+  sheet.squares = true;
 }
 
 void draw_strip(Canvas& canvas, const Sheet& sheet, int strip) {
@@ -303,7 +296,7 @@ Result<void> write_map_picture(const std::filesystem::path& path, MapView view,
   sheet.window = window_of(sheet.points, sheet.track);
   sheet.layout = layout_of(sheet.window, map.width - kLeft - kRight);
   sheet.point_size = point_size(sheet.points, sheet.layout.scale);
-  if (path.extension() != ".png") choose_points(sheet);
+  if (path.extension() != ".png") choose_squares(sheet);
   const Heading heading(map.title, subtitle(map, view, finite, sheet.layout.strips),
                         map.width - kLeft - kMargin);
   sheet.layout.top += heading.extra_height();

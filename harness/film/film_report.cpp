@@ -87,10 +87,13 @@ Result<void> write_video(const FilmedWalk& walk, const FilmOptions& options, con
   const FilmSpan span = walking_span(walk);
   const Movie movie =
       observed(movie_of(*film, span, config, options.seconds, options.frame_rate), observer);
-  record["video"] = {
-      {"file", file.filename().string()},  {"frames", movie.frames},
-      {"frame_rate_hz", movie.frame_rate}, {"from_s", to_seconds(span.begin)},
-      {"to_s", to_seconds(span.end)},      {"map_points", film->points_shown(span.end)}};
+  record["video"] = {{"file", file.filename().string()},
+                     {"frames", movie.frames},
+                     {"frame_rate_hz", movie.frame_rate},
+                     {"from_s", to_seconds(span.begin)},
+                     {"to_s", to_seconds(span.end)},
+                     {"map_points_first", film->points_shown(span.begin)},
+                     {"map_points", film->points_shown(span.end)}};
   if (*kind_of(options.video) == VideoKind::kFfmpeg) {
     return write_with_ffmpeg(*find_ffmpeg(), file, movie);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/yaml_config.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 // rapidcheck's gtest glue needs both headers above it.
@@ -234,8 +235,8 @@ TEST(Overrides, FilesGoOnTopInOrder) {
   const auto file = write(directory.path() / "tuned.yaml",
                           "inner: {eta: 4}\npoints:\n  - {name: x}\n  - {name: y}\n");
   Sample c;
-  const std::vector<std::string> settings = {"inner.eta=1", "@" + file.string(), "inner.count=7",
-                                             "points.1.name=z"};
+  const std::vector<std::string> settings = {"inner.eta=1", fmt::format("@{}", file.string()),
+                                             "inner.count=7", "points.1.name=z"};
   const auto applied = apply_overrides(c, settings);
   ASSERT_TRUE(applied) << applied.error().message;
   EXPECT_EQ(c.inner.eta, 4.0);

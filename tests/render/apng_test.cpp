@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/apng.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -192,8 +193,9 @@ TEST(Apng, ChromiumDecodesTheSameFrames) {
   std::string expected = "frames 10 loops Infinity";
   for (int i = 0; i < 10; ++i) {
     int sum = 0;
-    for (const std::uint8_t value : walking_square(i)->rgb) sum = (sum * 31 + value) % 1000003;
-    expected += " " + std::to_string(sum);
+    const auto frame = walking_square(i);
+    for (const std::uint8_t value : frame->rgb) sum = (sum * 31 + value) % 1000003;
+    expected += fmt::format(" {}", sum);
   }
   std::string page = kDecodingPage;
   page.replace(page.find('@'), 1, base64(*apng_bytes(walking())));
