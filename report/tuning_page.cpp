@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -137,12 +138,12 @@ Json points_json(const EstimatorRows& own, const std::vector<double>& defaults,
     const auto& numbers = point.empty() ? defaults : point;
     values.insert(values.end(), numbers.begin(), numbers.end());
     untuned.push_back(point.empty() ? 1 : 0);
-    const auto found = source.generations.find(numbers);
-    generation.push_back(found == source.generations.end() ? kNone : found->second);
+    const auto found = source.points.find(numbers);
+    generation.push_back(found == source.points.end() ? kNone : found->second.generation);
   }
   return {{"values", page.f32(values)},
           {"untuned", page.u8(untuned)},
-          {"generation", source.generations.empty() ? Json() : page.f32(generation)}};
+          {"generation", source.points.empty() ? Json() : page.f32(generation)}};
 }
 
 Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores, PageData& page) {
@@ -177,6 +178,32 @@ std::vector<Objective> analysed(const TuningSource& source) {
   return objectives;
 }
 
+/// The table as the tuning has it: the untuned values are its first point (and one unit with it),
+/// the others stand in the order of the search where that is known.
+ResponseTable in_tuning_order(const ResponseTable& table, const TuningSource& source) {
+  ResponseTable ordered = table;
+  const auto& points = table.points;
+  if (!table.default_runs.empty() &&
+      std::find(points.begin(), points.end(), table.defaults) == points.end()) {
+    ordered.points.insert(ordered.points.begin(), table.defaults);
+    ordered.runs.insert(ordered.runs.begin(), table.default_runs);
+  }
+  const auto place = [&](std::size_t i) {
+    const auto found = source.points.find(ordered.points[i]);
+    return found == source.points.end() ? source.points.size() : found->second.index;
+  };
+  std::vector<std::size_t> order(ordered.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  ResponseTable sorted = ordered;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted.points[i] = ordered.points[order[i]];
+    sorted.runs[i] = ordered.runs[order[i]];
+  }
+  return sorted;
+}
+
 /// Per objective what the complete points of that estimator tell.
 Result<Json> analyses_json(const TuningSource& source, const std::string& estimator,
                            PageData& page) {
@@ -187,7 +214,9 @@ Result<Json> analyses_json(const TuningSource& source, const std::string& estima
     for (const SweepResponse& response : *responses) {
       if (response.estimator != estimator) continue;
       objective.relative = objective.relative && !response.table.default_runs.empty();
-      analyses.push_back(analysis_json(response.table, objective, page));
+      const ResponseTable table =
+          source.tuned ? in_tuning_order(response.table, source) : response.table;
+      analyses.push_back(analysis_json(table, objective, page));
       analyses.back()["incomplete"] = response.incomplete;
     }
   }

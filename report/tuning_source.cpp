@@ -70,11 +70,11 @@ std::string as_sweep(const TunePlan& plan) {
   return plan_text(sweep);
 }
 
-/// Generations by values; empty while there is no tune.csv that fits.
-std::map<std::vector<double>, double> generations_in(const fs::path& file, const TunePlan& plan) {
-  std::map<std::vector<double>, double> generations;
+/// Points by values; none while there is no tune.csv that fits.
+std::map<std::vector<double>, TunedPoint> points_in(const fs::path& file, const TunePlan& plan) {
+  std::map<std::vector<double>, TunedPoint> points;
   const auto table = CsvColumns::read(file);
-  if (!table) return generations;
+  if (!table) return points;
   std::vector<std::vector<double>> columns;
   for (const std::string& text : plan.over) {
     const auto range = parse_range(text);
@@ -87,9 +87,9 @@ std::map<std::vector<double>, double> generations_in(const fs::path& file, const
   for (std::size_t i = 0; i < table->rows(); ++i) {
     std::vector<double> values;
     for (const auto& column : columns) values.push_back(column[i]);
-    generations.emplace(std::move(values), (*generation)[i]);
+    points.emplace(std::move(values), TunedPoint{i, (*generation)[i]});
   }
-  return generations;
+  return points;
 }
 
 /// A unit's file as one of a sweep, where it is one.
@@ -115,7 +115,7 @@ Result<TuningSource> read_tune(const fs::path& folder) {
   source.objectives = plan->objectives;
   source.units.plans = {as_sweep(*plan)};
   source.held_out.plans = source.units.plans;
-  source.generations = generations_in(folder / kTunePoints, *plan);
+  source.points = points_in(folder / kTunePoints, *plan);
   const UnitFolder units(folder / "units");
   std::size_t broken = 0;
   for (const std::string& id : units.ids()) {

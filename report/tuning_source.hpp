@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -12,16 +13,21 @@
 
 namespace aims {
 
+/// Where an optimizer came to a point.
+struct TunedPoint {
+  std::size_t index = 0;    ///< in the order of its points
+  double generation = 0.0;  ///< 0: the first population
+};
+
 /// What the folder of `aims sweep` or `aims tune` holds, finished or not.
 struct TuningSource {
   bool tuned = false;  ///< by an optimizer; else a design
   std::string plan;    ///< text of the plan
   MergedSweep units;   ///< of a tuning: on the walks that are tuned on
   MergedSweep held_out;
-  std::vector<Objective> objectives;  ///< a sweep's: the default one
-  /// Of a finished tuning: the generation of each point, by the point's values.
-  std::map<std::vector<double>, double> generations;
-  std::vector<std::string> notes;  ///< what could not be used
+  std::vector<Objective> objectives;                 ///< a sweep's: the default one
+  std::map<std::vector<double>, TunedPoint> points;  ///< of a finished tuning, by their values
+  std::vector<std::string> notes;                    ///< what could not be used
 };
 
 /// Whether the folder is that of a sweep (plan.yaml, units.csv) or of a tuning (tune.yaml).
