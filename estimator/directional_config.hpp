@@ -17,8 +17,8 @@ struct SpuriousConfig {
   double significant = 1.35;  ///< ratio to chance at which it is as likely real as not [-]
   /// What a robot mapped while it stood is one draw of chance, seen again and again: at the start
   /// this share more is asked for, which falls off over `start_way`.
-  double start_excess = 0.15;
-  double start_way = 5.0;  ///< [m]
+  double start_excess = 0.3;
+  double start_way = 8.0;  ///< [m]
   /// From the start and over this way what is beyond chance is taken for real before it is proven:
   /// the map that it is to be proven by is only as sharp as the poses that draw it [m].
   double trusting_way = 5.0;
