@@ -76,7 +76,10 @@ void draw_marks(Canvas& canvas, const Rect& area, const Panel& panel) {
     canvas.disc(at, 6.0, {1.0, 1.0, 1.0});
     canvas.disc(at, 4.5, {0.0, 0.0, 0.0});
     const double width = canvas.text_width(mark.label, {.size = 16.0, .bold = true});
-    const Eigen::Vector2d label = at + Eigen::Vector2d(0.0, -19.0);
+    const double half = std::min(width / 2.0 + 4.0, area.width / 2.0);
+    const bool below = at.y() - 29.0 < area.y;
+    const Eigen::Vector2d label(std::clamp(at.x(), area.x + half, area.right() - half),
+                                at.y() + (below ? 19.0 : -19.0));
     canvas.fill({label.x() - width / 2.0 - 4.0, label.y() - 10.0, width + 8.0, 20.0},
                 {1.0, 1.0, 1.0, 0.8});
     canvas.text(label, mark.label, {.size = 16.0, .horizontal = Align::kCenter, .bold = true});

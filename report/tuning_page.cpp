@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "harness/scenario.hpp"
 #include "harness/suite_summary.hpp"
+#include "harness/sweep/range_key.hpp"
 #include "harness/sweep/sweep_report.hpp"
 #include "report/json_access.hpp"
 #include "report/tuning_analysis.hpp"
@@ -111,12 +113,12 @@ std::vector<std::string> scores_of(const TuningSource& source, const Collected& 
 }
 
 Json parameters_json(const VariedParameters& varied, const std::vector<double>& defaults) {
-  EstimatorConfig config = varied.base;
-  const Fields fields = fields_of(config);
+  Scenario scenario;
+  const Fields fields = fields_of(scenario);
   Json parameters = Json::array();
   for (std::size_t i = 0; i < varied.ranges.size(); ++i) {
     const ParameterRange& range = varied.ranges[i];
-    const Parameter* parameter = fields.find(range.key);
+    const Parameter* parameter = fields.find(full_key(range));
     parameters.push_back({{"name", range.key},
                           {"unit", parameter == nullptr ? "" : parameter->spec.unit},
                           {"meaning", parameter == nullptr ? "" : parameter->spec.meaning},

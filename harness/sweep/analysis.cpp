@@ -145,8 +145,9 @@ SlicePoint measured_point(const ResponseTable& table, const Objective& objective
 }
 
 SlicePoint fitted_point(const Sensitivity& sensitivity, const Eigen::VectorXd& fractions) {
+  if (sensitivity.surrogate.extrapolates(fractions)) return {};
   const double value = sensitivity.surrogate.at(fractions);
-  const double half = 1.96 * sensitivity.surrogate.error();
+  const double half = 1.96 * sensitivity.surrogate.error_at(fractions);
   const auto back = [&](double fitted) {
     return sensitivity.logarithmic ? std::exp(fitted) : fitted;
   };
@@ -173,6 +174,8 @@ void fill_from_surrogate(const ResponseTable& table, const Objective& objective,
       slice.points.push_back(point);
     }
   }
+  const auto known = [](const SlicePoint& point) { return point.objective.has_value(); };
+  if (std::none_of(slice.points.begin(), slice.points.end(), known)) slice.points.clear();
 }
 
 /// Different values of parameter i among these points.

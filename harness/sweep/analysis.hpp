@@ -67,7 +67,8 @@ struct Slice {
 };
 
 /// One parameter's curve: from points of the design where at least three lie on it, else from the
-/// surrogate where it is trustworthy, else without points.
+/// surrogate where it is trustworthy, without an objective where it extrapolates; else without
+/// points.
 Slice curve_of(const ResponseTable& table, const Objective& objective, std::size_t parameter,
                const std::string& family = "");
 

@@ -26,6 +26,7 @@ constexpr std::size_t kMaxTerms = 1500;
 constexpr int kFolds = 10;
 constexpr Eigen::Index kLeastPoints = 8;
 constexpr int kReplicates = 200;
+constexpr double kBeyond = 0.05;
 
 /// Legendre polynomials up to `kMaxDegree`, orthonormal over [0, 1], at u.
 std::array<double, kMaxDegree + 1> legendre(double u) {
@@ -258,9 +259,14 @@ Result<Surrogate> Surrogate::fit(const Eigen::MatrixXd& points, const Eigen::Vec
     surrogate.degrees_.push_back(candidates[static_cast<std::size_t>(k)]);
   }
   surrogate.coefficients_.assign(coefficients.data(), coefficients.data() + coefficients.size());
+  const Eigen::MatrixXd inverse = used.completeOrthogonalDecomposition().pseudoInverse();
+  surrogate.covariance_ = inverse * inverse.transpose();
   const double squared = cross_validated(matrix, values);
   const double variance = (values.array() - values.mean()).square().mean();
   surrogate.error_ = std::sqrt(squared);
+  surrogate.deviation_ = std::sqrt(variance);
+  surrogate.least_ = points.colwise().minCoeff().transpose();
+  surrogate.most_ = points.colwise().maxCoeff().transpose();
   const bool varies = variance > 1e-20 * values.squaredNorm();
   surrogate.explained_ = varies ? 1.0 - squared / variance : 1.0;
   surrogate.indices_ = indices_of(surrogate.degrees_, coefficients, inputs);
@@ -269,12 +275,21 @@ Result<Surrogate> Surrogate::fit(const Eigen::MatrixXd& points, const Eigen::Vec
 }
 
 double Surrogate::at(const Eigen::VectorXd& point) const {
-  const Eigen::MatrixXd row = design_matrix(degrees_, point.transpose());
-  double sum = 0.0;
-  for (std::size_t k = 0; k < coefficients_.size(); ++k) {
-    sum += coefficients_[k] * row(0, static_cast<Eigen::Index>(k));
-  }
-  return sum;
+  const Eigen::Map<const Eigen::VectorXd> coefficients(
+      coefficients_.data(), static_cast<Eigen::Index>(coefficients_.size()));
+  return design_matrix(degrees_, point.transpose()).row(0).dot(coefficients);
+}
+
+double Surrogate::error_at(const Eigen::VectorXd& point) const {
+  const Eigen::RowVectorXd row = design_matrix(degrees_, point.transpose());
+  const double leverage = row * covariance_ * row.transpose();
+  return error_ * std::sqrt(std::max(1.0, leverage));
+}
+
+bool Surrogate::extrapolates(const Eigen::VectorXd& point) const {
+  const bool beyond =
+      ((point - most_).array() > kBeyond).any() || ((least_ - point).array() > kBeyond).any();
+  return beyond || error_at(point) > deviation_;
 }
 
 }  // namespace aims

@@ -38,6 +38,14 @@ class Surrogate {
   /// (ten folds) [unit of the values].
   double error() const { return error_; }
 
+  /// That error at a point: more where the fit's leverage is above 1, as it is at none of its own
+  /// points (Hoaglin and Welsch 1978), but in what an optimizer leaves empty [unit of the values].
+  double error_at(const Eigen::VectorXd& point) const;
+
+  /// True where the error is beyond the deviation of all values, so that their mean would tell as
+  /// much, and more than 5 % of an input's range beyond all points of the fit.
+  bool extrapolates(const Eigen::VectorXd& point) const;
+
   /// Share of the values' variance that is explained at points that were left out; at most 1,
   /// negative when the mean were better. 1 for values that do not vary.
   double explained() const { return explained_; }
@@ -48,8 +56,12 @@ class Surrogate {
  private:
   std::vector<std::vector<int>> degrees_;  ///< of each term in each input
   std::vector<double> coefficients_;
+  Eigen::MatrixXd covariance_;  ///< of the coefficients, per variance of a value
   double error_ = 0.0;
   double explained_ = 0.0;
+  double deviation_ = 0.0;  ///< of the values from their mean
+  Eigen::VectorXd least_;   ///< of the points in each input
+  Eigen::VectorXd most_;
   SobolIndices indices_;
 };
 

@@ -20,6 +20,12 @@ struct Outcome {
   std::string output;  ///< standard output and error
 };
 
+/// A scenario of a metre of a corridor, thinly seen.
+inline const std::string kMetreWalk =
+    "scene: {corridor: {length: 10}}\n"
+    "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n"
+    "lidar: {columns: 200}\n";
+
 /// Runs the real `aims` command in a folder of its own, as a user would.
 class CommandLine : public ::testing::Test {
  protected:
@@ -39,10 +45,17 @@ class CommandLine : public ::testing::Test {
     return outcome;
   }
 
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.path() / name) << text;
+  }
+
   std::string scenario(const std::string& yaml) const {
-    const std::filesystem::path file = folder_.path() / "my.yaml";
-    std::ofstream(file) << yaml;
-    return file.filename().string();
+    write("my.yaml", yaml);
+    return "my.yaml";
+  }
+
+  static bool holds(const Outcome& outcome, const std::string& part) {
+    return outcome.output.find(part) != std::string::npos;
   }
 
   TemporaryFolder folder_;

@@ -27,10 +27,6 @@ const std::string kShortWalk =
 
 class Score : public testing::CommandLine {
  protected:
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_.path() / name) << text;
-  }
-
   json scores_in(const std::string& folder) const {
     std::ifstream stream(folder_.path() / folder / "scores.json");
     return json::parse(stream);

@@ -18,12 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::Outcome;
 
-/// A metre of a corridor, thinly seen.
-const std::string kWalk =
-    "scene: {corridor: {length: 10}}\n"
-    "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n"
-    "lidar: {columns: 200}\n";
-
 const std::string kPlan =
     "scenarios: [my.yaml]\n"
     "seeds: 1\n"
@@ -33,8 +27,8 @@ const std::string kPlan =
 class Sweeps : public testing::CommandLine {
  protected:
   Sweeps() {
-    scenario(kWalk);
-    std::ofstream(folder_.path() / "plan.yaml") << kPlan;
+    scenario(testing::kMetreWalk);
+    write("plan.yaml", kPlan);
   }
 
   Outcome sweep(const std::string& arguments) const {
@@ -50,10 +44,6 @@ class Sweeps : public testing::CommandLine {
     for (const std::string& each : expected) {
       EXPECT_NE(outcome.output.find(each), std::string::npos) << each << "\n" << outcome.output;
     }
-  }
-
-  static bool holds(const Outcome& outcome, const std::string& part) {
-    return outcome.output.find(part) != std::string::npos;
   }
 };
 
@@ -122,9 +112,9 @@ TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
   expect_refused("--scenarios nowhere", {"nowhere"});
   expect_refused("--estimators legs", {"did you mean 'leg'"});
   expect_refused("--out my.yaml", {"my.yaml", "no sweep's folder"});
-  std::ofstream(folder_.path() / "plan.yaml") << "scenarios: []\n";
+  write("plan.yaml", "scenarios: []\n");
   expect_refused("", {"no scenario is given"});
-  std::ofstream(folder_.path() / "plan.yaml") << kPlan << "desing: grid\n";
+  write("plan.yaml", kPlan) << "desing: grid\n";
   expect_refused("", {"plan.yaml:5:1", "did you mean 'design'"});
   EXPECT_EQ(aims("merge nowhere").exit_code, 2);
 }

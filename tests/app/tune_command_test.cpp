@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "io/atomic_file.hpp"
@@ -15,11 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::Outcome;
-
-const std::string kWalk =
-    "scene: {corridor: {length: 10}}\n"
-    "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n"
-    "lidar: {columns: 200}\n";
 
 /// Neither range holds the default, so that values which are not taken over show.
 const std::string kPlan =
@@ -33,12 +27,8 @@ const std::string kPlan =
 class Tunes : public testing::CommandLine {
  protected:
   Tunes() {
-    scenario(kWalk);
+    scenario(testing::kMetreWalk);
     write("plan.yaml", kPlan);
-  }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_.path() / name) << text;
   }
 
   Outcome tune(const std::string& arguments) const {
@@ -59,10 +49,6 @@ class Tunes : public testing::CommandLine {
 
   static std::string with(std::string plan, const std::string& from, const std::string& to) {
     return plan.replace(plan.find(from), from.size(), to);
-  }
-
-  static bool holds(const Outcome& outcome, const std::string& part) {
-    return outcome.output.find(part) != std::string::npos;
   }
 };
 

@@ -144,6 +144,24 @@ TEST(TuningPage, EveryUnitIsARowWithItsValuesAndScores) {
   EXPECT_EQ(own["parameters"][1]["log"], true);
 }
 
+TEST(TuningPage, AParameterOfTheSimulationHasItsUnitAndItsOwnDefault) {
+  const TemporaryFolder folder;
+  Units units(folder.path());
+  put(units.folder() / "plan.yaml", "# aims sweep\nover: [\"lidar.range_sigma=0.01:0.03:3\"]\n");
+  for (const char* sigma : {"0.01", "0.02", "0.03"}) {
+    Json walked = unit("walk", 1, {}, 0.1);
+    walked["settings"] = {{"lidar.range_sigma", sigma}};
+    walked["untuned"] = {{"lidar.range_sigma", "0.015"}};
+    units.add(walked);
+  }
+  units.write_list();
+  const DecodedPage page = page_of(folder.path());
+  const auto& parameter = page.json["estimators"][0]["parameters"][0];
+  EXPECT_EQ(parameter["unit"], "m");
+  EXPECT_EQ(parameter["default"], 0.015);
+  EXPECT_NE(parameter["meaning"], "");
+}
+
 TEST(TuningPage, TheAnalysisIsThatOfTheMergedSweep) {
   const TemporaryFolder folder;
   Units units(folder.path());

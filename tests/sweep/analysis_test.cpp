@@ -227,5 +227,17 @@ TEST(Slice, OfScatteredPointsFollowsTheSurrogate) {
   EXPECT_EQ(map_of(table, absolute(), 0, 1).points.size(), 24U * 24U);
 }
 
+TEST(Slice, OfACrowdEndsWhereNothingWasRun) {
+  const auto ranges = ranges_of({"a=0:6", "b=log(1,100)"});
+  auto points = design(DesignKind::kSobol, ranges, 96, 1);
+  for (auto& point : points) point[0] *= 0.3;
+  const auto table = table_of(ranges, {1.0, 10.0}, points, 4, bowl);
+  const Slice curve = curve_of(table, absolute(), 0);
+  ASSERT_FALSE(curve.points.empty());
+  EXPECT_TRUE(curve.points.front().objective.has_value());
+  EXPECT_EQ(curve.points.back().x, 6.0);
+  EXPECT_FALSE(curve.points.back().objective.has_value());
+}
+
 }  // namespace
 }  // namespace aims

@@ -114,6 +114,24 @@ TEST(Surrogate, ItsErrorIsThatAtNewPoints) {
   EXPECT_LT(surrogate.error(), 1.4 * error);
 }
 
+TEST(Surrogate, KnowsWhereItHasSeenNothing) {
+  // A narrow crowd, as of an optimizer, about a corner of the square.
+  Eigen::MatrixXd x = 0.2 * cube(64, 2);
+  Eigen::VectorXd values(64);
+  RandomStream noise = rng(1, "test.noise");
+  for (int row = 0; row < 64; ++row)
+    values(row) = std::exp(3.0 * x(row, 0)) + x(row, 1) + 0.05 * noise.normal();
+  const auto crowd = Surrogate::fit(x, values);
+  ASSERT_TRUE(crowd);
+  for (int row = 0; row < 64; ++row) EXPECT_FALSE(crowd->extrapolates(x.row(row).transpose()));
+  EXPECT_FALSE(crowd->extrapolates(Eigen::Vector2d(0.1, 0.1)));
+  EXPECT_TRUE(crowd->extrapolates(Eigen::Vector2d(0.9, 0.1)));
+
+  const Surrogate filled = fitted(ishigami, 256, 3);
+  EXPECT_FALSE(filled.extrapolates(Eigen::Vector3d(0.5, 0.5, 0.5)));
+  EXPECT_FALSE(filled.extrapolates(Eigen::Vector3d(0.0, 0.5, 1.0)));
+}
+
 TEST(Surrogate, OfNoiseAloneExplainsNothing) {
   const Surrogate surrogate = fitted([](const Eigen::VectorXd&) { return 1.0; }, 100, 5, 1.0);
   EXPECT_LT(surrogate.explained(), 0.1);

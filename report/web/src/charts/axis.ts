@@ -11,6 +11,16 @@ export interface Axis {
   ticks: { value: number; label: string }[];
 }
 
+/** Two axes and the rectangle that they span [px]. */
+export interface Frame {
+  x: Axis;
+  y: Axis;
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+}
+
 function linearTicks(low: number, high: number, most: number): number[] {
   const rough = (high - low) / Math.max(1, most);
   const power = 10 ** Math.floor(Math.log10(rough));

@@ -6,7 +6,7 @@
 import "./charts.css";
 import { h } from "../dom";
 import { formatNumber, isNumber } from "../format";
-import { axis, extent, type Axis } from "./axis";
+import { axis, extent, type Frame } from "./axis";
 import { dashOf, markPath, seriesPaint, svg } from "./svg";
 
 export interface Mark {
@@ -50,15 +50,6 @@ export interface ChartOptions {
   dodge?: number;
   /** Upright lines. */
   verticals?: { x: number; label: string }[];
-}
-
-interface Frame {
-  x: Axis;
-  y: Axis;
-  left: number;
-  top: number;
-  width: number;
-  height: number;
 }
 
 /** How far a line stands aside of its x [px]. */

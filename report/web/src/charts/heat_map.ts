@@ -3,7 +3,7 @@
 import "./charts.css";
 import { h } from "../dom";
 import { formatNumber, isNumber } from "../format";
-import { axis, type Axis } from "./axis";
+import { axis, type Frame } from "./axis";
 import { svg } from "./svg";
 
 export interface HeatCell {
@@ -45,15 +45,6 @@ function edgesOf(values: number[], log: boolean): number[] {
 
 function distinct(values: number[]): number[] {
   return [...new Set(values)].sort((a, b) => a - b);
-}
-
-interface Frame {
-  x: Axis;
-  y: Axis;
-  left: number;
-  top: number;
-  width: number;
-  height: number;
 }
 
 const kPaint = "color-mix(in oklab, var(--heat-deep) var(--share), var(--card))";
