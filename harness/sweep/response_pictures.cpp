@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
 #include "harness/sweep/response_report.hpp"
 #include "render/field_plot.hpp"
 #include "render/level_plot.hpp"
+#include "render/plot.hpp"
 
 namespace aims {
 namespace {
@@ -118,12 +120,74 @@ Result<bool> draw_map(const ResponseTable& table, const Objective& objective, st
   return true;
 }
 
+/// Ends of a scale over positive values with some room; of a logarithmic one.
+Axis value_scale(const Objective& objective, const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double room = std::max(1.05, std::pow(*most / *least, 0.08));
+  return {value_label(objective), *least / room, *most * room, true};
+}
+
+Axis range_axis(const ParameterRange& range) {
+  return {range.key, range.low, range.high, range.log};
+}
+
+/// Every point that was run, over each parameter: what there is where no curve can be drawn. False
+/// where a value has no logarithm.
+Result<bool> draw_points(const ResponseTable& table, const Objective& objective,
+                         const std::filesystem::path& file) {
+  const auto cases = cases_of(table, "");
+  std::vector<std::size_t> points;
+  std::vector<double> values;
+  for (std::size_t k = 0; k < table.points.size(); ++k) {
+    const auto value = objective_at(table, objective, k, cases);
+    if (!value) continue;
+    if (!(*value > 0.0)) return false;
+    points.push_back(k);
+    values.push_back(*value);
+  }
+  const auto best = best_point(table, objective);
+  if (values.empty() || !best) return false;
+  Figure figure;
+  figure.title = "Every point that was run";
+  figure.subtitle = text_of(objective) + "; all other parameters differ too";
+  figure.width = 1100;
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    Panel panel;
+    panel.x = range_axis(table.ranges[i]);
+    panel.y = value_scale(objective, values);
+    panel.height = 170.0;
+    Series dots{"", {}, {series_color(0), 0.0}, 3.5};
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      dots.points.emplace_back(table.points[points[k]][i], values[k]);
+    }
+    panel.series.push_back(std::move(dots));
+    panel.marks.push_back({{best->values[i], best->objective}, "best"});
+    if (best->defaults) panel.marks.push_back({{table.defaults[i], *best->defaults}, "default"});
+    figure.panels.push_back(std::move(panel));
+  }
+  if (auto written = write_figure(file, figure); !written) return tl::unexpected(written.error());
+  return true;
+}
+
+/// Whether each parameter's curve is measured.
+bool has_curves(const ResponseTable& table, const Objective& objective) {
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    if (!curve_of(table, objective, i).measured) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> draw_response(const ResponseTable& table,
                                                const Objective& objective,
                                                const std::filesystem::path& folder) {
   std::vector<std::string> names;
+  if (!has_curves(table, objective)) {
+    const auto drawn = draw_points(table, objective, folder / "points.png");
+    if (!drawn) return tl::unexpected(drawn.error());
+    if (*drawn) names.push_back("points.png");
+  }
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     const std::string name = table.ranges[i].key + ".png";
     const auto drawn = draw_curve(table, objective, i, folder / name);

@@ -57,7 +57,7 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
   ASSERT_EQ(tuned.exit_code, 0) << tuned.output;
   EXPECT_TRUE(holds(tuned, "held out")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "--set @tuned.yaml")) << tuned.output;
-  for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "tune.yaml"}) {
+  for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "tune.yaml", "points.png"}) {
     EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
   }
   const std::string values = read_file(folder_.path() / "tuned.yaml").value();
