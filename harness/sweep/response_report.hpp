@@ -34,8 +34,8 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
 
 /// Draws the objective into `folder`: KEY.png, a curve along each parameter, a line per family of
 /// scenarios, and KEY-KEY.png, the map over the two that matter most (the first two, where nothing
-/// tells). What neither the design nor the surrogate tells is left out. points.png, every point over
-/// each parameter, where a curve is not measured. The files, by name.
+/// tells). What neither the design nor the surrogate tells is left out. points.png, every point
+/// over each parameter, where a curve is not measured. The files, by name.
 Result<std::vector<std::string>> draw_response(const ResponseTable& table,
                                                const Objective& objective,
                                                const std::filesystem::path& folder);
