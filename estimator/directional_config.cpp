@@ -101,6 +101,8 @@ void describe(Fields& f, StartConfig& c) {
   f.number("rate", c.rate, {"rad/s", positive(), "deviation from its mean that ends a stretch"});
   f.number("force", c.force, {"m/s^2", positive(), "deviation from its mean that ends a stretch"});
   f.number("shortest", c.shortest, {"s", at_least(0.05), "a shorter stretch tells no tilt"});
+  f.number("shortest_for_rate", c.shortest_for_rate,
+           {"s", at_least(0.05), "a shorter stretch tells no gyro bias"});
 }
 
 void describe(Fields& f, StandstillConfig& c) {

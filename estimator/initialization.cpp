@@ -83,10 +83,14 @@ Eigen::Quaterniond level(const Eigen::Vector3d& force) {
   return (yaw_rotation(-yaw_of(tilt)) * tilt).normalized();
 }
 
-ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_still) {
+/// How much more the variance is of what a start does not tell: ten times the deviation.
+constexpr double kLittleKnown = 100.0;
+
+ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_still,
+                               bool rate_known) {
   using E = ErrorState;
-  // Without standing the start is little known: ten times the deviations, and any velocity.
-  const double factor = stood_still ? 1.0 : 100.0;
+  // Without standing the start is little known, and the velocity may be any.
+  const double factor = stood_still ? 1.0 : kLittleKnown;
   const auto variance = [factor](double sigma) {
     return Eigen::Matrix3d(factor * sigma * sigma * Eigen::Matrix3d::Identity());
   };
@@ -97,7 +101,9 @@ ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_st
       Eigen::Matrix3d::Identity() * (config.sigma_position * config.sigma_position);
   const double velocity = stood_still ? config.sigma_velocity : config.sigma_velocity_moving;
   block(P, E::kVelocity, E::kVelocity) = Eigen::Matrix3d::Identity() * (velocity * velocity);
-  block(P, E::kGyroBias, E::kGyroBias) = variance(config.sigma_gyro_bias);
+  block(P, E::kGyroBias, E::kGyroBias) = (rate_known ? 1.0 : kLittleKnown) *
+                                         Eigen::Matrix3d::Identity() *
+                                         (config.sigma_gyro_bias * config.sigma_gyro_bias);
   block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
       variance(config.sigma_accelerometer_bias);
   // Members that learn the states of the legs open them.
@@ -106,15 +112,16 @@ ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_st
   return P;
 }
 
-/// The belief at the end of the stand, or at the newest sample where none was found.
+/// The belief at the end of the stand, or at the newest sample where none was found. Without
+/// `rate_known` the mean rate is not taken for the bias: the body may sway.
 InitialBelief begin_with(const std::deque<ImuSample>& samples, const Standing& standing,
-                         bool enough, const InitializationConfig& config) {
+                         bool enough, bool rate_known, const InitializationConfig& config) {
   InitialBelief initial;
   initial.stamp = enough ? standing.end : samples.back().stamp;
   initial.stood_still = enough;
   initial.belief.state.rotation = level(enough ? standing.force : mean_force(samples));
-  if (enough) initial.belief.state.gyro_bias = standing.rate;
-  initial.belief.covariance = initial_covariance(config, enough);
+  if (rate_known) initial.belief.state.gyro_bias = standing.rate;
+  initial.belief.covariance = initial_covariance(config, enough, rate_known);
   return initial;
 }
 
@@ -128,7 +135,7 @@ std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
   if (span < from_seconds(config.duration) && !standing.moved) return std::nullopt;
   if (standing.count < kFewestSamples) standing = average_standing(samples, 0.0, config, gravity);
   const bool enough = standing.count >= kFewestSamples;
-  return begin_with(samples, standing, enough, config);
+  return begin_with(samples, standing, enough, enough, config);
 }
 
 std::optional<InitialBelief> initialize_quietly(const std::deque<ImuSample>& samples,
@@ -157,7 +164,8 @@ std::optional<InitialBelief> initialize_quietly(const std::deque<ImuSample>& sam
   const bool stands = best.count > 0 && !best.moved;
   if (span < from_seconds(config.duration) && stands) return std::nullopt;
   const bool enough = best.count >= kFewestSamples && longest >= quiet.shortest;
-  return begin_with(samples, best, enough, config);
+  const bool rate_known = enough && longest >= quiet.shortest_for_rate;
+  return begin_with(samples, best, enough, rate_known, config);
 }
 
 }  // namespace aims

@@ -122,6 +122,24 @@ TEST(QuietInitialization, AShoveFromTheSideIsNoTilt) {
   EXPECT_LT(quiet->stamp, from_seconds(1.21)) << "the shove is propagated, not averaged";
 }
 
+TEST(QuietInitialization, AShortRestTellsTheTiltButNoBias) {
+  // Between two shoves the body sways back for 0.4 s, slowly and evenly.
+  const Eigen::Quaterniond tilt = so3_exp(Eigen::Vector3d(0.02, 0.0, 0.0));
+  auto samples = standing(tilt, {0.04, 0.0, 0.0}, 56);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double t = to_seconds(samples[i].stamp);
+    if (t < 0.7 || t > 1.1) samples[i].specific_force.y() += i % 2 == 0 ? 2.0 : -2.0;
+  }
+  const auto quiet = quietly(samples);
+  ASSERT_TRUE(quiet);
+  EXPECT_TRUE(quiet->stood_still);
+  EXPECT_LT(quiet->belief.state.rotation.angularDistance(tilt), 1e-6);
+  EXPECT_EQ(quiet->belief.state.gyro_bias.norm(), 0.0);
+  const ErrorVector variance = quiet->belief.covariance.diagonal();
+  EXPECT_NEAR(std::sqrt(segment(variance, ErrorState::kGyroBias).minCoeff()),
+              10.0 * InitializationConfig{}.sigma_gyro_bias, 1e-12);
+}
+
 TEST(QuietInitialization, AShoveBeforeTheStandIsLeftOut) {
   const auto level = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
   const auto samples = shoved(level, 0.0, 0.55, 2.0);
