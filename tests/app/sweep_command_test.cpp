@@ -114,7 +114,7 @@ TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
   expect_refused("--out my.yaml", {"my.yaml", "no sweep's folder"});
   write("plan.yaml", "scenarios: []\n");
   expect_refused("", {"no scenario is given"});
-  write("plan.yaml", kPlan) << "desing: grid\n";
+  write("plan.yaml", kPlan + "desing: grid\n");
   expect_refused("", {"plan.yaml:5:1", "did you mean 'design'"});
   EXPECT_EQ(aims("merge nowhere").exit_code, 2);
 }
