@@ -83,29 +83,23 @@ Eigen::Quaterniond level(const Eigen::Vector3d& force) {
   return (yaw_rotation(-yaw_of(tilt)) * tilt).normalized();
 }
 
-/// How much more the variance is of what a start does not tell: ten times the deviation.
-constexpr double kLittleKnown = 100.0;
-
 ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_still,
                                bool rate_known) {
   using E = ErrorState;
-  // Without standing the start is little known, and the velocity may be any.
-  const double factor = stood_still ? 1.0 : kLittleKnown;
-  const auto variance = [factor](double sigma) {
-    return Eigen::Matrix3d(factor * sigma * sigma * Eigen::Matrix3d::Identity());
+  // What the start does not tell has ten times the deviation, and the velocity may be any.
+  const auto variance = [](double sigma, bool told) {
+    return Eigen::Matrix3d((told ? 1.0 : 100.0) * sigma * sigma * Eigen::Matrix3d::Identity());
   };
   ErrorMatrix P = ErrorMatrix::Zero();
-  block(P, E::kRotation, E::kRotation) = variance(config.sigma_tilt);
+  block(P, E::kRotation, E::kRotation) = variance(config.sigma_tilt, stood_still);
   block(P, E::kRotation, E::kRotation)(2, 2) = config.sigma_yaw * config.sigma_yaw;
   block(P, E::kPosition, E::kPosition) =
       Eigen::Matrix3d::Identity() * (config.sigma_position * config.sigma_position);
   const double velocity = stood_still ? config.sigma_velocity : config.sigma_velocity_moving;
   block(P, E::kVelocity, E::kVelocity) = Eigen::Matrix3d::Identity() * (velocity * velocity);
-  block(P, E::kGyroBias, E::kGyroBias) = (rate_known ? 1.0 : kLittleKnown) *
-                                         Eigen::Matrix3d::Identity() *
-                                         (config.sigma_gyro_bias * config.sigma_gyro_bias);
+  block(P, E::kGyroBias, E::kGyroBias) = variance(config.sigma_gyro_bias, rate_known);
   block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
-      variance(config.sigma_accelerometer_bias);
+      variance(config.sigma_accelerometer_bias, stood_still);
   // Members that learn the states of the legs open them.
   block(P, E::kLegScale, E::kLegScale) = Eigen::Matrix3d::Identity() * kKnown;
   block(P, E::kLegBias, E::kLegBias) = Eigen::Matrix3d::Identity() * kKnown;
