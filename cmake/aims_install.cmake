@@ -4,7 +4,7 @@
 # eval and io. The simulation, the pictures and the harness stay inside the program.
 include(CMakePackageConfigHelpers)
 
-set(exported_libraries core estimator eval io)
+set(exported_libraries core files estimator metrics recordings)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/aims)
 
 install(TARGETS aims RUNTIME COMPONENT runtime)
@@ -21,7 +21,10 @@ foreach(library ${exported_libraries})
   target_compile_features(aims_${library} PUBLIC cxx_std_20)
   install(TARGETS aims_${library} EXPORT aims ARCHIVE COMPONENT dev
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aims)
-  install(DIRECTORY ${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aims COMPONENT dev
+endforeach()
+foreach(folder core estimator recordings bench/metrics)
+  get_filename_component(parent ${folder} DIRECTORY)
+  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aims/${parent} COMPONENT dev
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 install(EXPORT aims NAMESPACE aims:: FILE aimsTargets.cmake DESTINATION ${cmake_folder}

@@ -4,11 +4,13 @@
 # libraries that simulate, estimate and score, the robot, and what compiled them; and with that of what
 # simulates alone. Only contents and names inside the project count; OUT changes only when a hash does.
 set(digest "${BUILD}")
-foreach(folder core sim models estimator eval harness)
+foreach(folder core sim models estimator bench)
   file(GLOB_RECURSE files RELATIVE ${ROOT} "${ROOT}/${folder}/*.hpp" "${ROOT}/${folder}/*.cpp"
     "${ROOT}/${folder}/*.in" "${ROOT}/${folder}/*.xml")
-  if(folder STREQUAL "harness")  # the rest of it reports
-    list(FILTER files INCLUDE REGEX "harness/(run[a-z_]*|score_record|stream|timed_estimator|sweep/evaluate|sweep/walk_[a-z]*)\\.")
+  list(FILTER files EXCLUDE REGEX "^core/files/")
+  if(folder STREQUAL "bench")  # the rest of it selects, stores and prints
+    list(FILTER files INCLUDE REGEX
+      "^bench/(metrics/|run/(run[a-z_]*|score_record|stream|timed_estimator)\\.|jobs/(evaluate|walk_[a-z]*)\\.)")
   endif()
   list(SORT files)
   foreach(file ${files})
@@ -23,7 +25,7 @@ string(SHA256 version "${digest}")
 string(SUBSTRING ${version} 0 16 version)
 string(SUBSTRING ${simulator_version} 0 16 simulator_version)
 set(text "// Written by cmake/code_version.cmake.
-#include \"harness/code_version.hpp\"
+#include \"bench/run/code_version.hpp\"
 
 namespace aims {
 std::string_view code_version() { return \"${version}\"; }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "estimator/eskf_estimator.hpp"
-#include "estimator/leg_dead_reckoning.hpp"
+#include "estimator/aims/eskf_estimator.hpp"
+#include "estimator/legs/leg_dead_reckoning.hpp"
 
 namespace aims {
 namespace {

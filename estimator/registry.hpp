@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "estimator/config.hpp"
+#include "estimator/aims/config.hpp"
 #include "estimator/estimator.hpp"
 
 namespace aims {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "estimator/registry.hpp"
-#include "harness/estimate.hpp"
-#include "io/tum.hpp"
+#include "bench/run/estimate.hpp"
+#include "core/files/tum.hpp"
 #include "ros/live_recording.hpp"
 #include "ros/node_options.hpp"
 #include "ros/odometry_publisher.hpp"

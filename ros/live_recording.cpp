@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "ros/live_source.hpp"
 
 namespace aims {

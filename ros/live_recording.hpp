@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/time.hpp"
-#include "io/recording/recording_reader.hpp"
+#include "recordings/stream/recording_reader.hpp"
 #include "ros/transport.hpp"
 
 namespace aims {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/bag/message_source.hpp"
+#include "recordings/bag/message_source.hpp"
 #include "ros/ros_message.hpp"
 
 namespace aims {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "io/ros/message_types.hpp"
+#include "recordings/messages/message_types.hpp"
 
 namespace aims {
 namespace {

@@ -8,4 +8,4 @@ step "install packages" install_packages
 step "configure" configure
 step "build" cmake --build build/release --target aims
 step "run scenarios/corridor.yaml" \
-  build/release/app/aims run scenarios/corridor.yaml --out out/demo --overwrite "$@"
+  build/release/aims run scenarios/corridor.yaml --out out/demo --overwrite "$@"

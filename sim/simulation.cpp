@@ -9,12 +9,12 @@
 #include <optional>
 #include <utility>
 
-#include "sim/arrivals.hpp"
+#include "sim/links/arrivals.hpp"
 #include "sim/environment/ray_caster.hpp"
 #include "sim/environment/scene_mjcf.hpp"
-#include "sim/localizability.hpp"
-#include "sim/quadruped_model.hpp"
-#include "sim/walker.hpp"
+#include "sim/sensors/localizability.hpp"
+#include "sim/robot/quadruped_model.hpp"
+#include "sim/robot/walker.hpp"
 
 namespace aims {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/measurements.hpp"
 #include "sim/environment/scene.hpp"
 #include "sim/simulation_config.hpp"
-#include "sim/truth.hpp"
+#include "sim/robot/truth.hpp"
 
 namespace aims {
 

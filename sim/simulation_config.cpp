@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/sampling.hpp"
+#include "sim/sensors/sampling.hpp"
 
 namespace aims {
 

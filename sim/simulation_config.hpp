@@ -2,14 +2,14 @@
 #pragma once
 
 #include "core/config.hpp"
-#include "sim/environment/lidar.hpp"
+#include "sim/sensors/lidar.hpp"
 #include "sim/environment/scene_config.hpp"
-#include "sim/gait.hpp"
-#include "sim/imu.hpp"
-#include "sim/leg_odometry.hpp"
-#include "sim/link/link.hpp"
-#include "sim/push.hpp"
-#include "sim/route.hpp"
+#include "sim/robot/gait.hpp"
+#include "sim/sensors/imu.hpp"
+#include "sim/sensors/leg_odometry.hpp"
+#include "sim/links/link.hpp"
+#include "sim/robot/push.hpp"
+#include "sim/robot/route.hpp"
 
 namespace aims {
 

@@ -6,8 +6,8 @@
 
 #include "core/measurements.hpp"
 #include "estimator/registry.hpp"
-#include "io/recording/recording_reader.hpp"
-#include "io/tum.hpp"
+#include "recordings/stream/recording_reader.hpp"
+#include "core/files/tum.hpp"
 
 template <class Value>
 Value or_exit(aims::Result<Value> result) {

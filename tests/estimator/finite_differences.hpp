@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "estimator/error_state.hpp"
+#include "estimator/filter/error_state.hpp"
 
 namespace aims::test {
 

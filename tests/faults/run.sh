@@ -59,7 +59,7 @@ failures_in() {
 
 # The unit tests, the quick folders first.
 unit_failures() {
-  local quick='^(core|estimator|eval|io|sim_link)\.' failed
+  local quick='^(core|files|estimator|metrics|bag|stream|sim)\.' failed
   failed=$(failures_in unit -R "$quick")
   if [ -n "$failed" ]; then echo "$failed"; else failures_in unit -E "$quick"; fi
 }

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "io/atomic_file.hpp"
-#include "io/byte_cursor.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/byte_cursor.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 
 namespace aims {

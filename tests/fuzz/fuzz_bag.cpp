@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "io/bag/bag_reader.hpp"
+#include "recordings/bag/bag_reader.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/touch.hpp"

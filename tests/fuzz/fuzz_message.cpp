@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "io/byte_cursor.hpp"
+#include "core/files/byte_cursor.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 #include "tests/fuzz/touch.hpp"
 

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "io/bag/bag_output.hpp"
-#include "io/bag/bag_publisher.hpp"
-#include "io/bag/bag_writer.hpp"
-#include "io/byte_cursor.hpp"
-#include "io/ros/message_types.hpp"
+#include "recordings/bag/bag_output.hpp"
+#include "recordings/bag/bag_publisher.hpp"
+#include "recordings/bag/bag_writer.hpp"
+#include "core/files/byte_cursor.hpp"
+#include "recordings/messages/message_types.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/touch.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "io/bag/bag_reader.hpp"
-#include "io/recording/recording_reader.hpp"
+#include "recordings/bag/bag_reader.hpp"
+#include "recordings/stream/recording_reader.hpp"
 
 namespace aims {
 namespace {

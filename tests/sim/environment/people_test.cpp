@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/environment/lidar.hpp"
+#include "sim/sensors/lidar.hpp"
 #include "tests/sim/environment/scene_checks.hpp"
 
 namespace aims {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/folder_lock.hpp"
+#include "bench/tuning/sweep_plan.hpp"
+#include "bench/jobs/unit_folder.hpp"
+
+namespace aims {
+
+/// A unit as units.csv lists it: enough to say what is missing, without scenarios or this code.
+struct ListedUnit {
+  std::string id;
+  std::string scenario;
+  std::string seed;
+  std::string estimator;  ///< with its settings and those of the scenario
+};
+
+/// The folder of a sweep: plan.yaml, units.csv, units/ID.json, shards/I-of-N/.lock.
+class SweepFolder {
+ public:
+  explicit SweepFolder(std::filesystem::path path) : path_(std::move(path)) {}
+
+  /// Makes the folder one of that plan and those units, or checks that it is. Error when it is
+  /// something else or of other units; with `renew` it becomes one of these, and results that are
+  /// also of these stay valid.
+  Result<void> enter(const SweepPlan& plan, std::span<const SweepUnit> units, bool renew) const;
+
+  /// Every unit that the sweep is to do. Error when the folder is not of a sweep.
+  Result<std::vector<ListedUnit>> listed() const;
+
+  /// The text of plan.yaml.
+  Result<std::string> plan() const;
+
+  UnitFolder units() const { return UnitFolder(path_ / "units"); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace aims

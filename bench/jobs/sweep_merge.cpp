@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "bench/jobs/sweep_store.hpp"
+#include "core/files/csv.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMissing = "missing";
+
+bool is_done(const MergedUnit& unit) { return unit.outcome() == name_of(UnitOutcome::kDone); }
+
+/// The file of a unit; null when it is not there or no such file.
+Json file_of(const UnitFolder& folder, const std::string& id) {
+  auto json = folder.read(id);
+  return json && result_in(*json) ? std::move(*json) : Json();
+}
+
+/// Calls `visit(key, value)` for every leaf of the unit's scores, keys dotted.
+template <class Visit>
+void visit_scores(const Json& json, const std::string& prefix, const Visit& visit) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) {
+      visit_scores(value, prefix + key + ".", visit);
+    } else {
+      visit(prefix + key, value);
+    }
+  }
+}
+
+/// Names in the order in which they first come, each once.
+class Columns {
+ public:
+  void add(const std::string& name) {
+    if (known_.insert(name).second) names_.push_back(name);
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::set<std::string> known_;
+  std::vector<std::string> names_;
+};
+
+void add_cell(CsvTable& table, const Json& value) {
+  if (value.is_number()) {
+    table.add(value.get<double>());
+  } else if (value.is_boolean()) {
+    table.add(value.get<bool>());
+  } else if (value.is_string()) {
+    table.add(value.get<std::string>());
+  } else {
+    table.add_empty();
+  }
+}
+
+}  // namespace
+
+std::string MergedUnit::outcome() const {
+  return file.is_null() ? kMissing : file.value("outcome", kMissing);
+}
+
+std::size_t MergedSweep::count(std::string_view outcome) const {
+  return static_cast<std::size_t>(
+      std::count_if(units.begin(), units.end(),
+                    [&](const MergedUnit& each) { return each.outcome() == outcome; }));
+}
+
+Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
+  MergedSweep sweep;
+  std::map<std::string, std::size_t> index;
+  std::set<std::string> others;
+  for (const fs::path& path : folders) {
+    const SweepFolder folder(path);
+    auto listed = folder.listed();
+    if (!listed) return tl::unexpected(listed.error());
+    const auto plan = folder.plan();
+    if (!plan) return tl::unexpected(plan.error());
+    if (std::find(sweep.plans.begin(), sweep.plans.end(), *plan) == sweep.plans.end()) {
+      sweep.plans.push_back(*plan);
+    }
+    for (ListedUnit& unit : *listed) {
+      const auto [at, added] = index.emplace(unit.id, sweep.units.size());
+      if (added) sweep.units.push_back({std::move(unit), Json()});
+    }
+    for (const std::string& id : folder.units().ids()) {
+      const auto at = index.find(id);
+      if (at == index.end()) {
+        others.insert(id);
+        continue;
+      }
+      MergedUnit& unit = sweep.units[at->second];
+      if (is_done(unit)) continue;
+      if (Json file = file_of(folder.units(), id); !file.is_null()) unit.file = std::move(file);
+    }
+  }
+  // A later folder may list what an earlier one has a result of.
+  std::erase_if(others, [&](const std::string& id) { return index.contains(id); });
+  sweep.others = others.size();
+  return sweep;
+}
+
+Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
+  Columns parameters;
+  Columns scores;
+  for (const MergedUnit& unit : sweep.units) {
+    if (!is_done(unit)) continue;
+    for (const auto& [key, unused] : unit.file["settings"].items()) parameters.add(key);
+    visit_scores(unit.file["scores"], "",
+                 [&](const std::string& key, const Json&) { scores.add(key); });
+  }
+  std::vector<std::string> header = {"id", "scenario", "seed", "estimator", "outcome"};
+  for (const auto* columns : {&parameters, &scores}) {
+    header.insert(header.end(), columns->names().begin(), columns->names().end());
+  }
+  CsvTable table(header);
+  for (const MergedUnit& unit : sweep.units) {
+    table.add(unit.listed.id).add(unit.listed.scenario).add(unit.listed.seed);
+    table.add(unit.listed.estimator).add(unit.outcome());
+    if (is_done(unit)) {
+      std::map<std::string, Json> found;
+      visit_scores(unit.file["scores"], "",
+                   [&](const std::string& key, const Json& value) { found[key] = value; });
+      for (const std::string& key : parameters.names()) {
+        add_cell(table, unit.file["settings"].value(key, Json()));
+      }
+      for (const std::string& key : scores.names()) add_cell(table, found[key]);
+    }
+    table.end_row();
+  }
+  return write_csv(file, table);
+}
+
+TextTable merge_table(const MergedSweep& sweep) {
+  const std::vector<std::string> outcomes = {"done", "failed", "crashed", "timed_out", kMissing};
+  TextTable table;
+  table.header = {"scenario", "units"};
+  table.header.insert(table.header.end(), outcomes.begin(), outcomes.end());
+  Columns scenarios;
+  std::map<std::string, std::map<std::string, std::size_t>> counts;
+  for (const MergedUnit& unit : sweep.units) {
+    scenarios.add(unit.listed.scenario);
+    ++counts[unit.listed.scenario]["units"];
+    ++counts[unit.listed.scenario][unit.outcome()];
+  }
+  for (const std::string& scenario : scenarios.names()) {
+    std::vector<std::string> row = {scenario};
+    for (std::size_t i = 1; i < table.header.size(); ++i) {
+      row.push_back(fmt::format("{}", counts[scenario][table.header[i]]));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace aims

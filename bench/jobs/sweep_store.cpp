@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/jobs/sweep_store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTables = R"(
+CREATE TABLE about (key TEXT NOT NULL, value TEXT NOT NULL);
+CREATE TABLE units (unit INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE, scenario TEXT NOT NULL,
+  family TEXT, level REAL, seed INTEGER NOT NULL, estimator TEXT NOT NULL, settings TEXT NOT NULL,
+  outcome TEXT NOT NULL, message TEXT, code TEXT, wall_s REAL);
+CREATE TABLE parameters (unit INTEGER NOT NULL REFERENCES units, key TEXT NOT NULL, value,
+  PRIMARY KEY (unit, key)) WITHOUT ROWID;
+CREATE TABLE scores (unit INTEGER NOT NULL REFERENCES units, key TEXT NOT NULL, value,
+  PRIMARY KEY (unit, key)) WITHOUT ROWID;
+)";
+
+void bind_text(SQLite::Statement& statement, int at, const Json& file, const char* key) {
+  const auto found = file.is_object() ? file.find(key) : file.end();
+  if (found != file.end() && found->is_string()) {
+    statement.bind(at, found->get<std::string>());
+  } else {
+    statement.bind(at);
+  }
+}
+
+void bind_number(SQLite::Statement& statement, int at, const Json& value) {
+  if (value.is_number()) {
+    statement.bind(at, value.get<double>());
+  } else if (value.is_boolean()) {
+    statement.bind(at, value.get<bool>() ? 1 : 0);
+  } else if (value.is_string()) {
+    statement.bind(at, value.get<std::string>());
+  } else {
+    statement.bind(at);
+  }
+}
+
+/// A setting's text as the number that it is, if it is one.
+Json setting_value(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size()) return number;
+  return text;
+}
+
+/// Fills the tables of an empty database.
+class Filler {
+ public:
+  explicit Filler(SQLite::Database& database)
+      : unit_(database, "INSERT INTO units VALUES (?,?,?,?,?,?,?,?,?,?,?,?)"),
+        parameter_(database, "INSERT INTO parameters VALUES (?,?,?)"),
+        score_(database, "INSERT INTO scores VALUES (?,?,?)"),
+        about_(database, "INSERT INTO about VALUES (?,?)") {}
+
+  void about(const std::string& key, const std::string& value) {
+    about_.bind(1, key);
+    about_.bind(2, value);
+    finish(about_);
+  }
+
+  void add(const MergedUnit& unit) {
+    ++number_;
+    const ListedUnit& listed = unit.listed;
+    const Json& file = unit.file;
+    unit_.bind(1, number_);
+    unit_.bind(2, listed.id);
+    unit_.bind(3, listed.scenario);
+    bind_text(unit_, 4, file, "family");
+    bind_number(unit_, 5, file.is_object() ? file.value("level", Json()) : Json());
+    unit_.bind(6, static_cast<std::int64_t>(std::stoull(listed.seed)));
+    const std::size_t plus = listed.estimator.find('+');
+    unit_.bind(7, listed.estimator.substr(0, plus));
+    unit_.bind(8, plus == std::string::npos ? "" : listed.estimator.substr(plus + 1));
+    unit_.bind(9, unit.outcome());
+    bind_text(unit_, 10, file, "message");
+    bind_text(unit_, 11, file, "code");
+    bind_number(unit_, 12, file.is_object() ? file.value("wall_s", Json()) : Json());
+    finish(unit_);
+    if (!file.is_object()) return;
+    const Json settings = file.value("settings", Json::object());
+    for (const auto& [key, value] : settings.items()) {
+      if (value.is_string()) add_value(parameter_, key, setting_value(value.get<std::string>()));
+    }
+    add_scores(file.value("scores", Json()), "");
+  }
+
+ private:
+  void add_scores(const Json& json, const std::string& prefix) {
+    for (const auto& [key, value] : json.items()) {
+      if (value.is_object()) {
+        add_scores(value, prefix + key + ".");
+      } else {
+        add_value(score_, prefix + key, value);
+      }
+    }
+  }
+
+  void add_value(SQLite::Statement& statement, const std::string& key, const Json& value) {
+    statement.bind(1, number_);
+    statement.bind(2, key);
+    bind_number(statement, 3, value);
+    finish(statement);
+  }
+
+  static void finish(SQLite::Statement& statement) {
+    statement.exec();
+    statement.reset();
+  }
+
+  std::int64_t number_ = 0;
+  SQLite::Statement unit_;
+  SQLite::Statement parameter_;
+  SQLite::Statement score_;
+  SQLite::Statement about_;
+};
+
+void fill(const MergedSweep& sweep, const fs::path& file) {
+  // Nobody else knows the file yet: no locks, which some network disks lack, and no journal.
+  SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 0,
+                            "unix-none");
+  database.exec("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF;");
+  database.exec(kTables);
+  SQLite::Transaction transaction(database);
+  Filler filler(database);
+  filler.about("schema", std::string(kSweepSchema));
+  for (const std::string& plan : sweep.plans) filler.about("plan", plan);
+  for (const MergedUnit& unit : sweep.units) filler.add(unit);
+  transaction.commit();
+}
+
+}  // namespace
+
+Result<void> write_sqlite(const MergedSweep& sweep, const fs::path& file) {
+  const fs::path temporary = fmt::format("{}.{}.tmp", file.string(), ::getpid());
+  std::error_code code;
+  fs::remove(temporary, code);
+  try {
+    fill(sweep, temporary);
+    fs::rename(temporary, file);
+    return {};
+  } catch (const std::exception& error) {
+    fs::remove(temporary, code);
+    return failure(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace aims

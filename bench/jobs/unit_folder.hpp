@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "bench/jobs/sweep_unit.hpp"
+
+namespace aims {
+
+/// A folder with one file per unit, ID.json. A file is there whole or not at all, and is never
+/// changed by another unit, so that any number of processes, on any machines, may fill one folder.
+class UnitFolder {
+ public:
+  explicit UnitFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// What the unit came to; none when it is not there or its file cannot be read.
+  std::optional<UnitResult> find(const std::string& id) const;
+
+  /// The whole file of a unit; none likewise.
+  std::optional<Json> read(const std::string& id) const;
+
+  /// Stores a result, over an earlier one of the same unit. Error when it cannot be written.
+  Result<void> put(const SweepUnit& unit, const UnitResult& result) const;
+
+  /// Every id that there is a file of, sorted.
+  std::vector<std::string> ids() const;
+
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path file_of(const std::string& id) const { return folder_ / (id + ".json"); }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace aims

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/metrics/scores.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kRpeDeltas[] = {1.0, 10.0};  ///< [m]
+
+void describe_association(Fields& f, ScoreConfig& c) {
+  f.choice("association", c.association,
+           {{"interpolated", Association::kInterpolated}, {"nearest", Association::kNearest}},
+           {.meaning = "How an estimated pose finds its true one; nearest is evo's rule.",
+            .source = "evo, core/sync"});
+  f.number("association_tolerance", c.association_tolerance,
+           {.unit = "s",
+            .range = at_least(0.0),
+            .meaning = "Largest difference of stamps for the nearest association.",
+            .source = "evo's default"});
+  f.choice("anchor", c.anchor,
+           {{"pose", AlignmentKind::kStartPose}, {"heading", AlignmentKind::kStartHeading}},
+           {.meaning = "What of the first pose is laid onto the truth besides its position."});
+  f.number("straightness", c.straightness,
+           {.unit = "-",
+            .range = in_half_open(0.0, 1.0),
+            .meaning = "Ratio of the second to the first singular value of the positions' "
+                       "covariance below which SE(3) alignment is degenerate; 1e-6 is a sideways "
+                       "spread of a thousandth of the length."});
+  f.number("edge_tolerance", c.edge_tolerance,
+           {.unit = "s",
+            .range = at_least(0.0),
+            .meaning = "Time without an estimate allowed at the start and the end; covers the "
+                       "standing start that estimators initialize on."});
+  f.number("longest_gap", c.longest_gap,
+           {.unit = "s", .range = positive(), .meaning = "Time without an estimate allowed."});
+}
+
+void describe_metrics(Fields& f, ScoreConfig& c) {
+  f.texts("segments", c.segments,
+          {.meaning = "Ways that have an M_list, as [a-d, d-h]; empty: from each named point to "
+                      "the next.",
+           .source = "table II"});
+  f.number("shortest_segment", c.shortest_segment,
+           {.unit = "m",
+            .range = positive(),
+            .meaning = "Shorter ways between reference points have no M_list."});
+  f.flag("rpe_all_pairs", c.rpe_all_pairs,
+         {.meaning = "Relative error from every pose instead of consecutive stretches.",
+          .source = "evo, core/filters"});
+  f.flag("rpe_pairs_from_truth", c.rpe_pairs_from_truth,
+         {.meaning = "Measure the stretches of the relative error along the truth, so that every "
+                     "estimator is held to the same; evo's default is the estimate."});
+  f.number("lost_error_offset", c.lost_error_offset,
+           {.unit = "m",
+            .range = at_least(0.0),
+            .meaning = "Position error at the start beyond which the robot is lost; half the "
+                       "width of a narrow corridor."});
+  f.number("lost_error_per_path", c.lost_error_per_path,
+           {.unit = "-",
+            .range = at_least(0.0),
+            .meaning = "Position error allowed per metre walked; dead reckoning on legs alone "
+                       "does about as badly.",
+            .source = "table I, legged odometry"});
+}
+
+/// M_end, unless the estimate stops before the truth does: then its end is another place.
+std::optional<EndError> end_error_if_reached(std::span<const PosePair> anchored,
+                                             const Trajectory& truth, Duration edge) {
+  if (anchored.size() < 2 || truth.back().stamp - anchored.back().stamp > edge) return std::nullopt;
+  return end_error(anchored);
+}
+
+void score_pairs(Scores& scores, std::span<const PosePair> pairs, const ScoreConfig& config) {
+  // One pose is equal to its truth after any alignment, which says nothing.
+  if (pairs.size() < 2) return;
+  const std::vector<PosePair> anchored = aligned(pairs, align_start(pairs, config.anchor));
+  scores.ate_m = ate_rmse(anchored);
+  scores.max_error_m = max_error(anchored);
+  scores.max_abs_z_error_m = max_abs_z_error(anchored);
+  scores.ate_yaw_m = ate_rmse(aligned(pairs, align_yaw(pairs)));
+  const Alignment se3 = align_se3(pairs, config.straightness);
+  scores.ate_se3_degenerate = se3.degenerate;
+  scores.ate_se3_m = ate_rmse(aligned(pairs, se3));
+}
+
+std::vector<RpeScore> relative_errors(std::span<const PosePair> pairs, const ScoreConfig& config) {
+  std::vector<RpeScore> scores;
+  for (const double delta : kRpeDeltas) {
+    RpeOptions options;
+    options.delta = delta;
+    options.all_pairs = config.rpe_all_pairs;
+    options.pairs_from_truth = config.rpe_pairs_from_truth;
+    scores.push_back(relative_pose_error(pairs, options));
+  }
+  return scores;
+}
+
+}  // namespace
+
+void describe(Fields& fields, ScoreConfig& config) {
+  describe_association(fields, config);
+  describe_metrics(fields, config);
+}
+
+Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const Passage> passages,
+             const ScoreConfig& config) {
+  return score_over(estimate, truth, segments_wanted(passages, config.segments), config);
+}
+
+Scores score_over(const Trajectory& estimate, const Trajectory& truth,
+                  std::span<const Segment> segments, const ScoreConfig& config) {
+  const Trajectory valid = valid_part(estimate);
+  const Trajectory valid_truth = valid_part(truth);
+  const std::vector<PosePair> pairs =
+      associate(valid, valid_truth, config.association, from_seconds(config.association_tolerance));
+  const std::vector<PosePair> anchored = aligned(pairs, align_start(pairs, config.anchor));
+  const Duration edge = from_seconds(config.edge_tolerance);
+
+  Scores scores;
+  const SuccessVerdict verdict = judge(estimate, valid_truth, anchored,
+                                       {.error_offset = config.lost_error_offset,
+                                        .error_per_path = config.lost_error_per_path,
+                                        .edge = edge,
+                                        .gap = from_seconds(config.longest_gap)});
+  scores.success = verdict.reason == LostReason::kNone;
+  scores.lost_reason = verdict.reason;
+  scores.lost_at = verdict.lost_at;
+  scores.poses = static_cast<int>(estimate.size());
+  scores.poses_invalid = static_cast<int>(estimate.size() - valid.size());
+  scores.poses_compared = static_cast<int>(pairs.size());
+  scores.true_path_m = path_length(valid_truth);
+  scores.segments = segment_distances(valid, valid_truth, segments, config.shortest_segment, edge);
+  scores.m_list_percent = m_list_percent(scores.segments);
+  scores.m_end = end_error_if_reached(anchored, valid_truth, edge);
+  score_pairs(scores, pairs, config);
+  scores.rpe = relative_errors(pairs, config);
+  if (anchored.size() >= 2) scores.drift = drift_summary(anchored, valid_truth, segments);
+  scores.segment_drifts = segment_drifts(valid, valid_truth, segments, edge);
+  return scores;
+}
+
+}  // namespace aims

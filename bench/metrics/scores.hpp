@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/trajectory.hpp"
+#include "bench/metrics/absolute_error.hpp"
+#include "bench/metrics/alignment.hpp"
+#include "bench/metrics/association.hpp"
+#include "bench/metrics/drift.hpp"
+#include "bench/metrics/relative_error.hpp"
+#include "bench/metrics/segments.hpp"
+#include "bench/metrics/success.hpp"
+
+namespace aims {
+
+/// How an estimate is held against the truth.
+struct ScoreConfig {
+  Association association = Association::kInterpolated;
+  double association_tolerance = 0.01;                  ///< [s]
+  AlignmentKind anchor = AlignmentKind::kStartHeading;  ///< or kStartPose
+  double straightness = 1e-6;                           ///< [-]
+  double edge_tolerance = 3.0;                          ///< [s]
+  double longest_gap = 2.0;                             ///< [s]
+  double shortest_segment = 1.0;                        ///< [m]
+  std::vector<std::string> segments;  ///< "a-d"; none: from each named point to the next
+  bool rpe_all_pairs = false;
+  bool rpe_pairs_from_truth = true;
+  double lost_error_offset = 1.0;     ///< [m]
+  double lost_error_per_path = 0.05;  ///< [-]
+};
+
+void describe(Fields& fields, ScoreConfig& config);
+
+/// Everything that evaluation says of one estimate. A quantity without a meaning has no value;
+/// none is ever NaN.
+struct Scores {
+  bool success = false;
+  LostReason lost_reason = LostReason::kNoOverlap;
+  std::optional<Time> lost_at;  ///< none exactly on success
+
+  int poses = 0;             ///< given by the estimator
+  int poses_invalid = 0;     ///< of those left out: not finite, not a pose, out of order
+  int poses_compared = 0;    ///< with a true pose
+  double true_path_m = 0.0;  ///< length that the robot truly walked
+
+  std::vector<SegmentDistance> segments;  ///< M_list of each, in order
+  std::optional<double> m_list_percent;   ///< over all segments
+  std::optional<EndError> m_end;          ///< none when the estimate does not reach the end
+
+  std::optional<double> ate_m;              ///< anchored at the start
+  std::optional<double> ate_se3_m;          ///< after the best SE(3) alignment
+  std::optional<double> ate_yaw_m;          ///< after the best heading and translation
+  bool ate_se3_degenerate = false;          ///< path too straight: ate_se3_m is ate_yaw_m
+  std::optional<double> max_error_m;        ///< anchored at the start
+  std::optional<double> max_abs_z_error_m;  ///< anchored at the start
+
+  std::vector<RpeScore> rpe;                 ///< over 1 m and over 10 m
+  std::optional<DriftSummary> drift;         ///< anchored at the start
+  std::vector<SegmentDrift> segment_drifts;  ///< anchored at each segment's begin
+};
+
+/// Scores of an estimate (any fixed frame) against the truth. `passages` are in order of time.
+/// Poor data (empty, not finite, one pose, no overlap) gives no success and quantities without
+/// value, never an error.
+Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const Passage> passages,
+             const ScoreConfig& config);
+
+/// As `score`, with an M_list of each of the segments, in order of time, and of no others.
+Scores score_over(const Trajectory& estimate, const Trajectory& truth,
+                  std::span<const Segment> segments, const ScoreConfig& config);
+
+}  // namespace aims

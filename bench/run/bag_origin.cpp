@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/bag_origin.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/run/scenario.hpp"
+#include "recordings/bag_trajectory.hpp"
+#include "core/files/passages.hpp"
+#include "recordings/stream/recording_topics.hpp"
+#include "core/files/yaml_config.hpp"
+
+namespace aims {
+namespace {
+
+/// The scenario's own choice; none when another version wrote it in words unknown today.
+std::vector<std::string> segments_of_scenario(const std::string& yaml) {
+  Scenario scenario;
+  if (!load_config_text(yaml, std::string(kScenarioTopic), scenario)) return {};
+  return scenario.scoring.segments;
+}
+
+}  // namespace
+
+Result<BagOrigin> bag_origin(const std::filesystem::path& bag) {
+  BagOrigin origin;
+  const auto passages = read_bag_text(bag, std::string(kPassagesTopic));
+  if (!passages) return tl::unexpected(passages.error());
+  if (*passages) {
+    auto parsed = parse_passages(**passages, fmt::format("{}:{}", bag.string(), kPassagesTopic));
+    if (!parsed) return tl::unexpected(parsed.error());
+    origin.passages = std::move(*parsed);
+  }
+  const auto scenario = read_bag_text(bag, std::string(kScenarioTopic));
+  if (scenario && *scenario) origin.segments = segments_of_scenario(**scenario);
+  return origin;
+}
+
+}  // namespace aims

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "bench/run/scenario.hpp"
+
+namespace aims {
+
+/// One line of a listing.
+struct CatalogueEntry {
+  std::string name;
+  std::string description;  ///< for a scenario that does not load: why
+  std::vector<std::string> tags;
+};
+
+/// Scenarios that differ in one quantity.
+struct Family {
+  std::string name;
+  std::string level_unit;
+  std::vector<std::string> cases;  ///< names of the scenarios, by level
+};
+
+/// A scenario file and what it holds, or why it does not load.
+struct ScenarioFile {
+  std::filesystem::path file;
+  Result<Scenario> scenario;
+};
+
+/// Every scenario file in `folder` and below, read with `overrides` on top. With tags, only
+/// scenarios that have any of them, and files that do not load: nobody knows their tags. Errors:
+/// two files of one name, a tag that no scenario has.
+Result<std::vector<ScenarioFile>> scenarios_in(const std::filesystem::path& folder,
+                                               std::span<const std::string> tags,
+                                               std::span<const std::string> overrides = {});
+
+/// A line per scenario.
+std::vector<CatalogueEntry> scenario_catalogue(std::span<const ScenarioFile> files);
+
+/// The families of those scenarios, by name.
+std::vector<Family> families_of(std::span<const ScenarioFile> files);
+
+/// Every registered estimator.
+std::vector<CatalogueEntry> estimator_catalogue();
+
+/// Where the shipped scenarios are: ./scenarios, else the first `scenarios` or
+/// `share/aims/scenarios` found going up from the folder of `executable`.
+std::filesystem::path default_scenario_folder(const std::filesystem::path& executable);
+
+}  // namespace aims

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "estimator/registry.hpp"
+#include "bench/run/bag_origin.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "core/stopwatch.hpp"
+#include "bench/run/stream.hpp"
+#include "core/files/yaml_config.hpp"
+
+namespace aims {
+namespace {
+
+/// A sample rate that is off by more is another one [-].
+constexpr double kRateTolerance = 0.1;
+
+/// `configured`, or the rate of the recording where that is clearly another and nobody chose.
+void follow_rate(std::optional<double> recorded_hz, const char* key, double default_hz,
+                 double& configured_hz, std::vector<std::string>& notes) {
+  if (!recorded_hz || configured_hz != default_hz) return;
+  if (std::abs(*recorded_hz - configured_hz) <= kRateTolerance * configured_hz) return;
+  configured_hz = *recorded_hz;
+  notes.push_back(
+      fmt::format("estimator.{} = {:.4g}, the rate found in the recording", key, configured_hz));
+}
+
+EstimatorOutcome outcome_of(const TimedEstimator& timed) {
+  EstimatorOutcome outcome;
+  outcome.name = timed.name();
+  outcome.report = timed.estimator().report();
+  outcome.map = timed.estimator().map_points();
+  outcome.scan_times_ms = timed.scan_times_ms();
+  outcome.wall_s = timed.total_seconds();
+  return outcome;
+}
+
+/// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
+void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
+  if (result.truth.empty()) return;
+  ScoringInput input;
+  input.scoring = config.scoring;
+  input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",
+                 result.truth};
+  for (const EstimatorOutcome& each : result.estimators) {
+    input.estimates.push_back({each.name, each.name, "estimated here", each.report.trajectory});
+  }
+  if (auto origin = bag_origin(result.bag)) {
+    if (input.scoring.segments.empty()) input.scoring.segments = origin->segments;
+    input.segments = segments_wanted(origin->passages, input.scoring.segments);
+    input.passages = std::move(origin->passages);
+  } else {
+    result.setup.notes.push_back(origin.error().message);
+  }
+  auto scores = score_trajectories(std::move(input));
+  if (scores) {
+    result.scores = std::move(*scores);
+  } else {
+    result.setup.notes.push_back("not scored: " + scores.error().message);
+  }
+}
+
+}  // namespace
+
+void describe(Fields& fields, EstimateConfig& config) {
+  fields.texts(
+      "estimators", config.estimators,
+      {.unit = "-", .meaning = "who estimates, by name (`aims list`), or LABEL=NAME+key=value"});
+  fields.group("recording", config.recording);
+  fields.group("estimator", config.estimator);
+  fields.group("scoring", config.scoring);
+}
+
+Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
+                                            std::span<const std::string> overrides) {
+  EstimateConfig config;
+  if (!file.empty()) {
+    if (auto ok = load_config(file, config); !ok) return tl::unexpected(ok.error());
+  }
+  if (auto ok = apply_overrides(config, overrides); !ok) return tl::unexpected(ok.error());
+  if (config.estimators.empty()) return failure("estimators: expected at least one name");
+  if (auto specs = check_estimator_specs(config.estimators); !specs) {
+    return failure("estimators: " + specs.error().message);
+  }
+  return config;
+}
+
+Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
+                          const std::string& recording) {
+  for (const std::string& text : config.estimators) {
+    const auto spec = parse_estimator_spec(text);
+    const std::string name = spec ? spec->name : text;
+    if (name == "lio" || setup.has_legs) continue;
+    return failure(
+        fmt::format("{}: estimator {} needs leg odometry, which is not found; name its topic "
+                    "(--topics leg_odometry=/...), or use --estimator lio",
+                    recording, name));
+  }
+  return {};
+}
+
+EstimatorConfig estimator_config_for(const EstimateConfig& config, RecordingSetup& setup) {
+  EstimatorConfig own = config.estimator;
+  const EstimatorConfig defaults;
+  follow_rate(setup.imu_rate_hz, "imu.rate_hz", defaults.imu.rate_hz, own.imu.rate_hz, setup.notes);
+  follow_rate(setup.leg_rate_hz, "leg.rate_hz", defaults.leg.rate_hz, own.leg.rate_hz, setup.notes);
+  return own;
+}
+
+Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOptions& options,
+                                const Observer& observer) {
+  const Stopwatch stopwatch;
+  auto reader = RecordingReader::open(options.bag, config.recording, {options.recover});
+  if (!reader) return tl::unexpected(reader.error());
+  EstimateResult result;
+  result.bag = options.bag;
+  result.setup = reader->setup();
+  result.summary = reader->summary();
+  if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)
+    return tl::unexpected(ok.error());
+  result.estimator = estimator_config_for(config, result.setup);
+  auto estimators = make_estimators(config.estimators, result.estimator, result.setup.rig);
+  if (!estimators) return tl::unexpected(estimators.error());
+
+  const double length_s = to_seconds(result.summary.end - result.summary.start);
+  const StreamEnd end =
+      stream([&](std::vector<Delivery>& batch) { return reader->advance(kStreamBatch, batch); },
+             *estimators, options.jobs,
+             [&] {
+               return observer({to_seconds(reader->position()), length_s, stopwatch.seconds()});
+             });
+  result.complete = !end.stopped;
+  result.broken = end.error;
+  result.counts = reader->counts();
+  result.truth = reader->truth();
+  result.recorded_s = to_seconds(reader->position());
+  for (const TimedEstimator& each : *estimators) result.estimators.push_back(outcome_of(each));
+  score_against_truth(config, result);
+  result.wall_s = stopwatch.seconds();
+  return result;
+}
+
+}  // namespace aims

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+#include "estimator/aims/config.hpp"
+#include "bench/metrics/scores.hpp"
+#include "bench/run/run.hpp"
+#include "bench/run/trajectory_scoring.hpp"
+#include "recordings/stream/recording_reader.hpp"
+
+namespace aims {
+
+/// How a recording is estimated: its topics, who estimates, and how the result is scored when the
+/// recording holds the truth. Scenarios have the same `estimator` and `scoring`.
+struct EstimateConfig {
+  std::vector<std::string> estimators = {"aims"};
+  RecordingConfig recording;
+  EstimatorConfig estimator;
+  ScoreConfig scoring;
+};
+
+void describe(Fields& fields, EstimateConfig& config);
+
+/// Reads a YAML file (none: the defaults) and applies settings "key=value" on top.
+Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
+                                            std::span<const std::string> overrides);
+
+struct EstimateOptions {
+  std::filesystem::path bag;
+  bool recover = false;  ///< read what is whole in a broken bag
+  int jobs = 1;          ///< threads; the trajectories do not depend on it
+};
+
+/// What estimating a recording yields, before it is written.
+struct EstimateResult {
+  std::filesystem::path bag;
+  RecordingSetup setup;
+  BagSummary summary;
+  std::map<std::string, int> counts;  ///< of what was odd in the messages
+  EstimatorConfig estimator;          ///< as used: with the recording's own sample rates
+  bool complete = false;              ///< false when the observer ended it early
+  std::optional<Error> broken;        ///< the bag ended in an error; what came before is estimated
+  double recorded_s = 0.0;            ///< of the recording that was read
+  double wall_s = 0.0;
+  std::vector<EstimatorOutcome> estimators;  ///< their scores are in `scores`
+  Trajectory truth;                          ///< of the body; empty: the recording has none
+  std::optional<TrajectoryScores> scores;    ///< none without a truth
+};
+
+/// Error when an estimator needs legs and the recording has none; the error calls it `recording`.
+Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
+                          const std::string& recording);
+
+/// The estimators' configuration for a recording: with its own sample rates where these are clearly
+/// others and nobody chose, which is told in the setup's notes.
+EstimatorConfig estimator_config_for(const EstimateConfig& config, RecordingSetup& setup);
+
+/// Streams the recording through the estimators. Error when it cannot be opened, a topic is missing
+/// or an estimator is unknown.
+Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOptions& options,
+                                const Observer& observer);
+
+}  // namespace aims

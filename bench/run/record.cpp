@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/record.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bench/run/code_version.hpp"
+#include "bench/run/results.hpp"
+#include "core/stopwatch.hpp"
+#include "bench/run/stream.hpp"
+#include "bench/run/tables.hpp"
+#include "recordings/stream/recording_writer.hpp"
+#include "core/files/tum.hpp"
+#include "sim/sensors/attitude_filter.hpp"
+#include "sim/simulation.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Puts the simulation's three outputs into one bag, in order of time within a batch.
+class Recorder {
+ public:
+  explicit Recorder(RecordingWriter writer) : writer_(std::move(writer)) {}
+
+  Result<void> write(const std::vector<Delivery>& deliveries, const std::vector<ImuSample>& fast,
+                     const Truth& truth) {
+    auto fast_next = fast.begin();
+    for (const Delivery& delivery : deliveries) {
+      if (auto ok = write_truth_until(delivery.arrival, truth); !ok) return ok;
+      for (; fast_next != fast.end() && fast_next->stamp <= delivery.arrival; ++fast_next) {
+        if (auto ok = write_fast(*fast_next); !ok) return ok;
+      }
+      if (auto ok = write_delivery(delivery); !ok) return ok;
+    }
+    for (; fast_next != fast.end(); ++fast_next) {
+      if (auto ok = write_fast(*fast_next); !ok) return ok;
+    }
+    return write_truth_until(truth.samples.back().stamp, truth);
+  }
+
+  RecordingWriter& writer() { return writer_; }
+
+ private:
+  Result<void> write_fast(const ImuSample& sample) {
+    return writer_.write_imu(ImuOutput::kFast, sample.stamp, sample, fast_attitude_.update(sample));
+  }
+
+  Result<void> write_delivery(const Delivery& delivery) {
+    if (const auto* imu = std::get_if<ImuSample>(&delivery.measurement)) {
+      return writer_.write_imu(ImuOutput::kMain, delivery.arrival, *imu, attitude_.update(*imu));
+    }
+    if (const auto* legs = std::get_if<LegOdometrySample>(&delivery.measurement)) {
+      return writer_.write_legs(delivery.arrival, *legs);
+    }
+    return writer_.write_scan(delivery.arrival, *std::get<LidarScanPtr>(delivery.measurement));
+  }
+
+  Result<void> write_truth_until(Time until, const Truth& truth) {
+    for (; truth_next_ < truth.samples.size(); ++truth_next_) {
+      const TruthSample& each = truth.samples[truth_next_];
+      if (each.stamp > until) return {};
+      if (each.stamp < truth_due_) continue;
+      truth_due_ = each.stamp + kTruthSpacing;
+      const BodyMotion motion = {each.stamp, each.T_world_body, each.velocity,
+                                 each.angular_velocity};
+      if (auto ok = writer_.write_truth(motion); !ok) return ok;
+    }
+    return {};
+  }
+
+  RecordingWriter writer_;
+  AttitudeFilter attitude_;
+  AttitudeFilter fast_attitude_;
+  std::size_t truth_next_ = 0;
+  Time truth_due_ = 0;
+};
+
+/// What the bag says of its origin: the configuration that repeats it.
+std::string origin_text(const Scenario& scenario, std::uint64_t seed) {
+  return fmt::format("# aims {}, code {}, scenario {}, seed {}\n{}", AIMS_VERSION, code_version(),
+                     scenario.name, seed, effective_config(scenario, seed));
+}
+
+/// `bag` with another extension: walk.bag -> walk.truth.tum.
+fs::path beside(const fs::path& bag, const char* extension) {
+  fs::path file = bag;
+  return file.replace_extension(extension);
+}
+
+Result<void> make_room(const RecordOptions& options) {
+  std::error_code ignored;
+  if (options.bag.has_parent_path()) fs::create_directories(options.bag.parent_path(), ignored);
+  if (!options.overwrite || !fs::exists(options.bag)) return {};
+  if (!fs::is_regular_file(options.bag)) {
+    return failure(fmt::format("{}: expected a file to overwrite", options.bag.string()));
+  }
+  fs::remove(options.bag, ignored);
+  return {};
+}
+
+}  // namespace
+
+Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& options,
+                             const Observer& observer) {
+  const Stopwatch stopwatch;
+  auto simulation = Simulation::create(scenario.simulation, options.seed);
+  if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
+  if (auto ok = make_room(options); !ok) return tl::unexpected(ok.error());
+  auto writer =
+      RecordingWriter::create(options.bag, simulation->rig(), origin_text(scenario, options.seed),
+                              {.compression = options.compression});
+  if (!writer) return tl::unexpected(writer.error());
+
+  Recorder recorder(std::move(*writer));
+  RecordOutcome outcome;
+  outcome.complete = true;
+  std::vector<Delivery> deliveries;
+  const double expected_s = to_seconds(simulation->expected_duration());
+  for (bool walking = true; walking && outcome.complete;) {
+    deliveries.clear();
+    walking = simulation->advance(kStreamBatch, deliveries);
+    auto ok = recorder.write(deliveries, simulation->take_fast_imu(), simulation->truth());
+    if (!ok) return tl::unexpected(ok.error());
+    outcome.complete = observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
+  }
+  const Truth& truth = simulation->truth();
+  const CsvTable passages = passages_table(truth.passages);
+  outcome.truth = beside(options.bag, ".truth.tum");
+  outcome.passages = beside(options.bag, ".passages.csv");
+  auto ok = recorder.writer().write_passages(simulation->now(), passages.text());
+  if (ok) ok = recorder.writer().close();
+  if (ok) ok = write_tum(outcome.truth, thinned(body_trajectory(truth), kTruthSpacing));
+  if (ok) ok = write_csv(outcome.passages, passages);
+  if (!ok) return tl::unexpected(ok.error());
+  outcome.simulated_s = to_seconds(simulation->now());
+  outcome.fell = truth.fell;
+  outcome.touched_wall = truth.touched_wall;
+  outcome.left_out = recorder.writer().left_out();
+  outcome.bag_bytes = fs::file_size(options.bag);
+  outcome.wall_s = stopwatch.seconds();
+  return outcome;
+}
+
+}  // namespace aims

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "bench/run/run.hpp"
+#include "bench/run/scenario.hpp"
+#include "recordings/bag/bag_writer.hpp"
+
+namespace aims {
+
+struct RecordOptions {
+  std::uint64_t seed = 1;
+  std::filesystem::path bag;  ///< file to write; it must not exist
+  bool overwrite = false;     ///< unless this is set
+  BagCompression compression = BagCompression::kNone;
+};
+
+/// What a recording has become, besides its files.
+struct RecordOutcome {
+  bool complete = false;  ///< false when the observer ended it early
+  double simulated_s = 0.0;
+  double wall_s = 0.0;
+  bool fell = false;
+  bool touched_wall = false;
+  int left_out = 0;  ///< messages that would have needed a negative time
+  std::uintmax_t bag_bytes = 0;
+  std::filesystem::path truth;     ///< NAME.truth.tum: true poses of the body
+  std::filesystem::path passages;  ///< NAME.passages.csv
+};
+
+/// Simulates the scenario and records what its sensors deliver, and the truth, as a ROS 1 bag;
+/// truth and passages of the reference points also beside it. Killed at any moment, it leaves a bag
+/// that opens. Error when the scenario cannot be simulated or a file cannot be written.
+Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& options,
+                             const Observer& observer);
+
+}  // namespace aims

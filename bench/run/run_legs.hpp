@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <set>
+#include <span>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "core/files/csv.hpp"
+#include "sim/simulation_config.hpp"
+#include "sim/robot/truth.hpp"
+
+namespace aims {
+
+/// Length of the stretches of time that legs.csv has a row of.
+inline constexpr Duration kLegStretch = 100 * kMillisecond;
+
+/// What became of the leg odometry in one stretch of a run, and what the feet truly did.
+struct LegStretch {
+  Time stamp = 0;     ///< end of the stretch
+  double loss = 0.0;  ///< share of the packets that never came, in [0, 1]
+  double slip = 0.0;  ///< true speed of the fastest standing foot over the ground, mean [m/s]
+};
+
+/// Counts the packets of leg odometry that reach the estimators, by their stamps.
+class LegPackets {
+ public:
+  void count(std::span<const Delivery> deliveries);
+
+  /// The packets with a stamp after `begin` and up to `end`; one that came twice counts once.
+  std::size_t between(Time begin, Time end) const;
+
+ private:
+  std::set<Time> stamps_;
+};
+
+/// The whole stretches of a run that lasted until `end`, of packets sent at the configured rate.
+/// Stamps are taken as they came: where they jitter, a packet may fall into the next stretch.
+std::vector<LegStretch> leg_stretches(const SimulationConfig& config, const LegPackets& packets,
+                                      const Truth& truth, Time end);
+
+/// One row per stretch.
+CsvTable legs_table(std::span<const LegStretch> stretches);
+
+}  // namespace aims

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "estimator/registry.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "core/files/config_dump.hpp"
+#include "core/files/yaml_config.hpp"
+#include "core/files/yaml_position.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Error for an expectation of an estimator that there is not.
+Result<void> check_estimator(std::string_view key, const std::string& name,
+                             const Scenario& scenario) {
+  std::vector<std::string> known;
+  for (const EstimatorEntry& entry : estimator_registry()) known.emplace_back(entry.name);
+  for (const std::string& label : labels_of(scenario.estimators)) {
+    if (std::find(known.begin(), known.end(), label) == known.end()) known.push_back(label);
+  }
+  if (std::find(known.begin(), known.end(), name) != known.end()) return {};
+  const std::string near = near_match(name, known);
+  return failure(fmt::format("{}: no estimator '{}'; expected one of {}{}", key, name,
+                             fmt::join(known, ", "),
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+/// Error for a segment that the route has no two points for.
+Result<void> check_segments(const Scenario& scenario) {
+  const auto& points = scenario.simulation.route.points;
+  for (std::size_t i = 0; i < scenario.scoring.segments.size(); ++i) {
+    const std::string& name = scenario.scoring.segments[i];
+    bool exists = false;
+    for (std::size_t from = 0; from < points.size(); ++from) {
+      for (std::size_t to = from + 1; to < points.size(); ++to) {
+        exists = exists || points[from].name + "-" + points[to].name == name;
+      }
+    }
+    if (exists) continue;
+    return failure(fmt::format(
+        "scoring.segments: expected FROM-TO of two of the route's points in order, got '{}'",
+        name));
+  }
+  return {};
+}
+
+Result<void> check(const Scenario& scenario) {
+  if (auto segments = check_segments(scenario); !segments) return segments;
+  if (auto specs = check_estimator_specs(scenario.estimators); !specs) {
+    return failure("estimators: " + specs.error().message);
+  }
+  for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
+    const std::string key = fmt::format("expect.{}.estimator", i);
+    const Expectation& expectation = scenario.expect[i];
+    if (auto known = check_estimator(key, expectation.estimator, scenario); !known) return known;
+    if (expectation.min == -kNoLimit && expectation.max == kNoLimit) {
+      return failure(fmt::format("expect.{}: expected a limit, max or min", i));
+    }
+    if (expectation.min > expectation.max) {
+      return failure(fmt::format("expect.{}.min: is above max, so that nothing can pass", i));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void describe(Fields& f, Expectation& e) {
+  f.text("estimator", e.estimator, {.meaning = "estimator whose score is limited"});
+  f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
+  f.number("max", e.max, {.unit = "as the score", .meaning = "largest value that passes"});
+  f.number("min", e.min, {.unit = "as the score", .meaning = "smallest value that passes"});
+  f.choice("statistic", e.statistic,
+           {{"worst", GateStatistic::kWorst},
+            {"median", GateStatistic::kMedian},
+            {"mean", GateStatistic::kMean}},
+           {.meaning = "what of the score over several seeds is limited"});
+}
+
+void describe(Fields& f, Scenario& s) {
+  f.text("name", s.name, {.meaning = "name of the scenario; the file's name when absent"});
+  f.text("description", s.description, {.meaning = "one line for listings"});
+  f.texts("tags", s.tags, {.meaning = "sets that the scenario belongs to, for --tags"});
+  f.text("family", s.family, {.meaning = "scenarios that differ in one quantity; empty: none"});
+  f.number("level", s.level, {.unit = "level_unit", .meaning = "that quantity in this scenario"});
+  f.text("level_unit", s.level_unit, {.meaning = "unit of the level"});
+  f.integer("seed", s.seed,
+            {.unit = "-", .range = at_least(0), .meaning = "seed of every random stream"});
+  f.texts("estimators", s.estimators,
+          {.meaning = "estimators that run on the stream: NAME or LABEL=NAME+key=value"});
+  describe(f, s.simulation);
+  f.group("estimator", s.estimator);
+  f.group("scoring", s.scoring);
+  f.list("expect", s.expect, "limits that a run must hold");
+}
+
+Error located(const Scenario& scenario, const Error& error) {
+  if (scenario.file.empty()) return error;
+  return {with_position(scenario.file, error.message)};
+}
+
+Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides) {
+  Scenario scenario;
+  scenario.file = file;
+  scenario.overrides.assign(overrides.begin(), overrides.end());
+  scenario.name = file.stem().string();
+  if (auto loaded = load_config(file, scenario); !loaded) return tl::unexpected(loaded.error());
+  if (auto applied = apply_overrides(scenario, overrides); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  if (auto valid = check(scenario); !valid) {
+    return tl::unexpected(located(scenario, valid.error()));
+  }
+  return scenario;
+}
+
+Result<Scenario> default_scenario(std::span<const std::string> overrides) {
+  Scenario scenario;
+  scenario.name = "default";
+  if (auto applied = apply_overrides(scenario, overrides); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  return scenario;
+}
+
+std::string config_text(const Scenario& scenario, bool annotated) {
+  Scenario copy = scenario;
+  const Fields fields = fields_of(copy);
+  return annotated ? dump_annotated_config(fields) : dump_config(fields);
+}
+
+std::string effective_config(const Scenario& scenario, std::uint64_t seed) {
+  Scenario effective = scenario;
+  effective.seed = static_cast<int>(seed);
+  return config_text(effective);
+}
+
+Result<fs::path> find_scenario(const std::string& given, const fs::path& folder) {
+  if (fs::is_regular_file(given)) return fs::path(given);
+  const fs::path by_path = folder / (given + ".yaml");
+  if (fs::is_regular_file(by_path)) return by_path;
+  const auto files = scenario_files(folder);
+  if (!files) return tl::unexpected(files.error());
+  std::vector<std::string> names;
+  for (const fs::path& file : *files) {
+    names.push_back(file.stem().string());
+    if (names.back() == given) return file;
+  }
+  const std::string near = near_match(fs::path(given).stem().string(), names);
+  return failure(fmt::format("{}: no such scenario file, and no scenario of that name in {}{}",
+                             given, folder.string(),
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+Result<std::vector<fs::path>> scenario_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::map<std::string, fs::path> by_name;
+  for (const fs::path& file : files) {
+    const auto [other, is_new] = by_name.emplace(file.stem().string(), file);
+    if (is_new) continue;
+    return failure(fmt::format("{} and {}: two scenarios of the same name; rename one",
+                               other->second.string(), file.string()));
+  }
+  return files;
+}
+
+}  // namespace aims

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/score_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "estimator/registry.hpp"
+#include "bench/metrics/statistics.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "bench/run/gates.hpp"
+
+namespace aims {
+namespace {
+
+using aims::json_of;
+
+template <class Part, class Member>
+Json json_of(const std::optional<Part>& part, Member Part::*member) {
+  return part ? json_of(std::optional<double>(*part.*member)) : Json();
+}
+
+Json axis_json(const AxisError& error) {
+  return {{"along", error.along_m},
+          {"lateral", error.lateral_m},
+          {"vertical", error.vertical_m},
+          {"heading_rad", error.heading_rad}};
+}
+
+Json drift_json(const std::optional<DriftSummary>& drift) {
+  if (!drift) return {};
+  return {{"rmse", axis_json(drift->rmse)},
+          {"max", axis_json(drift->max)},
+          {"end", axis_json(drift->end)}};
+}
+
+Json time_json(const std::vector<double>& scan_times_ms) {
+  const auto summary = summarize(scan_times_ms);
+  return {{"mean", json_of(summary, &Summary::mean)},
+          {"p50", json_of(summary, &Summary::p50)},
+          {"p99", json_of(summary, &Summary::p99)}};
+}
+
+/// M_list of each segment and, as "all", of their sum.
+void add_segments(Json& json, const Scores& scores) {
+  Json percent = Json::object();
+  Json signed_percent = Json::object();
+  for (const SegmentDistance& distance : scores.segments) {
+    percent[distance.segment.name] = json_of(distance.percent);
+    signed_percent[distance.segment.name] = json_of(distance.signed_percent);
+  }
+  percent["all"] = json_of(scores.m_list_percent);
+  json["m_list_percent"] = std::move(percent);
+  json["m_list_signed_percent"] = std::move(signed_percent);
+}
+
+void add_relative_errors(Json& json, const Scores& scores) {
+  for (const RpeScore& rpe : scores.rpe) {
+    json["rpe_" + std::to_string(std::lround(rpe.delta)) + "m"] = {
+        {"translation_m", json_of(rpe.translation_rmse_m)},
+        {"rotation_rad", json_of(rpe.rotation_rmse_rad)}};
+  }
+}
+
+Json weak_axis_json(const std::vector<WeakAxisScore>& scores) {
+  Json json = Json::object();
+  for (const WeakAxisScore& score : scores) {
+    json[score.level] = {{"scans", score.scans},
+                         {"error_rms_m", json_of(score.error_rms_m)},
+                         {"bound_rms_m", json_of(score.bound_rms_m)},
+                         {"efficiency", json_of(score.efficiency)},
+                         {"nees", json_of(score.nees)}};
+  }
+  return json;
+}
+
+/// What the run's sweeps allow to know, whoever estimates.
+Json localizability_json(const RunLocalizability& run) {
+  std::vector<double> returns;
+  for (const Localizability& scan : run.scans) returns.push_back(scan.equivalent_returns);
+  Json share = Json::object();
+  for (const DegeneracyLevel& level : kDegeneracyLevels) {
+    const auto degenerate =
+        std::count_if(run.scans.begin(), run.scans.end(),
+                      [&level](const Localizability& scan) { return is_degenerate(scan, level); });
+    share[std::string(level.name)] =
+        run.scans.empty()
+            ? Json()
+            : Json(static_cast<double>(degenerate) / static_cast<double>(run.scans.size()));
+  }
+  Json bound;
+  if (!run.bounds.empty()) {
+    const PosteriorBound& end = run.bounds.back();
+    bound = {{"along", json_of(end.along)},
+             {"lateral", json_of(end.lateral)},
+             {"vertical", json_of(end.vertical)}};
+  }
+  return {{"scans", run.scans.size()},
+          {"median_equivalent_returns", json_of(median(returns))},
+          {"degenerate_share", std::move(share)},
+          {"bound_end_m", std::move(bound)}};
+}
+
+Json times_json(const RunResult& result, double drawing_s) {
+  Json times = {{"physics", result.simulation_times.physics},
+                {"lidar", result.simulation_times.lidar},
+                {"drawing", drawing_s}};
+  for (const EstimatorOutcome& outcome : result.estimators) {
+    times["estimators"][outcome.name] = outcome.wall_s;
+  }
+  return times;
+}
+
+Json gates_json(const Scenario& scenario, const RunRecord& record) {
+  Json gates = Json::array();
+  for (const GateCheck& check : check_gates(scenario, {&record, 1}))
+    gates.push_back(gate_json(check));
+  return gates;
+}
+
+/// Calls `visit(key, value)` for every leaf of `json`, keys dotted.
+template <class Visit>
+void visit_leaves(const Json& json, const std::string& prefix, const Visit& visit) {
+  for (const auto& [key, value] : json.items()) {
+    const std::string full = prefix.empty() ? key : prefix + "." + key;
+    if (value.is_object()) {
+      visit_leaves(value, full, visit);
+    } else {
+      visit(full, value);
+    }
+  }
+}
+
+}  // namespace
+
+Json json_of(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json();
+}
+
+Json scores_json(const Scores& scores) {
+  Json json;
+  json["success"] = scores.success;
+  json["lost_reason"] = name_of(scores.lost_reason);
+  json["lost_at_s"] = scores.lost_at ? Json(to_seconds(*scores.lost_at)) : Json();
+  add_segments(json, scores);
+  json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
+  json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);
+  json["m_end_z_m"] = json_of(scores.m_end, &EndError::z_m);
+  json["ate_m"] = json_of(scores.ate_m);
+  json["ate_se3_m"] = json_of(scores.ate_se3_m);
+  json["ate_se3_degenerate"] = scores.ate_se3_degenerate;
+  json["ate_yaw_m"] = json_of(scores.ate_yaw_m);
+  json["max_error_m"] = json_of(scores.max_error_m);
+  json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
+  add_relative_errors(json, scores);
+  json["drift_m"] = drift_json(scores.drift);
+  return json;
+}
+
+Json estimator_json(const EstimatorOutcome& outcome) {
+  Json json = scores_json(outcome.scores);
+  json["weak_axis"] = weak_axis_json(outcome.weak_axis);
+  json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
+  json["poses"] = outcome.scores.poses;
+  json["counts"] = outcome.report.counts;
+  return json;
+}
+
+Json segments_json(const Scores& scores) {
+  Json segments = Json::array();
+  for (const SegmentDistance& distance : scores.segments) {
+    segments.push_back({{"name", distance.segment.name}, {"length_m", distance.true_distance_m}});
+  }
+  return segments;
+}
+
+RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s) {
+  RunRecord record;
+  record.seed = result.seed;
+  const double wall_s = result.wall_s + drawing_s;
+  record.scores = {
+      {"schema", kScoresSchema},
+      {"version", AIMS_VERSION},
+      {"scenario", scenario.name},
+      {"seed", result.seed},
+      {"complete", result.complete},
+      {"simulated_s", result.simulated_s},
+      {"wall_s", wall_s},
+      {"realtime_factor", wall_s > 0.0 ? result.simulated_s / wall_s : 0.0},
+      {"times_s", times_json(result, drawing_s)},
+      {"robot", {{"fell", result.truth.fell}, {"touched_wall", result.truth.touched_wall}}},
+      {"segments",
+       result.estimators.empty() ? Json::array() : segments_json(result.estimators.front().scores)},
+      {"localizability", localizability_json(result.localizability)}};
+  for (const EstimatorOutcome& outcome : result.estimators) {
+    record.scores["estimators"][outcome.name] = estimator_json(outcome);
+  }
+  record.scores["gates"] = gates_json(scenario, record);
+  return record;
+}
+
+void take_estimators(const Scenario& scenario, const RunRecord& from, RunRecord& record) {
+  std::vector<std::string> names;
+  for (const EstimatorEntry& entry : estimator_registry()) names.emplace_back(entry.name);
+  for (const std::string& label : labels_of(scenario.estimators)) names.push_back(label);
+  for (const auto& [name, unused] : from.scores.at("estimators").items()) names.push_back(name);
+  Json merged = Json::object();
+  for (const std::string& name : names) {
+    for (const RunRecord* each : {&std::as_const(record), &from}) {
+      const Json& estimators = each->scores.at("estimators");
+      if (!merged.contains(name) && estimators.contains(name)) merged[name] = estimators[name];
+    }
+  }
+  for (const auto& [name, seconds] : from.scores["times_s"]["estimators"].items()) {
+    Json& times = record.scores["times_s"]["estimators"];
+    if (merged.contains(name) && !times.contains(name)) times[name] = seconds;
+  }
+  for (const char* group : {"specs", "weak_axis_series"}) {
+    if (!from.scores.contains(group)) continue;
+    for (const auto& [name, value] : from.scores[group].items()) {
+      Json& own = record.scores[group];
+      if (merged.contains(name) && !own.contains(name)) own[name] = value;
+    }
+  }
+  record.scores["estimators"] = std::move(merged);
+  record.scores["gates"] = gates_json(scenario, record);
+}
+
+std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
+                                 const std::string& key) {
+  std::optional<double> found;
+  visit_leaves(record.scores.at("estimators").at(estimator), "",
+               [&](const std::string& name, const Json& value) {
+                 if (name != key) return;
+                 if (value.is_number()) found = value.get<double>();
+                 if (value.is_boolean()) found = value.get<bool>() ? 1.0 : 0.0;
+               });
+  return found;
+}
+
+std::vector<std::string> score_keys(const RunRecord& record, const std::string& estimator) {
+  std::vector<std::string> keys;
+  visit_leaves(record.scores.at("estimators").at(estimator), "",
+               [&](const std::string& name, const Json& value) {
+                 if (!value.is_string()) keys.push_back(name);
+               });
+  return keys;
+}
+
+}  // namespace aims

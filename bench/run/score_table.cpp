@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/score_table.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/run/summary.hpp"
+
+namespace aims {
+namespace {
+
+struct Column {
+  std::string title;
+  std::string key;
+  int digits;
+};
+
+std::vector<Column> columns_of(const RunRecord& run) {
+  std::vector<Column> columns;
+  for (const Json& segment : run.scores["segments"]) {
+    const auto name = segment["name"].get<std::string>();
+    columns.push_back({fmt::format("M_list({}) %", name), "m_list_percent." + name, 3});
+  }
+  columns.push_back({"M_end m", "m_end_m", 3});
+  columns.push_back({"ATE m", "ate_m", 3});
+  columns.push_back({"max |z| m", "max_error_z_m", 3});
+  columns.push_back({"ms/scan", "time_per_scan_ms.mean", 2});
+  return columns;
+}
+
+std::string cell(const ScoreSummary& summary, int digits, bool several) {
+  if (!summary.median) return "-";
+  const std::string median = fmt::format("{:.{}f}", *summary.median, digits);
+  return several ? fmt::format("{} ({:.{}f})", median, *summary.worst, digits) : median;
+}
+
+std::string success_cell(std::span<const RunRecord> runs, const std::string& estimator) {
+  std::size_t successes = 0;
+  for (const RunRecord& run : runs)
+    successes += run.scores["estimators"][estimator]["success"] == true;
+  if (runs.size() == 1) return successes == 1 ? "yes" : "lost";
+  return fmt::format("{}/{}", successes, runs.size());
+}
+
+}  // namespace
+
+TextTable score_table(std::span<const RunRecord> runs) {
+  TextTable table;
+  if (runs.empty()) return table;
+  const std::vector<Column> columns = columns_of(runs.front());
+  table.header = {"estimator"};
+  for (const Column& column : columns) table.header.push_back(column.title);
+  table.header.emplace_back("success");
+  for (const auto& [estimator, unused] : runs.front().scores["estimators"].items()) {
+    std::vector<std::string> row = {estimator};
+    for (const Column& column : columns) {
+      row.push_back(cell(summarize(runs, estimator, column.key), column.digits, runs.size() > 1));
+    }
+    row.push_back(success_cell(runs, estimator));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace aims

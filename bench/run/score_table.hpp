@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "bench/run/score_record.hpp"
+#include "core/files/table.hpp"
+
+namespace aims {
+
+/// The paper's Table I over one or more runs: a row per estimator; over several runs each cell is
+/// "median (worst)", and success the fraction of runs.
+TextTable score_table(std::span<const RunRecord> runs);
+
+}  // namespace aims

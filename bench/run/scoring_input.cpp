@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/scoring_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "bench/run/bag_origin.hpp"
+#include "bench/run/scenario.hpp"
+#include "bench/run/segment_list.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/kitti.hpp"
+#include "core/files/number_lines.hpp"
+#include "core/files/passages.hpp"
+#include "recordings/stream/recording_topics.hpp"
+#include "core/files/trajectory_file.hpp"
+#include "core/files/yaml_config.hpp"
+
+namespace aims {
+namespace {
+
+/// The part of a configuration that scoring reads.
+struct ScoringSettings {
+  ScoreConfig scoring;
+};
+
+void describe(Fields& fields, ScoringSettings& settings) {
+  fields.group("scoring", settings.scoring);
+}
+
+Result<ScoreConfig> scoring_of(const ScoringRequest& request) {
+  ScoringSettings settings;
+  if (!request.config.empty()) {
+    // Any scenario, or the config.yaml of a run, may be given: the rest of it is checked and left.
+    Scenario scenario;
+    if (auto loaded = load_config(request.config, scenario); !loaded) {
+      return tl::unexpected(loaded.error());
+    }
+    settings.scoring = scenario.scoring;
+  }
+  auto applied = apply_overrides(settings, request.overrides);
+  if (!applied) return tl::unexpected(applied.error());
+  return settings.scoring;
+}
+
+Result<Pose> extrinsic_of(const std::string& text) {
+  if (text.empty()) return Pose();
+  std::vector<double> v;
+  for (const std::string_view word : words_of(text)) {
+    if (const auto number = parse_number(word)) v.push_back(*number);
+  }
+  const bool seven = v.size() == 7 && words_of(text).size() == 7;
+  const Eigen::Quaterniond rotation =
+      seven ? Eigen::Quaterniond(v[6], v[3], v[4], v[5]) : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
+  if (!(std::abs(rotation.norm() - 1.0) < 1e-3)) {
+    return failure(
+        fmt::format("--extrinsic '{}': expected 'x y z qx qy qz qw' in metres with a "
+                    "unit quaternion",
+                    text));
+  }
+  return Pose{rotation.normalized(), {v[0], v[1], v[2]}};
+}
+
+/// "run/odom" of run.bag:/odom, "aims" of out/aims.tum.
+std::string name_of(const TrajectoryFile& file) { return file.file.stem().string() + file.topic; }
+
+/// Fills in the truth; yields the bag that it is from, or an empty path.
+Result<std::filesystem::path> read_truth(const ScoringRequest& request,
+                                         const std::vector<StampList>& stamps,
+                                         ScoringInput& input) {
+  auto file =
+      read_trajectory(request.truth, {PoseRules::kStrict, std::string(kTruthImuTopic), stamps});
+  if (!file) return tl::unexpected(file.error());
+  input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
+  input.truth = {name_of(*file), request.truth, file->kind, std::move(file->trajectory),
+                 file->body_frame};
+  return file->topic.empty() ? std::filesystem::path() : file->file;
+}
+
+/// Names made different: a repeated one is numbered.
+std::string unique_name(const std::string& name, const std::vector<SourcedTrajectory>& others) {
+  std::set<std::string> taken;
+  for (const SourcedTrajectory& each : others) taken.insert(each.name);
+  std::string unique = name;
+  for (int i = 2; taken.contains(unique); ++i) unique = fmt::format("{}#{}", name, i);
+  return unique;
+}
+
+void note_body(const SourcedTrajectory& truth, const SourcedTrajectory& estimate,
+               std::vector<std::string>& notes) {
+  const std::string& body = estimate.body_frame;
+  if (truth.body_frame.empty() || body.empty() || truth.body_frame == body) return;
+  notes.push_back(
+      fmt::format("{}: poses of '{}', while the truth's are of '{}'; --extrinsic takes "
+                  "one to the other",
+                  estimate.name, body, truth.body_frame));
+}
+
+Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList> stamps,
+                            ScoringInput& input) {
+  const auto extrinsic = extrinsic_of(request.extrinsic);
+  if (!extrinsic) return tl::unexpected(extrinsic.error());
+  const Pose T_estimate_body = extrinsic->inverse();
+  const Duration offset = from_seconds(request.time_offset_s);
+  stamps.push_back({"the truth", {}});
+  for (const StampedPose& each : input.truth.trajectory) {
+    stamps.back().stamps.push_back(each.stamp - offset);
+  }
+  for (std::size_t i = 0; i < request.estimates.size(); ++i) {
+    const std::string& source = request.estimates[i];
+    auto file = read_trajectory(source, {PoseRules::kAsGiven, "", stamps});
+    if (!file) return tl::unexpected(file.error());
+    input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
+    const bool moved = !request.extrinsic.empty();
+    for (StampedPose& each : file->trajectory) {
+      each.stamp += offset;
+      if (moved) each.pose = each.pose * T_estimate_body;
+    }
+    const std::string name = request.names.empty() ? name_of(*file) : request.names[i];
+    input.estimates.push_back({unique_name(name, input.estimates), source, file->kind,
+                               std::move(file->trajectory), file->body_frame});
+    if (!moved) note_body(input.truth, input.estimates.back(), input.notes);
+  }
+  return {};
+}
+
+/// The file of passages, or what the truth's bag says of its own walk.
+Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag) {
+  if (request.passages.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
+  const auto text = read_file(request.passages);
+  if (!text) return tl::unexpected(text.error());
+  auto passages = parse_passages(*text, request.passages.string());
+  if (!passages) return tl::unexpected(passages.error());
+  return BagOrigin{std::move(*passages), {}};
+}
+
+Result<std::vector<Segment>> segments_of_request(const ScoringRequest& request,
+                                                 const ScoringInput& input) {
+  if (request.segments.empty()) return segments_wanted(input.passages, input.scoring.segments);
+  const auto list = parse_segments(request.segments);
+  if (!list) return tl::unexpected(list.error());
+  return resolve_segments(*list, input.passages, input.truth.trajectory);
+}
+
+/// KITTI's own poses are of a camera, whose y axis points down.
+void note_axes(ScoringInput& input) {
+  const auto is_kitti = [](const SourcedTrajectory& each) { return each.kind == "KITTI poses"; };
+  const bool any = is_kitti(input.truth) ||
+                   std::any_of(input.estimates.begin(), input.estimates.end(), is_kitti);
+  if (!any || input.scoring.anchor == AlignmentKind::kStartPose) return;
+  input.notes.emplace_back(
+      "KITTI poses are taken with z up; for a camera's axes (y down) give "
+      "--set scoring.anchor=pose");
+}
+
+Result<std::vector<StampList>> stamps_of(const std::filesystem::path& times) {
+  if (times.empty()) return std::vector<StampList>();
+  const auto text = read_file(times);
+  if (!text) return tl::unexpected(text.error());
+  auto stamps = parse_times(*text, times.string());
+  if (!stamps) return tl::unexpected(stamps.error());
+  return std::vector<StampList>{{times.string(), std::move(*stamps)}};
+}
+
+}  // namespace
+
+Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
+  if (!request.names.empty() && request.names.size() != request.estimates.size()) {
+    return failure(fmt::format("--name: expected one for each of {} estimates, found {}",
+                               request.estimates.size(), request.names.size()));
+  }
+  ScoringInput input;
+  auto scoring = scoring_of(request);
+  if (!scoring) return tl::unexpected(scoring.error());
+  input.scoring = std::move(*scoring);
+  const auto stamps = stamps_of(request.times);
+  if (!stamps) return tl::unexpected(stamps.error());
+  const auto bag = read_truth(request, *stamps, input);
+  if (!bag) return tl::unexpected(bag.error());
+  auto origin = origin_of(request, *bag);
+  if (!origin) return tl::unexpected(origin.error());
+  input.passages = std::move(origin->passages);
+  if (input.scoring.segments.empty()) input.scoring.segments = std::move(origin->segments);
+  auto segments = segments_of_request(request, input);
+  if (!segments) return tl::unexpected(segments.error());
+  input.segments = std::move(*segments);
+  if (auto read = read_estimates(request, *stamps, input); !read) {
+    return tl::unexpected(read.error());
+  }
+  note_axes(input);
+  return input;
+}
+
+}  // namespace aims

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "bench/run/trajectory_scoring.hpp"
+
+namespace aims {
+
+/// Where the trajectories to be scored come from, as given on the command line.
+struct ScoringRequest {
+  std::string truth;                   ///< a file, or "run.bag:/topic"
+  std::vector<std::string> estimates;  ///< likewise
+  std::vector<std::string> names;      ///< of the estimates; none: by their files and topics
+  std::filesystem::path times;         ///< stamps of KITTI poses; empty: none
+  std::filesystem::path passages;      ///< passages.csv; empty: the bag's own, if the truth is one
+  std::string segments;                ///< see `parse_segments`; empty: as the configuration says
+  std::string extrinsic;  ///< "x y z qx qy qz qw", T_body_estimate: pose of the estimates' frame
+  double time_offset_s = 0.0;          ///< added to the stamps of the estimates
+  std::filesystem::path config;        ///< YAML whose group `scoring` counts; empty: defaults
+  std::vector<std::string> overrides;  ///< "scoring.key=value" on top
+};
+
+/// Reads all that is needed to score. Errors are one line that names the file or the option.
+Result<ScoringInput> read_scoring_input(const ScoringRequest& request);
+
+}  // namespace aims

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "core/trajectory.hpp"
+#include "bench/run/run.hpp"
+#include "bench/run/score_record.hpp"
+#include "core/files/csv.hpp"
+
+namespace aims {
+
+/// One row per scan: everything in ScanDiagnostics and the time that the scan took [ms].
+CsvTable diagnostics_table(const EstimatorOutcome& outcome);
+
+/// One row per passed reference point.
+CsvTable passages_table(const std::vector<Passage>& passages);
+
+/// One row per run, estimator and score: seed, estimator, score, value.
+CsvTable scores_csv(std::span<const RunRecord> runs);
+
+}  // namespace aims

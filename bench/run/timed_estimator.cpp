@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/timed_estimator.hpp"
+
+#include <utility>
+
+#include "core/stopwatch.hpp"
+
+namespace aims {
+namespace {
+
+/// Scans done so far; an estimator that looks at none is measured by its poses.
+std::size_t scans_in(const EstimatorReport& report) {
+  return report.diagnostics.empty() ? report.trajectory.size() : report.diagnostics.size();
+}
+
+}  // namespace
+
+TimedEstimator::TimedEstimator(std::string name, std::unique_ptr<Estimator> estimator)
+    : name_(std::move(name)), estimator_(std::move(estimator)) {}
+
+void TimedEstimator::consume(std::span<const Delivery> deliveries) {
+  for (const Delivery& delivery : deliveries) {
+    timed([&] { estimator_->consume(delivery); });
+  }
+}
+
+void TimedEstimator::finish() {
+  timed([&] { estimator_->finish(); });
+}
+
+template <class Work>
+void TimedEstimator::timed(const Work& work) {
+  const EstimatorReport& report = estimator_->report();
+  const std::size_t scans_before = scans_in(report);
+  const Stopwatch stopwatch;
+  work();
+  const double seconds = stopwatch.seconds();
+  total_seconds_ += seconds;
+  seconds_since_scan_ += seconds;
+  const std::size_t scans = scans_in(report);
+  if (scans <= scans_before) return;
+  const auto done = static_cast<double>(scans - scans_before);
+  scan_times_ms_.resize(scans, 1e3 * seconds_since_scan_ / done);
+  seconds_since_scan_ = 0.0;
+}
+
+}  // namespace aims

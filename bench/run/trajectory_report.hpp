@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "bench/run/score_record.hpp"
+#include "core/files/table.hpp"
+#include "bench/run/trajectory_scoring.hpp"
+
+namespace aims {
+
+/// A row per estimate. Of several estimates, the smallest figure of each column among those that
+/// are not lost carries a star; an ATE SE(3) that fell back to yaw only is marked "yaw".
+TextTable trajectory_score_table(const TrajectoryScores& scores);
+
+/// Where the truth and each estimate come from, and how they met.
+TextTable trajectory_source_table(const TrajectoryScores& scores);
+
+/// How the trajectories were aligned for each column, in words.
+std::string score_legend(const TrajectoryScores& scores);
+
+/// The record of schema aims.scores/1, with seed 0 and the truth's name as scenario.
+RunRecord record_of(const TrajectoryScores& scores);
+
+struct TrajectoryReportOptions {
+  std::filesystem::path out;
+  bool overwrite = false;
+  bool pictures = true;
+};
+
+/// What `write_trajectory_report` yields.
+struct TrajectoryReport {
+  std::filesystem::path folder;
+  std::vector<std::string> warnings;  ///< pictures that could not be drawn
+};
+
+/// Writes scores.json, scores.csv, scores.md and the pictures into a new folder.
+Result<TrajectoryReport> write_trajectory_report(const TrajectoryScores& scores,
+                                                 const TrajectoryReportOptions& options);
+
+}  // namespace aims

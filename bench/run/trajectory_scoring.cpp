@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/trajectory_scoring.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bench/metrics/alignment.hpp"
+
+namespace aims {
+namespace {
+
+/// Beyond this, as in map grids, positions are taken from the first one: scoring moves estimates
+/// onto the truth anyway.
+constexpr double kFar = 1e5;  ///< [m]
+
+/// Between true poses farther apart than this, the straight line is worth a word.
+constexpr Duration kLongTruthGap = kSecond;
+
+std::string span_text(const Trajectory& trajectory) {
+  return fmt::format("{:.3f} to {:.3f} s", to_seconds(trajectory.front().stamp),
+                     to_seconds(trajectory.back().stamp));
+}
+
+Result<void> check_overlap(const SourcedTrajectory& estimate, const SourcedTrajectory& truth) {
+  if (estimate.trajectory.empty()) {
+    return failure(fmt::format("{}: expected poses, found none", estimate.source));
+  }
+  const auto by_stamp = [](const StampedPose& a, const StampedPose& b) {
+    return a.stamp < b.stamp;
+  };
+  const auto [first, last] =
+      std::minmax_element(estimate.trajectory.begin(), estimate.trajectory.end(), by_stamp);
+  const Trajectory span = {*first, *last};
+  const Time begin = truth.trajectory.front().stamp;
+  if (first->stamp <= truth.trajectory.back().stamp && last->stamp >= begin) return {};
+  return failure(
+      fmt::format("{}: its stamps, {}, do not overlap the truth's, {}: likely a clock "
+                  "offset; if both began together, --time-offset {:.9f} makes it good",
+                  estimate.source, span_text(span), span_text(truth.trajectory),
+                  to_seconds(begin - first->stamp)));
+}
+
+void move_near(SourcedTrajectory& each, std::vector<std::string>& notes) {
+  if (each.trajectory.empty()) return;
+  const Eigen::Vector3d origin = each.trajectory.front().pose.translation;
+  if (!origin.allFinite() || origin.norm() < kFar) return;
+  for (StampedPose& pose : each.trajectory) pose.pose.translation -= origin;
+  notes.push_back(
+      fmt::format("{}: starts {:.0f} km from its origin: positions are taken from the "
+                  "first one",
+                  each.name, origin.norm() / 1000.0));
+}
+
+void note_truth(const ScoringInput& input, std::vector<std::string>& notes) {
+  const Trajectory& truth = input.truth.trajectory;
+  Duration longest = 0;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    longest = std::max(longest, truth[i].stamp - truth[i - 1].stamp);
+  }
+  if (longest > kLongTruthGap) {
+    notes.push_back(
+        fmt::format("truth: no pose for up to {:.1f} s; there it is taken as a straight "
+                    "line",
+                    to_seconds(longest)));
+  }
+  if (input.segments.empty()) {
+    notes.emplace_back("no reference points: M_list is n/a");
+    return;
+  }
+  for (const Segment& each : input.segments) {
+    const auto begin = pose_at(truth, each.begin);
+    const auto end = pose_at(truth, each.end);
+    const double length = begin && end ? (end->translation - begin->translation).norm() : 0.0;
+    if (length >= input.scoring.shortest_segment) continue;
+    notes.push_back(
+        begin && end
+            ? fmt::format("segment {}: its ends are {:.2f} m apart, less than "
+                          "scoring.shortest_segment: no M_list",
+                          each.name, length)
+            : fmt::format("segment {}: not within the truth's stamps: no M_list", each.name));
+  }
+}
+
+void note_estimates(const TrajectoryScores& result, std::vector<std::string>& notes) {
+  std::vector<std::string> straight;
+  for (const ScoredEstimate& each : result.estimates) {
+    const Scores& scores = each.scores;
+    if (scores.ate_se3_m && scores.ate_se3_degenerate) straight.push_back(each.given.name);
+    if (scores.poses_invalid == 0) continue;
+    notes.push_back(
+        fmt::format("{}: {} of {} poses left out: not finite, not a pose, or stamped "
+                    "not after the one before",
+                    each.given.name, scores.poses_invalid, scores.poses));
+  }
+  if (straight.empty()) return;
+  notes.push_back(
+      fmt::format("{}: too straight (or too few poses) for SE(3) alignment: Umeyama's "
+                  "covariance lacks rank, so that the rotation about the line of motion "
+                  "cannot be told; ATE SE(3) falls back to heading and translation",
+                  fmt::join(straight, ", ")));
+}
+
+ScoredEstimate score_one(SourcedTrajectory estimate, const ScoringInput& input) {
+  const Trajectory& truth = input.truth.trajectory;
+  ScoredEstimate scored;
+  scored.scores = score_over(estimate.trajectory, truth, input.segments, input.scoring);
+  scored.in_truth_frame = valid_part(estimate.trajectory);
+  if (const auto difference = median_stamp_difference(scored.in_truth_frame, truth)) {
+    scored.median_stamp_difference_s = to_seconds(*difference);
+  }
+  const auto pairs = associate(scored.in_truth_frame, truth, input.scoring.association,
+                               from_seconds(input.scoring.association_tolerance));
+  const Pose T_truth_estimate = align_start(pairs, input.scoring.anchor).T_truth_estimate;
+  for (StampedPose& each : scored.in_truth_frame) each.pose = T_truth_estimate * each.pose;
+  scored.given = std::move(estimate);
+  return scored;
+}
+
+}  // namespace
+
+Result<TrajectoryScores> score_trajectories(ScoringInput input) {
+  TrajectoryScores result;
+  result.notes = std::move(input.notes);
+  if (input.truth.trajectory.size() < 2) {
+    return failure(fmt::format("{}: expected at least two true poses, found {}", input.truth.source,
+                               input.truth.trajectory.size()));
+  }
+  move_near(input.truth, result.notes);
+  note_truth(input, result.notes);
+  for (SourcedTrajectory& estimate : input.estimates) {
+    if (auto overlap = check_overlap(estimate, input.truth); !overlap) {
+      return tl::unexpected(overlap.error());
+    }
+    move_near(estimate, result.notes);
+    result.estimates.push_back(score_one(std::move(estimate), input));
+  }
+  note_estimates(result, result.notes);
+  result.truth = std::move(input.truth);
+  result.passages = std::move(input.passages);
+  result.segments = std::move(input.segments);
+  result.scoring = std::move(input.scoring);
+  return result;
+}
+
+}  // namespace aims

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+#include "bench/metrics/scores.hpp"
+#include "bench/metrics/segments.hpp"
+
+namespace aims {
+
+/// A trajectory and where it is from.
+struct SourcedTrajectory {
+  std::string name;    ///< in tables and pictures
+  std::string source;  ///< as given: a file, or a bag and its topic
+  std::string kind;    ///< "TUM", "KITTI poses", "nav_msgs/Odometry on /odom"
+  Trajectory trajectory;
+  std::string body_frame = {};  ///< whose poses they are, where the file says; e.g. "lidar"
+};
+
+/// Trajectories of any system, the truth, and over which ways M_list is taken.
+struct ScoringInput {
+  SourcedTrajectory truth;                   ///< valid poses with increasing stamps
+  std::vector<SourcedTrajectory> estimates;  ///< of the same body, as their systems gave them
+  std::vector<Passage> passages;
+  std::vector<Segment> segments;  ///< in order of time; none: there is no M_list
+  ScoreConfig scoring;
+  std::vector<std::string> notes;  ///< what was assumed while reading, a sentence each
+};
+
+/// An estimate with its scores and how it met the truth.
+struct ScoredEstimate {
+  SourcedTrajectory given;
+  Trajectory in_truth_frame;  ///< its valid poses laid onto the truth at the start
+  Scores scores;
+  std::optional<double> median_stamp_difference_s;  ///< to the nearest true pose
+};
+
+/// What `score_trajectories` yields.
+struct TrajectoryScores {
+  SourcedTrajectory truth;
+  std::vector<Passage> passages;
+  std::vector<Segment> segments;
+  ScoreConfig scoring;
+  std::vector<ScoredEstimate> estimates;
+  std::vector<std::string> notes;  ///< what a reader of the numbers must know, a sentence each
+};
+
+/// Scores each estimate against the truth. Error when the truth has fewer than two poses, or when
+/// the stamps of an estimate do not overlap the truth's: a clock offset, which no score tells of.
+Result<TrajectoryScores> score_trajectories(ScoringInput input);
+
+}  // namespace aims

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <benchmark/benchmark.h>
+
+#include "core/random.hpp"
+#include "estimator/lidar/plane_model.hpp"
+#include "estimator/registry.hpp"
+#include "estimator/lidar/voxel_map.hpp"
+#include "tests/support/kinematic_world.hpp"
+
+namespace aims {
+namespace {
+
+/// Returns of the inside of a corridor segment, 2 cm of noise.
+std::vector<Eigen::Vector3f> corridor_points(int count, std::uint64_t seed) {
+  RandomStream random(seed, "estimator_bench");
+  const test::CorridorShape corridor;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d origin(random.uniform(20.0, 60.0), 0.0, 0.5);
+    const Eigen::Vector3d direction = random.normal3().normalized();
+    const double range = cast_ray(corridor, origin, direction).distance + 0.02 * random.normal();
+    points.push_back((origin + range * direction).cast<float>());
+  }
+  return points;
+}
+
+void nearest_neighbours(benchmark::State& state) {
+  VoxelMap map{MapConfig{}};
+  map.insert(corridor_points(300000, 1), Eigen::Vector3f::Zero());
+  const auto queries = corridor_points(4096, 2);
+  std::size_t i = 0;
+  Neighbors neighbors;
+  for (auto _ : state) {
+    map.nearest(queries[i++ % queries.size()], neighbors);
+    benchmark::DoNotOptimize(neighbors);
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(nearest_neighbours);
+
+void insertion(benchmark::State& state) {
+  const auto points = corridor_points(10000, 1);
+  VoxelMap map{MapConfig{}};
+  for (auto _ : state) map.insert(points, Eigen::Vector3f::Zero());
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+}
+BENCHMARK(insertion)->Unit(benchmark::kMillisecond);
+
+void plane_fit(benchmark::State& state) {
+  const std::array<Eigen::Vector3f, 5> points = {
+      Eigen::Vector3f(0.1F, 0.0F, 1.0F), Eigen::Vector3f(-0.1F, 0.02F, 1.01F),
+      Eigen::Vector3f(0.0F, 0.1F, 0.99F), Eigen::Vector3f(0.03F, -0.1F, 1.0F),
+      Eigen::Vector3f(0.0F, 0.0F, 1.005F)};
+  const MapConfig config;
+  for (auto _ : state) benchmark::DoNotOptimize(fit_plane(points, config));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(plane_fit);
+
+/// Twelve seconds of walking with full scans of 28,800 rays; the counter is the time per scan,
+/// inertial prediction and leg updates included.
+void time_per_scan(benchmark::State& state) {
+  test::KinematicConfig config;
+  config.walk.distance = 7.0;
+  config.walk.there_and_back = false;
+  test::KinematicWorld world(config);
+  std::vector<Delivery> deliveries;
+  world.advance(world.duration(), deliveries);
+  std::size_t scans = 0;
+  for (auto _ : state) {
+    auto estimator = make_estimator("aims", EstimatorConfig{}, world.rig());
+    for (const Delivery& delivery : deliveries) (*estimator)->consume(delivery);
+    (*estimator)->finish();
+    scans += (*estimator)->report().trajectory.size();
+  }
+  state.counters["per_scan"] = benchmark::Counter(
+      static_cast<double>(scans), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(time_per_scan)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace aims

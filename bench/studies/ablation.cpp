@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/ablation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/studies/suite_summary.hpp"
+
+namespace aims {
+namespace {
+
+bool is_flag(const Parameter& parameter) { return parameter.expected == "true or false"; }
+
+/// "floor" of "directional.floor.enabled", "leg_states_scale" of "directional.leg_states.scale".
+std::string part_of(const std::string& key, const std::string& group) {
+  constexpr std::string_view kEnabled = ".enabled";
+  std::string part = key.substr(group.size() + 1);
+  if (key == group + std::string(kEnabled)) part = key.substr(group.rfind('.') + 1);
+  if (part.ends_with(kEnabled)) part.resize(part.size() - kEnabled.size());
+  std::replace(part.begin(), part.end(), '.', '_');
+  return part;
+}
+
+AblationRow row_of(const SuiteCase& each, const std::string& label) {
+  AblationRow row;
+  row.label = label;
+  row.runs = each.runs.size();
+  row.successes = successes(each.runs, label);
+  for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
+    const ScoreSummary summary = summarize(each.runs, label, kAblationScores[i].key);
+    row.cells[i] = {summary.median, summary.worst, std::nullopt, summary.count};
+  }
+  return row;
+}
+
+void set_ratios(const AblationRow& whole, AblationRow& row) {
+  for (std::size_t i = 0; i < row.cells.size(); ++i) {
+    const auto& reference = whole.cells[i].median;
+    if (row.cells[i].median && reference && *reference > 0.0) {
+      row.cells[i].ratio = *row.cells[i].median / *reference;
+    }
+  }
+}
+
+AblationCase case_of(const SuiteCase& each, const std::string& whole) {
+  AblationCase result{each.scenario.name, {}};
+  if (each.runs.empty()) return result;
+  const AblationRow reference = row_of(each, whole);
+  for (const std::string& label : labels_of(each.scenario.estimators)) {
+    result.rows.push_back(row_of(each, label));
+    set_ratios(reference, result.rows.back());
+  }
+  return result;
+}
+
+/// The settings that the label stands for in any case.
+std::string changes_of(const Suite& suite, const std::string& label) {
+  for (const SuiteCase& each : suite.cases) {
+    for (const std::string& text : each.scenario.estimators) {
+      const auto spec = parse_estimator_spec(text);
+      if (!spec || spec->label != label) continue;
+      return unlabelled_text(*spec);
+    }
+  }
+  return label;
+}
+
+AblationWorth worth_of(const Ablation& ablation, const std::string& label) {
+  AblationWorth worth{label, changes_of(ablation.suite, label), {}, std::nullopt, ""};
+  constexpr std::size_t kAte = 2;
+  static_assert(std::string_view(kAblationScores[kAte].key) == "ate_m");
+  for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
+    double logarithms = 0.0;
+    int count = 0;
+    for (const AblationCase& each : ablation.cases) {
+      for (const AblationRow& row : each.rows) {
+        const auto& ratio = row.cells[i].ratio;
+        if (row.label != label || !ratio || !(*ratio > 0.0)) continue;
+        logarithms += std::log(*ratio);
+        ++count;
+        if (i != kAte || (worth.worst_ratio && *worth.worst_ratio >= *ratio)) continue;
+        worth.worst_ratio = ratio;
+        worth.worst_scenario = each.scenario;
+      }
+    }
+    if (count > 0) worth.ratios[i] = std::exp(logarithms / count);
+  }
+  return worth;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> ablation_specs(const std::string& text,
+                                                const std::vector<std::string>& groups,
+                                                const EstimatorConfig& base) {
+  const auto spec = parse_estimator_spec(text);
+  if (!spec) return tl::unexpected(spec.error());
+  auto config = config_with(*spec, base);
+  if (!config) return tl::unexpected(config.error());
+  std::vector<std::string> specs = {text};
+  for (const std::string& group : groups) {
+    const std::size_t before = specs.size();
+    for (const Parameter& parameter : fields_of(*config).parameters()) {
+      if (!is_flag(parameter) || !parameter.key.starts_with(group + ".")) continue;
+      const bool on = parameter.text() == "true";
+      EstimatorSpec variant = *spec;
+      variant.label = (on ? "no_" : "with_") + part_of(parameter.key, group);
+      variant.settings.emplace_back(parameter.key, on ? "false" : "true");
+      specs.push_back(text_of(variant));
+    }
+    if (specs.size() == before) {
+      return failure(fmt::format("estimator.{}: has no flag to turn over", group));
+    }
+  }
+  return specs;
+}
+
+Ablation ablation_of(Suite suite, const std::string& whole) {
+  Ablation ablation;
+  ablation.whole = whole;
+  ablation.suite = std::move(suite);
+  for (const SuiteCase& each : ablation.suite.cases) {
+    ablation.cases.push_back(case_of(each, whole));
+  }
+  std::vector<std::string> labels = {whole};
+  for (const AblationCase& each : ablation.cases) {
+    for (const AblationRow& row : each.rows) {
+      if (std::find(labels.begin(), labels.end(), row.label) == labels.end()) {
+        labels.push_back(row.label);
+      }
+    }
+  }
+  for (const std::string& label : labels) ablation.worth.push_back(worth_of(ablation, label));
+  return ablation;
+}
+
+Result<Ablation> run_ablation(std::vector<ScenarioFile> scenarios, const AblationOptions& options,
+                              const SuiteObserver& observer) {
+  for (ScenarioFile& each : scenarios) {
+    if (!each.scenario) continue;
+    auto specs = ablation_specs(options.estimator, options.groups, each.scenario->estimator);
+    if (!specs) return tl::unexpected(specs.error());
+    specs->insert(specs->end(), options.others.begin(), options.others.end());
+    if (auto valid = check_estimator_specs(*specs); !valid) return tl::unexpected(valid.error());
+    each.scenario->estimators = std::move(*specs);
+  }
+  auto suite = run_suite(std::move(scenarios), options.suite, observer);
+  if (!suite) return tl::unexpected(suite.error());
+  Ablation ablation = ablation_of(std::move(*suite), label_of(options.estimator));
+  if (auto written = write_ablation(ablation, options.suite.out); !written) {
+    return tl::unexpected(written.error());
+  }
+  return ablation;
+}
+
+}  // namespace aims

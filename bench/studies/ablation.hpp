@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "bench/studies/suite.hpp"
+#include "core/files/table.hpp"
+
+namespace aims {
+
+/// Version of the layout of ablation.json; see docs/results.md.
+inline constexpr std::string_view kAblationSchema = "aims.ablation/1";
+
+/// The scores that an ablation compares.
+struct AblationScore {
+  const char* key;
+  const char* title;  ///< with its unit
+  int digits;
+};
+inline constexpr std::array<AblationScore, 5> kAblationScores = {{
+    {"m_list_percent.all", "M_list [%]", 3},
+    {"m_end_m", "M_end [m]", 3},
+    {"ate_m", "ATE [m]", 3},
+    {"max_error_z_m", "max |z| [m]", 3},
+    {"weak_axis.all.nees", "NEES weak axis [-]", 2},
+}};
+
+struct AblationOptions {
+  std::string estimator = "aims_d";                   ///< spec of what is taken apart
+  std::vector<std::string> groups = {"directional"};  ///< below `estimator.`: their flags
+  std::vector<std::string> others;                    ///< specs that run beside it
+  SuiteOptions suite;
+};
+
+/// Median over seeds of one score of one variant, against that of the whole.
+struct AblationCell {
+  std::optional<double> median;
+  std::optional<double> worst;
+  std::optional<double> ratio;  ///< of the medians; none when the whole's is zero or missing
+  std::size_t count = 0;        ///< runs that have a value
+};
+
+/// One variant on one scenario.
+struct AblationRow {
+  std::string label;
+  std::size_t runs = 0;
+  std::size_t successes = 0;
+  std::array<AblationCell, kAblationScores.size()> cells;
+};
+
+struct AblationCase {
+  std::string scenario;
+  std::vector<AblationRow> rows;  ///< the whole first
+};
+
+/// One variant over all scenarios.
+struct AblationWorth {
+  std::string label;
+  std::string changes;  ///< its settings, e.g. "directional.floor.enabled=false"
+  /// Geometric means over scenarios of the ratios; none without any.
+  std::array<std::optional<double>, kAblationScores.size()> ratios;
+  std::optional<double> worst_ratio;  ///< of the ATE, over scenarios
+  std::string worst_scenario;
+};
+
+struct Ablation {
+  std::string whole;  ///< label of what is taken apart
+  std::vector<AblationCase> cases;
+  std::vector<AblationWorth> worth;
+  Suite suite;
+};
+
+/// The estimator `spec` and, for each flag of the groups, itself with that flag turned over:
+/// `no_...` where it was on, `with_...` where it was off in `base`. Error for a spec that cannot be
+/// read, and for a group without flags.
+Result<std::vector<std::string>> ablation_specs(const std::string& spec,
+                                                const std::vector<std::string>& groups,
+                                                const EstimatorConfig& base);
+
+/// Sums up a suite that ran variants of `whole`.
+Ablation ablation_of(Suite suite, const std::string& whole);
+
+/// Runs every scenario and seed with the estimator, its variants and `others` on the same stream,
+/// as `run_suite` does, which also continues what was interrupted. Writes ablation.md, ablation.csv
+/// and ablation.json beside the suite's files.
+Result<Ablation> run_ablation(std::vector<ScenarioFile> scenarios, const AblationOptions& options,
+                              const SuiteObserver& observer);
+
+/// Variants by the worth of what they lack: geometric means of the ratios.
+TextTable worth_table(const Ablation& ablation);
+
+/// Variants on one scenario: "median (x ratio)" of each score.
+TextTable case_table(const AblationCase& each);
+
+/// Writes the three files into `folder`.
+Result<void> write_ablation(const Ablation& ablation, const std::filesystem::path& folder);
+
+}  // namespace aims

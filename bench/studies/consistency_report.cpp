@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bench/run/code_version.hpp"
+#include "bench/studies/consistency_study.hpp"
+#include "bench/run/score_record.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/csv.hpp"
+#include "render/plots/time_plot.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kIntroduction =
+    "# Do errors along the weak axis agree with the stated covariance?\n"
+    "\n"
+    "Error: estimated minus true position along each sweep's weakest axis by the truth, the "
+    "estimate\n"
+    "laid onto the truth at its first pose; one sweep per second. NEES: its square over the "
+    "variance\n"
+    "that the estimator states along that axis; the mean over seeds is 1 when that is right, above "
+    "1\n"
+    "when it is overconfident. Inside: share of the instants at which that mean lies within its 95 "
+    "%\n"
+    "chi-square bounds (N seeds, N degrees of freedom); above: share beyond the upper bound. "
+    "Instants\n"
+    "that fewer than half of the runs reach are left out. 2 sigma: share of runs whose error is\n"
+    "within twice the stated deviation, over all instants and at the end of the walk (with its 95 "
+    "%\n"
+    "Wilson interval). Bound over error: accumulated Cramer-Rao bound of all sensors over the "
+    "error,\n"
+    "rms over seeds; 0.5 is an error of twice the bound. The leg bound is that of IMU and legs "
+    "alone;\n"
+    "it knows neither slip nor rolling feet, so that real legs are worse.\n";
+
+std::string text_of(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+std::string with_interval(const std::optional<double>& value, const Interval& interval,
+                          int digits) {
+  std::string text = text_of(value, digits);
+  if (value && interval.low) {
+    text += fmt::format(" [{}, {}]", text_of(interval.low, digits), text_of(interval.high, digits));
+  }
+  return text;
+}
+
+std::string markdown_of(const ConsistencyStudy& study) {
+  std::string text = kIntroduction;
+  if (!study.suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
+  text += "\n## Over the walk\n\n" + to_markdown(consistency_table(study));
+  text += "\n## At the end of the walk\n\nRoot mean squares over seeds [m].\n\n" +
+          to_markdown(end_table(study));
+  for (const SuiteFailure& each : study.suite.failures) {
+    text += fmt::format("\n- could not run: {}: {}\n", each.scenario, each.message);
+  }
+  return text;
+}
+
+CsvTable csv_of(const ConsistencyStudy& study) {
+  CsvTable table({"scenario", "estimator", "t_s", "runs", "nees", "nees_low", "nees_high", "inside",
+                  "covered_2_sigma", "error_rms_m", "sigma_rms_m", "bound_rms_m",
+                  "leg_bound_rms_m"});
+  for (const ConsistencyCase& each : study.cases) {
+    for (const ConsistencyInstant& at : each.result.instants) {
+      table.add(each.scenario).add(each.estimator).add(at.time_s).add(at.covered.runs);
+      table.add(at.nees).add(at.bounds.low).add(at.bounds.high).add(at.inside());
+      table.add(at.covered.share);
+      table.add(at.error_rms_m).add(at.sigma_rms_m).add(at.bound_rms_m).add(at.leg_bound_rms_m);
+      table.end_row();
+    }
+  }
+  return table;
+}
+
+Json interval_json(const Interval& interval) {
+  return Json::array({json_of(interval.low), json_of(interval.high)});
+}
+
+Json coverage_json(const Coverage& coverage) {
+  return {{"inside", coverage.inside},
+          {"of", coverage.runs},
+          {"share", json_of(coverage.share)},
+          {"interval", interval_json(coverage.interval)}};
+}
+
+Json end_json(const ConsistencyInstant& end) {
+  return {{"nees", json_of(end.nees)},
+          {"nees_bounds", interval_json(end.bounds)},
+          {"two_sigma", coverage_json(end.covered)},
+          {"error_rms_m", json_of(end.error_rms_m)},
+          {"sigma_rms_m", json_of(end.sigma_rms_m)},
+          {"bound_rms_m", json_of(end.bound_rms_m)},
+          {"leg_bound_rms_m", json_of(end.leg_bound_rms_m)},
+          {"efficiency", json_of(end.efficiency)}};
+}
+
+Json case_json(const ConsistencyCase& each) {
+  const Consistency& r = each.result;
+  Json runs = Json::array();
+  for (std::size_t i = 0; i < each.runs.size(); ++i) {
+    if (each.runs[i].empty()) continue;
+    const ConsistencySample& end = each.runs[i].back();
+    runs.push_back({{"seed", each.seeds[i]},
+                    {"end_t_s", end.time_s},
+                    {"end_error_m", json_of(end.error_m)},
+                    {"end_sigma_m", json_of(end.sigma_m)}});
+  }
+  return {{"scenario", each.scenario},
+          {"estimator", each.estimator},
+          {"runs", r.runs},
+          {"instants", r.judged},
+          {"inside_share", json_of(r.inside_share)},
+          {"above_share", json_of(r.above_share)},
+          {"mean_nees", json_of(r.mean_nees)},
+          {"mean_nees_interval", interval_json(r.mean_nees_interval)},
+          {"two_sigma", coverage_json(r.along)},
+          {"error_rms_m", json_of(r.error_rms_m)},
+          {"efficiency", json_of(r.efficiency)},
+          {"end", end_json(r.end)},
+          {"seeds", std::move(runs)}};
+}
+
+Json study_json(const ConsistencyStudy& study) {
+  Json json = {{"schema", kConsistencySchema},
+               {"version", AIMS_VERSION},
+               {"code", code_version()},
+               {"complete", study.suite.complete},
+               {"cases", Json::array()}};
+  for (const ConsistencyCase& each : study.cases) json["cases"].push_back(case_json(each));
+  return json;
+}
+
+TimePanel nees_panel(const Consistency& result) {
+  TimePanel panel{"Mean NEES over seeds, and the 95 % bounds of a consistent filter",
+                  "NEES [-]",
+                  {{"mean over seeds", {}}, {"lower bound", {}}, {"upper bound", {}}},
+                  true,
+                  false};
+  for (const ConsistencyInstant& at : result.instants) {
+    if (!at.nees) continue;
+    panel.series[0].points.emplace_back(at.time_s, *at.nees);
+    panel.series[1].points.emplace_back(at.time_s, *at.bounds.low);
+    panel.series[2].points.emplace_back(at.time_s, *at.bounds.high);
+  }
+  return panel;
+}
+
+TimePanel spread_panel(const Consistency& result) {
+  TimePanel panel{"Root mean squares over seeds",
+                  "error along the weak axis [m]",
+                  {{"error", {}}, {"stated deviation", {}}, {"bound", {}}, {"bound of legs", {}}},
+                  true,
+                  false};
+  for (const ConsistencyInstant& at : result.instants) {
+    const double values[] = {at.error_rms_m, at.sigma_rms_m, at.bound_rms_m, at.leg_bound_rms_m};
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (values[i] > 0.0) panel.series[i].points.emplace_back(at.time_s, values[i]);
+    }
+  }
+  return panel;
+}
+
+/// One run: its error against twice what it states.
+TimePanel run_panel(const ConsistencyCase& each, std::size_t run) {
+  TimePanel panel{fmt::format("Seed {}", each.seeds[run]),
+                  "error along the weak axis [m]",
+                  {{"size of the error", {}}, {"2 sigma", {}}},
+                  false,
+                  true};
+  for (const ConsistencySample& sample : each.runs[run]) {
+    panel.series[0].points.emplace_back(sample.time_s, std::abs(sample.error_m));
+    if (sample.sigma_m) panel.series[1].points.emplace_back(sample.time_s, 2.0 * *sample.sigma_m);
+  }
+  return panel;
+}
+
+Result<void> draw(const ConsistencyCase& each, const fs::path& folder) {
+  if (each.result.runs == 0) return {};
+  TimePlot plot;
+  plot.title =
+      fmt::format("{}: consistency of {} along the weak axis", each.scenario, each.estimator);
+  plot.subtitle = fmt::format(
+      "{} seeds; NEES inside its bounds at {} % of {} instants", each.result.runs,
+      text_of(each.result.inside_share ? std::optional(100.0 * *each.result.inside_share)
+                                       : std::nullopt,
+              0),
+      each.result.judged);
+  plot.panels = {nees_panel(each.result), spread_panel(each.result)};
+  for (std::size_t i = 0; i < each.runs.size(); ++i) {
+    if (each.runs[i].empty()) continue;
+    plot.panels.push_back(run_panel(each, i));
+    break;
+  }
+  const std::string name = fmt::format("{}-{}-consistency", each.scenario, each.estimator);
+  for (const char* ending : {".png", ".svg"}) {
+    if (auto drawn = write_time_plot(folder / (name + ending), plot); !drawn) return drawn;
+  }
+  return {};
+}
+
+}  // namespace
+
+TextTable consistency_table(const ConsistencyStudy& study) {
+  TextTable table;
+  table.header = {"scenario", "estimator", "seeds",   "mean NEES",       "inside",
+                  "above",    "2 sigma",   "error m", "bound over error"};
+  for (const ConsistencyCase& each : study.cases) {
+    const Consistency& r = each.result;
+    table.rows.push_back({each.scenario, each.estimator, std::to_string(r.runs),
+                          with_interval(r.mean_nees, r.mean_nees_interval, 2),
+                          text_of(r.inside_share, 2), text_of(r.above_share, 2),
+                          text_of(r.along.share, 2), fmt::format("{:.3f}", r.error_rms_m),
+                          text_of(r.efficiency, 2)});
+  }
+  return table;
+}
+
+TextTable end_table(const ConsistencyStudy& study) {
+  TextTable table;
+  table.header = {"scenario",  "estimator", "error",   "stated",    "bound",
+                  "leg bound", "NEES",      "of 1 in", "in 2 sigma"};
+  for (const ConsistencyCase& each : study.cases) {
+    const ConsistencyInstant& end = each.result.end;
+    std::string inside = fmt::format("{}/{}", end.covered.inside, end.covered.runs);
+    if (const Interval& of = end.covered.interval; of.low) {
+      inside += fmt::format(" [{:.2f}, {:.2f}]", *of.low, *of.high);
+    }
+    table.rows.push_back(
+        {each.scenario, each.estimator, fmt::format("{:.3f}", end.error_rms_m),
+         fmt::format("{:.3f}", end.sigma_rms_m), fmt::format("{:.3f}", end.bound_rms_m),
+         fmt::format("{:.3f}", end.leg_bound_rms_m), text_of(end.nees, 2),
+         end.bounds.low ? fmt::format("[{:.2f}, {:.2f}]", *end.bounds.low, *end.bounds.high) : "-",
+         inside});
+  }
+  return table;
+}
+
+Result<void> write_consistency(const ConsistencyStudy& study, const fs::path& folder) {
+  auto written = write_file_atomically(folder / "consistency.md", markdown_of(study));
+  if (written) written = write_csv(folder / "consistency.csv", csv_of(study));
+  if (written) {
+    written = write_file_atomically(folder / "consistency.json", study_json(study).dump(2) + "\n");
+  }
+  for (const ConsistencyCase& each : study.cases) {
+    if (written) written = draw(each, folder);
+  }
+  return written;
+}
+
+}  // namespace aims

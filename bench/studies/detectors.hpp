@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "estimator/estimator.hpp"
+#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/detector.hpp"
+#include "bench/metrics/localizability.hpp"
+#include "bench/run/scenario.hpp"
+
+namespace aims {
+
+/// A quantity of ScanDiagnostics as a detector of degeneracy, in the direction that its source
+/// claims; an AUC below 0.5 refutes that direction.
+struct DegeneracyIndex {
+  std::string name;
+  bool high_is_degenerate = true;
+  std::string source;  ///< who claims the direction
+  std::function<double(const ScanDiagnostics&)> value;
+};
+
+/// Every index that is judged.
+const std::vector<DegeneracyIndex>& degeneracy_indices();
+
+/// One scan with an update: each index' value and what the truth says.
+struct DetectorScan {
+  Time stamp = 0;
+  std::vector<double> values;       ///< by index
+  double equivalent_returns = 0.0;  ///< by the truth
+};
+
+/// The scans of one run of one scenario.
+struct DetectorRun {
+  std::string scenario;
+  std::uint64_t seed = 0;
+  std::vector<DetectorScan> scans;
+  int without_update = 0;  ///< scans left out because the estimator made no update
+  int without_truth = 0;   ///< scans left out because no true sweep is near their stamp
+};
+
+/// Pairs every scan's diagnostics with the true sweep nearest in time, at most `tolerance` away.
+DetectorRun detector_run(const std::vector<ScanDiagnostics>& diagnostics,
+                         std::span<const Localizability> truth, Duration tolerance);
+
+/// How one index does as a detector of one degeneracy level over a set of runs.
+struct DetectorScore {
+  std::string index;
+  std::string level;
+  std::string scenario;  ///< empty: pooled over all
+  int runs = 0;
+  int scans = 0;
+  int degenerate = 0;                ///< scans that are
+  std::optional<double> auc;         ///< none: the truth never changes
+  Interval auc_interval;             ///< 95 %, bootstrap over runs
+  std::optional<double> detections;  ///< share at the operating point
+  std::optional<double> threshold;   ///< of the index there, in its own unit and sign
+  int onsets = 0;
+  int missed = 0;
+  std::optional<double> median_delay_s;  ///< of the detected onsets
+  std::vector<RocPoint> curve;           ///< at most a few hundred points
+};
+
+/// False alarms allowed at the operating point.
+inline constexpr double kFalseAlarms = 0.05;
+
+/// Scores of every index at every level, pooled and per scenario. Scores of one scenario follow
+/// those pooled; within each, levels and then indices in their order.
+std::vector<DetectorScore> score_detectors(std::span<const DetectorRun> runs);
+
+struct DetectorOptions {
+  std::vector<std::uint64_t> seeds = {1};
+  std::string estimator = "aims";
+  std::filesystem::path out;
+  bool overwrite = false;
+  int jobs = 1;  ///< runs under way at a time; the results do not depend on it
+};
+
+/// What `run_detectors` yields besides the files that it wrote.
+struct DetectorStudy {
+  std::vector<DetectorRun> runs;  ///< scenario by scenario, seed by seed
+  std::vector<DetectorScore> scores;
+  std::filesystem::path folder;
+  std::vector<std::string> warnings;  ///< e.g. a level that the truth never crosses
+};
+
+/// Called after each run with its label and how many of how many are done; false ends the study.
+using DetectorObserver = std::function<bool(const std::string& label, int done, int of)>;
+
+/// Runs every scenario with every seed, one estimator alone, and judges its indices. Writes
+/// detectors.json, detectors.csv, detectors.md, roc.png and roc.svg into `out`. Error when a
+/// scenario cannot run, the estimator has no diagnostics, or the observer ended it.
+Result<DetectorStudy> run_detectors(std::span<const Scenario> scenarios,
+                                    const DetectorOptions& options,
+                                    const DetectorObserver& observer);
+
+}  // namespace aims

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/families.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "bench/metrics/statistics.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "bench/studies/suite_summary.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kLeastSuccessRate = 0.5;
+constexpr double kMostGrowth = 2.0;  ///< of the ATE from the mildest level
+
+using Members = std::vector<const SuiteCase*>;
+
+FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
+  FamilyPoint point;
+  point.level = each.scenario.level;
+  const auto own = labels_of(each.scenario.estimators);
+  if (std::find(own.begin(), own.end(), estimator) == own.end()) return point;
+  point.ate_m = summarize(each.runs, estimator, "ate_m").median;
+  point.ate_interval = median_interval(each.runs, estimator, "ate_m");
+  point.m_list = summarize(each.runs, estimator, "m_list_percent.all").median;
+  point.m_list_interval = median_interval(each.runs, estimator, "m_list_percent.all");
+  point.runs = each.runs.size();
+  point.success_rate =
+      static_cast<double>(successes(each.runs, estimator)) / static_cast<double>(each.runs.size());
+  return point;
+}
+
+std::optional<double> equivalent_returns(const SuiteCase& each) {
+  std::vector<double> values;
+  for (const RunRecord& run : each.runs) {
+    const Json sums = run.scores.value("localizability", Json::object());
+    const Json value = sums.value("median_equivalent_returns", Json());
+    if (value.is_number()) values.push_back(value.get<double>());
+  }
+  return median(values);
+}
+
+/// Index of the mildest level; see `family_results`.
+std::size_t mildest_of(const std::vector<FamilyCurve>& curves, std::size_t levels) {
+  std::size_t mildest = 0;
+  std::pair<double, double> best = {-1.0, 0.0};
+  for (std::size_t i = 0; i < levels; ++i) {
+    double rate = 0.0;
+    double log_ate = 0.0;
+    for (const FamilyCurve& curve : curves) {
+      const FamilyPoint& point = curve.points[i];
+      rate += point.success_rate;
+      const double none = std::numeric_limits<double>::max();
+      log_ate += std::log(std::max(point.ate_m.value_or(none), 1e-9));
+    }
+    const std::pair<double, double> merit = {rate, -log_ate};
+    if (merit > best) {
+      best = merit;
+      mildest = i;
+    }
+  }
+  return mildest;
+}
+
+bool broken(const FamilyPoint& point, const FamilyPoint& mildest) {
+  if (point.runs == 0) return false;
+  if (point.success_rate < kLeastSuccessRate || !point.ate_m) return true;
+  return mildest.ate_m && *point.ate_m > kMostGrowth * *mildest.ate_m;
+}
+
+std::vector<double> breaks_of(const std::vector<FamilyPoint>& points, std::size_t mildest) {
+  if (broken(points[mildest], points[mildest])) return {points[mildest].level};
+  std::vector<double> breaks;
+  for (std::size_t i = mildest; i-- > 0;) {
+    if (!broken(points[i], points[mildest])) continue;
+    breaks.push_back(points[i].level);
+    break;
+  }
+  for (std::size_t i = mildest + 1; i < points.size(); ++i) {
+    if (!broken(points[i], points[mildest])) continue;
+    breaks.push_back(points[i].level);
+    break;
+  }
+  return breaks;
+}
+
+FamilyResult family_of(const std::string& name, const Members& members,
+                       const std::vector<std::string>& estimators) {
+  FamilyResult family;
+  family.name = name;
+  family.level_unit = members.front()->scenario.level_unit;
+  for (const SuiteCase* each : members) {
+    family.equivalent_returns.push_back(equivalent_returns(*each));
+  }
+  for (const std::string& estimator : estimators) {
+    FamilyCurve curve;
+    curve.estimator = estimator;
+    for (const SuiteCase* each : members) curve.points.push_back(point_of(*each, estimator));
+    family.curves.push_back(std::move(curve));
+  }
+  const std::size_t mildest = mildest_of(family.curves, members.size());
+  family.mildest = members[mildest]->scenario.level;
+  for (FamilyCurve& curve : family.curves) curve.breaks_at = breaks_of(curve.points, mildest);
+  return family;
+}
+
+Json point_json(const FamilyPoint& point) {
+  return {{"level", point.level},
+          {"ate_m", json_of(point.ate_m)},
+          {"ate_low_m", json_of(point.ate_interval.low)},
+          {"ate_high_m", json_of(point.ate_interval.high)},
+          {"m_list_percent", json_of(point.m_list)},
+          {"m_list_low_percent", json_of(point.m_list_interval.low)},
+          {"m_list_high_percent", json_of(point.m_list_interval.high)},
+          {"success_rate", point.success_rate},
+          {"runs", point.runs}};
+}
+
+}  // namespace
+
+std::vector<FamilyResult> family_results(const Suite& suite) {
+  std::map<std::string, Members> members;
+  for (const SuiteCase& each : suite.cases) {
+    if (!each.scenario.family.empty() && !each.runs.empty()) {
+      members[each.scenario.family].push_back(&each);
+    }
+  }
+  std::vector<FamilyResult> families;
+  for (auto& [name, cases] : members) {
+    if (cases.size() < 2) continue;
+    std::stable_sort(cases.begin(), cases.end(), [](const SuiteCase* a, const SuiteCase* b) {
+      return a->scenario.level < b->scenario.level;
+    });
+    families.push_back(family_of(name, cases, estimators_of(suite)));
+  }
+  return families;
+}
+
+Json families_json(const std::vector<FamilyResult>& families) {
+  Json json = Json::array();
+  for (const FamilyResult& family : families) {
+    Json returns = Json::array();
+    for (const auto& value : family.equivalent_returns) returns.push_back(json_of(value));
+    Json curves = Json::object();
+    for (const FamilyCurve& curve : family.curves) {
+      Json points = Json::array();
+      for (const FamilyPoint& point : curve.points) points.push_back(point_json(point));
+      curves[curve.estimator] = {{"breaks_at", curve.breaks_at}, {"points", std::move(points)}};
+    }
+    json.push_back({{"name", family.name},
+                    {"level_unit", family.level_unit},
+                    {"mildest_level", family.mildest},
+                    {"median_equivalent_returns", std::move(returns)},
+                    {"estimators", std::move(curves)}});
+  }
+  return json;
+}
+
+}  // namespace aims

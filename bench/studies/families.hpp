@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/metrics/bootstrap.hpp"
+#include "bench/studies/suite.hpp"
+
+namespace aims {
+
+/// One estimator at one level of a family, over seeds.
+struct FamilyPoint {
+  double level = 0.0;
+  std::optional<double> ate_m;   ///< median
+  Interval ate_interval;         ///< of the median, 95 %
+  std::optional<double> m_list;  ///< median over all segments [%]
+  Interval m_list_interval;      ///< of the median, 95 %
+  double success_rate = 0.0;     ///< in [0, 1]
+  std::size_t runs = 0;
+};
+
+/// One estimator over the levels of a family.
+struct FamilyCurve {
+  std::string estimator;
+  std::vector<FamilyPoint> points;  ///< by level
+  std::vector<double> breaks_at;    ///< at most one level on either side of the mildest
+};
+
+struct FamilyResult {
+  std::string name;
+  std::string level_unit;
+  double mildest = 0.0;  ///< level from which the others are judged
+  /// Median over seeds of the sweeps' median equivalent returns along the weak axis, per level.
+  std::vector<std::optional<double>> equivalent_returns;
+  std::vector<FamilyCurve> curves;
+};
+
+/// The families of the suite that have finished runs at two levels or more.
+///
+/// The mildest level is the one with the most successes over all estimators, and among equals that
+/// with the smallest median ATE (geometric mean over estimators). An estimator breaks at the first
+/// level, going away from the mildest on either side, where it succeeds in less than half of the
+/// runs or its median ATE exceeds twice that at the mildest level.
+std::vector<FamilyResult> family_results(const Suite& suite);
+
+/// The families as suite.json holds them.
+Json families_json(const std::vector<FamilyResult>& families);
+
+}  // namespace aims

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/suite_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "estimator/estimator_spec.hpp"
+
+namespace aims {
+namespace {
+
+bool ran(const SuiteCase& each, const std::string& estimator) {
+  const auto own = labels_of(each.scenario.estimators);
+  return !each.runs.empty() && std::find(own.begin(), own.end(), estimator) != own.end();
+}
+
+std::string headline_cell(const SuiteCase& each, const std::string& estimator,
+                          const HeadlineScore& score) {
+  if (!ran(each, estimator)) return "";
+  const ScoreSummary summary = summarize(each.runs, estimator, score.key);
+  if (!summary.median) return "-";
+  std::string text = fmt::format("{:.{}f}", *summary.median, score.digits);
+  const Interval interval = median_interval(each.runs, estimator, score.key);
+  if (interval.low) {
+    text += fmt::format(" [{:.{}f}, {:.{}f}] {:.{}f}", *interval.low, score.digits, *interval.high,
+                        score.digits, *summary.worst, score.digits);
+  }
+  if (summary.count < each.runs.size()) {
+    text += fmt::format(" ({} of {})", summary.count, each.runs.size());
+  }
+  return text;
+}
+
+template <class Cell>
+TextTable matrix(const Suite& suite, const Cell& cell) {
+  TextTable table;
+  table.header = {"scenario"};
+  const std::vector<std::string> estimators = estimators_of(suite);
+  table.header.insert(table.header.end(), estimators.begin(), estimators.end());
+  for (const SuiteCase& each : suite.cases) {
+    std::vector<std::string> row = {each.scenario.name};
+    for (const std::string& estimator : estimators) row.push_back(cell(each, estimator));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string gates_markdown(const Suite& suite) {
+  std::size_t count = 0;
+  std::string text;
+  for (const SuiteCase& each : suite.cases) {
+    count += each.gates.size();
+    for (const GateCheck& check : failed(each.gates)) {
+      text += fmt::format("- {}; again: `{}`\n", text_of(each.scenario, check),
+                          reproducing_command(each.scenario, check));
+    }
+  }
+  if (count == 0) return "No scenario states any.\n";
+  return text.empty() ? fmt::format("All {} hold.\n", count) : text;
+}
+
+std::string failures_markdown(const Suite& suite) {
+  std::string text;
+  for (const SuiteFailure& each : suite.failures) {
+    const std::string seed = each.seed ? fmt::format(" seed {}", *each.seed) : "";
+    text += fmt::format("- {}{}: {}\n", each.scenario, seed, each.message);
+  }
+  for (const SuiteCase& each : suite.cases) {
+    for (const RunRecord& run : each.runs) {
+      if (run.scores["robot"]["fell"] != true) continue;
+      text += fmt::format("- {} seed {}: the robot fell\n", each.scenario.name, run.seed);
+    }
+  }
+  return text.empty() ? "Everything ran, and no robot fell.\n" : text;
+}
+
+}  // namespace
+
+TextTable headline_table(const Suite& suite, const HeadlineScore& score) {
+  return matrix(suite, [&](const SuiteCase& each, const std::string& estimator) {
+    return headline_cell(each, estimator, score);
+  });
+}
+
+TextTable success_table(const Suite& suite) {
+  return matrix(suite, [](const SuiteCase& each, const std::string& estimator) {
+    if (!ran(each, estimator)) return std::string();
+    return fmt::format("{}/{}", successes(each.runs, estimator), each.runs.size());
+  });
+}
+
+TextTable breaks_table(const std::vector<FamilyResult>& families) {
+  TextTable table;
+  table.header = {"family", "unit", "mildest"};
+  if (families.empty()) return table;
+  for (const FamilyCurve& curve : families.front().curves) table.header.push_back(curve.estimator);
+  for (const FamilyResult& family : families) {
+    std::vector<std::string> row = {family.name, family.level_unit,
+                                    fmt::format("{:g}", family.mildest)};
+    for (const FamilyCurve& curve : family.curves) {
+      row.push_back(
+          curve.breaks_at.empty() ? "-" : fmt::format("{:g}", fmt::join(curve.breaks_at, ", ")));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& families) {
+  std::string text = "# Suite\n\n";
+  if (!suite.complete) text += "**Interrupted: what follows is of the finished runs alone.**\n\n";
+  text +=
+      "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about "
+      "ten "
+      "seeds the intervals are coarse and too narrow; with one seed there are none.\n";
+  for (const HeadlineScore& score : kHeadlineScores) {
+    text += fmt::format("\n## {} [{}]\n\n{}", score.title, score.unit,
+                        to_markdown(headline_table(suite, score)));
+  }
+  text += fmt::format("\n## Localized to the end\n\n{}", to_markdown(success_table(suite)));
+  if (!families.empty()) {
+    text += fmt::format(
+        "\n## Breaks at\n\nThe first level, going away from the mildest, where less than half of "
+        "the runs succeed or the median ATE exceeds twice that at the mildest.\n\n{}",
+        to_markdown(breaks_table(families)));
+  }
+  text += "\n## Expectations\n\n" + gates_markdown(suite);
+  text += "\n## Failures\n\n" + failures_markdown(suite);
+  return text;
+}
+
+CsvTable suite_csv(const Suite& suite) {
+  CsvTable table({"scenario", "family", "level", "seed", "estimator", "score", "value"});
+  for (const SuiteCase& each : suite.cases) {
+    for (const RunRecord& run : each.runs) {
+      for (const std::string& estimator : labels_of(each.scenario.estimators)) {
+        for (const std::string& key : score_keys(run, estimator)) {
+          if (is_timing(key)) continue;
+          table.add(each.scenario.name).add(each.scenario.family);
+          if (each.scenario.family.empty()) {
+            table.add_empty();
+          } else {
+            table.add(each.scenario.level);
+          }
+          table.add(static_cast<std::int64_t>(run.seed)).add(estimator).add(key);
+          table.add(find_score(run, estimator, key)).end_row();
+        }
+      }
+    }
+  }
+  return table;
+}
+
+CsvTable timings_csv(const Suite& suite) {
+  CsvTable table({"scenario", "seed", "estimator", "simulated_s", "run_wall_s", "estimator_wall_s",
+                  "mean_per_scan_ms"});
+  for (const SuiteCase& each : suite.cases) {
+    for (const RunRecord& run : each.runs) {
+      for (const std::string& estimator : labels_of(each.scenario.estimators)) {
+        table.add(each.scenario.name).add(static_cast<std::int64_t>(run.seed)).add(estimator);
+        table.add(run.scores.value("simulated_s", 0.0)).add(run.scores.value("wall_s", 0.0));
+        table.add(run.scores["times_s"]["estimators"].value(estimator, 0.0));
+        table.add(find_score(run, estimator, "time_per_scan_ms.mean")).end_row();
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace aims

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "bench/metrics/bootstrap.hpp"
+#include "bench/tuning/objective.hpp"
+#include "bench/tuning/surrogate.hpp"
+
+namespace aims {
+
+/// The best of the points that were run, and how sure that is. Intervals are 95 %, over seeds that
+/// are drawn again, each with all its scenarios; they are empty for one seed, and too narrow for a
+/// few.
+struct BestPoint {
+  std::size_t point = 0;
+  std::vector<double> values;     ///< of each parameter
+  std::vector<Interval> between;  ///< of each parameter: where the best of the drawn seeds lies
+  double objective = 0.0;
+  Interval objective_interval;
+  std::optional<double> defaults;  ///< objective of the untuned values
+  std::optional<double> gain;      ///< share of the defaults' objective that is gone
+  Interval gain_interval;
+  std::vector<double> distance;  ///< best minus defaults per parameter, in widths of its range
+};
+
+/// Error when no point has an objective.
+Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective);
+
+/// What the objective depends on, by a surrogate of its logarithm (of itself where it can be zero).
+struct Sensitivity {
+  std::size_t points = 0;   ///< that have an objective
+  bool logarithmic = true;  ///< the variance that is shared out is that of the logarithm
+  Surrogate surrogate;
+
+  /// Below half, the indices are of a function that is not the objective.
+  bool trustworthy() const { return surrogate.explained() >= 0.5; }
+  /// True of a parameter whose total index is, by its interval, below 5 %, or that the objective
+  /// does not vary with at all; never of an untrustworthy surrogate.
+  bool does_not_matter(std::size_t parameter) const;
+};
+
+/// Error for fewer points than a surrogate needs. With `family` over its scenarios alone.
+Result<Sensitivity> sensitivity_of(const ResponseTable& table, const Objective& objective,
+                                   const std::string& family = "");
+
+/// The objective at one value of one parameter, or at a pair of values.
+struct SlicePoint {
+  double x = 0.0;
+  double y = 0.0;  ///< of the second parameter of a map
+  std::optional<double> objective;
+  Interval interval;  ///< 95 %: over drawn seeds where measured, else by the surrogate's error
+};
+
+/// The objective along one parameter or over two, all others at the defaults (or at the grid's
+/// values next to them).
+struct Slice {
+  std::size_t first = 0;
+  std::optional<std::size_t> second;
+  std::string family;     ///< whose scenarios; "" for all
+  bool measured = false;  ///< else what the surrogate says
+  std::vector<SlicePoint> points;
+};
+
+/// One parameter's curve: from points of the design where at least three lie on it, else from the
+/// surrogate where it is trustworthy, without an objective where it extrapolates; else without
+/// points.
+Slice curve_of(const ResponseTable& table, const Objective& objective, std::size_t parameter,
+               const std::string& family = "");
+
+/// The map over two parameters, likewise; measured where the design has a grid of at least 3 by 3.
+Slice map_of(const ResponseTable& table, const Objective& objective, std::size_t first,
+             std::size_t second, const std::string& family = "");
+
+}  // namespace aims

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/objective.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "bench/metrics/statistics.hpp"
+
+namespace aims {
+namespace {
+
+std::optional<double> statistic_of(const Objective& objective, const std::vector<double>& values) {
+  switch (objective.statistic) {
+    case ObjectiveStatistic::kMedian:
+      return median(values);
+    case ObjectiveStatistic::kWorst:
+      return quantile(values, 1.0);
+    case ObjectiveStatistic::kMean:
+      return mean(values);
+    case ObjectiveStatistic::kQuantile:
+      return quantile(values, objective.quantile);
+  }
+  return std::nullopt;
+}
+
+/// The run's score as it counts when the run is not lost.
+std::optional<double> counted(const Objective& objective, const RunScore& run,
+                              const RunScore* reference) {
+  if (!run.value || !std::isfinite(*run.value)) return std::nullopt;
+  if (!objective.relative) return run.value;
+  if (reference == nullptr || !reference->value || !(*reference->value > 0.0)) return std::nullopt;
+  return *run.value / *reference->value;
+}
+
+template <class Value>
+void append_new(std::vector<Value>& values, const Value& value) {
+  if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+}
+
+}  // namespace
+
+void describe(Fields& fields, Objective& objective) {
+  fields.text("score", objective.score,
+              {.meaning = "dotted key of scores.json, of which less is better"});
+  fields.choice("statistic", objective.statistic,
+                {{"median", ObjectiveStatistic::kMedian},
+                 {"worst", ObjectiveStatistic::kWorst},
+                 {"mean", ObjectiveStatistic::kMean},
+                 {"quantile", ObjectiveStatistic::kQuantile}},
+                {.meaning = "of the runs' scores"});
+  fields.number("quantile", objective.quantile,
+                {.unit = "-",
+                 .range = {.min = 0.0, .max = 1.0, .min_included = false, .max_included = false},
+                 .meaning = "which, for the statistic 'quantile'"});
+  fields.flag("relative", objective.relative,
+              {.meaning = "divide each score by that of the untuned estimator on the same walk"});
+  fields.number("lost_penalty", objective.lost_penalty,
+                {.range = positive(),
+                 .meaning = "what a lost run counts for, and what is added if all are lost"});
+}
+
+std::string text_of(const Objective& objective) {
+  std::string statistic = "median";
+  if (objective.statistic == ObjectiveStatistic::kWorst) statistic = "worst";
+  if (objective.statistic == ObjectiveStatistic::kMean) statistic = "mean";
+  if (objective.statistic == ObjectiveStatistic::kQuantile) {
+    statistic = fmt::format("{} quantile", objective.quantile);
+  }
+  return fmt::format("{} of {}{}, a lost run counts {}", statistic, objective.score,
+                     objective.relative ? " over that of the defaults" : "",
+                     objective.lost_penalty);
+}
+
+RunScore run_score(const UnitResult& unit, const std::string& score) {
+  return {score_in(unit, score),
+          unit.outcome != UnitOutcome::kDone || score_in(unit, "success") == 0.0};
+}
+
+std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
+                                      std::span<const RunScore> reference) {
+  std::vector<double> values;
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    auto value = counted(objective, runs[i], i < reference.size() ? &reference[i] : nullptr);
+    if (runs[i].lost) {
+      ++lost;
+      value = std::max(value.value_or(objective.lost_penalty), objective.lost_penalty);
+    }
+    if (value) values.push_back(*value);
+  }
+  const auto statistic = statistic_of(objective, values);
+  if (!statistic) return std::nullopt;
+  return *statistic + objective.lost_penalty * static_cast<double>(lost) / double(runs.size());
+}
+
+std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < table.cases.size(); ++i) {
+    if (family.empty() || table.cases[i].family == family) indices.push_back(i);
+  }
+  return indices;
+}
+
+std::vector<std::string> families_of(const ResponseTable& table) {
+  std::vector<std::string> families;
+  for (const ResponseCase& each : table.cases) append_new(families, each.family);
+  return families;
+}
+
+std::vector<std::uint64_t> seeds_of(const ResponseTable& table) {
+  std::vector<std::uint64_t> seeds;
+  for (const ResponseCase& each : table.cases) append_new(seeds, each.seed);
+  return seeds;
+}
+
+std::optional<double> objective_at(const ResponseTable& table, const Objective& objective,
+                                   std::size_t point, std::span<const std::size_t> cases) {
+  const auto& all = point == kDefaults ? table.default_runs : table.runs[point];
+  if (all.empty()) return std::nullopt;
+  std::vector<RunScore> runs;
+  std::vector<RunScore> reference;
+  for (const std::size_t i : cases) {
+    runs.push_back(all[i]);
+    if (!table.default_runs.empty()) reference.push_back(table.default_runs[i]);
+  }
+  return objective_value(objective, runs, reference);
+}
+
+}  // namespace aims

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/error.hpp"
+#include "bench/tuning/design.hpp"
+#include "bench/jobs/sweep_unit.hpp"
+
+namespace aims {
+
+/// What of a score over many runs is made small.
+enum class ObjectiveStatistic { kMedian, kWorst, kMean, kQuantile };
+
+/// One number for many runs, of which less is better.
+struct Objective {
+  std::string score = "ate_m";  ///< dotted key of scores.json, e.g. "m_list_percent.all"
+  ObjectiveStatistic statistic = ObjectiveStatistic::kMedian;
+  double quantile = 0.9;     ///< for `kQuantile`, in (0, 1)
+  bool relative = true;      ///< each score over that of the defaults on the same walk
+  double lost_penalty = 10;  ///< what a lost run counts for, and what all lost add; > 0
+};
+
+void describe(Fields& fields, Objective& objective);
+
+/// "median of ate_m over the defaults' (a lost run counts 10)".
+std::string text_of(const Objective& objective);
+
+/// What one run came to in one score.
+struct RunScore {
+  std::optional<double> value;  ///< none: the run has no such score
+  bool lost = false;            ///< no success, or the run failed
+};
+
+/// That of a unit's result by the score's key. A unit that was not done is a lost run.
+RunScore run_score(const UnitResult& unit, const std::string& score);
+
+/// The statistic over the runs, plus the penalty times the share of lost runs. A lost run counts as
+/// the penalty in the statistic, or as its score where that is more. Where the objective is
+/// relative, `reference` has the defaults' runs on the same walks, and a run without a positive
+/// score to be held against is left out unless it is lost. None when no run is left.
+std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
+                                      std::span<const RunScore> reference);
+
+/// One walk on which every point was run.
+struct ResponseCase {
+  std::string scenario;
+  std::string family;  ///< of the scenario; its own name when it has none
+  std::uint64_t seed = 0;
+};
+
+/// One score over points of a design and walks.
+struct ResponseTable {
+  std::vector<ParameterRange> ranges;
+  std::vector<ResponseCase> cases;
+  std::vector<std::vector<double>> points;  ///< a value per range
+  std::vector<std::vector<RunScore>> runs;  ///< per point and case
+  std::vector<double> defaults;             ///< the untuned value per range
+  std::vector<RunScore> default_runs;       ///< per case; empty: were not run
+};
+
+/// Indices of the cases of one family, or of all for "".
+std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family);
+
+/// The families of the table's cases, in the order in which they appear.
+std::vector<std::string> families_of(const ResponseTable& table);
+
+/// The seeds of the table's cases, in the order in which they appear.
+std::vector<std::uint64_t> seeds_of(const ResponseTable& table);
+
+/// The objective over the cases with these indices (one may occur several times) of point `point`,
+/// or of the defaults for `kDefaults`.
+inline constexpr std::size_t kDefaults = static_cast<std::size_t>(-1);
+std::optional<double> objective_at(const ResponseTable& table, const Objective& objective,
+                                   std::size_t point, std::span<const std::size_t> cases);
+
+}  // namespace aims

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/range_key.hpp"
+
+#include <fmt/format.h>
+
+namespace aims {
+namespace {
+
+constexpr std::string_view kEstimator = "estimator.";
+constexpr std::string_view kScenario = "scenario.";
+
+/// What decides a run's numbers, without the estimator: keys of a scenario that a range may have.
+struct Deciding {
+  SimulationConfig simulation;
+  ScoreConfig scoring;
+};
+
+void describe(Fields& fields, Deciding& deciding) {
+  describe(fields, deciding.simulation);
+  fields.group("scoring", deciding.scoring);
+}
+
+/// Every key that a range may have, as it may be written.
+struct Written {
+  EstimatorConfig estimator;
+  Deciding deciding;
+};
+
+void describe(Fields& fields, Written& written) {
+  describe(fields, written.estimator);
+  describe(fields, written.deciding);
+}
+
+bool estimator_has(std::string_view key) {
+  EstimatorConfig config;
+  return fields_of(config).find(key) != nullptr;
+}
+
+bool scenario_has(std::string_view key) {
+  Deciding config;
+  return fields_of(config).find(key) != nullptr;
+}
+
+bool is_number(const Parameter& parameter) {
+  return !parameter.sequence && (parameter.expected.starts_with("a number") ||
+                                 parameter.expected.starts_with("an integer"));
+}
+
+/// Why `base` has no such key to be varied.
+std::string absence(const ParameterRange& range, const Scenario& base) {
+  Scenario scenario = base;
+  if (!range.of_estimator && fields_of(scenario).find(full_key(range)) != nullptr) {
+    return fmt::format(
+        "range '{}': '{}' decides no number of a run; expected a key of the estimator, the "
+        "simulation or the scoring{}",
+        text_of(range), range.key, range.key == "seed" ? "; seeds are listed by 'seeds'" : "");
+  }
+  Written written{scenario.estimator, {scenario.simulation, scenario.scoring}};
+  return fmt::format("range '{}': {}", text_of(range),
+                     unknown_key_message(fields_of(written), range.key));
+}
+
+Result<void> check_range(const ParameterRange& range, const Parameter& parameter) {
+  if (!is_number(parameter)) {
+    return failure(fmt::format("range '{}': '{}' is {}, and only numbers have ranges",
+                               text_of(range), range.key, parameter.expected));
+  }
+  const Range& allowed = parameter.spec.range;
+  if (allowed.contains(range.low) && allowed.contains(range.high)) return {};
+  return failure(fmt::format("range '{}': expected {}{}", text_of(range), parameter.expected,
+                             parameter.spec.unit.empty() || parameter.spec.unit == "-"
+                                 ? ""
+                                 : fmt::format(" [{}]", parameter.spec.unit)));
+}
+
+}  // namespace
+
+Result<RangeKey> range_key(std::string_view given) {
+  const bool for_scenario = given.starts_with(kScenario);
+  const std::string_view key = for_scenario ? given.substr(kScenario.size()) : given;
+  if (key.starts_with(kEstimator)) {
+    return RangeKey{std::string(key.substr(kEstimator.size())), true};
+  }
+  const bool of_both = estimator_has(key) && scenario_has(key);
+  if (of_both && !for_scenario) {
+    return failure(
+        fmt::format("key '{0}': the estimator and the simulation have it; expected '{1}{0}' or "
+                    "'{2}{0}'",
+                    key, kEstimator, kScenario));
+  }
+  if (of_both) return RangeKey{std::string(given), false};
+  return RangeKey{std::string(key), !for_scenario && estimator_has(key)};
+}
+
+std::string full_key(const ParameterRange& range) {
+  if (range.of_estimator) return std::string(kEstimator) + range.key;
+  return range.key.starts_with(kScenario) ? range.key.substr(kScenario.size()) : range.key;
+}
+
+Result<std::vector<ParameterRange>> parse_ranges(std::span<const std::string> texts) {
+  std::vector<ParameterRange> ranges;
+  for (const std::string& text : texts) {
+    auto range = parse_range(text);
+    if (!range) return tl::unexpected(range.error());
+    auto key = range_key(range->key);
+    if (!key) return failure(fmt::format("range '{}': {}", text, key.error().message));
+    range->key = std::move(key->name);
+    range->of_estimator = key->of_estimator;
+    ranges.push_back(std::move(*range));
+  }
+  return ranges;
+}
+
+Result<void> check_ranges(std::span<const ParameterRange> ranges, const Scenario& base) {
+  Written config{base.estimator, {base.simulation, base.scoring}};
+  const Fields estimator = fields_of(config.estimator);
+  const Fields deciding = fields_of(config.deciding);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const ParameterRange& range = ranges[i];
+    const Parameter* parameter =
+        range.of_estimator ? estimator.find(range.key) : deciding.find(full_key(range));
+    if (parameter == nullptr) return failure(absence(range, base));
+    if (auto right = check_range(range, *parameter); !right) return right;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (full_key(ranges[k]) != full_key(range)) continue;
+      return failure(fmt::format("range '{}': a second range of '{}'", text_of(range), range.key));
+    }
+  }
+  return {};
+}
+
+}  // namespace aims

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "bench/run/scenario.hpp"
+#include "bench/tuning/design.hpp"
+
+namespace aims {
+
+/// What the key of a range means.
+struct RangeKey {
+  std::string name;          ///< in results: below `estimator.` where it is the estimator's
+  bool of_estimator = true;  ///< else of the simulation or the scoring
+};
+
+/// The key that `given` names: `degeneracy.eta` and `estimator.degeneracy.eta` are the estimator's,
+/// `links.lidar.loss` and `scenario.links.lidar.loss` the scenario's; what the estimator does not
+/// have is taken for the scenario's, existing or not. Error for a key that both have.
+Result<RangeKey> range_key(std::string_view given);
+
+/// The full key in a scenario of a range whose key is the `name` of a `RangeKey`.
+std::string full_key(const ParameterRange& range);
+
+/// Reads ranges, with their keys as results name them.
+Result<std::vector<ParameterRange>> parse_ranges(std::span<const std::string> texts);
+
+/// Error for a key that neither `base` nor its estimator has (with a near match), that is not a
+/// number or decides no number of a run, for a bound that its parameter does not allow, and for two
+/// ranges of one key. Expects what `parse_ranges` yields.
+Result<void> check_ranges(std::span<const ParameterRange> ranges, const Scenario& base);
+
+}  // namespace aims

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/sweep_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "bench/run/catalogue.hpp"
+#include "bench/run/seeds.hpp"
+#include "bench/tuning/range_key.hpp"
+#include "bench/jobs/scenario_variants.hpp"
+#include "bench/jobs/unit_id.hpp"
+#include "core/files/config_dump.hpp"
+#include "core/files/yaml_config.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Scenarios = std::vector<std::shared_ptr<const Scenario>>;
+
+Result<void> add_scenario(Result<Scenario> scenario, Scenarios& scenarios) {
+  if (!scenario) return tl::unexpected(scenario.error());
+  for (const auto& known : scenarios) {
+    if (known->file == scenario->file) return {};
+    if (known->name != scenario->name) continue;
+    return failure(fmt::format("{} and {}: two scenarios of the name '{}'", known->file.string(),
+                               scenario->file.string(), scenario->name));
+  }
+  scenarios.push_back(std::make_shared<const Scenario>(std::move(*scenario)));
+  return {};
+}
+
+Result<std::vector<EstimatorSpec>> estimators_of(const SweepPlan& plan) {
+  if (plan.estimators.empty()) return failure("estimators: the plan names none, e.g. [aims]");
+  if (auto specs = check_estimator_specs(plan.estimators); !specs) {
+    return failure("estimators: " + specs.error().message);
+  }
+  std::vector<EstimatorSpec> estimators;
+  for (const std::string& text : plan.estimators) {
+    estimators.push_back(*parse_estimator_spec(text));
+  }
+  return estimators;
+}
+
+/// An estimator at a point of the design, and the scenario there.
+struct PlannedPoint {
+  EstimatorSpec estimator;
+  ScenarioVariant variant;
+};
+
+/// The estimators at every point of the design, or as they are when nothing is varied.
+Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
+                                            std::span<const ParameterRange> ranges,
+                                            const std::shared_ptr<const Scenario>& scenario) {
+  const auto estimators = estimators_of(plan);
+  if (!estimators) return tl::unexpected(estimators.error());
+  ScenarioVariants variants(scenario, ranges);
+  std::vector<std::vector<double>> points;
+  if (!ranges.empty()) {
+    if (auto right = check_ranges(ranges, *scenario); !right) return tl::unexpected(right.error());
+    const auto size = design_size(plan.design, ranges, plan.samples);
+    if (!size) return tl::unexpected(size.error());
+    points =
+        design(plan.design, ranges, plan.samples, static_cast<std::uint64_t>(plan.design_seed));
+  }
+  std::vector<PlannedPoint> planned;
+  planned.reserve(estimators->size() * (points.size() + 1));
+  for (const EstimatorSpec& estimator : *estimators) {
+    if (plan.untuned || ranges.empty()) planned.push_back({estimator, variants.untouched()});
+    for (const auto& point : points) {
+      auto variant = variants.at(point);
+      if (!variant) return tl::unexpected(variant.error());
+      planned.push_back({spec_at(estimator, ranges, point), std::move(*variant)});
+    }
+  }
+  return planned;
+}
+
+/// Points that share a walk on each seed, with the part of their units' ids that seeds share.
+struct WalkGroup {
+  struct Member {
+    const PlannedPoint* point = nullptr;
+    const UnitIds* ids = nullptr;
+    std::string key;
+  };
+  std::vector<Member> members;
+};
+
+/// Adds one scenario's units but those whose ids are known already.
+Result<void> add_units(std::span<const std::uint64_t> seeds, std::span<const PlannedPoint> points,
+                       std::set<std::string>& known, std::vector<SweepUnit>& units) {
+  std::map<const Scenario*, UnitIds> ids;
+  std::map<std::string, std::size_t> index;
+  std::vector<WalkGroup> groups;
+  for (const PlannedPoint& point : points) {
+    const Scenario& scenario = *point.variant.scenario;
+    const UnitIds& own = ids.try_emplace(&scenario, scenario).first->second;
+    auto key = own.estimator_key(point.estimator);
+    if (!key) return tl::unexpected(key.error());
+    const auto [at, is_new] = index.emplace(point.variant.walk, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[at->second].members.push_back({&point, &own, std::move(*key)});
+  }
+  for (const WalkGroup& group : groups) {
+    for (const std::uint64_t seed : seeds) {
+      for (const auto& [point, own, key] : group.members) {
+        std::string id = own->id(seed, key);
+        if (!known.insert(id).second) continue;
+        units.push_back({point->variant.scenario, seed, point->estimator, std::move(id),
+                         point->variant.settings});
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void describe(Fields& f, SweepPlan& p) {
+  f.texts("scenarios", p.scenarios, {.meaning = "scenario files or names"});
+  f.texts("tags", p.tags, {.meaning = "with them, all scenarios with any of these tags"});
+  f.text("seeds", p.seeds, {.meaning = "of every scenario: 3, 1-5 or 1,4,7-9"});
+  f.texts("estimators", p.estimators, {.meaning = "NAME or LABEL=NAME+key=value"});
+  f.texts("over", p.over,
+          {.meaning = "what is varied, any number of `aims config`: KEY=LOW:HIGH:COUNT or "
+                      "KEY=log(LOW,HIGH,COUNT)"});
+  f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
+  f.flag("untuned", p.untuned,
+         {.meaning = "also run the estimators without what is varied, to be compared with"});
+  f.choice("design", p.design,
+           {{"grid", DesignKind::kGrid},
+            {"random", DesignKind::kRandom},
+            {"sobol", DesignKind::kSobol},
+            {"lhs", DesignKind::kLatinHypercube}},
+           {.meaning = "how points are laid into the ranges"});
+  f.integer("samples", p.samples,
+            {.unit = "-", .range = at_least(1), .meaning = "points of every design but a grid"});
+  f.integer("design_seed", p.design_seed,
+            {.unit = "-", .range = at_least(0), .meaning = "of those points"});
+  f.number("timeout", p.timeout,
+           {.unit = "s", .range = at_least(0), .meaning = "wall time of a unit; 0: any"});
+}
+
+Result<SweepPlan> load_plan(const fs::path& file) {
+  SweepPlan plan;
+  if (auto loaded = load_config(file, plan); !loaded) return tl::unexpected(loaded.error());
+  return plan;
+}
+
+std::string plan_text(const SweepPlan& plan) {
+  SweepPlan copy = plan;
+  return dump_config(fields_of(copy));
+}
+
+Result<Scenarios> plan_scenarios(std::span<const std::string> names,
+                                 std::span<const std::string> tags,
+                                 std::span<const std::string> settings, const fs::path& folder) {
+  Scenarios scenarios;
+  for (const std::string& name : names) {
+    const auto file = find_scenario(name, folder);
+    if (!file) return tl::unexpected(file.error());
+    auto added = add_scenario(load_scenario(*file, settings), scenarios);
+    if (!added) return tl::unexpected(added.error());
+  }
+  if (!tags.empty()) {
+    auto files = scenarios_in(folder, tags, settings);
+    if (!files) return tl::unexpected(files.error());
+    for (ScenarioFile& each : *files) {
+      auto added = add_scenario(std::move(each.scenario), scenarios);
+      if (!added) return tl::unexpected(added.error());
+    }
+  }
+  if (!scenarios.empty()) return scenarios;
+  return failure(
+      "no scenario is given, so that there is no unit: expected scenarios or tags, e.g. "
+      "scenarios: [corridor]");
+}
+
+Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan, const fs::path& folder) {
+  const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, plan.set, folder);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  const auto seeds = parse_seeds(plan.seeds);
+  if (!seeds) return tl::unexpected(seeds.error());
+  const auto ranges = parse_ranges(plan.over);
+  if (!ranges) return tl::unexpected(ranges.error());
+  std::vector<SweepUnit> units;
+  std::set<std::string> ids;
+  for (const auto& scenario : *scenarios) {
+    const auto points = points_of(plan, *ranges, scenario);
+    if (!points) return tl::unexpected(points.error());
+    auto added = add_units(*seeds, *points, ids, units);
+    if (!added) return tl::unexpected(added.error());
+  }
+  return units;
+}
+
+}  // namespace aims

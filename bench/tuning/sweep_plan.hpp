@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/error.hpp"
+#include "bench/tuning/design.hpp"
+#include "bench/jobs/sweep_unit.hpp"
+
+namespace aims {
+
+/// What a sweep is to do: every point of a design, on every walk, with every estimator.
+struct SweepPlan {
+  std::vector<std::string> scenarios;  ///< files or names
+  std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
+  std::string seeds = "1";             ///< "1-5", "1,4,7-9"
+  std::vector<std::string> estimators = {"aims"};  ///< specs (estimator/estimator_spec.hpp)
+  std::vector<std::string> over;                   ///< ranges (bench/tuning/design.hpp)
+  std::vector<std::string> set;                    ///< "key=value" on top of every scenario
+  bool untuned = false;  ///< also run the estimators without what is varied, to be compared with
+  DesignKind design = DesignKind::kGrid;
+  int samples = 64;      ///< points of every design but a grid
+  int design_seed = 1;   ///< of those points
+  double timeout = 0.0;  ///< wall time that a unit is given [s]; 0: any
+};
+
+void describe(Fields& fields, SweepPlan& plan);
+
+/// Reads a plan; errors name file, line, key and expectation.
+Result<SweepPlan> load_plan(const std::filesystem::path& file);
+
+/// The plan as YAML that loads again.
+std::string plan_text(const SweepPlan& plan);
+
+/// The scenarios that are named or have a tag, in that order, each once, with the settings on top.
+/// `folder` is where names and tags are looked up. Error when there is none, for one that is not
+/// there or does not load, and for two of one name.
+Result<std::vector<std::shared_ptr<const Scenario>>> plan_scenarios(
+    std::span<const std::string> scenarios, std::span<const std::string> tags,
+    std::span<const std::string> settings, const std::filesystem::path& folder);
+
+/// The plan's units: by scenario, what is varied of the simulation, seed, estimator, point, so that
+/// those on one walk stand together; none twice (points of a whole number may round to one, and one
+/// may be what the untuned estimator has). Error for a range, estimator or scenario
+/// that is not right, a value that a parameter does not allow, and a plan without any unit.
+Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan,
+                                          const std::filesystem::path& scenario_folder);
+
+}  // namespace aims

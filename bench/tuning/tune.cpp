@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/tune.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bench/tuning/optimizer.hpp"
+
+namespace aims {
+namespace {
+
+/// Of a point without an objective: worse than any.
+constexpr double kNoObjective = 1e12;
+
+/// The point in the parameters' own units.
+std::vector<double> values_of(const TuneTask& task, const std::vector<double>& fractions) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    values.push_back(value_at(task.ranges[i], fractions[i]));
+  }
+  return values;
+}
+
+std::vector<double> start_of(const TuneTask& task) {
+  std::vector<double> fractions;
+  for (std::size_t i = 0; i < task.ranges.size(); ++i) {
+    fractions.push_back(std::clamp(fraction_of(task.ranges[i], task.defaults[i]), 0.0, 1.0));
+  }
+  return fractions;
+}
+
+/// The runs of one estimator in one objective.
+std::vector<RunScore> runs_in(const std::vector<std::vector<RunScore>>& by_walk,
+                              std::size_t objective) {
+  std::vector<RunScore> runs;
+  for (const auto& scores : by_walk) runs.push_back(scores[objective]);
+  return runs;
+}
+
+class Tuning {
+ public:
+  Tuning(const TuneTask& task, const RunOnWalks& run) : run_(run) { result_.task = task; }
+
+  Result<TuneResult> operator()() {
+    auto defaults = add_defaults();
+    if (!defaults) return tl::unexpected(defaults.error());
+    if (!*defaults) return std::move(result_);
+    const TuneTask& task = result_.task;
+    const BatchFunction batch = [this](const Points& points) { return evaluate(points); };
+    const auto run = minimize(batch, start_of(task), result_.tables.size(), task.plan.optimizer);
+    if (!run) return tl::unexpected(run.error());
+    result_.complete = run->complete;
+    result_.converged = run->converged;
+    result_.generation = run->generation;
+    result_.chosen = pareto_front(run->objectives);
+    if (result_.tables.size() == 1 && run->points.size() > 0) result_.chosen = {result_.chosen[0]};
+    if (auto held = add_held_out(); !held) return tl::unexpected(held.error());
+    return std::move(result_);
+  }
+
+ private:
+  /// False when it was interrupted.
+  Result<bool> add_defaults() {
+    const TuneTask& task = result_.task;
+    result_.tables.assign(task.plan.objectives.size(), empty_table(task, task.walks));
+    auto scores = run_({&task.estimator, 1}, task.walks);
+    if (!scores) return tl::unexpected(scores.error());
+    result_.complete = scores->has_value();
+    if (!result_.complete) return false;
+    for (std::size_t i = 0; i < result_.tables.size(); ++i) {
+      ResponseTable& table = result_.tables[i];
+      const Objective& objective = task.plan.objectives[i];
+      table.default_runs = runs_in((**scores).front(), i);
+      if (objective_at(table, objective, kDefaults, cases_of(table, ""))) continue;
+      return failure(fmt::format(
+          "objectives.{}: no run of {} has the score '{}'; expected a key of scores.json", i,
+          text_of(task.estimator), objective.score));
+    }
+    return true;
+  }
+
+  Result<std::optional<Points>> evaluate(const Points& points) {
+    const TuneTask& task = result_.task;
+    std::vector<EstimatorSpec> estimators;
+    for (const auto& point : points) {
+      estimators.push_back(spec_at(task.estimator, task.ranges, values_of(task, point)));
+    }
+    auto scores = run_(estimators, task.walks);
+    if (!scores) return tl::unexpected(scores.error());
+    if (!*scores) return std::optional<Points>();
+    Points objectives(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      for (std::size_t i = 0; i < result_.tables.size(); ++i) {
+        ResponseTable& table = result_.tables[i];
+        table.points.push_back(values_of(task, points[k]));
+        table.runs.push_back(runs_in((**scores)[k], i));
+        objectives[k].push_back(objective_at(table, task.plan.objectives[i],
+                                             table.points.size() - 1, cases_of(table, ""))
+                                    .value_or(kNoObjective));
+      }
+    }
+    return objectives;
+  }
+
+  Result<void> add_held_out() {
+    const TuneTask& task = result_.task;
+    if (task.held_out.empty() || result_.chosen.empty() || !result_.complete) return {};
+    std::vector<EstimatorSpec> estimators = {task.estimator};
+    std::vector<std::vector<double>> points;
+    for (const std::size_t k : result_.chosen) {
+      points.push_back(result_.tables.front().points[k]);
+      estimators.push_back(spec_at(task.estimator, task.ranges, points.back()));
+    }
+    auto scores = run_(estimators, task.held_out);
+    if (!scores) return tl::unexpected(scores.error());
+    result_.complete = scores->has_value();
+    if (!result_.complete) return {};
+    for (std::size_t i = 0; i < result_.tables.size(); ++i) {
+      ResponseTable table = empty_table(task, task.held_out);
+      table.points = points;
+      table.default_runs = runs_in((**scores).front(), i);
+      for (std::size_t k = 1; k < estimators.size(); ++k) {
+        table.runs.push_back(runs_in((**scores)[k], i));
+      }
+      result_.held_out.push_back(std::move(table));
+    }
+    return {};
+  }
+
+  const RunOnWalks& run_;
+  TuneResult result_;
+};
+
+/// By walk first, so that neighbours share an open walk.
+std::vector<SweepUnit> units_of(std::span<const EstimatorSpec> estimators,
+                                std::span<const Walk> walks) {
+  std::vector<SweepUnit> units;
+  for (const Walk& walk : walks) {
+    for (const EstimatorSpec& estimator : estimators) {
+      units.push_back(make_unit(walk.scenario, walk.seed, estimator));
+    }
+  }
+  return units;
+}
+
+}  // namespace
+
+Result<TuneResult> tune(const TuneTask& task, const RunOnWalks& run) { return Tuning(task, run)(); }
+
+RunOnWalks run_by_units(UnitRunner& runner, const UnitObserver& observer,
+                        const std::vector<Objective>& objectives) {
+  return [&runner, observer, objectives](
+             std::span<const EstimatorSpec> estimators,
+             std::span<const Walk> walks) -> Result<std::optional<WalkScores>> {
+    const std::vector<SweepUnit> units = units_of(estimators, walks);
+    const auto run = runner.run(units, observer);
+    if (!run) return tl::unexpected(run.error());
+    if (!run->complete) return std::optional<WalkScores>();
+    const std::vector<std::vector<RunScore>> none(walks.size());
+    WalkScores scores(estimators.size(), none);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const auto result = runner.folder().find(units[i].id);
+      auto& of_unit = scores[i % estimators.size()][i / estimators.size()];
+      for (const Objective& each : objectives) {
+        of_unit.push_back(result ? run_score(*result, each.score) : RunScore{});
+      }
+    }
+    return scores;
+  };
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const TuneTask& task,
+                                                             std::span<const double> point) {
+  return spec_at(EstimatorSpec{}, task.ranges, point).settings;
+}
+
+ResponseTable empty_table(const TuneTask& task, std::span<const Walk> walks) {
+  ResponseTable table;
+  table.ranges = task.ranges;
+  table.defaults = task.defaults;
+  for (const Walk& walk : walks) {
+    const std::string& family = walk.scenario->family;
+    table.cases.push_back(
+        {walk.scenario->name, family.empty() ? walk.scenario->name : family, walk.seed});
+  }
+  return table;
+}
+
+}  // namespace aims

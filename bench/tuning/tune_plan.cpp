@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/tune_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <utility>
+
+#include "bench/run/seeds.hpp"
+#include "bench/tuning/range_key.hpp"
+#include "bench/tuning/sweep_plan.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/config_dump.hpp"
+#include "core/files/yaml_config.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Scenarios = std::vector<std::shared_ptr<const Scenario>>;
+
+/// The estimator's own value of each range's key in that scenario.
+Result<std::vector<double>> untuned(const TuneTask& task, const Scenario& scenario) {
+  auto config = config_with(task.estimator, scenario.estimator);
+  if (!config) return tl::unexpected(config.error());
+  const Fields fields = fields_of(*config);
+  std::vector<double> values;
+  for (const ParameterRange& range : task.ranges) {
+    const std::string text = fields.find(range.key)->text();
+    double value = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    values.push_back(value);
+  }
+  return values;
+}
+
+Result<void> read_ranges(TuneTask& task, const Scenario& base) {
+  if (task.plan.over.empty()) {
+    return failure("over: the plan varies nothing; expected ranges, e.g. [\"degeneracy.eta=0:6\"]");
+  }
+  auto ranges = parse_ranges(task.plan.over);
+  if (!ranges) return tl::unexpected(ranges.error());
+  task.ranges = std::move(*ranges);
+  if (auto right = check_ranges(task.ranges, base); !right) return right;
+  for (const ParameterRange& range : task.ranges) {
+    if (range.low == range.high) {
+      return failure(fmt::format("range '{}': one value leaves nothing to tune", text_of(range)));
+    }
+    if (range.of_estimator) continue;
+    return failure(
+        fmt::format("range '{}': '{}' is no key of the estimator, and an optimizer that may change "
+                    "it would make the task easier; expected keys below estimator., or aims sweep "
+                    "for what such a key does",
+                    text_of(range), range.key));
+  }
+  return {};
+}
+
+Result<void> check_objectives(const TunePlan& plan) {
+  for (std::size_t i = 0; i < plan.objectives.size(); ++i) {
+    if (!plan.objectives[i].score.empty()) continue;
+    return failure(fmt::format("objectives.{}.score: expected a score, e.g. ate_m", i));
+  }
+  return check_optimizer(plan.optimizer, plan.objectives.size());
+}
+
+void add_walks(const Scenarios& scenarios, const std::vector<std::uint64_t>& seeds,
+               std::vector<Walk>& walks) {
+  for (const auto& scenario : scenarios) {
+    for (const std::uint64_t seed : seeds) walks.push_back({scenario, seed});
+  }
+}
+
+Result<void> add_held_out(const Scenarios& tuned, const std::vector<std::uint64_t>& tuned_seeds,
+                          const fs::path& folder, TuneTask& task) {
+  const HeldOut& held = task.plan.held_out;
+  auto seeds = tuned_seeds;
+  if (!held.seeds.empty()) {
+    auto own = parse_seeds(held.seeds);
+    if (!own) return failure("held_out.seeds: " + own.error().message);
+    seeds = std::move(*own);
+    add_walks(tuned, seeds, task.held_out);
+  }
+  if (!held.scenarios.empty() || !held.tags.empty()) {
+    const auto others = plan_scenarios(held.scenarios, held.tags, task.plan.set, folder);
+    if (!others) return failure("held_out: " + others.error().message);
+    add_walks(*others, seeds, task.held_out);
+  }
+  for (const Walk& walk : task.held_out) {
+    for (const Walk& seen : task.walks) {
+      if (walk.seed != seen.seed || walk.scenario->name != seen.scenario->name) continue;
+      return failure(
+          fmt::format("held_out: {} seed {} is also tuned on; expected other seeds or "
+                      "scenarios",
+                      walk.scenario->name, walk.seed));
+    }
+  }
+  return {};
+}
+
+Result<void> check_untuned(const TuneTask& task) {
+  for (const Walk& walk : task.walks) {
+    const auto values = untuned(task, *walk.scenario);
+    if (!values) return tl::unexpected(values.error());
+    for (std::size_t i = 0; i < task.ranges.size(); ++i) {
+      if ((*values)[i] == task.defaults[i]) continue;
+      return failure(fmt::format(
+          "{}: {} is {} there and {} in {}; expected the same untuned values in all scenarios",
+          walk.scenario->name, task.ranges[i].key, (*values)[i], task.defaults[i],
+          task.walks.front().scenario->name));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void describe(Fields& f, HeldOut& h) {
+  f.texts("scenarios", h.scenarios, {.meaning = "scenarios that nothing is tuned on"});
+  f.texts("tags", h.tags, {.meaning = "with them, all scenarios with any of these tags"});
+  f.text("seeds", h.seeds,
+         {.meaning = "of these scenarios and of those tuned on; empty: these alone, tuned seeds"});
+}
+
+void describe(Fields& f, OptimizerOptions& o) {
+  f.choice("algorithm", o.kind,
+           {{"auto", OptimizerKind::kAuto},
+            {"cmaes", OptimizerKind::kCmaes},
+            {"de", OptimizerKind::kDe},
+            {"nsga2", OptimizerKind::kNsga2}},
+           {.meaning = "of pagmo; auto: cmaes for one objective, nsga2 for several"});
+  f.integer("generations", o.generations,
+            {.unit = "-", .range = at_least(0), .meaning = "after the first population"});
+  f.integer("population", o.population,
+            {.unit = "-", .range = at_least(5), .meaning = "points of a generation"});
+  f.number("step", o.step,
+           {.unit = "-",
+            .range = {.min = 0.0, .max = 1.0, .min_included = false},
+            .meaning = "first standard deviation of cmaes, in widths of the ranges"});
+  f.integer("seed", o.seed, {.unit = "-", .range = at_least(0), .meaning = "of its points"});
+}
+
+void describe(Fields& f, TunePlan& p) {
+  f.text("estimator", p.estimator, {.meaning = "NAME or LABEL=NAME+key=value, untuned"});
+  f.texts("over", p.over, {.meaning = "what is tuned: KEY=LOW:HIGH or KEY=log(LOW,HIGH)"});
+  f.texts("scenarios", p.scenarios, {.meaning = "scenario files or names"});
+  f.texts("tags", p.tags, {.meaning = "with them, all scenarios with any of these tags"});
+  f.text("seeds", p.seeds, {.meaning = "of every scenario: 3, 1-5 or 1,4,7-9"});
+  f.group("held_out", p.held_out);
+  f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
+  f.list("objectives", p.objectives, "what is made small; two or more give a front");
+  f.group("optimizer", p.optimizer);
+  f.number("timeout", p.timeout,
+           {.unit = "s", .range = at_least(0), .meaning = "wall time of a unit; 0: any"});
+}
+
+Result<TunePlan> load_tune_plan(const fs::path& file) {
+  TunePlan plan;
+  if (auto loaded = load_config(file, plan); !loaded) return tl::unexpected(loaded.error());
+  return plan;
+}
+
+std::string plan_text(const TunePlan& plan) {
+  TunePlan copy = plan;
+  return dump_config(fields_of(copy));
+}
+
+Result<void> write_plan(const TunePlan& plan, const fs::path& file) {
+  return write_file_atomically(file, plan_text(plan));
+}
+
+Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {
+  TuneTask task;
+  task.plan = plan;
+  auto estimator = parse_estimator_spec(plan.estimator);
+  if (!estimator) return failure("estimator: " + estimator.error().message);
+  task.estimator = std::move(*estimator);
+  if (auto checked = check_objectives(plan); !checked) return tl::unexpected(checked.error());
+  const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, plan.set, folder);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  if (auto read = read_ranges(task, *scenarios->front()); !read)
+    return tl::unexpected(read.error());
+  auto defaults = untuned(task, *scenarios->front());
+  if (!defaults) return tl::unexpected(defaults.error());
+  task.defaults = std::move(*defaults);
+  const auto seeds = parse_seeds(plan.seeds);
+  if (!seeds) return tl::unexpected(seeds.error());
+  add_walks(*scenarios, *seeds, task.walks);
+  if (auto held = add_held_out(*scenarios, *seeds, folder, task); !held) {
+    return tl::unexpected(held.error());
+  }
+  if (auto same = check_untuned(task); !same) return tl::unexpected(same.error());
+  return task;
+}
+
+}  // namespace aims

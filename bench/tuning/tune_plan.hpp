@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/error.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "bench/run/scenario.hpp"
+#include "bench/tuning/design.hpp"
+#include "bench/tuning/objective.hpp"
+#include "bench/tuning/optimizer.hpp"
+
+namespace aims {
+
+/// Walks that the optimizer never sees.
+struct HeldOut {
+  std::vector<std::string> scenarios;  ///< besides those that are tuned on
+  std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
+  std::string seeds;  ///< of these scenarios and of those tuned on; empty: these alone, tuned seeds
+};
+
+/// What is to be tuned, on what, for what.
+struct TunePlan {
+  std::string estimator = "aims";      ///< spec of the untuned estimator
+  std::vector<std::string> over;       ///< ranges (bench/tuning/design.hpp); counts play no part
+  std::vector<std::string> scenarios;  ///< files or names
+  std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
+  std::string seeds = "1-3";
+  HeldOut held_out;
+  std::vector<std::string> set;  ///< "key=value" on top of every scenario
+  std::vector<Objective> objectives = {Objective{}};
+  OptimizerOptions optimizer;
+  double timeout = 0.0;  ///< wall time that a unit is given [s]; 0: any
+};
+
+void describe(Fields& fields, HeldOut& held_out);
+void describe(Fields& fields, OptimizerOptions& options);
+void describe(Fields& fields, TunePlan& plan);
+
+/// Reads a plan; errors name file, line, key and expectation.
+Result<TunePlan> load_tune_plan(const std::filesystem::path& file);
+
+/// The plan as YAML that loads again.
+std::string plan_text(const TunePlan& plan);
+
+/// Writes `plan_text` to a file, whole or not at all.
+Result<void> write_plan(const TunePlan& plan, const std::filesystem::path& file);
+
+/// A scenario's walk on one seed.
+struct Walk {
+  std::shared_ptr<const Scenario> scenario;
+  std::uint64_t seed = 0;
+};
+
+/// A plan with all that it names found and checked.
+struct TuneTask {
+  TunePlan plan;
+  EstimatorSpec estimator;
+  std::vector<ParameterRange> ranges;
+  std::vector<double> defaults;  ///< what the estimator has without being tuned, per range
+  std::vector<Walk> walks;
+  std::vector<Walk> held_out;
+};
+
+/// Error for a plan without ranges or walks, for ranges, objectives or an optimizer that are not
+/// right, for scenarios in which the untuned values differ, and for a walk that is both tuned on
+/// and held out. `scenario_folder` is where names and tags are looked up.
+Result<TuneTask> tune_task(const TunePlan& plan, const std::filesystem::path& scenario_folder);
+
+}  // namespace aims

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/files/number_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace aims {
+namespace {
+
+std::optional<std::uint64_t> parse_digits(std::string_view word) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::optional<std::string_view> LineReader::next() {
+  while (!rest_.empty()) {
+    ++number_;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && line[first] != '#') return line;
+  }
+  return std::nullopt;
+}
+
+tl::unexpected<Error> LineReader::error(std::string_view message) const {
+  return failure(fmt::format("{}:{}: {}", name_, number_, message));
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  std::size_t start = line.find_first_not_of(" \t\r");
+  while (start != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(" \t\r", start), line.size());
+    words.push_back(line.substr(start, end - start));
+    start = line.find_first_not_of(" \t\r", end);
+  }
+  return words;
+}
+
+std::optional<double> parse_number(std::string_view word, bool finite) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  if (finite && !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<Time> parse_stamp(std::string_view word) {
+  const bool negative = word.starts_with('-');
+  const std::string_view unsigned_word = negative ? word.substr(1) : word;
+  const std::size_t dot = std::min(unsigned_word.find('.'), unsigned_word.size());
+  std::string decimals(dot < unsigned_word.size() ? unsigned_word.substr(dot + 1) : "");
+  const bool exact = decimals.size() <= 9;
+  decimals.resize(9, '0');
+  const auto seconds = parse_digits(unsigned_word.substr(0, dot));
+  const auto fraction = parse_digits(decimals);
+  constexpr auto kMostSeconds =
+      static_cast<std::uint64_t>(std::numeric_limits<Time>::max() / kSecond);
+  if (exact && seconds && fraction) {
+    if (*seconds >= kMostSeconds) return std::nullopt;
+    const auto stamp = static_cast<Time>(*seconds) * kSecond + static_cast<Time>(*fraction);
+    return negative ? -stamp : stamp;
+  }
+  const auto number = parse_number(word);
+  if (!number || std::abs(*number) >= static_cast<double>(kMostSeconds)) return std::nullopt;
+  return from_seconds(*number);
+}
+
+std::string stamp_text(Time stamp) {
+  const bool negative = stamp < 0;
+  // Negated as unsigned, so that the smallest integer has a magnitude too.
+  const auto magnitude = negative ? std::uint64_t{0} - static_cast<std::uint64_t>(stamp)
+                                  : static_cast<std::uint64_t>(stamp);
+  const auto second = static_cast<std::uint64_t>(kSecond);
+  return fmt::format("{}{}.{:09}", negative ? "-" : "", magnitude / second, magnitude % second);
+}
+
+}  // namespace aims

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/files/passages.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "core/files/number_lines.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::string_view kHeader = "point,stamp_s";
+
+std::string_view without_return(std::string_view line) {
+  return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
+}
+
+/// Takes the quoted name off the front of `rest`, or nothing when its quote never closes.
+std::optional<std::string> take_quoted(std::string_view& rest) {
+  std::string name;
+  for (std::size_t i = 1; i < rest.size(); ++i) {
+    if (rest[i] == '"' && (i + 1 >= rest.size() || rest[i + 1] != '"')) {
+      rest = rest.substr(i + 1);
+      return name;
+    }
+    if (rest[i] == '"') ++i;
+    name += rest[i];
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> take_name(std::string_view& rest) {
+  if (rest.starts_with('"')) return take_quoted(rest);
+  std::string name(rest.substr(0, rest.find(',')));
+  rest.remove_prefix(name.size());
+  return name;
+}
+
+std::optional<Passage> parse_row(std::string_view line) {
+  std::string_view rest = without_return(line);
+  auto name = take_name(rest);
+  if (!name || name->empty() || !rest.starts_with(',')) return std::nullopt;
+  const auto stamp = parse_stamp(rest.substr(1));
+  if (!stamp) return std::nullopt;
+  return Passage{std::move(*name), *stamp};
+}
+
+}  // namespace
+
+Result<std::vector<Passage>> parse_passages(std::string_view text, const std::string& name) {
+  std::vector<Passage> passages;
+  LineReader lines(text, name);
+  const auto header = lines.next();
+  if (!header) return failure(fmt::format("{}:1: expected the header '{}'", name, kHeader));
+  if (without_return(*header) != kHeader) {
+    return lines.error(fmt::format("expected the header '{}', found '{}'", kHeader, *header));
+  }
+  while (const auto line = lines.next()) {
+    auto passage = parse_row(*line);
+    if (!passage) {
+      return lines.error(
+          fmt::format("expected a point and its stamp in seconds, as a,12.5; found '{}'", *line));
+    }
+    if (!passages.empty() && passage->stamp < passages.back().stamp) {
+      return lines.error(fmt::format("expected a stamp not before {}, found {}",
+                                     stamp_text(passages.back().stamp),
+                                     stamp_text(passage->stamp)));
+    }
+    passages.push_back(std::move(*passage));
+  }
+  return passages;
+}
+
+}  // namespace aims

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/files/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace aims {
+namespace {
+
+std::vector<std::size_t> column_widths(const TextTable& table) {
+  std::vector<std::size_t> widths;
+  for (const std::string& cell : table.header) widths.push_back(cell.size());
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  return widths;
+}
+
+std::string line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
+  std::string text = fmt::format("{:<{}}", cells.front(), widths.front());
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    text += fmt::format("  {:>{}}", cells[i], widths[i]);
+  }
+  return text + "\n";
+}
+
+/// A cell of a Markdown table, in which a bar would end it.
+std::string escaped(const std::string& cell) {
+  std::string text;
+  for (const char c : cell) text += c == '|' ? std::string("\\|") : std::string(1, c);
+  return text;
+}
+
+std::string markdown_row(const std::vector<std::string>& cells) {
+  std::string text = "|";
+  for (const std::string& cell : cells) text += fmt::format(" {} |", escaped(cell));
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const TextTable& table) {
+  const std::vector<std::size_t> widths = column_widths(table);
+  std::size_t total = 2 * (widths.size() - 1);
+  for (const std::size_t width : widths) total += width;
+  std::string text = line(table.header, widths) + std::string(total, '-') + "\n";
+  for (const auto& row : table.rows) text += line(row, widths);
+  return text;
+}
+
+std::string to_markdown(const TextTable& table) {
+  std::string text = markdown_row(table.header) + "|---|";
+  for (std::size_t i = 1; i < table.header.size(); ++i) text += "---:|";
+  text += "\n";
+  for (const auto& row : table.rows) text += markdown_row(row);
+  return text;
+}
+
+}  // namespace aims

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "estimator/aims/config.hpp"
+#include "estimator/degeneracy/disagreement.hpp"
+#include "estimator/estimator.hpp"
+#include "estimator/ground/floor.hpp"
+#include "estimator/filter/kalman_update.hpp"
+#include "estimator/legs/leg_displacement.hpp"
+#include "estimator/legs/leg_evidence.hpp"
+#include "estimator/legs/leg_states.hpp"
+#include "estimator/lidar/lidar_update.hpp"
+#include "estimator/filter/measurement_queue.hpp"
+#include "estimator/filter/pose_clone.hpp"
+#include "estimator/lidar/scan_selection.hpp"
+#include "estimator/legs/standstill.hpp"
+#include "estimator/lidar/voxel_map.hpp"
+
+namespace aims {
+
+/// The error-state Kalman filter of the family: the IMU predicts, leg odometry corrects at its own
+/// stamps (or, as displacement since the last scan, at the end of each sweep), the LiDAR at the end
+/// of each sweep.
+class EskfEstimator : public Estimator {
+ public:
+  EskfEstimator(const EstimatorConfig& config, const FamilyMember& member, const SensorRig& rig);
+
+  void consume(const Delivery& delivery) override;
+  void finish() override;
+  const EstimatorReport& report() const override { return report_; }
+  std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
+
+  /// State and covariance after the last processed measurement, for consistency checks.
+  const Belief& belief() const { return belief_; }
+
+ private:
+  void process_ready();
+  bool start();
+  void correct(const LegOdometrySample& sample);
+  void correct(const LidarScanPtr& scan);
+  void predict_to(Time stamp);
+  void take_leg(const LegOdometrySample& sample);
+  void fuse_leg_velocity(const LegOdometrySample& sample);
+  Eigen::Matrix3d leg_noise(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
+  void compare_ways(const LegOdometrySample& sample, const Eigen::Vector3d& rate,
+                    LinearMeasurement& measurement);
+  void judge_ways();
+  bool stands(const LegOdometrySample& sample);
+  void fuse_leg_displacement();
+  void renew_clone();
+  void hold_lost_legs(Time until);
+  void bridge_silence(Time stamp);
+  void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
+  void extend_map();
+  void fuse_floor();
+  /// Takes the belief `updated`, unless it is unsound: then it is counted, and false returned.
+  bool accept(const Belief& updated);
+
+  EstimatorConfig config_;
+  FamilyMember member_;
+  SensorRig rig_;
+  MeasurementQueue queue_;
+  ScanSelection selection_;
+  LidarUpdate lidar_update_;
+  VoxelMap map_;
+  FloorConstraint floor_;
+  EstimatorReport report_;
+
+  bool started_ = false;
+  Time time_ = 0;  ///< of the belief
+  Belief belief_;
+  std::optional<LegOdometrySample> last_leg_;  ///< with the stamp moved on while held
+  LegEvidence leg_evidence_;
+  Disagreement disagreement_;
+  StandstillDetector standstill_;
+  StrideMean stride_mean_;
+  LegIntegrator leg_integrator_;    ///< since the last scan; displacement mode
+  std::optional<PoseClone> clone_;  ///< at the last scan; displacement mode
+  double leg_innovation_ = 0.0;
+  int leg_updates_ = 0;
+
+  std::vector<InertialSegment> segments_;
+  std::vector<int> indices_;
+  std::vector<Eigen::Vector3f> match_points_;   ///< body axes at the sweep's end
+  std::vector<Eigen::Vector3f> insert_points_;  ///< the same, then in the odometry frame
+};
+
+}  // namespace aims

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "estimator/aims/config.hpp"
+#include "estimator/filter/error_state.hpp"
+
+namespace aims {
+
+/// Mean and variance of residuals, eq. (3).
+struct ResidualStatistics {
+  double mean = 0.0;      ///< [m]
+  double variance = 0.0;  ///< [m^2]
+};
+
+/// Eq. (3); zeros for no residuals.
+ResidualStatistics residual_statistics(std::span<const double> residuals);
+
+/// O_lidar, eq. (4), in [0, 1): small where residuals hardly vary.
+double effective_observability(double residual_variance, double sigma_0);
+
+/// C_IL = y^T P^-1 y, eq. (6), over the pose block (6-D).
+double consistency(const Vector6& innovation, const Matrix6& predicted_covariance);
+
+/// C_IL, eq. (6), over the whole error state (15-D), given the inverse of the covariance.
+double consistency_full(const ErrorVector& innovation, const ErrorMatrix& predicted_information);
+
+/// D_k, eq. (7), in [0, 1]: 0 = healthy, 1 = degenerate.
+double degeneracy_severity(double O_lidar, double C_IL, const DegeneracyConfig& config);
+
+/// gamma_lidar, eq. (8), in [exp(-eta), 1]; R_lidar' = R_lidar / gamma_lidar, eq. (9).
+double lidar_reliability(double D, const DegeneracyConfig& config);
+
+/// gamma_leg, eq. (10), in [gamma_min, 1]; R_leg' = R_leg / gamma_leg, eq. (11).
+double leg_reliability(double D, const DegeneracyConfig& config);
+
+/// The smoothed index, eq. (12). The first D_k starts it.
+class SeverityFilter {
+ public:
+  explicit SeverityFilter(double alpha) : alpha_(alpha) {}
+
+  /// Takes D_k and returns the smoothed index.
+  double update(double D);
+
+  double value() const { return value_; }
+
+ private:
+  double alpha_;
+  double value_ = 0.0;
+  bool started_ = false;
+};
+
+}  // namespace aims

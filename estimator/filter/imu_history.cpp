@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/filter/imu_history.hpp"
+
+#include <algorithm>
+
+namespace aims {
+namespace {
+
+/// Samples averaged to bridge a long gap: two trot periods at 50 Hz.
+constexpr std::size_t kBridgeSamples = 40;
+
+bool before(const ImuSample& a, Time stamp) { return a.stamp < stamp; }
+
+}  // namespace
+
+ImuHistory::ImuHistory(const ImuPropagationConfig& config)
+    : config_(config), period_(from_seconds(1.0 / config.rate_hz)) {}
+
+bool ImuHistory::insert(const ImuSample& sample) {
+  const auto at = std::lower_bound(samples_.begin(), samples_.end(), sample.stamp, before);
+  if (at != samples_.end() && at->stamp == sample.stamp) return false;
+  samples_.insert(at, sample);
+  return true;
+}
+
+InertialSegment ImuHistory::measured_segment(std::size_t index) const {
+  const ImuSample& sample = samples_[index];
+  const Time since = index > 0 ? samples_[index - 1].stamp : sample.stamp - period_;
+  const bool gap = sample.stamp - since > period_ * 3 / 2;
+  InertialSegment segment{gap ? sample.stamp - period_ : since, sample.stamp,
+                          sample.angular_velocity, sample.specific_force, true};
+  if (config_.sampling == ImuSampling::kPoint && index > 0 && !gap) {
+    segment.angular_velocity =
+        0.5 * (sample.angular_velocity + samples_[index - 1].angular_velocity);
+    segment.specific_force = 0.5 * (sample.specific_force + samples_[index - 1].specific_force);
+  }
+  return segment;
+}
+
+InertialSegment ImuHistory::bridge(std::size_t next) const {
+  InertialSegment segment;
+  segment.measured = false;
+  if (samples_.empty()) {
+    segment.specific_force = Eigen::Vector3d(0.0, 0.0, config_.gravity);
+    return segment;
+  }
+  const bool has_next = next < samples_.size();
+  const bool short_gap =
+      has_next && next > 0 &&
+      samples_[next].stamp - samples_[next - 1].stamp <= 3 * period_ + period_ / 2;
+  const std::size_t last = has_next ? next + 1 : next;  // one past the newest sample used
+  const std::size_t wanted = short_gap ? 2 : kBridgeSamples;
+  const std::size_t first = last > wanted ? last - wanted : 0;
+  for (std::size_t i = first; i < last; ++i) {
+    segment.angular_velocity += samples_[i].angular_velocity;
+    segment.specific_force += samples_[i].specific_force;
+  }
+  segment.angular_velocity /= static_cast<double>(last - first);
+  segment.specific_force /= static_cast<double>(last - first);
+  return segment;
+}
+
+void ImuHistory::segments(Time begin, Time end, std::vector<InertialSegment>& segments) const {
+  segments.clear();
+  const auto at = std::upper_bound(samples_.begin(), samples_.end(), begin,
+                                   [](Time stamp, const ImuSample& s) { return stamp < s.stamp; });
+  auto index = static_cast<std::size_t>(at - samples_.begin());
+  while (begin < end) {
+    InertialSegment next = index < samples_.size() ? measured_segment(index) : bridge(index);
+    if (next.measured && next.begin > begin) {  // the samples before this one are missing
+      const Time until = std::min(next.begin, end);
+      next = bridge(index);
+      next.end = until;
+    } else if (next.measured) {
+      next.end = std::min(next.end, end);
+      ++index;
+    } else {
+      next.end = end;
+    }
+    next.begin = begin;
+    begin = next.end;
+    segments.push_back(next);
+  }
+}
+
+std::optional<Eigen::Vector3d> ImuHistory::angular_velocity_at(Time stamp) const {
+  const auto at = std::lower_bound(samples_.begin(), samples_.end(), stamp, before);
+  if (at == samples_.end()) return std::nullopt;
+  const InertialSegment segment = measured_segment(static_cast<std::size_t>(at - samples_.begin()));
+  if (stamp < segment.begin) return std::nullopt;
+  return segment.angular_velocity;
+}
+
+std::optional<Time> ImuHistory::newest() const {
+  if (samples_.empty()) return std::nullopt;
+  return samples_.back().stamp;
+}
+
+void ImuHistory::forget_before(Time stamp) {
+  while (samples_.size() > kBridgeSamples && samples_[1].stamp < stamp) samples_.pop_front();
+}
+
+}  // namespace aims

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "estimator/aims/config.hpp"
+#include "estimator/filter/imu_propagation.hpp"
+
+namespace aims {
+
+/// Recent inertial samples in order of stamp, and what they say about any span of time.
+class ImuHistory {
+ public:
+  explicit ImuHistory(const ImuPropagationConfig& config);
+
+  /// Takes a sample at its place; false when one with that stamp is there already.
+  bool insert(const ImuSample& sample);
+
+  /// Replaces `segments` by consecutive segments that cover (begin, end]. Where samples are missing
+  /// they bridge: by the mean of both neighbours over a short gap, by the recent mean over a long
+  /// one.
+  void segments(Time begin, Time end, std::vector<InertialSegment>& segments) const;
+
+  /// The angular velocity that holds at `stamp` [rad/s]; empty where no sample covers it.
+  std::optional<Eigen::Vector3d> angular_velocity_at(Time stamp) const;
+
+  /// Stamp of the newest sample; empty before the first.
+  std::optional<Time> newest() const;
+
+  /// Forgets samples that end before `stamp`, but for the last of them.
+  void forget_before(Time stamp);
+
+  const std::deque<ImuSample>& samples() const { return samples_; }
+
+ private:
+  InertialSegment measured_segment(std::size_t index) const;
+  InertialSegment bridge(std::size_t next) const;
+
+  ImuPropagationConfig config_;
+  Duration period_;
+  std::deque<ImuSample> samples_;
+};
+
+}  // namespace aims

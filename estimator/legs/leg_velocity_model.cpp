@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/legs/leg_velocity_model.hpp"
+
+#include <algorithm>
+
+namespace aims {
+
+LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
+                                     const Eigen::Vector3d& angular_velocity,
+                                     const LegVelocity& legs, const Eigen::Matrix3d& noise) {
+  using E = ErrorState;
+  const Eigen::Matrix3d R_base_body = T_body_base.R().transpose();
+  const Eigen::Matrix3d R_body_odom = state.rotation.conjugate().toRotationMatrix();
+  const Eigen::Vector3d& lever = T_body_base.translation;
+  const Eigen::Vector3d velocity_in_body = R_body_odom * state.velocity;
+  const Eigen::Vector3d rate = angular_velocity - state.gyro_bias;
+  LinearMeasurement m;
+  m.residual = R_base_body * (velocity_in_body + rate.cross(lever)) +
+               state.leg_scale.cwiseProduct(legs.stride_mean) + state.leg_bias - legs.measured;
+  columns(m.jacobian, E::kRotation) = R_base_body * hat(velocity_in_body);
+  columns(m.jacobian, E::kVelocity) = R_base_body * R_body_odom;
+  columns(m.jacobian, E::kGyroBias) = R_base_body * hat(lever);
+  columns(m.jacobian, E::kLegScale) = legs.stride_mean.asDiagonal();
+  columns(m.jacobian, E::kLegBias).setIdentity();
+  m.noise = noise;
+  return m;
+}
+
+Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, const Eigen::Vector3d& measured) {
+  const double repeats = std::max(1.0, 2.0 * config.correlation_time * config.rate_hz);
+  const double scale_error = config.scale_sigma * measured.norm();
+  const Eigen::Vector3d variance =
+      config.velocity_sigma.cwiseAbs2() + Eigen::Vector3d::Constant(scale_error * scale_error);
+  return (repeats * variance).asDiagonal();
+}
+
+}  // namespace aims

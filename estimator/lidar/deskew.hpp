@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "estimator/filter/error_state.hpp"
+#include "estimator/filter/imu_propagation.hpp"
+
+namespace aims {
+
+/// How the LiDAR moved through a sweep, relative to the body at the sweep's end.
+class SweepMotion {
+ public:
+  /// Propagates `end_state`, the state at the last segment's end, backward through `segments`
+  /// (consecutive, oldest first).
+  SweepMotion(const NominalState& end_state, std::span<const InertialSegment> segments,
+              const Pose& T_body_lidar, double gravity);
+
+  /// A point fired at `time` from LiDAR coordinates of that instant to body coordinates of the
+  /// sweep's end; times outside the segments take the nearest end.
+  Eigen::Vector3f deskew(const Eigen::Vector3f& point, Time time) const;
+
+ private:
+  struct Knot {
+    Eigen::Matrix3f R;
+    Eigen::Vector3f t;
+  };
+
+  Time begin_ = 0;
+  std::vector<Knot> knots_;  ///< T_bodyend_lidar every millisecond from begin_, the end included
+};
+
+/// Deskews the points of `scan` at `indices` into `points`.
+void deskew(const LidarScan& scan, std::span<const int> indices, const SweepMotion& motion,
+            std::vector<Eigen::Vector3f>& points);
+
+}  // namespace aims

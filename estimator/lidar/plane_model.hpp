@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "estimator/aims/config.hpp"
+#include "estimator/filter/error_state.hpp"
+
+namespace aims {
+
+/// A plane through map points.
+struct Plane {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< n_i, unit
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< q_i, mean of the map points [m]
+  double thickness = 0.0;                             ///< deviation of the map points across it [m]
+  bool valid = false;  ///< the points lie on it, and span it in two directions
+  /// Of the normal, odometry axes, by what the fit leaves of its points; zero across the normal.
+  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
+};
+
+/// Mean and scatter of points.
+struct PointMoments {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();     ///< [m]
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  ///< covariance of the points [m^2]
+  double count = 0.0;
+};
+
+/// The least-squares plane of points with these moments; valid when they spread in two directions
+/// by `min_spread` [m] and by the map's ratio more than across it.
+Plane plane_of_moments(const PointMoments& moments, double min_spread, const MapConfig& config);
+
+/// The least-squares plane of `points`, judged by the map's thickness, spread and ratio: five
+/// points of one scan line do not define a plane.
+Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config);
+
+/// One row of the point-to-plane model.
+struct PlaneRow {
+  double residual = 0.0;               ///< r_i, eq. (2) [m]
+  Vector6 jacobian = Vector6::Zero();  ///< of r_i in rotation and position error
+};
+
+/// Eq. (2) and its Jacobian for a point `p_body` in the body frame at the pose R, t = T_odom_body.
+inline PlaneRow plane_row(const Plane& plane, const Eigen::Vector3d& p_body,
+                          const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
+  PlaneRow row;
+  row.residual = plane.normal.dot(R * p_body + t - plane.point);  // eq. (2)
+  const Eigen::Vector3d normal_in_body = R.transpose() * plane.normal;
+  segment(row.jacobian, ErrorState::kRotation) = p_body.cross(normal_in_body);
+  segment(row.jacobian, ErrorState::kPosition) = plane.normal;
+  return row;
+}
+
+}  // namespace aims

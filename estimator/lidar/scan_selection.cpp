@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/lidar/scan_selection.hpp"
+
+namespace aims {
+namespace {
+
+/// Candidates between the request for a table entry and its use: the table exceeds the caches.
+constexpr std::size_t kAhead = 16;
+
+/// Well-mixed bits of an index (splitmix64 finalizer): the draw among the returns of a voxel.
+std::uint64_t lot(std::int32_t index) {
+  std::uint64_t bits = static_cast<std::uint64_t>(index) + 0x9e3779b97f4a7c15ULL;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
+  return bits ^ (bits >> 31);
+}
+
+}  // namespace
+
+bool ScanSelection::usable(const LidarPoint& point) const {
+  const double squared = point.position.squaredNorm();
+  return squared >= config_.min_range * config_.min_range &&  // false for a NaN
+         squared <= config_.max_range * config_.max_range;
+}
+
+void ScanSelection::list_candidates(const LidarScan& scan, double voxel) {
+  candidates_.clear();
+  const auto inverse_size = static_cast<float>(1.0 / voxel);
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    if (!usable(scan.points[i])) continue;
+    const std::uint64_t key = voxel_key(voxel_of(scan.points[i].position, inverse_size));
+    candidates_.push_back({key, static_cast<std::int32_t>(i)});
+  }
+}
+
+void ScanSelection::select(const LidarScan& scan, double voxel, int limit, std::vector<int>& kept) {
+  kept.clear();
+  taken_.clear();
+  list_candidates(scan, voxel);
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (i + kAhead < candidates_.size()) taken_.prefetch(candidates_[i + kAhead].key);
+    const auto next = static_cast<std::int32_t>(kept.size());
+    const std::int32_t slot = taken_.find_or_insert(candidates_[i].key, next);
+    if (slot == next) {
+      kept.push_back(candidates_[i].index);
+    } else if (lot(candidates_[i].index) < lot(kept[slot])) {
+      kept[slot] = candidates_[i].index;
+    }
+  }
+  const std::size_t count = kept.size();
+  const auto most = static_cast<std::size_t>(limit);
+  if (count <= most) return;
+  for (std::size_t i = 0; i < most; ++i) kept[i] = kept[i * count / most];
+  kept.resize(most);
+}
+
+}  // namespace aims

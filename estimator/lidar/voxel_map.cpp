@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/lidar/voxel_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aims {
+namespace {
+
+/// Offsets of the 27 voxels around one: itself first, then by faces, edges and corners, so that
+/// the best neighbours are found early and the rest are pruned.
+std::array<std::array<int, 3>, 27> neighborhood() {
+  std::array<std::array<int, 3>, 27> offsets{};
+  int i = 0;
+  for (int order = 0; order <= 3; ++order) {
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int z = -1; z <= 1; ++z) {
+          if (x * x + y * y + z * z == order) offsets[i++] = {x, y, z};
+        }
+      }
+    }
+  }
+  return offsets;
+}
+
+const std::array<std::array<int, 3>, 27> kNeighborhood = neighborhood();
+
+/// Squared distance from a coordinate `inside` a voxel of edge `size` to its neighbour at `offset`.
+float squared_gap(float inside, float size, int offset) {
+  if (offset == 0) return 0.0F;
+  const float gap = offset < 0 ? inside : size - inside;
+  return gap * gap;
+}
+
+}  // namespace
+
+VoxelMap::VoxelMap(const MapConfig& config)
+    : config_(config),
+      inverse_size_(static_cast<float>(1.0 / config.voxel_size)),
+      size_(static_cast<float>(config.voxel_size)),
+      gate_(static_cast<float>(std::min(config.neighbor_gate, config.voxel_size))),
+      spacing_(static_cast<float>(config.point_spacing)),
+      max_points_per_voxel_(std::clamp(config.max_points_per_voxel, 1, kCapacity)),
+      max_merges_(std::clamp(config.max_merges, 1, 255)),
+      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))),
+      planes_(config) {}
+
+void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
+                      const Eigen::Matrix3f& anchor) {
+  voxels_.begin_insertion();
+  for (const Eigen::Vector3f& point : points) {
+    if (point.allFinite()) insert(point, anchor);
+  }
+  voxels_.limit(max_voxels_, [&center](const Voxel& v) {
+    return (Eigen::Vector3f(v.x[0], v.y[0], v.z[0]) - center).squaredNorm();
+  });
+  if (config_.planes == MapPlanes::kVoxels) planes_.insert(points, center);
+}
+
+Plane VoxelMap::plane_at(const Eigen::Vector3f& query) const {
+  if (config_.planes == MapPlanes::kVoxels) return planes_.plane_at(query);
+  Neighbors neighbors;
+  nearest(query, neighbors);
+  if (neighbors.count < Neighbors::kWanted) return {};
+  return fit_plane(neighbors.points, config_);
+}
+
+void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor) {
+  Voxel& voxel = voxels_.touch(voxel_key(voxel_of(point, inverse_size_)));
+  if (voxel.count == 0) voxel.anchor = anchor;
+  int closest = -1;
+  float least = spacing_ * spacing_;
+  for (int i = 0; i < voxel.count; ++i) {
+    const Eigen::Vector3f d(voxel.x[i] - point.x(), voxel.y[i] - point.y(), voxel.z[i] - point.z());
+    if (d.squaredNorm() < least) {
+      least = d.squaredNorm();
+      closest = i;
+    }
+  }
+  if (closest >= 0) {
+    if (voxel.merged[closest] >= max_merges_) return;
+    const float weight = 1.0F / static_cast<float>(++voxel.merged[closest]);
+    voxel.x[closest] += weight * (point.x() - voxel.x[closest]);
+    voxel.y[closest] += weight * (point.y() - voxel.y[closest]);
+    voxel.z[closest] += weight * (point.z() - voxel.z[closest]);
+  } else if (voxel.count < max_points_per_voxel_) {
+    const int i = voxel.count++;
+    voxel.x[i] = point.x();
+    voxel.y[i] = point.y();
+    voxel.z[i] = point.z();
+    voxel.merged[i] = 1;
+  }
+}
+
+Eigen::Matrix3f VoxelMap::anchor_at(const Eigen::Vector3f& point) const {
+  const Voxel* voxel = voxels_.find(voxel_key(voxel_of(point, inverse_size_)));
+  if (voxel == nullptr) return Eigen::Matrix3f::Zero();
+  return voxel->anchor;
+}
+
+void VoxelMap::search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
+                      Neighbors& neighbors) {
+  std::array<float, kCapacity> squared;
+  for (int i = 0; i < voxel.count; ++i) {
+    const float dx = voxel.x[i] - query.x();
+    const float dy = voxel.y[i] - query.y();
+    const float dz = voxel.z[i] - query.z();
+    squared[i] = dx * dx + dy * dy + dz * dz;
+  }
+  constexpr int kLast = Neighbors::kWanted - 1;
+  for (int i = 0; i < voxel.count; ++i) {
+    const bool full = neighbors.count == Neighbors::kWanted;
+    if (squared[i] > gate || (full && squared[i] >= neighbors.squared_distances[kLast])) continue;
+    int at = full ? kLast : neighbors.count++;
+    while (at > 0 && neighbors.squared_distances[at - 1] > squared[i]) {
+      neighbors.squared_distances[at] = neighbors.squared_distances[at - 1];
+      neighbors.points[at] = neighbors.points[at - 1];
+      --at;
+    }
+    neighbors.squared_distances[at] = squared[i];
+    neighbors.points[at] = {voxel.x[i], voxel.y[i], voxel.z[i]};
+  }
+}
+
+void VoxelMap::nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const {
+  neighbors.count = 0;
+  const VoxelIndex home = voxel_of(query, inverse_size_);
+  const Eigen::Vector3f inside =
+      query - size_ * Eigen::Vector3f(static_cast<float>(home.x), static_cast<float>(home.y),
+                                      static_cast<float>(home.z));
+  const float gate = gate_ * gate_;
+  for (const auto& [dx, dy, dz] : kNeighborhood) {
+    const float closest = squared_gap(inside.x(), size_, dx) + squared_gap(inside.y(), size_, dy) +
+                          squared_gap(inside.z(), size_, dz);
+    const float reach = neighbors.count == Neighbors::kWanted
+                            ? neighbors.squared_distances[Neighbors::kWanted - 1]
+                            : gate;
+    if (closest > reach) continue;
+    const Voxel* voxel = voxels_.find(voxel_key({home.x + dx, home.y + dy, home.z + dz}));
+    if (voxel != nullptr) search(*voxel, query, gate, neighbors);
+  }
+}
+
+void VoxelMap::forget_unseen(int insertions) {
+  voxels_.forget_unseen(insertions);
+  planes_.forget_unseen(insertions);
+}
+
+std::size_t VoxelMap::memory() const { return voxels_.memory() + planes_.memory(); }
+
+std::vector<Eigen::Vector3f> VoxelMap::points() const {
+  std::vector<Eigen::Vector3f> all;
+  for (const Voxel& voxel : voxels_) {
+    for (int i = 0; i < voxel.count; ++i) all.emplace_back(voxel.x[i], voxel.y[i], voxel.z[i]);
+  }
+  return all;
+}
+
+}  // namespace aims

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "estimator/lidar/voxel_hash.hpp"
+
+namespace aims {
+
+/// Voxels in the order in which they came, found by their keys. `Voxel` has the members `key` and
+/// `seen`, the last insertion that touched it.
+template <class Voxel>
+class VoxelStore {
+ public:
+  /// What is touched from now on belongs to the next insertion.
+  void begin_insertion() { ++insertions_; }
+
+  /// The voxel of `key`, made when there is none; this insertion has seen it.
+  Voxel& touch(std::uint64_t key) {
+    const auto next = static_cast<std::int32_t>(voxels_.size());
+    const std::int32_t at = index_.find_or_insert(key, next);
+    if (at == next) voxels_.emplace_back().key = key;
+    voxels_[at].seen = insertions_;
+    return voxels_[at];
+  }
+
+  /// The voxel of `key`, or null.
+  const Voxel* find(std::uint64_t key) const {
+    const std::int32_t at = index_.find(key);
+    return at == VoxelHash::kNone ? nullptr : &voxels_[at];
+  }
+
+  /// When there are more than `most` voxels, drops those of the greatest `squared_distance`; a
+  /// tenth of `most` is freed at once, so that dropping stays rare.
+  template <class Distance>
+  void limit(std::size_t most, const Distance& squared_distance) {
+    if (voxels_.size() <= most) return;
+    std::vector<decltype(squared_distance(voxels_.front()))> distances(voxels_.size());
+    std::transform(voxels_.begin(), voxels_.end(), distances.begin(), squared_distance);
+    const auto last = distances.begin() + static_cast<std::ptrdiff_t>(most - most / 10);
+    std::nth_element(distances.begin(), last, distances.end());
+    drop_if([&, least = *last](const Voxel& v) { return squared_distance(v) >= least; });
+  }
+
+  /// Drops the voxels that none of the last `insertions` saw.
+  void forget_unseen(int insertions) {
+    const auto age = static_cast<std::uint32_t>(std::max(insertions, 0));
+    drop_if([&](const Voxel& v) { return insertions_ - v.seen >= age; });
+  }
+
+  /// Memory held [bytes].
+  std::size_t memory() const { return voxels_.capacity() * sizeof(Voxel) + index_.memory(); }
+
+  std::size_t size() const { return voxels_.size(); }
+  bool empty() const { return voxels_.empty(); }
+  auto begin() const { return voxels_.begin(); }
+  auto end() const { return voxels_.end(); }
+
+ private:
+  template <class Predicate>
+  void drop_if(const Predicate& predicate) {
+    if (std::erase_if(voxels_, predicate) == 0) return;
+    index_.clear();
+    for (std::size_t i = 0; i < voxels_.size(); ++i) {
+      index_.find_or_insert(voxels_[i].key, static_cast<std::int32_t>(i));
+    }
+  }
+
+  std::uint32_t insertions_ = 0;
+  VoxelHash index_;
+  std::vector<Voxel> voxels_;
+};
+
+}  // namespace aims

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "recordings/bag/bag_index.hpp"
+
+namespace aims {
+namespace {
+
+/// Makes times and counts of a chunk from its content; false when it is not whole.
+bool survey(const BagFile& file, std::size_t memory_limit, BagIndex& index, ChunkPlace& place,
+            ChunkContent& content) {
+  if (place.memory() > memory_limit) return false;
+  // Connections of a chunk that turns out damaged must not stay.
+  BagConnections connections = index.connections;
+  if (!load_chunk(file, place, connections, content)) return false;
+  index.connections = std::move(connections);
+  place.counts.clear();
+  for (const ChunkMessage& message : content.messages) {
+    const bool first = place.counts.empty();
+    place.start = first ? message.time : std::min(place.start, message.time);
+    place.end = first ? message.time : std::max(place.end, message.time);
+    ++place.counts[message.connection];
+  }
+  return true;
+}
+
+/// Adds the chunks that are met from `position` on; yields where the walk ends.
+std::uint64_t walk(const BagFile& file, std::uint64_t position, std::vector<ChunkPlace>& chunks) {
+  std::uint64_t end = position;
+  while (true) {
+    const auto record = file.record(position);
+    if (!record || record->op == BagOp::kMessage || record->op == BagOp::kFileHeader) return end;
+    position = record->end();
+    if (record->op == BagOp::kChunk) {
+      auto place = chunk_place(file, *record);
+      // rosbag writes the size of a chunk only when it closes it.
+      if (!place || place->size == 0) return end;
+      chunks.push_back(std::move(*place));
+    }
+    end = position;
+  }
+}
+
+}  // namespace
+
+Result<BagIndex> recover_index(const BagFile& file, std::size_t memory_limit) {
+  auto known = read_index(file);
+  BagIndex index;
+  std::vector<ChunkPlace> candidates;
+  if (known) {
+    index.connections = std::move(known->connections);
+    candidates = std::move(known->chunks);
+  } else {
+    const auto header = read_file_header(file);
+    if (!header) return tl::unexpected(header.error());
+    index.indexed = false;
+    index.lost_bytes = file.size() - walk(file, header->end(), candidates);
+  }
+  index.connections.forget_counts();
+  ChunkContent content;
+  for (ChunkPlace& place : candidates) {
+    if (!survey(file, memory_limit, index, place, content)) {
+      index.lost_bytes += place.packed_size;
+    } else if (!place.counts.empty()) {
+      index.chunks.push_back(std::move(place));
+    }
+  }
+  for (const ChunkPlace& place : index.chunks) {
+    for (const auto& [id, count] : place.counts) index.connections.find(id)->messages += count;
+  }
+  return index;
+}
+
+}  // namespace aims

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/time.hpp"
+#include "recordings/bag/compression.hpp"
+#include "recordings/messages/message_type.hpp"
+
+namespace aims {
+
+class BagOutput;
+
+struct BagWriterOptions {
+  BagCompression compression = BagCompression::kNone;
+  std::size_t chunk_size = std::size_t{4} << 20;  ///< a chunk is closed when it has so many bytes
+};
+
+/// Writes a ROS 1 bag (format 2.0). After each closed chunk the file on disk is a whole bag with an
+/// index of all closed chunks: a process killed at any moment leaves a bag that every reader opens.
+class BagWriter {
+ public:
+  /// Error when the file exists or cannot be written.
+  static Result<BagWriter> create(const std::filesystem::path& file, BagWriterOptions options = {});
+  /// Onto anything that takes writes and begins with an empty bag; `name` is for errors.
+  static Result<BagWriter> create(std::unique_ptr<BagOutput> output, const std::string& name,
+                                  BagWriterOptions options = {});
+  BagWriter(BagWriter&&) noexcept;
+  BagWriter& operator=(BagWriter&&) noexcept;
+  ~BagWriter();  ///< closes, without a word about what went wrong: call `close`
+
+  /// Announces a topic; yields the id to write with. Latching topics are handed to late listeners.
+  std::uint32_t add_connection(const std::string& topic, const MessageType& type,
+                               bool latching = false);
+
+  /// Appends a message as serialized by ROS 1. Error when the disk is full, naming the file; the
+  /// bag then still opens with the chunks closed before. `record_time` is above 0: at 0, rosbag's
+  /// own reader does not see a message.
+  Result<void> write(std::uint32_t connection, Time record_time, std::span<const std::byte> data);
+
+  /// Closes the last chunk and the file. Nothing may be written afterwards.
+  Result<void> close();
+
+ private:
+  struct Impl;
+  explicit BagWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aims

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/inspection/bag_info.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "recordings/inspection/bag_inspection.hpp"
+#include "recordings/inspection/bag_warnings.hpp"
+#include "recordings/inspection/topic_statistics.hpp"
+#include "recordings/stream/cloud_survey.hpp"
+#include "recordings/stream/message_values.hpp"
+#include "recordings/stream/recording_reader.hpp"
+#include "recordings/stream/topic_choice.hpp"
+#include "recordings/messages/message_decoder.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::size_t kMostTransforms = 256;
+constexpr std::size_t kMostTurns = 100'000;
+
+/// Goes over every message once.
+class Survey {
+ public:
+  void add(const BagMessage& message, BagInfo& info) {
+    const BagConnection& connection = *message.connection;
+    TopicStatistics& times = statistics_[connection.topic];
+    const auto view = decode(message, info);
+    const std::optional<Time> stamp = view ? view->time("header.stamp") : std::nullopt;
+    times.add(message.record_time, stamp);
+    if (!view) return;
+    if (!frames_.contains(connection.topic)) {
+      frames_[connection.topic] = std::string(view->text("header.frame_id").value_or(""));
+    }
+    if (is_cloud_type(connection.type)) {
+      clouds_.try_emplace(connection.topic, connection.topic).first->second.add(*view);
+    } else if (connection.type == "sensor_msgs/Imu") {
+      imus_.try_emplace(connection.topic, connection.topic)
+          .first->second.add(*view, stamp.value_or(message.record_time));
+      add_turn_rate(connection.topic, *view, "angular_velocity", stamp);
+    } else if (connection.type == "nav_msgs/Odometry") {
+      add_turn_rate(connection.topic, *view, "twist.twist.angular", stamp);
+    } else if (connection.type == "geometry_msgs/TwistStamped") {
+      add_turn_rate(connection.topic, *view, "twist.angular", stamp);
+    } else if (connection.type == "tf2_msgs/TFMessage" || connection.type == "tf/tfMessage") {
+      add_transforms(*view, connection.topic == "/tf_static", info);
+    }
+  }
+
+  void finish(const std::vector<BagConnection>& connections, BagInfo& info) {
+    std::map<std::string, std::string> types;
+    for (const BagConnection& each : connections) types[each.topic] = each.type;
+    for (const auto& [topic, type] : types) {
+      TopicInfo& added = info.topics.emplace_back();
+      added.topic = topic;
+      added.type = type;
+      added.frame = frames_[topic];
+      statistics_[topic].finish(added);
+    }
+    compare_clocks(info);
+    for (auto& [topic, survey] : clouds_) info.clouds.push_back(survey.finish());
+    for (auto& [topic, survey] : imus_) info.imus.push_back(survey.finish());
+  }
+
+ private:
+  void add_turn_rate(const std::string& topic, const MessageView& message, const char* path,
+                     std::optional<Time> stamp) {
+    const auto rate = vector_at(message, path);
+    std::vector<TurnRate>& rates = turns_[topic];
+    if (!rate || !rate->allFinite() || !stamp || rates.size() == kMostTurns) return;
+    if (rates.empty() || rates.back().stamp < *stamp) rates.push_back({*stamp, rate->norm()});
+  }
+
+  /// Holds every sensor that feels turns against the fastest IMU.
+  void compare_clocks(BagInfo& info) const {
+    if (imus_.empty()) return;
+    const auto fewer = [this](const auto& a, const auto& b) {
+      return turns_.at(a.first).size() < turns_.at(b.first).size();
+    };
+    const std::string& reference = std::max_element(imus_.begin(), imus_.end(), fewer)->first;
+    for (TopicInfo& each : info.topics) {
+      const auto rates = turns_.find(each.topic);
+      if (rates == turns_.end() || each.topic == reference) continue;
+      each.clock = clock_offset(rates->second, turns_.at(reference));
+    }
+  }
+
+  std::optional<MessageView> decode(const BagMessage& message, BagInfo& info) {
+    const BagConnection& connection = *message.connection;
+    auto known = decoders_.find(connection.id);
+    if (known == decoders_.end()) {
+      auto made = MessageDecoder::create(connection.type, connection.definition);
+      if (!made) count_undecodable(made.error(), message, info);
+      auto decoder = made ? std::optional(std::move(*made)) : std::nullopt;
+      known = decoders_.emplace(connection.id, std::move(decoder)).first;
+    }
+    if (!known->second) return std::nullopt;
+    auto view = known->second->decode(message.data);
+    if (view) return std::move(*view);
+    count_undecodable(view.error(), message, info);
+    return std::nullopt;
+  }
+
+  static void count_undecodable(const Error& error, const BagMessage& message, BagInfo& info) {
+    if (info.undecodable++ > 0) return;
+    info.first_undecodable = fmt::format("{} in the chunk at offset {}: {}",
+                                         message.connection->topic, message.offset, error.message);
+  }
+
+  static void add_transforms(const MessageView& message, bool fixed, BagInfo& info) {
+    const std::size_t count = std::min(message.size("transforms").value_or(0), kMostTransforms);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string path = fmt::format("transforms[{}].", i);
+      TransformInfo found;
+      found.parent = std::string(message.text(path + "header.frame_id").value_or(""));
+      found.child = std::string(message.text(path + "child_frame_id").value_or(""));
+      found.fixed = fixed;
+      const auto rotation = quaternion_at(message, path + "transform.rotation");
+      const auto translation = vector_at(message, path + "transform.translation");
+      if (!rotation || !translation) continue;
+      found.T_parent_child = {*rotation, *translation};
+      const bool known = std::any_of(
+          info.transforms.begin(), info.transforms.end(), [&found](const TransformInfo& each) {
+            return each.parent == found.parent && each.child == found.child;
+          });
+      if (!known && info.transforms.size() < kMostTransforms)
+        info.transforms.push_back(std::move(found));
+    }
+  }
+
+  std::map<std::uint32_t, std::optional<MessageDecoder>> decoders_;
+  std::map<std::string, TopicStatistics> statistics_;
+  std::map<std::string, std::string> frames_;
+  std::map<std::string, CloudInspection> clouds_;
+  std::map<std::string, ImuInspection> imus_;
+  std::map<std::string, std::vector<TurnRate>> turns_;  ///< of the first minutes
+};
+
+}  // namespace
+
+const PointFieldInfo* CloudInfo::find(const std::string& name) const {
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [&name](const auto& each) { return each.name == name; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+const PointFieldInfo* CloudInfo::time_field() const { return find_any(time_field_names()); }
+const PointFieldInfo* CloudInfo::ring_field() const { return find_any(ring_field_names()); }
+
+const PointFieldInfo* CloudInfo::find_any(std::span<const std::string_view> names) const {
+  for (const std::string_view name : names) {
+    if (const PointFieldInfo* field = find(std::string(name))) return field;
+  }
+  return nullptr;
+}
+
+const TopicInfo* BagInfo::find(const std::string& topic) const {
+  const auto found = std::find_if(topics.begin(), topics.end(),
+                                  [&topic](const auto& each) { return each.topic == topic; });
+  return found == topics.end() ? nullptr : &*found;
+}
+
+Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig& config,
+                         BagOpenOptions options) {
+  auto reader = BagReader::open(bag, options);
+  if (!reader) return tl::unexpected(reader.error());
+  BagInfo info;
+  info.file = bag;
+  info.summary = reader->summary();
+  Survey survey;
+  while (true) {
+    auto message = reader->next();
+    if (!message) return tl::unexpected(message.error());
+    if (!*message) break;
+    survey.add(**message, info);
+  }
+  survey.finish(reader->connections(), info);
+  const auto recording = RecordingReader::open(bag, config, options);
+  if (recording) {
+    info.used = recording->setup().topics;
+    info.notes = recording->setup().notes;
+  } else {
+    info.refusal = recording.error().message;
+  }
+  info.warnings = bag_warnings(info);
+  return info;
+}
+
+}  // namespace aims

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/inspection/topic_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "recordings/stream/median.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::size_t kMostKept = 1'000'000;
+/// A spacing that is longer by more stands for lost messages [-].
+constexpr double kLossThreshold = 1.5;
+
+/// Share of messages missing, were they all `usual` seconds apart.
+double loss_of(const std::vector<float>& spacings, double usual) {
+  double missing = 0.0;
+  for (const float spacing : spacings) {
+    if (spacing > kLossThreshold * usual) missing += std::round(spacing / usual) - 1.0;
+  }
+  return missing / (missing + static_cast<double>(spacings.size()) + 1.0);
+}
+
+}  // namespace
+
+void TopicStatistics::add(Time record_time, std::optional<Time> stamp) {
+  const Time time = stamp.value_or(record_time);
+  if (messages_ == 0) {
+    first_ = time;
+    stamped_ = stamp.has_value();
+  } else {
+    const double spacing = to_seconds(time - last_);
+    if (spacing == 0.0) ++repeated_;
+    if (spacing < 0.0) ++backwards_;
+    largest_gap_s_ = std::max(largest_gap_s_, spacing);
+    if (spacing > 0.0 && spacings_s_.size() < kMostKept) {
+      spacings_s_.push_back(static_cast<float>(spacing));
+    }
+  }
+  if (stamp && offsets_s_.size() < kMostKept) {
+    offsets_s_.push_back(static_cast<float>(to_seconds(record_time - *stamp)));
+  }
+  last_ = time;
+  ++messages_;
+}
+
+void TopicStatistics::finish(TopicInfo& info) {
+  info.messages = messages_;
+  info.stamped = stamped_;
+  info.repeated = repeated_;
+  info.backwards = backwards_;
+  info.first_stamp = first_;
+  info.last_stamp = last_;
+  if (const auto usual = upper_median(spacings_s_); usual && *usual > 0.0) {
+    info.rate_hz = 1.0 / *usual;
+    info.largest_gap_s = largest_gap_s_;
+    info.loss = loss_of(spacings_s_, *usual);
+  }
+  if (offsets_s_.empty()) return;
+  info.median_offset_s = upper_median(offsets_s_);
+  const auto [smallest, largest] = std::minmax_element(offsets_s_.begin(), offsets_s_.end());
+  info.smallest_offset_s = *smallest;
+  info.largest_offset_s = *largest;
+}
+
+}  // namespace aims

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "recordings/messages/message_decoder.hpp"
+#include "recordings/messages/message_plan.hpp"
+
+namespace aims {
+
+/// A decoded message: its bytes, and where its segments start.
+struct MessageView::Impl {
+  std::shared_ptr<const std::vector<MessagePlan>> plans;
+  std::optional<std::uint32_t> root;  ///< the plan of an entry of an array; none: the type's own
+  std::span<const std::byte> bytes;
+
+  const MessagePlan& plan() const { return root ? (*plans)[*root] : plans->back(); }
+
+  void make_room(std::size_t segments) {
+    if (segments > few_.size()) many_.resize(segments);
+  }
+  std::uint32_t* segments() { return many_.empty() ? few_.data() : many_.data(); }
+  const std::uint32_t* segments() const { return many_.empty() ? few_.data() : many_.data(); }
+
+ private:
+  std::array<std::uint32_t, 16> few_;  ///< enough for most types, without an allocation
+  std::vector<std::uint32_t> many_;
+};
+
+}  // namespace aims

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+
+#include "core/files/byte_cursor.hpp"
+#include "recordings/messages/message_decoder.hpp"
+
+namespace aims {
+
+std::size_t size_of(NumberType type) {
+  static constexpr std::array<std::size_t, 10> kSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+  return kSizes[static_cast<std::size_t>(type)];
+}
+
+double number_at(const std::byte* bytes, NumberType type) {
+  switch (type) {
+    case NumberType::kInt8:
+      return load_number<std::int8_t>(bytes);
+    case NumberType::kUint8:
+      return load_number<std::uint8_t>(bytes);
+    case NumberType::kInt16:
+      return load_number<std::int16_t>(bytes);
+    case NumberType::kUint16:
+      return load_number<std::uint16_t>(bytes);
+    case NumberType::kInt32:
+      return load_number<std::int32_t>(bytes);
+    case NumberType::kUint32:
+      return load_number<std::uint32_t>(bytes);
+    case NumberType::kInt64:
+      return static_cast<double>(load_number<std::int64_t>(bytes));
+    case NumberType::kUint64:
+      return static_cast<double>(load_number<std::uint64_t>(bytes));
+    case NumberType::kFloat32:
+      return load_number<float>(bytes);
+    case NumberType::kFloat64:
+      return load_number<double>(bytes);
+  }
+  return 0.0;
+}
+
+const ColumnLayout* TableView::find(std::string_view name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [name](const ColumnLayout& each) { return each.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+}  // namespace aims

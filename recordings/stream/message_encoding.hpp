@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "recordings/messages/message_bytes.hpp"
+
+namespace aims {
+
+/// The start of most messages.
+struct MessageHeader {
+  std::uint32_t sequence = 0;
+  Time stamp = 0;  ///< >= 0
+  std::string_view frame;
+};
+
+/// A pose and a twist, as nav_msgs/Odometry has them.
+struct OdometryContent {
+  Pose pose;                                                  ///< child frame in the header's frame
+  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();  ///< in child axes [m/s]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in child axes [rad/s]
+};
+
+/// One fixed transform of tf.
+struct FrameTransform {
+  std::string_view parent;
+  std::string_view child;
+  Pose T_parent_child;
+};
+
+/// sensor_msgs/PointCloud2 with 22 bytes a point: x, y, z, intensity float32 at 0, 4, 8, 12, ring
+/// uint16 at 16, time float32 [s] after the header's stamp at 18; in firing order, height 1.
+MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan);
+
+/// sensor_msgs/Imu; covariances unknown (zero).
+MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample,
+                         const Eigen::Quaterniond& orientation);
+
+/// nav_msgs/Odometry; covariances unknown (zero).
+MessageBytes odometry_message(const MessageHeader& header, std::string_view child_frame,
+                              const OdometryContent& content);
+
+/// sensor_msgs/JointState of the twelve joints, leg by leg; no effort.
+MessageBytes joint_state_message(const MessageHeader& header, const LegOdometrySample& sample);
+
+/// aims_msgs/FootContacts.
+MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometrySample& sample);
+
+/// tf2_msgs/TFMessage of fixed transforms, stamped `stamp`.
+MessageBytes transforms_message(Time stamp, const std::vector<FrameTransform>& transforms);
+
+/// std_msgs/String.
+MessageBytes string_message(std::string_view text);
+
+}  // namespace aims

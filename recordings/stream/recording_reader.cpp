@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/stream/recording_reader.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "recordings/stream/leg_stream.hpp"
+#include "recordings/stream/recording_channels.hpp"
+#include "recordings/stream/recording_plan.hpp"
+#include "recordings/stream/topic_choice.hpp"
+
+namespace aims {
+namespace {
+
+/// One call of `advance` gives no more than this, however many messages share an instant.
+constexpr std::size_t kMostDeliveries = 100'000;
+constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+
+}  // namespace
+
+struct RecordingReader::Impl {
+  Impl(std::unique_ptr<MessageSource> source, RecordingChannels chosen, RecordingPlan decided,
+       const RecordingConfig& configured)
+      : bag(std::move(source)),
+        channels(std::move(chosen)),
+        plan(std::move(decided)),
+        config(configured),
+        legs(plan.legs) {}
+
+  Result<void> fetch();
+  void take(const BagMessage& message, std::vector<Delivery>& out);
+  void take_cloud(const MessageView& view, std::vector<Delivery>& out);
+  void take_imu(const MessageView& view, std::vector<Delivery>& out);
+  void take_legs(const MessageView& view, std::vector<Delivery>& out);
+  void take_joints(const MessageView& view, std::vector<Delivery>& out);
+  void take_contacts(const MessageView& view, std::vector<Delivery>& out);
+  void take_truth(const MessageView& view);
+  void deliver(Role role, Measurement measurement, Time stamp, std::vector<Delivery>& out);
+  void deliver(std::optional<LegOdometrySample> sample, std::vector<Delivery>& out);
+  void malformed(Role role) { ++counts[std::string(name_of(role)) + "_malformed"]; }
+  Time stamp_of(Role role, Time stamp, double delay) const;
+
+  std::unique_ptr<MessageSource> bag;
+  RecordingChannels channels;
+  RecordingPlan plan;
+  RecordingConfig config;
+  LegStream legs;
+  std::optional<BagMessage> next;  ///< read, not yet given
+  bool started = false;
+  Time until = 0;        ///< record time up to which messages have been given
+  Time record_time = 0;  ///< of the message being taken
+  Duration position = 0;
+  std::array<std::optional<Time>, kRoleCount> last_stamps;
+  Trajectory truth;
+  EventCounts counts;
+};
+
+Result<void> RecordingReader::Impl::fetch() {
+  auto message = bag->next();
+  if (!message) return tl::unexpected(message.error());
+  next = *message;
+  return {};
+}
+
+/// The stamp as it is passed on.
+Time RecordingReader::Impl::stamp_of(Role role, Time stamp, double delay) const {
+  const bool recorded = plan.stamped_by_record[static_cast<std::size_t>(role)];
+  return (recorded ? record_time : stamp) - from_seconds(delay);
+}
+
+void RecordingReader::Impl::deliver(Role role, Measurement measurement, Time stamp,
+                                    std::vector<Delivery>& out) {
+  auto& last = last_stamps[static_cast<std::size_t>(role)];
+  if (last && stamp <= *last) ++counts[std::string(name_of(role)) + "_stamp_not_increasing"];
+  last = last ? std::max(*last, stamp) : stamp;
+  out.push_back({record_time + plan.arrival_shift, std::move(measurement)});
+}
+
+void RecordingReader::Impl::deliver(std::optional<LegOdometrySample> sample,
+                                    std::vector<Delivery>& out) {
+  if (!sample) return;
+  const bool finite = sample->linear_velocity.allFinite() && sample->angular_velocity.allFinite() &&
+                      sample->T_odom_base.translation.allFinite();
+  if (!finite) ++counts["legs_not_finite"];
+  const Time stamp = sample->stamp;
+  deliver(Role::kLegs, *std::move(sample), stamp, out);
+}
+
+void RecordingReader::Impl::take_cloud(const MessageView& view, std::vector<Delivery>& out) {
+  auto table = point_table(view);
+  if (!table) return malformed(Role::kLidar);
+  table->stamp = stamp_of(Role::kLidar, table->stamp, 0.0);
+  auto scan = std::make_shared<LidarScan>(read_cloud(*table, plan.cloud, counts));
+  const Duration delay = from_seconds(config.lidar_delay);
+  scan->stamp -= delay;
+  scan->end -= delay;
+  const Time stamp = scan->stamp;
+  deliver(Role::kLidar, LidarScanPtr(std::move(scan)), stamp, out);
+}
+
+void RecordingReader::Impl::take_imu(const MessageView& view, std::vector<Delivery>& out) {
+  const auto turn = vector_at(view, "angular_velocity");
+  const auto force = vector_at(view, "linear_acceleration");
+  if (!turn || !force) return malformed(Role::kImu);
+  ImuSample sample;
+  sample.stamp = stamp_of(Role::kImu, header_stamp(view, record_time), config.imu_delay);
+  sample.angular_velocity = *turn;
+  sample.specific_force = plan.force_scale == 1.0 ? *force : plan.force_scale * *force;
+  if (!turn->allFinite() || !force->allFinite()) ++counts["imu_not_finite"];
+  legs.add_imu(sample);
+  deliver(Role::kImu, sample, sample.stamp, out);
+}
+
+void RecordingReader::Impl::take_legs(const MessageView& view, std::vector<Delivery>& out) {
+  const bool twist = plan.legs.source == LegSource::kTwist;
+  auto sample = twist ? twist_at(view, record_time) : odometry_at(view, counts);
+  if (!sample) return malformed(Role::kLegs);
+  sample->stamp = stamp_of(Role::kLegs, sample->stamp, config.leg_delay);
+  deliver(twist ? legs.add_twist(*sample) : legs.add_odometry(*sample, counts), out);
+}
+
+void RecordingReader::Impl::take_joints(const MessageView& view, std::vector<Delivery>& out) {
+  auto joints = joints_at(view, record_time, config.joint_names);
+  if (!joints) return malformed(Role::kJoints);
+  joints->stamp = stamp_of(Role::kJoints, joints->stamp, config.leg_delay);
+  deliver(legs.add_joints(std::move(*joints), counts), out);
+}
+
+void RecordingReader::Impl::take_contacts(const MessageView& view, std::vector<Delivery>& out) {
+  auto contacts = contacts_at(view, record_time, plan.contacts);
+  if (!contacts) return malformed(Role::kContacts);
+  contacts->stamp = stamp_of(Role::kContacts, contacts->stamp, config.leg_delay);
+  deliver(legs.add_contacts(*contacts, counts), out);
+}
+
+void RecordingReader::Impl::take_truth(const MessageView& view) {
+  auto pose = message_pose(view, "pose.pose", counts);
+  if (!pose) pose = message_pose(view, "pose", counts);
+  if (!pose) return malformed(Role::kTruth);
+  const Time stamp = stamp_of(Role::kTruth, header_stamp(view, record_time), 0.0);
+  if (!pose->translation.allFinite()) {
+    ++counts["truth_not_finite"];
+  } else if (!truth.empty() && stamp <= truth.back().stamp) {
+    ++counts["truth_stamp_not_increasing"];
+  } else {
+    truth.push_back({stamp, plan.truth_is_of_body ? *pose : *pose * plan.T_truth_body});
+  }
+}
+
+void RecordingReader::Impl::take(const BagMessage& message, std::vector<Delivery>& out) {
+  record_time = message.record_time;
+  position = std::max(position, record_time - bag->summary().start);
+  const Channel* channel = channels.find(message);
+  if (channel == nullptr) return;
+  const auto view = channel->decoder.decode(message.data);
+  if (!view) {
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      if (channel->serves[i]) malformed(static_cast<Role>(i));
+    }
+    return;
+  }
+  if (channel->is(Role::kTruth)) take_truth(*view);
+  if (channel->is(Role::kLidar)) take_cloud(*view, out);
+  if (channel->is(Role::kImu)) take_imu(*view, out);
+  // Contacts first, where one message holds both: the joints then find those of their instant.
+  if (channel->is(Role::kContacts)) take_contacts(*view, out);
+  if (channel->is(Role::kJoints)) take_joints(*view, out);
+  if (channel->is(Role::kLegs)) take_legs(*view, out);
+}
+
+Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
+                                              const RecordingConfig& config,
+                                              BagOpenOptions options) {
+  auto bag = BagReader::open(file, options);
+  if (!bag) return tl::unexpected(bag.error());
+  return open(std::make_unique<BagReader>(std::move(*bag)), config);
+}
+
+Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag,
+                                              const RecordingConfig& config) {
+  const std::filesystem::path name = bag->name();
+  std::vector<std::string> notes;
+  const auto topics = choose_topics(name, bag->connections(), config.topics, notes);
+  if (!topics) return tl::unexpected(topics.error());
+  auto channels = RecordingChannels::create(name, bag->connections(), *topics);
+  if (!channels) return tl::unexpected(channels.error());
+  auto plan = plan_recording(*bag, config, *topics, *channels, std::move(notes));
+  if (!plan) return tl::unexpected(plan.error());
+  bag->select(channels->topics());
+  bag->rewind();
+  return RecordingReader(
+      std::make_unique<Impl>(std::move(bag), std::move(*channels), std::move(*plan), config));
+}
+
+Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deliveries) {
+  Impl& impl = *impl_;
+  if (!impl.started) {
+    if (auto ok = impl.fetch(); !ok) return tl::unexpected(ok.error());
+    impl.started = true;
+    if (impl.next) impl.until = impl.next->record_time;
+  }
+  if (!impl.next) return false;
+  // A gap in the recording is passed at once.
+  impl.until = std::max(impl.until, impl.next->record_time);
+  impl.until = impl.until > std::numeric_limits<Time>::max() - span
+                   ? std::numeric_limits<Time>::max()
+                   : impl.until + span;
+  const std::size_t before = deliveries.size();
+  std::size_t bytes = 0;
+  while (impl.next && impl.next->record_time < impl.until) {
+    if (bytes > kMostBytes || deliveries.size() - before > kMostDeliveries) break;
+    bytes += impl.next->data.size();
+    impl.take(*impl.next, deliveries);
+    impl.next.reset();
+    if (auto ok = impl.fetch(); !ok) return tl::unexpected(ok.error());
+  }
+  return impl.next.has_value();
+}
+
+RecordingReader::RecordingReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RecordingReader::RecordingReader(RecordingReader&&) noexcept = default;
+RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = default;
+RecordingReader::~RecordingReader() = default;
+
+const RecordingSetup& RecordingReader::setup() const { return impl_->plan.setup; }
+const BagSummary& RecordingReader::summary() const { return impl_->bag->summary(); }
+Duration RecordingReader::position() const { return impl_->position; }
+const Trajectory& RecordingReader::truth() const { return impl_->truth; }
+const std::map<std::string, int>& RecordingReader::counts() const { return impl_->counts; }
+
+}  // namespace aims

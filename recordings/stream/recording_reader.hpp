@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/measurements.hpp"
+#include "core/trajectory.hpp"
+#include "recordings/bag/bag_reader.hpp"
+#include "recordings/stream/recording_config.hpp"
+
+namespace aims {
+
+/// What was found before the first message was given: decided once, on the start of the bag.
+struct RecordingSetup {
+  TopicsConfig topics;  ///< as used; empty where the recording has none
+  SensorRig rig;
+  bool has_legs = false;
+  bool has_truth = false;
+  std::optional<double> imu_rate_hz;  ///< from the usual spacing of the first stamps
+  std::optional<double> leg_rate_hz;  ///< as for the IMU
+  /// What was assumed, converted or made up, one sentence each: "IMU in g: multiplied by 9.80665".
+  std::vector<std::string> notes;
+};
+
+/// A recording as the stream that an estimator takes: bag messages become deliveries, in order of
+/// record time. Stamps are those of the message headers, arrivals the record times, both as in the
+/// bag. Memory is bounded by the bag's chunks, not by its length.
+class RecordingReader {
+ public:
+  /// Looks at the start of the bag and decides topics, units, extrinsics. Errors list the topics
+  /// that exist when one is missing or ambiguous.
+  static Result<RecordingReader> open(const std::filesystem::path& bag,
+                                      const RecordingConfig& config, BagOpenOptions options = {});
+  /// The same from any source of messages; `open` of a bag calls this one.
+  static Result<RecordingReader> open(std::unique_ptr<MessageSource> source,
+                                      const RecordingConfig& config);
+  RecordingReader(RecordingReader&&) noexcept;
+  RecordingReader& operator=(RecordingReader&&) noexcept;
+  ~RecordingReader();
+
+  const RecordingSetup& setup() const;
+  const BagSummary& summary() const;
+
+  /// Appends the deliveries of the next `span` of record time. False once the bag has ended.
+  /// Poor data (an empty cloud, NaN, repeated stamps) is counted; a broken bag is an error.
+  Result<bool> advance(Duration span, std::vector<Delivery>& deliveries);
+
+  /// Record time of the last message given, since the start of the bag.
+  Duration position() const;
+
+  /// True poses of the body (IMU frame) met so far; stamps as those of deliveries.
+  const Trajectory& truth() const;
+
+  /// Events worth a count: "cloud_points_not_finite", "imu_stamp_not_increasing", ...
+  const std::map<std::string, int>& counts() const;
+
+ private:
+  struct Impl;
+  explicit RecordingReader(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aims

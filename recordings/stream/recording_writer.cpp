@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/stream/recording_writer.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "recordings/stream/recording_topics.hpp"
+#include "recordings/messages/message_types.hpp"
+
+namespace aims {
+namespace {
+
+struct TopicInfo {
+  std::string_view name;
+  MessageType (*type)();
+  bool latching = false;
+};
+
+constexpr TopicInfo kTopics[] = {
+    {kScenarioTopic, string_type, true},
+    {kStaticTransformsTopic, transforms_type, true},
+    {kImuTopic, imu_type},
+    {kFastImuTopic, imu_type},
+    {kJointStatesTopic, joint_state_type},
+    {kFootContactsTopic, foot_contacts_type},
+    {kLegOdometryTopic, odometry_type},
+    {kLidarTopic, point_cloud_type},
+    {kTruthImuTopic, odometry_type},
+    {kTruthLidarTopic, odometry_type},
+    {kPassagesTopic, string_type, true},
+};
+
+/// The motion of a frame fixed to the body at `T_body_frame`, for an odometry message.
+OdometryContent motion_of(const BodyMotion& body, const Pose& T_body_frame) {
+  const Eigen::Vector3d in_body = body.T_world_body.rotation.conjugate() * body.velocity;
+  const Eigen::Vector3d around = body.angular_velocity.cross(T_body_frame.translation);
+  const Eigen::Quaterniond to_frame = T_body_frame.rotation.conjugate();
+  return {body.T_world_body * T_body_frame, to_frame * (in_body + around),
+          to_frame * body.angular_velocity};
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(BagWriter bag, const SensorRig& rig)
+    : bag_(std::move(bag)), rig_(rig) {
+  static_assert(std::size(kTopics) == kTopicCount);
+  connections_.fill(-1);
+}
+
+Result<RecordingWriter> RecordingWriter::create(const std::filesystem::path& file,
+                                                const SensorRig& rig, std::string_view scenario,
+                                                BagWriterOptions options) {
+  auto bag = BagWriter::create(file, options);
+  if (!bag) return tl::unexpected(bag.error());
+  RecordingWriter writer(std::move(*bag), rig);
+  if (auto ok = writer.write(kScenario, 0, string_message(scenario)); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  const std::vector<FrameTransform> fixed = {{kImuFrame, kLidarFrame, rig.T_body_lidar},
+                                             {kImuFrame, kBaseFrame, rig.T_body_base}};
+  if (auto ok = writer.write(kStaticTransforms, 0, transforms_message(0, fixed)); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  return writer;
+}
+
+std::uint32_t RecordingWriter::connection(Topic topic) {
+  if (connections_[topic] < 0) {
+    const TopicInfo& info = kTopics[topic];
+    connections_[topic] = bag_.add_connection(std::string(info.name), info.type(), info.latching);
+  }
+  return static_cast<std::uint32_t>(connections_[topic]);
+}
+
+MessageHeader RecordingWriter::header(Topic topic, Time stamp, std::string_view frame) {
+  return {sequences_[topic]++, stamp, frame};
+}
+
+Result<void> RecordingWriter::write(Topic topic, Time record_time, const MessageBytes& message) {
+  return bag_.write(connection(topic), std::max<Time>(record_time, 1), message.view());
+}
+
+Result<void> RecordingWriter::write_imu(ImuOutput output, Time arrival, const ImuSample& sample,
+                                        const Eigen::Quaterniond& orientation) {
+  if (sample.stamp < 0) return ++left_out_, Result<void>{};
+  const Topic topic = output == ImuOutput::kMain ? kImu : kFastImu;
+  return write(topic, arrival,
+               imu_message(header(topic, sample.stamp, kImuFrame), sample, orientation));
+}
+
+Result<void> RecordingWriter::write_scan(Time arrival, const LidarScan& scan) {
+  if (scan.stamp < 0) return ++left_out_, Result<void>{};
+  return write(kLidar, arrival, cloud_message(header(kLidar, scan.stamp, kLidarFrame), scan));
+}
+
+Result<void> RecordingWriter::write_legs(Time arrival, const LegOdometrySample& sample) {
+  if (sample.stamp < 0) return ++left_out_, Result<void>{};
+  const auto joints = header(kJointStates, sample.stamp, kBaseFrame);
+  if (auto ok = write(kJointStates, arrival, joint_state_message(joints, sample)); !ok) return ok;
+  const auto contacts = header(kFootContacts, sample.stamp, kBaseFrame);
+  if (auto ok = write(kFootContacts, arrival, foot_contacts_message(contacts, sample)); !ok) {
+    return ok;
+  }
+  const OdometryContent content = {sample.T_odom_base, sample.linear_velocity,
+                                   sample.angular_velocity};
+  return write(
+      kLegOdometry, arrival,
+      odometry_message(header(kLegOdometry, sample.stamp, kOdometryFrame), kBaseFrame, content));
+}
+
+Result<void> RecordingWriter::write_truth(const BodyMotion& motion) {
+  const auto imu = odometry_message(header(kTruthImu, motion.stamp, kWorldFrame), kImuFrame,
+                                    motion_of(motion, Pose{}));
+  if (auto ok = write(kTruthImu, motion.stamp, imu); !ok) return ok;
+  const auto lidar = odometry_message(header(kTruthLidar, motion.stamp, kWorldFrame), kLidarFrame,
+                                      motion_of(motion, rig_.T_body_lidar));
+  return write(kTruthLidar, motion.stamp, lidar);
+}
+
+Result<void> RecordingWriter::write_passages(Time arrival, std::string_view csv) {
+  return write(kPassages, arrival, string_message(csv));
+}
+
+Result<void> RecordingWriter::close() { return bag_.close(); }
+
+}  // namespace aims

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/measurements.hpp"
+#include "recordings/bag/bag_writer.hpp"
+#include "recordings/stream/message_encoding.hpp"
+#include "recordings/messages/message_bytes.hpp"
+
+namespace aims {
+
+/// The true motion of the body at an instant.
+struct BodyMotion {
+  Time stamp = 0;
+  Pose T_world_body;                                           ///< body = IMU frame
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< of the body, in world [m/s]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in body axes [rad/s]
+};
+
+/// Which of the two outputs of the IMU a sample comes from.
+enum class ImuOutput { kMain, kFast };
+
+/// Writes what a robot's sensors deliver, and the truth, as a ROS 1 bag with the topics of
+/// `recordings/stream/recording_topics.hpp`. A message that would need a negative time is left out and
+/// counted, as ROS has none; one recorded at 0 is recorded at 1 ns, as ROS takes 0 for "never".
+class RecordingWriter {
+ public:
+  /// `scenario` is kept as text on `kScenarioTopic`. Error when the file exists or cannot be
+  /// written.
+  static Result<RecordingWriter> create(const std::filesystem::path& file, const SensorRig& rig,
+                                        std::string_view scenario, BagWriterOptions options = {});
+
+  Result<void> write_imu(ImuOutput output, Time arrival, const ImuSample& sample,
+                         const Eigen::Quaterniond& orientation);
+  Result<void> write_scan(Time arrival, const LidarScan& scan);
+  /// Joint states, contacts, then odometry, all recorded at the same time.
+  Result<void> write_legs(Time arrival, const LegOdometrySample& sample);
+  /// The truth of the IMU's and the LiDAR's frame.
+  Result<void> write_truth(const BodyMotion& motion);
+  /// The reference points' passages, as in passages.csv.
+  Result<void> write_passages(Time arrival, std::string_view csv);
+  Result<void> close();
+
+  int left_out() const { return left_out_; }
+
+ private:
+  /// The topics, in the order in which they are announced.
+  enum Topic : std::size_t {
+    kScenario,
+    kStaticTransforms,
+    kImu,
+    kFastImu,
+    kJointStates,
+    kFootContacts,
+    kLegOdometry,
+    kLidar,
+    kTruthImu,
+    kTruthLidar,
+    kPassages,
+    kTopicCount,
+  };
+
+  RecordingWriter(BagWriter bag, const SensorRig& rig);
+  std::uint32_t connection(Topic topic);
+  MessageHeader header(Topic topic, Time stamp, std::string_view frame);
+  Result<void> write(Topic topic, Time record_time, const MessageBytes& message);
+
+  BagWriter bag_;
+  SensorRig rig_;
+  std::array<std::int64_t, kTopicCount> connections_;  ///< -1: not announced yet
+  std::array<std::uint32_t, kTopicCount> sequences_{};
+  int left_out_ = 0;
+};
+
+}  // namespace aims

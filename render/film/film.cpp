@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/film/film.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "render/film/film_plan.hpp"
+#include "render/plots/canvas.hpp"
+#include "render/plots/map_picture.hpp"
+#include "render/plots/palette.hpp"
+#include "render/plots/roof_cut.hpp"
+#include "render/scene/scene_edges.hpp"
+#include "render/scene/scene_view.hpp"
+#include "sim/environment/scene_mjcf.hpp"
+#include "sim/robot/quadruped_model.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kSection = 1.6;  ///< height over the floor at which map and walls are cut [m]
+constexpr Color kGround{0.070, 0.080, 0.105};
+constexpr std::array<std::uint8_t, 4> kEdge = {150, 165, 190, 70};
+constexpr std::array<std::uint8_t, 4> kTruth = {255, 255, 255, 255};
+constexpr std::array<std::uint8_t, 4> kEstimate = {255, 120, 40, 255};
+constexpr Duration kSmoothing = kSecond;  ///< the camera does not sway with the robot
+
+Color color_of(const std::array<std::uint8_t, 4>& rgba) {
+  return {rgba[0] / 255.0, rgba[1] / 255.0, rgba[2] / 255.0};
+}
+
+/// Floor alone, dark: walls are drawn as edges, so that the map on them is seen from both sides.
+Scene bare(const Scene& scene) {
+  Scene result;
+  result.floor = scene.floor;
+  result.floor.material.color = Eigen::Vector3f(0.105F, 0.118F, 0.145F);
+  return result;
+}
+
+double heading_at(const Trajectory& truth, Time stamp) {
+  const auto pose = pose_at(truth, stamp);
+  return pose ? yaw_of(pose->rotation) : 0.0;
+}
+
+Eigen::Vector3d smooth_position(const Trajectory& truth, Time stamp) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (Time t = stamp - kSmoothing; t <= stamp + kSmoothing; t += 100 * kMillisecond) {
+    const Time inside = std::clamp(t, truth.front().stamp, truth.back().stamp);
+    sum += pose_at(truth, inside)->translation;
+    ++count;
+  }
+  return sum / count;
+}
+
+/// The lines with what is higher over the floor than the cut brought down to it.
+std::vector<ViewLine> cut_edges(const Scene& scene) {
+  std::vector<ViewLine> edges;
+  for (auto& edge : scene_edges(scene)) {
+    for (Eigen::Vector3f& point : edge) {
+      const double top = floor_height(scene.floor, point.x(), point.y()) + kSection;
+      point.z() = std::min(point.z(), static_cast<float>(top));
+    }
+    edges.push_back({std::move(edge), kEdge});
+  }
+  return edges;
+}
+
+/// Heading [deg] from the start to the farthest point of the way.
+double way_out_deg(const Trajectory& truth) {
+  const Eigen::Vector3d start = truth.front().pose.translation;
+  const auto farthest =
+      std::max_element(truth.begin(), truth.end(), [&](const auto& a, const auto& b) {
+        return (a.pose.translation - start).squaredNorm() <
+               (b.pose.translation - start).squaredNorm();
+      });
+  const Eigen::Vector3d way = farthest->pose.translation - start;
+  return std::atan2(way.y(), way.x()) * 180.0 / std::numbers::pi;
+}
+
+std::vector<Eigen::Vector3f> line_until(const Trajectory& trajectory, Time stamp) {
+  std::vector<Eigen::Vector3f> line;
+  for (const StampedPose& each : trajectory) {
+    if (each.stamp > stamp) break;
+    line.push_back(each.pose.translation.cast<float>());
+  }
+  return line;
+}
+
+std::vector<GrownPoint> cut_map(const std::vector<GrownPoint>& map) {
+  std::vector<Eigen::Vector3f> positions;
+  for (const GrownPoint& point : map) positions.push_back(point.position);
+  const std::vector<bool> under = under_roof(positions, kSection);
+  std::vector<GrownPoint> result;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    if (under[i]) result.push_back(map[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
+struct Film::Impl {
+  const FilmedWalk& walk;
+  FilmConfig config;
+  std::vector<GrownPoint> map;    ///< without what is above the cut
+  std::vector<ViewPoint> points;  ///< of the same
+  std::vector<ViewLine> edges;
+  std::optional<FilmPlan> plan;
+  double azimuth_deg = 0.0;
+  std::optional<SceneView> view;
+
+  Impl(const FilmedWalk& filmed, const FilmConfig& how) : walk(filmed), config(how) {}
+
+  Result<void> show_scene(Time stamp);
+  void color_points();
+  Camera camera(Time stamp) const;
+  ViewOverlay overlay(Time stamp) const;
+  std::size_t count(Time stamp) const;
+  void label(Canvas& canvas, Time stamp) const;
+};
+
+/// Makes the model anew where people have walked on since.
+Result<void> Film::Impl::show_scene(Time stamp) {
+  if (view && walk.scene.people.empty()) return {};
+  view.reset();  // before the next one makes its own context the current one
+  Scene scene = bare(walk.scene);
+  scene.people = walk.scene.people;
+  const MjcfOptions options{.image_width = config.width, .image_height = config.height};
+  const auto mjcf =
+      scene_mjcf(scene_at(scene, stamp), quadruped_mjcf(), MjcfPurpose::kRender, options);
+  if (!mjcf) return tl::unexpected(mjcf.error());
+  const ViewConfig how{.width = config.width, .height = config.height, .sky = kGround};
+  auto made = SceneView::create(*mjcf, height_field_data(scene.floor), how);
+  if (!made) return tl::unexpected(made.error());
+  view.emplace(std::move(*made));
+  return {};
+}
+
+void Film::Impl::color_points() {
+  std::vector<Eigen::Vector3f> positions;
+  for (const GrownPoint& point : map) positions.push_back(point.position);
+  const HeightRange heights = map_heights(positions);
+  const auto table = height_table();
+  std::vector<RasterPoint> flat;
+  for (const GrownPoint& point : map) {
+    const double share = (point.position.z() - heights.min) / (heights.max - heights.min);
+    const auto entry = static_cast<std::size_t>(255.0 * std::clamp(share, 0.0, 1.0));
+    const auto& color = table[entry];
+    points.push_back({point.position, {color[0], color[1], color[2], 255}});
+    flat.push_back(
+        {point.position.x(), point.position.y(), point.position.z(), static_cast<float>(share)});
+  }
+  std::vector<Eigen::Vector2d> way;
+  for (const StampedPose& each : walk.truth) way.emplace_back(each.pose.translation.head<2>());
+  plan.emplace(std::move(flat), way, config.width, config.height);
+}
+
+/// The robot stands above the middle, since the plan lies below it; the camera looks along the way
+/// from a little aside, and steeply enough to see over the near wall.
+Camera Film::Impl::camera(Time stamp) const {
+  Camera result;
+  const bool top = config.view == FilmView::kTop;
+  result.azimuth_deg = top ? azimuth_deg + 90.0 : azimuth_deg + 17.0;
+  result.elevation_deg = top ? -90.0 : -33.0;
+  result.distance = (top ? 13.0 : 8.5) * (config.still ? 0.55 : 1.0);
+  const double azimuth = result.azimuth_deg * std::numbers::pi / 180.0;
+  const Eigen::Vector3d ahead(std::cos(azimuth), std::sin(azimuth), 0.0);
+  result.target = smooth_position(walk.truth, stamp) - 0.08 * result.distance * ahead;
+  return result;
+}
+
+ViewOverlay Film::Impl::overlay(Time stamp) const {
+  ViewOverlay result;
+  result.points = {points.data(), count(stamp)};
+  result.point_diameter = config.still ? 0.020F : 0.045F;
+  const auto unit = static_cast<float>(config.height / 400.0);
+  result.least_diameter = 1.2F * unit;
+  result.lines = edges;
+  for (ViewLine& edge : result.lines) edge.width = unit;
+  result.lines.push_back({line_until(walk.truth, stamp), kTruth, 2.0F * unit});
+  result.lines.push_back(
+      {line_until(walk.estimates.front().trajectory, stamp), kEstimate, 2.0F * unit});
+  result.haze = {static_cast<float>(kGround.red), static_cast<float>(kGround.green),
+                 static_cast<float>(kGround.blue)};
+  const double distance = camera(stamp).distance;
+  result.haze_from = static_cast<float>(1.2 * distance);
+  result.haze_to = static_cast<float>(6.0 * distance);
+  return result;
+}
+
+std::size_t Film::Impl::count(Time stamp) const {
+  const auto after =
+      std::upper_bound(map.begin(), map.end(), stamp,
+                       [](Time value, const GrownPoint& point) { return value < point.seen; });
+  return static_cast<std::size_t>(after - map.begin());
+}
+
+void Film::Impl::label(Canvas& canvas, Time stamp) const {
+  const double unit = config.height / 400.0;
+  const double left = 14.0 * unit;
+  canvas.fill(Rect{0.0, 0.0, static_cast<double>(config.width), 52.0 * unit},
+              {0.05, 0.06, 0.08, 0.72});
+  const Color light{0.94, 0.95, 0.97};
+  const NamedTrajectory& shown = walk.estimates.front();
+  canvas.text({left, 20.0 * unit}, walk.scenario,
+              {.size = 15.0 * unit, .color = light, .bold = true});
+  std::string state = fmt::format("t = {:.0f} s", to_seconds(stamp));
+  const auto truth = pose_at(walk.truth, stamp);
+  const auto estimate = pose_at(shown.trajectory, stamp);
+  if (truth && estimate) {
+    state += fmt::format(",  error {:.2f} m", (truth->translation - estimate->translation).norm());
+  }
+  canvas.text({left, 39.0 * unit}, state, {.size = 12.0 * unit, .color = light});
+  double x = config.width - left;
+  for (const auto& [name, color] : {std::pair{"way and map of " + shown.name, color_of(kEstimate)},
+                                    {std::string("true way"), color_of(kTruth)}}) {
+    const TextStyle style{.size = 12.0 * unit, .color = light, .horizontal = Align::kEnd};
+    canvas.text({x, 20.0 * unit}, name, style);
+    x -= canvas.text_width(name, style) + 6.0 * unit;
+    canvas.line({{x - 16.0 * unit, 20.0 * unit}, {x, 20.0 * unit}}, {color, 2.5 * unit});
+    x -= 32.0 * unit;
+  }
+}
+
+Film::Film(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Film::Film(Film&&) noexcept = default;
+Film& Film::operator=(Film&&) noexcept = default;
+Film::~Film() = default;
+
+Result<Film> Film::create(const FilmedWalk& walk, const FilmConfig& config) {
+  if (walk.snapshots.empty() || walk.truth.empty() || walk.estimates.empty()) {
+    return failure("no snapshot of the robot to draw");
+  }
+  auto impl = std::make_unique<Impl>(walk, config);
+  impl->map = cut_map(walk.map);
+  impl->color_points();
+  impl->edges = cut_edges(walk.scene);
+  impl->azimuth_deg = way_out_deg(walk.truth);
+  if (auto shown = impl->show_scene(walk.snapshots.front().stamp); !shown) {
+    return tl::unexpected(shown.error());
+  }
+  return Film(std::move(impl));
+}
+
+std::size_t Film::points_shown(Time stamp) const { return impl_->count(stamp); }
+
+Result<Image> Film::picture(Time wanted) {
+  const std::vector<RobotSnapshot>& shots = impl_->walk.snapshots;
+  const auto nearest =
+      std::min_element(shots.begin(), shots.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a.stamp - wanted) < std::abs(b.stamp - wanted);
+      });
+  const Time stamp = nearest->stamp;
+  if (auto shown = impl_->show_scene(stamp); !shown) return tl::unexpected(shown.error());
+  auto picture = impl_->view->draw(nearest->qpos, impl_->camera(stamp), impl_->overlay(stamp));
+  if (!picture) return picture;
+  Canvas canvas = Canvas::over(*picture);
+  impl_->plan->draw(canvas, impl_->count(stamp), {nearest->qpos[0], nearest->qpos[1]},
+                    heading_at(impl_->walk.truth, stamp));
+  impl_->label(canvas, stamp);
+  return canvas.pixels();
+}
+
+FilmSpan walking_span(const FilmedWalk& walk) {
+  if (walk.truth.empty()) return {};
+  const auto away = [](const StampedPose& a, const StampedPose& b) {
+    return (a.pose.translation - b.pose.translation).head<2>().norm() > 0.2;
+  };
+  FilmSpan span{walk.truth.front().stamp, walk.truth.back().stamp};
+  for (const StampedPose& each : walk.truth) {
+    if (away(each, walk.truth.front())) break;
+    span.begin = each.stamp;
+  }
+  for (auto each = walk.truth.rbegin(); each != walk.truth.rend(); ++each) {
+    if (away(*each, walk.truth.back())) break;
+    span.end = each->stamp;
+  }
+  if (span.end <= span.begin) span = {walk.truth.front().stamp, walk.truth.back().stamp};
+  return span;
+}
+
+Movie movie_of(Film& film, const FilmSpan& span, const FilmConfig& config, double seconds,
+               double frame_rate) {
+  Movie movie;
+  movie.width = config.width;
+  movie.height = config.height;
+  movie.frame_rate = frame_rate;
+  movie.frames = std::max(2, static_cast<int>(std::lround(seconds * frame_rate)));
+  const int last = movie.frames - 1;
+  movie.draw = [&film, span, last](int frame) {
+    const double share = static_cast<double>(frame) / last;
+    return film.picture(span.begin +
+                        std::llround(share * static_cast<double>(span.end - span.begin)));
+  };
+  return movie;
+}
+
+}  // namespace aims

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/film/filmed_walk.hpp"
+
+#include "bench/metrics/association.hpp"
+#include "bench/run/start_anchor.hpp"
+#include "core/stopwatch.hpp"
+#include "bench/run/stream.hpp"
+
+namespace aims {
+namespace {
+
+constexpr Duration kDrawnSpacing = 100 * kMillisecond;
+
+void hand_over(const std::vector<Delivery>& batch, std::size_t from,
+               std::vector<LidarScanPtr>& to) {
+  for (std::size_t i = from; i < batch.size(); ++i) {
+    const auto* scan = std::get_if<LidarScanPtr>(&batch[i].measurement);
+    if (scan != nullptr) to.push_back(*scan);
+  }
+}
+
+FilmedWalk walk_of(const Scenario& scenario, const Simulation& simulation,
+                   const std::vector<TimedEstimator>& estimators) {
+  FilmedWalk walk;
+  walk.scenario = scenario.name;
+  walk.scene = simulation.scene();
+  const Trajectory truth = body_trajectory(simulation.truth());
+  walk.truth = thinned(truth, kDrawnSpacing);
+  walk.snapshots = simulation.truth().snapshots;
+  walk.passages = simulation.truth().passages;
+  for (const TimedEstimator& each : estimators) {
+    walk.estimates.push_back(
+        {each.name(), anchored(each.estimator().report().trajectory, truth, scenario.scoring)});
+  }
+  return walk;
+}
+
+}  // namespace
+
+Result<FilmedWalk> film_walk(const Scenario& scenario, const RunOptions& options,
+                             const Observer& observer) {
+  const Stopwatch stopwatch;
+  auto simulation = Simulation::create(scenario.simulation, options.seed);
+  if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
+  auto estimators = make_estimators(scenario.estimators, scenario.estimator, simulation->rig());
+  if (!estimators) return tl::unexpected(estimators.error());
+  if (estimators->empty()) return failure("estimators: expected at least one to lay the map");
+  const auto report = [&]() -> const EstimatorReport& {
+    return estimators->front().estimator().report();
+  };
+  MapGrowth growth(simulation->rig().T_body_lidar);
+  std::vector<LidarScanPtr> scans;  // while estimators work on one batch the next is simulated
+  const double expected_s = to_seconds(simulation->expected_duration());
+  const StreamEnd end = stream(
+      [&](std::vector<Delivery>& batch) {
+        const std::size_t from = batch.size();
+        const bool more = simulation->advance(kStreamBatch, batch);
+        hand_over(batch, from, scans);
+        return more;
+      },
+      *estimators, options.jobs,
+      [&] {
+        for (const LidarScanPtr& scan : scans) growth.add(scan);
+        scans.clear();
+        growth.settle(report().trajectory);
+        return observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
+      });
+  growth.settle(report().trajectory);
+  FilmedWalk walk = walk_of(scenario, *simulation, *estimators);
+  walk.seed = options.seed;
+  walk.complete = !end.stopped;
+  walk.map = growth.points();
+  const Pose T_world_odom =
+      start_anchor(report().trajectory, body_trajectory(simulation->truth()), scenario.scoring);
+  for (GrownPoint& point : walk.map) {
+    point.position = (T_world_odom * point.position.cast<double>()).cast<float>();
+  }
+  return walk;
+}
+
+}  // namespace aims

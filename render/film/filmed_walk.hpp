@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+#include "render/film/map_growth.hpp"
+#include "bench/run/run.hpp"
+#include "bench/run/scenario.hpp"
+#include "render/plots/trajectory_plot.hpp"
+#include "sim/environment/scene.hpp"
+#include "sim/robot/truth.hpp"
+
+namespace aims {
+
+/// What pictures of a walk need, everything in the world frame.
+struct FilmedWalk {
+  std::string scenario;
+  std::uint64_t seed = 0;
+  bool complete = true;  ///< false when the observer ended it early
+  Scene scene;
+  Trajectory truth;                      ///< T_world_body, at 10 Hz
+  std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz; none when the walk came from files
+  std::vector<Passage> passages;
+  std::vector<NamedTrajectory> estimates;  ///< anchored at the start; of the first is the map
+  std::vector<GrownPoint> map;             ///< in order of time
+};
+
+/// Simulates the scenario and runs its estimators; the first of them lays the map. Error when the
+/// scenario cannot be simulated.
+Result<FilmedWalk> film_walk(const Scenario& scenario, const RunOptions& options,
+                             const Observer& observer);
+
+}  // namespace aims

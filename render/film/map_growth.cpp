@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/film/map_growth.hpp"
+
+#include <optional>
+
+namespace aims {
+namespace {
+
+/// The pose of a moving sensor, looked up anew when it has moved on for this long.
+constexpr Duration kSamePose = 2 * kMillisecond;
+
+}  // namespace
+
+MapGrowth::MapGrowth(const Pose& T_body_lidar, const MapGrowthConfig& config)
+    : T_body_lidar_(T_body_lidar), config_(config) {}
+
+void MapGrowth::add(const LidarScanPtr& scan) {
+  if (scans_++ % config_.every_scan == 0) waiting_.push_back(scan);
+}
+
+void MapGrowth::settle(const Trajectory& trajectory) {
+  while (!waiting_.empty() && !trajectory.empty() &&
+         waiting_.front()->end <= trajectory.back().stamp) {
+    lay_down(*waiting_.front(), trajectory);
+    waiting_.pop_front();
+  }
+}
+
+void MapGrowth::lay_down(const LidarScan& scan, const Trajectory& trajectory) {
+  std::optional<Pose> T_odom_lidar;
+  Time looked_up = scan.stamp - kSecond;
+  for (const LidarPoint& point : scan.points) {
+    const Time fired = scan.stamp + point.time_offset_ns;
+    if (std::abs(fired - looked_up) >= kSamePose) {
+      looked_up = fired;
+      T_odom_lidar = pose_at(trajectory, fired);
+      if (T_odom_lidar) *T_odom_lidar = *T_odom_lidar * T_body_lidar_;
+    }
+    if (!T_odom_lidar || !point.position.allFinite()) continue;
+    if (point.position.norm() > config_.reach) continue;
+    const Eigen::Vector3f position = (*T_odom_lidar * point.position.cast<double>()).cast<float>();
+    if (!position.allFinite() || position.norm() > 1e4F) continue;  // of a lost estimator
+    const auto fresh = static_cast<std::int32_t>(points_.size());
+    const std::uint64_t cube = voxel_key(voxel_of(position, 1.0F / config_.spacing));
+    if (cubes_.find_or_insert(cube, fresh) != fresh) continue;
+    points_.push_back({position, fired});
+  }
+}
+
+}  // namespace aims

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/film/stored_walk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "estimator/estimator_spec.hpp"
+#include "bench/run/start_anchor.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/passages.hpp"
+#include "core/files/ply.hpp"
+#include "core/files/tum.hpp"
+#include "sim/environment/scene_config.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Duration kDrawnSpacing = 100 * kMillisecond;
+
+fs::path map_file(const fs::path& folder, const std::string& name) {
+  return folder / (name + ".map.ply");
+}
+
+/// Puts `mapped` in front, or the first that has a map.
+Result<void> order(std::vector<std::string>& names, const fs::path& folder,
+                   const std::string& mapped) {
+  const auto first = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return mapped.empty() ? fs::exists(map_file(folder, name)) : name == mapped;
+  });
+  if (first == names.end() && !mapped.empty()) {
+    return failure(fmt::format("{}: no estimator '{}'; there are {}", folder.string(), mapped,
+                               fmt::join(names, ", ")));
+  }
+  if (first != names.end()) std::rotate(names.begin(), first, first + 1);
+  return {};
+}
+
+Result<void> add_estimates(FilmedWalk& walk, const fs::path& folder,
+                           const std::vector<std::string>& names, const ScoreConfig& scoring) {
+  for (const std::string& name : names) {
+    const auto estimate = read_tum(folder / (name + ".tum"), PoseRules::kAsGiven);
+    if (!estimate) return tl::unexpected(estimate.error());
+    const bool first = walk.estimates.empty();
+    walk.estimates.push_back({name, anchored(*estimate, walk.truth, scoring)});
+    if (!first || !fs::exists(map_file(folder, name))) continue;
+    const auto points = read_ply(map_file(folder, name));
+    if (!points) return tl::unexpected(points.error());
+    const Pose T_world_odom = start_anchor(*estimate, walk.truth, scoring);
+    for (const Eigen::Vector3f& point : *points) {
+      walk.map.push_back({(T_world_odom * point.cast<double>()).cast<float>(), 0});
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+bool holds_walk(const fs::path& folder) {
+  return fs::is_regular_file(folder / "config.yaml") && fs::is_regular_file(folder / "truth.tum");
+}
+
+Result<FilmedWalk> stored_walk(const fs::path& folder, const std::string& mapped) {
+  const auto scenario = load_scenario(folder / "config.yaml", {});
+  if (!scenario) return tl::unexpected(scenario.error());
+  FilmedWalk walk;
+  walk.scenario = scenario->name;
+  walk.seed = static_cast<std::uint64_t>(scenario->seed);
+  walk.scene = build_scene(scenario->simulation.scene, walk.seed);
+  auto truth = read_tum(folder / "truth.tum");
+  if (!truth) return tl::unexpected(truth.error());
+  const auto text = read_file(folder / "passages.csv");
+  if (!text) return tl::unexpected(text.error());
+  auto passages = parse_passages(*text, (folder / "passages.csv").string());
+  if (!passages) return tl::unexpected(passages.error());
+  walk.passages = std::move(*passages);
+  std::vector<std::string> names = labels_of(scenario->estimators);
+  if (auto ordered = order(names, folder, mapped); !ordered) return tl::unexpected(ordered.error());
+  walk.truth = std::move(*truth);
+  if (auto added = add_estimates(walk, folder, names, scenario->scoring); !added) {
+    return tl::unexpected(added.error());
+  }
+  walk.truth = thinned(walk.truth, kDrawnSpacing);
+  return walk;
+}
+
+}  // namespace aims

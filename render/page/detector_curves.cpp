@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/detector_curves.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "render/page/json_access.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::string_view kDetectorsSchema = "aims.detectors/1";
+constexpr std::size_t kMostPooled = 400;
+constexpr std::size_t kMostOfScenario = 60;
+
+float share_of(const Json& point, std::size_t i) {
+  const bool is_share = point.is_array() && point.size() == 2 && point[i].is_number();
+  return is_share ? point[i].get<float>() : std::numeric_limits<float>::quiet_NaN();
+}
+
+/// Both shares of at most `most` points, by turns.
+std::vector<float> thinned(const Json& curve, std::size_t most) {
+  std::vector<float> shares;
+  if (!curve.is_array() || curve.empty()) return shares;
+  const std::size_t count = std::min(most, curve.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = count == 1 ? 0 : i * (curve.size() - 1) / (count - 1);
+    shares.push_back(share_of(curve[at], 0));
+    shares.push_back(share_of(curve[at], 1));
+  }
+  return shares;
+}
+
+}  // namespace
+
+Result<Json> detector_curves(const std::filesystem::path& file, PageData& page) {
+  auto json = read_json_of(file, kDetectorsSchema);
+  if (!json) return json;
+  if (!member(*json, "scores").is_array()) {
+    return failure(file.string() + ": scores: expected a list");
+  }
+  for (Json& score : (*json)["scores"]) {
+    if (!score.is_object()) return failure(file.string() + ": scores: expected objects");
+    const bool pooled = !member(score, "scenario").is_string();
+    score["curve"] =
+        page.f32(thinned(member(score, "curve"), pooled ? kMostPooled : kMostOfScenario));
+  }
+  return json;
+}
+
+}  // namespace aims

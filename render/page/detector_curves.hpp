@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "bench/run/score_record.hpp"
+#include "render/page/page_data.hpp"
+
+namespace aims {
+
+/// What the folder of `aims detectors` holds, for a page: detectors.json with each score's curve
+/// as an array of the page (share of false alarms, share of detections, by turns). Pooled curves
+/// keep at most 400 points, those of one scenario 60, evenly chosen with both ends. Error when the
+/// file is no detectors.json.
+Result<Json> detector_curves(const std::filesystem::path& file, PageData& page);
+
+}  // namespace aims

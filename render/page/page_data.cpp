@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/page_data.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <vector>
+
+namespace aims {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "arrays go out as the memory has them");
+
+constexpr std::size_t kArrayAlignment = 4;
+constexpr std::size_t kBlockAlignment = 8;
+
+void pad(std::string& text, std::size_t alignment) {
+  text.append((alignment - text.size() % alignment) % alignment, '\0');
+}
+
+std::string deflated(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string stream(size, '\0');
+  const int code =
+      compress2(reinterpret_cast<Bytef*>(stream.data()), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_DEFAULT_COMPRESSION);
+  assert(code == Z_OK);  // the stream has room, whatever the bytes are
+  static_cast<void>(code);
+  stream.resize(size);
+  return stream;
+}
+
+}  // namespace
+
+PageData::Json PageData::append(const char* type, const void* values, std::size_t bytes,
+                                std::size_t count) {
+  pad(block_, kArrayAlignment);
+  const std::size_t at = block_.size();
+  if (bytes > 0) block_.append(static_cast<const char*>(values), bytes);
+  return {{"$", type}, {"at", at}, {"n", count}};
+}
+
+PageData::Json PageData::f32(std::span<const float> values) {
+  return append("f32", values.data(), values.size_bytes(), values.size());
+}
+
+PageData::Json PageData::f32(std::span<const double> values) {
+  const std::vector<float> single(values.begin(), values.end());
+  return f32(std::span<const float>(single));
+}
+
+PageData::Json PageData::u16(std::span<const std::uint16_t> values) {
+  return append("u16", values.data(), values.size_bytes(), values.size());
+}
+
+PageData::Json PageData::u8(std::span<const std::uint8_t> values) {
+  return append("u8", values.data(), values.size_bytes(), values.size());
+}
+
+std::string payload_bytes(const PageData& page) {
+  const std::string text = page.json.dump(-1, ' ', false, PageData::Json::error_handler_t::replace);
+  const auto length = static_cast<std::uint32_t>(text.size());
+  std::string bytes(sizeof(length), '\0');
+  std::memcpy(bytes.data(), &length, sizeof(length));
+  bytes += text;
+  pad(bytes, kBlockAlignment);
+  return bytes + page.block();
+}
+
+std::string payload_text(const PageData& page) { return base64(deflated(payload_bytes(page))); }
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8U | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= count ? kDigits[group >> (18U - 6U * k) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace aims

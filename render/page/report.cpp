@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/studies/suite_report.hpp"
+#include "core/files/atomic_file.hpp"
+#include "render/page/page_template.hpp"
+#include "render/page/run_folder.hpp"
+#include "render/page/run_page.hpp"
+#include "render/page/suite_page.hpp"
+#include "render/page/tuning_page.hpp"
+#include "render/page/tuning_source.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders inside `folder` that hold a run's trajectories, by name.
+std::vector<fs::path> runs_in(const fs::path& folder) {
+  std::vector<fs::path> runs;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const bool is_seed = entry.path().filename().string().starts_with("seed-");
+    if (is_seed && holds_run(entry.path()) && fs::exists(entry.path() / "truth.tum")) {
+      runs.push_back(entry.path());
+    }
+  }
+  std::sort(runs.begin(), runs.end());
+  return runs;
+}
+
+std::vector<fs::path> runs_of_suite(const fs::path& suite) {
+  std::vector<fs::path> runs;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(suite / "runs", ignored)) {
+    for (fs::path& run : runs_in(entry.path())) runs.push_back(std::move(run));
+  }
+  std::sort(runs.begin(), runs.end());
+  return runs;
+}
+
+/// Whether the run's page shows its scores as they are now.
+bool is_up_to_date(const fs::path& run) {
+  std::error_code code;
+  const auto page = fs::last_write_time(run / kPageFile, code);
+  if (code) return false;
+  const auto scores = fs::last_write_time(run / "scores.json", code);
+  return code || page >= scores;
+}
+
+Result<PageData> page_of(const fs::path& folder, const PageOptions& options) {
+  if (holds_suite(folder)) return suite_page(folder, options);
+  if (holds_tuning(folder)) return tuning_page(folder, options);
+  if (holds_run(folder)) return run_page(folder);
+  return failure(
+      fmt::format("{}: holds no results: expected scores.json (aims run, score), estimate.json "
+                  "(aims estimate), "
+                  "suite.json (aims suite) or plan.yaml (aims sweep, tune)",
+                  folder.string()));
+}
+
+}  // namespace
+
+Result<void> write_report(const fs::path& folder, const fs::path& file, PageOptions options) {
+  if (options.out_folder.empty()) {
+    options.out_folder = file.has_parent_path() ? file.parent_path() : ".";
+  }
+  const auto page = page_of(folder, options);
+  if (!page) return tl::unexpected(page.error());
+  const auto html = page_html(*page);
+  if (!html) return tl::unexpected(html.error());
+  return write_file_atomically(file, *html);
+}
+
+Result<Reports> write_reports(const fs::path& folder, const PageOptions& options) {
+  Reports reports;
+  const bool suite = holds_suite(folder);
+  const std::vector<fs::path> runs = suite ? runs_of_suite(folder) : runs_in(folder);
+  for (const fs::path& run : runs) {
+    if (suite && is_up_to_date(run)) continue;
+    if (auto written = write_report(run, run / kPageFile); written) {
+      reports.pages.push_back(run / kPageFile);
+    } else if (suite) {
+      reports.warnings.push_back(written.error().message);
+    } else {
+      return tl::unexpected(written.error());
+    }
+  }
+  const bool only_seeds = !suite && !runs.empty() && !holds_run(folder);
+  if (only_seeds) return reports;
+  auto written = write_report(folder, folder / kPageFile, options);
+  if (!written) return tl::unexpected(written.error());
+  reports.pages.push_back(folder / kPageFile);
+  return reports;
+}
+
+}  // namespace aims

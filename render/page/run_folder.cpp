@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <utility>
+
+#include "bench/metrics/association.hpp"
+#include "bench/run/estimate.hpp"
+#include "bench/jobs/stored_results.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/passages.hpp"
+#include "core/files/ply.hpp"
+#include "core/files/tum.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Groups of a scenario that are no setting of the run.
+constexpr std::array<std::string_view, 6> kNoSettings = {"name",   "description", "tags.",
+                                                         "family", "level",       "expect."};
+
+/// As of a valid pose [m].
+constexpr float kFarthestPoint = 1e6F;
+
+bool is_setting(const std::string& key) {
+  return std::none_of(kNoSettings.begin(), kNoSettings.end(),
+                      [&](std::string_view prefix) { return (key + ".").starts_with(prefix); });
+}
+
+/// What differs between two configurations of one kind.
+template <class Config>
+std::vector<ConfigChange> changes_between(Config used, Config defaults) {
+  std::map<std::string, std::string> default_values;
+  for (const Parameter& each : fields_of(defaults).parameters()) {
+    default_values[each.key] = each.text();
+  }
+  std::vector<ConfigChange> changes;
+  const Fields fields = fields_of(used);
+  for (const Parameter& each : fields.parameters()) {
+    const auto standard = default_values.find(each.key);
+    const bool known = standard != default_values.end();
+    if (!is_setting(each.key) || (known && standard->second == each.text())) continue;
+    changes.push_back({each.key, each.text(),
+                       known ? std::optional(standard->second) : std::nullopt, each.spec.unit});
+  }
+  return changes;
+}
+
+/// Names come from JSON: only those that a program of ours gives are names of files.
+bool is_file_name(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+}
+
+void take_names(const Json& document, std::vector<std::string>& names) {
+  if (!document.is_object() || !document.contains("estimators")) return;
+  for (const auto& [name, unused] : document["estimators"].items()) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+}
+
+std::vector<std::string> estimator_names(const RunFolder& run) {
+  std::vector<std::string> names;
+  take_names(run.scores, names);
+  take_names(run.estimate, names);
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(run.path)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() == ".tum" && stem != "truth") found.push_back(stem);
+  }
+  std::sort(found.begin(), found.end());
+  for (std::string& name : found) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(std::move(name));
+    }
+  }
+  return names;
+}
+
+Result<void> read_trajectory_into(const fs::path& file, Trajectory& trajectory) {
+  if (!fs::exists(file)) return {};
+  auto read = read_tum(file, PoseRules::kAsGiven);
+  if (!read) return tl::unexpected(read.error());
+  trajectory = valid_part(*read);
+  return {};
+}
+
+Result<void> read_table_into(const fs::path& file, std::optional<CsvColumns>& table) {
+  if (!fs::exists(file)) return {};
+  auto read = CsvColumns::read(file);
+  if (!read) return tl::unexpected(read.error());
+  table = std::move(*read);
+  return {};
+}
+
+Result<void> read_map_into(const fs::path& file, std::vector<Eigen::Vector3f>& map) {
+  if (!fs::exists(file)) return {};
+  auto read = read_ply(file);
+  if (!read) return tl::unexpected(read.error());
+  std::copy_if(read->begin(), read->end(), std::back_inserter(map),
+               [](const Eigen::Vector3f& point) {
+                 return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthestPoint;
+               });
+  return {};
+}
+
+Result<EstimatorFiles> read_estimator(const fs::path& folder, const std::string& name) {
+  EstimatorFiles files;
+  files.name = name;
+  if (!is_file_name(name)) return files;
+  auto done = read_trajectory_into(folder / (name + ".tum"), files.trajectory);
+  if (done) done = read_table_into(folder / (name + ".diagnostics.csv"), files.diagnostics);
+  if (done) done = read_map_into(folder / (name + ".map.ply"), files.map);
+  if (!done) return tl::unexpected(done.error());
+  return files;
+}
+
+Result<void> read_records(RunFolder& run) {
+  if (fs::exists(run.path / "scores.json")) {
+    auto record = read_record(run.path / "scores.json");
+    if (!record) return tl::unexpected(record.error());
+    run.scores = std::move(record->scores);
+  }
+  const fs::path file = run.path / "estimate.json";
+  if (!fs::exists(file)) return {};
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  run.estimate = Json::parse(*text, nullptr, false);
+  if (run.estimate.is_object()) return {};
+  return failure(
+      fmt::format("{}: expected a JSON object, found none that is whole", file.string()));
+}
+
+/// Takes a configuration that was read, or the note why it was not.
+template <class Config>
+void take_config(const Result<Config>& config, const Result<Config>& defaults, RunFolder& run) {
+  if (!config) {
+    run.notes.push_back("Without scene and settings: " + config.error().message);
+    return;
+  }
+  run.scoring = config->scoring;
+  if (defaults) run.changes = changes_between(*config, *defaults);
+}
+
+Result<void> read_config(RunFolder& run) {
+  const fs::path file = run.path / "config.yaml";
+  if (!fs::exists(file)) {
+    run.notes.emplace_back("Without scene and settings: the folder has no config.yaml.");
+    return {};
+  }
+  auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  run.config_yaml = std::move(*text);
+  if (run.estimate.is_object()) {
+    take_config(load_estimate_config(file, {}), load_estimate_config({}, {}), run);
+    return {};
+  }
+  auto scenario = load_scenario(file, {});
+  take_config(scenario, default_scenario({}), run);
+  if (scenario) run.scenario = std::move(*scenario);
+  return {};
+}
+
+Result<void> read_passages(RunFolder& run) {
+  const fs::path file = run.path / "passages.csv";
+  if (!fs::exists(file)) return {};
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  auto passages = parse_passages(*text, file.string());
+  if (!passages) return tl::unexpected(passages.error());
+  run.passages = std::move(*passages);
+  return {};
+}
+
+}  // namespace
+
+bool holds_run(const fs::path& folder) {
+  return fs::exists(folder / "scores.json") || fs::exists(folder / "estimate.json") ||
+         (fs::exists(folder / "truth.tum") && fs::exists(folder / "config.yaml"));
+}
+
+Result<RunFolder> read_run_folder(const fs::path& folder) {
+  if (!holds_run(folder)) {
+    return failure(
+        fmt::format("{}: expected scores.json or estimate.json, found neither", folder.string()));
+  }
+  RunFolder run;
+  run.path = folder;
+  auto done = read_records(run);
+  if (done) done = read_config(run);
+  if (done) done = read_trajectory_into(folder / "truth.tum", run.truth);
+  if (done) done = read_passages(run);
+  if (done) done = read_table_into(folder / "localizability.csv", run.localizability);
+  if (done) done = read_table_into(folder / "legs.csv", run.legs);
+  if (!done) return tl::unexpected(done.error());
+  for (const std::string& name : estimator_names(run)) {
+    auto files = read_estimator(folder, name);
+    if (!files) return tl::unexpected(files.error());
+    run.estimators.push_back(std::move(*files));
+  }
+  return run;
+}
+
+}  // namespace aims

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/run_page.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bench/run/start_anchor.hpp"
+#include "core/files/atomic_file.hpp"
+#include "render/page/map_cloud.hpp"
+#include "render/page/run_folder.hpp"
+#include "render/page/run_series.hpp"
+#include "render/page/scene_geometry.hpp"
+#include "render/page/surface_distance.hpp"
+#include "sim/environment/scene_config.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pictures of a run's folder that its page shows, and what they are.
+constexpr std::array<std::pair<const char*, const char*>, 4> kPictures = {
+    {{"robot_start", "The robot at the start"},
+     {"robot_middle", "The robot on its way"},
+     {"robot_turn", "The robot at the turn"},
+     {"trajectories", "Trajectories over the plan; height and error along the way"}}};
+/// Pictures beyond this size are left out [bytes].
+constexpr std::uintmax_t kLargestPicture = 256 * 1024;
+
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// Member of a JSON document, null when there is none.
+Json member(const Json& document, const char* key) {
+  return document.is_object() && document.contains(key) ? document[key] : Json();
+}
+
+/// What repeats the run, called in its folder; null for scores of foreign trajectories.
+Json command_json(const RunFolder& run) {
+  if (run.config_yaml.empty()) return {};
+  if (run.estimate.is_object()) {
+    const Json bag = member(run.estimate, "bag");
+    if (!bag.is_string()) return {};
+    return fmt::format("aims estimate {} --config config.yaml", quoted(bag.get<std::string>()));
+  }
+  const Json seed = member(run.scores, "seed");
+  const std::string seeds =
+      seed.is_number_unsigned() ? fmt::format(" --seed {}", seed.get<std::uint64_t>()) : "";
+  return fmt::format("aims run config.yaml{}", seeds);
+}
+
+std::string name_of(const RunFolder& run) {
+  if (run.scenario) return run.scenario->name;
+  const Json scenario = member(run.scores, "scenario");
+  if (scenario.is_string()) return scenario.get<std::string>();
+  const Json bag = member(run.estimate, "bag");
+  return bag.is_string() ? fs::path(bag.get<std::string>()).stem().string() : "run";
+}
+
+Json scenario_json(const RunFolder& run) {
+  const bool recorded = run.estimate.is_object();
+  const Json& record = recorded ? run.estimate : run.scores;
+  return {{"name", name_of(run)},
+          {"description", run.scenario ? Json(run.scenario->description) : Json()},
+          {"seed", recorded ? Json() : member(run.scores, "seed")},
+          {"simulated_s", member(record, recorded ? "recorded_s" : "simulated_s")},
+          {"complete", member(record, "complete")},
+          {"robot", member(run.scores, "robot")}};
+}
+
+Json changes_json(const RunFolder& run) {
+  Json list = Json::array();
+  for (const ConfigChange& each : run.changes) {
+    list.push_back({{"key", each.key},
+                    {"value", each.value},
+                    {"default", each.default_value ? Json(*each.default_value) : Json()},
+                    {"unit", each.unit}});
+  }
+  return list;
+}
+
+Json lost_at_json(const RunFolder& run, const std::string& name, double start) {
+  const Json scores = member(member(run.scores, "estimators"), name.c_str());
+  const Json lost_at = member(scores, "lost_at_s");
+  return lost_at.is_number() ? Json(lost_at.get<double>() - start) : Json();
+}
+
+Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surface, double start,
+                             PageData& page) {
+  Json list = Json::array();
+  for (const EstimatorFiles& each : run.estimators) {
+    auto series = series_json(each, run, start, page);
+    if (!series) return series;
+    list.push_back(
+        {{"name", each.name},
+         {"lost_at", lost_at_json(run, each.name, start)},
+         {"colour_index", list.size()},
+         {"series", std::move(*series)},
+         {"map", map_json(each.map, start_anchor(each.trajectory, run.truth, run.scoring), surface,
+                          page)}});
+  }
+  return list;
+}
+
+Result<Json> pictures_json(const RunFolder& run) {
+  Json list = Json::array();
+  for (const auto& [name, title] : kPictures) {
+    const fs::path file = run.path / (std::string(name) + ".png");
+    if (!fs::is_regular_file(file) || fs::file_size(file) > kLargestPicture) continue;
+    const auto bytes = read_file(file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    list.push_back({{"name", name}, {"title", title}, {"png", base64(*bytes)}});
+  }
+  return list;
+}
+
+/// Adds what needs the scene: its geometry, and maps held against its surface.
+Result<void> add_estimators(const RunFolder& run, double start, PageData& page) {
+  std::optional<SurfaceDistance> surface;
+  page.json["scene"] = Json();
+  if (run.scenario) {
+    const Scene scene =
+        build_scene(run.scenario->simulation.scene, static_cast<std::uint64_t>(run.scenario->seed));
+    page.json["scene"] = scene_json(scene, page);
+    surface.emplace(scene);
+  }
+  auto estimators = estimators_json(run, surface ? &*surface : nullptr, start, page);
+  if (!estimators) return tl::unexpected(estimators.error());
+  page.json["estimators"] = std::move(*estimators);
+  return {};
+}
+
+}  // namespace
+
+Result<PageData> run_page(const fs::path& folder) {
+  const auto run = read_run_folder(folder);
+  if (!run) return tl::unexpected(run.error());
+  const double start = page_start(*run);
+  PageData page;
+  page.title = name_of(*run);
+  if (run->scenario) page.title += fmt::format(", seed {}", run->scenario->seed);
+  page.json = {
+      {"schema", kPageSchema},
+      {"kind", "run"},
+      {"title", page.title},
+      {"version", member(run->scores.is_object() ? run->scores : run->estimate, "version")},
+      {"t0_s", start},
+      {"scenario", scenario_json(*run)},
+      {"command", command_json(*run)},
+      {"config_yaml", run->config_yaml.empty() ? Json() : Json(run->config_yaml)},
+      {"config_changes", changes_json(*run)},
+      {"notes", run->notes},
+      {"scores", run->scores},
+      {"passages", passages_json(*run, start)},
+      {"truth", truth_json(*run, start, page)}};
+  auto localizability = localizability_json(*run, start, page);
+  if (!localizability) return tl::unexpected(localizability.error());
+  page.json["localizability"] = std::move(*localizability);
+  auto legs = legs_json(*run, start, page);
+  if (!legs) return tl::unexpected(legs.error());
+  page.json["legs"] = std::move(*legs);
+  if (auto added = add_estimators(*run, start, page); !added) {
+    return tl::unexpected(added.error());
+  }
+  auto pictures = pictures_json(*run);
+  if (!pictures) return tl::unexpected(pictures.error());
+  page.json["pictures"] = std::move(*pictures);
+  return page;
+}
+
+}  // namespace aims

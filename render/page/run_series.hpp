@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/error.hpp"
+#include "render/page/page_data.hpp"
+#include "render/page/run_folder.hpp"
+
+namespace aims {
+
+/// Stamp [s] that a run's page counts from: 0 for a clock that starts with the run; for one that
+/// counts from an epoch the whole second before the first pose, since 32 bits could not tell scans.
+double page_start(const RunFolder& run);
+
+/// Truth at about 10 Hz: t, p, q (x y z w); null when there is none.
+PageData::Json truth_json(const RunFolder& run, double start, PageData& page);
+
+/// The reference points with stamp and true place.
+PageData::Json passages_json(const RunFolder& run, double start);
+
+/// What localizability.csv says, with stretches that are degenerate at each level; null without it.
+Result<PageData::Json> localizability_json(const RunFolder& run, double start, PageData& page);
+
+/// What legs.csv says; null without it.
+Result<PageData::Json> legs_json(const RunFolder& run, double start, PageData& page);
+
+/// Trajectory, diagnostics and errors of an estimator over the stamps of its poses. Errors and
+/// deviations are along the true body's heading, to its left and up; a column that has no value at
+/// all is null.
+Result<PageData::Json> series_json(const EstimatorFiles& estimator, const RunFolder& run,
+                                   double start, PageData& page);
+
+}  // namespace aims

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "render/page/page_data.hpp"
+#include "sim/environment/scene.hpp"
+
+namespace aims {
+
+/// A scene as lines and triangles to look at, in the world [m].
+struct SceneGeometry {
+  std::vector<Eigen::Vector3f> edges;      ///< two per line: outlines of solids and of the floor
+  std::vector<Eigen::Vector3f> triangles;  ///< three each; without roofs, so that one looks inside
+};
+
+/// Geometry of the visible solids and the floor; people are left out, cylinders have few sides, and
+/// a floor of many cells is shown by fewer.
+SceneGeometry scene_geometry(const Scene& scene);
+
+/// `scene_geometry` with the floor's extent and the bounds of all of it.
+PageData::Json scene_json(const Scene& scene, PageData& page);
+
+}  // namespace aims

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+#include "core/files/csv_columns.hpp"
+#include "render/page/page_data.hpp"
+
+namespace aims {
+
+/// A series of more samples is thinned evenly to no more than this, its last sample kept.
+inline constexpr std::size_t kLongestSeries = 6000;
+
+/// Samples of a series; NaN for none.
+using Numbers = std::vector<double>;
+
+/// Indices of the samples that are shown of `count`: evenly spaced, with the last one.
+std::vector<std::size_t> shown(std::size_t count);
+
+/// Reference to the values, or null when none of them is a number.
+PageData::Json column(const Numbers& values, PageData& page);
+
+/// The numbers of a table's column at those rows: NaN at row -1, and everywhere when the table has
+/// no such column.
+Result<Numbers> numbers_at(const CsvColumns& table, const std::string& name,
+                           const std::vector<std::ptrdiff_t>& rows);
+
+/// Keys in JSON and the columns of a table that they show.
+using ColumnNames = std::vector<std::pair<std::string, std::string>>;
+
+/// Adds those columns at those rows to `json`.
+Result<void> add_columns(const CsvColumns& table, const ColumnNames& names,
+                         const std::vector<std::ptrdiff_t>& rows, PageData& page,
+                         PageData::Json& json);
+
+void append(const Eigen::Vector3d& v, Numbers& values);
+
+/// "t" [s] after `start`, "p" and "q" (x y z w) of the poses.
+PageData::Json poses_json(const Trajectory& poses, double start, PageData& page);
+
+}  // namespace aims

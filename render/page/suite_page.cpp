@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/suite_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bench/studies/comparison.hpp"
+#include "bench/jobs/stored_results.hpp"
+#include "bench/studies/suite.hpp"
+#include "bench/studies/suite_summary.hpp"
+#include "bench/jobs/unit_store.hpp"
+#include "render/page/detector_curves.hpp"
+#include "render/page/json_access.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRunPage = "report.html";
+
+/// Error for a suite.json whose scenarios cannot be gone through.
+Result<void> check_scenarios(const Json& suite, const fs::path& file) {
+  const Json& scenarios = member(suite, "scenarios");
+  if (!scenarios.is_array()) {
+    return failure(fmt::format("{}: scenarios: expected a list", file.string()));
+  }
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const Json& each = scenarios[i];
+    const Json& seeds = member(each, "seeds");
+    const bool whole = member(each, "name").is_string() && seeds.is_array() &&
+                       member(each, "estimators").is_object() &&
+                       std::all_of(seeds.begin(), seeds.end(),
+                                   [](const Json& seed) { return seed.is_number_unsigned(); });
+    if (whole) continue;
+    return failure(
+        fmt::format("{}: scenarios.{}: expected name, seeds and estimators", file.string(), i));
+  }
+  return {};
+}
+
+/// What the page shows of one estimator on one seed.
+Json outcome_of(const RunRecord& run, const std::string& estimator) {
+  const Json& scores = run.scores["estimators"][estimator];
+  Json outcome = {{"success", member(scores, "success")},
+                  {"lost_at_s", json_of(find_score(run, estimator, "lost_at_s"))},
+                  {"lost_reason", text_in(scores, "lost_reason")}};
+  for (const HeadlineScore& score : kHeadlineScores) {
+    outcome[score.key] = json_of(find_score(run, estimator, score.key));
+  }
+  return outcome;
+}
+
+/// The link to a run's own page; null when none lies there.
+Json run_link(const fs::path& run_folder, const fs::path& page_folder) {
+  std::error_code ignored;
+  if (!fs::exists(run_folder / kRunPage, ignored)) return {};
+  const fs::path target = fs::weakly_canonical(run_folder, ignored) / kRunPage;
+  return link_to(target.lexically_relative(fs::weakly_canonical(page_folder, ignored)));
+}
+
+/// A row per scenario and seed.
+Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_folder, Json& notes) {
+  const UnitStore store(folder);
+  Json runs = Json::array();
+  for (const Json& scenario : suite["scenarios"]) {
+    const std::string name = text_in(scenario, "name");
+    for (const Json& seed : scenario["seeds"]) {
+      const fs::path run_folder = store.folder_of(name, seed.get<std::uint64_t>());
+      Json run = {{"scenario", name},
+                  {"seed", seed},
+                  {"href", run_link(run_folder, page_folder)},
+                  {"estimators", Json::object()}};
+      const auto record = read_record(run_folder / "scores.json");
+      if (!record) {
+        notes.push_back(fmt::format("{}, seed {}: its scores.json cannot be read", name,
+                                    seed.get<std::uint64_t>()));
+      } else {
+        for (const auto& [estimator, unused] : scenario["estimators"].items()) {
+          if (!record->scores["estimators"].contains(estimator)) continue;
+          run["estimators"][estimator] = outcome_of(*record, estimator);
+        }
+      }
+      runs.push_back(std::move(run));
+    }
+  }
+  return runs;
+}
+
+Json headline_scores() {
+  Json scores = Json::array();
+  for (const HeadlineScore& score : kHeadlineScores) {
+    scores.push_back({{"key", score.key}, {"title", score.title}, {"unit", score.unit}});
+  }
+  return scores;
+}
+
+/// The ROC part: what is asked for, else what the folder has, else null.
+Result<Json> detectors_of(const fs::path& folder, const fs::path& asked, PageData& page,
+                          Json& notes) {
+  std::error_code ignored;
+  fs::path file = asked.empty() ? folder : asked;
+  if (fs::is_directory(file, ignored)) file /= "detectors.json";
+  if (asked.empty() && !fs::exists(file, ignored)) return Json();
+  auto curves = detector_curves(file, page);
+  if (curves || !asked.empty()) return curves;
+  notes.push_back("detectors.json cannot be used: " + curves.error().message);
+  return Json();
+}
+
+/// What changed from `against` to the suite; null when there is nothing to compare with.
+Result<Json> comparison_of(const fs::path& folder, const fs::path& against) {
+  if (against.empty()) return Json();
+  const auto before = read_results(against);
+  if (!before) return tl::unexpected(before.error());
+  const auto after = read_results(folder);
+  if (!after) return tl::unexpected(after.error());
+  const Comparison comparison = compare(*before, *after);
+  Json json = comparison_json(comparison, folder_name(against), folder_name(folder));
+  json["summary"] = summary_text(comparison);
+  return json;
+}
+
+}  // namespace
+
+std::string link_to(const fs::path& relative) {
+  std::string link;
+  for (const char c : relative.generic_string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = byte < 128 && (std::isalnum(byte) != 0 ||
+                                      std::string("-._~/").find(c) != std::string::npos);
+    link += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return link;
+}
+
+Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) {
+  const fs::path file = folder / "suite.json";
+  auto suite = read_json_of(file, kSuiteSchema);
+  if (!suite) return tl::unexpected(suite.error());
+  if (auto checked = check_scenarios(*suite, file); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  PageData page;
+  page.title = "Suite " + folder_name(folder);
+  Json notes = Json::array();
+  auto detectors = detectors_of(folder, options.detectors, page, notes);
+  if (!detectors) return tl::unexpected(detectors.error());
+  auto comparison = comparison_of(folder, options.against);
+  if (!comparison) return tl::unexpected(comparison.error());
+  const fs::path page_folder = options.out_folder.empty() ? folder : options.out_folder;
+  Json runs = runs_of(*suite, folder, page_folder, notes);
+  page.json = {{"schema", kPageSchema},         {"kind", "suite"},
+               {"title", page.title},           {"version", text_in(*suite, "version")},
+               {"headline", headline_scores()}, {"runs", std::move(runs)},
+               {"roc", std::move(*detectors)},  {"compare", std::move(*comparison)},
+               {"notes", std::move(notes)}};
+  page.json["suite"] = std::move(*suite);
+  return page;
+}
+
+}  // namespace aims

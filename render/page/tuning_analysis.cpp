@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/tuning_analysis.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/tuning/analysis.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::size_t kMostFamilies = 12;  ///< with a curve of their own
+constexpr std::size_t kMostMaps = 28;      ///< pairs of parameters
+
+Json interval_json(const Interval& interval) {
+  return Json::array({json_of(interval.low), json_of(interval.high)});
+}
+
+Json intervals_json(const std::vector<Interval>& intervals) {
+  Json json = Json::array();
+  for (const Interval& each : intervals) json.push_back(interval_json(each));
+  return json;
+}
+
+Json best_json(const BestPoint& best) {
+  return {{"values", best.values},
+          {"between", intervals_json(best.between)},
+          {"objective", json_of(best.objective)},
+          {"objective_interval", interval_json(best.objective_interval)},
+          {"defaults", json_of(best.defaults)},
+          {"gain", json_of(best.gain)},
+          {"gain_interval", interval_json(best.gain_interval)},
+          {"distance", best.distance}};
+}
+
+Json sensitivity_json(const Sensitivity& sensitivity, std::size_t parameters) {
+  const SobolIndices& indices = sensitivity.surrogate.indices();
+  Json second = Json::array();
+  for (Eigen::Index i = 0; i < indices.second.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index k = 0; k < indices.second.cols(); ++k) row.push_back(indices.second(i, k));
+    second.push_back(std::move(row));
+  }
+  Json idle = Json::array();
+  for (std::size_t i = 0; i < parameters; ++i) idle.push_back(sensitivity.does_not_matter(i));
+  return {{"points", sensitivity.points},
+          {"logarithmic", sensitivity.logarithmic},
+          {"trustworthy", sensitivity.trustworthy()},
+          {"terms", sensitivity.surrogate.terms()},
+          {"error", sensitivity.surrogate.error()},
+          {"explained", sensitivity.surrogate.explained()},
+          {"first", indices.first},
+          {"total", indices.total},
+          {"total_interval", intervals_json(indices.total_interval)},
+          {"second", std::move(second)},
+          {"does_not_matter", std::move(idle)}};
+}
+
+/// Null for a slice without points.
+Json slice_json(const Slice& slice, PageData& page) {
+  if (slice.points.empty()) return {};
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> x, y, value, low, high;
+  for (const SlicePoint& point : slice.points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
+    value.push_back(point.objective.value_or(kNone));
+    low.push_back(point.interval.low.value_or(kNone));
+    high.push_back(point.interval.high.value_or(kNone));
+  }
+  Json json = {{"first", slice.first}, {"family", slice.family}, {"measured", slice.measured}};
+  if (slice.second) json["second"] = *slice.second;
+  json["x"] = page.f32(x);
+  if (slice.second) json["y"] = page.f32(y);
+  json["value"] = page.f32(value);
+  json["low"] = page.f32(low);
+  json["high"] = page.f32(high);
+  return json;
+}
+
+Json curves_json(const ResponseTable& table, const Objective& objective, PageData& page) {
+  std::vector<std::string> families = families_of(table);
+  if (families.size() == 1 || families.size() > kMostFamilies) families.clear();
+  families.insert(families.begin(), "");
+  Json curves = Json::array();
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    for (const std::string& family : families) {
+      Json curve = slice_json(curve_of(table, objective, i, family), page);
+      if (!curve.is_null()) curves.push_back(std::move(curve));
+    }
+  }
+  return curves;
+}
+
+Json maps_json(const ResponseTable& table, const Objective& objective, PageData& page) {
+  Json maps = Json::array();
+  const std::size_t count = table.ranges.size();
+  if (count * (count - 1) / 2 > kMostMaps) return maps;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = i + 1; k < count; ++k) {
+      Json map = slice_json(map_of(table, objective, i, k), page);
+      if (!map.is_null()) maps.push_back(std::move(map));
+    }
+  }
+  return maps;
+}
+
+}  // namespace
+
+Json analysis_json(const ResponseTable& table, const Objective& objective, PageData& page) {
+  Json json = {{"score", objective.score},
+               {"objective", text_of(objective)},
+               {"relative", objective.relative},
+               {"points", table.points.size()},
+               {"seeds", seeds_of(table).size()},
+               {"best", nullptr},
+               {"sensitivity", nullptr},
+               {"curves", Json::array()},
+               {"maps", Json::array()}};
+  const auto best = best_point(table, objective);
+  if (!best) {
+    json["why_no_best"] = best.error().message;
+    return json;
+  }
+  json["best"] = best_json(*best);
+  const auto sensitivity = sensitivity_of(table, objective);
+  if (sensitivity) {
+    json["sensitivity"] = sensitivity_json(*sensitivity, table.ranges.size());
+  } else {
+    json["why_no_sensitivity"] = sensitivity.error().message;
+  }
+  json["curves"] = curves_json(table, objective, page);
+  json["maps"] = maps_json(table, objective, page);
+  return json;
+}
+
+}  // namespace aims

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bench/run/score_record.hpp"
+#include "bench/tuning/objective.hpp"
+#include "render/page/page_data.hpp"
+
+namespace aims {
+
+/// What `aims merge` and `aims tune` say of one estimator in one objective, as a page holds it:
+/// best point with its intervals, sensitivity, the curve along every parameter over all scenarios
+/// and of every family, and the map over every pair of parameters. Parts that the points do not
+/// tell are null and say why. Curves and maps are arrays of `page`.
+Json analysis_json(const ResponseTable& table, const Objective& objective, PageData& page);
+
+}  // namespace aims

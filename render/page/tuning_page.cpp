@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/tuning_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/run/scenario.hpp"
+#include "bench/studies/suite_summary.hpp"
+#include "bench/tuning/range_key.hpp"
+#include "bench/tuning/sweep_report.hpp"
+#include "render/page/json_access.hpp"
+#include "render/page/tuning_analysis.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMostNumbers = 400'000;  ///< scores of all rows
+
+/// A unit with its place among points and walks.
+struct Row {
+  std::size_t point = 0;
+  std::size_t walk = 0;
+  bool held_out = false;
+  UnitResult result;
+};
+
+/// The units of one estimator.
+struct EstimatorRows {
+  EstimatorSpec estimator;
+  std::vector<std::vector<double>> points;           ///< an empty one: the untuned values
+  std::map<std::vector<double>, std::size_t> index;  ///< of each point
+  std::vector<Row> rows;
+};
+
+/// All units by estimator, with the walks that they share.
+struct Collected {
+  std::vector<EstimatorRows> estimators;
+  std::vector<ResponseCase> walks;
+};
+
+/// Index of what `same` recognizes; `value` is added when nothing is.
+template <class Value, class Same>
+std::size_t index_in(std::vector<Value>& values, const Same& same, Value value) {
+  const auto found = std::find_if(values.begin(), values.end(), same);
+  if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
+  values.push_back(std::move(value));
+  return values.size() - 1;
+}
+
+void collect(const MergedSweep& units, const VariedParameters& varied, bool held_out,
+             Collected& all) {
+  for (const MergedUnit& unit : units.units) {
+    auto placed = placed_unit(unit, varied);
+    if (!placed) continue;
+    const std::string name = text_of(placed->estimator);
+    const std::size_t e =
+        index_in(all.estimators, [&](const auto& each) { return text_of(each.estimator) == name; },
+                 {placed->estimator, {}, {}, {}});
+    EstimatorRows& own = all.estimators[e];
+    Row row;
+    row.point = own.index.emplace(placed->values, own.points.size()).first->second;
+    if (row.point == own.points.size()) own.points.push_back(placed->values);
+    row.walk = index_in(
+        all.walks,
+        [&](const auto& each) {
+          return each.scenario == placed->on.scenario && each.seed == placed->on.seed;
+        },
+        placed->on);
+    row.held_out = held_out;
+    row.result = std::move(placed->result);
+    own.rows.push_back(std::move(row));
+  }
+}
+
+void add_keys(const Json& json, const std::string& prefix, std::vector<std::string>& keys) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) {
+      add_keys(value, prefix + key + ".", keys);
+    } else if (value.is_number() &&
+               std::find(keys.begin(), keys.end(), prefix + key) == keys.end()) {
+      keys.push_back(prefix + key);
+    }
+  }
+}
+
+/// Scores of the objectives, the headline scores, then all others as far as the page holds them.
+std::vector<std::string> scores_of(const TuningSource& source, const Collected& all) {
+  std::vector<std::string> keys;
+  const auto add = [&](const std::string& key) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  };
+  for (const Objective& each : source.objectives) add(each.score);
+  for (const HeadlineScore& each : kHeadlineScores) add(each.key);
+  std::size_t rows = 1;
+  for (const EstimatorRows& each : all.estimators) {
+    rows += each.rows.size();
+    for (const Row& row : each.rows) add_keys(row.result.scores, "", keys);
+  }
+  const std::size_t least = source.objectives.size() + kHeadlineScores.size();
+  keys.resize(std::min(keys.size(), std::max(least, kMostNumbers / rows)));
+  return keys;
+}
+
+Json parameters_json(const VariedParameters& varied, const std::vector<double>& defaults) {
+  Scenario scenario;
+  const Fields fields = fields_of(scenario);
+  Json parameters = Json::array();
+  for (std::size_t i = 0; i < varied.ranges.size(); ++i) {
+    const ParameterRange& range = varied.ranges[i];
+    const Parameter* parameter = fields.find(full_key(range));
+    parameters.push_back({{"name", range.key},
+                          {"unit", parameter == nullptr ? "" : parameter->spec.unit},
+                          {"meaning", parameter == nullptr ? "" : parameter->spec.meaning},
+                          {"low", range.low},
+                          {"high", range.high},
+                          {"log", range.log},
+                          {"default", defaults[i]}});
+  }
+  return parameters;
+}
+
+/// Per point its values (the defaults for the untuned one) and its generation.
+Json points_json(const EstimatorRows& own, const std::vector<double>& defaults,
+                 const TuningSource& source, PageData& page) {
+  std::vector<double> values;
+  std::vector<double> generation;
+  std::vector<std::uint8_t> untuned;
+  for (const auto& point : own.points) {
+    const auto& numbers = point.empty() ? defaults : point;
+    values.insert(values.end(), numbers.begin(), numbers.end());
+    untuned.push_back(point.empty() ? 1 : 0);
+    const auto found = source.points.find(numbers);
+    generation.push_back(found == source.points.end() ? kNone : found->second.generation);
+  }
+  return {{"values", page.f32(values)},
+          {"untuned", page.u8(untuned)},
+          {"generation", source.points.empty() ? Json() : page.f32(generation)}};
+}
+
+Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores, PageData& page) {
+  std::vector<double> point, walk, values;
+  std::vector<std::uint8_t> outcome, lost, held_out;
+  for (const Row& row : own.rows) {
+    point.push_back(static_cast<double>(row.point));
+    walk.push_back(static_cast<double>(row.walk));
+    outcome.push_back(static_cast<std::uint8_t>(row.result.outcome));
+    lost.push_back(run_score(row.result, "success").lost ? 1 : 0);
+    held_out.push_back(row.held_out ? 1 : 0);
+    for (const std::string& key : scores) {
+      values.push_back(score_in(row.result, key).value_or(kNone));
+    }
+  }
+  return {{"point", page.f32(point)},      {"walk", page.f32(walk)},
+          {"outcome", page.u8(outcome)},   {"lost", page.u8(lost)},
+          {"held_out", page.u8(held_out)}, {"scores", page.f32(values)}};
+}
+
+/// The objectives that are analysed: those of the plan, then the first one of each headline score.
+std::vector<Objective> analysed(const TuningSource& source) {
+  std::vector<Objective> objectives = source.objectives;
+  for (const HeadlineScore& score : kHeadlineScores) {
+    const bool known = std::any_of(objectives.begin(), objectives.end(),
+                                   [&](const auto& each) { return each.score == score.key; });
+    if (known) continue;
+    Objective objective = source.objectives.front();
+    objective.score = score.key;
+    objectives.push_back(objective);
+  }
+  return objectives;
+}
+
+/// The table as the tuning has it: the untuned values are its first point (and one unit with it),
+/// the others stand in the order of the search where that is known.
+ResponseTable in_tuning_order(const ResponseTable& table, const TuningSource& source) {
+  ResponseTable ordered = table;
+  const auto& points = table.points;
+  if (!table.default_runs.empty() &&
+      std::find(points.begin(), points.end(), table.defaults) == points.end()) {
+    ordered.points.insert(ordered.points.begin(), table.defaults);
+    ordered.runs.insert(ordered.runs.begin(), table.default_runs);
+  }
+  const auto place = [&](std::size_t i) {
+    const auto found = source.points.find(ordered.points[i]);
+    return found == source.points.end() ? source.points.size() : found->second.index;
+  };
+  std::vector<std::size_t> order(ordered.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  ResponseTable sorted = ordered;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted.points[i] = ordered.points[order[i]];
+    sorted.runs[i] = ordered.runs[order[i]];
+  }
+  return sorted;
+}
+
+/// Per objective what the complete points of that estimator tell.
+Result<Json> analyses_json(const TuningSource& source, const std::string& estimator,
+                           PageData& page) {
+  Json analyses = Json::array();
+  for (Objective objective : analysed(source)) {
+    const auto responses = sweep_responses(source.units, objective.score);
+    if (!responses) return tl::unexpected(responses.error());
+    for (const SweepResponse& response : *responses) {
+      if (response.estimator != estimator) continue;
+      objective.relative = objective.relative && !response.table.default_runs.empty();
+      const ResponseTable table =
+          source.tuned ? in_tuning_order(response.table, source) : response.table;
+      analyses.push_back(analysis_json(table, objective, page));
+      analyses.back()["incomplete"] = response.incomplete;
+    }
+  }
+  return analyses;
+}
+
+Json walks_json(const std::vector<ResponseCase>& walks) {
+  Json json = Json::array();
+  for (const ResponseCase& each : walks) {
+    json.push_back({{"scenario", each.scenario}, {"family", each.family}, {"seed", each.seed}});
+  }
+  return json;
+}
+
+Json counts_json(const MergedSweep& units) {
+  Json json = {{"total", units.units.size()}, {"others", units.others}};
+  for (const char* outcome : {"done", "failed", "crashed", "timed_out", "missing"}) {
+    json[outcome] = units.count(outcome);
+  }
+  return json;
+}
+
+Result<Json> estimators_json(const TuningSource& source, const VariedParameters& varied,
+                             const Collected& all, const std::vector<std::string>& scores,
+                             PageData& page) {
+  Json json = Json::array();
+  for (const EstimatorRows& own : all.estimators) {
+    const auto defaults = untuned_values(own.estimator, varied);
+    if (!defaults) return tl::unexpected(defaults.error());
+    auto analyses = analyses_json(source, text_of(own.estimator), page);
+    if (!analyses) return analyses;
+    json.push_back({{"name", text_of(own.estimator)},
+                    {"parameters", parameters_json(varied, *defaults)},
+                    {"points", points_json(own, *defaults, source, page)},
+                    {"rows", rows_json(own, scores, page)},
+                    {"analyses", std::move(*analyses)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*options*/) {
+  const auto source = read_tuning(folder);
+  if (!source) return tl::unexpected(source.error());
+  const auto varied = varied_in(source->units);
+  if (!varied) return failure(folder.string() + ": " + varied.error().message);
+  Collected all;
+  collect(source->units, *varied, false, all);
+  collect(source->held_out, *varied, true, all);
+  const auto scores = scores_of(*source, all);
+  PageData page;
+  page.title = (source->tuned ? "Tuning " : "Sweep ") + folder_name(folder);
+  auto estimators = estimators_json(*source, *varied, all, scores, page);
+  if (!estimators) return tl::unexpected(estimators.error());
+  page.json = {{"schema", kPageSchema},
+               {"kind", "tuning"},
+               {"title", page.title},
+               {"source", source->tuned ? "tune" : "sweep"},
+               {"plan", source->plan},
+               {"units", counts_json(source->units)},
+               {"held_out_units", counts_json(source->held_out)},
+               {"scores", scores},
+               {"walks", walks_json(all.walks)},
+               {"estimators", std::move(*estimators)},
+               {"notes", source->notes}};
+  return page;
+}
+
+}  // namespace aims

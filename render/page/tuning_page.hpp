@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "render/page/page_data.hpp"
+#include "render/page/page_options.hpp"
+#include "render/page/tuning_source.hpp"
+
+namespace aims {
+
+/// The page of the folder of `aims sweep` or `aims tune`, finished or not: every unit with its
+/// parameters and scores, and per estimator and score what `aims merge` says of the best values,
+/// of which parameter matters, and of the curves and maps. Error when the folder is of neither.
+Result<PageData> tuning_page(const std::filesystem::path& folder, const PageOptions& options);
+
+}  // namespace aims

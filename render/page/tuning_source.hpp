@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "bench/tuning/objective.hpp"
+#include "bench/jobs/sweep_store.hpp"
+
+namespace aims {
+
+/// Where an optimizer came to a point.
+struct TunedPoint {
+  std::size_t index = 0;    ///< in the order of its points
+  double generation = 0.0;  ///< 0: the first population
+};
+
+/// What the folder of `aims sweep` or `aims tune` holds, finished or not.
+struct TuningSource {
+  bool tuned = false;  ///< by an optimizer; else a design
+  std::string plan;    ///< text of the plan
+  MergedSweep units;   ///< of a tuning: on the walks that are tuned on
+  MergedSweep held_out;
+  std::vector<Objective> objectives;                 ///< a sweep's: the default one
+  std::map<std::vector<double>, TunedPoint> points;  ///< of a finished tuning, by their values
+  std::vector<std::string> notes;                    ///< what could not be used
+};
+
+/// Whether the folder is that of a sweep (plan.yaml, units.csv) or of a tuning (tune.yaml).
+bool holds_tuning(const std::filesystem::path& folder);
+
+/// Reads the folder; units that are being written meanwhile are left out. Error when it holds
+/// neither, or its plan cannot be read.
+Result<TuningSource> read_tuning(const std::filesystem::path& folder);
+
+}  // namespace aims

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+#include "bench/run/run.hpp"
+
+namespace aims {
+
+/// Draws NAME-map-top.png and NAME-map-side.png; nothing for an estimator without a map.
+Result<void> draw_map(const std::string& title, const EstimatorOutcome& outcome,
+                      const std::filesystem::path& folder);
+
+/// Draws degeneracy.png: the index and what follows from it over time, of the first estimator that
+/// computes it; nothing when none does. `passages` are marked.
+Result<void> draw_degeneracy(const std::string& title, const std::string& subtitle,
+                             std::span<const EstimatorOutcome> outcomes,
+                             std::span<const Passage> passages,
+                             const std::filesystem::path& folder);
+
+}  // namespace aims

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/error.hpp"
+#include "bench/run/run.hpp"
+
+namespace aims {
+
+/// Draws a run into `folder`: the robot along the way, each estimator's map from above and from
+/// the side, every trajectory over the plan, and the degeneracy index over time.
+Result<void> draw_pictures(const Scenario& scenario, const RunResult& result,
+                           const std::filesystem::path& folder);
+
+/// The pictures in `folder` and below, by name.
+std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);
+
+}  // namespace aims

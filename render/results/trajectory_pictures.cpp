@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/results/trajectory_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "render/plots/time_plot.hpp"
+#include "render/plots/trajectory_plot.hpp"
+
+namespace aims {
+namespace {
+
+/// Pictures show trajectories at this spacing.
+constexpr Duration kDrawnSpacing = 100 * kMillisecond;
+
+/// The smallest errors that a logarithmic axis is to show.
+constexpr double kLeastMetres = 1e-3;
+constexpr double kLeastDegrees = 1e-2;
+
+std::string subtitle_of(const TrajectoryScores& scores) {
+  const Trajectory& truth = scores.truth.trajectory;
+  return fmt::format("{:.1f} m in {:.0f} s, estimates laid onto the truth at the start",
+                     path_length(truth), to_seconds(truth.back().stamp - truth.front().stamp));
+}
+
+/// The reference points, or the ends of segments "from-to" that were given by their times.
+std::vector<Passage> points_of(const TrajectoryScores& scores) {
+  std::vector<Passage> points = scores.passages;
+  if (!points.empty()) return points;
+  for (const Segment& each : scores.segments) {
+    const std::size_t dash = std::min(each.name.find('-'), each.name.size());
+    points.push_back({each.name.substr(0, dash), each.begin});
+    if (dash < each.name.size()) points.push_back({each.name.substr(dash + 1), each.end});
+  }
+  return points;
+}
+
+Result<void> draw_trajectories(const TrajectoryScores& scores, const std::filesystem::path& file) {
+  TrajectoryPlot plot;
+  plot.title = scores.truth.name + ": estimated trajectories";
+  plot.subtitle = subtitle_of(scores);
+  plot.truth = thinned(scores.truth.trajectory, kDrawnSpacing);
+  plot.passages = points_of(scores);
+  for (const ScoredEstimate& each : scores.estimates) {
+    plot.estimates.push_back({each.given.name, thinned(each.in_truth_frame, kDrawnSpacing)});
+  }
+  return write_trajectory_plot(file, plot);
+}
+
+double heading_error_deg(const PosePair& pair) {
+  const double error = wrap_angle(yaw_of(pair.estimate.rotation) - yaw_of(pair.truth.rotation));
+  return std::abs(error) * 180.0 / std::numbers::pi;
+}
+
+/// One quantity of each estimate over the time since the truth's start.
+template <class Quantity>
+TimePanel panel_of(const TrajectoryScores& scores, std::string title, std::string label,
+                   double least, const Quantity& quantity) {
+  TimePanel panel{std::move(title), std::move(label), {}, true, false};
+  const Time start = scores.truth.trajectory.front().stamp;
+  for (const ScoredEstimate& each : scores.estimates) {
+    TimeSeries series{each.given.name, {}};
+    const auto pairs =
+        associate(thinned(each.in_truth_frame, kDrawnSpacing), scores.truth.trajectory,
+                  scores.scoring.association, from_seconds(scores.scoring.association_tolerance));
+    for (const PosePair& pair : pairs) {
+      series.points.emplace_back(to_seconds(pair.stamp - start), std::max(least, quantity(pair)));
+    }
+    panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+Result<void> draw_errors(const TrajectoryScores& scores, const std::filesystem::path& file) {
+  const auto distance = [](const PosePair& pair) {
+    return (pair.estimate.translation - pair.truth.translation).norm();
+  };
+  const auto height = [](const PosePair& pair) {
+    return std::abs(pair.estimate.translation.z() - pair.truth.translation.z());
+  };
+  TimePlot plot;
+  plot.title = scores.truth.name + ": errors over time";
+  plot.subtitle = subtitle_of(scores);
+  plot.panels = {
+      panel_of(scores, "Distance from the truth, from 1 mm", "error [m]", kLeastMetres, distance),
+      panel_of(scores, "Height error, from 1 mm", "error [m]", kLeastMetres, height),
+      panel_of(scores, "Heading error, from 0.01 degrees", "error [deg]", kLeastDegrees,
+               heading_error_deg)};
+  const Time start = scores.truth.trajectory.front().stamp;
+  for (const Passage& each : points_of(scores)) {
+    plot.events.emplace_back(to_seconds(each.stamp - start), each.point);
+  }
+  return write_time_plot(file, plot);
+}
+
+}  // namespace
+
+Result<void> draw_trajectory_pictures(const TrajectoryScores& scores,
+                                      const std::filesystem::path& folder) {
+  auto drawn = draw_trajectories(scores, folder / "trajectories.png");
+  if (drawn) drawn = draw_errors(scores, folder / "errors.png");
+  return drawn;
+}
+
+}  // namespace aims

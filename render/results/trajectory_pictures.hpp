@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "bench/run/trajectory_scoring.hpp"
+
+namespace aims {
+
+/// Draws trajectories.png (plan, height and error along the way) and errors.png (position, height
+/// and heading error over time) into `folder`.
+Result<void> draw_trajectory_pictures(const TrajectoryScores& scores,
+                                      const std::filesystem::path& folder);
+
+}  // namespace aims

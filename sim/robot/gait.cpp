@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/robot/gait.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace aims {
+namespace {
+
+constexpr double kGravity = 9.81;                ///< [m/s^2]
+constexpr double kSwingStiffness = 80.0;         ///< [N m/rad]
+constexpr double kSwingDamping = 2.0;            ///< [N m s/rad]
+constexpr double kTouchdownDepth = 0.01;         ///< aim below the ground [m]
+constexpr double kTouchdownFeedback = 0.06;      ///< foot placement by velocity error [s]
+constexpr double kLatchProgress = 0.6;           ///< of the swing, from which contact ends it
+constexpr double kContactLoad = 15.0;            ///< [N]
+constexpr double kGroundFilter = 0.1;            ///< time constant [s]
+constexpr double kVelocityIntegralLimit = 0.25;  ///< [m/s]
+constexpr double kYawIntegralLimit = 0.4;        ///< [rad/s]
+
+/// Minimum-jerk blend from 0 to 1 and its derivative.
+double blend(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
+double blend_rate(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); }
+
+double toward(double value, double goal, double step) {
+  return value + std::clamp(goal - value, -step, step);
+}
+
+bool is_zero(const VelocityCommand& command) {
+  return command.velocity.isZero(1e-6) && std::abs(command.yaw_rate) < 1e-6;
+}
+
+}  // namespace
+
+struct GaitController::View {
+  Eigen::Matrix3d R_world_base;
+  double yaw = 0.0;
+  Eigen::Matrix2d R_world_heading;
+  Eigen::Vector3d position;  ///< of the base [m]
+  Eigen::Vector3d com;       ///< [m]
+  Eigen::Vector3d velocity;  ///< of the base [m/s]
+  Eigen::Vector3d turning;   ///< angular velocity [rad/s]
+  std::array<Eigen::Vector3d, kLegCount> feet;
+
+  View(const RobotState& state, const BodyModel& body)
+      : R_world_base(state.T_world_base.R()),
+        yaw(yaw_of(state.T_world_base.rotation)),
+        R_world_heading(Eigen::Rotation2Dd(yaw).toRotationMatrix()),
+        position(state.T_world_base.translation),
+        com(state.T_world_base * body.com_in_base),
+        velocity(state.velocity),
+        turning(R_world_base * state.angular_velocity) {
+    for (int leg = 0; leg < kLegCount; ++leg) {
+      feet[leg] = state.T_world_base * foot_in_base(leg, joints_of(state.q, leg));
+    }
+  }
+
+  Eigen::Vector2d mean_foot() const {
+    return (feet[0] + feet[1] + feet[2] + feet[3]).head<2>() / kLegCount;
+  }
+};
+
+GaitController::GaitController(const GaitConfig& config, const BodyModel& body, double timestep)
+    : config_(config), body_(body), dt_(timestep) {
+  stands_.fill(true);
+}
+
+/// Diagonal pairs trot half a period apart.
+double GaitController::leg_phase(int leg) const {
+  const double offset = leg == 0 || leg == 3 ? 0.0 : 0.5;
+  return std::fmod(phase_ + offset, 1.0);
+}
+
+double GaitController::swing_progress(int leg) const {
+  return (leg_phase(leg) - config_.duty) / (1.0 - config_.duty);
+}
+
+Eigen::Vector3d GaitController::wanted_velocity(const View& now) const {
+  const Eigen::Vector2d horizontal = now.R_world_heading * (target_.velocity + velocity_integral_);
+  return {horizontal.x(), horizontal.y(), 0.0};
+}
+
+void GaitController::begin_standing(const View& now) {
+  standing_ = true;
+  target_ = {};
+  velocity_integral_.setZero();
+  yaw_rate_integral_ = 0.0;
+  hold_position_ = now.mean_foot();
+  hold_yaw_ = now.yaw;
+  stands_.fill(true);
+  latched_.fill(false);
+}
+
+/// Slews the command within the limits of acceleration.
+void GaitController::shape(const VelocityCommand& command, const View& now) {
+  if (standing_) return;
+  const Eigen::Vector2d change = command.velocity - target_.velocity;
+  const double step = config_.acceleration * dt_;
+  target_.velocity += change.norm() > step ? Eigen::Vector2d(change.normalized() * step) : change;
+  target_.yaw_rate = toward(target_.yaw_rate, command.yaw_rate, config_.yaw_acceleration * dt_);
+  integrate_errors(now);
+}
+
+void GaitController::integrate_errors(const View& now) {
+  const Eigen::Vector2d v = now.R_world_heading.transpose() * now.velocity.head<2>();
+  const double gain = config_.integral_gain * dt_;
+  velocity_integral_ = (velocity_integral_ + gain * (target_.velocity - v))
+                           .cwiseMax(-kVelocityIntegralLimit)
+                           .cwiseMin(kVelocityIntegralLimit);
+  yaw_rate_integral_ = std::clamp(yaw_rate_integral_ + gain * (target_.yaw_rate - now.turning.z()),
+                                  -kYawIntegralLimit, kYawIntegralLimit);
+}
+
+void GaitController::advance_phase(const RobotState& state, const VelocityCommand& command,
+                                   const View& now) {
+  const bool zero = is_zero(command);
+  if (standing_) {
+    if (zero) return;
+    standing_ = false;
+    phase_ = 0.0;
+    idle_time_ = 0.0;
+  } else {
+    phase_ = std::fmod(phase_ + dt_ / config_.period, 1.0);
+    idle_time_ = zero ? idle_time_ + dt_ : 0.0;
+  }
+  schedule_feet(state, now);
+  const bool all_stand = std::all_of(stands_.begin(), stands_.end(), [](bool s) { return s; });
+  const bool slow = now.velocity.head<2>().norm() < 0.12 && std::abs(now.turning.z()) < 0.3;
+  if (zero && is_zero(target_) && all_stand && slow && idle_time_ > config_.period) {
+    begin_standing(now);
+  }
+}
+
+void GaitController::schedule_feet(const RobotState& state, const View& now) {
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const double progress = swing_progress(leg);
+    if (progress < 0.0) {
+      stands_[leg] = true;
+      latched_[leg] = false;
+      continue;
+    }
+    if (stands_[leg] && !latched_[leg]) liftoff_[leg] = now.feet[leg];
+    const bool touches = state.foot_load[leg] > kContactLoad;
+    latched_[leg] = latched_[leg] || (progress > kLatchProgress && touches);
+    stands_[leg] = latched_[leg];
+  }
+}
+
+StanceProblem GaitController::stance_problem(const View& now) const {
+  const Eigen::Vector3d up = now.R_world_base.col(2);
+  Eigen::Vector3d linear = config_.velocity_gain * (wanted_velocity(now) - now.velocity);
+  linear.z() = config_.height_gain * (ground_ + config_.body_height - now.position.z()) -
+               config_.height_damping * now.velocity.z() + kGravity;
+  Eigen::Vector3d angular = config_.attitude_gain * up.cross(Eigen::Vector3d::UnitZ()) -
+                            config_.attitude_damping * now.turning;
+  angular.z() += config_.attitude_damping * (target_.yaw_rate + yaw_rate_integral_);
+  if (standing_) {
+    linear.head<2>() += config_.standing_gain * (hold_position_ - now.position.head<2>());
+    angular.z() += config_.standing_gain * wrap_angle(hold_yaw_ - now.yaw);
+  }
+  StanceProblem problem;
+  problem.mass = body_.mass;
+  problem.inertia = now.R_world_base * body_.inertia * now.R_world_base.transpose();
+  problem.stands = stands_;
+  for (int leg = 0; leg < kLegCount; ++leg) problem.lever[leg] = now.feet[leg] - now.com;
+  problem.acceleration << linear, angular;
+  return problem;
+}
+
+/// Where the foot should land: under the hip as it will be, ahead by half a stance.
+Eigen::Vector3d GaitController::touchdown(int leg, const View& now) const {
+  const double time_left = (1.0 - swing_progress(leg)) * (1.0 - config_.duty) * config_.period;
+  const double stance_time = config_.duty * config_.period;
+  Eigen::Vector3d under_hip = hip_in_base(leg);
+  under_hip.y() += side_of(leg) * config_.stance_width;
+  const double yaw_then = now.yaw + now.turning.z() * time_left;
+  const Eigen::Vector3d hip = yaw_rotation(yaw_then) * under_hip;
+  const Eigen::Vector3d hip_velocity =
+      now.velocity + Eigen::Vector3d(0.0, 0.0, now.turning.z()).cross(hip);
+  const Eigen::Vector3d error = now.velocity - wanted_velocity(now);
+  Eigen::Vector3d foot = now.position + hip + now.velocity * time_left +
+                         0.5 * stance_time * hip_velocity + kTouchdownFeedback * error;
+  foot.z() = ground_ + kLegGeometry.foot_radius - kTouchdownDepth;
+  return foot;
+}
+
+Eigen::Vector3d GaitController::swing_torques(int leg, const RobotState& state,
+                                              const View& now) const {
+  const double s = std::clamp(swing_progress(leg), 0.0, 1.0);
+  const double swing_time = (1.0 - config_.duty) * config_.period;
+  const Eigen::Vector3d& from = liftoff_[leg];
+  const Eigen::Vector3d to = touchdown(leg, now);
+  Eigen::Vector3d goal = from + blend(s) * (to - from);
+  Eigen::Vector3d goal_velocity = blend_rate(s) / swing_time * (to - from);
+  // Height: up to the apex in the first half, down in the second.
+  const double apex = ground_ + kLegGeometry.foot_radius + config_.swing_height;
+  const bool rising = s < 0.5;
+  const double half = rising ? 2.0 * s : 2.0 * s - 1.0;
+  const double start = rising ? from.z() : apex;
+  const double span = (rising ? apex : to.z()) - start;
+  goal.z() = start + blend(half) * span;
+  goal_velocity.z() = 2.0 * blend_rate(half) / swing_time * span;
+
+  const Eigen::Matrix3d R = now.R_world_base.transpose();
+  const Eigen::Vector3d in_base = R * (goal - now.position);
+  const Eigen::Vector3d rate_in_base =
+      R * (goal_velocity - now.velocity) - state.angular_velocity.cross(in_base);
+  const Eigen::Vector3d q = joints_of(state.q, leg);
+  const Eigen::Matrix3d J = foot_jacobian(leg, q);
+  const Eigen::Matrix3d damped = J.transpose() * J + 1e-4 * Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d wanted_rate = damped.inverse() * (J.transpose() * rate_in_base);
+  return kSwingStiffness * (leg_angles(leg, in_base) - q) +
+         kSwingDamping * (wanted_rate - joints_of(state.qd, leg));
+}
+
+JointVector GaitController::torques(const RobotState& state, const VelocityCommand& command) {
+  const View now(state, body_);
+  double foot_height = 0.0;
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    if (stands_[leg]) foot_height += now.feet[leg].z() - kLegGeometry.foot_radius;
+  }
+  foot_height /= std::max<double>(1.0, std::count(stands_.begin(), stands_.end(), true));
+  if (!started_) {
+    ground_ = foot_height;
+    begin_standing(now);
+    started_ = true;
+  }
+  ground_ += dt_ / kGroundFilter * (foot_height - ground_);
+  advance_phase(state, command, now);
+  shape(command, now);
+
+  const auto forces = stance_forces(stance_problem(now), config_.forces);
+  JointVector torques;
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const Eigen::Matrix3d J = foot_jacobian(leg, joints_of(state.q, leg));
+    torques.segment<3>(3 * leg) =
+        stands_[leg] ? Eigen::Vector3d(-J.transpose() * now.R_world_base.transpose() * forces[leg])
+                     : swing_torques(leg, state, now);
+  }
+  return torques;
+}
+
+void describe(Fields& f, GaitConfig& c) {
+  f.number("period", c.period,
+           {.unit = "s",
+            .range = in_range(0.2, 1.0),
+            .meaning = "of a stride; a multiple of 20 ms would alias into a 50 Hz IMU"});
+  f.number("duty", c.duty,
+           {.unit = "-", .range = in_range(0.5, 0.9), .meaning = "part of a stride a foot stands"});
+  f.number("body_height", c.body_height,
+           {.unit = "m", .range = in_range(0.2, 0.36), .meaning = "of the trunk over the ground"});
+  f.number("swing_height", c.swing_height,
+           {.unit = "m", .range = in_range(0.02, 0.15), .meaning = "of a foot in mid-swing"});
+  f.number("stance_width", c.stance_width,
+           {.unit = "m", .range = in_range(0.0, 0.15), .meaning = "of a foot beside its hip"});
+  f.number("velocity_gain", c.velocity_gain,
+           {.unit = "1/s", .range = at_least(0), .meaning = "horizontal velocity feedback"});
+  f.number("height_gain", c.height_gain,
+           {.unit = "1/s^2", .range = at_least(0), .meaning = "height feedback"});
+  f.number("height_damping", c.height_damping,
+           {.unit = "1/s", .range = at_least(0), .meaning = "vertical velocity feedback"});
+  f.number("attitude_gain", c.attitude_gain,
+           {.unit = "1/s^2", .range = at_least(0), .meaning = "roll and pitch feedback"});
+  f.number("attitude_damping", c.attitude_damping,
+           {.unit = "1/s", .range = at_least(0), .meaning = "angular rate feedback"});
+  f.number("standing_gain", c.standing_gain,
+           {.unit = "1/s^2", .range = at_least(0), .meaning = "position feedback when standing"});
+  f.number("integral_gain", c.integral_gain,
+           {.unit = "1/s", .range = at_least(0), .meaning = "integral of velocity and yaw rate"});
+  f.number("acceleration", c.acceleration,
+           {.unit = "m/s^2", .range = positive(), .meaning = "slew of the velocity command"});
+  f.number("yaw_acceleration", c.yaw_acceleration,
+           {.unit = "rad/s^2", .range = positive(), .meaning = "slew of the yaw-rate command"});
+  f.group("forces", c.forces);
+}
+
+}  // namespace aims

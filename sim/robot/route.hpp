@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+#include "sim/robot/gait.hpp"
+
+namespace aims {
+
+/// Where the robot walks to; a point without a name is passed without stopping.
+struct RoutePoint {
+  std::string name;
+  double x = 0.0;  ///< [m]
+  double y = 0.0;  ///< [m]
+};
+void describe(Fields& f, RoutePoint& c);
+
+/// A walk from point to point, standing at each named one.
+struct RouteConfig {
+  std::vector<RoutePoint> points = {{"a", 0.0, 0.0}, {"b", 78.6, 0.0}, {"a", 0.0, 0.0}};
+  double speed = 0.7;            ///< [m/s]
+  double turn_rate = 0.9;        ///< in place [rad/s]
+  double stand_before = 5.0;     ///< at the start [s]
+  double stand_at_points = 1.0;  ///< at named points [s]
+  double stand_after = 2.0;      ///< at the end [s]
+  double lookahead = 0.6;        ///< of the pure pursuit [m]
+  double turn_beyond = 0.7;      ///< heading error from which the robot turns in place [rad]
+};
+void describe(Fields& f, RouteConfig& c);
+
+/// Error for fewer than two points or no length between neighbours.
+Result<void> validate(const RouteConfig& route);
+
+/// Length of the route over its speed, plus turns and pauses [s].
+double nominal_duration(const RouteConfig& route);
+
+/// Heading from the first point to the second [rad].
+double start_heading(const RouteConfig& route);
+
+/// Steers the robot's base along a valid route.
+class RouteFollower {
+ public:
+  explicit RouteFollower(RouteConfig route);
+
+  /// What to do now; `standing` and `speed` [m/s] say whether the robot has come to rest.
+  VelocityCommand command(Time now, const Pose& T_world_base, bool standing, double speed);
+
+  /// When the robot stood at each named point, so far; the first when it sets off.
+  const std::vector<Passage>& passages() const { return passages_; }
+  bool done() const { return stage_ == Stage::kDone; }
+
+ private:
+  enum class Stage { kPausing, kTurning, kWalking, kStopping, kDone };
+
+  /// Pure pursuit of the line through the last and the next point.
+  struct Pursuit {
+    double bearing;   ///< of the point to steer to, from the robot's heading [rad]
+    double distance;  ///< to that point [m]
+    double left;      ///< along the line to the next point [m]
+  };
+
+  Eigen::Vector2d point(std::size_t i) const { return {route_.points[i].x, route_.points[i].y}; }
+  bool at_last() const { return next_ >= route_.points.size(); }
+  void pass(Time now, std::size_t index);
+  void set_off();
+  void pause(Time now, double seconds);
+  void reach_point();
+  void settle(Time now, bool resting);
+  Pursuit pursue(const Pose& T_world_base) const;
+  VelocityCommand turn(const Pose& T_world_base);
+  VelocityCommand walk(const Pose& T_world_base);
+
+  RouteConfig route_;
+  Stage stage_ = Stage::kPausing;
+  std::size_t next_ = 1;  ///< the point the robot walks to
+  Time pause_end_ = 0;
+  Time resting_since_ = -1;
+  bool started_ = false;
+  bool turns_left_ = false;  ///< way round of a turn of about 180 degrees
+  std::vector<Passage> passages_;
+};
+
+}  // namespace aims

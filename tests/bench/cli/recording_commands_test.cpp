@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `aims simulate`, `estimate`, `info` and `check`, run as a user would.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "core/files/atomic_file.hpp"
+#include "tests/bench/cli/command_line.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Outcome;
+
+/// Two metres of a corridor, with faults on every link.
+const std::string kShortWalk =
+    "scene: {corridor: {length: 10}}\n"
+    "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 2, y: 0}]}\n"
+    "lidar: {columns: 600}\n"
+    "links:\n"
+    "  leg_odometry: {loss: 0.1, jitter: 0.01, duplicate_probability: 0.01}\n"
+    "  imu: {reorder_probability: 0.02, stamp_jitter: 0.0005}\n"
+    "  lidar: {delay: 0.02}\n";
+
+class Recordings : public testing::CommandLine {
+ protected:
+  std::string text_of(const std::string& file) const {
+    return read_file(folder_.path() / file).value();
+  }
+
+  /// Refused with exit code 2 and one line that holds all of `expected`.
+  void expect_refused(const std::string& arguments,
+                      std::initializer_list<std::string> expected) const {
+    const Outcome outcome = aims(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    for (const std::string& each : expected) {
+      EXPECT_NE(outcome.output.find(each), std::string::npos) << each << "\n" << outcome.output;
+    }
+    EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+  }
+
+  /// walk.bag and what the command said.
+  Outcome simulate(const std::string& options = "") const {
+    return aims("simulate " + scenario(kShortWalk) + " --quiet -o walk.bag " + options);
+  }
+};
+
+TEST_F(Recordings, EstimatingABagGivesTheBytesOfTheRun) {
+  const std::string estimators =
+      " --estimators aims,aims_d,tfs,tfs_clean,lio,leg --no-pictures --quiet ";
+  const Outcome run = aims("run " + scenario(kShortWalk) + estimators + "--out direct");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  for (const char* compression : {"none", "lz4"}) {
+    const Outcome made = simulate(std::string("--overwrite --compression ") + compression);
+    ASSERT_EQ(made.exit_code, 0) << made.output;
+    const Outcome estimate = aims("estimate walk.bag" + estimators + "--overwrite --out replayed");
+    ASSERT_EQ(estimate.exit_code, 0) << estimate.output;
+    for (const char* name : {"aims", "aims_d", "tfs", "tfs_clean", "lio", "leg"}) {
+      const std::string file = std::string("/") + name + ".tum";
+      EXPECT_EQ(text_of("direct" + file), text_of("replayed" + file)) << name << compression;
+    }
+    EXPECT_EQ(text_of("direct/truth.tum"), text_of("replayed/truth.tum"));
+  }
+}
+
+TEST_F(Recordings, ABagThatHoldsTheTruthIsScoredAsTheRunIs) {
+  const Outcome run =
+      aims("run " + scenario(kShortWalk) + " --estimators aims --no-pictures --quiet --out direct");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  ASSERT_EQ(simulate().exit_code, 0);
+  const Outcome estimate = aims("estimate walk.bag --quiet --out replayed");
+  ASSERT_EQ(estimate.exit_code, 0) << estimate.output;
+  EXPECT_NE(estimate.output.find("M_list(a-b) %"), std::string::npos) << estimate.output;
+  const std::string scores = text_of("replayed/scores.json");
+  const std::string direct = text_of("direct/scores.json");
+  for (const char* key : {"\"m_end_m\": ", "\"ate_m\": "}) {
+    const std::size_t at = direct.find(key);
+    const std::string line = direct.substr(at, direct.find('\n', at) - at);
+    EXPECT_NE(scores.find(line.substr(0, 24)), std::string::npos) << line;
+  }
+  for (const char* picture : {"aims-map-top.png", "degeneracy.png", "trajectories.png"}) {
+    EXPECT_TRUE(fs::exists(folder_.path() / "replayed" / picture)) << picture;
+  }
+}
+
+TEST_F(Recordings, AKilledSimulationLeavesABagThatOpens) {
+  int with_messages = 0;
+  for (const char* after : {"0.4", "0.7", "1.1", "1.9"}) {
+    shell(std::string("timeout -s KILL ") + after + " '" AIMS_COMMAND "' simulate '" +
+          AIMS_SCENARIOS + "/corridor.yaml' --quiet --overwrite -o killed.bag");
+    if (!fs::exists(folder_.path() / "killed.bag")) continue;
+    const Outcome info = aims("info killed.bag");
+    EXPECT_EQ(info.exit_code, 0) << after << info.output;
+    EXPECT_EQ(info.output.find("never closed"), std::string::npos) << info.output;
+    with_messages += info.output.find("/lidar/points ") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GT(with_messages, 0);
+}
+
+TEST_F(Recordings, InfoTellsWhatTheBagHolds) {
+  ASSERT_EQ(simulate("--fast-imu 200").exit_code, 0);
+  const Outcome info = aims("info walk.bag");
+  EXPECT_EQ(info.exit_code, 0) << info.output;
+  for (const char* part :
+       {"/imu/data_fast", "sensor_msgs/PointCloud2", "time float32@18", "ring uint16@16",
+        "imu -> lidar: [0.0300, 0.0000, 0.1600]", "stands still", "force in m/s^2"}) {
+    EXPECT_NE(info.output.find(part), std::string::npos) << part << "\n" << info.output;
+  }
+}
+
+TEST_F(Recordings, CheckNamesWhatASystemMisses) {
+  ASSERT_EQ(simulate().exit_code, 0);
+  const Outcome all = aims("check walk.bag");
+  EXPECT_EQ(all.exit_code, 0) << all.output;
+  EXPECT_NE(all.output.find("LIO-SAM: poor: IMU of 200 Hz"), std::string::npos) << all.output;
+  EXPECT_EQ(aims("check walk.bag --for LIO-SAM,Leg-KILO").exit_code, 0) << "poorly, but they run";
+  const Outcome unknown = aims("check walk.bag --for SLAM9000");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.output.find("FAST-LIO2"), std::string::npos) << unknown.output;
+}
+
+TEST_F(Recordings, BadInputIsRefusedWithFileAndOffset) {
+  std::ofstream(folder_.path() / "text.bag") << "these are words, not a bag\n";
+  expect_refused("estimate text.bag", {"text.bag", "byte 0"});
+  expect_refused("info text.bag", {"text.bag", "byte 0"});
+  expect_refused("check text.bag", {"text.bag"});
+  expect_refused("estimate absent.bag", {"absent.bag"});
+  ASSERT_EQ(simulate().exit_code, 0);
+  fs::copy_file(folder_.path() / "walk.bag", folder_.path() / "cut.bag");
+  fs::resize_file(folder_.path() / "cut.bag", fs::file_size(folder_.path() / "walk.bag") / 2);
+  expect_refused("estimate cut.bag", {"cut.bag", "at byte", "--recover"});
+  expect_refused("estimate walk.bag --topics lidar=/velodyne", {"/velodyne", "/lidar/points"});
+  expect_refused("estimate walk.bag --topics lidars=/lidar/points", {"lidars", "lidar"});
+  expect_refused("estimate walk.bag --topics /lidar/points", {"--topics", "SENSOR=TOPIC"});
+  expect_refused("estimate walk.bag --estimator ames", {"ames", "aims"});
+  expect_refused("estimate walk.bag --set estimator.degeneracy.etta=3", {"etta", "eta"});
+  expect_refused("simulate my.yaml -o walk.bag", {"walk.bag"});
+}
+
+TEST_F(Recordings, WhatIsWholeOfACutBagIsEstimatedWhenAskedFor) {
+  ASSERT_EQ(simulate().exit_code, 0);
+  fs::resize_file(folder_.path() / "walk.bag", fs::file_size(folder_.path() / "walk.bag") * 2 / 3);
+  const Outcome outcome = aims("estimate walk.bag --recover --no-pictures --quiet --out replayed");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_GT(text_of("replayed/aims.tum").size(), 1000U);
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/jobs/sweep.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+#include "bench/jobs/sweep_folder.hpp"
+#include "bench/jobs/sweep_store.hpp"
+#include "core/files/atomic_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/bench/jobs/short_walk.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::shared;
+using testing::short_walk;
+
+bool keep_going(const UnitProgress&) { return true; }
+
+SweepPlan small_plan() {
+  SweepPlan plan;
+  plan.scenarios = {AIMS_SCENARIOS "/corridor.yaml", "dial_r05"};
+  plan.seeds = "1-3";
+  plan.over = {"degeneracy.eta=0:6:4", "degeneracy.kappa=log(1,100,3)"};
+  return plan;
+}
+
+Result<std::vector<SweepUnit>> units_of(const SweepPlan& plan) {
+  return plan_units(plan, AIMS_SCENARIOS);
+}
+
+std::string error_of(const SweepPlan& plan) {
+  const auto units = units_of(plan);
+  return units ? "no error" : units.error().message;
+}
+
+TEST(SweepPlan, MakesEveryPointOnEveryWalkAndThoseOnOneWalkStandTogether) {
+  const auto units = units_of(small_plan());
+  ASSERT_TRUE(units) << units.error().message;
+  ASSERT_EQ(units->size(), 2U * 3U * 12U);
+  std::set<std::string> ids;
+  std::set<std::pair<std::string, std::uint64_t>> walks;
+  for (std::size_t i = 0; i < units->size(); ++i) {
+    const SweepUnit& unit = (*units)[i];
+    EXPECT_EQ(unit.id, make_unit(unit.scenario, unit.seed, unit.estimator).id);
+    ids.insert(unit.id);
+    const auto walk = std::pair(unit.scenario->name, unit.seed);
+    EXPECT_EQ(walks.insert(walk).second, i % 12 == 0);
+  }
+  EXPECT_EQ(ids.size(), units->size());
+}
+
+TEST(SweepPlan, ReadsBackFromItsText) {
+  const TemporaryFolder folder;
+  SweepPlan plan = small_plan();
+  plan.design = DesignKind::kSobol;
+  plan.samples = 7;
+  plan.timeout = 12.5;
+  const fs::path file = folder.path() / "plan.yaml";
+  std::ofstream(file) << plan_text(plan);
+  const auto read = load_plan(file);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(plan_text(*read), plan_text(plan));
+  EXPECT_EQ(units_of(*read)->size(), 2U * 3U * 7U);
+}
+
+TEST(SweepPlan, RefusesWhatIsNotRight) {
+  const auto with = [](auto change) {
+    SweepPlan plan = small_plan();
+    change(plan);
+    return error_of(plan);
+  };
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  expect(with([](auto& p) { p.scenarios.clear(); }), "no scenario is given");
+  expect(with([](auto& p) { p.scenarios = {"coridor"}; }), "did you mean 'corridor'");
+  expect(with([](auto& p) { p.tags = {"dail"}; }), "no scenario has the tag 'dail'");
+  expect(with([](auto& p) { p.over = {"degeneracy.etta=0:1:2"}; }), "degeneracy.eta");
+  expect(with([](auto& p) { p.over = {"degeneracy.eta=6:0:2"}; }), "reversed");
+  expect(with([](auto& p) { p.over = {"degeneracy.eta=1:1:3"}; }), "empty");
+  expect(with([](auto& p) { p.over = {"degeneracy.kappa=log(0,1,3)"}; }), "logarithm");
+  expect(with([](auto& p) { p.over = {"degeneracy.alpha=0:7:3"}; }), "a number in [0, 1)");
+  expect(with([](auto& p) { p.estimators = {"aimz"}; }), "did you mean 'aims'");
+  expect(with([](auto& p) { p.estimators.clear(); }), "estimators");
+  expect(with([](auto& p) { p.seeds = ""; }), "is not a seed");
+  expect(with([](auto& p) { p.set = {"scene.corridor.lenght=3"}; }), "scene.corridor.length");
+}
+
+TEST(SweepPlan, HoldsNoUnitTwiceWhenPointsRoundToOne) {
+  SweepPlan plan = small_plan();
+  plan.scenarios = {"corridor"};
+  plan.seeds = "1";
+  plan.over = {"lidar.max_iterations=1:3:9"};
+  EXPECT_EQ(units_of(plan)->size(), 3U);
+}
+
+TEST(Shard, TogetherAreAllUnitsEachOnce) {
+  const std::vector<SweepUnit> units(11);
+  for (const int count : {1, 2, 3, 11, 20}) {
+    std::size_t next = 0;
+    for (int index = 1; index <= count; ++index) {
+      const auto part = part_of(units, {index, count});
+      EXPECT_EQ(part.data(), units.data() + next);
+      next += part.size();
+      EXPECT_LE(part.size(), 11U / count + 1);
+    }
+    EXPECT_EQ(next, units.size());
+  }
+  EXPECT_EQ(parse_shard("2/8")->index, 2);
+  for (const char* wrong : {"", "2", "0/4", "5/4", "a/4", "1/4x", "-1/4"}) {
+    EXPECT_FALSE(parse_shard(wrong)) << wrong;
+  }
+}
+
+/// A sweep of two settings of the cheapest estimator over a short walk, and its walk.
+class Sweep : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    walks_ = new TemporaryFolder;
+    ASSERT_TRUE(WalkCache(walks_->path()).make(short_walk(), 1));
+  }
+  static void TearDownTestSuite() { delete walks_; }
+
+  Sweep() {
+    plan_.scenarios = {"short"};
+    const auto scenario = shared(short_walk());
+    for (const char* spec : {"leg+leg.rate_hz=100", "leg+leg.rate_hz=200"}) {
+      units_.push_back(make_unit(scenario, 1, parse_estimator_spec(spec).value()));
+    }
+    options_.out = folder_.path() / "sweep";
+    options_.cache = walks_->path();
+  }
+
+  Result<UnitRun> sweep() { return run_sweep(plan_, units_, options_, keep_going); }
+
+  void expect_refused(const std::string& part) {
+    const auto run = sweep();
+    ASSERT_FALSE(run);
+    EXPECT_NE(run.error().message.find(part), std::string::npos) << run.error().message;
+    EXPECT_NE(run.error().message.find(options_.out.string()), std::string::npos);
+  }
+
+  static TemporaryFolder* walks_;
+  TemporaryFolder folder_;
+  SweepPlan plan_;
+  std::vector<SweepUnit> units_;
+  SweepOptions options_;
+};
+
+TemporaryFolder* Sweep::walks_ = nullptr;
+
+TEST_F(Sweep, FillsItsFolderShardByShardAndContinues) {
+  options_.shard = {2, 2};
+  const auto second = sweep();
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ(second->done, 1U);
+  const auto half = merge_sweeps(std::vector{options_.out});
+  ASSERT_TRUE(half);
+  EXPECT_EQ(half->units[0].outcome(), "missing");
+  EXPECT_EQ(half->units[1].outcome(), "done");
+  options_.shard = {};
+  const auto rest = sweep();
+  ASSERT_TRUE(rest) << rest.error().message;
+  EXPECT_EQ(rest->done, 1U);
+  EXPECT_EQ(rest->reused, 1U);
+}
+
+TEST_F(Sweep, RefusesAFolderInUseOrOfSomethingElse) {
+  ASSERT_TRUE(sweep());
+  {
+    const auto lock = FolderLock::take(options_.out);
+    expect_refused("another sweep works there");
+    options_.shard = {1, 2};
+    expect_refused("another sweep works there");
+  }
+  const fs::path shard = options_.out / "shards" / "1-of-2";
+  fs::create_directories(shard);
+  {
+    const auto lock = FolderLock::take(shard);
+    expect_refused("another process works on shard 1/2");
+    options_.shard = {2, 2};
+    EXPECT_TRUE(sweep()) << "another shard may work beside it";
+  }
+  options_.out = folder_.path() / "thesis";
+  fs::create_directories(options_.out);
+  std::ofstream(options_.out / "thesis.tex") << "years of work";
+  expect_refused("is no sweep's folder");
+}
+
+TEST_F(Sweep, KeepsToOnePlanCodeAndScenarios) {
+  ASSERT_TRUE(sweep());
+  const fs::path file = options_.out / "plan.yaml";
+  const std::string text = read_file(file).value();
+  std::string other = text;
+  other.replace(other.find("# code ") + 7, 4, "beef");
+  ASSERT_TRUE(write_file_atomically(file, other));
+  expect_refused("holds units of code beef");
+  ASSERT_TRUE(write_file_atomically(file, text));
+
+  plan_.timeout = 60.0;
+  EXPECT_TRUE(sweep()) << "it decides no result";
+  units_.pop_back();
+  plan_.samples = 5;
+  expect_refused("holds units of another plan, with 'samples: 64'");
+  plan_.samples = 64;
+  expect_refused("other scenarios");
+  options_.renew = true;
+  const auto renewed = sweep();
+  ASSERT_TRUE(renewed) << renewed.error().message;
+  EXPECT_EQ(renewed->reused, 1U);
+  const auto merged = merge_sweeps(std::vector{options_.out});
+  ASSERT_TRUE(merged);
+  EXPECT_EQ(merged->units.size(), 1U);
+  EXPECT_EQ(merged->others, 1U) << "the unit that is listed no more";
+}
+
+TEST_F(Sweep, MergesFoldersIntoOneDatabaseAndTable) {
+  options_.shard = {1, 2};
+  ASSERT_TRUE(sweep());
+  const fs::path first = options_.out;
+  options_.out = folder_.path() / "elsewhere";
+  options_.shard = {2, 2};
+  ASSERT_TRUE(sweep());
+  const auto merged = merge_sweeps(std::vector{first, options_.out});
+  ASSERT_TRUE(merged) << merged.error().message;
+  EXPECT_EQ(merged->count("done"), 2U);
+  EXPECT_EQ(merged->plans.size(), 1U);
+
+  const fs::path file = folder_.path() / "sweep.sqlite";
+  ASSERT_TRUE(write_sqlite(*merged, file));
+  ASSERT_TRUE(write_sqlite(*merged, file)) << "over an earlier one";
+  const SQLite::Database database(file.string());
+  SQLite::Statement query(database,
+                          "SELECT p.value, s.value, u.seed FROM units u JOIN parameters p "
+                          "USING (unit) JOIN scores s USING (unit) WHERE p.key = 'leg.rate_hz' "
+                          "AND s.key = 'm_end_m' AND u.outcome = 'done' ORDER BY p.value");
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(query.executeStep());
+    EXPECT_EQ(query.getColumn(0).getDouble(), i == 0 ? 100.0 : 200.0);
+    const UnitFolder folder((i == 0 ? first : options_.out) / "units");
+    EXPECT_EQ(query.getColumn(1).getDouble(), score_in(*folder.find(units_[i].id), "m_end_m"));
+    EXPECT_EQ(query.getColumn(2).getInt(), 1);
+  }
+  EXPECT_FALSE(query.executeStep());
+
+  const fs::path csv = folder_.path() / "sweep.csv";
+  ASSERT_TRUE(write_sweep_csv(*merged, csv));
+  const std::string text = read_file(csv).value();
+  EXPECT_NE(text.find("id,scenario,seed,estimator,outcome,leg.rate_hz,success"), std::string::npos);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+}
+
+TEST_F(Sweep, ADatabaseThatCannotBeWrittenIsNamed) {
+  const fs::path file = folder_.path() / "nowhere" / "sweep.sqlite";
+  const auto written = write_sqlite({}, file);
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().message.find(file.string() + ": cannot be written"), std::string::npos);
+  const auto merged = merge_sweeps(std::vector{folder_.path()});
+  ASSERT_FALSE(merged);
+  EXPECT_NE(merged.error().message.find("not the folder of a sweep"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace aims

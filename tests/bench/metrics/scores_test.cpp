@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/metrics/scores.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "tests/bench/metrics/trajectories.hpp"
+
+namespace aims {
+namespace {
+
+Scores scores_of(const Trajectory& estimate) {
+  return score(estimate, test::true_walk(), test::walk_passages(), ScoreConfig());
+}
+
+/// Every number of the scores that has a value.
+std::vector<double> numbers_of(const Scores& s) {
+  std::vector<double> numbers = {s.true_path_m};
+  const auto take = [&numbers](const std::optional<double>& value) {
+    if (value) numbers.push_back(*value);
+  };
+  for (const SegmentDistance& each : s.segments) {
+    numbers.push_back(each.true_distance_m);
+    take(each.estimated_distance_m);
+    take(each.percent);
+    take(each.signed_percent);
+  }
+  if (s.m_end) numbers.insert(numbers.end(), {s.m_end->norm_m, s.m_end->xy_m, s.m_end->z_m});
+  for (const auto& each :
+       {s.m_list_percent, s.ate_m, s.ate_se3_m, s.ate_yaw_m, s.max_error_m, s.max_abs_z_error_m}) {
+    take(each);
+  }
+  for (const RpeScore& each : s.rpe) {
+    take(each.translation_rmse_m);
+    take(each.rotation_rmse_rad);
+  }
+  const auto take_axes = [&numbers](const AxisError& e) {
+    numbers.insert(numbers.end(), {e.along_m, e.lateral_m, e.vertical_m, e.heading_rad});
+  };
+  if (s.drift) {
+    take_axes(s.drift->rmse);
+    take_axes(s.drift->max);
+    take_axes(s.drift->end);
+  }
+  for (const SegmentDrift& each : s.segment_drifts) {
+    if (each.at_end) take_axes(*each.at_end);
+  }
+  return numbers;
+}
+
+TEST(Scores, OfAPerfectEstimateAreZeroInAnyFrame) {
+  const Scores s = scores_of(test::perfect_walk());
+  EXPECT_TRUE(s.success);
+  EXPECT_EQ(s.lost_reason, LostReason::kNone);
+  EXPECT_EQ(s.poses_compared, s.poses);
+  EXPECT_NEAR(s.true_path_m, 2.0 * test::kLength, 1e-6);
+  EXPECT_NEAR(s.m_list_percent.value(), 0.0, 1e-9);
+  EXPECT_NEAR(s.m_end.value().norm_m, 0.0, 1e-9);
+  EXPECT_NEAR(s.ate_m.value(), 0.0, 1e-9);
+  EXPECT_NEAR(s.ate_yaw_m.value(), 0.0, 1e-9);
+  EXPECT_NEAR(s.ate_se3_m.value(), 0.0, 1e-9);
+  EXPECT_TRUE(s.ate_se3_degenerate) << "a straight corridor does not tell the roll";
+  ASSERT_EQ(s.rpe.size(), 2U);
+  EXPECT_NEAR(s.rpe[1].translation_rmse_m.value(), 0.0, 1e-9);
+}
+
+TEST(Scores, OfAScaleErrorCloseTheLoopYetShowInEachSegment) {
+  const Scores s = scores_of(test::estimated_walk([](double, Pose pose) {
+    pose.translation.x() *= 0.99;
+    return pose;
+  }));
+  EXPECT_NEAR(s.m_end.value().norm_m, 0.0, 1e-9);
+  EXPECT_NEAR(s.segments.at(0).signed_percent.value(), -1.0, 1e-9);
+  EXPECT_NEAR(s.segments.at(1).signed_percent.value(), -1.0, 1e-9);
+  EXPECT_NEAR(s.max_error_m.value(), 0.01 * test::kLength, 1e-9);
+}
+
+TEST(Scores, EndErrorIsSplitIntoHorizontalAndVertical) {
+  const Scores s = scores_of(test::estimated_walk([](double t, Pose pose) {
+    pose.translation += t / test::kEnd * Eigen::Vector3d(0.3, 0.4, -1.2);
+    return pose;
+  }));
+  EXPECT_NEAR(s.m_end.value().norm_m, 1.3, 1e-9);
+  EXPECT_NEAR(s.m_end->xy_m, 0.5, 1e-9);
+  EXPECT_NEAR(s.m_end->z_m, 1.2, 1e-9);
+  EXPECT_NEAR(s.max_abs_z_error_m.value(), 1.2, 1e-9);
+  EXPECT_GT(*s.ate_m, *s.ate_yaw_m);
+}
+
+TEST(Scores, AnInitialHeadingErrorSwingsTheFarEndAside) {
+  // The first pose is right, all later ones are turned by psi about the start.
+  const double psi = 0.01;
+  const Scores s = scores_of(test::estimated_walk([psi](double t, Pose pose) {
+    return t == 0.0 ? pose : Pose{yaw_rotation(psi), Eigen::Vector3d::Zero()} * pose;
+  }));
+  EXPECT_NEAR(s.max_error_m.value(), 2.0 * test::kLength * std::sin(0.5 * psi), 1e-9);
+  EXPECT_NEAR(s.m_list_percent.value(), 0.0, 1e-6);
+  EXPECT_NEAR(s.drift.value().max.lateral_m, test::kLength * std::sin(psi), 1e-9);
+  EXPECT_NEAR(s.drift->end.heading_rad, psi, 1e-9);
+}
+
+TEST(Scores, OfPoorDataAreMarkedAndFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Trajectory all_nan = test::perfect_walk();
+  for (StampedPose& each : all_nan) each.pose.translation.y() = nan;
+  Trajectory some_nan = test::perfect_walk();
+  for (std::size_t i = 0; i < some_nan.size(); i += 3) some_nan[i].pose.rotation.x() = nan;
+  Trajectory elsewhen = test::perfect_walk();
+  for (StampedPose& each : elsewhen) each.stamp += from_seconds(1e6);
+  Trajectory backwards = test::perfect_walk();
+  std::reverse(backwards.begin(), backwards.end());
+  Trajectory far = test::perfect_walk();
+  for (StampedPose& each : far) each.pose.translation *= 1e300;
+  Trajectory half = test::perfect_walk();
+  half.resize(half.size() / 2);
+  const Trajectory one = {test::perfect_walk().front()};
+  for (const Trajectory& poor :
+       {Trajectory(), all_nan, some_nan, elsewhen, backwards, far, half, one}) {
+    const Scores s = scores_of(poor);
+    EXPECT_FALSE(s.success);
+    EXPECT_NE(s.lost_reason, LostReason::kNone);
+    EXPECT_TRUE(s.lost_at);
+    for (const double number : numbers_of(s)) EXPECT_TRUE(std::isfinite(number));
+  }
+}
+
+TEST(Scores, WithoutTruthOrPassagesAreMarked) {
+  const ScoreConfig config;
+  EXPECT_FALSE(score(test::perfect_walk(), {}, test::walk_passages(), config).success);
+  const Scores s = score(test::perfect_walk(), test::true_walk(), {}, config);
+  EXPECT_TRUE(s.success);
+  EXPECT_FALSE(s.m_list_percent);
+  EXPECT_FALSE(s.drift);
+  EXPECT_TRUE(s.ate_m);
+}
+
+TEST(Scores, AnEstimateThatStopsHasNoEndError) {
+  Trajectory estimate = test::perfect_walk();
+  estimate.resize(estimate.size() / 2);
+  EXPECT_FALSE(scores_of(estimate).m_end);
+}
+
+TEST(Scores, OnePoseSaysNothing) {
+  const Trajectory truth = test::sampled(0.0, 1.0, 0.1, test::there_and_back);
+  const Scores s = score({truth[3]}, truth, {}, ScoreConfig());
+  EXPECT_FALSE(s.success);
+  EXPECT_FALSE(s.ate_m);
+  EXPECT_FALSE(s.m_end);
+}
+
+TEST(ScoreConfig, DefaultsLieInTheirRanges) {
+  ScoreConfig config;
+  for (const Parameter& each : fields_of(config).parameters()) {
+    EXPECT_TRUE(each.assign(each.text())) << each.key;
+    EXPECT_FALSE(each.spec.meaning.empty()) << each.key;
+  }
+}
+
+TEST(Scores, OverGivenSegmentsNamesAndPassagesCountForNothing) {
+  ScoreConfig config;
+  config.segments = {"x-y"};
+  const std::vector<Segment> half = {{"half", 0, from_seconds(20.0)}};
+  const Scores scores = score_over(test::estimated_walk([](double, Pose pose) {
+                                     pose.translation *= 0.9;
+                                     return pose;
+                                   }),
+                                   test::true_walk(), half, config);
+  ASSERT_EQ(scores.segments.size(), 1U);
+  EXPECT_EQ(scores.segments[0].segment.name, "half");
+  EXPECT_NEAR(scores.segments[0].true_distance_m, 20.0, 1e-9);
+  EXPECT_NEAR(*scores.m_list_percent, 10.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/metrics/success.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bench/metrics/alignment.hpp"
+#include "tests/bench/metrics/trajectories.hpp"
+
+namespace aims {
+namespace {
+
+SuccessVerdict verdict_of(const Trajectory& estimate) {
+  const Trajectory truth = test::true_walk();
+  const auto pairs = associate(valid_part(estimate), truth, Association::kInterpolated, 0);
+  return judge(estimate, truth, aligned(pairs, align_start(pairs)), SuccessLimits());
+}
+
+TEST(Success, OfAPerfectWalk) {
+  const SuccessVerdict verdict = verdict_of(test::perfect_walk());
+  EXPECT_EQ(verdict.reason, LostReason::kNone);
+  EXPECT_FALSE(verdict.lost_at);
+}
+
+TEST(Success, IsLostWhenTheErrorExceedsTheLimit) {
+  // A robot thought to stand still: the error x reaches 1 + 0.05 x at x = 1.0526.
+  const auto verdict = verdict_of(test::estimated_walk([](double, Pose pose) {
+    pose.translation.x() = 0.0;
+    return pose;
+  }));
+  EXPECT_EQ(verdict.reason, LostReason::kErrorLimit);
+  EXPECT_EQ(verdict.lost_at, from_seconds(1.1));
+}
+
+TEST(Success, AllowsWhatStaysInTheLimit) {
+  const auto verdict = verdict_of(test::estimated_walk([](double, Pose pose) {
+    pose.translation.x() *= 0.96;
+    return pose;
+  }));
+  EXPECT_EQ(verdict.reason, LostReason::kNone);
+}
+
+TEST(Success, IsLostAtThePoseThatIsNotFinite) {
+  Trajectory estimate = test::perfect_walk();
+  estimate[100].pose.translation.x() = std::numeric_limits<double>::quiet_NaN();
+  const auto verdict = verdict_of(estimate);
+  EXPECT_EQ(verdict.reason, LostReason::kInvalid);
+  EXPECT_EQ(verdict.lost_at, estimate[100].stamp);
+}
+
+TEST(Success, IsLostWhereTheEstimateEnds) {
+  Trajectory estimate = test::perfect_walk();
+  estimate.resize(500);
+  const auto verdict = verdict_of(estimate);
+  EXPECT_EQ(verdict.reason, LostReason::kEndsEarly);
+  EXPECT_EQ(verdict.lost_at, estimate.back().stamp);
+}
+
+TEST(Success, IsLostWhereTheEstimatePauses) {
+  Trajectory estimate = test::perfect_walk();
+  estimate.erase(estimate.begin() + 101, estimate.begin() + 200);
+  const auto verdict = verdict_of(estimate);
+  EXPECT_EQ(verdict.reason, LostReason::kGap);
+  EXPECT_EQ(verdict.lost_at, from_seconds(10.0));
+}
+
+TEST(Success, AllowsTheTimeToInitializeButNoMore) {
+  Trajectory estimate = test::perfect_walk();
+  estimate.erase(estimate.begin(), estimate.begin() + 30);
+  EXPECT_EQ(verdict_of(estimate).reason, LostReason::kNone);
+  estimate.erase(estimate.begin(), estimate.begin() + 5);
+  EXPECT_EQ(verdict_of(estimate).reason, LostReason::kStartsLate);
+}
+
+TEST(Success, NeedsPoses) {
+  EXPECT_EQ(verdict_of({}).reason, LostReason::kNoOverlap);
+  EXPECT_EQ(verdict_of({{0, Pose()}}).reason, LostReason::kNoOverlap);
+  EXPECT_EQ(judge({}, {}, {}, SuccessLimits()).reason, LostReason::kNoOverlap);
+}
+
+TEST(Success, EveryReasonHasAName) {
+  for (const auto reason : {LostReason::kNoOverlap, LostReason::kInvalid, LostReason::kStartsLate,
+                            LostReason::kGap, LostReason::kEndsEarly, LostReason::kErrorLimit}) {
+    EXPECT_FALSE(name_of(reason).empty());
+  }
+  EXPECT_EQ(name_of(LostReason::kNone), "");
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "bench/run/catalogue.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ScenarioFolder : public ::testing::Test {
+ protected:
+  void write(const fs::path& name, const char* yaml) const {
+    fs::create_directories((folder_.path() / name).parent_path());
+    std::ofstream(folder_.path() / name) << yaml;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ScenarioFolder, IsSearchedToItsDepthByBareName) {
+  write("plain.yaml", "seed: 4");
+  write("stress/loss/half.yaml", "{base: ../../plain.yaml, family: loss, level: 0.5}");
+  const auto file = find_scenario("half", folder_.path());
+  ASSERT_TRUE(file) << file.error().message;
+  const auto scenario = load_scenario(*file, {});
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  EXPECT_EQ(scenario->name, "half");
+  EXPECT_EQ(scenario->seed, 4);
+  EXPECT_EQ(scenario->family, "loss");
+  EXPECT_EQ(scenario->level, 0.5);
+  const auto typo = find_scenario("hall", folder_.path());
+  ASSERT_FALSE(typo);
+  EXPECT_NE(typo.error().message.find("did you mean 'half'?"), std::string::npos);
+}
+
+TEST_F(ScenarioFolder, RefusesTwoFilesOfOneName) {
+  write("a/same.yaml", "seed: 1");
+  write("b/same.yaml", "seed: 2");
+  const auto found = find_scenario("same", folder_.path());
+  ASSERT_FALSE(found);
+  EXPECT_NE(found.error().message.find("two scenarios of the same name"), std::string::npos);
+  EXPECT_FALSE(scenarios_in(folder_.path(), {}));
+}
+
+TEST(ShippedScenarios, LoadAndAreCalledAsTheirFiles) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files) << files.error().message;
+  EXPECT_FALSE(files->empty());
+  for (const auto& [file, scenario] : *files) {
+    ASSERT_TRUE(scenario) << scenario.error().message;
+    EXPECT_EQ(scenario->name, file.stem().string()) << "a name from a base?";
+  }
+}
+
+TEST(ShippedScenarios, OfAFamilyShareItsUnitAndDifferInLevel) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files);
+  std::map<std::string, std::string> units;
+  std::set<std::pair<std::string, double>> levels;
+  for (const auto& [file, scenario] : *files) {
+    if (!scenario || scenario->family.empty()) continue;
+    const auto [unit, is_new] = units.emplace(scenario->family, scenario->level_unit);
+    EXPECT_EQ(unit->second, scenario->level_unit) << file;
+    EXPECT_TRUE(levels.emplace(scenario->family, scenario->level).second) << file;
+  }
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/seeds.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aims {
+namespace {
+
+using Seeds = std::vector<std::uint64_t>;
+
+TEST(Seeds, OneSeedARangeAndAListAreUnderstood) {
+  EXPECT_EQ(parse_seeds("3").value(), Seeds({3}));
+  EXPECT_EQ(parse_seeds("1-4").value(), Seeds({1, 2, 3, 4}));
+  EXPECT_EQ(parse_seeds("7,1-3,2").value(), Seeds({7, 1, 2, 3}));
+}
+
+TEST(Seeds, AnythingElseIsRefusedWithTheTextGiven) {
+  for (const char* bad : {"", "a", "-1", "3-1", "1,", "1-", "1 2", "0-99999999"}) {
+    const auto parsed = parse_seeds(bad);
+    ASSERT_FALSE(parsed) << bad;
+    EXPECT_NE(parsed.error().message.find(std::string("'") + bad + "'"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace aims

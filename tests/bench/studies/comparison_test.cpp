@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "core/random.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+/// Runs of one scenario and estimator, seeds from 1, with these ATEs.
+std::vector<RunRecord> runs(const std::vector<double>& ates) {
+  std::vector<RunRecord> result;
+  for (const double ate : ates) {
+    RunRecord run;
+    run.seed = result.size() + 1;
+    run.scores["estimators"]["aims"] = {{"ate_m", ate}, {"success", ate < 5.0}};
+    result.push_back(std::move(run));
+  }
+  return result;
+}
+
+StoredResults results(const std::vector<double>& ates) { return {{"walk", runs(ates)}}; }
+
+const ScoreChange& ate_change(const Comparison& comparison) {
+  for (const ScoreChange& change : comparison.changes) {
+    if (change.score == "ate_m") return change;
+  }
+  throw std::runtime_error("no ATE was compared");
+}
+
+const std::vector<double> kBefore = {0.20, 0.35, 0.28, 0.22, 0.31, 0.40};
+
+std::vector<double> shifted(double by) {
+  std::vector<double> after = kBefore;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    after[i] += by + 0.002 * static_cast<double>(i % 3);
+  }
+  return after;
+}
+
+TEST(Compare, SaysWhatIsWorseOrBetterBeyondNoise) {
+  const auto worse = compare(results(kBefore), results(shifted(0.1)));
+  EXPECT_EQ(ate_change(worse).verdict, ChangeVerdict::kWorse);
+  EXPECT_NEAR(ate_change(worse).change, 0.102, 1e-9);
+  EXPECT_EQ(ate_change(worse).seeds, 6U);
+  const auto better = compare(results(shifted(0.1)), results(kBefore));
+  EXPECT_EQ(ate_change(better).verdict, ChangeVerdict::kBetter);
+}
+
+TEST(Compare, PairsSeedsSoThatTheirSpreadDoesNotHideAChange) {
+  // The change is a fifth of the spread over seeds.
+  EXPECT_EQ(ate_change(compare(results(kBefore), results(shifted(0.015)))).verdict,
+            ChangeVerdict::kWorse);
+}
+
+TEST(Compare, PassesOverSmallChangesAndNoise) {
+  EXPECT_EQ(ate_change(compare(results(kBefore), results(shifted(0.004)))).verdict,
+            ChangeVerdict::kNone)
+      << "below the floor of 1 cm";
+  std::vector<double> noisy = kBefore;
+  noisy[0] += 0.5;
+  noisy[1] -= 0.2;
+  noisy[2] -= 0.1;
+  EXPECT_EQ(ate_change(compare(results(kBefore), results(noisy))).verdict, ChangeVerdict::kNone);
+}
+
+TEST(Compare, OfTheSameResultsFindsNothingAndExpectsNothing) {
+  const Comparison same = compare(results(kBefore), results(kBefore));
+  EXPECT_EQ(count(same, ChangeVerdict::kNone), same.changes.size());
+  EXPECT_EQ(same.expected_false_alarms, 0.0);
+  EXPECT_TRUE(same.only_before.empty());
+}
+
+TEST(Compare, ExpectsAsManyFalseAlarmsAsThereAre) {
+  // Where nothing changed but by chance, the verdicts must be as many as were announced.
+  RandomStream random = rng(7, "test.compare");
+  double expected = 0.0;
+  std::size_t found = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<double> before(5);
+    std::vector<double> after(5);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      before[i] = 1.0 + 0.1 * random.normal();
+      after[i] = before[i] + 0.2 * random.normal();
+    }
+    const Comparison comparison = compare(results(before), results(after));
+    expected += ate_change(comparison).false_alarm;
+    found += ate_change(comparison).verdict != ChangeVerdict::kNone;
+  }
+  EXPECT_GT(expected, 10.0) << "five seeds cannot keep chance out";
+  EXPECT_NEAR(static_cast<double>(found), expected, 4.0 * std::sqrt(expected));
+}
+
+TEST(Compare, WithOneCommonSeedKnowsNothingOfNoise) {
+  const Comparison one = compare(results({0.2}), results({0.4, 0.1}));
+  EXPECT_EQ(ate_change(one).verdict, ChangeVerdict::kUnknown);
+  EXPECT_EQ(ate_change(one).interval, Interval{});
+  EXPECT_NE(summary_text(one).find("one seed"), std::string::npos);
+  EXPECT_EQ(one.only_after, std::vector<std::string>({"walk, aims, seed 2"}));
+}
+
+TEST(Compare, MoreSuccessIsBetter) {
+  const auto lost = results({9.0, 9.0, 9.0, 9.0});
+  const auto found = results({0.1, 0.1, 0.1, 0.1});
+  for (const ScoreChange& change : compare(lost, found).changes) {
+    EXPECT_EQ(change.verdict, ChangeVerdict::kBetter) << change.score;
+  }
+}
+
+TEST(StoredResults, OfAnEmptyFolderAreAnError) {
+  const TemporaryFolder folder;
+  const auto none = read_results(folder.path());
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("holds no finished results"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace aims

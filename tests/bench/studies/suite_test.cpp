@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/suite.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+
+#include "bench/studies/families.hpp"
+#include "core/files/folder_lock.hpp"
+#include "bench/jobs/unit_id.hpp"
+#include "core/files/atomic_file.hpp"
+#include "tests/bench/run/short_walk.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+using test::keep_going;
+using test::options_for;
+
+Scenario short_walk(const std::string& name, double range) {
+  Scenario scenario = test::short_walk(name);
+  scenario.family = "range";
+  scenario.level = range;
+  scenario.level_unit = "m";
+  scenario.simulation.lidar.range_max = range;
+  return scenario;
+}
+
+std::vector<ScenarioFile> two_walks() {
+  return {{"near.yaml", short_walk("near", 3.0)}, {"far.yaml", short_walk("far", 20.0)}};
+}
+
+Suite run_or_die(std::vector<ScenarioFile> scenarios, const SuiteOptions& options) {
+  auto suite = run_suite(std::move(scenarios), options, keep_going);
+  EXPECT_TRUE(suite) << suite.error().message;
+  return suite ? std::move(*suite) : Suite{};
+}
+
+/// Everything that a suite reports, by file, but for the times.
+std::map<std::string, std::string> reports(const fs::path& folder) {
+  std::map<std::string, std::string> texts;
+  for (const char* name : {"suite.json", "suite.csv", "suite.md", "families/range.png"}) {
+    const auto text = read_file(folder / name);
+    EXPECT_TRUE(text) << name;
+    texts[name] = text.value_or("");
+  }
+  return texts;
+}
+
+/// Expects equal reports without printing them.
+void expect_same(const std::map<std::string, std::string>& a,
+                 const std::map<std::string, std::string>& b) {
+  for (const auto& [name, text] : a) {
+    if (text == b.at(name)) continue;
+    const auto at = std::mismatch(text.begin(), text.end(), b.at(name).begin(), b.at(name).end());
+    const auto begin = static_cast<std::size_t>(at.first - text.begin());
+    ADD_FAILURE() << name << " differs at byte " << begin << ":\n"
+                  << text.substr(begin, 80) << "\n"
+                  << b.at(name).substr(begin, 80);
+  }
+}
+
+/// One finished suite that the tests copy, so that little is simulated.
+class SuiteRuns : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new TemporaryFolder;
+    run_or_die(two_walks(), options_for(shared_->path() / "done"));
+  }
+  static void TearDownTestSuite() { delete shared_; }
+
+  fs::path copy() const {
+    fs::copy(shared_->path() / "done", folder_.path() / "copy", fs::copy_options::recursive);
+    return folder_.path() / "copy";
+  }
+
+  static TemporaryFolder* shared_;
+  TemporaryFolder folder_;
+};
+
+TemporaryFolder* SuiteRuns::shared_ = nullptr;
+
+TEST_F(SuiteRuns, GiveTheSameBytesForAnyNumberOfJobs) {
+  const Suite suite = run_or_die(two_walks(), options_for(folder_.path() / "two", 2));
+  EXPECT_EQ(suite.runs_done, 4U);
+  expect_same(reports(shared_->path() / "done"), reports(folder_.path() / "two"));
+}
+
+TEST_F(SuiteRuns, AreNeverRepeated) {
+  const fs::path out = copy();
+  const auto before = reports(out);
+  const Suite again = run_or_die(two_walks(), options_for(out));
+  EXPECT_EQ(again.runs_done, 0U);
+  EXPECT_EQ(again.runs_reused, 4U);
+  expect_same(before, reports(out));
+}
+
+TEST_F(SuiteRuns, ResumeToTheSameReportAfterALossOrABrokenFile) {
+  const fs::path out = copy();
+  const auto before = reports(out);
+  fs::remove_all(out / "runs" / "near" / "seed-2");
+  std::ofstream(out / "runs" / "far" / "seed-1" / "scores.json") << R"({"schema": "aims.sco)";
+  const Suite again = run_or_die(two_walks(), options_for(out, 2));
+  EXPECT_EQ(again.runs_done, 2U);
+  ASSERT_EQ(again.notes.size(), 1U);
+  EXPECT_NE(again.notes[0].find("far/seed-1"), std::string::npos) << again.notes[0];
+  expect_same(before, reports(out));
+}
+
+TEST_F(SuiteRuns, ContinueWhereTheyWereStopped) {
+  const fs::path out = folder_.path() / "stopped";
+  const auto stopped = run_suite(two_walks(), options_for(out),
+                                 [](const SuiteProgress& progress) { return progress.done < 2; });
+  ASSERT_TRUE(stopped);
+  EXPECT_FALSE(stopped->complete);
+  EXPECT_EQ(stopped->runs_done, 2U);
+  EXPECT_EQ(Json::parse(std::ifstream(out / "suite.json"))["complete"], false);
+  const Suite rest = run_or_die(two_walks(), options_for(out));
+  EXPECT_EQ(rest.runs_done, 2U);
+  expect_same(reports(out), reports(shared_->path() / "done"));
+}
+
+TEST_F(SuiteRuns, RunOnlyTheEstimatorsThatAreMissingOrOfAnotherConfiguration) {
+  const fs::path out = copy();
+  const auto before = reports(out);
+  const fs::path file = out / "runs" / "near" / "seed-1" / "scores.json";
+  Json scores = Json::parse(std::ifstream(file));
+  scores["estimators"]["leg"]["ate_m"] = 123.0;  // shows that it is kept
+  scores["units"]["aims"] = "0123456789abcdef";
+  std::ofstream(file) << scores;
+  const Suite again = run_or_die(two_walks(), options_for(out));
+  EXPECT_EQ(again.runs_done, 1U);
+  ASSERT_EQ(again.notes.size(), 1U);
+  EXPECT_NE(again.notes[0].find("near seed 1: aims of another"), std::string::npos);
+  const Json merged = Json::parse(std::ifstream(file));
+  EXPECT_EQ(merged["estimators"]["leg"]["ate_m"], 123.0);
+  EXPECT_TRUE(merged["times_s"]["estimators"].contains("leg"));
+}
+
+TEST_F(SuiteRuns, GoOnPastAScenarioThatCannotRun) {
+  const fs::path out = copy();
+  std::vector<ScenarioFile> scenarios = two_walks();
+  Scenario in_wall = short_walk("in_wall", 5.0);
+  in_wall.simulation.route.points = {{"a", 0.0, 1.1}, {"b", 3.0, 1.1}};
+  scenarios.push_back({"in_wall.yaml", in_wall});
+  scenarios.push_back({"broken.yaml", failure("broken.yaml:1: no")});
+  const Suite suite = run_or_die(std::move(scenarios), options_for(out));
+  EXPECT_TRUE(suite.complete);
+  EXPECT_EQ(suite.runs_reused, 4U);
+  ASSERT_EQ(suite.failures.size(), 3U);  // the broken file, and two seeds in the wall
+  EXPECT_EQ(suite.failures[0].scenario, "broken");
+  EXPECT_EQ(suite.failures[1].seed, 1U);
+  EXPECT_EQ(Json::parse(std::ifstream(out / "suite.json"))["failures"].size(), 3U);
+}
+
+TEST_F(SuiteRuns, CheckTheGatesOverTheirSeeds) {
+  std::vector<ScenarioFile> scenarios = two_walks();
+  scenarios[0].scenario->expect = {{"aims", "success", kNoLimit, 1.0, GateStatistic::kMean},
+                                   {"leg", "ate_m", kNoLimit, 50.0, GateStatistic::kMedian}};
+  const Suite suite = run_or_die(std::move(scenarios), options_for(copy()));
+  EXPECT_EQ(suite.runs_done, 0U) << "an expectation decides no run";
+  ASSERT_EQ(suite.cases[0].gates.size(), 2U);
+  EXPECT_TRUE(suite.cases[0].gates[0].holds);
+  EXPECT_FALSE(suite.cases[0].gates[1].holds);
+}
+
+TEST_F(SuiteRuns, RefuseAFolderOfSomethingElseAndOneInUse) {
+  std::ofstream(folder_.path() / "thesis.tex") << "years of work";
+  const auto other = run_suite(two_walks(), options_for(folder_.path()), keep_going);
+  ASSERT_FALSE(other);
+  EXPECT_NE(other.error().message.find("no suite's folder"), std::string::npos);
+  const fs::path out = copy();
+  const auto lock = FolderLock::take(out);
+  ASSERT_TRUE(lock);
+  const auto used = run_suite(two_walks(), options_for(out), keep_going);
+  ASSERT_FALSE(used);
+  EXPECT_NE(used.error().message.find("another suite"), std::string::npos);
+}
+
+TEST(UnitId, DependsOnWhatDecidesARunAndOnNothingElse) {
+  const Scenario scenario = short_walk("a", 5.0);
+  const std::string id = unit_id(scenario, 1, "aims");
+  EXPECT_EQ(id.size(), 16U);
+  EXPECT_NE(id, unit_id(scenario, 2, "aims"));
+  EXPECT_NE(id, unit_id(scenario, 1, "leg"));
+  EXPECT_NE(id, unit_id(short_walk("a", 6.0), 1, "aims"));
+  Scenario same = scenario;
+  same.name = "b";
+  same.description = "other words";
+  same.tags = {"more"};
+  same.level = 7.0;
+  same.estimators = {"aims"};
+  same.expect = {{"aims", "ate_m", 1.0}};
+  same.file = "/elsewhere/b.yaml";
+  EXPECT_EQ(id, unit_id(same, 1, "aims"));
+  same.estimator.degeneracy.eta += 1.0;
+  EXPECT_NE(id, unit_id(same, 1, "aims"));
+  same = scenario;
+  same.scoring.lost_error_offset += 1.0;
+  EXPECT_NE(id, unit_id(same, 1, "aims"));
+}
+
+/// A case of a family with one run per ATE.
+SuiteCase family_case(double level, const std::vector<double>& ates, bool success) {
+  SuiteCase each;
+  each.scenario.name = "case";
+  each.scenario.family = "f";
+  each.scenario.level = level;
+  each.scenario.estimators = {"aims"};
+  for (const double ate : ates) {
+    RunRecord run;
+    run.seed = each.runs.size() + 1;
+    run.scores["estimators"]["aims"] = {{"ate_m", ate}, {"success", success}};
+    each.runs.push_back(std::move(run));
+  }
+  return each;
+}
+
+TEST(Families, BreakWhereTheErrorDoublesOrRunsAreLostOnEitherSideOfTheMildest) {
+  Suite suite;
+  suite.cases = {family_case(20.0, {0.1, 0.12}, false), family_case(-10.0, {0.3, 0.25}, true),
+                 family_case(0.0, {0.1, 0.1}, true), family_case(10.0, {0.19, 0.19}, true)};
+  const auto families = family_results(suite);
+  ASSERT_EQ(families.size(), 1U);
+  EXPECT_EQ(families[0].mildest, 0.0);
+  ASSERT_EQ(families[0].curves.size(), 1U);
+  EXPECT_EQ(families[0].curves[0].points.front().level, -10.0);
+  EXPECT_EQ(families[0].curves[0].breaks_at, std::vector<double>({-10.0, 20.0}));
+}
+
+TEST(Families, OfOneLevelAreNone) {
+  Suite suite;
+  suite.cases = {family_case(1.0, {0.1}, true)};
+  EXPECT_TRUE(family_results(suite).empty());
+}
+
+}  // namespace
+}  // namespace aims

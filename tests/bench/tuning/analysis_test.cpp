@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/random.hpp"
+
+namespace aims {
+namespace {
+
+/// Score of a point on a walk.
+using Score = std::function<double(const std::vector<double>& point, const ResponseCase& on)>;
+
+std::vector<ParameterRange> ranges_of(const std::vector<std::string>& texts) {
+  std::vector<ParameterRange> ranges;
+  for (const std::string& text : texts) ranges.push_back(parse_range(text).value());
+  return ranges;
+}
+
+ResponseTable table_of(std::vector<ParameterRange> ranges, std::vector<double> defaults,
+                       std::vector<std::vector<double>> points, int seeds, const Score& score) {
+  ResponseTable table;
+  table.ranges = std::move(ranges);
+  table.defaults = std::move(defaults);
+  table.points = std::move(points);
+  for (const char* scenario : {"flat", "steep"}) {
+    for (int seed = 1; seed <= seeds; ++seed) {
+      table.cases.push_back({scenario, scenario, static_cast<std::uint64_t>(seed)});
+    }
+  }
+  const auto runs_at = [&](const std::vector<double>& point) {
+    std::vector<RunScore> runs;
+    for (const ResponseCase& on : table.cases) runs.push_back({score(point, on), false});
+    return runs;
+  };
+  for (const auto& point : table.points) table.runs.push_back(runs_at(point));
+  table.default_runs = runs_at(table.defaults);
+  return table;
+}
+
+/// Least at a = 2, b = 10, more so on "steep"; seeds scatter the scores a little.
+double bowl(const std::vector<double>& point, const ResponseCase& on) {
+  RandomStream random = rng(on.seed, "test." + on.scenario);
+  const double steep = on.scenario == "steep" ? 3.0 : 1.0;
+  const double shape =
+      1.0 + steep * (std::pow(point[0] - 2.0, 2) / 4.0 + std::pow(std::log10(point[1]) - 1.0, 2));
+  return shape * std::exp(0.1 * random.normal());
+}
+
+ResponseTable bowl_grid(int seeds) {
+  auto ranges = ranges_of({"a=0:6:13", "b=log(1,100,5)"});
+  auto points = design(DesignKind::kGrid, ranges, 0, 1);
+  return table_of(ranges, {4.1, 30.0}, points, seeds, bowl);
+}
+
+Objective absolute() {
+  Objective objective;
+  objective.relative = false;
+  return objective;
+}
+
+RunScore lost() { return {std::nullopt, true}; }
+
+TEST(Objective, StatisticsAreThoseOfTheScores) {
+  const std::vector<RunScore> runs = {{3.0, false}, {1.0, false}, {2.0, false}, {10.0, false}};
+  Objective objective = absolute();
+  EXPECT_DOUBLE_EQ(*objective_value(objective, runs, {}), 2.5);
+  objective.statistic = ObjectiveStatistic::kMean;
+  EXPECT_DOUBLE_EQ(*objective_value(objective, runs, {}), 4.0);
+  objective.statistic = ObjectiveStatistic::kWorst;
+  EXPECT_DOUBLE_EQ(*objective_value(objective, runs, {}), 10.0);
+  objective.statistic = ObjectiveStatistic::kQuantile;
+  objective.quantile = 1.0 / 3.0;
+  EXPECT_DOUBLE_EQ(*objective_value(objective, runs, {}), 2.0);
+}
+
+TEST(Objective, EachLostRunMakesItWorse) {
+  const Objective objective = absolute();
+  std::vector<RunScore> runs(5, {1.0, false});
+  double before = *objective_value(objective, runs, {});
+  for (RunScore& run : runs) {
+    run = lost();
+    const double after = *objective_value(objective, runs, {});
+    EXPECT_GT(after, before);
+    before = after;
+  }
+  EXPECT_DOUBLE_EQ(before, 2.0 * objective.lost_penalty);
+}
+
+TEST(Objective, ALostRunNeverCountsLessThanItsScore) {
+  Objective objective = absolute();
+  objective.statistic = ObjectiveStatistic::kWorst;
+  EXPECT_DOUBLE_EQ(*objective_value(objective, std::vector<RunScore>{{70.0, true}}, {}), 80.0);
+  EXPECT_DOUBLE_EQ(*objective_value(objective, std::vector<RunScore>{{0.1, true}}, {}), 20.0);
+}
+
+TEST(Objective, RelativeScoresAreHeldAgainstTheDefaultsOnTheSameWalk) {
+  const Objective objective;
+  const std::vector<RunScore> reference = {{0.1, false}, {4.0, false}, {1.0, false}};
+  EXPECT_DOUBLE_EQ(*objective_value(objective, reference, reference), 1.0);
+  const std::vector<RunScore> runs = {{0.05, false}, {2.0, false}, {0.5, false}};
+  EXPECT_DOUBLE_EQ(*objective_value(objective, runs, reference), 0.5);
+  EXPECT_FALSE(objective_value(objective, runs, {}));
+}
+
+TEST(Objective, WithoutScoresThereIsNone) {
+  EXPECT_FALSE(objective_value(absolute(), {}, {}));
+  EXPECT_FALSE(objective_value(absolute(), std::vector<RunScore>{{std::nullopt, false}}, {}));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(objective_value(absolute(), std::vector<RunScore>{{nan, false}}, {}));
+}
+
+TEST(BestPoint, IsTheLeastOfTheGridWithItsGainOverTheDefaults) {
+  const ResponseTable table = bowl_grid(8);
+  const auto best = best_point(table, absolute());
+  ASSERT_TRUE(best);
+  EXPECT_EQ(best->values, (std::vector<double>{2.0, 10.0}));
+  EXPECT_NEAR(*best->gain, 1.0 - best->objective / *best->defaults, 1e-12);
+  EXPECT_GT(*best->gain_interval.low, 0.3);
+  EXPECT_LT(*best->objective_interval.low, best->objective);
+  EXPECT_NEAR(best->distance[0], (2.0 - 4.1) / 6.0, 1e-9);
+  EXPECT_NEAR(best->distance[1], (1.0 - std::log10(30.0)) / 2.0, 1e-9);
+  for (std::size_t i = 0; i < 2; ++i) {  // no draw of seeds moves this least
+    EXPECT_EQ(best->between[i].low, best->values[i]);
+    EXPECT_EQ(best->between[i].high, best->values[i]);
+  }
+}
+
+TEST(BestPoint, OfParametersThatSeedsDisagreeOnIsWide) {
+  const auto ranges = ranges_of({"a=0:6:13"});
+  const auto table = table_of(ranges, {3.0}, design(DesignKind::kGrid, ranges, 0, 1), 12,
+                              [](const std::vector<double>& point, const ResponseCase& on) {
+                                const double best = on.seed % 2 == 0 ? 1.0 : 5.0;
+                                return 1.0 + std::abs(point[0] - best);
+                              });
+  Objective objective = absolute();
+  objective.statistic = ObjectiveStatistic::kMean;
+  const auto best = best_point(table, objective);
+  ASSERT_TRUE(best);
+  EXPECT_LE(*best->between[0].low, 1.0);
+  EXPECT_GE(*best->between[0].high, 5.0);
+}
+
+TEST(BestPoint, OfOneSeedHasNoIntervals) {
+  const auto best = best_point(bowl_grid(1), absolute());
+  ASSERT_TRUE(best);
+  EXPECT_EQ(best->gain_interval, Interval{});
+  EXPECT_EQ(best->between[0], Interval{});
+}
+
+TEST(BestPoint, NeedsAScore) {
+  ResponseTable table = bowl_grid(2);
+  for (auto& runs : table.runs) runs.assign(runs.size(), {std::nullopt, false});
+  const auto best = best_point(table, absolute());
+  ASSERT_FALSE(best);
+  EXPECT_NE(best.error().message.find("'ate_m'"), std::string::npos);
+}
+
+TEST(Sensitivity, TellsWhichParameterDoesNotMatter) {
+  const auto ranges = ranges_of({"a=0:6", "b=log(1,100)", "inert=0:1"});
+  const auto table =
+      table_of(ranges, {4.0, 30.0, 0.5}, design(DesignKind::kSobol, ranges, 96, 1), 3, bowl);
+  const auto sensitivity = sensitivity_of(table, absolute());
+  ASSERT_TRUE(sensitivity);
+  EXPECT_TRUE(sensitivity->logarithmic);
+  EXPECT_TRUE(sensitivity->trustworthy());
+  EXPECT_FALSE(sensitivity->does_not_matter(0));
+  EXPECT_FALSE(sensitivity->does_not_matter(1));
+  EXPECT_TRUE(sensitivity->does_not_matter(2));
+}
+
+TEST(Sensitivity, OfNoiseTrustsNothing) {
+  const auto ranges = ranges_of({"a=0:6", "b=0:1"});
+  RandomStream random = rng(1, "test.noise");
+  const auto table = table_of(
+      ranges, {3.0, 0.5}, design(DesignKind::kSobol, ranges, 64, 1), 2,
+      [&](const std::vector<double>&, const ResponseCase&) { return std::exp(random.normal()); });
+  const auto sensitivity = sensitivity_of(table, absolute());
+  ASSERT_TRUE(sensitivity);
+  EXPECT_FALSE(sensitivity->trustworthy());
+  EXPECT_FALSE(sensitivity->does_not_matter(0));
+  EXPECT_TRUE(curve_of(table, absolute(), 0).points.empty());
+}
+
+TEST(Slice, OfAGridIsMeasuredNextToTheDefaults) {
+  const ResponseTable table = bowl_grid(4);
+  const Slice curve = curve_of(table, absolute(), 0, "steep");
+  EXPECT_TRUE(curve.measured);
+  ASSERT_EQ(curve.points.size(), 13U);
+  const auto cases = cases_of(table, "steep");
+  for (const SlicePoint& point : curve.points) {
+    // 30 lies next to 31.6 of the grid's 1, 3.16, 10, 31.6, 100
+    std::size_t row = 0;
+    while (table.points[row][0] != point.x || std::abs(table.points[row][1] - 31.6) > 0.1) ++row;
+    EXPECT_EQ(point.objective, objective_at(table, absolute(), row, cases));
+    EXPECT_LE(*point.interval.low, *point.objective);
+    EXPECT_GE(*point.interval.high, *point.objective);
+  }
+}
+
+TEST(Slice, MapOfAGridHasEveryCell) {
+  const Slice map = map_of(bowl_grid(2), absolute(), 0, 1);
+  EXPECT_TRUE(map.measured);
+  ASSERT_EQ(map.points.size(), 65U);
+  EXPECT_EQ(map.points[1].x, 0.5);
+  EXPECT_EQ(map.points[1].y, 1.0);
+}
+
+TEST(Slice, OfScatteredPointsFollowsTheSurrogate) {
+  const auto ranges = ranges_of({"a=0:6", "b=log(1,100)"});
+  const auto table =
+      table_of(ranges, {2.0, 10.0}, design(DesignKind::kSobol, ranges, 96, 1), 4, bowl);
+  const Slice curve = curve_of(table, absolute(), 0);
+  EXPECT_FALSE(curve.measured);
+  ASSERT_FALSE(curve.points.empty());
+  EXPECT_EQ(curve.points.front().x, 0.0);
+  EXPECT_EQ(curve.points.back().x, 6.0);
+  const double least = *curve.points[8].objective;  // at a = 2
+  EXPECT_GT(*curve.points.front().objective, 1.3 * least);
+  EXPECT_GT(*curve.points.back().objective, 2.0 * least);
+  EXPECT_EQ(map_of(table, absolute(), 0, 1).points.size(), 24U * 24U);
+}
+
+TEST(Slice, OfACrowdEndsWhereNothingWasRun) {
+  const auto ranges = ranges_of({"a=0:6", "b=log(1,100)"});
+  auto points = design(DesignKind::kSobol, ranges, 96, 1);
+  for (auto& point : points) point[0] *= 0.3;
+  const auto table = table_of(ranges, {1.0, 10.0}, points, 4, bowl);
+  const Slice curve = curve_of(table, absolute(), 0);
+  ASSERT_FALSE(curve.points.empty());
+  EXPECT_TRUE(curve.points.front().objective.has_value());
+  EXPECT_EQ(curve.points.back().x, 6.0);
+  EXPECT_FALSE(curve.points.back().objective.has_value());
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/files/csv_columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/files/csv.hpp"
+
+namespace aims {
+namespace {
+
+TEST(CsvColumns, GivesBackWhatCsvTableWrote) {
+  CsvTable table({"name", "x, in m", "flag"});
+  table.add("plain").add(0.1).add(true).end_row();
+  table.add("say \"so\",\nplease").add(1e-300).add(false).end_row();
+  table.add("").end_row();
+  const auto back = CsvColumns::parse(table.text(), "t.csv");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->rows(), 3U);
+  EXPECT_EQ(back->texts("name"), (std::vector<std::string>{"plain", "say \"so\",\nplease", ""}));
+  const auto x = back->numbers("x, in m");
+  ASSERT_TRUE(x);
+  EXPECT_EQ((*x)[0], 0.1);
+  EXPECT_EQ((*x)[1], 1e-300);
+  EXPECT_TRUE(std::isnan((*x)[2]));
+  EXPECT_EQ((*back->numbers("flag"))[0], 1.0);
+  EXPECT_EQ((*back->numbers("flag"))[1], 0.0);
+}
+
+TEST(CsvColumns, ColumnThatIsNotThereHasNoNumbers) {
+  const auto table = CsvColumns::parse("a\n1\n", "t.csv");
+  ASSERT_TRUE(table);
+  EXPECT_FALSE(table->has("b"));
+  EXPECT_TRUE(table->numbers("b")->empty());
+  EXPECT_TRUE(table->texts("b").empty());
+}
+
+TEST(CsvColumns, NamesTheLineOfARowThatWasCutAndOfACellThatIsNoNumber) {
+  const auto refused = [](const std::string& text, const std::string& expected) {
+    const auto table = CsvColumns::parse(text, "t.csv");
+    const auto numbers = table ? table->numbers("a") : Result<std::vector<double>>();
+    const Error error = table ? numbers ? Error{} : numbers.error() : table.error();
+    EXPECT_NE(error.message.find(expected), std::string::npos) << error.message;
+  };
+  refused("", "t.csv:1");
+  refused("a,b", "t.csv:1");
+  refused("a,b\n1,2\n3", "t.csv:3: expected 2 cells");
+  refused("a,b\n1,2\n3,4", "t.csv:3: expected 2 cells and a line end, found 2 cells, cut short");
+  refused("a,b\n1\n", "t.csv:2: expected 2 cells");
+  refused("a,b\n\"1\n2\",3\n\"open,4\n", "t.csv:4");
+  refused("a,b\n\"x\ny\",3\n", "t.csv:2: a: expected a number");
+}
+
+TEST(CsvColumns, TakesCarriageReturns) {
+  const auto table = CsvColumns::parse("a,b\r\n1,2\r\n", "t.csv");
+  ASSERT_TRUE(table);
+  EXPECT_EQ(*table->numbers("b"), std::vector<double>{2.0});
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/files/passages.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aims {
+namespace {
+
+std::string message_of(std::string_view text) {
+  const auto parsed = parse_passages(text, "p.csv");
+  return parsed ? "" : parsed.error().message;
+}
+
+TEST(Passages, RowsAreReadInOrder) {
+  const auto passages =
+      parse_passages("point,stamp_s\r\na,2.5\r\n\"b, \"\"far\"\"\",2.5\n\nc,1e2\n", "p.csv");
+  ASSERT_TRUE(passages) << passages.error().message;
+  ASSERT_EQ(passages->size(), 3U);
+  EXPECT_EQ((*passages)[0].point, "a");
+  EXPECT_EQ((*passages)[0].stamp, 2'500'000'000);
+  EXPECT_EQ((*passages)[1].point, "b, \"far\"");
+  EXPECT_EQ((*passages)[2].stamp, 100 * kSecond);
+}
+
+TEST(Passages, ErrorsNameFileAndLine) {
+  EXPECT_EQ(message_of(""), "p.csv:1: expected the header 'point,stamp_s'");
+  EXPECT_EQ(message_of("a,1\n"), "p.csv:1: expected the header 'point,stamp_s', found 'a,1'");
+  EXPECT_EQ(message_of("point,stamp_s\na\n"),
+            "p.csv:2: expected a point and its stamp in seconds, as a,12.5; found 'a'");
+  EXPECT_NE(message_of("point,stamp_s\na,x\n").find("p.csv:2:"), std::string::npos);
+  EXPECT_NE(message_of("point,stamp_s\n\"a,1\n").find("p.csv:2:"), std::string::npos);
+  EXPECT_EQ(message_of("point,stamp_s\na,2\nb,1\n"),
+            "p.csv:3: expected a stamp not before 2.000000000, found 1.000000000");
+}
+
+}  // namespace
+}  // namespace aims

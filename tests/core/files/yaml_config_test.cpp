@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/files/yaml_config.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+// rapidcheck's gtest glue needs both headers above it.
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "core/files/atomic_file.hpp"
+#include "core/files/config_dump.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Model { kPoint, kRolling };
+
+struct Waypoint {
+  std::string name = "p";
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  std::vector<std::string> tags;
+};
+
+struct Inner {
+  double eta = 3.0;
+  int count = 5;
+  bool enabled = true;
+  Model model = Model::kPoint;
+};
+
+struct Sample {
+  std::string name = "corridor";
+  Eigen::Vector3d gravity = Eigen::Vector3d(0.0, 0.0, -9.81);
+  std::vector<std::string> estimators = {"aims", "lio"};
+  Inner inner;
+  std::vector<Waypoint> points = std::vector<Waypoint>(1);
+};
+
+void describe(Fields& f, Waypoint& c) {
+  f.text("name", c.name, {.meaning = "Name."});
+  f.vector("position", c.position, {.unit = "m", .meaning = "Place."});
+  f.texts("tags", c.tags, {.meaning = "Tags."});
+}
+
+void describe(Fields& f, Inner& c) {
+  f.number("eta", c.eta,
+           {.unit = "-", .range = at_least(0.0), .meaning = "Sensitivity.", .source = "eq. (8)"});
+  f.integer("count", c.count, {.range = in_range(1, 9), .meaning = "Count."});
+  f.flag("enabled", c.enabled, {.meaning = "Switch."});
+  f.choice("model", c.model, {{"point", Model::kPoint}, {"rolling", Model::kRolling}},
+           {.meaning = "Foot."});
+}
+
+void describe(Fields& f, Sample& c) {
+  f.text("name", c.name, {.meaning = "Name."});
+  f.vector("gravity", c.gravity, {.unit = "m/s^2", .meaning = "Gravity."});
+  f.texts("estimators", c.estimators, {.meaning = "Who runs."});
+  f.group("inner", c.inner);
+  f.list("points", c.points, "Route.");
+}
+
+/// The message of loading that text, or "" when it loads.
+std::string message_of(std::string_view text) {
+  Sample config;
+  const auto loaded = load_config_text(text, "s.yaml", config);
+  return loaded ? "" : loaded.error().message;
+}
+
+fs::path write(const fs::path& file, std::string_view text) {
+  EXPECT_TRUE(write_file_atomically(file, text));
+  return file;
+}
+
+TEST(YamlConfig, ReadsEveryKindOfField) {
+  Sample c;
+  const auto loaded = load_config_text(R"(
+name: "two words"
+gravity: [1, 2.5, -3e2]
+estimators: [aims, 'a, b']
+inner: {eta: 0.5, count: 7, enabled: false, model: rolling}
+points:
+  - name: a
+  - {name: b, position: [1, 2], tags: [x]}
+)",
+                                       "s.yaml", c);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(c.name, "two words");
+  EXPECT_EQ(c.gravity, Eigen::Vector3d(1.0, 2.5, -300.0));
+  EXPECT_EQ(c.estimators, (std::vector<std::string>{"aims", "a, b"}));
+  EXPECT_EQ(c.inner.eta, 0.5);
+  EXPECT_EQ(c.inner.count, 7);
+  EXPECT_FALSE(c.inner.enabled);
+  EXPECT_EQ(c.inner.model, Model::kRolling);
+  ASSERT_EQ(c.points.size(), 2U);
+  EXPECT_EQ(c.points[1].position, Eigen::Vector2d(1.0, 2.0));
+  EXPECT_EQ(c.points[1].tags, std::vector<std::string>{"x"});
+}
+
+TEST(YamlConfig, WhatIsNotNamedKeepsItsValue) {
+  Sample c;
+  c.inner.count = 2;
+  ASSERT_TRUE(load_config_text("inner: {eta: 1}", "s.yaml", c));
+  EXPECT_EQ(c.inner.count, 2);
+  EXPECT_EQ(c.name, "corridor");
+}
+
+TEST(YamlConfig, ErrorsNamePlaceKeyAndWhatWasExpected) {
+  EXPECT_EQ(message_of("inner:\n  etta: 1\n"),
+            "s.yaml:2:3: unknown key 'inner.etta'; did you mean 'inner.eta'?");
+  EXPECT_EQ(message_of("iner:\n  eta: 1\n"),
+            "s.yaml:1:1: unknown key 'iner'; did you mean 'inner'?");
+  EXPECT_EQ(message_of("eta: 1\n"), "s.yaml:1:1: unknown key 'eta'; did you mean 'inner.eta'?");
+  EXPECT_EQ(message_of("quite_unlike: 1\n"), "s.yaml:1:1: unknown key 'quite_unlike'");
+  EXPECT_EQ(message_of("inner:\n  eta: fast\n"),
+            "s.yaml:2:8: inner.eta: expected a number >= 0, found 'fast'");
+  EXPECT_EQ(message_of("inner:\n  eta: -1\n"),
+            "s.yaml:2:8: inner.eta: expected a number >= 0, found '-1'");
+  EXPECT_EQ(message_of("inner: {count: 2.5}\n"),
+            "s.yaml:1:16: inner.count: expected an integer in [1, 9], found '2.5'");
+  EXPECT_EQ(message_of("inner: {enabled: yes}\n"),
+            "s.yaml:1:18: inner.enabled: expected true or false, found 'yes'");
+  EXPECT_EQ(message_of("inner: {model: wheel}\n"),
+            "s.yaml:1:16: inner.model: expected one of point, rolling, found 'wheel'");
+  EXPECT_EQ(message_of("inner:\n  eta: 1\n  eta: 2\n"),
+            "s.yaml:3:3: inner.eta: duplicate key; expected each key once");
+  EXPECT_EQ(message_of("name: a\nname: b\n"),
+            "s.yaml:2:1: name: duplicate key; expected each key once");
+}
+
+TEST(YamlConfig, RefusesTheWrongShape) {
+  EXPECT_EQ(message_of("inner: [1]\n"), "s.yaml:1:8: inner: expected a map, found a list");
+  EXPECT_EQ(message_of("inner: 3\n"), "s.yaml:1:8: inner: expected a map, found '3'");
+  EXPECT_EQ(message_of("inner:\n"), "s.yaml:1:1: inner: expected a map, found nothing");
+  EXPECT_EQ(message_of("inner: {eta: {a: 1}}\n"),
+            "s.yaml:1:14: inner.eta: expected a number >= 0, found a map");
+  EXPECT_EQ(message_of("inner: {eta: [1]}\n"),
+            "s.yaml:1:14: inner.eta: expected a number >= 0, found [1]");
+  EXPECT_EQ(message_of("inner: {eta: }\n"),
+            "s.yaml:1:9: inner.eta: expected a number >= 0, found nothing");
+  EXPECT_EQ(message_of("name: [a]\n"), "s.yaml:1:7: name: expected a text, found [a]");
+  EXPECT_EQ(message_of("gravity: [1, 2]\n"),
+            "s.yaml:1:10: gravity: expected three numbers like [x, y, z], found [1, 2]");
+  EXPECT_EQ(message_of("gravity: '[1, 2, 3]'\n"),
+            "s.yaml:1:10: gravity: expected three numbers like [x, y, z], found '[1, 2, 3]'");
+  EXPECT_EQ(message_of("points: {a: 1}\n"),
+            "s.yaml:1:9: points: expected a list of maps, found a map");
+  EXPECT_EQ(message_of("points: [a]\n"), "s.yaml:1:10: points.0: expected a map, found 'a'");
+  EXPECT_EQ(message_of("points:\n  - nam: a\n"),
+            "s.yaml:2:5: unknown key 'points.0.nam'; did you mean 'points.0.name'?");
+  EXPECT_EQ(message_of("inner.eta: 1\n"),
+            "s.yaml:1:1: inner.eta: expected nested maps, not a dotted key");
+  EXPECT_EQ(message_of("[1]\n"), "s.yaml:1:1: expected a map of settings, found a list");
+  EXPECT_EQ(message_of("{[a]: 1}\n"),
+            "s.yaml:1:2: top level: expected a name as key, found a list");
+}
+
+TEST(YamlConfig, RefusesWhatIsNotOneDocument) {
+  EXPECT_EQ(message_of(""), "s.yaml: expected a map of settings, the file is empty");
+  EXPECT_EQ(message_of("# nothing\n"), "s.yaml: expected a map of settings, the file is empty");
+  EXPECT_EQ(message_of("name: a\n---\nname: b\n"),
+            "s.yaml:3:1: expected one YAML document, found 2");
+  EXPECT_TRUE(message_of("inner: {eta: 1\n").starts_with("s.yaml:2:1: not valid YAML: "));
+  EXPECT_TRUE(message_of("a: b: c\n").starts_with("s.yaml:1:5: not valid YAML: "));
+  EXPECT_NE(message_of("inner: &x {inner: *x}\n"), "");
+  EXPECT_NE(message_of(std::string(5000, '[')), "");
+}
+
+TEST(YamlConfig, MissingFileIsNamed) {
+  Sample c;
+  const auto loaded = load_config("/nonexistent/s.yaml", c);
+  ASSERT_FALSE(loaded);
+  EXPECT_TRUE(loaded.error().message.starts_with("/nonexistent/s.yaml: "))
+      << loaded.error().message;
+}
+
+TEST(YamlConfig, BaseIsReadFirstAndItsListsReplaced) {
+  const TemporaryFolder directory;
+  write(directory.path() / "base.yaml",
+        "name: base\ninner: {eta: 7, count: 8}\npoints: [{}, {}, {name: c}]\n");
+  const auto child =
+      write(directory.path() / "child.yaml", "inner: {count: 2}\nbase: base.yaml\npoints: [{}]\n");
+  Sample c;
+  const auto loaded = load_config(child, c);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(c.name, "base");
+  EXPECT_EQ(c.inner.eta, 7.0);
+  EXPECT_EQ(c.inner.count, 2);
+  ASSERT_EQ(c.points.size(), 1U);
+  EXPECT_EQ(c.points[0].name, "p");
+}
+
+TEST(YamlConfig, ErrorsOfABaseNameTheFileTheyAreIn) {
+  const TemporaryFolder directory;
+  const auto base = write(directory.path() / "base.yaml", "inner: {eta: -7}\n");
+  const auto child = write(directory.path() / "child.yaml", "base: base.yaml\n");
+  Sample c;
+  EXPECT_EQ(load_config(child, c).error().message,
+            base.string() + ":1:14: inner.eta: expected a number >= 0, found '-7'");
+  const auto orphan = write(directory.path() / "orphan.yaml", "base: gone.yaml\n");
+  EXPECT_EQ(load_config(orphan, c).error().message, orphan.string() + ":1:7: base: no such file '" +
+                                                        (directory.path() / "gone.yaml").string() +
+                                                        "'");
+}
+
+TEST(YamlConfig, FilesBasedOnThemselvesAreRefused) {
+  const TemporaryFolder directory;
+  const auto a = write(directory.path() / "a.yaml", "base: b.yaml\n");
+  write(directory.path() / "b.yaml", "base: ./a.yaml\n");
+  Sample c;
+  const auto loaded = load_config(a, c);
+  ASSERT_FALSE(loaded);
+  EXPECT_NE(loaded.error().message.find("based on itself"), std::string::npos);
+  EXPECT_NE(loaded.error().message.find("b.yaml:1:7"), std::string::npos);
+}
+
+TEST(Overrides, SetValuesInOrder) {
+  Sample c;
+  const std::vector<std::string> settings = {"inner.eta=1", "inner.eta=2.5", "points.0.name=a=b",
+                                             "gravity=[0, 0, -1]", "name="};
+  const auto applied = apply_overrides(c, settings);
+  ASSERT_TRUE(applied) << applied.error().message;
+  EXPECT_EQ(c.inner.eta, 2.5);
+  EXPECT_EQ(c.points[0].name, "a=b");
+  EXPECT_EQ(c.gravity.z(), -1.0);
+  EXPECT_EQ(c.name, "");
+}
+
+TEST(Overrides, FilesGoOnTopInOrder) {
+  const TemporaryFolder directory;
+  const auto file = write(directory.path() / "tuned.yaml",
+                          "inner: {eta: 4}\npoints:\n  - {name: x}\n  - {name: y}\n");
+  Sample c;
+  const std::vector<std::string> settings = {"inner.eta=1", fmt::format("@{}", file.string()),
+                                             "inner.count=7", "points.1.name=z"};
+  const auto applied = apply_overrides(c, settings);
+  ASSERT_TRUE(applied) << applied.error().message;
+  EXPECT_EQ(c.inner.eta, 4.0);
+  EXPECT_EQ(c.inner.count, 7);
+  ASSERT_EQ(c.points.size(), 2U);
+  EXPECT_EQ(c.points[1].name, "z");
+  const auto missing = apply_overrides(c, std::vector<std::string>{"@gone.yaml"});
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("gone.yaml"), std::string::npos);
+}
+
+TEST(Overrides, ErrorsSayThatTheyCameFromSet) {
+  Sample c;
+  const auto message = [&c](const std::string& setting) {
+    return apply_overrides(c, std::vector<std::string>{setting}).error().message;
+  };
+  EXPECT_EQ(message("inner.eat=1"),
+            "--set inner.eat=1: unknown key 'inner.eat'; did you mean 'inner.eta'?");
+  EXPECT_EQ(message("inner.eta=x"), "--set inner.eta=x: inner.eta: 'x' is not a number >= 0");
+  EXPECT_EQ(message("inner.eta"), "--set inner.eta: expected key=value or @FILE");
+  EXPECT_EQ(message("inner=1"),
+            "--set inner=1: inner: a group of settings; expected one of its keys");
+}
+
+TEST(DumpConfig, WritesNestedYaml) {
+  Sample c;
+  c.points.clear();
+  EXPECT_EQ(dump_config(fields_of(c)),
+            "name: corridor\n"
+            "gravity: [0, 0, -9.81]\n"
+            "estimators: [aims, lio]\n"
+            "inner:\n"
+            "  eta: 3\n"
+            "  count: 5\n"
+            "  enabled: true\n"
+            "  model: point\n"
+            "points: []\n");
+}
+
+TEST(DumpConfig, AnnotatedFormExplainsAndLoads) {
+  Sample c;
+  c.inner.eta = 1.25;
+  const std::string text = dump_annotated_config(fields_of(c));
+  EXPECT_NE(text.find("  eta: 1.25  # [-] a number >= 0; Sensitivity.; eq. (8)\n"),
+            std::string::npos)
+      << text;
+  Sample again;
+  ASSERT_TRUE(load_config_text(text, "dump.yaml", again));
+  EXPECT_EQ(again.inner.eta, 1.25);
+}
+
+/// Texts of printable ASCII and a few control characters, with YAML's special ones frequent.
+rc::Gen<std::string> awkward_text() {
+  return rc::gen::container<std::string>(
+      rc::gen::oneOf(rc::gen::inRange<char>(32, 127), rc::gen::element('\n', '\t', '\r', '\x01'),
+                     rc::gen::element(':', '#', '"', '\'', '[', ',', '-', '~', '\\', ' ', '&')));
+}
+
+RC_GTEST_PROP(DumpConfig, IsReadBackToEqualValues, ()) {
+  const auto number = rc::gen::suchThat(rc::gen::arbitrary<double>(),
+                                        [](double each) { return std::isfinite(each); });
+  Sample c;
+  c.name = *awkward_text();
+  c.estimators = *rc::gen::container<std::vector<std::string>>(awkward_text());
+  c.gravity = {*number, *number, *number};
+  c.inner.eta = std::abs(*number);
+  c.inner.count = *rc::gen::inRange(1, 10);
+  c.inner.enabled = *rc::gen::arbitrary<bool>();
+  c.inner.model = *rc::gen::element(Model::kPoint, Model::kRolling);
+  c.points.resize(*rc::gen::inRange<std::size_t>(0, 4));
+  for (Waypoint& each : c.points) each.name = *awkward_text();
+  Sample again;
+  const std::string text = dump_config(fields_of(c));
+  const auto loaded = load_config_text(text, "dump.yaml", again);
+  if (!loaded) RC_FAIL(loaded.error().message + "\n" + text);
+  RC_ASSERT(again.name == c.name);
+  RC_ASSERT(again.estimators == c.estimators);
+  RC_ASSERT(again.gravity == c.gravity);
+  RC_ASSERT(again.inner.eta == c.inner.eta);
+  RC_ASSERT(again.points.size() == c.points.size());
+  RC_ASSERT(dump_config(fields_of(again)) == text);
+}
+
+RC_GTEST_PROP(YamlConfig, AnyTextLoadsOrFailsWithOneLine, ()) {
+  std::string text =
+      "name: 'two words'\ngravity: [1, 2.5, -3e2]\nestimators: [aims, \"b\"]\n"
+      "inner: {eta: 0.5, count: 7}\npoints:\n  - &x name: a\n  - {tags: [x], name: *x}\n";
+  const auto mutations = *rc::gen::inRange(0, 6);
+  for (int i = 0; i < mutations; ++i) {
+    const auto at = *rc::gen::inRange<std::size_t>(0, text.size());
+    const auto length = *rc::gen::inRange<std::size_t>(0, 4);
+    const auto insert = *rc::gen::container<std::string>(
+        rc::gen::oneOf(rc::gen::element(':', '-', '[', ']', '{', '}', '&', '*', '!', '|', '>', '%',
+                                        '\n', ' ', '\t', '"', '#', '?', '<', '@', '`'),
+                       rc::gen::arbitrary<char>()));
+    text.replace(at, length, insert.substr(0, 3));
+  }
+  Sample c;
+  const auto loaded = load_config_text(text, "s.yaml", c);
+  if (!loaded) {
+    RC_ASSERT(loaded.error().message.starts_with("s.yaml"));
+    RC_ASSERT(loaded.error().message.find('\n') == std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace aims

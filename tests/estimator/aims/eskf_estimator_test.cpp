@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/aims/eskf_estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "estimator/registry.hpp"
+#include "tests/support/kinematic_world.hpp"
+
+namespace aims {
+namespace {
+
+using test::KinematicConfig;
+using test::KinematicWorld;
+
+/// A short walk with a coarse LiDAR, quick to simulate.
+KinematicConfig short_walk() {
+  KinematicConfig config;
+  config.walk.distance = 2.5;
+  config.corridor.end = 20.0;
+  config.sensors.lidar_columns = 450;
+  return config;
+}
+
+std::vector<Delivery> record(KinematicWorld& world) {
+  std::vector<Delivery> deliveries;
+  world.advance(world.duration(), deliveries);
+  return deliveries;
+}
+
+EstimatorReport run(std::string_view name, const std::vector<Delivery>& deliveries,
+                    const SensorRig& rig, const EstimatorConfig& config = {}) {
+  auto estimator = make_estimator(name, config, rig);
+  for (const Delivery& delivery : deliveries) (*estimator)->consume(delivery);
+  (*estimator)->finish();
+  return (*estimator)->report();
+}
+
+/// Largest distance [m] between the estimate, anchored at its first pose, and the truth.
+double largest_error(const EstimatorReport& report, const KinematicWorld& world) {
+  const StampedPose& first = report.trajectory.front();
+  const Pose T_world_odom = world.T_world_body(first.stamp) * first.pose.inverse();
+  double largest = 0.0;
+  for (const StampedPose& each : report.trajectory) {
+    const Pose error = world.T_world_body(each.stamp).inverse() * T_world_odom * each.pose;
+    if (!error.translation.allFinite()) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, error.translation.norm());
+  }
+  return largest;
+}
+
+TEST(Eskf, WalksTheCorridorWithinCentimetres) {
+  KinematicWorld world(short_walk());
+  const auto deliveries = record(world);
+  for (const char* name : {"aims", "tfs", "tfs_clean", "lio"}) {
+    const EstimatorReport report = run(name, deliveries, world.rig());
+    ASSERT_GT(report.trajectory.size(), 150U) << name;
+    EXPECT_EQ(report.trajectory.size(), report.diagnostics.size());
+    EXPECT_LT(report.trajectory.front().pose.translation.norm(), 0.01);
+    EXPECT_LT(largest_error(report, world), 0.05) << name;
+  }
+}
+
+/// The defaults, with the legs measured between scans.
+EstimatorConfig displacement_config() {
+  EstimatorConfig config;
+  config.leg.measurement = LegMeasurement::kDisplacement;
+  return config;
+}
+
+TEST(Eskf, WalksTheCorridorAsWellWithDisplacementsBetweenScans) {
+  KinematicWorld world(short_walk());
+  const auto deliveries = record(world);
+  for (const char* name : {"aims", "tfs", "tfs_clean"}) {
+    const EstimatorReport velocity = run(name, deliveries, world.rig());
+    const EstimatorReport report = run(name, deliveries, world.rig(), displacement_config());
+    ASSERT_EQ(report.trajectory.size(), velocity.trajectory.size()) << name;
+    EXPECT_LT(largest_error(report, world), 1.2 * largest_error(velocity, world) + 0.01) << name;
+    EXPECT_EQ(report.diagnostics.at(100).leg_updates, 1) << name;
+    EXPECT_EQ(report.counts.count("filter.refused"), 0U) << name;
+  }
+}
+
+TEST(Eskf, DisplacementsKeepTheScaleWhereTheLidarIsSilent) {
+  KinematicConfig world_config = short_walk();
+  KinematicWorld world(world_config);
+  const auto deliveries = record(world);
+  EstimatorConfig config = displacement_config();
+  config.lidar.min_matches = 1000000;  // no scan corrects: legs and IMU alone
+  const EstimatorReport with_legs = run("tfs_clean", deliveries, world.rig(), config);
+  const EstimatorReport without = run("lio", deliveries, world.rig(), config);
+  EXPECT_LT(largest_error(with_legs, world), 0.3);
+  EXPECT_GT(largest_error(without, world), 3.0 * largest_error(with_legs, world));
+}
+
+TEST(Eskf, ADisplacementWithTooFewPacketsIsLeftOut) {
+  KinematicConfig world_config = short_walk();
+  world_config.sensors.leg_loss = 0.7;
+  KinematicWorld world(world_config);
+  const auto deliveries = record(world);
+  const EstimatorReport clean = run("tfs_clean", deliveries, world.rig(), displacement_config());
+  const EstimatorReport held = run("tfs", deliveries, world.rig(), displacement_config());
+  EXPECT_GT(clean.counts.at("leg.uncovered"), 50);
+  // The loss goes unnoticed where the last packet is repeated.
+  EXPECT_LE(held.counts.contains("leg.uncovered") ? held.counts.at("leg.uncovered") : 0, 1);
+  EXPECT_LT(largest_error(clean, world), 0.1);
+}
+
+TEST(Eskf, LegOdometryAloneInheritsItsScale) {
+  KinematicConfig config = short_walk();
+  config.sensors.leg_noise = 0.0;
+  config.sensors.leg_slow_noise = 0.0;
+  config.sensors.gyro_bias = 0.0;
+  KinematicWorld world(config);
+  const EstimatorReport report = run("leg", record(world), world.rig());
+  ASSERT_GT(report.trajectory.size(), 150U);
+  EXPECT_LT(report.trajectory.front().pose.translation.norm(), 0.001);
+  double farthest = 0.0;
+  for (const auto& each : report.trajectory) {
+    farthest = std::max(farthest, each.pose.translation.x());
+  }
+  EXPECT_NEAR(farthest, 2.5 * (1.0 - 0.045), 0.03);
+}
+
+TEST(Eskf, FillsTheDiagnostics) {
+  KinematicWorld world(short_walk());
+  const EstimatorReport report = run("aims", record(world), world.rig());
+  const ScanDiagnostics& d = report.diagnostics.at(100);
+  EXPECT_GT(d.points_in, 1000);
+  EXPECT_GT(d.points_used, 100);
+  EXPECT_GE(d.iterations, 1);
+  for (double value : {d.residual_sigma, d.residual_sigma_prior, d.C_IL, d.C_IL_full, d.D_smoothed,
+                       d.smallest_eigenvalue, d.condition_number, d.leg_innovation}) {
+    EXPECT_GT(value, 0.0);
+  }
+  EXPECT_GT(d.leg_updates, 10);
+  EXPECT_GT(d.gamma_lidar, 0.0);
+  EXPECT_LT(d.gamma_lidar, 1.0);
+  EXPECT_LT(d.gamma_leg, 1.0);
+  EXPECT_GE(d.O_lidar, 0.0);
+  EXPECT_LE(d.O_lidar, 1.0);
+}
+
+TEST(Eskf, WeighsEachScanByTheSmoothedIndexOfThatScan) {
+  KinematicWorld world(short_walk());
+  const EstimatorReport report = run("aims", record(world), world.rig());
+  const DegeneracyConfig config;
+  double smoothed = report.diagnostics.at(1).D_smoothed;  // the first scan only starts the map
+  for (std::size_t i = 1; i < report.diagnostics.size(); ++i) {
+    const ScanDiagnostics& scan = report.diagnostics[i];
+    if (i > 1) smoothed = config.alpha * smoothed + (1.0 - config.alpha) * scan.D;
+    EXPECT_NEAR(scan.D_smoothed, smoothed, 1e-12) << i;
+    EXPECT_NEAR(scan.gamma_lidar, std::exp(-config.eta * scan.D_smoothed), 1e-12) << i;
+    EXPECT_NEAR(scan.gamma_leg,
+                config.gamma_min + (1.0 - config.gamma_min) * (1.0 - scan.D_smoothed), 1e-12)
+        << i;
+  }
+}
+
+TEST(Eskf, SameDataGivesTheSameBytes) {
+  KinematicWorld world(short_walk());
+  const auto deliveries = record(world);
+  const EstimatorReport a = run("aims", deliveries, world.rig());
+  const EstimatorReport b = run("aims", deliveries, world.rig());
+  ASSERT_EQ(a.trajectory.size(), b.trajectory.size());
+  for (std::size_t i = 0; i < a.trajectory.size(); ++i) {
+    ASSERT_EQ(a.trajectory[i].pose.translation, b.trajectory[i].pose.translation);
+    ASSERT_EQ(a.trajectory[i].pose.rotation.coeffs(), b.trajectory[i].pose.rotation.coeffs());
+  }
+}
+
+TEST(Eskf, OrderOfArrivalWithinTheLagDoesNotMatter) {
+  KinematicWorld world(short_walk());
+  auto deliveries = record(world);
+  const EstimatorReport in_order = run("aims", deliveries, world.rig());
+  for (std::size_t i = 0; i + 4 < deliveries.size(); i += 5) {
+    std::swap(deliveries[i], deliveries[i + 3]);
+  }
+  const EstimatorReport shuffled = run("aims", deliveries, world.rig());
+  ASSERT_EQ(in_order.trajectory.size(), shuffled.trajectory.size());
+  EXPECT_EQ(in_order.trajectory.back().pose.translation,
+            shuffled.trajectory.back().pose.translation);
+}
+
+TEST(Eskf, OnlyTfsHoldsLostLegPackets) {
+  KinematicConfig config = short_walk();
+  config.sensors.leg_loss = 0.3;
+  KinematicWorld world(config);
+  const auto deliveries = record(world);
+  const EstimatorReport tfs = run("tfs", deliveries, world.rig());
+  const EstimatorReport clean = run("tfs_clean", deliveries, world.rig());
+  EXPECT_GT(tfs.counts.at("leg.held"), 100);
+  EXPECT_EQ(clean.counts.count("leg.held"), 0U);
+  EXPECT_GT(clean.counts.at("leg.lost"), 100);
+  EXPECT_NE(tfs.trajectory.back().pose.translation, clean.trajectory.back().pose.translation);
+}
+
+TEST(Eskf, MapMemoryIsBounded) {
+  KinematicWorld world(short_walk());
+  EstimatorConfig config;
+  config.map.max_voxels = 300;
+  EskfEstimator estimator(config, FamilyMember{}, world.rig());
+  for (const Delivery& delivery : record(world)) {
+    estimator.consume(delivery);
+    ASSERT_LE(estimator.map_points().size(), 300U * 32U);
+  }
+}
+
+/// The short walk with `spoil` applied to each delivery; false drops it.
+EstimatorReport run_spoiled(const std::function<bool(Delivery&)>& spoil, double& error) {
+  KinematicWorld world(short_walk());
+  std::vector<Delivery> kept;
+  for (Delivery& delivery : record(world)) {
+    if (spoil(delivery)) kept.push_back(delivery);
+  }
+  EstimatorReport report = run("aims", kept, world.rig());
+  error = report.trajectory.empty() ? 0.0 : largest_error(report, world);
+  return report;
+}
+
+bool within(const Delivery& d, double begin, double end) {
+  return d.arrival > from_seconds(begin) && d.arrival <= from_seconds(end);
+}
+
+TEST(Eskf, SurvivesAnImuThatIsSilentForThreeSeconds) {
+  double error = 0.0;
+  const auto report = run_spoiled(
+      [](const Delivery& d) {
+        return !(std::holds_alternative<ImuSample>(d.measurement) && within(d, 4.0, 7.0));
+      },
+      error);
+  EXPECT_GT(report.counts.at("imu.bridged"), 0);
+  EXPECT_LT(error, 0.3);
+}
+
+TEST(Eskf, SurvivesALidarThatIsSilentForTwoSeconds) {
+  double error = 0.0;
+  run_spoiled(
+      [](const Delivery& d) {
+        return !(std::holds_alternative<LidarScanPtr>(d.measurement) && within(d, 4.0, 6.0));
+      },
+      error);
+  EXPECT_LT(error, 0.3);
+}
+
+/// Longest time between two poses.
+Duration longest_gap(const Trajectory& trajectory) {
+  Duration longest = 0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    longest = std::max(longest, trajectory[i].stamp - trajectory[i - 1].stamp);
+  }
+  return longest;
+}
+
+TEST(Eskf, GoesOnReportingWhileTheLidarIsSilent) {
+  KinematicWorld world(short_walk());
+  std::vector<Delivery> kept;
+  for (const Delivery& d : record(world)) {
+    if (!std::holds_alternative<LidarScanPtr>(d.measurement) || !within(d, 4.0, 7.0)) {
+      kept.push_back(d);
+    }
+  }
+  for (const char* name : {"aims", "lio", "leg"}) {
+    const EstimatorReport report = run(name, kept, world.rig());
+    EXPECT_LE(longest_gap(report.trajectory), kLongestSilence + 10 * kMillisecond) << name;
+    if (report.diagnostics.empty()) continue;
+    const auto bridged = report.trajectory.size() - report.diagnostics.size();
+    EXPECT_NEAR(static_cast<double>(bridged), 12.0, 1.0) << name;
+  }
+}
+
+TEST(Eskf, WorksWithoutLegs) {
+  double error = 0.0;
+  run_spoiled(
+      [](const Delivery& d) { return !std::holds_alternative<LegOdometrySample>(d.measurement); },
+      error);
+  EXPECT_LT(error, 0.05);
+}
+
+TEST(Eskf, WithoutAnImuThereIsNoTrajectoryAndNoTrouble) {
+  double error = 0.0;
+  const auto report = run_spoiled(
+      [](const Delivery& d) { return !std::holds_alternative<ImuSample>(d.measurement); }, error);
+  EXPECT_TRUE(report.trajectory.empty());
+}
+
+TEST(Eskf, SurvivesEmptyAndBrokenScans) {
+  double error = 0.0;
+  int count = 0;
+  const auto report = run_spoiled(
+      [&count](Delivery& d) {
+        const auto* scan = std::get_if<LidarScanPtr>(&d.measurement);
+        if (scan == nullptr || ++count % 3 != 0) return true;
+        auto broken = std::make_shared<LidarScan>(**scan);
+        if (count % 2 == 0) {
+          broken->points.clear();
+        } else {
+          const float nan = std::numeric_limits<float>::quiet_NaN();
+          for (auto& point : broken->points) point.position.x() = nan;
+        }
+        d.measurement = LidarScanPtr(broken);
+        return true;
+      },
+      error);
+  EXPECT_GT(report.counts.at("lidar.no_update"), 10);
+  EXPECT_LT(error, 0.1);
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/filter/kalman_update.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "core/random.hpp"
+#include "estimator/filter/imu_propagation.hpp"
+#include "estimator/legs/leg_velocity_model.hpp"
+#include "estimator/lidar/plane_model.hpp"
+#include "tests/estimator/finite_differences.hpp"
+
+namespace aims {
+namespace {
+
+ErrorMatrix some_covariance(RandomStream& random) {
+  ErrorMatrix A;
+  for (int i = 0; i < ErrorState::kSize; ++i) {
+    for (int j = 0; j < ErrorState::kSize; ++j) A(i, j) = 0.02 * random.normal();
+  }
+  return A * A.transpose() + 1e-4 * ErrorMatrix::Identity();
+}
+
+ErrorVector normal_error(RandomStream& random) {
+  ErrorVector v;
+  for (int i = 0; i < ErrorState::kSize; ++i) v(i) = random.normal();
+  return v;
+}
+
+LinearMeasurement some_measurement(const NominalState& at) {
+  return leg_velocity_model(at, Pose{}, {0.1, 0.2, 0.3}, {{0.7, 0.0, 0.0}, {0.6, 0.1, 0.0}},
+                            0.04 * Eigen::Matrix3d::Identity());
+}
+
+TEST(KalmanUpdate, EqualsTheGainForm) {
+  RandomStream random(1, "kalman");
+  const ErrorMatrix P = some_covariance(random);
+  const NominalState state = test::some_state();
+  const LinearMeasurement m = some_measurement(state);
+  const Belief updated = kalman_update(state, inverse_spd(P), state, information_of(m));
+  const Eigen::Matrix3d S = m.jacobian * P * m.jacobian.transpose() + m.noise;
+  const Eigen::Matrix<double, ErrorState::kSize, 3> K = P * m.jacobian.transpose() * S.inverse();
+  const ErrorVector delta = -K * m.residual;
+  const ErrorMatrix I_KH = ErrorMatrix::Identity() - K * m.jacobian;
+  const ErrorMatrix joseph = I_KH * P * I_KH.transpose() + K * m.noise * K.transpose();
+  const ErrorMatrix G = reset_jacobian(delta);
+  EXPECT_LT((boxminus(updated.state, state) - delta).norm(), 1e-10);
+  EXPECT_LT((updated.covariance - G * joseph * G.transpose()).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(KalmanUpdate, NothingMeasuredChangesNothing) {
+  RandomStream random(2, "kalman");
+  const ErrorMatrix P = some_covariance(random);
+  const NominalState state = test::some_state();
+  const Belief same = kalman_update(state, inverse_spd(P), state, Information{});
+  EXPECT_LT(boxminus(same.state, state).norm(), 1e-12);
+  EXPECT_LT((same.covariance - P).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(KalmanUpdate, IterationConvergesToTheSameStateFromElsewhere) {
+  RandomStream random(3, "kalman");
+  const ErrorMatrix prior_information = inverse_spd(some_covariance(random));
+  const NominalState prior = test::some_state();
+  const auto iterate = [&](NominalState at) {
+    for (int i = 0; i < 20; ++i) {
+      const LinearMeasurement m =
+          leg_velocity_model(at, Pose{}, {0.1, 0.2, 0.3}, {{0.7, 0.2, 0.0}, {0.6, 0.1, 0.0}},
+                             0.01 * Eigen::Matrix3d::Identity());
+      at = kalman_update(prior, prior_information, at, information_of(m)).state;
+    }
+    return at;
+  };
+  const NominalState elsewhere = boxplus(prior, 0.1 * normal_error(random));
+  EXPECT_LT(boxminus(iterate(elsewhere), iterate(prior)).norm(), 1e-5);
+}
+
+TEST(KalmanUpdate, AMaskThatKeepsAllIsThePlainUpdate) {
+  RandomStream random(5, "mask");
+  const Belief prior{test::some_state(), some_covariance(random)};
+  const NominalState at = boxplus(prior.state, 0.01 * normal_error(random));
+  const ErrorMatrix information = inverse_spd(prior.covariance);
+  const Information m = information_of(some_measurement(at));
+  const Belief plain = kalman_update(prior.state, information, at, m);
+  const Belief masked = kalman_update(prior.state, information, at, m, correct_all());
+  EXPECT_LT(boxminus(plain.state, masked.state).norm(), 1e-9);
+  EXPECT_LT((plain.covariance - masked.covariance).norm(), 1e-9 * plain.covariance.norm());
+}
+
+TEST(KalmanUpdate, WhatAMaskHoldsStaysAndStaysAsUncertain) {
+  RandomStream random(6, "mask");
+  const Belief prior{test::some_state(), some_covariance(random)};
+  const Eigen::Matrix3d across =
+      Eigen::Matrix3d::Identity() - Eigen::Vector3d::UnitX() * Eigen::Vector3d::UnitX().transpose();
+  const Belief updated = kalman_update(prior.state, inverse_spd(prior.covariance), prior.state,
+                                       information_of(some_measurement(prior.state)),
+                                       hold_motion(hold_legs(correct_all()), across));
+  EXPECT_NEAR(updated.state.position.x(), prior.state.position.x(), 1e-12);
+  EXPECT_NEAR(updated.state.velocity.x(), prior.state.velocity.x(), 1e-12);
+  EXPECT_LT((updated.state.leg_scale - prior.state.leg_scale).norm(), 1e-12);
+  EXPECT_GT((updated.state.velocity - prior.state.velocity).norm(), 1e-6);
+  const int x = ErrorState::kPosition.offset;
+  EXPECT_NEAR(updated.covariance(x, x) / prior.covariance(x, x), 1.0, 1e-6);
+}
+
+TEST(KalmanUpdate, CovarianceOfAMaskedGainIsJosephsForm) {
+  RandomStream random(7, "mask");
+  const Belief prior{test::some_state(), some_covariance(random)};
+  const LinearMeasurement m = some_measurement(prior.state);
+  const ErrorMatrix& P = prior.covariance;
+  const Eigen::Matrix3d S = m.jacobian * P * m.jacobian.transpose() + m.noise;
+  const ErrorMatrix mask = hold_legs(correct_all());
+  const Eigen::Matrix<double, ErrorState::kSize, 3> K =
+      mask * P * m.jacobian.transpose() * S.inverse();
+  const ErrorMatrix kept = ErrorMatrix::Identity() - K * m.jacobian;
+  const ErrorMatrix G = reset_jacobian(-K * m.residual);
+  const ErrorMatrix expected =
+      G * (kept * P * kept.transpose() + K * m.noise * K.transpose()) * G.transpose();
+  const Belief updated =
+      kalman_update(prior.state, inverse_spd(P), prior.state, information_of(m), mask);
+  EXPECT_LT((updated.covariance - expected).norm(), 1e-8 * expected.norm());
+}
+
+/// One run of propagation, leg updates and updates by exact planes, all with noise drawn from their
+/// models; the normalised squared error of the belief at the end, chi-square with 21 dof.
+double normalised_error_of_a_run(std::uint64_t seed) {
+  RandomStream random(seed, "nees");
+  ImuPropagationConfig imu;
+  imu.gyro_noise = 2e-3;
+  const ErrorMatrix P0 = 1e-4 * ErrorMatrix::Identity();
+  Belief belief{test::some_state(), P0};
+  NominalState truth = boxplus(belief.state, 1e-2 * normal_error(random));
+  const double dt = 0.02;
+  const Pose T_body_base{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.05}};
+  for (int step = 0; step < 200; ++step) {
+    const Eigen::Vector3d rate(0.3 * std::sin(0.1 * step), 0.2, 0.1);
+    const Eigen::Vector3d force(std::cos(0.05 * step), 0.5, 9.81);
+    const InertialSegment real{0, from_seconds(dt), rate + truth.gyro_bias,
+                               force + truth.accelerometer_bias, true};
+    InertialSegment measured = real;
+    const Eigen::Vector3d mean(0.6, 0.1, -0.2);
+    truth = propagate_state(truth, real, dt, imu.gravity);
+    // The model's noise acts on the state, so it is drawn there.
+    const ErrorMatrix Q = propagation_noise(imu, true, dt);
+    truth = boxplus(truth, test::square_root(Q) * normal_error(random));
+    belief = propagate(belief, measured, dt, imu);
+    if (step % 2 == 0) {
+      const Eigen::Matrix3d noise = 0.01 * Eigen::Matrix3d::Identity();
+      const LinearMeasurement exact =
+          leg_velocity_model(truth, T_body_base, measured.angular_velocity,
+                             LegVelocity{Eigen::Vector3d::Zero(), mean}, noise);
+      const Eigen::Vector3d reported = exact.residual + 0.1 * random.normal3();
+      const LinearMeasurement m = leg_velocity_model(
+          belief.state, T_body_base, measured.angular_velocity, LegVelocity{reported, mean}, noise);
+      belief = kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
+                             information_of(m));
+    }
+    if (step % 5 == 0) {
+      Matrix6 A = Matrix6::Zero();
+      Vector6 b = Vector6::Zero();
+      for (int i = 0; i < 30; ++i) {
+        const Plane plane{Eigen::Vector3d::Unit(i % 3), 3.0 * Eigen::Vector3d::Unit(i % 3), true};
+        Eigen::Vector3d p_odom = 4.0 * random.normal3();
+        p_odom(i % 3) = 3.0 + 0.02 * random.normal();
+        const Eigen::Vector3d p_body = truth.T_odom_body().inverse() * p_odom;
+        const PlaneRow row = plane_row(plane, p_body, belief.state.rotation.toRotationMatrix(),
+                                       belief.state.position);
+        A += row.jacobian * row.jacobian.transpose() / (0.02 * 0.02);
+        b += row.jacobian * row.residual / (0.02 * 0.02);
+      }
+      belief = kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
+                             pose_information(A, b));
+    }
+  }
+  const ErrorVector error = boxminus(truth, belief.state);
+  return error.dot(belief.covariance.llt().solve(error));
+}
+
+TEST(KalmanUpdate, NormalisedErrorLiesWithinItsChiSquareBounds) {
+  constexpr int kRuns = 50;
+  double sum = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    sum += normalised_error_of_a_run(static_cast<std::uint64_t>(100 + run));
+  }
+  // The sum is chi-square with 1050 dof: 99.9 % of it lies within these bounds.
+  EXPECT_GT(sum, 905.0) << "seeds 100 to 149";
+  EXPECT_LT(sum, 1208.0) << "seeds 100 to 149";
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/lidar/plane_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/random.hpp"
+#include "tests/estimator/finite_differences.hpp"
+
+namespace aims {
+namespace {
+
+/// Five points as the map holds them around a query: one in the middle, four at its spacing.
+std::vector<Eigen::Vector3f> spread_on_plane(const Eigen::Vector3d& normal, double noise,
+                                             RandomStream& random) {
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  std::vector<Eigen::Vector3f> points;
+  const double d = MapConfig{}.point_spacing;
+  for (const auto& [a, b] : {std::pair{d, 0.0}, {-d, 0.02}, {0.0, d}, {0.03, -d}, {0, 0}}) {
+    const Eigen::Vector3d p =
+        Eigen::Vector3d(5.0, 1.0, 2.0) + a * u + b * v + noise * random.normal() * normal;
+    points.push_back(p.cast<float>());
+  }
+  return points;
+}
+
+TEST(PlaneModel, JacobianMatchesFiniteDifferences) {
+  Plane plane;
+  plane.normal = Eigen::Vector3d(0.2, -0.5, 0.7).normalized();
+  plane.point = {5.0, 1.0, 2.0};
+  const Eigen::Vector3d p(3.0, -4.0, 1.5);
+  const auto residual = [&](const NominalState& s) {
+    return Eigen::Matrix<double, 1, 1>(
+        plane_row(plane, p, s.rotation.toRotationMatrix(), s.position).residual);
+  };
+  const NominalState state = test::some_state();
+  const auto numeric = test::numeric_jacobian<1>(state, residual);
+  const PlaneRow row = plane_row(plane, p, state.rotation.toRotationMatrix(), state.position);
+  EXPECT_LT((row.jacobian.transpose() - numeric.leftCols<6>()).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_LT(numeric.rightCols<9>().cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(PlaneModel, FitsExactPlanes) {
+  RandomStream random(1, "plane");
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d normal = random.normal3().normalized();
+    const Plane plane = fit_plane(spread_on_plane(normal, 0.0, random), MapConfig{});
+    ASSERT_TRUE(plane.valid);
+    EXPECT_GT(std::abs(plane.normal.dot(normal)), 1.0 - 1e-6);
+  }
+}
+
+// Over many fits to the same spots with fresh noise, the squared error of the normal along any
+// tangent is what its covariance says.
+TEST(PlaneModel, CovarianceOfTheNormalIsThatOfManyFits) {
+  RandomStream random(3, "plane");
+  MapConfig config;
+  config.plane_min_ratio = 1.0;
+  config.plane_thickness = 1.0;
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.4, 0.8).normalized();
+  Eigen::Matrix3d measured = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d told = Eigen::Matrix3d::Zero();
+  constexpr int kFits = 4000;
+  constexpr double kMapSigma = 0.01;
+  for (int i = 0; i < kFits; ++i) {
+    const Plane plane = fit_plane(spread_on_plane(normal, kMapSigma, random), config);
+    ASSERT_TRUE(plane.valid);
+    EXPECT_NEAR((plane.normal_covariance * plane.normal).norm(), 0.0, 1e-12);
+    const Eigen::Vector3d error =
+        plane.normal * std::copysign(1.0, plane.normal.dot(normal)) - normal;
+    measured += error * error.transpose() / kFits;
+    told += plane.normal_covariance / kFits;
+  }
+  for (const Eigen::Vector3d& axis :
+       {normal.unitOrthogonal(), normal.cross(normal.unitOrthogonal())}) {
+    const double ratio = axis.dot(told * axis) / axis.dot(measured * axis);
+    EXPECT_GT(ratio, 0.85);
+    EXPECT_LT(ratio, 1.2);
+  }
+}
+
+TEST(PlaneModel, RefusesOneScanLine) {
+  std::vector<Eigen::Vector3f> line;
+  for (int i = 0; i < 5; ++i)
+    line.emplace_back(0.1F * static_cast<float>(i), 1.0F, 0.001F * (i % 2));
+  EXPECT_FALSE(fit_plane(line, MapConfig{}).valid);
+}
+
+// One ring crosses from a wall to the floor: its five points lie in the cone of the beams, so that
+// the plane through them says nothing of either surface.
+TEST(PlaneModel, RefusesOneScanLineBentAroundACorner) {
+  const std::vector<Eigen::Vector3f> bent = {{1.0F, 1.1F, -0.10F},
+                                             {1.1F, 1.1F, -0.15F},
+                                             {1.2F, 1.1F, -0.20F},
+                                             {1.3F, 1.05F, -0.21F},
+                                             {1.35F, 1.0F, -0.21F}};
+  EXPECT_FALSE(fit_plane(bent, MapConfig{}).valid);
+}
+
+TEST(PlaneModel, RefusesPointsOffThePlane) {
+  RandomStream random(1, "plane");
+  auto points = spread_on_plane(Eigen::Vector3d::UnitZ(), 0.0, random);
+  points[4].z() += 0.3F;
+  EXPECT_FALSE(fit_plane(points, MapConfig{}).valid);
+}
+
+TEST(PlaneModel, RefusesIdenticalPoints) {
+  const std::vector<Eigen::Vector3f> points(5, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+  EXPECT_FALSE(fit_plane(points, MapConfig{}).valid);
+}
+
+}  // namespace
+}  // namespace aims

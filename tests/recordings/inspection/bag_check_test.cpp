@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/inspection/bag_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "recordings/inspection/bag_warnings.hpp"
+
+namespace aims {
+namespace {
+
+TopicInfo topic(const std::string& name, const std::string& type, double hz) {
+  TopicInfo info;
+  info.topic = name;
+  info.type = type;
+  info.messages = static_cast<std::uint64_t>(60.0 * hz);
+  info.stamped = true;
+  info.rate_hz = hz;
+  info.largest_gap_s = 1.0 / hz;
+  info.loss = 0.0;
+  info.median_offset_s = info.smallest_offset_s = info.largest_offset_s = 0.0;
+  info.last_stamp = 60 * kSecond;
+  return info;
+}
+
+/// A bag that every system takes.
+BagInfo good_bag() {
+  BagInfo bag;
+  bag.topics = {topic("/imu", "sensor_msgs/Imu", 200.0),
+                topic("/joints", "sensor_msgs/JointState", 200.0),
+                topic("/odom", "nav_msgs/Odometry", 200.0),
+                topic("/points", "sensor_msgs/PointCloud2", 10.0)};
+  CloudInfo cloud;
+  cloud.topic = "/points";
+  cloud.fields = {{"x", "float32", 0},          {"y", "float32", 4},    {"z", "float32", 8},
+                  {"intensity", "float32", 12}, {"ring", "uint16", 16}, {"time", "float32", 18}};
+  cloud.height = 1;
+  cloud.dense = true;
+  cloud.clouds = 20;
+  cloud.mean_points = 28000.0;
+  bag.clouds = {cloud};
+  ImuInfo imu;
+  imu.topic = "/imu";
+  imu.oriented = true;
+  imu.rest = Standstill{.begin_s = 0.0, .length_s = 5.0, .force = {0.0, 0.0, 9.81}};
+  bag.imus = {imu};
+  bag.transforms = {{"imu", "lidar", {}, true}};
+  bag.used = {"/points", "/imu", "/odom", "/joints", "/contacts", ""};
+  return bag;
+}
+
+Fulfilment worst(const BagInfo& bag, const std::string& system) {
+  Fulfilment worst = Fulfilment::kMet;
+  for (const RequirementCheck& each : check_bag(bag)) {
+    if (each.system != system) continue;
+    worst = std::max(worst, each.fulfilment);
+    EXPECT_EQ(each.remedy.empty(), each.fulfilment == Fulfilment::kMet) << each.requirement;
+  }
+  return worst;
+}
+
+const std::vector<std::string> kSystems = {"FAST-LIO2", "LIO-SAM",  "LeGO-LOAM", "LINS",
+                                           "LOAM",      "Leg-KILO", "aims",      "aims lio"};
+
+void remove_field(BagInfo& bag, const std::string& name) {
+  std::erase_if(bag.clouds[0].fields, [&name](const auto& each) { return each.name == name; });
+}
+
+TEST(BagCheck, AWholeBagSuitsEverySystem) {
+  for (const std::string& system : kSystems) {
+    EXPECT_EQ(worst(good_bag(), system), Fulfilment::kMet) << system;
+  }
+  EXPECT_TRUE(bag_warnings(good_bag()).empty()) << bag_warnings(good_bag()).front();
+}
+
+TEST(BagCheck, WithoutRingsLioSamStopsAndOthersGoOn) {
+  BagInfo bag = good_bag();
+  remove_field(bag, "ring");
+  EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "FAST-LIO2"), Fulfilment::kPoor);
+  EXPECT_EQ(worst(bag, "LOAM"), Fulfilment::kPoor);
+}
+
+TEST(BagCheck, ARingOfAnotherTypeIsNoRingToLioSam) {
+  BagInfo bag = good_bag();
+  bag.clouds[0].fields[4].type = "uint8";
+  EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "FAST-LIO2"), Fulfilment::kMet);
+}
+
+TEST(BagCheck, WithoutTimesLegKiloStopsAndOthersBlur) {
+  BagInfo bag = good_bag();
+  remove_field(bag, "time");
+  EXPECT_EQ(worst(bag, "Leg-KILO"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kPoor);
+  EXPECT_EQ(worst(bag, "aims"), Fulfilment::kPoor);
+  EXPECT_EQ(worst(bag, "LOAM"), Fulfilment::kMet);
+}
+
+TEST(BagCheck, WithoutAnOrientationOnlyLioSamStops) {
+  BagInfo bag = good_bag();
+  bag.imus[0].oriented = false;
+  EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "FAST-LIO2"), Fulfilment::kMet);
+  EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMet);
+}
+
+TEST(BagCheck, AnImuInGStopsThoseThatDoNotConvert) {
+  BagInfo bag = good_bag();
+  bag.imus[0].in_g = true;
+  EXPECT_EQ(worst(bag, "FAST-LIO2"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMet);
+  EXPECT_EQ(worst(bag, "LeGO-LOAM"), Fulfilment::kMet) << "needs none";
+}
+
+TEST(BagCheck, AtFiftyHertzTheImuIsPoor) {
+  BagInfo bag = good_bag();
+  bag.topics[0].rate_hz = 50.0;
+  EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kPoor);
+  EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMet);
+}
+
+TEST(BagCheck, NaNStopsLioSam) {
+  BagInfo bag = good_bag();
+  bag.clouds[0].not_finite_share = 0.2;
+  EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kMissing);
+  EXPECT_EQ(bag_warnings(bag).size(), 1U) << "is_dense says otherwise";
+}
+
+TEST(BagCheck, WithoutLegsTheEstimatorsThatFuseThemStop) {
+  BagInfo bag = good_bag();
+  bag.used.leg_odometry = bag.used.joint_states = bag.used.contacts = "";
+  std::erase_if(bag.topics,
+                [](const auto& each) { return each.topic != "/imu" && each.topic != "/points"; });
+  EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "Leg-KILO"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "aims lio"), Fulfilment::kMet);
+}
+
+TEST(BagCheck, WithoutCloudsNothingRuns) {
+  BagInfo bag = good_bag();
+  bag.clouds.clear();
+  bag.refusal = "no LiDAR";
+  for (const std::string& system : kSystems) {
+    EXPECT_EQ(worst(bag, system), Fulfilment::kMissing) << system;
+  }
+}
+
+TEST(BagCheck, ACloudTopicThatCannotBeReadCountsAsNone) {
+  BagInfo bag = good_bag();
+  bag.clouds[0].clouds = 0;
+  bag.clouds[0].broken = 20;
+  EXPECT_EQ(worst(bag, "LOAM"), Fulfilment::kMissing);
+}
+
+TEST(BagCheck, TheTableSaysWhoRuns) {
+  BagInfo bag = good_bag();
+  remove_field(bag, "ring");
+  const TextTable table = check_table(check_bag(bag));
+  ASSERT_EQ(table.rows.size(), kSystems.size());
+  EXPECT_EQ(table.rows[1][0], "LIO-SAM");
+  EXPECT_EQ(table.rows[1][1], "no");
+  EXPECT_EQ(table.rows[4][1], "poorly");
+  EXPECT_EQ(table.rows[6][1], "yes");
+}
+
+TEST(BagWarnings, EachNamesItsRemedy) {
+  struct Case {
+    std::string remedy;
+    void (*harm)(BagInfo&);
+  };
+  const std::vector<Case> cases = {
+      {"larger buffer", [](BagInfo& bag) { bag.topics[2].loss = 0.05; }},
+      {"coast", [](BagInfo& bag) { bag.topics[0].largest_gap_s = 2.0; }},
+      {"driver's clock", [](BagInfo& bag) { bag.topics[3].backwards = 3; }},
+      {"recording.leg_delay=0.0300",
+       [](BagInfo& bag) {
+         bag.topics[2].clock = ClockOffset{0.03, 0.9};
+       }},
+      {"stand before it walks", [](BagInfo& bag) { bag.imus[0].rest.reset(); }},
+      {"calibrate", [](BagInfo& bag) { bag.imus[0].rest->force.z() = 9.2; }},
+      {"recording.T_imu_lidar", [](BagInfo& bag) { bag.transforms.clear(); }},
+      {"rosbag reindex", [](BagInfo& bag) { bag.summary.indexed = false; }},
+      {"switch it on", [](BagInfo& bag) { remove_field(bag, "time"); }},
+  };
+  for (const Case& each : cases) {
+    BagInfo bag = good_bag();
+    each.harm(bag);
+    const std::vector<std::string> warnings = bag_warnings(bag);
+    ASSERT_EQ(warnings.size(), 1U) << each.remedy;
+    EXPECT_NE(warnings.front().find(each.remedy), std::string::npos) << warnings.front();
+  }
+}
+
+}  // namespace
+}  // namespace aims

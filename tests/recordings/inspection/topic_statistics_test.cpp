@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/inspection/topic_statistics.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aims {
+namespace {
+
+constexpr Duration kPeriod = 5 * kMillisecond;
+
+TopicInfo info_of(TopicStatistics& statistics) {
+  TopicInfo info;
+  statistics.finish(info);
+  return info;
+}
+
+TEST(TopicStatistics, TellsTheRateInSpiteOfLosses) {
+  TopicStatistics statistics;
+  int lost = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const bool drop = i % 20 == 7 || (i >= 1000 && i < 1040);
+    if (drop) {
+      ++lost;
+      continue;
+    }
+    const Time stamp = i * kPeriod;
+    statistics.add(stamp + kMillisecond, stamp);
+  }
+  const TopicInfo info = info_of(statistics);
+  EXPECT_EQ(info.messages, 2000U - lost);
+  EXPECT_NEAR(info.rate_hz.value(), 200.0, 0.01);
+  EXPECT_NEAR(info.loss.value(), lost / 2000.0, 1e-3);
+  EXPECT_NEAR(info.largest_gap_s.value(), 41 * 0.005, 1e-6);
+}
+
+TEST(TopicStatistics, CountsStampsThatRepeatOrGoBackwards) {
+  TopicStatistics statistics;
+  for (const int at : {0, 1, 2, 2, 3, 1, 4, 5}) statistics.add(at * kPeriod, at * kPeriod);
+  const TopicInfo info = info_of(statistics);
+  EXPECT_EQ(info.repeated, 1U);
+  EXPECT_EQ(info.backwards, 1U);
+}
+
+TEST(TopicStatistics, TellsHowLateMessagesAreRecorded) {
+  TopicStatistics statistics;
+  for (int i = 0; i < 101; ++i) {
+    const Time stamp = i * kPeriod;
+    statistics.add(stamp + (i == 50 ? 90 : 10 + i % 3) * kMillisecond, stamp);
+  }
+  const TopicInfo info = info_of(statistics);
+  EXPECT_TRUE(info.stamped);
+  EXPECT_NEAR(info.median_offset_s.value(), 0.011, 1e-6);
+  EXPECT_NEAR(info.smallest_offset_s.value(), 0.010, 1e-6);
+  EXPECT_NEAR(info.largest_offset_s.value(), 0.090, 1e-6);
+}
+
+TEST(TopicStatistics, WithoutHeadersGoesByRecordTimes) {
+  TopicStatistics statistics;
+  for (int i = 0; i < 10; ++i) statistics.add(i * kPeriod, std::nullopt);
+  const TopicInfo info = info_of(statistics);
+  EXPECT_FALSE(info.stamped);
+  EXPECT_NEAR(info.rate_hz.value(), 200.0, 1e-3);
+  EXPECT_FALSE(info.median_offset_s.has_value());
+}
+
+TEST(TopicStatistics, OneMessageHasNoRate) {
+  TopicStatistics statistics;
+  statistics.add(7, 7);
+  EXPECT_FALSE(info_of(statistics).rate_hz.has_value());
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "core/random.hpp"
+#include "recordings/stream/frame_tree.hpp"
+#include "recordings/stream/leg_names.hpp"
+#include "recordings/stream/point_cloud.hpp"
+#include "recordings/stream/recording_config.hpp"
+#include "recordings/stream/sweep_period.hpp"
+#include "tests/recordings/stream/recorded_deliveries.hpp"
+
+namespace aims {
+namespace {
+
+TEST(SweepPeriod, IsTheSpacingThatMostShareWhateverIsLost) {
+  EXPECT_EQ(sweep_period({0, 100, 200, 500, 600, 900}, std::nullopt), 100);
+  // Every gap is of several sweeps; how long points fire tells of how many.
+  EXPECT_EQ(sweep_period({0, 300, 500, 900}, 99), 100);
+}
+
+TEST(SweepPeriod, IsTheNearestRateOfStampsThatJitter) {
+  RandomStream random(3, "test");
+  std::vector<Time> stamps;
+  for (int k = 0; k < 40; ++k) {
+    stamps.push_back(k * 50 * kMillisecond + std::llround(random.uniform(-1e6, 1e6)));
+  }
+  EXPECT_EQ(sweep_period(stamps, std::nullopt), 50 * kMillisecond);
+  EXPECT_EQ(sweep_period(stamps, 49 * kMillisecond), 50 * kMillisecond);
+}
+
+TEST(SweepPeriod, OfOneCloudIsTheRateNearestToItsSpan) {
+  EXPECT_EQ(sweep_period({5, 5}, 99'944'448), 100 * kMillisecond);
+  EXPECT_EQ(sweep_period({5}, std::nullopt), std::nullopt);
+  EXPECT_EQ(sweep_period({}, std::nullopt), std::nullopt);
+}
+
+TEST(PointTime, KeepsTheDigitsOfSecondsSinceTheEpoch) {
+  EXPECT_EQ(point_time(0.0125F, 1e9), std::llround(double{0.0125F} * 1e9));
+  EXPECT_EQ(point_time(-1.5, 1e6), -1'500'000);
+  EXPECT_EQ(point_time(1'700'000'000.25, 1e9), 1'700'000'000'250'000'000);
+  EXPECT_EQ(point_time(std::nan(""), 1e9), std::nullopt);
+  EXPECT_EQ(point_time(1e300, 1e9), std::nullopt);
+  EXPECT_EQ(point_time(-1e10, 1e9), std::nullopt);
+}
+
+TEST(LegNames, AreToldInTheNamingOfManyRobots) {
+  for (const char* name :
+       {"FL_hip_joint", "LF_HAA", "fl.hx", "front_left_hip_x", "/LF/hip", "left_front_shoulder"}) {
+    EXPECT_EQ(leg_of_name(name), 0) << name;
+    EXPECT_EQ(joint_of_name(name), 0) << name;
+  }
+  for (const char* name :
+       {"RR_calf_joint", "RH_KFE", "hr.kn", "rear_right_knee", "hind-right-lower"}) {
+    EXPECT_EQ(leg_of_name(name), 3) << name;
+    EXPECT_EQ(joint_of_name(name), 2) << name;
+  }
+  for (const char* name : {"RL_thigh_joint", "LH_HFE", "hl.hy", "rear_left_hip_y"}) {
+    EXPECT_EQ(leg_of_name(name), 2) << name;
+    EXPECT_EQ(joint_of_name(name), 1) << name;
+  }
+  EXPECT_EQ(leg_of_name("arm_joint_1"), std::nullopt);
+  EXPECT_EQ(leg_of_name(""), std::nullopt);
+  EXPECT_EQ(joint_of_name("wheel"), std::nullopt);
+}
+
+TEST(LegNames, UnknownNamesOfTwelveJointsStayAsRecorded) {
+  const std::vector<std::string> unknown = {"j1", "j2", "j3", "j4",  "j5",  "j6",
+                                            "j7", "j8", "j9", "j10", "j11", "j12"};
+  const std::vector<std::string_view> names(unknown.begin(), unknown.end());
+  const auto order = joint_order(names, {}, 12);
+  ASSERT_TRUE(order);
+  EXPECT_EQ((*order)[7], 7U);
+  EXPECT_EQ(joint_order(names, {}, 13), std::nullopt);
+  std::vector<std::string> configured(unknown.rbegin(), unknown.rend());
+  EXPECT_EQ((*joint_order(names, configured, 12))[0], 11U);
+  configured[4] = "absent";
+  EXPECT_EQ(joint_order(names, configured, 12), std::nullopt);
+}
+
+TEST(LegNames, FeetAreOrderedByConfigurationThenByName) {
+  const std::vector<std::string> unitree = {"FR", "FL", "RR", "RL"};
+  EXPECT_EQ(foot_order({}, unitree, 4), (std::vector<int>{1, 0, 3, 2}));
+  EXPECT_EQ(foot_order({}, {}, 4), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(foot_order({}, {}, 5), std::nullopt);
+  const std::vector<std::string_view> named = {"RH_foot", "LF_foot", "RF_foot", "LH_foot"};
+  EXPECT_EQ(foot_order(named, {}, 4), (std::vector<int>{3, 0, 1, 2}));
+}
+
+Pose random_pose(RandomStream& random) { return {so3_exp(random.normal3()), random.normal3()}; }
+
+TEST(FrameTree, ASingleTransformKeepsItsVeryNumbers) {
+  RandomStream random(5, "test");
+  const Pose pose = random_pose(random);
+  FrameTree tree;
+  EXPECT_TRUE(tree.add("imu", "/lidar", pose));
+  EXPECT_FALSE(tree.add("imu", "imu", pose));
+  EXPECT_TRUE(tree.add("imu", "lidar", random_pose(random)));  // the first holds
+  test::expect_same_pose(*tree.transform("/imu", "lidar"), pose);
+  EXPECT_EQ(tree.transform("imu", "camera"), std::nullopt);
+}
+
+TEST(FrameTree, ChainsOfAnyDirectionMultiplyOut) {
+  RandomStream random(6, "test");
+  const Pose T_a_b = random_pose(random), T_c_b = random_pose(random), T_c_d = random_pose(random);
+  FrameTree tree;
+  tree.add("a", "b", T_a_b);
+  tree.add("c", "b", T_c_b);
+  tree.add("c", "d", T_c_d);
+  const Pose found = *tree.transform("a", "d");
+  const Eigen::Vector3d p = random.normal3();
+  const Eigen::Vector3d expected = T_a_b * (T_c_b.inverse() * (T_c_d * p));
+  EXPECT_LT((found * p - expected).norm(), 1e-12);
+  EXPECT_EQ(tree.chain("a", "d"), (std::vector<std::string>{"a", "b", "c", "d"}));
+}
+
+TEST(FrameTree, WhatIsNoTransformIsRefused) {
+  FrameTree tree;
+  Pose pose;
+  pose.rotation.coeffs().setZero();
+  EXPECT_FALSE(tree.add("a", "b", pose));
+  pose = {};
+  pose.translation.x() = std::nan("");
+  EXPECT_FALSE(tree.add("a", "b", pose));
+  EXPECT_FALSE(tree.add("", "b", {}));
+  EXPECT_FALSE(tree.knows("b"));
+}
+
+TEST(RecordingConfig, EveryFieldIsSetByItsKey) {
+  RecordingConfig config;
+  const Fields fields = fields_of(config);
+  EXPECT_TRUE(assign(fields, "topics.imu", "/imu"));
+  EXPECT_TRUE(assign(fields, "imu_unit", "g"));
+  EXPECT_TRUE(assign(fields, "point_time_unit", "us"));
+  EXPECT_TRUE(assign(fields, "cloud_stamp", "end"));
+  EXPECT_TRUE(assign(fields, "T_imu_lidar.translation", "[0.1, 0, 0.2]"));
+  EXPECT_TRUE(assign(fields, "foot_names", "[FR, FL, RR, RL]"));
+  EXPECT_TRUE(assign(fields, "leg_geometry.thigh", "0.3"));
+  EXPECT_EQ(config.imu_unit, ImuUnit::kGravities);
+  EXPECT_EQ(config.foot_names.at(1), "FL");
+  EXPECT_EQ(config.leg_geometry.thigh, 0.3);
+}
+
+}  // namespace
+}  // namespace aims

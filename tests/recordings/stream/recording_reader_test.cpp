@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/stream/recording_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "recordings/messages/message_types.hpp"
+#include "tests/recordings/stream/recorded_deliveries.hpp"
+#include "tests/recordings/stream/robot_recording.hpp"
+
+namespace aims {
+namespace {
+
+using test::kMounted;
+using test::kStart;
+using test::RawCloud;
+using test::Recording;
+using test::RobotRecording;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+class RecordingReaderTest : public test::RecordingTest {};
+
+MessageBytes odometry(Time stamp, const std::string& child = "base", double speed = 0.5) {
+  OdometryContent content;
+  content.linear_velocity.x() = speed;
+  content.pose.translation.x() = speed * to_seconds(stamp - kStart);
+  return odometry_message({0, stamp, "odom"}, child, content);
+}
+
+TEST_F(RecordingReaderTest, SeveralFittingTopicsAreAnErrorThatNamesThem) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 5);
+  robot.add_cloud(RawCloud::of(kStart, {{1, 2, 3, 0}}), kStart, "/left/points");
+  robot.add_cloud(RawCloud::of(kStart, {{1, 2, 3, 0}}), kStart, "/right/points");
+  robot.close();
+  EXPECT_EQ(test::read_recording(bag()).error,
+            bag().string() +
+                ": several topics are sensor_msgs/PointCloud2 or a livox CustomMsg: "
+                "/left/points, /right/points; choose one with topics.lidar (or none)");
+  RecordingConfig config;
+  config.topics.lidar = "/left/points";
+  EXPECT_EQ(test::read_recording(bag(), config).error, "");
+}
+
+TEST_F(RecordingReaderTest, AMissingTopicIsAnErrorThatListsThoseThatExist) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 5);
+  robot.close();
+  EXPECT_EQ(test::read_recording(bag()).error,
+            bag().string() +
+                ": no topic is sensor_msgs/PointCloud2 or a livox CustomMsg "
+                "(topics.lidar; 'none' to do without); it has /imu (sensor_msgs/Imu)");
+  RecordingConfig config;
+  config.topics.lidar = "/imux";
+  EXPECT_EQ(test::read_recording(bag(), config).error,
+            bag().string() +
+                ": no topic '/imux' (topics.lidar); did you mean '/imu'?; it has /imu "
+                "(sensor_msgs/Imu)");
+  config.topics.lidar = "/imu";
+  EXPECT_EQ(test::read_recording(bag(), config).error,
+            bag().string() +
+                ": topic '/imu' (topics.lidar) is sensor_msgs/Imu, expected "
+                "sensor_msgs/PointCloud2 or a livox CustomMsg");
+  config.topics.lidar = "none";
+  EXPECT_EQ(test::read_recording(bag(), config).error, "");
+}
+
+TEST_F(RecordingReaderTest, AnUnreadableDefinitionIsAnErrorThatNamesTheTopic) {
+  RobotRecording robot(bag());
+  robot.add_clouds(kStart, 2);
+  MessageType broken = imu_type();
+  broken.definition = "NoSuchType field\n";
+  robot.add("/imu", broken, kStart, MessageBytes());
+  robot.close();
+  const std::string error = test::read_recording(bag()).error;
+  EXPECT_EQ(error.find(bag().string() + ": topic '/imu': "), 0U) << error;
+  EXPECT_NE(error.find("NoSuchType"), std::string::npos) << error;
+}
+
+TEST_F(RecordingReaderTest, PointsThatAreNoReturnsAreDroppedAndCounted) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 20);
+  robot.add_clouds(kStart, 3);
+  const Time stamp = kStart + 300 * kMillisecond;
+  robot.add_cloud(RawCloud::of(stamp, {{1, 0, 0, 0.01F},
+                                       {kNan, 0, 0, 0.02F},
+                                       {0, 0, 0, 0.03F},
+                                       {1, 1, 0, kNan},
+                                       {1, 1, 1, -7.0F},
+                                       {2, 0, std::numeric_limits<float>::infinity(), 0.04F},
+                                       {2, 0, 0, 0.03F},
+                                       {3, 0, 0, 0.02F}}),
+                  stamp);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  const auto scans = test::scans_of(read.deliveries);
+  ASSERT_EQ(scans.size(), 4U);
+  ASSERT_EQ(scans[3]->points.size(), 3U);
+  EXPECT_EQ(scans[3]->points[0].position.x(), 1.0F);
+  EXPECT_EQ(scans[3]->points[1].position.x(), 3.0F);
+  EXPECT_EQ(scans[3]->points[2].position.x(), 2.0F);
+  EXPECT_EQ(read.counts, (std::map<std::string, int>{{"cloud_points_not_finite", 2},
+                                                     {"cloud_points_time_out_of_range", 2},
+                                                     {"cloud_points_zero", 1},
+                                                     {"cloud_sorted_by_time", 1}}));
+}
+
+/// Clouds whose layouts do not hold together.
+std::vector<RawCloud> malformed_clouds() {
+  const RawCloud good = RawCloud::of(kStart, {{1, 2, 3, 0}, {1, 2, 4, 0}});
+  std::vector<RawCloud> clouds(10, good);
+  clouds[0].width = 0xFFFFFFFF;
+  clouds[0].height = 0xFFFFFFFF;
+  clouds[1].point_step = 0;
+  clouds[2].fields[2].offset = 13;
+  clouds[3].row_step = 8;
+  clouds[4].fields.erase(clouds[4].fields.begin() + 1);
+  clouds[5].fields[1].offset = 2;  // over x
+  clouds[6].data.resize(31);
+  clouds[7].fields[3].type = 99;
+  clouds[8].fields[3].count = 0xFFFFFFFF;
+  clouds[9].fields[0].type = 2;  // bytes are no coordinates
+  return clouds;
+}
+
+TEST_F(RecordingReaderTest, CloudsThatDoNotHoldTogetherAreCounted) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 20);
+  robot.add_clouds(kStart, 3);
+  for (RawCloud& cloud : malformed_clouds()) robot.add_cloud(cloud, kStart + kSecond);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_EQ(test::scans_of(read.deliveries).size(), 3U);
+  EXPECT_EQ(read.counts, (std::map<std::string, int>{{"lidar_malformed", 10}}));
+}
+
+TEST_F(RecordingReaderTest, NoReadableCloudAtAllIsAnError) {
+  std::size_t number = 0;
+  for (RawCloud& cloud : malformed_clouds()) {
+    const std::filesystem::path file = folder_.path() / (std::to_string(number++) + ".bag");
+    RobotRecording robot(file);
+    robot.add_imu(kStart, 5);
+    robot.add_cloud(cloud, kStart + kSecond);
+    robot.close();
+    const std::string error = test::read_recording(file).error;
+    EXPECT_EQ(error.find(file.string() + ": topic '/points': "), 0U) << error;
+  }
+}
+
+TEST_F(RecordingReaderTest, MessagesCutShortAreCounted) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 10);
+  robot.add_clouds(kStart, 2);
+  MessageBytes shorter;
+  shorter.append(imu_message({}, {}, Eigen::Quaterniond::Identity()).view().data(), 50);
+  robot.add("/imu", imu_type(), kStart + kSecond, shorter);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_EQ(read.counts, (std::map<std::string, int>{{"imu_malformed", 1}}));
+  EXPECT_EQ(test::imu_of(read.deliveries).size(), 10U);
+}
+
+TEST_F(RecordingReaderTest, WithoutTfTheExtrinsicsAreIdentityAndLoud) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 10);
+  robot.add_clouds(kStart, 2);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_TRUE(
+      read.noted("NO TRANSFORM from 'imu' to 'lidar' in tf: identity is assumed. Give "
+                 "recording.T_imu_lidar.translation"));
+  EXPECT_TRUE(read.noted("no leg odometry"));
+  EXPECT_FALSE(read.setup.has_legs);
+}
+
+TEST_F(RecordingReaderTest, TransformsOfTfServeWhereTfStaticIsSilent) {
+  RobotRecording robot(bag());
+  Pose mounted;
+  mounted.translation = {0.1, 0.2, 0.3};
+  robot.add_transforms({{"imu", "lidar", mounted}}, "/tf");
+  robot.add_imu(kStart, 10);
+  robot.add_clouds(kStart, 2);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_EQ(read.setup.rig.T_body_lidar.translation, mounted.translation);
+  EXPECT_TRUE(read.noted("imu -> lidar: from /tf at the start, taken as fixed"));
+}
+
+TEST_F(RecordingReaderTest, TopicsWithoutStampsTakeTheRecordTimes) {
+  RobotRecording robot(bag());
+  for (int k = 0; k < 10; ++k) {
+    robot.add("/imu", imu_type(), kStart + k * 20 * kMillisecond,
+              imu_message({0, 0, "imu"}, {}, Eigen::Quaterniond::Identity()));
+  }
+  robot.add_clouds(kStart, 3);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_TRUE(read.noted("/imu: stamps are all zero, record times are taken"));
+  const auto samples = test::imu_of(read.deliveries);
+  ASSERT_EQ(samples.size(), 10U);
+  EXPECT_EQ(samples[3].stamp, kStart + 60 * kMillisecond);
+}
+
+TEST_F(RecordingReaderTest, ARecorderWithAnotherClockIsMovedToTheSensors) {
+  RobotRecording robot(bag());
+  constexpr Duration kAhead = 1'000'000 * kSecond;
+  for (int k = 0; k < 100; ++k) {
+    ImuSample sample;
+    sample.stamp = kStart + k * 20 * kMillisecond;
+    sample.specific_force.z() = 9.81;
+    robot.add("/imu", imu_type(), sample.stamp + kAhead,
+              imu_message({0, sample.stamp, "imu"}, sample, Eigen::Quaterniond::Identity()));
+  }
+  robot.add_cloud(RawCloud::of(kStart, {{1, 2, 3, 0}, {1, 2, 3, 0.09F}}),
+                  kStart + kAhead + 120 * kMillisecond);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_TRUE(read.noted("the recorder's clock is 1000000.000 s ahead of the sensors'"));
+  EXPECT_EQ(read.deliveries.front().arrival, kStart);
+}
+
+TEST_F(RecordingReaderTest, StampsFarFromThoseOfTheImuAreSaid) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 100);
+  robot.add_clouds(kStart, 5);
+  for (int k = 0; k < 20; ++k) {
+    const Time now = kStart + k * 10 * kMillisecond;
+    robot.add("/odom", odometry_type(), now, odometry(now - 3 * kSecond));
+  }
+  robot.close();
+  EXPECT_TRUE(
+      test::read_recording(bag()).noted("/odom: stamps are 2.999 s behind those of other "
+                                        "topics: set recording.leg_delay"));
+}
+
+TEST_F(RecordingReaderTest, NumbersThatAreNoneAreCountedAndPassedOn) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 20);
+  robot.add_clouds(kStart, 3);
+  ImuSample bad;
+  bad.stamp = kStart + kSecond;
+  bad.angular_velocity.x() = std::nan("");
+  robot.add("/imu", imu_type(), bad.stamp,
+            imu_message({0, bad.stamp, "imu"}, bad, Eigen::Quaterniond::Identity()));
+  robot.add("/odom", odometry_type(), bad.stamp, odometry(bad.stamp, "base", std::nan("")));
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_EQ(read.counts,
+            (std::map<std::string, int>{{"imu_not_finite", 1}, {"legs_not_finite", 1}}));
+  EXPECT_EQ(test::imu_of(read.deliveries).size(), 21U);
+}
+
+TEST_F(RecordingReaderTest, APoseWithoutRotationIsUprightAndCounted) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 20);
+  robot.add_clouds(kStart, 3);
+  OdometryContent content;
+  content.pose.rotation.coeffs().setZero();
+  robot.add("/odom", odometry_type(), kStart,
+            odometry_message({0, kStart, "odom"}, "base", content));
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_EQ(test::legs_of(read.deliveries).at(0).T_odom_base.rotation.w(), 1.0);
+  EXPECT_EQ(read.counts, (std::map<std::string, int>{{"pose_without_rotation", 1}}));
+}
+
+TEST_F(RecordingReaderTest, TruthOfAnotherFrameIsTurnedIntoThatOfTheBody) {
+  RobotRecording robot(bag());
+  Pose mounted;
+  mounted.translation = {0.5, 0.0, 0.0};
+  robot.add_transforms({{"imu", "lidar", {}}, {"imu", "base", mounted}});
+  robot.add_imu(kStart, 20);
+  robot.add_clouds(kStart, 3);
+  for (int k = 0; k < 5; ++k) {
+    const Time now = kStart + k * 10 * kMillisecond;
+    robot.add("/mocap", odometry_type(), now, odometry(now));
+    robot.add("/legs", odometry_type(), now, odometry(now));
+  }
+  robot.close();
+  RecordingConfig config;
+  config.topics.truth = "/mocap";
+  config.topics.leg_odometry = "/legs";
+  const Recording read = test::read_recording(bag(), config);
+  ASSERT_EQ(read.error, "");
+  ASSERT_EQ(read.truth.size(), 5U);
+  EXPECT_NEAR(read.truth[4].pose.translation.x(), 0.5 * 0.04 - 0.5, 1e-12);
+  EXPECT_EQ(test::legs_of(read.deliveries).size(), 5U);
+}
+
+TEST_F(RecordingReaderTest, AGapOfAYearIsPassedAtOnce) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 5);
+  robot.add_imu(kStart + 365LL * 86400 * kSecond, 5);
+  robot.close();
+  RecordingConfig config;
+  config.topics.lidar = "none";
+  auto reader = RecordingReader::open(bag(), config);
+  ASSERT_TRUE(reader) << reader.error().message;
+  std::vector<Delivery> deliveries;
+  ASSERT_EQ(reader->advance(kSecond, deliveries), true);
+  EXPECT_EQ(deliveries.size(), 5U);
+  ASSERT_EQ(reader->advance(kSecond, deliveries), false);
+  EXPECT_EQ(deliveries.size(), 10U);
+  EXPECT_EQ(reader->advance(kSecond, deliveries), false);
+}
+
+TEST_F(RecordingReaderTest, ImuUnitsAreToldBySizeOrByTheConfiguration) {
+  const auto read = [&](double force, const RecordingConfig& config) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_imu(kStart, 5, force);
+    robot.add_clouds(kStart, 3);
+    robot.close();
+    return test::read_recording(bag(), config);
+  };
+  const auto first_force = [](const Recording& recording) {
+    return test::imu_of(recording.deliveries).at(0).specific_force.z();
+  };
+  EXPECT_DOUBLE_EQ(first_force(read(0.98, {})), 0.98 * 9.80665);
+  EXPECT_EQ(first_force(read(9.6, {})), 9.6);
+  const Recording odd = read(3.0, {});
+  EXPECT_EQ(first_force(odd), 3.0);
+  EXPECT_TRUE(odd.noted("neither gravity in m/s^2 nor in g"));
+  RecordingConfig config;
+  config.imu_unit = ImuUnit::kGravities;
+  EXPECT_DOUBLE_EQ(first_force(read(3.0, config)), 3.0 * 9.80665);
+}
+
+}  // namespace
+}  // namespace aims

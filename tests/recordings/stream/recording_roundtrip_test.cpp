@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What was recorded comes back bit for bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "recordings/stream/recording_reader.hpp"
+#include "recordings/stream/recording_writer.hpp"
+#include "tests/recordings/stream/recorded_deliveries.hpp"
+#include "tests/support/kinematic_world.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+/// Point times as float32 seconds hold them, as the simulated LiDAR gives them.
+LidarScanPtr with_recordable_times(const LidarScanPtr& scan) {
+  auto result = std::make_shared<LidarScan>(*scan);
+  for (LidarPoint& point : result->points) {
+    const auto seconds = static_cast<float>(point.time_offset_ns * 1e-9);
+    point.time_offset_ns = static_cast<std::int32_t>(std::llround(double{seconds} * 1e9));
+  }
+  return result;
+}
+
+/// Three seconds of a walk, with encoders and contacts that the kinematic world leaves empty.
+std::vector<Delivery> walk(test::KinematicWorld& world) {
+  std::vector<Delivery> deliveries;
+  world.advance(3 * kSecond, deliveries);
+  RandomStream random(7, "test");
+  for (Delivery& each : deliveries) {
+    if (auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) {
+      *scan = with_recordable_times(*scan);
+    } else if (auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
+      for (bool& stands : legs->contact) stands = random.chance(0.5);
+      for (double& angle : legs->joint_position) angle = random.normal();
+      for (double& rate : legs->joint_velocity) rate = random.normal();
+    }
+  }
+  return deliveries;
+}
+
+test::KinematicConfig small_world() {
+  test::KinematicConfig config;
+  config.sensors.lidar_columns = 180;
+  config.walk.distance = 2.0;
+  return config;
+}
+
+void record(const std::filesystem::path& bag, const SensorRig& rig,
+            const std::vector<Delivery>& deliveries) {
+  auto writer = RecordingWriter::create(bag, rig, "seed: 1");
+  ASSERT_TRUE(writer) << writer.error().message;
+  for (const Delivery& each : deliveries) {
+    Result<void> ok;
+    if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) {
+      ok = writer->write_imu(ImuOutput::kMain, each.arrival, *imu, Eigen::Quaterniond::Identity());
+      if (ok) {
+        ok =
+            writer->write_imu(ImuOutput::kFast, each.arrival, *imu, Eigen::Quaterniond::Identity());
+      }
+    } else if (const auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
+      ok = writer->write_legs(each.arrival, *legs);
+    } else {
+      ok = writer->write_scan(each.arrival, *std::get<LidarScanPtr>(each.measurement));
+    }
+    ASSERT_TRUE(ok) << ok.error().message;
+  }
+  for (Time stamp = 0; stamp < kSecond; stamp += 100 * kMillisecond) {
+    BodyMotion motion;
+    motion.stamp = stamp;
+    motion.T_world_body.translation.x() = to_seconds(stamp);
+    ASSERT_TRUE(writer->write_truth(motion));
+  }
+  ASSERT_TRUE(writer->close());
+}
+
+class RecordingRoundTrip : public ::testing::Test {
+ protected:
+  /// Writes, reads, and holds one against the other. `change`: of what is delivered.
+  void expect_the_same(const std::function<void(std::vector<Delivery>&)>& change) {
+    test::KinematicWorld world(small_world());
+    std::vector<Delivery> written = walk(world);
+    change(written);
+    const std::filesystem::path bag = folder_.path() / "walk.bag";
+    record(bag, world.rig(), written);
+    if (HasFatalFailure()) return;
+    auto reader = RecordingReader::open(bag, {});
+    ASSERT_TRUE(reader) << reader.error().message;
+    const auto read = test::read_all(*reader);
+    ASSERT_TRUE(read) << read.error().message;
+    test::expect_same_deliveries(written, *read);
+    test::expect_same_pose(world.rig().T_body_lidar, reader->setup().rig.T_body_lidar);
+    test::expect_same_pose(world.rig().T_body_base, reader->setup().rig.T_body_base);
+    notes_ = reader->setup().notes;
+    setup_ = reader->setup();
+    truth_ = reader->truth();
+    counts_ = reader->counts();
+  }
+
+  TemporaryFolder folder_;
+  std::vector<std::string> notes_;
+  RecordingSetup setup_;
+  Trajectory truth_;
+  std::map<std::string, int> counts_;
+};
+
+TEST_F(RecordingRoundTrip, AWalkComesBackBitForBit) {
+  expect_the_same([](auto&) {});
+  EXPECT_EQ(notes_, std::vector<std::string>(
+                        {"point time: field 'time' in s, counted from the cloud's stamp"}));
+  EXPECT_EQ(setup_.topics.imu, "/imu/data");
+  EXPECT_EQ(setup_.topics.leg_odometry, "/leg_odometry");
+  EXPECT_TRUE(setup_.has_legs);
+  EXPECT_NEAR(setup_.imu_rate_hz.value_or(0.0), 50.0, 1e-9);
+  EXPECT_NEAR(setup_.leg_rate_hz.value_or(0.0), 200.0, 1e-9);
+  EXPECT_TRUE(counts_.empty()) << counts_.begin()->first;
+}
+
+TEST_F(RecordingRoundTrip, TruthIsReadAndNotDelivered) {
+  expect_the_same([](auto&) {});
+  ASSERT_EQ(truth_.size(), 10U);
+  EXPECT_EQ(truth_[3].stamp, 300 * kMillisecond);
+  EXPECT_EQ(truth_[3].pose.translation.x(), to_seconds(300 * kMillisecond));
+}
+
+TEST_F(RecordingRoundTrip, LostCloudsDoNotLengthenTheSweep) {
+  expect_the_same([](std::vector<Delivery>& deliveries) {
+    RandomStream random(11, "test");
+    std::erase_if(deliveries, [&](const Delivery& each) {
+      return std::holds_alternative<LidarScanPtr>(each.measurement) && random.chance(0.7);
+    });
+  });
+}
+
+TEST_F(RecordingRoundTrip, ErrorsOfStampsDuplicatesAndLateArrivalsStayAsTheyWere) {
+  expect_the_same([](std::vector<Delivery>& deliveries) {
+    RandomStream random(12, "test");
+    std::vector<Delivery> sent;
+    for (Delivery& each : deliveries) {
+      if (random.chance(0.05)) sent.push_back(each);
+      if (auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
+        legs->stamp += std::llround(random.uniform(0.0, 4e6));
+      } else if (auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) {
+        const Duration late = std::llround(random.uniform(-3e6, 3e6));
+        auto moved = std::make_shared<LidarScan>(**scan);
+        if (moved->stamp + late < 0) continue;
+        moved->stamp += late;
+        moved->end += late;
+        *scan = moved;
+      }
+      each.arrival += std::llround(random.uniform(0.0, 3e7));
+      sent.push_back(each);
+    }
+    std::stable_sort(sent.begin(), sent.end(),
+                     [](const Delivery& a, const Delivery& b) { return a.arrival < b.arrival; });
+    deliveries = std::move(sent);
+  });
+  EXPECT_GT(counts_["legs_stamp_not_increasing"], 0);
+}
+
+TEST_F(RecordingRoundTrip, AnEmptyScanIsDeliveredAndCounted) {
+  expect_the_same([](std::vector<Delivery>& deliveries) {
+    int scans = 0;
+    for (Delivery& each : deliveries) {
+      auto* scan = std::get_if<LidarScanPtr>(&each.measurement);
+      if (scan == nullptr || ++scans != 5) continue;
+      auto empty = std::make_shared<LidarScan>(**scan);
+      empty->points.clear();
+      *scan = empty;
+    }
+  });
+  EXPECT_EQ(counts_, (std::map<std::string, int>{{"cloud_empty", 1}}));
+}
+
+TEST_F(RecordingRoundTrip, SpansOfAnyLengthGiveTheSameStream) {
+  test::KinematicWorld world(small_world());
+  const std::vector<Delivery> written = walk(world);
+  const std::filesystem::path bag = folder_.path() / "walk.bag";
+  record(bag, world.rig(), written);
+  for (const Duration span : {Duration{1}, 7 * kMillisecond, 100 * kSecond}) {
+    auto reader = RecordingReader::open(bag, {});
+    ASSERT_TRUE(reader) << reader.error().message;
+    const auto read = test::read_all(*reader, span);
+    ASSERT_TRUE(read) << read.error().message;
+    test::expect_same_deliveries(written, *read);
+  }
+}
+
+TEST_F(RecordingRoundTrip, DelaysAreSubtractedFromStampsAlone) {
+  test::KinematicWorld world(small_world());
+  std::vector<Delivery> written = walk(world);
+  const std::filesystem::path bag = folder_.path() / "walk.bag";
+  record(bag, world.rig(), written);
+  RecordingConfig config;
+  config.imu_delay = 0.02;
+  config.lidar_delay = -0.03;
+  config.leg_delay = 0.01;
+  for (Delivery& each : written) {
+    if (auto* imu = std::get_if<ImuSample>(&each.measurement)) {
+      imu->stamp -= 20 * kMillisecond;
+    } else if (auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
+      legs->stamp -= 10 * kMillisecond;
+    } else {
+      auto& scan = std::get<LidarScanPtr>(each.measurement);
+      auto moved = std::make_shared<LidarScan>(*scan);
+      moved->stamp += 30 * kMillisecond;
+      moved->end += 30 * kMillisecond;
+      scan = moved;
+    }
+  }
+  auto reader = RecordingReader::open(bag, config);
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto read = test::read_all(*reader);
+  ASSERT_TRUE(read);
+  test::expect_same_deliveries(written, *read);
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/run_page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/page/map_cloud.hpp"
+#include "render/page/page_template.hpp"
+#include "render/page/report.hpp"
+#include "render/page/series.hpp"
+#include "tests/render/page/decoded_page.hpp"
+#include "tests/render/page/written_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+using testing::decoded;
+using testing::DecodedPage;
+using testing::kStep;
+
+class RunPage : public ::testing::Test {
+ protected:
+  DecodedPage page_of(const testing::WrittenRun& run) {
+    testing::write_run(folder_.path() / "run", run);
+    return read();
+  }
+
+  /// The page of what lies in the folder now.
+  DecodedPage read() {
+    const auto page = run_page(folder_.path() / "run");
+    EXPECT_TRUE(page) << page.error().message;
+    return decoded(payload_text(*page));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RunPage, HoldsTheScoresAndTheConfigurationAsTheFilesHaveThem) {
+  const DecodedPage page = page_of({});
+  EXPECT_EQ(page.json["schema"], "aims.page/1");
+  EXPECT_EQ(page.json["kind"], "run");
+  EXPECT_EQ(page.json["scores"],
+            nlohmann::json::parse(testing::content(folder_.path() / "run" / "scores.json")));
+  EXPECT_EQ(page.json["config_yaml"], testing::content(folder_.path() / "run" / "config.yaml"));
+  EXPECT_EQ(page.json["command"], "aims run config.yaml --seed 7");
+  EXPECT_EQ(page.json["scenario"]["name"], "made_up");
+  EXPECT_EQ(page.json["notes"].size(), 0U) << page.json["notes"];
+}
+
+TEST_F(RunPage, NamesWhatDiffersFromTheDefaultsWithUnitAndDefault) {
+  const DecodedPage page = page_of({});
+  bool found = false;
+  for (const auto& change : page.json["config_changes"]) {
+    EXPECT_NE(change["value"], change["default"]) << change["key"];
+    if (change["key"] != "lidar.range_max") continue;
+    found = true;
+    EXPECT_EQ(change["value"], "33");
+    EXPECT_EQ(change["unit"], "m");
+  }
+  EXPECT_TRUE(found) << page.json["config_changes"];
+  EXPECT_LT(page.json["config_changes"].size(), 5U) << page.json["config_changes"];
+}
+
+TEST_F(RunPage, LaysEstimatesOntoTheTruthAndSplitsTheirErrorAlongItsHeading) {
+  const DecodedPage page = page_of({});
+  const auto& exact = page.json["estimators"][0];
+  const auto& ahead = page.json["estimators"][1];
+  EXPECT_EQ(exact["name"], "exact");
+  const auto p = page.f32(exact["series"]["p"]);
+  EXPECT_FLOAT_EQ(p[0], 1.0F);
+  EXPECT_FLOAT_EQ(p[1], 0.2F);
+  EXPECT_FLOAT_EQ(p[2], 0.3F);
+  const auto along = page.f32(ahead["series"]["error_along"]);
+  const auto lateral = page.f32(ahead["series"]["error_lateral"]);
+  ASSERT_EQ(along.size(), 50U);
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    EXPECT_NEAR(along[i], 0.1 * kStep * static_cast<double>(i), 1e-6);
+    EXPECT_NEAR(lateral[i], 0.0, 1e-6);
+  }
+}
+
+TEST_F(RunPage, HasTheDiagnosticsAtTheStampsOfThePoses) {
+  const DecodedPage page = page_of({.scans = 20});
+  const auto& series = page.json["estimators"][0]["series"];
+  const auto t = page.f32(series["t"]);
+  ASSERT_EQ(t.size(), 20U);
+  EXPECT_FLOAT_EQ(t[3], 0.4F);
+  EXPECT_FLOAT_EQ(page.f32(series["innovation"])[3], 5e-3F);
+  EXPECT_FLOAT_EQ(page.f32(series["sigma_vertical"])[3], 0.02F);
+  EXPECT_EQ(page.f32(series["position_covariance"]).size(), 6U * 20U);
+  for (const float D : page.f32(series["D"])) EXPECT_FALSE(std::isnan(D));
+}
+
+TEST_F(RunPage, TellsDegenerateStretchesFromTheScanBeforeToTheirLast) {
+  const DecodedPage page = page_of({});
+  const auto& degenerate = page.json["localizability"]["degenerate"];
+  EXPECT_EQ(degenerate["n10"].size(), 0U);
+  ASSERT_EQ(degenerate["n100"].size(), 1U);
+  EXPECT_NEAR(degenerate["n100"][0][0].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(degenerate["n100"][0][1].get<double>(), 2.0, 1e-9);
+  EXPECT_EQ(degenerate["n1000"].size(), 0U) << "the file has no such column";
+}
+
+TEST_F(RunPage, ThinsLongSeriesAndLargeMapsAndKeepsTheLastPose) {
+  const DecodedPage page = page_of({.scans = 9001, .map_points = 100000});
+  const auto& first = page.json["estimators"][0];
+  const auto t = page.f32(first["series"]["t"]);
+  EXPECT_LE(t.size(), kLongestSeries);
+  EXPECT_GT(t.size(), kLongestSeries / 2);
+  EXPECT_FLOAT_EQ(t.back(), 900.1F);
+  EXPECT_EQ(page.f32(first["series"]["p"]).size(), 3 * t.size());
+  const auto points = first["map"]["n"].get<std::size_t>();
+  EXPECT_LE(points, kMostMapPoints);
+  EXPECT_GT(points, kMostMapPoints / 3);
+  EXPECT_EQ(first["map"]["p"]["n"], 3 * points);
+  EXPECT_EQ(first["map"]["error"]["n"], points);
+}
+
+TEST_F(RunPage, CountsSecondsFromTheStartOfAnEpochsClock) {
+  const DecodedPage page = page_of({.scans = 20, .start_s = 1.7e9});
+  EXPECT_EQ(page.json["t0_s"], 1.7e9);
+  EXPECT_NEAR(page.f32(page.json["truth"]["t"])[0], 0.1, 1e-6);
+  EXPECT_NEAR(page.f32(page.json["estimators"][0]["series"]["t"])[19], 2.0, 1e-6);
+  EXPECT_FALSE(page.json["estimators"][0]["series"]["D"].is_null());
+}
+
+TEST_F(RunPage, IsTheSameBytesForTheSameFolderWhereverItLies) {
+  testing::write_run(folder_.path() / "run", {});
+  std::filesystem::copy(folder_.path() / "run", folder_.path() / "elsewhere");
+  const auto one = run_page(folder_.path() / "run");
+  const auto two = run_page(folder_.path() / "elsewhere");
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(payload_text(*one), payload_text(*two));
+  EXPECT_EQ(one->title, two->title);
+}
+
+TEST_F(RunPage, OfAWalkAlongTheCorridorStaysUnderFiveMegabytes) {
+  // Two estimators of 2300 scans with full maps; the paper's corridor is run with four.
+  testing::write_run(folder_.path() / "run", {.scans = 2300, .map_points = 100000});
+  const auto page = run_page(folder_.path() / "run");
+  ASSERT_TRUE(page);
+  const std::size_t data = payload_text(*page).size();
+  const auto pictures = 4U * 200U * 1024U * 4U / 3U;
+  EXPECT_LT(2 * data + pictures + page_template().size(), 5U * 1024U * 1024U) << data;
+}
+
+TEST_F(RunPage, IsWrittenIntoTheFolderUnlessBuiltWithout) {
+  testing::write_run(folder_.path() / "run", {});
+  const auto reports = write_reports(folder_.path() / "run");
+  if (page_template().empty()) {
+    ASSERT_FALSE(reports);
+    EXPECT_NE(reports.error().message.find("AIMS_REPORT"), std::string::npos);
+    GTEST_SKIP() << "built without the page: npm was not found or not reachable";
+  }
+  ASSERT_TRUE(reports) << reports.error().message;
+  ASSERT_EQ(reports->pages.size(), 1U);
+  const DecodedPage page = testing::decoded_html(testing::content(reports->pages[0]));
+  EXPECT_EQ(page.json["scores"]["estimators"]["exact"]["ate_m"], 0.125);
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/render/page/written_run.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "core/random.hpp"
+#include "bench/run/scenario.hpp"
+#include "bench/run/score_record.hpp"
+#include "bench/run/tables.hpp"
+#include "core/files/csv.hpp"
+#include "core/files/ply.hpp"
+#include "core/files/tum.hpp"
+
+namespace aims::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kSeed = 3;
+constexpr double kCovariance = 4e-4;  ///< of each axis [m^2]
+
+/// Poses along +x from `first`, `step` apart, at 10 Hz.
+Trajectory straight(const WrittenRun& run, const Eigen::Vector3d& first, double step) {
+  Trajectory trajectory;
+  for (int i = 0; i < run.scans; ++i) {
+    StampedPose pose;
+    pose.stamp = from_seconds(run.start_s + 0.1 * (i + 1));
+    pose.pose.translation = first + Eigen::Vector3d(i * step, 0.0, 0.0);
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+/// Points anywhere in the corridor around the start, in the odometry frame.
+std::vector<Eigen::Vector3f> cloud(const WrittenRun& run) {
+  RandomStream stream(kSeed, "cloud");
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < run.map_points; ++i) {
+    const Eigen::Vector3d point(stream.uniform(-5.0, 70.0), stream.uniform(-1.3, 1.3),
+                                stream.uniform(0.0, 2.6));
+    points.push_back(point.cast<float>());
+  }
+  return points;
+}
+
+void write_estimator(const fs::path& folder, const WrittenRun& run, const std::string& name,
+                     double step) {
+  RandomStream stream(kSeed, name);
+  EstimatorOutcome outcome;
+  outcome.name = name;
+  outcome.report.trajectory = straight(run, Eigen::Vector3d::Zero(), step);
+  for (const StampedPose& pose : outcome.report.trajectory) {
+    ScanDiagnostics scan;
+    scan.stamp = pose.stamp;
+    scan.D = stream.uniform();
+    scan.C_IL = stream.uniform();
+    scan.gamma_lidar = stream.uniform();
+    scan.innovation_position = {3e-3, 4e-3, 0.0};
+    scan.position_covariance = kCovariance * Eigen::Matrix3d::Identity();
+    outcome.report.diagnostics.push_back(scan);
+    outcome.scan_times_ms.push_back(stream.uniform(1.0, 30.0));
+  }
+  put(folder / (name + ".tum"), tum_text(outcome.report.trajectory));
+  put(folder / (name + ".diagnostics.csv"), diagnostics_table(outcome).text());
+  if (run.map_points > 0) put(folder / (name + ".map.ply"), ply_text(cloud(run)));
+}
+
+std::string localizability_text(const WrittenRun& run) {
+  CsvTable table({"stamp_s", "equivalent_returns", "weak_axis_x", "weak_axis_y", "weak_axis_z",
+                  "degenerate_n10", "degenerate_n100"});
+  for (int i = 0; i < run.scans; ++i) {
+    table.add(run.start_s + 0.1 * (i + 1)).add(100.0 - i).add(1.0).add(0.0).add(0.0);
+    table.add(false).add(i >= 10 && i < 20).end_row();
+  }
+  return table.text();
+}
+
+std::string scores_text(const WrittenRun& run) {
+  Json scores = {{"schema", kScoresSchema},
+                 {"version", "0"},
+                 {"scenario", run.name},
+                 {"seed", 7},
+                 {"complete", true},
+                 {"simulated_s", 0.1 * run.scans},
+                 {"robot", {{"fell", false}, {"touched_wall", false}}},
+                 {"segments", Json::array()}};
+  for (const char* name : kMadeUpEstimators) {
+    scores["estimators"][name] = {{"success", true}, {"lost_at_s", nullptr}, {"ate_m", 0.125}};
+  }
+  return scores.dump(2) + "\n";
+}
+
+}  // namespace
+
+void put(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void write_run(const fs::path& folder, const WrittenRun& run) {
+  fs::create_directories(folder);
+  Scenario scenario;
+  scenario.name = run.name;
+  scenario.simulation.lidar.range_max = 33.0;
+  put(folder / "config.yaml", effective_config(scenario, 7));
+  put(folder / "scores.json", scores_text(run));
+  put(folder / "truth.tum", tum_text(straight(run, {1.0, 0.2, 0.3}, kStep)));
+  put(folder / "localizability.csv", localizability_text(run));
+  put(folder / "passages.csv", "point,stamp_s\n");
+  write_estimator(folder, run, "exact", kStep);
+  write_estimator(folder, run, "ahead", 1.1 * kStep);
+}
+
+}  // namespace aims::testing
