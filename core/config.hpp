@@ -60,7 +60,7 @@ struct ListField {
 };
 
 /// The field list of a configuration: one `describe(Fields&, Config&)` per struct drives loading,
-/// dumping, `--set`, validation, documentation and sweeps. Holds pointers into the configuration,
+/// dumping, `--set`, validation, documentation and scans. Holds pointers into the configuration,
 /// so it must not outlive it; collect again after resizing a list.
 class Fields {
  public:

@@ -34,10 +34,10 @@ struct LidarPoint {
   std::uint16_t ring = 0;                              ///< 0 = lowest elevation
 };
 
-/// One sweep in the sensor's firing order; misses are absent.
+/// One scan in the sensor's firing order; misses are absent.
 struct LidarScan {
   Time stamp = 0;  ///< time of the first firing
-  Time end = 0;    ///< nominal end of the sweep
+  Time end = 0;    ///< nominal end of the scan
   std::vector<LidarPoint> points;
 };
 
@@ -65,7 +65,7 @@ struct Delivery {
   Measurement measurement;
 };
 
-/// When the measurement was complete: sample stamp, or the end of the sweep.
+/// When the measurement was complete: sample stamp, or the end of the scan.
 Time stamp_of(const Measurement& measurement);
 
 /// Where the sensors sit on the body, as a robot's calibration states it.

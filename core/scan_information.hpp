@@ -7,11 +7,11 @@
 
 namespace aims {
 
-/// What one LiDAR sweep tells about the pose of the body at the sweep's end, against a known map:
+/// What one LiDAR scan tells about the pose of the body at the scan's end, against a known map:
 /// the Fisher information of its true returns at the true pose. Rotation first, then translation,
 /// both as right perturbations in body axes: T = T_true (Exp(rotation), translation).
 struct ScanInformation {
-  Time stamp = 0;  ///< true end of the sweep
+  Time stamp = 0;  ///< true end of the scan
   /// [1/rad^2, 1/(rad m); 1/(rad m), 1/m^2]
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   int returns = 0;           ///< that the information sums over

@@ -20,7 +20,7 @@ struct StampedPose {
 using Trajectory = std::vector<StampedPose>;
 
 /// When the robot truly passed a named reference point.
-struct Passage {
+struct WaypointTime {
   std::string point;
   Time stamp = 0;
 };

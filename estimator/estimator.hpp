@@ -13,7 +13,7 @@ namespace aims {
 
 /// What one LiDAR update saw and did; quantities of the paper carry its symbols.
 struct ScanDiagnostics {
-  Time stamp = 0;       ///< end of the sweep
+  Time stamp = 0;       ///< end of the scan
   int points_in = 0;    ///< finite points in range
   int points_used = 0;  ///< with an accepted plane in the final update
   int iterations = 0;
@@ -44,7 +44,7 @@ struct ScanDiagnostics {
 inline constexpr Duration kLongestSilence = 250 * kMillisecond;
 
 /// What an estimator has found so far.
-struct EstimatorReport {
+struct EstimatorResult {
   /// T_odom_body at each scan end, or after `kLongestSilence`; starts at identity
   Trajectory trajectory;
   std::vector<ScanDiagnostics> diagnostics;  ///< one per scan (empty for `leg`)
@@ -62,7 +62,7 @@ class Estimator {
   /// Processes what is still held back for reordering; call once, after the last delivery.
   virtual void finish() = 0;
 
-  virtual const EstimatorReport& report() const = 0;
+  virtual const EstimatorResult& result() const = 0;
 
   /// Points of the local map in the odometry frame [m]; empty for an estimator without a map.
   virtual std::vector<Eigen::Vector3f> map_points() const = 0;

@@ -58,7 +58,7 @@ Result<void> follow(RecordingReader& reader, Estimator& estimator, OdometryPubli
     if (!advanced) return tl::unexpected(advanced.error());
     more = *advanced;
     for (const Delivery& delivery : deliveries) estimator.consume(delivery);
-    publisher.publish(estimator.report().trajectory);
+    publisher.publish(estimator.result().trajectory);
     deliveries.clear();
   }
   estimator.finish();
@@ -67,11 +67,11 @@ Result<void> follow(RecordingReader& reader, Estimator& estimator, OdometryPubli
 
 void print_summary(const RecordingReader& reader, const Estimator& estimator, std::size_t dropped) {
   for (const auto& [event, count] : reader.counts()) say(fmt::format("note: {}: {}", event, count));
-  for (const auto& [event, count] : estimator.report().counts) {
+  for (const auto& [event, count] : estimator.result().counts) {
     say(fmt::format("note: {}: {}", event, count));
   }
   if (dropped > 0) say(fmt::format("note: {} messages left out, since the node was late", dropped));
-  say(fmt::format("{} poses", estimator.report().trajectory.size()));
+  say(fmt::format("{} poses", estimator.result().trajectory.size()));
 }
 
 int run_node(RosTransport& transport, const NodeOptions& options) {
@@ -95,7 +95,7 @@ int run_node(RosTransport& transport, const NodeOptions& options) {
   if (auto ok = follow(*reader, **estimator, publisher); !ok) return bad_input(ok.error());
   print_summary(*reader, **estimator, transport.dropped());
   if (options.out.empty()) return kOk;
-  const auto written = write_tum(options.out, (*estimator)->report().trajectory);
+  const auto written = write_tum(options.out, (*estimator)->result().trajectory);
   return written ? kOk : bad_input(written.error());
 }
 

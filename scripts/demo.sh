@@ -7,5 +7,5 @@ mkdir -p build
 step "install packages" install_packages
 step "configure" configure
 step "build" cmake --build build/release --target aims
-step "run scenarios/corridor.yaml" \
-  build/release/aims run scenarios/corridor.yaml --out out/demo --overwrite "$@"
+step "run scenarios/paper/corridor.yaml" \
+  build/release/aims run scenarios/paper/corridor.yaml --out out/demo --overwrite "$@"

@@ -72,11 +72,11 @@ void step_pushed(Walker& walker, const Pushes& pushes) {
   walker.step();
 }
 
-/// Passages of the recording; those before its start are nobody's reference.
-std::vector<Passage> passages_since(const RouteFollower& route, Time start) {
-  std::vector<Passage> passages = route.passages();
-  std::erase_if(passages, [start](const Passage& each) { return each.stamp < start; });
-  return passages;
+/// Waypoint times of the recording; those before its start are nobody's reference.
+std::vector<WaypointTime> waypoint_times_since(const RouteFollower& route, Time start) {
+  std::vector<WaypointTime> waypoint_times = route.waypoint_times();
+  std::erase_if(waypoint_times, [start](const WaypointTime& each) { return each.stamp < start; });
+  return waypoint_times;
 }
 
 /// Error when a point of the route is not free, or the robot would start touching a solid.
@@ -123,7 +123,7 @@ struct Simulation::Impl {
   Link lidar_link;
   SensorRig rig;
   Pose T_base_body;
-  Trajectory sweep;  ///< of the LiDAR since the start of the present sweep
+  Trajectory scan_motion;  ///< of the LiDAR since the start of the present scan
   Arrivals arrivals;
   std::vector<Delivery> sent;
   std::vector<ImuSample> fast_samples;
@@ -173,23 +173,24 @@ void Simulation::Impl::send_legs() {
   if (auto sample = legs.sample(state)) deliver(state.stamp, *sample, leg_link);
 }
 
-/// Casts the sweep that ends now, if one does; the next begins where it ended.
+/// Casts the scan that ends now, if one does; the next begins where it ended.
 void Simulation::Impl::send_scan() {
   const RobotState& state = walker.world().state();
-  sweep.push_back({state.stamp, state.T_world_base * T_base_body * rig.T_body_lidar});
-  if (state.stamp - sweep.front().stamp < lidar.period()) return;
+  scan_motion.push_back({state.stamp, state.T_world_base * T_base_body * rig.T_body_lidar});
+  if (state.stamp - scan_motion.front().stamp < lidar.period()) return;
   const Stopwatch watch(times.lidar);
-  SweepTruth seen;
-  auto scan = std::make_shared<LidarScan>(lidar.sweep(sweep.front().stamp, sweep, &seen));
+  ScanTruth seen;
+  auto scan =
+      std::make_shared<LidarScan>(lidar.scan(scan_motion.front().stamp, scan_motion, &seen));
   const Time end = scan->end;
   deliver(state.stamp, LidarScanPtr(std::move(scan)), lidar_link);
   if (!sent.empty()) {
-    const Pose T_world_lidar = pose_at(sweep, end).value_or(sweep.back().pose);
+    const Pose T_world_lidar = pose_at(scan_motion, end).value_or(scan_motion.back().pose);
     truth.scans.push_back(scan_information(end, seen, T_world_lidar * rig.T_body_lidar.inverse(),
                                            config.lidar.range_sigma,
                                            caster.first_moving_surface()));
   }
-  sweep.erase(sweep.begin(), sweep.end() - 1);
+  scan_motion.erase(scan_motion.begin(), scan_motion.end() - 1);
 }
 
 /// Appends the present state to the truth and lets every sensor see it.
@@ -250,7 +251,7 @@ Simulation::~Simulation() = default;
 bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
   const Time until = now() + span;
   while (now() < until && !impl_->finished()) impl_->step();
-  impl_->truth.passages = passages_since(impl_->walker.route(), impl_->truth.samples.front().stamp);
+  impl_->truth.waypoint_times = waypoint_times_since(impl_->walker.route(), impl_->truth.samples.front().stamp);
   const bool finished = impl_->finished();
   // What is still on its way at the end arrives too.
   impl_->arrivals.take(finished ? std::numeric_limits<Time>::max() : now(), deliveries);

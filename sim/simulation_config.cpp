@@ -72,8 +72,8 @@ Result<void> validate(const SimulationConfig& config) {
     const auto steps = steps_per_sample("fast_imu_rate", config.fast_imu_rate, timestep);
     if (!steps) return tl::unexpected(steps.error());
   }
-  const auto sweep = steps_per_sample("lidar.rate", config.lidar.rate, timestep);
-  if (!sweep) return tl::unexpected(sweep.error());
+  const auto scan = steps_per_sample("lidar.rate", config.lidar.rate, timestep);
+  if (!scan) return tl::unexpected(scan.error());
   if (config.recording_start >= config.max_duration) {
     return failure(fmt::format("recording_start: expected less than {} s (max_duration), got {}",
                                config.max_duration, config.recording_start));

@@ -80,9 +80,9 @@ void add_ablate_command(CLI::App& app, const fs::path& scenario_folder, int& exi
       ->delimiter(',');
   command->footer(
       "Examples:\n"
-      "  aims ablate dial_d30 dial_n30 dial_z30 --seeds 1-3 --out out/ablation\n"
-      "  aims ablate --tags dial --seeds 1-5 --others lio,tfs_clean\n"
-      "  aims ablate dial_r05 --groups directional.leg_states\n"
+      "  aims ablate severity_3 severity_8 severity_9 --seeds 1-3 --out out/ablation\n"
+      "  aims ablate --tags severity --seeds 1-5 --others lio,tfs_clean\n"
+      "  aims ablate severity_5 --groups directional.leg_states\n"
       "The same command again continues, and runs only what is missing or has changed.\n"
       "Exit codes: as of aims; 2 also when a scenario could not run.");
   command->callback([arguments, &exit_code] { exit_code = ablate_command(*arguments); });

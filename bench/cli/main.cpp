@@ -18,7 +18,7 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     "Examples:\n"
-    "  aims run scenarios/corridor.yaml\n"
+    "  aims run scenarios/paper/corridor.yaml\n"
     "  aims run corridor --seed 1-5 --estimators aims,lio --out out/compare\n"
     "  aims run corridor --set lidar.range_max=30 --set estimator.degeneracy.eta=5\n"
     "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
@@ -26,8 +26,8 @@ constexpr const char* kFooter =
     "  aims report out/corridor-seed-1\n"
     "  aims compare out/before out/after\n"
     "  aims detectors corridor corridor_smooth --seeds 1-5\n"
-    "  aims ablate dial_d30 dial_n30 --seeds 1-3\n"
-    "  aims consistency dial_z30 --seeds 1-50 --estimators aims_d,lio\n"
+    "  aims ablate severity_3 severity_8 --seeds 1-3\n"
+    "  aims consistency severity_9 --seeds 1-50 --estimators aims_d,lio\n"
     "  aims sweep --over degeneracy.eta=0:6:13 --scenarios corridor --seeds 1-5\n"
     "  aims tune bench/tuning/plans/aims.yaml --out out/tune\n"
     "  aims render corridor --out out/render\n"

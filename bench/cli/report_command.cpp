@@ -83,7 +83,7 @@ void add_report_command(CLI::App& app, int& exit_code) {
       "Each folder gets its report.html; of several seeds each gets one, of a suite also the runs\n"
       "that kept trajectories. The page needs no network and opens from the disk. Examples:\n"
       "  aims report out/corridor-seed-1\n"
-      "  aims report out/dial --against out/dial_before --out compare.html");
+      "  aims report out/severity --against out/severity_before --out compare.html");
   command->callback([arguments, &exit_code] { exit_code = report_command(*arguments); });
 }
 

@@ -138,7 +138,7 @@ void add_run_command(CLI::App& app, const fs::path& scenario_folder, int& exit_c
   command->add_flag("--no-report", arguments->no_report, "Write no page (report.html)");
   command->footer(
       "Examples:\n"
-      "  aims run scenarios/corridor.yaml\n"
+      "  aims run scenarios/paper/corridor.yaml\n"
       "  aims run corridor --seed 1-5 --set lidar.range_max=30 --out out/short-sighted");
   command->callback([arguments, scenario_folder, &exit_code] {
     exit_code = run_command(*arguments, scenario_folder);

@@ -56,11 +56,11 @@ void add_inputs(CLI::App& command, ScoringRequest& request) {
 }
 
 void add_settings(CLI::App& command, ScoringRequest& request) {
-  command.add_option("--passages", request.passages,
-                     "passages.csv of a run: the reference points of M_list");
+  command.add_option("--waypoint-times", request.waypoint_times,
+                     "waypoint_times.csv of a run: the reference points of M_list");
   command.add_option("--segments", request.segments,
                      "Ways that have an M_list: a-b=12.5:110.2 in seconds of the truth's stamps, "
-                     "or a-d between passages; several with commas");
+                     "or a-d between waypoint_times; several with commas");
   command.add_option("--config", request.config, "YAML whose group 'scoring' counts");
   add_repeatable(command, "--set", request.overrides, "scoring.key=value; repeatable");
 }
@@ -79,7 +79,7 @@ void add_score_command(CLI::App& app, int& exit_code) {
   command->footer(
       "A trajectory is a file of TUM lines, of KITTI poses, or run.bag:/topic (nav_msgs/Odometry,\n"
       "nav_msgs/Path, geometry_msgs/PoseStamped and the like). Examples:\n"
-      "  aims score --truth truth.tum --estimate mine.tum --passages passages.csv\n"
+      "  aims score --truth truth.tum --estimate mine.tum --waypoint-times waypoint_times.csv\n"
       "  aims score --truth run.bag:/ground_truth/lidar --estimate loam.txt --estimate lio.tum \\\n"
       "    --segments a-b=12.5:110.2,b-a=115:220 --out out/lidars");
   command->callback([arguments, &exit_code] { exit_code = score_command(*arguments); });

@@ -62,7 +62,7 @@ void print_report(const RecordOutcome& outcome, const RecordOptions& options) {
   const double megabytes = static_cast<double>(outcome.bag_bytes) / 1e6;
   fmt::print("{}: {:.1f} MB, {:.1f} s simulated in {:.1f} s\n", options.bag.string(), megabytes,
              outcome.simulated_s, outcome.wall_s);
-  fmt::print("  {}\n  {}\n", outcome.truth.string(), outcome.passages.string());
+  fmt::print("  {}\n  {}\n", outcome.truth.string(), outcome.waypoint_times.string());
   if (outcome.fell) fmt::print("warning: the robot fell\n");
   if (outcome.touched_wall) fmt::print("warning: the robot touched a wall\n");
   if (outcome.left_out > 0) {
@@ -109,7 +109,7 @@ void add_simulate_command(CLI::App& app, const fs::path& scenario_folder, int& e
   command->add_flag("--overwrite", arguments->overwrite, "Replace a bag that exists");
   command->add_flag("--quiet", arguments->quiet, "No progress");
   command->footer(
-      "Beside the bag stand NAME.truth.tum (true poses of the body) and NAME.passages.csv.\n"
+      "Beside the bag stand NAME.truth.tum (true poses of the body) and NAME.waypoint_times.csv.\n"
       "Examples:\n"
       "  aims simulate corridor -o walk.bag\n"
       "  aims simulate garage --seed 3 --fast-imu 200 --compression lz4 -o garage.bag");

@@ -93,7 +93,7 @@ void add_suite_command(CLI::App& app, const fs::path& scenario_folder, int& exit
   selection.folder = scenario_folder.string();
   selection.out = "out/suite";
   auto* names = command->add_option("--scenarios", selection.scenarios,
-                                    "Scenario files or names, e.g. corridor,dial_r05");
+                                    "Scenario files or names, e.g. corridor,severity_5");
   names->delimiter(',');
   add_suite_options(*command, selection, names);
   command
@@ -106,7 +106,7 @@ void add_suite_command(CLI::App& app, const fs::path& scenario_folder, int& exit
   command->add_flag("--no-report", arguments->no_report, "Write no pages (report.html)");
   command->footer(
       "Examples:\n"
-      "  aims suite --tags dial --seeds 1-10 --out out/dial\n"
+      "  aims suite --tags severity --seeds 1-10 --out out/severity\n"
       "  aims suite --scenarios corridor,corridor_smooth --seeds 1-5 --estimators aims,lio\n"
       "  aims suite --tags stress --seeds 1-3 --set estimator.degeneracy.eta=5 --out out/eta5\n"
       "The same command again continues, and runs only what is missing or has changed.\n"

@@ -114,7 +114,7 @@ void add_sweep_command(CLI::App& app, const fs::path& scenario_folder, int& exit
   command->footer(
       "Examples:\n"
       "  aims sweep --over degeneracy.eta=0:6:13 --over 'degeneracy.kappa=log(1,100,9)' \\\n"
-      "      --scenarios corridor,dial_r05 --seeds 1-5 --out out/eta\n"
+      "      --scenarios corridor,severity_5 --seeds 1-5 --out out/eta\n"
       "  aims sweep --over links.leg_odometry.loss=0:0.5:6 --estimators aims,leg --scenarios "
       "corridor\n"
       "  aims sweep plan.yaml --jobs 2\n"

@@ -141,8 +141,8 @@ bool take_information(ByteCursor& cursor, ScanInformation& scan) {
   return true;
 }
 
-bool take_passage(ByteCursor& cursor, Passage& passage) {
-  return take_text(cursor, passage.point) && take_number(cursor, passage.stamp);
+bool take_waypoint_time(ByteCursor& cursor, WaypointTime& waypoint_time) {
+  return take_text(cursor, waypoint_time.point) && take_number(cursor, waypoint_time.stamp);
 }
 
 /// A count and as many entries of at least `size` bytes.
@@ -230,10 +230,10 @@ void append_truth(std::vector<std::byte>& out, const Truth& truth) {
     append_matrix(out, sample.velocity);
     append_matrix(out, sample.angular_velocity);
   }
-  append_number(out, std::uint64_t{truth.passages.size()});
-  for (const Passage& passage : truth.passages) {
-    append_text(out, passage.point);
-    append_number(out, passage.stamp);
+  append_number(out, std::uint64_t{truth.waypoint_times.size()});
+  for (const WaypointTime& waypoint_time : truth.waypoint_times) {
+    append_text(out, waypoint_time.point);
+    append_number(out, waypoint_time.stamp);
   }
   append_number(out, std::uint64_t{truth.scans.size()});
   for (const ScanInformation& scan : truth.scans) {
@@ -251,7 +251,7 @@ bool take_truth(ByteCursor& cursor, Truth& truth) {
   truth.fell = fell != 0;
   truth.touched_wall = touched_wall != 0;
   return take_entries(cursor, kTruthSampleSize, truth.samples, take_sample) &&
-         take_entries(cursor, sizeof(std::uint64_t) + sizeof(Time), truth.passages, take_passage) &&
+         take_entries(cursor, sizeof(std::uint64_t) + sizeof(Time), truth.waypoint_times, take_waypoint_time) &&
          take_entries(cursor, kScanInformationSize, truth.scans, take_information);
 }
 

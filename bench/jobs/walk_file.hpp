@@ -20,7 +20,7 @@ namespace aims {
 
 /// Writes a simulated walk as one file, bit for bit what the simulation yielded: the rig, every
 /// delivery in order of arrival, and of the truth what scores are made from (motion at the physics
-/// rate, passages, information of the sweeps; no biases, no pictures). A bag holds the truth at
+/// rate, waypoint times, information of the sweeps; no biases, no pictures). A bag holds the truth at
 /// 10 ms alone and nothing of the sweeps, so that scores would differ. Little-endian numbers, one
 /// after the other; 22 bytes per return. The file appears whole, on finish().
 class WalkWriter {

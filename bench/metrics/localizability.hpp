@@ -33,9 +33,9 @@ BlockInformation rotation_information(const Eigen::Matrix<double, 6, 6>& informa
 /// Cramer-Rao bound of one parameter: 1 / sqrt(information), infinite without information.
 double bound_of(double information);
 
-/// How well one sweep fixes the robot's place, by the truth.
+/// How well one scan fixes the robot's place, by the truth.
 struct Localizability {
-  Time stamp = 0;  ///< true end of the sweep
+  Time stamp = 0;  ///< true end of the scan
   int returns = 0;
   double lambda_min = 0.0;  ///< least eigenvalue of the translation information [1/m^2]
   /// Returns of a facing surface that would inform as much along the weak axis: lambda_min sigma^2.
@@ -47,14 +47,14 @@ struct Localizability {
   double rotation_sigma = std::numeric_limits<double>::infinity();  ///< [rad]
 };
 
-/// Localizability of a sweep taken at the true pose `T_world_body` of its end.
+/// Localizability of a scan taken at the true pose `T_world_body` of its end.
 Localizability localizability_of(const ScanInformation& scan, const Pose& T_world_body);
 
-/// Localizability of every sweep inside the span of the true trajectory.
+/// Localizability of every scan inside the span of the true trajectory.
 std::vector<Localizability> localizability_of(std::span<const ScanInformation> scans,
                                               const Trajectory& truth);
 
-/// A limit below which a sweep counts as degenerate.
+/// A limit below which a scan counts as degenerate.
 struct DegeneracyLevel {
   std::string_view name;
   double equivalent_returns;  ///< fewer are degenerate
@@ -64,7 +64,7 @@ struct DegeneracyLevel {
 inline constexpr std::array<DegeneracyLevel, 3> kDegeneracyLevels = {
     {{"n10", 10.0}, {"n100", 100.0}, {"n1000", 1000.0}}};
 
-/// True when the sweep holds less about its weak axis than the limit asks for.
+/// True when the scan holds less about its weak axis than the limit asks for.
 bool is_degenerate(const Localizability& scan, const DegeneracyLevel& level);
 
 }  // namespace aims

@@ -17,7 +17,7 @@ std::vector<Time> stamps_of(std::span<const Stamped> values) {
   return stamps;
 }
 
-/// Score of the sweeps with fewer equivalent returns than the limit.
+/// Score of the scans with fewer equivalent returns than the limit.
 WeakAxisScore score_below(std::span<const WeakAxisError> errors, std::string level, double limit) {
   WeakAxisScore score;
   score.level = std::move(level);

@@ -18,33 +18,33 @@ namespace aims {
 std::optional<std::size_t> nearest_stamp(std::span<const Time> stamps, Time stamp,
                                          Duration tolerance);
 
-/// What an estimator says of its own position error at the end of a sweep.
+/// What an estimator says of its own position error at the end of a scan.
 struct StatedCovariance {
   Time stamp = 0;
   Eigen::Matrix3d position_in_body = Eigen::Matrix3d::Zero();  ///< [m^2]
 };
 
-/// An estimator's error along the weak axis of one sweep.
+/// An estimator's error along the weak axis of one scan.
 struct WeakAxisError {
-  Time stamp = 0;                   ///< of the sweep
-  double equivalent_returns = 0.0;  ///< of the sweep
+  Time stamp = 0;                   ///< of the scan
+  double equivalent_returns = 0.0;  ///< of the scan
   double error_m = 0.0;             ///< signed; the axis' sign means nothing
   double bound_m = 0.0;             ///< posterior bound along the same axis
   std::optional<double> variance;   ///< that the estimator states along it [m^2]
 };
 
-/// Errors along the weak axis at every sweep for which there are an estimated pose and a bound
+/// Errors along the weak axis at every scan for which there are an estimated pose and a bound
 /// within `tolerance`. `pairs` are laid onto the truth at their start; `scans` and `bounds` belong
-/// to the same sweeps.
+/// to the same scans.
 std::vector<WeakAxisError> weak_axis_errors(std::span<const PosePair> pairs,
                                             std::span<const StatedCovariance> stated,
                                             std::span<const Localizability> scans,
                                             std::span<const PosteriorBound> bounds,
                                             Duration tolerance);
 
-/// Summary of the errors along the weak axis over some sweeps; none of no sweeps.
+/// Summary of the errors along the weak axis over some scans; none of no scans.
 struct WeakAxisScore {
-  std::string level;  ///< "all", or the name of the degeneracy level that selects the sweeps
+  std::string level;  ///< "all", or the name of the degeneracy level that selects the scans
   int scans = 0;
   std::optional<double> error_rms_m;
   std::optional<double> bound_rms_m;
@@ -54,7 +54,7 @@ struct WeakAxisScore {
   std::optional<double> nees;
 };
 
-/// Over all sweeps, and over the degenerate ones of each level.
+/// Over all scans, and over the degenerate ones of each level.
 std::vector<WeakAxisScore> weak_axis_scores(std::span<const WeakAxisError> errors);
 
 }  // namespace aims

@@ -105,7 +105,7 @@ Matrix leg_information(const TrueMotion& at, const BoundParameters& parameters, 
   return weight * H.transpose() * H;
 }
 
-/// Information of a sweep, whose translation is in body axes, about the state.
+/// Information of a scan, whose translation is in body axes, about the state.
 Matrix scan_gain(const ScanInformation& scan, const Pose& T_world_body) {
   Eigen::Matrix<double, 6, kSize> H = Eigen::Matrix<double, 6, kSize>::Zero();
   H.block<3, 3>(0, kRotation) = Matrix3d::Identity();

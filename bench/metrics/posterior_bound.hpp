@@ -39,7 +39,7 @@ struct BoundParameters {
   TriadErrors gyro;
   TriadErrors accelerometer;
   LegErrors legs;
-  bool lidar = true;  ///< false: without the sweeps' information
+  bool lidar = true;  ///< false: without the scans' information
   InitialKnowledge initial;
   Pose T_body_base;  ///< frame of the leg odometry in the body frame
 };
@@ -52,7 +52,7 @@ struct TrueMotion {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in body axes [rad/s]
 };
 
-/// The least possible standard deviation of any unbiased estimate at the end of one sweep.
+/// The least possible standard deviation of any unbiased estimate at the end of one scan.
 struct PosteriorBound {
   Time stamp = 0;
   Eigen::Matrix3d position = Eigen::Matrix3d::Zero();  ///< covariance, world axes [m^2]

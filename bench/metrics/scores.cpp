@@ -101,9 +101,9 @@ void describe(Fields& fields, ScoreConfig& config) {
   describe_metrics(fields, config);
 }
 
-Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const Passage> passages,
+Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const WaypointTime> waypoint_times,
              const ScoreConfig& config) {
-  return score_over(estimate, truth, segments_wanted(passages, config.segments), config);
+  return score_over(estimate, truth, segments_wanted(waypoint_times, config.segments), config);
 }
 
 Scores score_over(const Trajectory& estimate, const Trajectory& truth,

@@ -64,10 +64,10 @@ struct Scores {
   std::vector<SegmentDrift> segment_drifts;  ///< anchored at each segment's begin
 };
 
-/// Scores of an estimate (any fixed frame) against the truth. `passages` are in order of time.
+/// Scores of an estimate (any fixed frame) against the truth. `waypoint_times` are in order of time.
 /// Poor data (empty, not finite, one pose, no overlap) gives no success and quantities without
 /// value, never an error.
-Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const Passage> passages,
+Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const WaypointTime> waypoint_times,
              const ScoreConfig& config);
 
 /// As `score`, with an M_list of each of the segments, in order of time, and of no others.

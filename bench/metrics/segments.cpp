@@ -15,10 +15,10 @@ std::optional<double> distance_between(const Trajectory& trajectory, Time begin,
   return (last->translation - first->translation).norm();
 }
 
-std::string name_of(const Passage& from, const Passage& to) { return from.point + "-" + to.point; }
+std::string name_of(const WaypointTime& from, const WaypointTime& to) { return from.point + "-" + to.point; }
 
 /// Adds a segment; one of the same name as an earlier one is numbered.
-void add_segment(const Passage& from, const Passage& to, std::vector<Segment>& segments) {
+void add_segment(const WaypointTime& from, const WaypointTime& to, std::vector<Segment>& segments) {
   const std::string name = name_of(from, to);
   const auto same = [&name](const Segment& each) {
     return each.name == name || each.name.starts_with(name + "#");
@@ -30,34 +30,34 @@ void add_segment(const Passage& from, const Passage& to, std::vector<Segment>& s
 
 }  // namespace
 
-std::vector<Segment> segments_of(std::span<const Passage> passages) {
+std::vector<Segment> segments_of(std::span<const WaypointTime> waypoint_times) {
   std::vector<Segment> segments;
-  for (std::size_t i = 1; i < passages.size(); ++i) {
-    add_segment(passages[i - 1], passages[i], segments);
+  for (std::size_t i = 1; i < waypoint_times.size(); ++i) {
+    add_segment(waypoint_times[i - 1], waypoint_times[i], segments);
   }
   return segments;
 }
 
-std::vector<Segment> segments_named(std::span<const Passage> passages,
+std::vector<Segment> segments_named(std::span<const WaypointTime> waypoint_times,
                                     std::span<const std::string> names) {
   std::vector<Segment> segments;
-  for (std::size_t i = 0; i < passages.size(); ++i) {
-    for (std::size_t j = i + 1; j < passages.size(); ++j) {
+  for (std::size_t i = 0; i < waypoint_times.size(); ++i) {
+    for (std::size_t j = i + 1; j < waypoint_times.size(); ++j) {
       const bool wanted =
-          std::find(names.begin(), names.end(), name_of(passages[i], passages[j])) != names.end();
-      const auto between = passages.subspan(i + 1, j - i - 1);
-      const bool direct = std::none_of(between.begin(), between.end(), [&](const Passage& each) {
-        return each.point == passages[i].point || each.point == passages[j].point;
+          std::find(names.begin(), names.end(), name_of(waypoint_times[i], waypoint_times[j])) != names.end();
+      const auto between = waypoint_times.subspan(i + 1, j - i - 1);
+      const bool direct = std::none_of(between.begin(), between.end(), [&](const WaypointTime& each) {
+        return each.point == waypoint_times[i].point || each.point == waypoint_times[j].point;
       });
-      if (wanted && direct) add_segment(passages[i], passages[j], segments);
+      if (wanted && direct) add_segment(waypoint_times[i], waypoint_times[j], segments);
     }
   }
   return segments;
 }
 
-std::vector<Segment> segments_wanted(std::span<const Passage> passages,
+std::vector<Segment> segments_wanted(std::span<const WaypointTime> waypoint_times,
                                      std::span<const std::string> names) {
-  return names.empty() ? segments_of(passages) : segments_named(passages, names);
+  return names.empty() ? segments_of(waypoint_times) : segments_named(waypoint_times, names);
 }
 
 std::optional<Time> within_span(const Trajectory& trajectory, Time stamp, Duration edge) {

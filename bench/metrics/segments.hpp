@@ -17,16 +17,16 @@ struct Segment {
   Time end = 0;      ///< when it truly passed the second
 };
 
-/// The segments between consecutive passages in order of time.
-std::vector<Segment> segments_of(std::span<const Passage> passages);
+/// The segments between consecutive waypoint times in order of time.
+std::vector<Segment> segments_of(std::span<const WaypointTime> waypoint_times);
 
-/// The segments of the given names ("a-d"), in order of time: from a passage of the first point to
-/// the next passage of the second, other points in between or not, but neither of the two.
-std::vector<Segment> segments_named(std::span<const Passage> passages,
+/// The segments of the given names ("a-d"), in order of time: from a waypoint time of the first point to
+/// the next waypoint time of the second, other points in between or not, but neither of the two.
+std::vector<Segment> segments_named(std::span<const WaypointTime> waypoint_times,
                                     std::span<const std::string> names);
 
-/// The segments of those names, or between consecutive passages when there are no names.
-std::vector<Segment> segments_wanted(std::span<const Passage> passages,
+/// The segments of those names, or between consecutive waypoint times when there are no names.
+std::vector<Segment> segments_wanted(std::span<const WaypointTime> waypoint_times,
                                      std::span<const std::string> names);
 
 /// M_list of one segment. Distances are straight lines between the two ends, d_i of the truth and

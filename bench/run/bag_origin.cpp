@@ -5,7 +5,7 @@
 
 #include "bench/run/scenario.hpp"
 #include "recordings/bag_trajectory.hpp"
-#include "core/files/passages.hpp"
+#include "core/files/waypoint_times.hpp"
 #include "recordings/stream/recording_topics.hpp"
 #include "core/files/yaml_config.hpp"
 
@@ -23,12 +23,12 @@ std::vector<std::string> segments_of_scenario(const std::string& yaml) {
 
 Result<BagOrigin> bag_origin(const std::filesystem::path& bag) {
   BagOrigin origin;
-  const auto passages = read_bag_text(bag, std::string(kPassagesTopic));
-  if (!passages) return tl::unexpected(passages.error());
-  if (*passages) {
-    auto parsed = parse_passages(**passages, fmt::format("{}:{}", bag.string(), kPassagesTopic));
+  const auto waypoint_times = read_bag_text(bag, std::string(kWaypointTimesTopic));
+  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
+  if (*waypoint_times) {
+    auto parsed = parse_waypoint_times(**waypoint_times, fmt::format("{}:{}", bag.string(), kWaypointTimesTopic));
     if (!parsed) return tl::unexpected(parsed.error());
-    origin.passages = std::move(*parsed);
+    origin.waypoint_times = std::move(*parsed);
   }
   const auto scenario = read_bag_text(bag, std::string(kScenarioTopic));
   if (scenario && *scenario) origin.segments = segments_of_scenario(**scenario);

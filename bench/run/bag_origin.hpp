@@ -12,11 +12,11 @@ namespace aims {
 
 /// What a simulated bag says of its walk, for scoring; nothing of it reaches an estimator.
 struct BagOrigin {
-  std::vector<Passage> passages;      ///< of the reference points, in order of time
+  std::vector<WaypointTime> waypoint_times;      ///< of the reference points, in order of time
   std::vector<std::string> segments;  ///< over which its scenario takes M_list; empty: all
 };
 
-/// Empty for a bag that was not simulated here. Error for passages that cannot be read.
+/// Empty for a bag that was not simulated here. Error for waypoint times that cannot be read.
 Result<BagOrigin> bag_origin(const std::filesystem::path& bag);
 
 }  // namespace aims

@@ -32,7 +32,7 @@ void follow_rate(std::optional<double> recorded_hz, const char* key, double defa
 EstimatorOutcome outcome_of(const TimedEstimator& timed) {
   EstimatorOutcome outcome;
   outcome.name = timed.name();
-  outcome.report = timed.estimator().report();
+  outcome.result = timed.estimator().result();
   outcome.map = timed.estimator().map_points();
   outcome.scan_times_ms = timed.scan_times_ms();
   outcome.wall_s = timed.total_seconds();
@@ -47,12 +47,12 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",
                  result.truth};
   for (const EstimatorOutcome& each : result.estimators) {
-    input.estimates.push_back({each.name, each.name, "estimated here", each.report.trajectory});
+    input.estimates.push_back({each.name, each.name, "estimated here", each.result.trajectory});
   }
   if (auto origin = bag_origin(result.bag)) {
     if (input.scoring.segments.empty()) input.scoring.segments = origin->segments;
-    input.segments = segments_wanted(origin->passages, input.scoring.segments);
-    input.passages = std::move(origin->passages);
+    input.segments = segments_wanted(origin->waypoint_times, input.scoring.segments);
+    input.waypoint_times = std::move(origin->waypoint_times);
   } else {
     result.setup.notes.push_back(origin.error().message);
   }

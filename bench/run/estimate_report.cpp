@@ -30,18 +30,18 @@ double realtime_factor(const EstimateResult& result, const EstimatorOutcome& out
 }
 
 Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcome) {
-  const Trajectory& trajectory = outcome.report.trajectory;
+  const Trajectory& trajectory = outcome.result.trajectory;
   const auto times = summarize(outcome.scan_times_ms);
   Json json;
   json["poses"] = trajectory.size();
-  json["scans"] = outcome.report.diagnostics.size();
+  json["scans"] = outcome.result.diagnostics.size();
   json["path_m"] = json_of(path_length(trajectory));
   json["displacement_m"] = json_of(displacement(trajectory));
   json["wall_s"] = outcome.wall_s;
   json["realtime_factor"] = realtime_factor(result, outcome);
   json["time_per_scan_ms"] = {{"mean", times ? json_of(times->mean) : Json()},
                               {"p99", times ? json_of(times->p99) : Json()}};
-  json["counts"] = outcome.report.counts;
+  json["counts"] = outcome.result.counts;
   return json;
 }
 
@@ -91,7 +91,7 @@ Result<void> write_scores(const EstimateResult& result, const fs::path& folder) 
   for (const EstimatorOutcome& each : result.estimators) {
     Json& json = record.scores["estimators"][each.name];
     json["time_per_scan_ms"] = estimator_json(result, each)["time_per_scan_ms"];
-    json["counts"] = each.report.counts;
+    json["counts"] = each.result.counts;
   }
   auto written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
   if (written) {
@@ -115,8 +115,8 @@ TextTable estimate_table(const EstimateResult& result) {
   for (std::size_t i = 0; i < result.estimators.size(); ++i) {
     const EstimatorOutcome& each = result.estimators[i];
     const auto times = summarize(each.scan_times_ms);
-    table.rows[i].push_back(std::to_string(each.report.trajectory.size()));
-    table.rows[i].push_back(fmt::format("{:.2f}", path_length(each.report.trajectory)));
+    table.rows[i].push_back(std::to_string(each.result.trajectory.size()));
+    table.rows[i].push_back(fmt::format("{:.2f}", path_length(each.result.trajectory)));
     table.rows[i].push_back(times ? fmt::format("{:.2f}", times->mean) : "-");
     table.rows[i].push_back(fmt::format("{:.1f}", realtime_factor(result, each)));
   }
@@ -145,11 +145,11 @@ Result<void> draw_estimate(const EstimateResult& result, const fs::path& folder)
   for (const EstimatorOutcome& each : result.estimators) {
     if (drawn) drawn = draw_map(title, each, folder);
   }
-  const std::vector<Passage> none;
+  const std::vector<WaypointTime> none;
   if (drawn) {
     drawn =
         draw_degeneracy(title, fmt::format("{:.0f} s recorded", result.recorded_s),
-                        result.estimators, result.scores ? result.scores->passages : none, folder);
+                        result.estimators, result.scores ? result.scores->waypoint_times : none, folder);
   }
   if (drawn && result.scores) drawn = draw_trajectory_pictures(*result.scores, folder);
   return drawn;

@@ -129,13 +129,13 @@ Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& opti
     outcome.complete = observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
   }
   const Truth& truth = simulation->truth();
-  const CsvTable passages = passages_table(truth.passages);
+  const CsvTable waypoint_times = waypoint_times_table(truth.waypoint_times);
   outcome.truth = beside(options.bag, ".truth.tum");
-  outcome.passages = beside(options.bag, ".passages.csv");
-  auto ok = recorder.writer().write_passages(simulation->now(), passages.text());
+  outcome.waypoint_times = beside(options.bag, ".waypoint_times.csv");
+  auto ok = recorder.writer().write_waypoint_times(simulation->now(), waypoint_times.text());
   if (ok) ok = recorder.writer().close();
   if (ok) ok = write_tum(outcome.truth, thinned(body_trajectory(truth), kTruthSpacing));
-  if (ok) ok = write_csv(outcome.passages, passages);
+  if (ok) ok = write_csv(outcome.waypoint_times, waypoint_times);
   if (!ok) return tl::unexpected(ok.error());
   outcome.simulated_s = to_seconds(simulation->now());
   outcome.fell = truth.fell;

@@ -13,7 +13,7 @@ namespace aims {
 namespace fs = std::filesystem;
 
 Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder) {
-  auto written = write_tum(folder / (outcome.name + ".tum"), outcome.report.trajectory);
+  auto written = write_tum(folder / (outcome.name + ".tum"), outcome.result.trajectory);
   if (!written) return written;
   if (!outcome.map.empty()) {
     written = write_ply(folder / (outcome.name + ".map.ply"), outcome.map);
@@ -28,7 +28,7 @@ Result<void> write_streams(const Scenario& scenario, const RunResult& result,
       write_file_atomically(folder / "config.yaml", effective_config(scenario, result.seed));
   if (written)
     written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory, kTruthSpacing));
-  if (written) written = write_csv(folder / "passages.csv", passages_table(result.truth.passages));
+  if (written) written = write_csv(folder / "waypoint_times.csv", waypoint_times_table(result.truth.waypoint_times));
   if (written)
     written = write_csv(folder / "localizability.csv", localizability_table(result.localizability));
   if (written) written = write_csv(folder / "legs.csv", legs_table(result.legs));

@@ -21,7 +21,7 @@ Result<void> write_estimator(const EstimatorOutcome& outcome, const std::filesys
 Result<void> write_streams(const Scenario& scenario, const RunResult& result,
                            const std::filesystem::path& folder);
 
-/// Writes a run into `folder`: scores.json, scores.csv, config.yaml, truth.tum, passages.csv,
+/// Writes a run into `folder`: scores.json, scores.csv, config.yaml, truth.tum, waypoint_times.csv,
 /// localizability.csv, legs.csv and per estimator trajectory (TUM), diagnostics (CSV) and map
 /// (PLY). The files are described in docs/results.md.
 Result<void> write_results(const Scenario& scenario, const RunResult& result,

@@ -11,13 +11,13 @@ EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result
   const ScoreConfig& scoring = scenario.scoring;
   EstimatorOutcome outcome;
   outcome.name = timed.name();
-  outcome.report = timed.estimator().report();
+  outcome.result = timed.estimator().result();
   outcome.map = timed.estimator().map_points();
   outcome.scores =
-      score(outcome.report.trajectory, result.truth_trajectory, result.truth.passages, scoring);
+      score(outcome.result.trajectory, result.truth_trajectory, result.truth.waypoint_times, scoring);
   outcome.weak_axis_errors =
-      weak_axis_errors_of(outcome.report, result.truth_trajectory, result.localizability, scoring,
-                          half_sweep(scenario.simulation));
+      weak_axis_errors_of(outcome.result, result.truth_trajectory, result.localizability, scoring,
+                          half_scan(scenario.simulation));
   outcome.weak_axis = weak_axis_scores(outcome.weak_axis_errors);
   outcome.scan_times_ms = timed.scan_times_ms();
   outcome.wall_s = timed.total_seconds();
@@ -52,7 +52,7 @@ Result<RunResult> run(const Scenario& scenario, const RunOptions& options,
   result.truth_trajectory = body_trajectory(result.truth);
   result.localizability = run_localizability(scenario.simulation, simulation->rig(), result.truth,
                                              result.truth_trajectory);
-  result.legs = leg_stretches(scenario.simulation, leg_packets, result.truth, simulation->now());
+  result.legs = leg_intervals(scenario.simulation, leg_packets, result.truth, simulation->now());
   for (const TimedEstimator& each : *estimators) {
     result.estimators.push_back(outcome_of(each, result, scenario));
   }

@@ -37,10 +37,10 @@ using Observer = std::function<bool(const Progress&)>;
 /// One estimator's part of a run.
 struct EstimatorOutcome {
   std::string name;
-  EstimatorReport report;
+  EstimatorResult result;
   std::vector<Eigen::Vector3f> map;  ///< in its odometry frame [m]
   Scores scores;
-  std::vector<WeakAxisError> weak_axis_errors;  ///< along what the LiDAR cannot see, by sweep
+  std::vector<WeakAxisError> weak_axis_errors;  ///< along what the LiDAR cannot see, by scan
   std::vector<WeakAxisScore> weak_axis;         ///< summary of them
   std::vector<double> scan_times_ms;
   double wall_s = 0.0;
@@ -56,8 +56,8 @@ struct RunResult {
   Scene scene;
   Truth truth;
   Trajectory truth_trajectory;       ///< T_world_body at the physics rate
-  RunLocalizability localizability;  ///< what the sweeps allow to know
-  std::vector<LegStretch> legs;      ///< what became of the leg odometry, from the start
+  RunLocalizability localizability;  ///< what the scans allow to know
+  std::vector<LegInterval> legs;      ///< what became of the leg odometry, from the start
   std::vector<EstimatorOutcome> estimators;
 };
 

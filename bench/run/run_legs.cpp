@@ -19,16 +19,16 @@ std::size_t LegPackets::between(Time begin, Time end) const {
       std::distance(stamps_.upper_bound(begin), stamps_.upper_bound(end)));
 }
 
-std::vector<LegStretch> leg_stretches(const SimulationConfig& config, const LegPackets& packets,
+std::vector<LegInterval> leg_intervals(const SimulationConfig& config, const LegPackets& packets,
                                       const Truth& truth, Time end) {
   const Duration offset = from_seconds(config.links.leg_odometry.clock_offset);
-  const double sent = config.leg_odometry.rate * to_seconds(kLegStretch);
-  std::vector<LegStretch> stretches;
+  const double sent = config.leg_odometry.rate * to_seconds(kLegInterval);
+  std::vector<LegInterval> stretches;
   auto sample = truth.samples.begin();
-  for (Time stamp = kLegStretch; stamp <= end; stamp += kLegStretch) {
+  for (Time stamp = kLegInterval; stamp <= end; stamp += kLegInterval) {
     const auto came =
-        static_cast<double>(packets.between(stamp - kLegStretch + offset, stamp + offset));
-    LegStretch stretch = {stamp, std::clamp(1.0 - came / sent, 0.0, 1.0), 0.0};
+        static_cast<double>(packets.between(stamp - kLegInterval + offset, stamp + offset));
+    LegInterval stretch = {stamp, std::clamp(1.0 - came / sent, 0.0, 1.0), 0.0};
     int samples = 0;
     for (; sample != truth.samples.end() && sample->stamp <= stamp; ++sample, ++samples) {
       stretch.slip += *std::ranges::max_element(sample->slip_speed);
@@ -39,9 +39,9 @@ std::vector<LegStretch> leg_stretches(const SimulationConfig& config, const LegP
   return stretches;
 }
 
-CsvTable legs_table(std::span<const LegStretch> stretches) {
+CsvTable legs_table(std::span<const LegInterval> stretches) {
   CsvTable table({"stamp_s", "loss", "slip_mps"});
-  for (const LegStretch& each : stretches) {
+  for (const LegInterval& each : stretches) {
     table.add(to_seconds(each.stamp)).add(each.loss).add(each.slip).end_row();
   }
   return table;

@@ -13,10 +13,10 @@
 namespace aims {
 
 /// Length of the stretches of time that legs.csv has a row of.
-inline constexpr Duration kLegStretch = 100 * kMillisecond;
+inline constexpr Duration kLegInterval = 100 * kMillisecond;
 
 /// What became of the leg odometry in one stretch of a run, and what the feet truly did.
-struct LegStretch {
+struct LegInterval {
   Time stamp = 0;     ///< end of the stretch
   double loss = 0.0;  ///< share of the packets that never came, in [0, 1]
   double slip = 0.0;  ///< true speed of the fastest standing foot over the ground, mean [m/s]
@@ -36,10 +36,10 @@ class LegPackets {
 
 /// The whole stretches of a run that lasted until `end`, of packets sent at the configured rate.
 /// Stamps are taken as they came: where they jitter, a packet may fall into the next stretch.
-std::vector<LegStretch> leg_stretches(const SimulationConfig& config, const LegPackets& packets,
+std::vector<LegInterval> leg_intervals(const SimulationConfig& config, const LegPackets& packets,
                                       const Truth& truth, Time end);
 
 /// One row per stretch.
-CsvTable legs_table(std::span<const LegStretch> stretches);
+CsvTable legs_table(std::span<const LegInterval> stretches);
 
 }  // namespace aims

@@ -24,7 +24,7 @@ std::vector<TrueMotion> motion_of(const Truth& truth) {
     if (!motion.empty() && sample.stamp - motion.back().stamp < kMotionSpacing) continue;
     motion.push_back({sample.stamp, sample.T_world_body, sample.velocity, sample.angular_velocity});
   }
-  // The last sample closes the span, so that the last sweep has its bound.
+  // The last sample closes the span, so that the last scan has its bound.
   if (!motion.empty() && motion.back().stamp < truth.samples.back().stamp) {
     const TruthSample& last = truth.samples.back();
     motion.push_back({last.stamp, last.T_world_body, last.velocity, last.angular_velocity});
@@ -79,11 +79,11 @@ std::vector<PosteriorBound> bounds_without_lidar(const Truth& truth,
   return posterior_bounds(motion_of(truth), truth.scans, parameters);
 }
 
-Duration half_sweep(const SimulationConfig& config) {
+Duration half_scan(const SimulationConfig& config) {
   return from_seconds(0.5 / config.lidar.rate);
 }
 
-std::vector<WeakAxisError> weak_axis_errors_of(const EstimatorReport& report,
+std::vector<WeakAxisError> weak_axis_errors_of(const EstimatorResult& report,
                                                const Trajectory& truth_trajectory,
                                                const RunLocalizability& localizability,
                                                const ScoreConfig& scoring, Duration tolerance) {

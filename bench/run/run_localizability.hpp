@@ -16,7 +16,7 @@
 
 namespace aims {
 
-/// What a run's sweeps allow to know, by the truth: one localizability and bound per sweep.
+/// What a run's scans allow to know, by the truth: one localizability and bound per scan.
 struct RunLocalizability {
   std::vector<Localizability> scans;
   std::vector<PosteriorBound> bounds;
@@ -33,20 +33,20 @@ RunLocalizability run_localizability(const SimulationConfig& config, const Senso
                                      const Truth& truth, const Trajectory& truth_trajectory);
 
 /// Posterior bound of IMU and legs alone, in the run that `truth` and `localizability` are of: one
-/// entry per sweep.
+/// entry per scan.
 std::vector<PosteriorBound> bounds_without_lidar(const Truth& truth,
                                                  const RunLocalizability& localizability);
 
-/// Half of a sweep: how far a stamp may be from the sweep that it means.
-Duration half_sweep(const SimulationConfig& config);
+/// Half of a scan: how far a stamp may be from the scan that it means.
+Duration half_scan(const SimulationConfig& config);
 
-/// Errors of an estimator along the weak axis at each sweep.
-std::vector<WeakAxisError> weak_axis_errors_of(const EstimatorReport& report,
+/// Errors of an estimator along the weak axis at each scan.
+std::vector<WeakAxisError> weak_axis_errors_of(const EstimatorResult& report,
                                                const Trajectory& truth_trajectory,
                                                const RunLocalizability& localizability,
                                                const ScoreConfig& scoring, Duration tolerance);
 
-/// One row per sweep: localizability, degenerate flags and posterior bound.
+/// One row per scan: localizability, degenerate flags and posterior bound.
 CsvTable localizability_table(const RunLocalizability& localizability);
 
 }  // namespace aims

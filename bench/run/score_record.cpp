@@ -74,7 +74,7 @@ Json weak_axis_json(const std::vector<WeakAxisScore>& scores) {
   return json;
 }
 
-/// What the run's sweeps allow to know, whoever estimates.
+/// What the run's scans allow to know, whoever estimates.
 Json localizability_json(const RunLocalizability& run) {
   std::vector<double> returns;
   for (const Localizability& scan : run.scans) returns.push_back(scan.equivalent_returns);
@@ -162,7 +162,7 @@ Json estimator_json(const EstimatorOutcome& outcome) {
   json["weak_axis"] = weak_axis_json(outcome.weak_axis);
   json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
   json["poses"] = outcome.scores.poses;
-  json["counts"] = outcome.report.counts;
+  json["counts"] = outcome.result.counts;
   return json;
 }
 

@@ -14,7 +14,7 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
-#include "core/files/passages.hpp"
+#include "core/files/waypoint_times.hpp"
 #include "recordings/stream/recording_topics.hpp"
 #include "core/files/trajectory_file.hpp"
 #include "core/files/yaml_config.hpp"
@@ -127,22 +127,22 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
   return {};
 }
 
-/// The file of passages, or what the truth's bag says of its own walk.
+/// The file of waypoint times, or what the truth's bag says of its own walk.
 Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag) {
-  if (request.passages.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
-  const auto text = read_file(request.passages);
+  if (request.waypoint_times.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
+  const auto text = read_file(request.waypoint_times);
   if (!text) return tl::unexpected(text.error());
-  auto passages = parse_passages(*text, request.passages.string());
-  if (!passages) return tl::unexpected(passages.error());
-  return BagOrigin{std::move(*passages), {}};
+  auto waypoint_times = parse_waypoint_times(*text, request.waypoint_times.string());
+  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
+  return BagOrigin{std::move(*waypoint_times), {}};
 }
 
 Result<std::vector<Segment>> segments_of_request(const ScoringRequest& request,
                                                  const ScoringInput& input) {
-  if (request.segments.empty()) return segments_wanted(input.passages, input.scoring.segments);
+  if (request.segments.empty()) return segments_wanted(input.waypoint_times, input.scoring.segments);
   const auto list = parse_segments(request.segments);
   if (!list) return tl::unexpected(list.error());
-  return resolve_segments(*list, input.passages, input.truth.trajectory);
+  return resolve_segments(*list, input.waypoint_times, input.truth.trajectory);
 }
 
 /// KITTI's own poses are of a camera, whose y axis points down.
@@ -182,7 +182,7 @@ Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
   if (!bag) return tl::unexpected(bag.error());
   auto origin = origin_of(request, *bag);
   if (!origin) return tl::unexpected(origin.error());
-  input.passages = std::move(origin->passages);
+  input.waypoint_times = std::move(origin->waypoint_times);
   if (input.scoring.segments.empty()) input.scoring.segments = std::move(origin->segments);
   auto segments = segments_of_request(request, input);
   if (!segments) return tl::unexpected(segments.error());

@@ -60,7 +60,7 @@ Result<SegmentList> parse_segments(std::string_view text) {
 }
 
 Result<std::vector<Segment>> resolve_segments(const SegmentList& list,
-                                              std::span<const Passage> passages,
+                                              std::span<const WaypointTime> waypoint_times,
                                               const Trajectory& truth) {
   std::vector<Segment> segments = list.timed;
   for (const Segment& each : segments) {
@@ -72,12 +72,12 @@ Result<std::vector<Segment>> resolve_segments(const SegmentList& list,
                     stamp_text(truth.front().stamp), stamp_text(truth.back().stamp)));
   }
   for (const std::string& name : list.named) {
-    const std::vector<Segment> found = segments_named(passages, {&name, 1});
+    const std::vector<Segment> found = segments_named(waypoint_times, {&name, 1});
     if (found.empty()) {
       std::vector<std::string> points;
-      for (const Passage& each : passages) points.push_back(each.point);
+      for (const WaypointTime& each : waypoint_times) points.push_back(each.point);
       return failure(
-          fmt::format("--segments: '{}': no way between two such passages; passed are: {}", name,
+          fmt::format("--segments: '{}': no way between two such waypoint_times; passed are: {}", name,
                       points.empty() ? "none" : fmt::format("{}", fmt::join(points, ", "))));
     }
     segments.insert(segments.end(), found.begin(), found.end());

@@ -24,7 +24,7 @@ Result<SegmentList> parse_segments(std::string_view text);
 /// The asked segments in order of time. Error for one that begins or ends outside the truth's
 /// stamps, or whose points are not passed in that order.
 Result<std::vector<Segment>> resolve_segments(const SegmentList& list,
-                                              std::span<const Passage> passages,
+                                              std::span<const WaypointTime> waypoint_times,
                                               const Trajectory& truth);
 
 }  // namespace aims

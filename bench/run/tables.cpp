@@ -58,8 +58,8 @@ void add_symmetric(CsvTable& table, const Eigen::Matrix3d& m) {
 
 CsvTable diagnostics_table(const EstimatorOutcome& outcome) {
   CsvTable table(kDiagnosticsHeader);
-  for (std::size_t i = 0; i < outcome.report.diagnostics.size(); ++i) {
-    const ScanDiagnostics& d = outcome.report.diagnostics[i];
+  for (std::size_t i = 0; i < outcome.result.diagnostics.size(); ++i) {
+    const ScanDiagnostics& d = outcome.result.diagnostics[i];
     table.add(to_seconds(d.stamp)).add(d.points_in).add(d.points_used).add(d.iterations);
     table.add(d.residual_mean).add(d.residual_sigma).add(d.residual_sigma_prior);
     table.add(d.O_lidar).add(d.O_lidar_prior).add(d.C_IL).add(d.C_IL_full);
@@ -77,10 +77,10 @@ CsvTable diagnostics_table(const EstimatorOutcome& outcome) {
   return table;
 }
 
-CsvTable passages_table(const std::vector<Passage>& passages) {
+CsvTable waypoint_times_table(const std::vector<WaypointTime>& waypoint_times) {
   CsvTable table({"point", "stamp_s"});
-  for (const Passage& passage : passages) {
-    table.add(passage.point).add(to_seconds(passage.stamp)).end_row();
+  for (const WaypointTime& waypoint_time : waypoint_times) {
+    table.add(waypoint_time.point).add(to_seconds(waypoint_time.stamp)).end_row();
   }
   return table;
 }

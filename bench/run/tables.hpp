@@ -14,7 +14,7 @@ namespace aims {
 CsvTable diagnostics_table(const EstimatorOutcome& outcome);
 
 /// One row per passed reference point.
-CsvTable passages_table(const std::vector<Passage>& passages);
+CsvTable waypoint_times_table(const std::vector<WaypointTime>& waypoint_times);
 
 /// One row per run, estimator and score: seed, estimator, score, value.
 CsvTable scores_csv(std::span<const RunRecord> runs);

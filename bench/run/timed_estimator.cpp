@@ -9,7 +9,7 @@ namespace aims {
 namespace {
 
 /// Scans done so far; an estimator that looks at none is measured by its poses.
-std::size_t scans_in(const EstimatorReport& report) {
+std::size_t scans_in(const EstimatorResult& report) {
   return report.diagnostics.empty() ? report.trajectory.size() : report.diagnostics.size();
 }
 
@@ -30,7 +30,7 @@ void TimedEstimator::finish() {
 
 template <class Work>
 void TimedEstimator::timed(const Work& work) {
-  const EstimatorReport& report = estimator_->report();
+  const EstimatorResult& report = estimator_->report();
   const std::size_t scans_before = scans_in(report);
   const Stopwatch stopwatch;
   work();

@@ -138,7 +138,7 @@ Result<TrajectoryScores> score_trajectories(ScoringInput input) {
   }
   note_estimates(result, result.notes);
   result.truth = std::move(input.truth);
-  result.passages = std::move(input.passages);
+  result.waypoint_times = std::move(input.waypoint_times);
   result.segments = std::move(input.segments);
   result.scoring = std::move(input.scoring);
   return result;

@@ -25,7 +25,7 @@ struct SourcedTrajectory {
 struct ScoringInput {
   SourcedTrajectory truth;                   ///< valid poses with increasing stamps
   std::vector<SourcedTrajectory> estimates;  ///< of the same body, as their systems gave them
-  std::vector<Passage> passages;
+  std::vector<WaypointTime> waypoint_times;
   std::vector<Segment> segments;  ///< in order of time; none: there is no M_list
   ScoreConfig scoring;
   std::vector<std::string> notes;  ///< what was assumed while reading, a sentence each
@@ -42,7 +42,7 @@ struct ScoredEstimate {
 /// What `score_trajectories` yields.
 struct TrajectoryScores {
   SourcedTrajectory truth;
-  std::vector<Passage> passages;
+  std::vector<WaypointTime> waypoint_times;
   std::vector<Segment> segments;
   ScoreConfig scoring;
   std::vector<ScoredEstimate> estimates;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kGroup = "weak_axis_series";
 
-/// Deviation along the weak axis that IMU and legs allow, by the stamp of the sweep.
+/// Deviation along the weak axis that IMU and legs allow, by the stamp of the scan.
 std::map<Time, double> leg_bounds(const RunResult& result) {
   const auto bounds = bounds_without_lidar(result.truth, result.localizability);
   std::map<Time, double> by_stamp;

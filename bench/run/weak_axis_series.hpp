@@ -13,7 +13,7 @@ namespace aims {
 inline constexpr int kSeriesSpacing = 1;
 
 /// Adds to the record, as "weak_axis_series", each estimator's error along the weak axis with its
-/// stated deviation and the bounds: the first sweep in each second since the start of the run.
+/// stated deviation and the bounds: the first scan in each second since the start of the run.
 void add_weak_axis_series(const RunResult& result, RunRecord& record);
 
 /// Whether the record has the series of that estimator.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kPoints = 34'000;
 
-/// Points as a sensor sees them: smooth along the sweep, noisy in the last millimetres.
+/// Points as a sensor sees them: smooth along the scan, noisy in the last millimetres.
 MessageBytes sample_cloud() {
   LidarScan scan;
   std::mt19937 random(1);
@@ -43,7 +43,7 @@ MessageBytes sample_odometry() {
 
 /// Writes that many tenths of a second of a robot; yields the bytes of the messages.
 std::int64_t write_robot(const std::filesystem::path& file, BagCompression compression,
-                         std::int64_t sweeps) {
+                         std::int64_t scans) {
   static const MessageBytes cloud = sample_cloud();
   static const MessageBytes odometry = sample_odometry();
   static const MessageBytes imu =
@@ -57,8 +57,8 @@ std::int64_t write_robot(const std::filesystem::path& file, BagCompression compr
     bytes += static_cast<std::int64_t>(message.view().size());
     if (!bag.write(connection, time, message.view())) std::abort();
   };
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const Time start = kSecond + sweep * 100 * kMillisecond;
+  for (int scan = 0; scan < scans; ++scan) {
+    const Time start = kSecond + scan * 100 * kMillisecond;
     for (int i = 0; i < 20; ++i) put(legs, start + i * 5 * kMillisecond, odometry);
     for (int i = 0; i < 5; ++i) put(imus, start + i * 20 * kMillisecond, imu);
     put(clouds, start + 100 * kMillisecond, cloud);
@@ -132,7 +132,7 @@ void decode_cloud(benchmark::State& state) {
 
 /// Compression, and tenths of a second: bz2 is slow.
 void sizes(benchmark::internal::Benchmark* bench) {
-  bench->ArgNames({"compression", "sweeps"})->Args({0, 100})->Args({1, 100})->Args({2, 5});
+  bench->ArgNames({"compression", "scans"})->Args({0, 100})->Args({1, 100})->Args({2, 5});
   bench->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 

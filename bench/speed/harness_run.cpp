@@ -29,7 +29,7 @@ void whole_run(benchmark::State& state) {
     physics_s += result->simulation_times.physics;
     lidar_s += result->simulation_times.lidar;
     aims_s += result->estimators.front().wall_s;
-    scans += result->estimators.front().report.trajectory.size();
+    scans += result->estimators.front().result.trajectory.size();
   }
   state.counters["realtime_factor"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
   state.counters["physics_realtime_factor"] = simulated_s / physics_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays per second in the corridor: casting alone, and whole sweeps with their return model.
+// Rays per second in the corridor: casting alone, and whole scans with their return model.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -21,8 +21,8 @@ SceneConfig corridor(double bump_height, double clutter_density) {
   return config;
 }
 
-/// Packets of a sweep from one point: 16 neighbouring azimuths of one ring each.
-std::vector<RayPacket> sweep_packets() {
+/// Packets of a scan from one point: 16 neighbouring azimuths of one ring each.
+std::vector<RayPacket> scan_packets() {
   std::vector<RayPacket> packets;
   for (int first = 0; first + kRayPacketSize <= kColumns; first += kRayPacketSize) {
     for (int ring = 0; ring < kRings; ++ring) {
@@ -44,7 +44,7 @@ std::vector<RayPacket> sweep_packets() {
 
 void cast_rays(benchmark::State& state, const SceneConfig& config) {
   const RayCaster caster(build_scene(config, 1));
-  const std::vector<RayPacket> packets = sweep_packets();
+  const std::vector<RayPacket> packets = scan_packets();
   HitPacket hits;
   for (auto _ : state) {
     for (const RayPacket& packet : packets) {
@@ -69,13 +69,13 @@ Trajectory walk(double from_x) {
   return poses;
 }
 
-void sweep(benchmark::State& state, const SceneConfig& config) {
+void scan(benchmark::State& state, const SceneConfig& config) {
   const RayCaster caster(build_scene(config, 1));
   Lidar lidar(LidarConfig{}, caster, 1);
   const Trajectory poses = walk(40.0);
   std::size_t points = 0;
   for (auto _ : state) {
-    const LidarScan scan = lidar.sweep(0, poses);
+    const LidarScan scan = lidar.scan(0, poses);
     points = scan.points.size();
     benchmark::DoNotOptimize(scan.points.data());
   }
@@ -87,9 +87,9 @@ void sweep(benchmark::State& state, const SceneConfig& config) {
 BENCHMARK_CAPTURE(cast_rays, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cast_rays, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cast_rays, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(sweep, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(sweep, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(sweep, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace aims

@@ -34,12 +34,12 @@ Result<DetectorRun> run_unit(const Unit& unit, const std::string& estimator,
   const auto result =
       run(scenario, {unit.seed, 1}, [&wanted](const Progress&) { return wanted.load(); });
   if (!result) return tl::unexpected(result.error());
-  const EstimatorReport& report = result->estimators.front().report;
+  const EstimatorResult& report = result->estimators.front().report;
   if (report.diagnostics.empty() && !report.trajectory.empty()) {
     return failure(fmt::format("estimator {} records no diagnostics of scans", estimator));
   }
   DetectorRun made = detector_run(report.diagnostics, result->localizability.scans,
-                                  half_sweep(scenario.simulation));
+                                  half_scan(scenario.simulation));
   made.scenario = scenario.name;
   made.seed = unit.seed;
   return made;

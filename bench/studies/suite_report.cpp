@@ -72,7 +72,7 @@ Result<void> draw_family(const fs::path& folder, const FamilyResult& family) {
   }
   const auto known = std::count_if(returns.begin(), returns.end(),
                                    [](const auto& value) { return value.has_value(); });
-  if (!drawn || family.name != "dial" || known < 2) return drawn;
+  if (!drawn || family.name != "severity" || known < 2) return drawn;
   LevelPlot over_truth = plot_of(family, returns);
   over_truth.level_label = "median equivalent returns along the weak axis, at least 1 [-]";
   over_truth.logarithmic_levels = true;

@@ -14,7 +14,7 @@
 namespace aims {
 namespace {
 
-/// "corridor, dial_r05; seeds 1 2 3".
+/// "corridor, severity_5; seeds 1 2 3".
 std::string walks_text(std::span<const Walk> walks) {
   std::vector<std::string> scenarios;
   std::vector<std::string> seeds;

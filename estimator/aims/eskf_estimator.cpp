@@ -54,7 +54,7 @@ void EskfEstimator::process_ready() {
       std::visit([this](const auto& each) { correct(each); }, *next);
     }
   }
-  for (const auto& [name, count] : queue_.counts()) report_.counts[name] = count;
+  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
 }
 
 bool EskfEstimator::start() {
@@ -65,7 +65,7 @@ bool EskfEstimator::start() {
           ? initialize_quietly(samples, config_.initialization, quiet, config_.imu.gravity)
           : initialize(samples, config_.initialization, config_.imu.gravity);
   if (!initial) return false;
-  if (!initial->stood_still) ++report_.counts["start.moving"];
+  if (!initial->stood_still) ++result_.counts["start.moving"];
   belief_ = initial->belief;
   belief_ = open_leg_states(belief_, config_.directional.leg_states);
   if (config_.directional.floor.enabled) {
@@ -80,13 +80,13 @@ bool EskfEstimator::start() {
 void EskfEstimator::correct(const LegOdometrySample& sample) {
   if (!member_.leg) return bridge_silence(sample.stamp);
   if (sample.stamp < time_) {
-    ++report_.counts["leg.before_start"];
+    ++result_.counts["leg.before_start"];
     return;
   }
   const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
   if (last_leg_) {
     const auto lost = static_cast<int>((sample.stamp - last_leg_->stamp - period / 2) / period);
-    if (lost > 0) report_.counts["leg.lost"] += lost;
+    if (lost > 0) result_.counts["leg.lost"] += lost;
   }
   hold_lost_legs(sample.stamp);
   take_leg(sample);
@@ -96,11 +96,11 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
 
 /// Without scans the pose goes on by what there is; the legs' packets serve as its clock.
 void EskfEstimator::bridge_silence(Time stamp) {
-  if (report_.trajectory.empty()) return;
-  if (stamp - report_.trajectory.back().stamp < kLongestSilence) return;
+  if (result_.trajectory.empty()) return;
+  if (stamp - result_.trajectory.back().stamp < kLongestSilence) return;
   predict_to(stamp);
-  report_.trajectory.push_back({stamp, belief_.state.T_odom_body()});
-  ++report_.counts["pose.without_scan"];
+  result_.trajectory.push_back({stamp, belief_.state.T_odom_body()});
+  ++result_.counts["pose.without_scan"];
 }
 
 void EskfEstimator::hold_lost_legs(Time until) {
@@ -109,7 +109,7 @@ void EskfEstimator::hold_lost_legs(Time until) {
   while (last_leg_->stamp + period + period / 2 < until) {
     last_leg_->stamp += period;
     take_leg(*last_leg_);
-    ++report_.counts["leg.held"];
+    ++result_.counts["leg.held"];
   }
 }
 
@@ -140,7 +140,7 @@ bool EskfEstimator::stands(const LegOdometrySample& sample) {
   if (!standstill_.observe(sample, queue_.imu().samples(), belief_.state.gyro_bias)) return false;
   const std::optional<ImuRest> rest = standstill_.due();
   if (!rest) return true;
-  ++report_.counts["standstill.used"];
+  ++result_.counts["standstill.used"];
   Information information = information_of(zero_velocity(belief_.state, config.sigma_velocity));
   const Information bias =
       information_of(resting_gyro(belief_.state, rest->rate, config.sigma_rate));
@@ -194,7 +194,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   if (config_.directional.leg_evidence.enabled) {
     const auto inflation = leg_evidence_.inflation(measurement, belief_.covariance);
     if (!inflation) {
-      ++report_.counts["leg.refused"];
+      ++result_.counts["leg.refused"];
       return;
     }
     measurement.noise *= *inflation;
@@ -213,7 +213,7 @@ void EskfEstimator::fuse_leg_displacement() {
   if (!clone_) return;
   const std::optional<LegDisplacement> measured = leg_integrator_.until(time_);
   if (!measured) {
-    ++report_.counts["leg.uncovered"];
+    ++result_.counts["leg.uncovered"];
     return;
   }
   // eq. (11): R_leg' = R_leg / gamma_leg.
@@ -240,7 +240,7 @@ void EskfEstimator::renew_clone() {
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {
   if (scan->end < time_) {
-    ++report_.counts["lidar.before_start"];
+    ++result_.counts["lidar.before_start"];
     return;
   }
   hold_lost_legs(scan->end);
@@ -255,14 +255,14 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   if (config_.directional.floor.enabled) fuse_floor();
   if (!map_.empty()) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
-    if (diagnostics.iterations == 0) ++report_.counts["lidar.no_update"];
+    if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
     if (config_.directional.disagreement.enabled) judge_ways();
   }
   renew_clone();
   extend_map();
   record_covariance(belief_, lidar_update_.map_anchor(), diagnostics);
-  report_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
-  report_.diagnostics.push_back(diagnostics);
+  result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
+  result_.diagnostics.push_back(diagnostics);
 }
 
 void EskfEstimator::predict_to(Time stamp) {
@@ -275,7 +275,7 @@ void EskfEstimator::predict_to(Time stamp) {
     if (clone_ && sound) {
       clone_ = propagate_clone(*clone_, propagation_jacobian(before, segment, dt));
     }
-    if (!segment.measured) ++report_.counts["imu.bridged"];
+    if (!segment.measured) ++result_.counts["imu.bridged"];
   }
   walk_leg_states(belief_, config_.directional.leg_states, to_seconds(stamp - time_));
   time_ = stamp;
@@ -285,7 +285,7 @@ void EskfEstimator::predict_to(Time stamp) {
 void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics) {
   for (const LidarPoint& point : scan.points) diagnostics.points_in += selection_.usable(point);
   queue_.imu().segments(scan.stamp, scan.end, segments_);
-  const SweepMotion motion(belief_.state, segments_, rig_.T_body_lidar, config_.imu.gravity);
+  const ScanMotion motion(belief_.state, segments_, rig_.T_body_lidar, config_.imu.gravity);
   selection_.select(scan, config_.lidar.selection_voxel, config_.lidar.max_points, indices_);
   deskew(scan, indices_, motion, match_points_);
   selection_.select(scan, config_.map.insertion_voxel, config_.map.max_insertions, indices_);
@@ -296,11 +296,11 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 void EskfEstimator::fuse_floor() {
   const auto seen = fit_floor(insert_points_, config_.directional.floor);
   const auto measurement = floor_.measure(belief_, seen);
-  if (floor_.verdict() == FloorVerdict::kUnseen) ++report_.counts["floor.unseen"];
-  if (floor_.verdict() == FloorVerdict::kNotLevel) ++report_.counts["floor.not_level"];
-  if (floor_.verdict() == FloorVerdict::kWaiting) ++report_.counts["floor.waiting"];
+  if (floor_.verdict() == FloorVerdict::kUnseen) ++result_.counts["floor.unseen"];
+  if (floor_.verdict() == FloorVerdict::kNotLevel) ++result_.counts["floor.not_level"];
+  if (floor_.verdict() == FloorVerdict::kWaiting) ++result_.counts["floor.waiting"];
   if (!measurement) return;
-  ++report_.counts["floor.used"];
+  ++result_.counts["floor.used"];
   accept(aims::fuse_floor(belief_, *measurement));
 }
 
@@ -321,7 +321,7 @@ bool EskfEstimator::accept(const Belief& updated) {
   if (sound) {
     belief_ = updated;
   } else {
-    ++report_.counts["filter.refused"];
+    ++result_.counts["filter.refused"];
   }
   return sound;
 }

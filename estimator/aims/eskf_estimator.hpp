@@ -22,15 +22,15 @@
 namespace aims {
 
 /// The error-state Kalman filter of the family: the IMU predicts, leg odometry corrects at its own
-/// stamps (or, as displacement since the last scan, at the end of each sweep), the LiDAR at the end
-/// of each sweep.
+/// stamps (or, as displacement since the last scan, at the end of each scan), the LiDAR at the end
+/// of each scan.
 class EskfEstimator : public Estimator {
  public:
   EskfEstimator(const EstimatorConfig& config, const FamilyMember& member, const SensorRig& rig);
 
   void consume(const Delivery& delivery) override;
   void finish() override;
-  const EstimatorReport& report() const override { return report_; }
+  const EstimatorResult& result() const override { return result_; }
   std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
 
   /// State and covariance after the last processed measurement, for consistency checks.
@@ -67,7 +67,7 @@ class EskfEstimator : public Estimator {
   LidarUpdate lidar_update_;
   VoxelMap map_;
   FloorConstraint floor_;
-  EstimatorReport report_;
+  EstimatorResult result_;
 
   bool started_ = false;
   Time time_ = 0;  ///< of the belief
@@ -84,7 +84,7 @@ class EskfEstimator : public Estimator {
 
   std::vector<InertialSegment> segments_;
   std::vector<int> indices_;
-  std::vector<Eigen::Vector3f> match_points_;   ///< body axes at the sweep's end
+  std::vector<Eigen::Vector3f> match_points_;   ///< body axes at the scan's end
   std::vector<Eigen::Vector3f> insert_points_;  ///< the same, then in the odometry frame
 };
 

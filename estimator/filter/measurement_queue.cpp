@@ -10,8 +10,8 @@ namespace {
 constexpr int kLegKind = 0;
 constexpr int kLidarKind = 1;
 
-/// A longer sweep is no sweep.
-constexpr Duration kLongestSweep = kSecond;
+/// A longer scan is no scan.
+constexpr Duration kLongestScan = kSecond;
 
 bool is_finite(const Pose& pose) {
   return pose.rotation.coeffs().allFinite() && pose.translation.allFinite();
@@ -59,7 +59,7 @@ void MeasurementQueue::accept(const LegOdometrySample& sample) {
 }
 
 void MeasurementQueue::accept(const LidarScanPtr& scan) {
-  if (!scan || scan->end < scan->stamp || scan->end - scan->stamp > kLongestSweep) {
+  if (!scan || scan->end < scan->stamp || scan->end - scan->stamp > kLongestScan) {
     return count("lidar.out_of_range");
   }
   if (plausible_stamp(scan->end, "lidar")) hold({scan->end, kLidarKind}, "lidar", scan);

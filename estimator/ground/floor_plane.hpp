@@ -9,7 +9,7 @@
 
 namespace aims {
 
-/// The floor around the robot as one scan sees it, body axes at the sweep's end: the points p with
+/// The floor around the robot as one scan sees it, body axes at the scan's end: the points p with
 /// normal . p + height = 0.
 struct FloorPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, away from the floor
@@ -25,7 +25,7 @@ struct FloorPlane {
 /// heights near the robot, then least squares within a band that shrinks to `config.band`. Empty
 /// when too few points lie on it, they do not span it, scatter too much, or it lies where no floor
 /// can be. Deterministic.
-/// `points` are deskewed returns in body axes at the sweep's end [m].
+/// `points` are deskewed returns in body axes at the scan's end [m].
 std::optional<FloorPlane> fit_floor(std::span<const Eigen::Vector3f> points,
                                     const FloorConfig& config);
 

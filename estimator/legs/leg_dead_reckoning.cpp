@@ -24,7 +24,7 @@ void LegDeadReckoning::finish() {
   queue_.close();
   process_ready();
   for (Time stamp : waiting_) {
-    if (last_) report_.trajectory.push_back({stamp, last_->pose});
+    if (last_) result_.trajectory.push_back({stamp, last_->pose});
   }
   waiting_.clear();
 }
@@ -33,7 +33,7 @@ void LegDeadReckoning::process_ready() {
   while (const std::optional<Correction> next = queue_.pop()) {
     std::visit([this](const auto& each) { process(each); }, *next);
   }
-  for (const auto& [name, count] : queue_.counts()) report_.counts[name] = count;
+  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
 }
 
 void LegDeadReckoning::process(const LegOdometrySample& sample) {
@@ -45,12 +45,12 @@ void LegDeadReckoning::process(const LegOdometrySample& sample) {
         last_ ? interpolate(last_->pose, now.pose,
                             to_seconds(stamp - last_->stamp) / to_seconds(now.stamp - last_->stamp))
               : now.pose;
-    report_.trajectory.push_back({stamp, pose});
+    result_.trajectory.push_back({stamp, pose});
   }
   waiting_.clear();
   const bool silent =
-      !report_.trajectory.empty() && now.stamp - report_.trajectory.back().stamp >= kLongestSilence;
-  if (silent) report_.trajectory.push_back(now);
+      !result_.trajectory.empty() && now.stamp - result_.trajectory.back().stamp >= kLongestSilence;
+  if (silent) result_.trajectory.push_back(now);
   last_ = now;
   queue_.imu().forget_before(sample.stamp);
 }

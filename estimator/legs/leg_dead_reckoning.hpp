@@ -11,14 +11,14 @@
 namespace aims {
 
 /// Leg odometry alone, as the robot reports it: its poses carried to the body frame, moved so that
-/// the first has zero position and yaw, and read at the end of each sweep.
+/// the first has zero position and yaw, and read at the end of each scan.
 class LegDeadReckoning : public Estimator {
  public:
   LegDeadReckoning(const EstimatorConfig& config, const SensorRig& rig);
 
   void consume(const Delivery& delivery) override;
   void finish() override;
-  const EstimatorReport& report() const override { return report_; }
+  const EstimatorResult& result() const override { return result_; }
   std::vector<Eigen::Vector3f> map_points() const override { return {}; }
 
  private:
@@ -28,10 +28,10 @@ class LegDeadReckoning : public Estimator {
 
   SensorRig rig_;
   MeasurementQueue queue_;
-  EstimatorReport report_;
+  EstimatorResult result_;
   std::optional<Pose> T_start_odom_;
   std::optional<StampedPose> last_;  ///< T_start_body
-  std::vector<Time> waiting_;        ///< sweep ends that the next sample will bracket
+  std::vector<Time> waiting_;        ///< scan ends that the next sample will bracket
 };
 
 }  // namespace aims

@@ -11,7 +11,7 @@ constexpr Duration kStep = kMillisecond;
 
 }  // namespace
 
-SweepMotion::SweepMotion(const NominalState& end_state, std::span<const InertialSegment> segments,
+ScanMotion::ScanMotion(const NominalState& end_state, std::span<const InertialSegment> segments,
                          const Pose& T_body_lidar, double gravity) {
   const Pose T_end_odom = end_state.T_odom_body().inverse();
   const auto knot = [&](const NominalState& state) {
@@ -34,7 +34,7 @@ SweepMotion::SweepMotion(const NominalState& end_state, std::span<const Inertial
   std::reverse(knots_.begin(), knots_.end());
 }
 
-Eigen::Vector3f SweepMotion::deskew(const Eigen::Vector3f& point, Time time) const {
+Eigen::Vector3f ScanMotion::deskew(const Eigen::Vector3f& point, Time time) const {
   const auto last = static_cast<Time>(knots_.size()) - 1;
   const Duration since = std::clamp<Duration>(time - begin_, 0, last * kStep);
   const auto i = static_cast<std::size_t>(since / kStep);
@@ -46,7 +46,7 @@ Eigen::Vector3f SweepMotion::deskew(const Eigen::Vector3f& point, Time time) con
   return early + fraction * (b.R * point + b.t - early);
 }
 
-void deskew(const LidarScan& scan, std::span<const int> indices, const SweepMotion& motion,
+void deskew(const LidarScan& scan, std::span<const int> indices, const ScanMotion& motion,
             std::vector<Eigen::Vector3f>& points) {
   points.clear();
   for (int index : indices) {

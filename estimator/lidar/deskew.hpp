@@ -11,16 +11,16 @@
 
 namespace aims {
 
-/// How the LiDAR moved through a sweep, relative to the body at the sweep's end.
-class SweepMotion {
+/// How the LiDAR moved through a scan, relative to the body at the scan's end.
+class ScanMotion {
  public:
   /// Propagates `end_state`, the state at the last segment's end, backward through `segments`
   /// (consecutive, oldest first).
-  SweepMotion(const NominalState& end_state, std::span<const InertialSegment> segments,
+  ScanMotion(const NominalState& end_state, std::span<const InertialSegment> segments,
               const Pose& T_body_lidar, double gravity);
 
   /// A point fired at `time` from LiDAR coordinates of that instant to body coordinates of the
-  /// sweep's end; times outside the segments take the nearest end.
+  /// scan's end; times outside the segments take the nearest end.
   Eigen::Vector3f deskew(const Eigen::Vector3f& point, Time time) const;
 
  private:
@@ -34,7 +34,7 @@ class SweepMotion {
 };
 
 /// Deskews the points of `scan` at `indices` into `points`.
-void deskew(const LidarScan& scan, std::span<const int> indices, const SweepMotion& motion,
+void deskew(const LidarScan& scan, std::span<const int> indices, const ScanMotion& motion,
             std::vector<Eigen::Vector3f>& points);
 
 }  // namespace aims

@@ -92,7 +92,7 @@ void warn_of_clouds(const CloudInfo& cloud, std::vector<std::string>& out) {
   if (!cloud.time_field()) {
     out.push_back(
         fmt::format("{}: points carry no time; it is made up from their azimuth: switch "
-                    "it on in the driver, or the motion within a sweep blurs",
+                    "it on in the driver, or the motion within a scan blurs",
                     cloud.topic));
   }
   if (!cloud.ring_field() && cloud.height == 1) {

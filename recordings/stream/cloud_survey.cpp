@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include "recordings/stream/median.hpp"
-#include "recordings/stream/sweep_period.hpp"
+#include "recordings/stream/scan_period.hpp"
 
 namespace aims {
 namespace {
 
 constexpr std::size_t kMostClouds = 60;
-/// Times from the start of a sweep are below this; above, they have another origin [ns].
+/// Times from the start of a scan are below this; above, they have another origin [ns].
 constexpr double kOtherOrigin = 5e9;
 
 constexpr std::array<std::string_view, 5> kIntensityFields = {"intensity", "reflectivity", "i",
@@ -109,7 +109,7 @@ std::optional<double> CloudSurvey::median_first(std::size_t field) const {
   return upper_median(all);
 }
 
-/// Whether that field holds times that pass with the sweep; if so, how to read them.
+/// Whether that field holds times that pass with the scan; if so, how to read them.
 bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
                                CloudReading& reading) const {
   std::vector<double> spans;
@@ -138,7 +138,7 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
   const bool from_stamp = std::abs(first) < kOtherOrigin;
   const bool has_base = std::any_of(clouds_.begin(), clouds_.end(),
                                     [](const Cloud& cloud) { return cloud.time_base.has_value(); });
-  const bool same_clock = std::abs(*upper_median(behind)) < static_cast<double>(kLongestSweep);
+  const bool same_clock = std::abs(*upper_median(behind)) < static_cast<double>(kLongestScan);
   if (has_base) {
     reading.clock = same_clock ? PointClock::kEpoch : PointClock::kStamp;
   } else if (!from_stamp) {
@@ -151,12 +151,12 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
                                std::vector<std::string>& notes) const {
   const Duration fallback = from_seconds(1.0 / config.lidar_rate);
   const Duration about =
-      std::min(upper_median(spacings(stamps())).value_or(fallback), kLongestSweep);
+      std::min(upper_median(spacings(stamps())).value_or(fallback), kLongestScan);
   std::optional<Duration> span;
   for (std::size_t field = 0; field < time_fields_.size(); ++field) {
     if (!decide_clock(config, field, about, reading)) {
       notes.push_back(fmt::format(
-          "point field '{}' does not pass with the sweep: not taken as time", time_fields_[field]));
+          "point field '{}' does not pass with the scan: not taken as time", time_fields_[field]));
       continue;
     }
     std::vector<Duration> spans;
@@ -164,16 +164,16 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
       if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
       const auto& range = *cloud.ranges[field];
       const auto length = point_time(range.last - range.first, reading.time_unit);
-      if (length && *length > 0 && *length <= kLongestSweep) spans.push_back(*length);
+      if (length && *length > 0 && *length <= kLongestScan) spans.push_back(*length);
     }
     span = upper_median(spans);
     break;
   }
-  const std::optional<Duration> period = sweep_period(stamps(), span);
+  const std::optional<Duration> period = scan_period(stamps(), span);
   reading.period =
-      std::clamp(period.value_or(fallback), kMillisecond, static_cast<Duration>(kLongestSweep));
+      std::clamp(period.value_or(fallback), kMillisecond, static_cast<Duration>(kLongestScan));
   if (!period) {
-    notes.push_back(fmt::format("too few clouds to tell the sweep's period: {:g} s by lidar_rate",
+    notes.push_back(fmt::format("too few clouds to tell the scan's period: {:g} s by lidar_rate",
                                 to_seconds(reading.period)));
   }
   if (reading.clock == PointClock::kNone) {
@@ -199,7 +199,7 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
                               kOrigins[static_cast<std::size_t>(reading.clock)]));
 }
 
-/// Whether the stamp marks the start or the end of the sweep.
+/// Whether the stamp marks the start or the end of the scan.
 void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& reading,
                                std::vector<std::string>& notes) const {
   const auto period = static_cast<double>(reading.period);
@@ -218,24 +218,24 @@ void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& read
   }
   const double first = upper_median(firsts).value_or(0.0);
   const double latency = upper_median(latencies).value_or(period);
-  // A cloud cannot arrive before its sweep is over. Exactly at its stamp: not an arrival at all.
+  // A cloud cannot arrive before its scan is over. Exactly at its stamp: not an arrival at all.
   const bool too_early = latency < 0.5 * period && latency > -0.5 * period && latency != 0.0;
   const bool to_stamp = reading.clock == PointClock::kStamp || reading.clock == PointClock::kEpoch;
   reading.counted_from_start = !to_stamp;
   reading.stamp = CloudStamp::kStart;
   if (config.cloud_stamp != CloudStamp::kAuto) {
     reading.stamp = config.cloud_stamp;
-    // Times that begin with the sweep while the stamp is said to be its end.
+    // Times that begin with the scan while the stamp is said to be its end.
     if (reading.clock == PointClock::kStamp && first > -0.2 * period) {
       reading.counted_from_start = true;
     }
   } else if (to_stamp && first < -0.5 * period) {
     reading.stamp = CloudStamp::kEnd;
-    notes.push_back("points fire before their cloud's stamp: it marks the end of the sweep");
+    notes.push_back("points fire before their cloud's stamp: it marks the end of the scan");
   } else if (!to_stamp && too_early) {
     reading.stamp = CloudStamp::kEnd;
     notes.push_back(
-        fmt::format("clouds arrive {:.1f} ms after their stamp, before a sweep that "
+        fmt::format("clouds arrive {:.1f} ms after their stamp, before a scan that "
                     "starts there is over: it is taken as the end (cloud_stamp)",
                     1e-6 * latency));
   } else if (to_stamp && too_early) {

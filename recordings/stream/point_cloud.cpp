@@ -9,7 +9,7 @@
 namespace aims {
 namespace {
 
-/// A point farther from its cloud's stamp belongs to no sweep.
+/// A point farther from its cloud's stamp belongs to no scan.
 constexpr Duration kFarthest = kSecond;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 /// A first firing seen this little before the azimuth of the first point is no last firing [rad].

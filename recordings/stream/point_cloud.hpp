@@ -28,8 +28,8 @@ struct CloudReading {
   std::string time_field;
   double time_unit = 1.0;                 ///< of that field [ns]
   CloudStamp stamp = CloudStamp::kStart;  ///< never kAuto
-  bool counted_from_start = true;         ///< times begin with the sweep, whatever the stamp marks
-  Duration period = 100 * kMillisecond;   ///< nominal, of one sweep
+  bool counted_from_start = true;         ///< times begin with the scan, whatever the stamp marks
+  Duration period = 100 * kMillisecond;   ///< nominal, of one scan
   bool clockwise = true;                  ///< sense of spin, for kNone
   RingSource ring_source = RingSource::kNone;
   std::string ring_field;

@@ -28,14 +28,14 @@ void describe_clouds(Fields& f, RecordingConfig& c) {
             {"ms", PointTimeUnit::kMilliseconds},
             {"us", PointTimeUnit::kMicroseconds},
             {"ns", PointTimeUnit::kNanoseconds}},
-           words("unit of the points' times; auto: from their span against the sweep"));
+           words("unit of the points' times; auto: from their span against the scan"));
   f.choice("cloud_stamp", c.cloud_stamp,
            {{"auto", CloudStamp::kAuto}, {"start", CloudStamp::kStart}, {"end", CloudStamp::kEnd}},
            words("what a cloud's stamp marks; auto: from the points' times and the arrival"));
   f.number("lidar_rate", c.lidar_rate,
            {.unit = "Hz",
             .range = in_range(1.0, 1000.0),
-            .meaning = "sweeps per second, where neither stamps nor points tell"});
+            .meaning = "scans per second, where neither stamps nor points tell"});
   f.flag("lidar_clockwise", c.lidar_clockwise,
          words("sense of spin seen from above, where points carry no time"));
 }

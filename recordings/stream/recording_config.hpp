@@ -44,7 +44,7 @@ struct RecordingConfig {
   ImuUnit imu_unit = ImuUnit::kAuto;
   PointTimeUnit point_time_unit = PointTimeUnit::kAuto;
   CloudStamp cloud_stamp = CloudStamp::kAuto;
-  double lidar_rate = 10.0;         ///< sweeps per second, where points carry no time [Hz]
+  double lidar_rate = 10.0;         ///< scans per second, where points carry no time [Hz]
   bool lidar_clockwise = true;      ///< sense of spin seen from above, where points carry no time
   double imu_delay = 0.0;           ///< subtracted from the stamps of the IMU [s]
   double lidar_delay = 0.0;         ///< subtracted from the stamps of the LiDAR [s]

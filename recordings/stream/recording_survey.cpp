@@ -8,7 +8,7 @@
 
 #include "recordings/stream/gravity_unit.hpp"
 #include "recordings/stream/median.hpp"
-#include "recordings/stream/sweep_period.hpp"
+#include "recordings/stream/scan_period.hpp"
 
 namespace aims {
 namespace {

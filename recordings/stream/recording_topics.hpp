@@ -16,7 +16,7 @@ inline constexpr std::string_view kTruthImuTopic = "/ground_truth/imu";
 inline constexpr std::string_view kTruthLidarTopic = "/ground_truth/lidar";
 inline constexpr std::string_view kStaticTransformsTopic = "/tf_static";
 inline constexpr std::string_view kScenarioTopic = "/aims/scenario";
-inline constexpr std::string_view kPassagesTopic = "/aims/passages";
+inline constexpr std::string_view kWaypointTimesTopic = "/aims/waypoint_times";
 
 inline constexpr std::string_view kImuFrame = "imu";
 inline constexpr std::string_view kLidarFrame = "lidar";

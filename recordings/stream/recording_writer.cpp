@@ -28,7 +28,7 @@ constexpr TopicInfo kTopics[] = {
     {kLidarTopic, point_cloud_type},
     {kTruthImuTopic, odometry_type},
     {kTruthLidarTopic, odometry_type},
-    {kPassagesTopic, string_type, true},
+    {kWaypointTimesTopic, string_type, true},
 };
 
 /// The motion of a frame fixed to the body at `T_body_frame`, for an odometry message.
@@ -118,8 +118,8 @@ Result<void> RecordingWriter::write_truth(const BodyMotion& motion) {
   return write(kTruthLidar, motion.stamp, lidar);
 }
 
-Result<void> RecordingWriter::write_passages(Time arrival, std::string_view csv) {
-  return write(kPassages, arrival, string_message(csv));
+Result<void> RecordingWriter::write_waypoint_times(Time arrival, std::string_view csv) {
+  return write(kWaypointTimes, arrival, string_message(csv));
 }
 
 Result<void> RecordingWriter::close() { return bag_.close(); }

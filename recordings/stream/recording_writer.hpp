@@ -44,8 +44,8 @@ class RecordingWriter {
   Result<void> write_legs(Time arrival, const LegOdometrySample& sample);
   /// The truth of the IMU's and the LiDAR's frame.
   Result<void> write_truth(const BodyMotion& motion);
-  /// The reference points' passages, as in passages.csv.
-  Result<void> write_passages(Time arrival, std::string_view csv);
+  /// The reference points' waypoint times, as in waypoint_times.csv.
+  Result<void> write_waypoint_times(Time arrival, std::string_view csv);
   Result<void> close();
 
   int left_out() const { return left_out_; }
@@ -63,7 +63,7 @@ class RecordingWriter {
     kLidar,
     kTruthImu,
     kTruthLidar,
-    kPassages,
+    kWaypointTimes,
     kTopicCount,
   };
 

@@ -27,10 +27,10 @@ FilmedWalk walk_of(const Scenario& scenario, const Simulation& simulation,
   const Trajectory truth = body_trajectory(simulation.truth());
   walk.truth = thinned(truth, kDrawnSpacing);
   walk.snapshots = simulation.truth().snapshots;
-  walk.passages = simulation.truth().passages;
+  walk.waypoint_times = simulation.truth().waypoint_times;
   for (const TimedEstimator& each : estimators) {
     walk.estimates.push_back(
-        {each.name(), anchored(each.estimator().report().trajectory, truth, scenario.scoring)});
+        {each.name(), anchored(each.estimator().result().trajectory, truth, scenario.scoring)});
   }
   return walk;
 }
@@ -45,8 +45,8 @@ Result<FilmedWalk> film_walk(const Scenario& scenario, const RunOptions& options
   auto estimators = make_estimators(scenario.estimators, scenario.estimator, simulation->rig());
   if (!estimators) return tl::unexpected(estimators.error());
   if (estimators->empty()) return failure("estimators: expected at least one to lay the map");
-  const auto report = [&]() -> const EstimatorReport& {
-    return estimators->front().estimator().report();
+  const auto report = [&]() -> const EstimatorResult& {
+    return estimators->front().estimator().result();
   };
   MapGrowth growth(simulation->rig().T_body_lidar);
   std::vector<LidarScanPtr> scans;  // while estimators work on one batch the next is simulated

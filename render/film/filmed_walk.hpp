@@ -24,7 +24,7 @@ struct FilmedWalk {
   Scene scene;
   Trajectory truth;                      ///< T_world_body, at 10 Hz
   std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz; none when the walk came from files
-  std::vector<Passage> passages;
+  std::vector<WaypointTime> waypoint_times;
   std::vector<NamedTrajectory> estimates;  ///< anchored at the start; of the first is the map
   std::vector<GrownPoint> map;             ///< in order of time
 };

@@ -17,23 +17,23 @@ struct GrownPoint {
   Time seen = 0;
 };
 
-/// How sweeps become the map that a film shows.
+/// How scans become the map that a film shows.
 struct MapGrowthConfig {
   float spacing = 0.04F;  ///< edge of the cubes that hold one point each [m]
   float reach = 15.0F;    ///< longest range of a return that is kept [m]
-  int every_scan = 2;     ///< every n-th sweep is laid down
+  int every_scan = 2;     ///< every n-th scan is laid down
 };
 
-/// The map that a trajectory makes: sweeps are laid down along it, each return by the pose at its
+/// The map that a trajectory makes: scans are laid down along it, each return by the pose at its
 /// own firing time, and of each small cube the first return stays. Unlike an estimator's own map it
 /// tells when each point came, and it holds nothing but what the trajectory says.
 class MapGrowth {
  public:
   explicit MapGrowth(const Pose& T_body_lidar, const MapGrowthConfig& config = {});
 
-  /// Takes a sweep, which waits until the trajectory covers it.
+  /// Takes a scan, which waits until the trajectory covers it.
   void add(const LidarScanPtr& scan);
-  /// Lays down the sweeps that `trajectory` (T_odom_body) covers by now.
+  /// Lays down the scans that `trajectory` (T_odom_body) covers by now.
   void settle(const Trajectory& trajectory);
 
   /// In the odometry frame, in the order in which they came.

@@ -8,7 +8,7 @@
 #include "estimator/estimator_spec.hpp"
 #include "bench/run/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/files/passages.hpp"
+#include "core/files/waypoint_times.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
 #include "sim/environment/scene_config.hpp"
@@ -71,11 +71,11 @@ Result<FilmedWalk> stored_walk(const fs::path& folder, const std::string& mapped
   walk.scene = build_scene(scenario->simulation.scene, walk.seed);
   auto truth = read_tum(folder / "truth.tum");
   if (!truth) return tl::unexpected(truth.error());
-  const auto text = read_file(folder / "passages.csv");
+  const auto text = read_file(folder / "waypoint_times.csv");
   if (!text) return tl::unexpected(text.error());
-  auto passages = parse_passages(*text, (folder / "passages.csv").string());
-  if (!passages) return tl::unexpected(passages.error());
-  walk.passages = std::move(*passages);
+  auto waypoint_times = parse_waypoint_times(*text, (folder / "waypoint_times.csv").string());
+  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
+  walk.waypoint_times = std::move(*waypoint_times);
   std::vector<std::string> names = labels_of(scenario->estimators);
   if (auto ordered = order(names, folder, mapped); !ordered) return tl::unexpected(ordered.error());
   walk.truth = std::move(*truth);

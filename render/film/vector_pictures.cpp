@@ -15,7 +15,7 @@ TrajectoryPlot trajectories_of(const FilmedWalk& walk) {
   plot.scene = walk.scene;
   plot.truth = walk.truth;
   plot.estimates = walk.estimates;
-  plot.passages = walk.passages;
+  plot.waypoint_times = walk.waypoint_times;
   return plot;
 }
 

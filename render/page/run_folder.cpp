@@ -13,7 +13,7 @@
 #include "bench/run/estimate.hpp"
 #include "bench/jobs/stored_results.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/files/passages.hpp"
+#include "core/files/waypoint_times.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
 
@@ -169,14 +169,14 @@ Result<void> read_config(RunFolder& run) {
   return {};
 }
 
-Result<void> read_passages(RunFolder& run) {
-  const fs::path file = run.path / "passages.csv";
+Result<void> read_waypoint_times(RunFolder& run) {
+  const fs::path file = run.path / "waypoint_times.csv";
   if (!fs::exists(file)) return {};
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
-  auto passages = parse_passages(*text, file.string());
-  if (!passages) return tl::unexpected(passages.error());
-  run.passages = std::move(*passages);
+  auto waypoint_times = parse_waypoint_times(*text, file.string());
+  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
+  run.waypoint_times = std::move(*waypoint_times);
   return {};
 }
 
@@ -197,7 +197,7 @@ Result<RunFolder> read_run_folder(const fs::path& folder) {
   auto done = read_records(run);
   if (done) done = read_config(run);
   if (done) done = read_trajectory_into(folder / "truth.tum", run.truth);
-  if (done) done = read_passages(run);
+  if (done) done = read_waypoint_times(run);
   if (done) done = read_table_into(folder / "localizability.csv", run.localizability);
   if (done) done = read_table_into(folder / "legs.csv", run.legs);
   if (!done) return tl::unexpected(done.error());

@@ -43,7 +43,7 @@ struct RunFolder {
   ScoreConfig scoring;
   std::vector<ConfigChange> changes;
   Trajectory truth;  ///< T_world_body
-  std::vector<Passage> passages;
+  std::vector<WaypointTime> waypoint_times;
   std::optional<CsvColumns> localizability;
   std::optional<CsvColumns> legs;
   std::vector<EstimatorFiles> estimators;  ///< as in scores.json, then by name

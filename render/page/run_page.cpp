@@ -159,7 +159,7 @@ Result<PageData> run_page(const fs::path& folder) {
       {"config_changes", changes_json(*run)},
       {"notes", run->notes},
       {"scores", run->scores},
-      {"passages", passages_json(*run, start)},
+      {"waypoint_times", waypoint_times_json(*run, start)},
       {"truth", truth_json(*run, start, page)}};
   auto localizability = localizability_json(*run, start, page);
   if (!localizability) return tl::unexpected(localizability.error());

@@ -98,9 +98,9 @@ Json truth_json(const RunFolder& run, double start, PageData& page) {
   return poses_json(thinned_evenly(thinned(run.truth, kTruthShown)), start, page);
 }
 
-Json passages_json(const RunFolder& run, double start) {
+Json waypoint_times_json(const RunFolder& run, double start) {
   Json list = Json::array();
-  for (const Passage& each : run.passages) {
+  for (const WaypointTime& each : run.waypoint_times) {
     const auto pose = pose_at(run.truth, each.stamp);
     if (!pose) continue;
     const Eigen::Vector3d& p = pose->translation;

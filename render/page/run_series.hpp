@@ -15,7 +15,7 @@ double page_start(const RunFolder& run);
 PageData::Json truth_json(const RunFolder& run, double start, PageData& page);
 
 /// The reference points with stamp and true place.
-PageData::Json passages_json(const RunFolder& run, double start);
+PageData::Json waypoint_times_json(const RunFolder& run, double start);
 
 /// What localizability.csv says, with stretches that are degenerate at each level; null without it.
 Result<PageData::Json> localizability_json(const RunFolder& run, double start, PageData& page);

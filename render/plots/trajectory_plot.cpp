@@ -167,21 +167,21 @@ Panel plan_panel(const TrajectoryPlot& plot, const Study& study) {
   for (std::size_t i = plot.estimates.size(); i-- > 0;)  // the first lies on top
     add(plot.estimates[i].trajectory, stroke_of(i));
   panel.series = std::move(lines.series);
-  for (const Passage& passage : plot.passages) {
-    const auto pose = pose_at(plot.truth, passage.stamp);
-    const auto same = [&](const Mark& mark) { return mark.label == passage.point; };
+  for (const WaypointTime& waypoint_time : plot.waypoint_times) {
+    const auto pose = pose_at(plot.truth, waypoint_time.stamp);
+    const auto same = [&](const Mark& mark) { return mark.label == waypoint_time.point; };
     if (!pose || std::any_of(panel.marks.begin(), panel.marks.end(), same)) continue;
-    panel.marks.push_back({pose->translation.head<2>(), passage.point});
+    panel.marks.push_back({pose->translation.head<2>(), waypoint_time.point});
   }
   return panel;
 }
 
 std::vector<Event> events_of(const TrajectoryPlot& plot, const Study& study) {
   std::vector<Event> events;
-  for (const Passage& passage : plot.passages) {
-    if (plot.truth.front().stamp > passage.stamp || plot.truth.back().stamp < passage.stamp)
+  for (const WaypointTime& waypoint_time : plot.waypoint_times) {
+    if (plot.truth.front().stamp > waypoint_time.stamp || plot.truth.back().stamp < waypoint_time.stamp)
       continue;
-    events.push_back({distance_at(plot.truth, study.truth_distance, passage.stamp), passage.point});
+    events.push_back({distance_at(plot.truth, study.truth_distance, waypoint_time.stamp), waypoint_time.point});
   }
   return events;
 }

@@ -17,14 +17,14 @@ struct NamedTrajectory {
 };
 
 /// What the picture of all trajectories shows. All are given in the world frame, aligned by the
-/// caller; the reference points come from where the truth was at the passages.
+/// caller; the reference points come from where the truth was at the waypoint_times.
 struct TrajectoryPlot {
   std::string title;
   std::string subtitle;
   Scene scene;  ///< its walls are drawn as a plan
   Trajectory truth;
   std::vector<NamedTrajectory> estimates;
-  std::vector<Passage> passages;
+  std::vector<WaypointTime> waypoint_times;
 };
 
 /// Writes three panels: the plan with all trajectories, height along the way, and distance from

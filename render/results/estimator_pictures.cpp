@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 TimeSeries series_of(std::string name, const EstimatorOutcome& outcome,
                      double ScanDiagnostics::*quantity) {
   TimeSeries series{std::move(name), {}};
-  for (const ScanDiagnostics& scan : outcome.report.diagnostics) {
+  for (const ScanDiagnostics& scan : outcome.result.diagnostics) {
     const bool updated = scan.iterations > 0;
     if (updated) series.points.emplace_back(to_seconds(scan.stamp), scan.*quantity);
   }
@@ -32,7 +32,7 @@ Result<void> draw_map(const std::string& title, const EstimatorOutcome& outcome,
   MapPicture map;
   map.title = fmt::format("{}: map of {}", title, outcome.name);
   map.points = outcome.map;
-  map.trajectory = outcome.report.trajectory;
+  map.trajectory = outcome.result.trajectory;
   auto drawn = write_map_picture(folder / (outcome.name + "-map-top.png"), MapView::kAbove, map);
   if (!drawn) return drawn;
   return write_map_picture(folder / (outcome.name + "-map-side.png"), MapView::kSide, map);
@@ -41,10 +41,10 @@ Result<void> draw_map(const std::string& title, const EstimatorOutcome& outcome,
 /// The index and what follows from it, of the first estimator that computes it.
 Result<void> draw_degeneracy(const std::string& title, const std::string& subtitle,
                              std::span<const EstimatorOutcome> outcomes,
-                             std::span<const Passage> passages, const fs::path& folder) {
+                             std::span<const WaypointTime> waypoint_times, const fs::path& folder) {
   const auto found = std::find_if(
       outcomes.begin(), outcomes.end(),
-      [](const EstimatorOutcome& outcome) { return !outcome.report.diagnostics.empty(); });
+      [](const EstimatorOutcome& outcome) { return !outcome.result.diagnostics.empty(); });
   if (found == outcomes.end()) return {};
   using Scan = ScanDiagnostics;
   TimePlot plot;
@@ -85,8 +85,8 @@ Result<void> draw_degeneracy(const std::string& title, const std::string& subtit
                            false,
                            true});
   }
-  for (const Passage& passage : passages) {
-    plot.events.emplace_back(to_seconds(passage.stamp), passage.point);
+  for (const WaypointTime& waypoint_time : waypoint_times) {
+    plot.events.emplace_back(to_seconds(waypoint_time.stamp), waypoint_time.point);
   }
   return write_time_plot(folder / "degeneracy.png", plot);
 }

@@ -16,10 +16,10 @@ Result<void> draw_map(const std::string& title, const EstimatorOutcome& outcome,
                       const std::filesystem::path& folder);
 
 /// Draws degeneracy.png: the index and what follows from it over time, of the first estimator that
-/// computes it; nothing when none does. `passages` are marked.
+/// computes it; nothing when none does. `waypoint_times` are marked.
 Result<void> draw_degeneracy(const std::string& title, const std::string& subtitle,
                              std::span<const EstimatorOutcome> outcomes,
-                             std::span<const Passage> passages,
+                             std::span<const WaypointTime> waypoint_times,
                              const std::filesystem::path& folder);
 
 }  // namespace aims

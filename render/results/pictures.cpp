@@ -30,9 +30,9 @@ Result<void> draw_trajectories(const Scenario& scenario, const RunResult& result
   plot.subtitle = subtitle_of(result);
   plot.scene = result.scene;
   plot.truth = thinned(result.truth_trajectory, kDrawnSpacing);
-  plot.passages = result.truth.passages;
+  plot.waypoint_times = result.truth.waypoint_times;
   for (const EstimatorOutcome& outcome : result.estimators) {
-    plot.estimates.push_back({outcome.name, anchored(outcome.report.trajectory,
+    plot.estimates.push_back({outcome.name, anchored(outcome.result.trajectory,
                                                      result.truth_trajectory, scenario.scoring)});
   }
   return write_trajectory_plot(folder / "trajectories.png", plot);
@@ -53,7 +53,7 @@ Result<void> draw_pictures(const Scenario& scenario, const RunResult& result,
   if (drawn) drawn = draw_trajectories(scenario, result, folder);
   if (drawn) {
     drawn = draw_degeneracy(scenario.name, subtitle_of(result), result.estimators,
-                            result.truth.passages, folder);
+                            result.truth.waypoint_times, folder);
   }
   for (const EstimatorOutcome& outcome : result.estimators) {
     if (drawn) drawn = draw_map(scenario.name, outcome, folder);

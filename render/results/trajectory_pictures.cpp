@@ -30,8 +30,8 @@ std::string subtitle_of(const TrajectoryScores& scores) {
 }
 
 /// The reference points, or the ends of segments "from-to" that were given by their times.
-std::vector<Passage> points_of(const TrajectoryScores& scores) {
-  std::vector<Passage> points = scores.passages;
+std::vector<WaypointTime> points_of(const TrajectoryScores& scores) {
+  std::vector<WaypointTime> points = scores.waypoint_times;
   if (!points.empty()) return points;
   for (const Segment& each : scores.segments) {
     const std::size_t dash = std::min(each.name.find('-'), each.name.size());
@@ -46,7 +46,7 @@ Result<void> draw_trajectories(const TrajectoryScores& scores, const std::filesy
   plot.title = scores.truth.name + ": estimated trajectories";
   plot.subtitle = subtitle_of(scores);
   plot.truth = thinned(scores.truth.trajectory, kDrawnSpacing);
-  plot.passages = points_of(scores);
+  plot.waypoint_times = points_of(scores);
   for (const ScoredEstimate& each : scores.estimates) {
     plot.estimates.push_back({each.given.name, thinned(each.in_truth_frame, kDrawnSpacing)});
   }
@@ -93,7 +93,7 @@ Result<void> draw_errors(const TrajectoryScores& scores, const std::filesystem::
       panel_of(scores, "Heading error, from 0.01 degrees", "error [deg]", kLeastDegrees,
                heading_error_deg)};
   const Time start = scores.truth.trajectory.front().stamp;
-  for (const Passage& each : points_of(scores)) {
+  for (const WaypointTime& each : points_of(scores)) {
     plot.events.emplace_back(to_seconds(each.stamp - start), each.point);
   }
   return write_time_plot(file, plot);

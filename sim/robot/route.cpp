@@ -70,7 +70,7 @@ void RouteFollower::pause(Time now, double seconds) {
 
 void RouteFollower::pass(Time now, std::size_t index) {
   const std::string& name = route_.points[index].name;
-  if (!name.empty()) passages_.push_back({name, now});
+  if (!name.empty()) waypoint_times_.push_back({name, now});
 }
 
 /// Leaves a pause: for the next point, or for good.

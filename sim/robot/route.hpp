@@ -51,7 +51,7 @@ class RouteFollower {
   VelocityCommand command(Time now, const Pose& T_world_base, bool standing, double speed);
 
   /// When the robot stood at each named point, so far; the first when it sets off.
-  const std::vector<Passage>& passages() const { return passages_; }
+  const std::vector<WaypointTime>& waypoint_times() const { return waypoint_times_; }
   bool done() const { return stage_ == Stage::kDone; }
 
  private:
@@ -82,7 +82,7 @@ class RouteFollower {
   Time resting_since_ = -1;
   bool started_ = false;
   bool turns_left_ = false;  ///< way round of a turn of about 180 degrees
-  std::vector<Passage> passages_;
+  std::vector<WaypointTime> waypoint_times_;
 };
 
 }  // namespace aims

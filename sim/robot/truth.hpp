@@ -32,8 +32,8 @@ struct RobotSnapshot {
 struct Truth {
   std::vector<TruthSample> samples;      ///< at the physics rate
   std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz
-  std::vector<Passage> passages;         ///< of the route's named points, in order
-  std::vector<ScanInformation> scans;    ///< of the sweeps that did not get lost on their way
+  std::vector<WaypointTime> waypoint_times;         ///< of the route's named points, in order
+  std::vector<ScanInformation> scans;    ///< of the scans that did not get lost on their way
   bool fell = false;
   bool touched_wall = false;
 };

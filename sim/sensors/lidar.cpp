@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-Duration sweep_period(const LidarConfig& config) { return from_seconds(1.0 / config.rate); }
+Duration scan_period(const LidarConfig& config) { return from_seconds(1.0 / config.rate); }
 
 double column_period_ns(const LidarConfig& config) {
-  return static_cast<double>(sweep_period(config)) / config.columns;
+  return static_cast<double>(scan_period(config)) / config.columns;
 }
 
 double ring_interval_ns(const LidarConfig& config) {
@@ -25,7 +25,7 @@ double ring_interval_ns(const LidarConfig& config) {
 
 /// Direction of a firing in the LiDAR frame.
 Eigen::Vector3d beam_direction(const LidarConfig& config, int ring, double time_offset_ns) {
-  const double turned = time_offset_ns / static_cast<double>(sweep_period(config));
+  const double turned = time_offset_ns / static_cast<double>(scan_period(config));
   const double azimuth =
       config.start_azimuth_deg * kRadiansPerDegree - 2.0 * std::numbers::pi * turned;
   const double fraction = config.rings > 1 ? static_cast<double>(ring) / (config.rings - 1) : 0.0;
@@ -132,9 +132,9 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
   }
 }
 
-Duration Lidar::period() const { return sweep_period(config_); }
+Duration Lidar::period() const { return scan_period(config_); }
 
-LidarScan Lidar::sweep(Time start, const Trajectory& T_world_lidar, SweepTruth* truth) {
+LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* truth) {
   assert(!T_world_lidar.empty());
   LidarScan scan;
   scan.stamp = start;
@@ -227,7 +227,7 @@ bool Lidar::detected(float strength, float range) {
   return detection_.chance((1.0 - config_.miss_probability) * probability);
 }
 
-void Lidar::report(int block, int lanes, LidarScan& scan, SweepTruth* truth) {
+void Lidar::report(int block, int lanes, LidarScan& scan, ScanTruth* truth) {
   for (int lane = 0; lane < lanes; ++lane) {
     for (int ring = 0; ring < config_.rings; ++ring) {
       const Beams& beams = beams_[block * config_.rings + ring];

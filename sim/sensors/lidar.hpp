@@ -27,8 +27,8 @@ void describe(Fields& fields, LidarDefectConfig& config);
 /// A spinning multi-ring LiDAR.
 struct LidarConfig {
   int rings = 16;
-  int columns = 1800;                ///< firings of each ring per sweep
-  double rate = 10.0;                ///< sweeps per second [Hz]
+  int columns = 1800;                ///< firings of each ring per scan
+  double rate = 10.0;                ///< scans per second [Hz]
   double elevation_min_deg = -15.0;  ///< of ring 0 [deg]
   double elevation_max_deg = 15.0;   ///< of the last ring [deg]
   double start_azimuth_deg = 180.0;  ///< of the first firing, +x to +y [deg]; spins clockwise
@@ -59,8 +59,8 @@ Result<void> validate(const LidarConfig& config);
 double detection_probability(const LidarConfig& config, double reflectivity, double cos_incidence,
                              double range);
 
-/// What the returns of a sweep truly met, one entry per point of the scan.
-struct SweepTruth {
+/// What the returns of a scan truly met, one entry per point of the scan.
+struct ScanTruth {
   std::vector<Eigen::Vector3f> normals;  ///< of the surface, in the world, towards the sensor
   /// Index into `RayCaster::materials`. From `RayCaster::first_moving_surface` on it was a person:
   /// such a return says nothing about where the sensor is and should be left out of localizability.
@@ -69,25 +69,25 @@ struct SweepTruth {
   std::vector<float> cosines;           ///< of the angle between beam and normal, in [0, 1]
 };
 
-/// Simulates sweeps in a scene. Same configuration, seed and poses: the same bytes.
+/// Simulates scans in a scene. Same configuration, seed and poses: the same bytes.
 class Lidar {
  public:
   /// `caster` must outlive the LiDAR. Random streams: "lidar.noise", "lidar.detection",
   /// "lidar.defects".
   Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed);
 
-  /// Nominal length of one sweep.
+  /// Nominal length of one scan.
   Duration period() const;
 
-  /// The sweep that starts at `start`; each firing leaves from the pose at its own time.
-  /// `T_world_lidar` should cover the sweep; beyond its ends the first or last pose holds.
-  LidarScan sweep(Time start, const Trajectory& T_world_lidar, SweepTruth* truth = nullptr);
+  /// The scan that starts at `start`; each firing leaves from the pose at its own time.
+  /// `T_world_lidar` should cover the scan; beyond its ends the first or last pose holds.
+  LidarScan scan(Time start, const Trajectory& T_world_lidar, ScanTruth* truth = nullptr);
 
  private:
   /// Sixteen neighbouring firings of one ring.
   struct alignas(64) Beams {
     RayPacket::Lanes x, y, z;                                 ///< directions in the LiDAR frame
-    std::array<std::int32_t, kRayPacketSize> time_offset_ns;  ///< after the sweep's start
+    std::array<std::int32_t, kRayPacketSize> time_offset_ns;  ///< after the scan's start
     std::array<bool, kRayPacketSize> open;                    ///< not blocked by the robot's body
   };
   /// One ring's firings of a block of columns and what came back.
@@ -99,7 +99,7 @@ class Lidar {
 
   void aim(int block, const std::vector<Pose>& column_poses);
   void receive(int block, int lanes, Time start);
-  void report(int block, int lanes, LidarScan& scan, SweepTruth* truth);
+  void report(int block, int lanes, LidarScan& scan, ScanTruth* truth);
   bool detected(float strength, float range);
 
   LidarConfig config_;

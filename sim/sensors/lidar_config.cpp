@@ -29,9 +29,9 @@ void describe(Fields& f, LidarDefectConfig& c) {
 void describe(Fields& f, LidarConfig& c) {
   f.integer("rings", c.rings, {.unit = "-", .range = in_range(1, 128), .meaning = "Lasers."});
   f.integer("columns", c.columns,
-            {.unit = "-", .range = in_range(16, 8192), .meaning = "Firings of a ring per sweep."});
+            {.unit = "-", .range = in_range(16, 8192), .meaning = "Firings of a ring per scan."});
   f.number("rate", c.rate,
-           {.unit = "Hz", .range = in_range(1.0, 100.0), .meaning = "Sweeps per second."});
+           {.unit = "Hz", .range = in_range(1.0, 100.0), .meaning = "Scans per second."});
   f.number("elevation_min_deg", c.elevation_min_deg,
            {.unit = "deg", .range = in_range(-89.0, 89.0), .meaning = "Of ring 0."});
   f.number("elevation_max_deg", c.elevation_max_deg,

@@ -13,22 +13,22 @@ constexpr double kLeastCosine = 1e-3;  ///< of a return that grazes its surface 
 
 }  // namespace
 
-ScanInformation scan_information(Time stamp, const SweepTruth& sweep, const Pose& T_world_body,
+ScanInformation scan_information(Time stamp, const ScanTruth& scan, const Pose& T_world_body,
                                  double range_sigma, int first_moving_surface) {
-  assert(sweep.points.size() == sweep.normals.size());
-  assert(sweep.surfaces.size() == sweep.normals.size());
-  assert(sweep.cosines.size() == sweep.normals.size());
+  assert(scan.points.size() == scan.normals.size());
+  assert(scan.surfaces.size() == scan.normals.size());
+  assert(scan.cosines.size() == scan.normals.size());
   // Summed in world axes about the body's origin, and turned into body axes once.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d translation = Eigen::Matrix3d::Zero();
   ScanInformation result;
-  for (std::size_t i = 0; i < sweep.normals.size(); ++i) {
-    if (sweep.surfaces[i] >= first_moving_surface) continue;
+  for (std::size_t i = 0; i < scan.normals.size(); ++i) {
+    if (scan.surfaces[i] >= first_moving_surface) continue;
     ++result.returns;
-    const double weight = 1.0 / std::max<double>(sweep.cosines[i], kLeastCosine);
-    const Eigen::Vector3d normal = weight * sweep.normals[i].cast<double>();
-    const Eigen::Vector3d arm = sweep.points[i].cast<double>() - T_world_body.translation;
+    const double weight = 1.0 / std::max<double>(scan.cosines[i], kLeastCosine);
+    const Eigen::Vector3d normal = weight * scan.normals[i].cast<double>();
+    const Eigen::Vector3d arm = scan.points[i].cast<double>() - T_world_body.translation;
     const Eigen::Vector3d moment = arm.cross(normal);
     rotation.noalias() += moment * moment.transpose();
     cross.noalias() += moment * normal.transpose();

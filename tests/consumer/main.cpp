@@ -45,5 +45,5 @@ int main(int argc, char** argv) {
   const auto estimator = or_exit(aims::make_estimator("aims", aims::EstimatorConfig(), rig));
   recording ? replay(*recording, *estimator) : walk(*estimator);
   estimator->finish();
-  std::fputs(aims::tum_text(estimator->report().trajectory).c_str(), stdout);
+  std::fputs(aims::tum_text(estimator->result().trajectory).c_str(), stdout);
 }

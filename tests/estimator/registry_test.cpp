@@ -10,7 +10,7 @@ TEST(Registry, MakesEveryEstimatorItLists) {
   for (const EstimatorEntry& entry : estimator_registry()) {
     const auto made = make_estimator(entry.name, EstimatorConfig{}, SensorRig{});
     ASSERT_TRUE(made.has_value()) << entry.name;
-    EXPECT_TRUE((*made)->report().trajectory.empty());
+    EXPECT_TRUE((*made)->result().trajectory.empty());
     EXPECT_FALSE(entry.description.empty());
   }
 }

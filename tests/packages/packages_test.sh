@@ -28,7 +28,7 @@ contents() {
     grep -q " \./usr/$file$" "$work/contents" || fail "$package holds no /usr/$file"
   done
 }
-contents "$program" bin/aims share/aims/scenarios/corridor.yaml \
+contents "$program" bin/aims share/aims/scenarios/paper/corridor.yaml \
   share/aims/scenarios/stress/ramp_06.yaml share/aims/slurm/submit.sh share/doc/aims/copyright
 grep -qE '\.hpp$|\.a$|\.cmake$' "$work/contents" && fail "what others build with is in $program"
 contents "$libraries" include/aims/core/lie.hpp include/aims/estimator/registry.hpp \

@@ -72,8 +72,8 @@ TEST(Simulation, WalksItsRouteAndDeliversEverySensorInOrderOfArrival) {
   const Recording result = record(short_walk(), 1);
   EXPECT_FALSE(result.truth.fell);
   EXPECT_FALSE(result.truth.touched_wall);
-  ASSERT_EQ(result.truth.passages.size(), 2U);
-  EXPECT_EQ(result.truth.passages[1].point, "b");
+  ASSERT_EQ(result.truth.waypoint_times.size(), 2U);
+  EXPECT_EQ(result.truth.waypoint_times[1].point, "b");
   std::array<std::size_t, 3> counts{};
   Time last = 0;
   for (const Delivery& delivery : result.deliveries) {
@@ -176,8 +176,8 @@ TEST(Simulation, AColdStartIsTheSameWalkSeenFromLaterOn) {
     EXPECT_EQ(late.truth.samples[i].T_world_body.translation,
               whole.truth.samples[skipped + i].T_world_body.translation);
   }
-  ASSERT_EQ(late.truth.passages.size(), 1U) << "the first point was passed before";
-  EXPECT_EQ(late.truth.passages[0].point, "b");
+  ASSERT_EQ(late.truth.waypoint_times.size(), 1U) << "the first point was passed before";
+  EXPECT_EQ(late.truth.waypoint_times[0].point, "b");
 }
 
 TEST(Simulation, RefusesARecordingThatWouldBeginAfterItsEnd) {

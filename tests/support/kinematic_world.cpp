@@ -17,7 +17,7 @@ constexpr double kTurn = 4.0;            ///< of half a turn [s]
 constexpr double kGravity = 9.81;
 constexpr Duration kImuPeriod = 20 * kMillisecond;
 constexpr Duration kLegPeriod = 5 * kMillisecond;
-constexpr Duration kSweep = 100 * kMillisecond;
+constexpr Duration kScan = 100 * kMillisecond;
 
 /// Smooth ramp from 0 to 1 over t in [0, 1].
 double ease(double t) { return 0.5 * (1.0 - std::cos(kPi * std::clamp(t, 0.0, 1.0))); }
@@ -87,7 +87,7 @@ KinematicWorld::KinematicWorld(const KinematicConfig& config)
   leg_end_ = config.walk.stand + walk_time_;
   back_start_ = leg_end_ + 1.0 + kTurn;
   duration_ = config.walk.there_and_back ? back_start_ + walk_time_ + 1.0 : leg_end_ + 1.0;
-  duration_ = std::ceil(duration_ * 10.0) / 10.0;  // whole sweeps
+  duration_ = std::ceil(duration_ * 10.0) / 10.0;  // whole scans
   RandomStream bias(config.seed, "kinematic.bias");
   gyro_bias_ = config.sensors.gyro_bias * bias.normal3();
   force_bias_ = config.sensors.force_bias * bias.normal3();
@@ -174,12 +174,12 @@ LegOdometrySample KinematicWorld::legs(Time stamp) {
 LidarScanPtr KinematicWorld::scan(Time end) {
   constexpr int kRings = 16;
   auto scan = std::make_shared<LidarScan>();
-  scan->stamp = end - kSweep;
+  scan->stamp = end - kScan;
   scan->end = end;
   const int columns = config_.sensors.lidar_columns;
   scan->points.reserve(static_cast<std::size_t>(columns * kRings));
   for (int column = 0; column < columns; ++column) {
-    const auto offset = static_cast<std::int32_t>(kSweep * column / columns);
+    const auto offset = static_cast<std::int32_t>(kScan * column / columns);
     const Pose T_world_lidar = pose(to_seconds(scan->stamp + offset)) * rig_.T_body_lidar;
     const Eigen::Matrix3d R = T_world_lidar.R();
     const double azimuth = 2.0 * kPi * column / columns;
@@ -204,7 +204,7 @@ bool KinematicWorld::advance(Duration span, std::vector<Delivery>& deliveries) {
     const LegOdometrySample sample = legs(now_);
     if (!loss_random_.chance(config_.sensors.leg_loss)) deliveries.push_back({now_, sample});
     if (now_ % kImuPeriod == 0) deliveries.push_back({now_, imu(now_)});
-    if (now_ % kSweep == 0) deliveries.push_back({now_, scan(now_)});
+    if (now_ % kScan == 0) deliveries.push_back({now_, scan(now_)});
   }
   now_ -= kLegPeriod;
   return now_ < duration();

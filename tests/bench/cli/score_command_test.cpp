@@ -64,7 +64,7 @@ TEST_F(Score, OfARunsOwnFilesIsWhatTheRunScored) {
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const Outcome score = aims(
       "score --truth run/truth.tum --estimate run/aims.tum --estimate "
-      "run/leg.tum --passages run/passages.csv --config run/config.yaml "
+      "run/leg.tum --waypoint-times run/waypoint_times.csv --config run/config.yaml "
       "--out scored");
   ASSERT_EQ(score.exit_code, 0) << score.output;
   expect_says(score, {"M_list(a-b) %", "M_list(b-a) %", "\naims ", "\nleg ", "trajectories.png"});

@@ -113,7 +113,7 @@ TEST(Consistency, CoverageCarriesTheWilsonInterval) {
 TEST(Consistency, JudgesAnInstantByTheRunsThatStateACovarianceThere) {
   std::vector<ConsistencyRun> runs = synthetic_runs(4, 1.0);
   runs[0].resize(50);                                   // a walk that ends early
-  runs[1].erase(runs[1].begin());                       // a second without a sweep
+  runs[1].erase(runs[1].begin());                       // a second without a scan
   for (auto& sample : runs[2]) sample.sigma_m.reset();  // states nothing
   const Consistency result = consistency_of(runs);
   EXPECT_EQ(result.instants[0].covered.runs, 2);

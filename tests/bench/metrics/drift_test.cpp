@@ -10,14 +10,14 @@ namespace aims {
 namespace {
 
 std::vector<SegmentDrift> drifts_of(const Trajectory& estimate) {
-  return segment_drifts(estimate, test::true_walk(), segments_of(test::walk_passages()), kSecond);
+  return segment_drifts(estimate, test::true_walk(), segments_of(test::walk_waypoint_times()), kSecond);
 }
 
 DriftSummary summary_of(const Trajectory& estimate) {
   const Trajectory truth = test::true_walk();
   const auto pairs = associate(estimate, truth, Association::kInterpolated, 0);
   return *drift_summary(aligned(pairs, align_start(pairs)), truth,
-                        segments_of(test::walk_passages()));
+                        segments_of(test::walk_waypoint_times()));
 }
 
 TEST(SegmentDrift, OfAScaleErrorLiesAlongEachSegment) {
@@ -84,7 +84,7 @@ TEST(DriftSummary, NeedsADirection) {
   const Trajectory truth = test::true_walk();
   const auto pairs = associate(test::perfect_walk(), truth, Association::kInterpolated, 0);
   EXPECT_FALSE(drift_summary(pairs, truth, {}));
-  EXPECT_FALSE(drift_summary({}, truth, segments_of(test::walk_passages())));
+  EXPECT_FALSE(drift_summary({}, truth, segments_of(test::walk_waypoint_times())));
 }
 
 }  // namespace

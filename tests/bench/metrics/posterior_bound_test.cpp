@@ -82,7 +82,7 @@ TEST(PosteriorBound, OfAnUnknownLegScaleIsThatShareOfTheWay) {
   EXPECT_NEAR(bounds[0].leg_scale, 0.03, 1e-4);
 }
 
-TEST(PosteriorBound, OneSweepThatSeesTheWayTeachesTheLegScale) {
+TEST(PosteriorBound, OneScanThatSeesTheWayTeachesTheLegScale) {
   BoundParameters p = certain();
   p.accelerometer.noise_density = 0.1;
   p.legs = {true, 200.0, 1e-5, 0.03};
@@ -93,7 +93,7 @@ TEST(PosteriorBound, OneSweepThatSeesTheWayTeachesTheLegScale) {
   const auto bounds = posterior_bounds(straight_motion(50, 0.7), scans, p);
   EXPECT_NEAR(bounds[0].along, 1e-4, 2e-6);
   EXPECT_LT(bounds[1].leg_scale, 1e-3);
-  EXPECT_LT(bounds[1].along, 0.05) << "against 1.05 m without the sweep";
+  EXPECT_LT(bounds[1].along, 0.05) << "against 1.05 m without the scan";
   p.lidar = false;
   EXPECT_GT(posterior_bounds(straight_motion(50, 0.7), scans, p)[1].along, 1.0);
 }
@@ -252,7 +252,7 @@ TEST(PosteriorBound, IsTheSpreadOfInertialIntegrationAlongACurve) {
   }
 }
 
-TEST(PosteriorBound, ASweepInformsAlongTheBodysOwnAxes) {
+TEST(PosteriorBound, AScanInformsAlongTheBodysOwnAxes) {
   BoundParameters p = certain();
   p.initial.position_sigma = 1.0;
   auto motion = straight_motion(1.0, 0.0);
@@ -265,7 +265,7 @@ TEST(PosteriorBound, ASweepInformsAlongTheBodysOwnAxes) {
   EXPECT_NEAR(bound_along(bound, {std::cos(0.7), std::sin(0.7), 0.0}), 0.01, 1e-5);
 }
 
-TEST(PosteriorBound, HasAnEntryPerSweepInsideTheMotionAndNoneWithoutMotion) {
+TEST(PosteriorBound, HasAnEntryPerScanInsideTheMotionAndNoneWithoutMotion) {
   const auto motion = straight_motion(1.0, 0.5);
   const auto scans = scans_at({-0.1, 0.0, 0.25, 1.0, 1.1}, kNothing);
   const auto bounds = posterior_bounds(motion, scans, certain());

@@ -12,7 +12,7 @@ namespace aims {
 namespace {
 
 Scores scores_of(const Trajectory& estimate) {
-  return score(estimate, test::true_walk(), test::walk_passages(), ScoreConfig());
+  return score(estimate, test::true_walk(), test::walk_waypoint_times(), ScoreConfig());
 }
 
 /// Every number of the scores that has a value.
@@ -126,9 +126,9 @@ TEST(Scores, OfPoorDataAreMarkedAndFinite) {
   }
 }
 
-TEST(Scores, WithoutTruthOrPassagesAreMarked) {
+TEST(Scores, WithoutTruthOrWaypointTimeAreMarked) {
   const ScoreConfig config;
-  EXPECT_FALSE(score(test::perfect_walk(), {}, test::walk_passages(), config).success);
+  EXPECT_FALSE(score(test::perfect_walk(), {}, test::walk_waypoint_times(), config).success);
   const Scores s = score(test::perfect_walk(), test::true_walk(), {}, config);
   EXPECT_TRUE(s.success);
   EXPECT_FALSE(s.m_list_percent);
@@ -158,7 +158,7 @@ TEST(ScoreConfig, DefaultsLieInTheirRanges) {
   }
 }
 
-TEST(Scores, OverGivenSegmentsNamesAndPassagesCountForNothing) {
+TEST(Scores, OverGivenSegmentsNamesAndWaypointTimeCountForNothing) {
   ScoreConfig config;
   config.segments = {"x-y"};
   const std::vector<Segment> half = {{"half", 0, from_seconds(20.0)}};

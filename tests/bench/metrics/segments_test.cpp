@@ -9,13 +9,13 @@ namespace aims {
 namespace {
 
 std::vector<SegmentDistance> distances_of(const Trajectory& estimate, Duration edge = kSecond) {
-  return segment_distances(estimate, test::true_walk(), segments_of(test::walk_passages()), 1.0,
+  return segment_distances(estimate, test::true_walk(), segments_of(test::walk_waypoint_times()), 1.0,
                            edge);
 }
 
 TEST(Segments, AreNamedByTheirPoints) {
-  const std::vector<Passage> passages = {{"a", 0}, {"b", 1}, {"a", 2}, {"b", 3}, {"c", 4}};
-  const auto segments = segments_of(passages);
+  const std::vector<WaypointTime> waypoint_times = {{"a", 0}, {"b", 1}, {"a", 2}, {"b", 3}, {"c", 4}};
+  const auto segments = segments_of(waypoint_times);
   ASSERT_EQ(segments.size(), 4U);
   EXPECT_EQ(segments[0].name, "a-b");
   EXPECT_EQ(segments[1].name, "b-a");
@@ -25,10 +25,10 @@ TEST(Segments, AreNamedByTheirPoints) {
 }
 
 TEST(Segments, MayLeavePointsInBetweenOut) {
-  const std::vector<Passage> passages = {{"a", 0}, {"b", 1}, {"d", 2}, {"f", 3}, {"h", 4},
+  const std::vector<WaypointTime> waypoint_times = {{"a", 0}, {"b", 1}, {"d", 2}, {"f", 3}, {"h", 4},
                                          {"f", 5}, {"d", 6}, {"b", 7}, {"a", 8}};
   const std::vector<std::string> names = {"h-d", "a-d", "d-h", "d-a"};
-  const auto segments = segments_named(passages, names);
+  const auto segments = segments_named(waypoint_times, names);
   ASSERT_EQ(segments.size(), 4U);
   EXPECT_EQ(segments[0].name, "a-d");
   EXPECT_EQ(segments[0].begin, 0);
@@ -40,12 +40,12 @@ TEST(Segments, MayLeavePointsInBetweenOut) {
   EXPECT_EQ(segments[3].name, "d-a") << "from the last time at d, not the first";
   EXPECT_EQ(segments[3].begin, 6);
   EXPECT_EQ(segments[3].end, 8);
-  EXPECT_TRUE(segments_named(passages, std::vector<std::string>{"a-x"}).empty());
+  EXPECT_TRUE(segments_named(waypoint_times, std::vector<std::string>{"a-x"}).empty());
 }
 
 TEST(Segments, OfTheSameNameAreNumbered) {
-  const std::vector<Passage> passages = {{"a", 0}, {"b", 1}, {"a", 2}, {"b", 3}};
-  const auto segments = segments_named(passages, std::vector<std::string>{"a-b"});
+  const std::vector<WaypointTime> waypoint_times = {{"a", 0}, {"b", 1}, {"a", 2}, {"b", 3}};
+  const auto segments = segments_named(waypoint_times, std::vector<std::string>{"a-b"});
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_EQ(segments[1].name, "a-b#2");
 }
@@ -110,12 +110,12 @@ TEST(MList, HasNoValueWhereTheEstimateIsMissing) {
 }
 
 TEST(MList, LeavesOutATurnOnTheSpot) {
-  const std::vector<Passage> passages = {{"a", 0},
+  const std::vector<WaypointTime> waypoint_times = {{"a", 0},
                                          {"b", from_seconds(test::kThere)},
                                          {"b2", from_seconds(test::kBackFrom)},
                                          {"a", from_seconds(test::kEnd)}};
   const auto distances = segment_distances(test::perfect_walk(), test::true_walk(),
-                                           segments_of(passages), 1.0, kSecond);
+                                           segments_of(waypoint_times), 1.0, kSecond);
   ASSERT_EQ(distances.size(), 2U);
   EXPECT_EQ(distances[1].segment.name, "b2-a");
 }

@@ -40,7 +40,7 @@ inline Pose there_and_back(double t) {
 
 inline Trajectory true_walk() { return sampled(0.0, kEnd, 0.01, there_and_back); }
 
-inline std::vector<Passage> walk_passages() {
+inline std::vector<WaypointTime> walk_waypoint_times() {
   return {{"a", 0}, {"b", from_seconds(kThere)}, {"a", from_seconds(kEnd)}};
 }
 

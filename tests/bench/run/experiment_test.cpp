@@ -25,7 +25,7 @@ TEST(Experiment, WritesEveryFileOfARun) {
   const auto experiment = run_experiment(short_walk(), options, keep_going);
   ASSERT_TRUE(experiment) << experiment.error().message;
   for (const char* file :
-       {"scores.json", "scores.csv", "config.yaml", "truth.tum", "passages.csv", "aims.tum",
+       {"scores.json", "scores.csv", "config.yaml", "truth.tum", "waypoint_times.csv", "aims.tum",
         "leg.tum", "aims.diagnostics.csv", "trajectories.png", "aims-map-top.png",
         "aims-map-side.png", "robot_start.png", "degeneracy.png"}) {
     EXPECT_TRUE(fs::exists(options.out / file)) << file;

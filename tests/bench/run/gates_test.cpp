@@ -110,10 +110,10 @@ TEST(Gates, NameTheSeedsWithoutAValue) {
 
 TEST(Gates, SayHowToRepeatThemWithTheSettingsGiven) {
   Scenario scenario = expecting({"aims", "ate_m", 0.5});
-  scenario.file = "my scenarios/corridor.yaml";
+  scenario.file = "my scenarios/paper/corridor.yaml";
   scenario.overrides = {"estimators=[aims]", "lidar.range_max=9", "scene.kind=it's"};
   EXPECT_EQ(reproducing_command(scenario, check_gates(scenario, kThree).at(0)),
-            "aims run 'my scenarios/corridor.yaml' --seed 2 --estimators aims "
+            "aims run 'my scenarios/paper/corridor.yaml' --seed 2 --estimators aims "
             "--set lidar.range_max=9 --set 'scene.kind=it'\\''s'");
 }
 

@@ -177,9 +177,9 @@ TEST_F(Recorded, HoldsTheTruthOfBothFramesAndSaysWhereItCameFrom) {
   const std::string text(origin.front().view.text("data").value());
   EXPECT_NE(text.find("seed: 5\n"), std::string::npos) << text.substr(0, 200);
   EXPECT_NE(text.find("fast_imu_rate: 200"), std::string::npos);
-  const auto passages = of_topic(messages_, kPassagesTopic);
-  ASSERT_EQ(passages.size(), 1U);
-  EXPECT_EQ(passages.front().view.text("data"), read_file(outcome_.passages).value());
+  const auto waypoint_times = of_topic(messages_, kWaypointTimesTopic);
+  ASSERT_EQ(waypoint_times.size(), 1U);
+  EXPECT_EQ(waypoint_times.front().view.text("data"), read_file(outcome_.waypoint_times).value());
 }
 
 TEST_F(Recorded, TheSecondImuTopicIsFasterAndOriented) {

@@ -25,26 +25,26 @@ LegPackets packets(Duration span, int lost, Duration offset = 0) {
   return came;
 }
 
-TEST(LegStretches, CountLostPacketsOnceWhateverComesTwice) {
+TEST(LegIntervales, CountLostPacketsOnceWhateverComesTwice) {
   const SimulationConfig config;
-  for (const auto& each : leg_stretches(config, packets(kSecond, 0), {}, kSecond)) {
+  for (const auto& each : leg_intervals(config, packets(kSecond, 0), {}, kSecond)) {
     EXPECT_EQ(each.loss, 0.0);
   }
-  const auto halved = leg_stretches(config, packets(kSecond, 2), {}, kSecond);
+  const auto halved = leg_intervals(config, packets(kSecond, 2), {}, kSecond);
   ASSERT_EQ(halved.size(), 10U);
   for (const auto& each : halved) EXPECT_DOUBLE_EQ(each.loss, 0.5);
-  EXPECT_EQ(halved.front().stamp, kLegStretch);
-  EXPECT_EQ(leg_stretches(config, {}, {}, kSecond).front().loss, 1.0);
+  EXPECT_EQ(halved.front().stamp, kLegInterval);
+  EXPECT_EQ(leg_intervals(config, {}, {}, kSecond).front().loss, 1.0);
 }
 
-TEST(LegStretches, TakeStampsOfAWrongClockForWhatTheyMean) {
+TEST(LegIntervales, TakeStampsOfAWrongClockForWhatTheyMean) {
   SimulationConfig config;
   config.links.leg_odometry.clock_offset = 0.02;
   const auto came = packets(kSecond, 0, 20 * kMillisecond);
-  for (const auto& each : leg_stretches(config, came, {}, kSecond)) EXPECT_EQ(each.loss, 0.0);
+  for (const auto& each : leg_intervals(config, came, {}, kSecond)) EXPECT_EQ(each.loss, 0.0);
 }
 
-TEST(LegStretches, SlipIsTheMeanOfTheFastestFoot) {
+TEST(LegIntervales, SlipIsTheMeanOfTheFastestFoot) {
   Truth truth;
   for (int i = 1; i <= 100; ++i) {
     TruthSample sample;
@@ -52,7 +52,7 @@ TEST(LegStretches, SlipIsTheMeanOfTheFastestFoot) {
     sample.slip_speed = {0.1, i <= 25 ? 0.5 : 0.3, 0.0, 0.2};
     truth.samples.push_back(sample);
   }
-  const auto stretches = leg_stretches({}, {}, truth, 250 * kMillisecond);
+  const auto stretches = leg_intervals({}, {}, truth, 250 * kMillisecond);
   ASSERT_EQ(stretches.size(), 2U);
   EXPECT_NEAR(stretches[0].slip, 0.4, 1e-12);
   EXPECT_NEAR(stretches[1].slip, 0.3, 1e-12);

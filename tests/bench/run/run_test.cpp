@@ -27,8 +27,8 @@ TEST(Run, GivesTheSameBytesOnOneThreadAndOnTwo) {
   EXPECT_EQ(tum_text(one->truth_trajectory), tum_text(two->truth_trajectory));
   ASSERT_EQ(one->estimators.size(), 6U);
   for (std::size_t i = 0; i < one->estimators.size(); ++i) {
-    EXPECT_EQ(tum_text(one->estimators[i].report.trajectory),
-              tum_text(two->estimators[i].report.trajectory))
+    EXPECT_EQ(tum_text(one->estimators[i].result.trajectory),
+              tum_text(two->estimators[i].result.trajectory))
         << one->estimators[i].name;
   }
 }
@@ -38,10 +38,10 @@ TEST(Run, ScoresEveryEstimatorOnAWalkThatEndsWhereItBegan) {
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(result->complete);
   EXPECT_FALSE(result->truth.fell);
-  EXPECT_EQ(result->truth.passages.size(), 3U);
+  EXPECT_EQ(result->truth.waypoint_times.size(), 3U);
   for (const EstimatorOutcome& outcome : result->estimators) {
     EXPECT_TRUE(outcome.scores.success) << outcome.name;
-    EXPECT_EQ(outcome.scan_times_ms.size(), outcome.report.trajectory.size()) << outcome.name;
+    EXPECT_EQ(outcome.scan_times_ms.size(), outcome.result.trajectory.size()) << outcome.name;
   }
 }
 
@@ -52,7 +52,7 @@ TEST(Run, EndsEarlyWithWhatThereIsWhenTheObserverSaysSo) {
   EXPECT_FALSE(result->complete);
   EXPECT_GT(result->simulated_s, 4.0);
   EXPECT_LT(result->simulated_s, 8.0);
-  EXPECT_GT(result->estimators.front().report.trajectory.size(), 10U);
+  EXPECT_GT(result->estimators.front().result.trajectory.size(), 10U);
 }
 
 TEST(Run, RefusesAScenarioThatStartsInAWall) {

@@ -17,7 +17,7 @@
 namespace aims {
 namespace {
 
-constexpr const char* kPassages = "point,stamp_s\na,1\nb,4\na,9\n";
+constexpr const char* kWaypointTimes = "point,stamp_s\na,1\nb,4\na,9\n";
 
 /// A bend in space, sampled at 10 Hz over ten seconds.
 Trajectory bend() {
@@ -61,12 +61,12 @@ class ScoringInputs : public ::testing::Test {
     const auto path = folder_.path() / "run.bag";
     auto writer = BagWriter::create(path);
     const auto odometry = writer->add_connection("/odom", odometry_type());
-    const auto passages = writer->add_connection("/aims/passages", string_type());
+    const auto waypoint_times = writer->add_connection("/aims/waypoint_times", string_type());
     for (const StampedPose& each : trajectory) {
       const auto message = odometry_message({0, each.stamp, "world"}, "imu", {each.pose, {}, {}});
       EXPECT_TRUE(writer->write(odometry, kSecond + each.stamp, message.view()));
     }
-    EXPECT_TRUE(writer->write(passages, 20 * kSecond, string_message(kPassages).view()));
+    EXPECT_TRUE(writer->write(waypoint_times, 20 * kSecond, string_message(kWaypointTimes).view()));
     EXPECT_TRUE(writer->close());
     return path.string();
   }
@@ -95,7 +95,7 @@ TEST_F(ScoringInputs, TumKittiAndBagGiveTheSameScores) {
   request.estimates = {file("mine.tum", tum_text(drifting)), file("mine.txt", kitti_text(drifting)),
                        bag(drifting)};
   request.times = file("times.txt", times_text(drifting));
-  request.passages = file("passages.csv", kPassages);
+  request.waypoint_times = file("waypoint_times.csv", kWaypointTimes);
   const auto input = read_scoring_input(request);
   ASSERT_TRUE(input) << input.error().message;
   const auto scores = score_trajectories(*input);
@@ -116,7 +116,7 @@ TEST_F(ScoringInputs, TumKittiAndBagGiveTheSameScores) {
   EXPECT_EQ(scores->estimates[2].given.name, "run/odom");
 }
 
-TEST_F(ScoringInputs, ATruthInABagBringsItsPassages) {
+TEST_F(ScoringInputs, ATruthInABagBringsItsWaypointTime) {
   ScoringRequest request = plain();
   request.truth = bag(bend());
   const auto input = read_scoring_input(request);
@@ -203,7 +203,7 @@ TEST_F(ScoringInputs, BadArgumentsAreNamed) {
   request.segments = "a-b";
   EXPECT_NE(message_of(request).find("passed are: none"), std::string::npos);
   request = plain();
-  request.passages = file("p.csv", "x\n");
+  request.waypoint_times = file("p.csv", "x\n");
   EXPECT_NE(message_of(request).find("p.csv:1: expected the header"), std::string::npos);
   request = plain();
   request.times = file("t.txt", "1\nx\n");

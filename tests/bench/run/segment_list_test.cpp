@@ -36,11 +36,11 @@ TEST(SegmentList, ErrorsNameTheEntry) {
 }
 
 TEST(SegmentList, ResolvesInOrderOfTime) {
-  const std::vector<Passage> passages = {
+  const std::vector<WaypointTime> waypoint_times = {
       {"a", kSecond}, {"b", 5 * kSecond}, {"d", 9 * kSecond}, {"a", 20 * kSecond}};
   const auto list = parse_segments("late=15:16,a-d,b-a");
   ASSERT_TRUE(list);
-  const auto segments = resolve_segments(*list, passages, kTruth);
+  const auto segments = resolve_segments(*list, waypoint_times, kTruth);
   ASSERT_TRUE(segments) << segments.error().message;
   ASSERT_EQ(segments->size(), 3U);
   EXPECT_EQ((*segments)[0].name, "a-d");
@@ -50,12 +50,12 @@ TEST(SegmentList, ResolvesInOrderOfTime) {
 }
 
 TEST(SegmentList, WhatIsNotThereIsAnError) {
-  const std::vector<Passage> passages = {{"a", kSecond}, {"b", 5 * kSecond}};
-  const auto unknown = resolve_segments({{}, {"b-a"}}, passages, kTruth);
+  const std::vector<WaypointTime> waypoint_times = {{"a", kSecond}, {"b", 5 * kSecond}};
+  const auto unknown = resolve_segments({{}, {"b-a"}}, waypoint_times, kTruth);
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().message,
-            "--segments: 'b-a': no way between two such passages; passed are: a, b");
-  const auto beyond = resolve_segments({{{"x", kSecond, 301 * kSecond}}, {}}, passages, kTruth);
+            "--segments: 'b-a': no way between two such waypoint_times; passed are: a, b");
+  const auto beyond = resolve_segments({{{"x", kSecond, 301 * kSecond}}, {}}, waypoint times, kTruth);
   ASSERT_FALSE(beyond);
   EXPECT_NE(beyond.error().message.find("not within the truth's stamps"), std::string::npos);
 }

@@ -207,11 +207,11 @@ TEST_F(TrajectoryFiles, ATextFileCalledBagIsRefused) {
 TEST_F(TrajectoryFiles, TheLastTextOfATopicIsRead) {
   const auto path = folder_.path() / "text.bag";
   auto writer = BagWriter::create(path);
-  const auto id = writer->add_connection("/aims/passages", string_type());
+  const auto id = writer->add_connection("/aims/waypoint_times", string_type());
   EXPECT_TRUE(writer->write(id, kSecond, string_message("old").view()));
   EXPECT_TRUE(writer->write(id, 2 * kSecond, string_message("point,stamp_s\n").view()));
   ASSERT_TRUE(writer->close());
-  const auto text = read_bag_text(path, "/aims/passages");
+  const auto text = read_bag_text(path, "/aims/waypoint_times");
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_EQ(**text, "point,stamp_s\n");
   const auto none = read_bag_text(path, "/other");

@@ -31,16 +31,16 @@ std::vector<Delivery> record(KinematicWorld& world) {
   return deliveries;
 }
 
-EstimatorReport run(std::string_view name, const std::vector<Delivery>& deliveries,
+EstimatorResult run(std::string_view name, const std::vector<Delivery>& deliveries,
                     const SensorRig& rig, const EstimatorConfig& config = {}) {
   auto estimator = make_estimator(name, config, rig);
   for (const Delivery& delivery : deliveries) (*estimator)->consume(delivery);
   (*estimator)->finish();
-  return (*estimator)->report();
+  return (*estimator)->result();
 }
 
 /// Largest distance [m] between the estimate, anchored at its first pose, and the truth.
-double largest_error(const EstimatorReport& report, const KinematicWorld& world) {
+double largest_error(const EstimatorResult& report, const KinematicWorld& world) {
   const StampedPose& first = report.trajectory.front();
   const Pose T_world_odom = world.T_world_body(first.stamp) * first.pose.inverse();
   double largest = 0.0;
@@ -56,7 +56,7 @@ TEST(Eskf, WalksTheCorridorWithinCentimetres) {
   KinematicWorld world(short_walk());
   const auto deliveries = record(world);
   for (const char* name : {"aims", "tfs", "tfs_clean", "lio"}) {
-    const EstimatorReport report = run(name, deliveries, world.rig());
+    const EstimatorResult report = run(name, deliveries, world.rig());
     ASSERT_GT(report.trajectory.size(), 150U) << name;
     EXPECT_EQ(report.trajectory.size(), report.diagnostics.size());
     EXPECT_LT(report.trajectory.front().pose.translation.norm(), 0.01);
@@ -75,8 +75,8 @@ TEST(Eskf, WalksTheCorridorAsWellWithDisplacementsBetweenScans) {
   KinematicWorld world(short_walk());
   const auto deliveries = record(world);
   for (const char* name : {"aims", "tfs", "tfs_clean"}) {
-    const EstimatorReport velocity = run(name, deliveries, world.rig());
-    const EstimatorReport report = run(name, deliveries, world.rig(), displacement_config());
+    const EstimatorResult velocity = run(name, deliveries, world.rig());
+    const EstimatorResult report = run(name, deliveries, world.rig(), displacement_config());
     ASSERT_EQ(report.trajectory.size(), velocity.trajectory.size()) << name;
     EXPECT_LT(largest_error(report, world), 1.2 * largest_error(velocity, world) + 0.01) << name;
     EXPECT_EQ(report.diagnostics.at(100).leg_updates, 1) << name;
@@ -90,8 +90,8 @@ TEST(Eskf, DisplacementsKeepTheScaleWhereTheLidarIsSilent) {
   const auto deliveries = record(world);
   EstimatorConfig config = displacement_config();
   config.lidar.min_matches = 1000000;  // no scan corrects: legs and IMU alone
-  const EstimatorReport with_legs = run("tfs_clean", deliveries, world.rig(), config);
-  const EstimatorReport without = run("lio", deliveries, world.rig(), config);
+  const EstimatorResult with_legs = run("tfs_clean", deliveries, world.rig(), config);
+  const EstimatorResult without = run("lio", deliveries, world.rig(), config);
   EXPECT_LT(largest_error(with_legs, world), 0.3);
   EXPECT_GT(largest_error(without, world), 3.0 * largest_error(with_legs, world));
 }
@@ -101,8 +101,8 @@ TEST(Eskf, ADisplacementWithTooFewPacketsIsLeftOut) {
   world_config.sensors.leg_loss = 0.7;
   KinematicWorld world(world_config);
   const auto deliveries = record(world);
-  const EstimatorReport clean = run("tfs_clean", deliveries, world.rig(), displacement_config());
-  const EstimatorReport held = run("tfs", deliveries, world.rig(), displacement_config());
+  const EstimatorResult clean = run("tfs_clean", deliveries, world.rig(), displacement_config());
+  const EstimatorResult held = run("tfs", deliveries, world.rig(), displacement_config());
   EXPECT_GT(clean.counts.at("leg.uncovered"), 50);
   // The loss goes unnoticed where the last packet is repeated.
   EXPECT_LE(held.counts.contains("leg.uncovered") ? held.counts.at("leg.uncovered") : 0, 1);
@@ -115,7 +115,7 @@ TEST(Eskf, LegOdometryAloneInheritsItsScale) {
   config.sensors.leg_slow_noise = 0.0;
   config.sensors.gyro_bias = 0.0;
   KinematicWorld world(config);
-  const EstimatorReport report = run("leg", record(world), world.rig());
+  const EstimatorResult report = run("leg", record(world), world.rig());
   ASSERT_GT(report.trajectory.size(), 150U);
   EXPECT_LT(report.trajectory.front().pose.translation.norm(), 0.001);
   double farthest = 0.0;
@@ -127,7 +127,7 @@ TEST(Eskf, LegOdometryAloneInheritsItsScale) {
 
 TEST(Eskf, FillsTheDiagnostics) {
   KinematicWorld world(short_walk());
-  const EstimatorReport report = run("aims", record(world), world.rig());
+  const EstimatorResult report = run("aims", record(world), world.rig());
   const ScanDiagnostics& d = report.diagnostics.at(100);
   EXPECT_GT(d.points_in, 1000);
   EXPECT_GT(d.points_used, 100);
@@ -146,7 +146,7 @@ TEST(Eskf, FillsTheDiagnostics) {
 
 TEST(Eskf, WeighsEachScanByTheSmoothedIndexOfThatScan) {
   KinematicWorld world(short_walk());
-  const EstimatorReport report = run("aims", record(world), world.rig());
+  const EstimatorResult report = run("aims", record(world), world.rig());
   const DegeneracyConfig config;
   double smoothed = report.diagnostics.at(1).D_smoothed;  // the first scan only starts the map
   for (std::size_t i = 1; i < report.diagnostics.size(); ++i) {
@@ -163,8 +163,8 @@ TEST(Eskf, WeighsEachScanByTheSmoothedIndexOfThatScan) {
 TEST(Eskf, SameDataGivesTheSameBytes) {
   KinematicWorld world(short_walk());
   const auto deliveries = record(world);
-  const EstimatorReport a = run("aims", deliveries, world.rig());
-  const EstimatorReport b = run("aims", deliveries, world.rig());
+  const EstimatorResult a = run("aims", deliveries, world.rig());
+  const EstimatorResult b = run("aims", deliveries, world.rig());
   ASSERT_EQ(a.trajectory.size(), b.trajectory.size());
   for (std::size_t i = 0; i < a.trajectory.size(); ++i) {
     ASSERT_EQ(a.trajectory[i].pose.translation, b.trajectory[i].pose.translation);
@@ -175,11 +175,11 @@ TEST(Eskf, SameDataGivesTheSameBytes) {
 TEST(Eskf, OrderOfArrivalWithinTheLagDoesNotMatter) {
   KinematicWorld world(short_walk());
   auto deliveries = record(world);
-  const EstimatorReport in_order = run("aims", deliveries, world.rig());
+  const EstimatorResult in_order = run("aims", deliveries, world.rig());
   for (std::size_t i = 0; i + 4 < deliveries.size(); i += 5) {
     std::swap(deliveries[i], deliveries[i + 3]);
   }
-  const EstimatorReport shuffled = run("aims", deliveries, world.rig());
+  const EstimatorResult shuffled = run("aims", deliveries, world.rig());
   ASSERT_EQ(in_order.trajectory.size(), shuffled.trajectory.size());
   EXPECT_EQ(in_order.trajectory.back().pose.translation,
             shuffled.trajectory.back().pose.translation);
@@ -190,8 +190,8 @@ TEST(Eskf, OnlyTfsHoldsLostLegPackets) {
   config.sensors.leg_loss = 0.3;
   KinematicWorld world(config);
   const auto deliveries = record(world);
-  const EstimatorReport tfs = run("tfs", deliveries, world.rig());
-  const EstimatorReport clean = run("tfs_clean", deliveries, world.rig());
+  const EstimatorResult tfs = run("tfs", deliveries, world.rig());
+  const EstimatorResult clean = run("tfs_clean", deliveries, world.rig());
   EXPECT_GT(tfs.counts.at("leg.held"), 100);
   EXPECT_EQ(clean.counts.count("leg.held"), 0U);
   EXPECT_GT(clean.counts.at("leg.lost"), 100);
@@ -210,13 +210,13 @@ TEST(Eskf, MapMemoryIsBounded) {
 }
 
 /// The short walk with `spoil` applied to each delivery; false drops it.
-EstimatorReport run_spoiled(const std::function<bool(Delivery&)>& spoil, double& error) {
+EstimatorResult run_spoiled(const std::function<bool(Delivery&)>& spoil, double& error) {
   KinematicWorld world(short_walk());
   std::vector<Delivery> kept;
   for (Delivery& delivery : record(world)) {
     if (spoil(delivery)) kept.push_back(delivery);
   }
-  EstimatorReport report = run("aims", kept, world.rig());
+  EstimatorResult report = run("aims", kept, world.rig());
   error = report.trajectory.empty() ? 0.0 : largest_error(report, world);
   return report;
 }
@@ -264,7 +264,7 @@ TEST(Eskf, GoesOnReportingWhileTheLidarIsSilent) {
     }
   }
   for (const char* name : {"aims", "lio", "leg"}) {
-    const EstimatorReport report = run(name, kept, world.rig());
+    const EstimatorResult report = run(name, kept, world.rig());
     EXPECT_LE(longest_gap(report.trajectory), kLongestSilence + 10 * kMillisecond) << name;
     if (report.diagnostics.empty()) continue;
     const auto bridged = report.trajectory.size() - report.diagnostics.size();

@@ -17,13 +17,13 @@ using testing::SimulatedWalk;
 
 constexpr int kColumns = 450;  ///< a quarter of the LiDAR's
 
-EstimatorReport estimate(const SimulatedWalk& walk, const FloorConfig& floor) {
+EstimatorResult estimate(const SimulatedWalk& walk, const FloorConfig& floor) {
   EstimatorConfig config;
   config.directional.floor = floor;
   const auto estimator = make_estimator("aims_d", config, walk.rig).value();
   for (const Delivery& delivery : walk.deliveries) estimator->consume(delivery);
   estimator->finish();
-  return estimator->report();
+  return estimator->result();
 }
 
 FloorConfig without_floor() {
@@ -44,7 +44,7 @@ FloorConfig credulous_floor() {
 }
 
 /// Largest error of the height gained since the first pose [m].
-double largest_height_error(const EstimatorReport& report, const Truth& truth) {
+double largest_height_error(const EstimatorResult& report, const Truth& truth) {
   const Trajectory body = body_trajectory(truth);
   const auto true_height = [&body](Time stamp) {
     return pose_at(body, stamp).value().translation.z();
@@ -60,7 +60,7 @@ double largest_height_error(const EstimatorReport& report, const Truth& truth) {
   return largest;
 }
 
-int count_of(const EstimatorReport& report, const char* name) {
+int count_of(const EstimatorResult& report, const char* name) {
   const auto found = report.counts.find(name);
   return found == report.counts.end() ? 0 : static_cast<int>(found->second);
 }
@@ -72,7 +72,7 @@ TEST(FloorWalk, ALevelFloorHoldsTheHeightThatATiltedStartWouldLose) {
   double worst_without = 0.0;
   for (const std::uint64_t seed : {1, 2}) {
     const SimulatedWalk walk = testing::simulate(config, seed);
-    const EstimatorReport with = estimate(walk, {});
+    const EstimatorResult with = estimate(walk, {});
     worst_with = std::max(worst_with, largest_height_error(with, walk.truth));
     worst_without =
         std::max(worst_without, largest_height_error(estimate(walk, without_floor()), walk.truth));
@@ -87,9 +87,9 @@ TEST(FloorWalk, ARampIsNoLevelFloorAndItsHeightIsKept) {
   SimulationConfig config = testing::straight_walk(10.0, kColumns);
   config.scene.ramp = {.start = 6.0, .length = 3.0, .grade = 0.06};
   const SimulatedWalk walk = testing::simulate(config, 1);
-  const EstimatorReport wary = estimate(walk, {});
-  const EstimatorReport without = estimate(walk, without_floor());
-  const EstimatorReport credulous = estimate(walk, credulous_floor());
+  const EstimatorResult wary = estimate(walk, {});
+  const EstimatorResult without = estimate(walk, without_floor());
+  const EstimatorResult credulous = estimate(walk, credulous_floor());
   const double error = largest_height_error(wary, walk.truth);
   EXPECT_GT(count_of(wary, "floor.used"), 20) << "before the ramp";
   EXPECT_GT(count_of(wary, "floor.not_level"), 5);

@@ -85,7 +85,7 @@ TEST_F(CloudTimes, ACloudThatComesTooEarlyIsStampedAtItsEnd) {
   EXPECT_EQ(test::scans_of(told.deliveries)[1]->stamp, kStart + 100 * kMillisecond);
 }
 
-TEST_F(CloudTimes, TimesFromTheStartOfASweepMayHaveTheStampAtItsEnd) {
+TEST_F(CloudTimes, TimesFromTheStartOfAScanMayHaveTheStampAtItsEnd) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 30);
   robot.add_clouds(kStart, 4);

@@ -56,7 +56,7 @@ def room_point(ring, column, rings, columns):
     return [float32(reach * c) for c in ray]
 
 
-def sweep(rings=RINGS, columns=COLUMNS):
+def scan(rings=RINGS, columns=COLUMNS):
     """All points in firing order: dictionaries with x, y, z, i (0..255), t (ns), ring, column."""
     points = []
     step = PERIOD // columns
@@ -145,7 +145,7 @@ def simple(folder, name, fields, size, values, header=lambda start: start, compr
     """A bag with one kind of cloud. `order`: of the points in the message."""
     robot = Robot(folder, name, compression)
     robot.imu(1.0)
-    points = sweep(rings, columns)
+    points = scan(rings, columns)
     for start in scan_starts(scans):
         message = cloud(order(points), fields, size, lambda p: values(p, start), header(start),
                         height=height, row_padding=row_padding, big_endian=big_endian)
@@ -251,7 +251,7 @@ def livox_custom(folder):
     custom, point = types["livox_ros_driver2/CustomMsg"], types["livox_ros_driver2/CustomPoint"]
     robot = Robot(folder, "livox_custom")
     robot.imu(1.0, scale=1.0 / 9.80665)
-    points = sweep()
+    points = scan()
     for start in scan_starts():
         message = custom()
         message.header.stamp = stamp(start)
@@ -346,7 +346,7 @@ def legs_by_twist(folder):
         message.twist.angular.z = 0.5
         robot.bag.write("/robot/velocity", message, stamp(now + 1_000_000))
         robot.expected.write(f"leg {now} 0.4 0 0 0 0 0.5 0 0 0 0\n")
-    points = sweep()
+    points = scan()
     fields = [("x", 0, "f"), ("y", 4, "f"), ("z", 8, "f")]
     for start in scan_starts():
         robot.bag.write("/robot/points",

@@ -6,32 +6,32 @@
 #include "recordings/stream/leg_names.hpp"
 #include "recordings/stream/point_cloud.hpp"
 #include "recordings/stream/recording_config.hpp"
-#include "recordings/stream/sweep_period.hpp"
+#include "recordings/stream/scan_period.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 
 namespace aims {
 namespace {
 
-TEST(SweepPeriod, IsTheSpacingThatMostShareWhateverIsLost) {
-  EXPECT_EQ(sweep_period({0, 100, 200, 500, 600, 900}, std::nullopt), 100);
-  // Every gap is of several sweeps; how long points fire tells of how many.
-  EXPECT_EQ(sweep_period({0, 300, 500, 900}, 99), 100);
+TEST(ScanPeriod, IsTheSpacingThatMostShareWhateverIsLost) {
+  EXPECT_EQ(scan_period({0, 100, 200, 500, 600, 900}, std::nullopt), 100);
+  // Every gap is of several scans; how long points fire tells of how many.
+  EXPECT_EQ(scan_period({0, 300, 500, 900}, 99), 100);
 }
 
-TEST(SweepPeriod, IsTheNearestRateOfStampsThatJitter) {
+TEST(ScanPeriod, IsTheNearestRateOfStampsThatJitter) {
   RandomStream random(3, "test");
   std::vector<Time> stamps;
   for (int k = 0; k < 40; ++k) {
     stamps.push_back(k * 50 * kMillisecond + std::llround(random.uniform(-1e6, 1e6)));
   }
-  EXPECT_EQ(sweep_period(stamps, std::nullopt), 50 * kMillisecond);
-  EXPECT_EQ(sweep_period(stamps, 49 * kMillisecond), 50 * kMillisecond);
+  EXPECT_EQ(scan_period(stamps, std::nullopt), 50 * kMillisecond);
+  EXPECT_EQ(scan_period(stamps, 49 * kMillisecond), 50 * kMillisecond);
 }
 
-TEST(SweepPeriod, OfOneCloudIsTheRateNearestToItsSpan) {
-  EXPECT_EQ(sweep_period({5, 5}, 99'944'448), 100 * kMillisecond);
-  EXPECT_EQ(sweep_period({5}, std::nullopt), std::nullopt);
-  EXPECT_EQ(sweep_period({}, std::nullopt), std::nullopt);
+TEST(ScanPeriod, OfOneCloudIsTheRateNearestToItsSpan) {
+  EXPECT_EQ(scan_period({5, 5}, 99'944'448), 100 * kMillisecond);
+  EXPECT_EQ(scan_period({5}, std::nullopt), std::nullopt);
+  EXPECT_EQ(scan_period({}, std::nullopt), std::nullopt);
 }
 
 TEST(PointTime, KeepsTheDigitsOfSecondsSinceTheEpoch) {

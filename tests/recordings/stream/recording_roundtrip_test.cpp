@@ -126,7 +126,7 @@ TEST_F(RecordingRoundTrip, TruthIsReadAndNotDelivered) {
   EXPECT_EQ(truth_[3].pose.translation.x(), to_seconds(300 * kMillisecond));
 }
 
-TEST_F(RecordingRoundTrip, LostCloudsDoNotLengthenTheSweep) {
+TEST_F(RecordingRoundTrip, LostCloudsDoNotLengthenTheScan) {
   expect_the_same([](std::vector<Delivery>& deliveries) {
     RandomStream random(11, "test");
     std::erase_if(deliveries, [&](const Delivery& each) {

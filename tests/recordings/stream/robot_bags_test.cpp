@@ -141,7 +141,7 @@ std::string RobotBags::said_;
 
 TEST_F(RobotBags, VelodyneTimesBeforeTheStampMakeItTheEnd) {
   expect_scans("velodyne_end", 10);  // float32 seconds near 0.1 hold 7.5 ns
-  EXPECT_TRUE(noted("it marks the end of the sweep"));
+  EXPECT_TRUE(noted("it marks the end of the scan"));
   EXPECT_TRUE(noted("'intensity' up to"));
 }
 
@@ -173,7 +173,7 @@ TEST_F(RobotBags, DoublesByColumnWithMicroseconds) {
 TEST_F(RobotBags, HesaiTimesSinceTheEpoch) {
   expect_scans("hesai", 130);  // a double holds 240 ns since 1970
   EXPECT_TRUE(noted("on the stamps' clock"));
-  EXPECT_TRUE(noted("it marks the end of the sweep"));
+  EXPECT_TRUE(noted("it marks the end of the scan"));
 }
 
 TEST_F(RobotBags, PointTimesOnAnotherClockCountFromTheFirst) {

@@ -10,9 +10,9 @@
 namespace aims {
 namespace {
 
-/// A sweep of one second whose returns all come from one place of the world, though the sensor
+/// A scan of one second whose returns all come from one place of the world, though the sensor
 /// moves.
-LidarScanPtr sweep_of(const Eigen::Vector3d& p_world, const Trajectory& T_world_body,
+LidarScanPtr scan_of(const Eigen::Vector3d& p_world, const Trajectory& T_world_body,
                       const Pose& T_body_lidar, Time stamp) {
   auto scan = std::make_shared<LidarScan>();
   scan->stamp = stamp;
@@ -43,7 +43,7 @@ TEST(MapGrowth, PutsEachReturnWhereItCameFrom) {
   const Pose T_body_lidar{yaw_rotation(0.4), {0.2, 0.0, 0.1}};
   const Eigen::Vector3d place(5.02, 1.02, 0.62);  // the middle of a cube of the map
   MapGrowth growth(T_body_lidar);
-  growth.add(sweep_of(place, trajectory, T_body_lidar, 0));
+  growth.add(scan_of(place, trajectory, T_body_lidar, 0));
   growth.settle(trajectory);
   ASSERT_FALSE(growth.points().empty());
   for (const GrownPoint& point : growth.points()) {
@@ -53,10 +53,10 @@ TEST(MapGrowth, PutsEachReturnWhereItCameFrom) {
   EXPECT_LE(growth.points().size(), 2U) << "one point per cube";
 }
 
-TEST(MapGrowth, WaitsUntilTheTrajectoryCoversTheSweep) {
+TEST(MapGrowth, WaitsUntilTheTrajectoryCoversTheScan) {
   const Trajectory trajectory = turning_walk();
   MapGrowth growth({}, {.every_scan = 1});
-  growth.add(sweep_of({5.0, 0.0, 0.0}, trajectory, {}, 500 * kMillisecond));
+  growth.add(scan_of({5.0, 0.0, 0.0}, trajectory, {}, 500 * kMillisecond));
   growth.settle({trajectory.begin(), trajectory.begin() + 10});
   EXPECT_TRUE(growth.points().empty());
   growth.settle(trajectory);

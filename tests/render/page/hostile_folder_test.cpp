@@ -71,7 +71,7 @@ TEST_F(HostileFolder, EstimatorNamedAsAPathReadsNoFileOutsideTheFolder) {
 }
 
 TEST_F(HostileFolder, MissingFilesLeaveTheirPartEmpty) {
-  for (const char* name : {"truth.tum", "localizability.csv", "passages.csv", "exact.tum",
+  for (const char* name : {"truth.tum", "localizability.csv", "waypoint_times.csv", "exact.tum",
                            "ahead.diagnostics.csv", "ahead.map.ply", "config.yaml"}) {
     fs::remove(run_ / name);
   }

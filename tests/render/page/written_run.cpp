@@ -49,8 +49,8 @@ void write_estimator(const fs::path& folder, const WrittenRun& run, const std::s
   RandomStream stream(kSeed, name);
   EstimatorOutcome outcome;
   outcome.name = name;
-  outcome.report.trajectory = straight(run, Eigen::Vector3d::Zero(), step);
-  for (const StampedPose& pose : outcome.report.trajectory) {
+  outcome.result.trajectory = straight(run, Eigen::Vector3d::Zero(), step);
+  for (const StampedPose& pose : outcome.result.trajectory) {
     ScanDiagnostics scan;
     scan.stamp = pose.stamp;
     scan.D = stream.uniform();
@@ -58,10 +58,10 @@ void write_estimator(const fs::path& folder, const WrittenRun& run, const std::s
     scan.gamma_lidar = stream.uniform();
     scan.innovation_position = {3e-3, 4e-3, 0.0};
     scan.position_covariance = kCovariance * Eigen::Matrix3d::Identity();
-    outcome.report.diagnostics.push_back(scan);
+    outcome.result.diagnostics.push_back(scan);
     outcome.scan_times_ms.push_back(stream.uniform(1.0, 30.0));
   }
-  put(folder / (name + ".tum"), tum_text(outcome.report.trajectory));
+  put(folder / (name + ".tum"), tum_text(outcome.result.trajectory));
   put(folder / (name + ".diagnostics.csv"), diagnostics_table(outcome).text());
   if (run.map_points > 0) put(folder / (name + ".map.ply"), ply_text(cloud(run)));
 }
@@ -112,7 +112,7 @@ void write_run(const fs::path& folder, const WrittenRun& run) {
   put(folder / "scores.json", scores_text(run));
   put(folder / "truth.tum", tum_text(straight(run, {1.0, 0.2, 0.3}, kStep)));
   put(folder / "localizability.csv", localizability_text(run));
-  put(folder / "passages.csv", "point,stamp_s\n");
+  put(folder / "waypoint_times.csv", "point,stamp_s\n");
   write_estimator(folder, run, "exact", kStep);
   write_estimator(folder, run, "ahead", 1.1 * kStep);
 }

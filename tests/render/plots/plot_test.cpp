@@ -178,7 +178,7 @@ TEST(TrajectoryPlot, DrawsTheTruthWhereItIsWhateverDiverges) {
   const PictureFolder folder;
   TrajectoryPlot plot;
   plot.truth = straight(0.0);
-  plot.passages = {{"a", 0}, {"b", 20 * kSecond}};
+  plot.waypoint_times = {{"a", 0}, {"b", 20 * kSecond}};
   plot.estimates = {{"near", straight(0.3)}};
   ASSERT_TRUE(write_trajectory_plot(folder / "near.png", plot));
   plot.estimates.push_back({"far", straight(1e7)});

@@ -145,12 +145,12 @@ TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
   Lidar lidar(lidar_config, caster, 1);
   int met = 0;
   double stale = 0.0;
-  for (int sweep = 0; sweep < 10; ++sweep) {
-    const Time start = sweep * 3 * kSecond;
+  for (int scan = 0; scan < 10; ++scan) {
+    const Time start = scan * 3 * kSecond;
     const Vector3d sensor(12.0, 0.1, 0.45);
-    SweepTruth truth;
+    ScanTruth truth;
     const LidarScan scan =
-        lidar.sweep(start, {{start, {so3_exp({0.0, 0.0, 0.3}), sensor}}}, &truth);
+        lidar.scan(start, {{start, {so3_exp({0.0, 0.0, 0.3}), sensor}}}, &truth);
     ASSERT_EQ(truth.surfaces.size(), scan.points.size());
     for (std::size_t i = 0; i < scan.points.size(); ++i) {
       if (truth.surfaces[i] < caster.first_moving_surface()) continue;
@@ -167,7 +167,7 @@ TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
     }
   }
   EXPECT_GT(met, 1000);
-  EXPECT_GT(stale, 0.1) << "the sweep's start would have been the wrong time";
+  EXPECT_GT(stale, 0.1) << "the scan's start would have been the wrong time";
 }
 
 TEST(LidarOfPeople, PeopleWhoStandStillAreSeenLikeSolids) {
@@ -185,8 +185,8 @@ TEST(LidarOfPeople, PeopleWhoStandStillAreSeenLikeSolids) {
   Lidar one(lidar_config, moving, 1);
   Lidar other(lidar_config, fixed, 1);
   const Trajectory pose = {{0, {Eigen::Quaterniond::Identity(), {12.0, 0.0, 0.45}}}};
-  const LidarScan a = one.sweep(0, pose);
-  const LidarScan b = other.sweep(0, pose);
+  const LidarScan a = one.scan(0, pose);
+  const LidarScan b = other.scan(0, pose);
   ASSERT_EQ(a.points.size(), b.points.size());
   std::size_t apart = 0;
   for (std::size_t i = 0; i < a.points.size(); ++i) {

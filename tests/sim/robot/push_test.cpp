@@ -123,7 +123,7 @@ TEST(Pushes, MakeAStandingRobotSwayAndItRecovers) {
     config.push = {.count = 10, .force = force};
     const Motion pushed = simulate(config, 2);
     EXPECT_FALSE(pushed.truth.fell) << force;
-    ASSERT_EQ(pushed.truth.passages.size(), 2U) << "it walks its way all the same";
+    ASSERT_EQ(pushed.truth.waypoint_times.size(), 2U) << "it walks its way all the same";
     // Against a trunk of 12.6 kg on feet that give way: less than the free momentum, but felt.
     const double free = force * config.push.duration / 12.6;
     EXPECT_GT(largest_speed(pushed.truth, 5.0), 0.2 * free) << force;

@@ -22,7 +22,7 @@ struct Unicycle {
 };
 
 struct Followed {
-  std::vector<Passage> passages;
+  std::vector<WaypointTime> waypoint_times;
   std::vector<Eigen::Vector2d> path;
   bool done = false;
   double duration = 0.0;
@@ -40,7 +40,7 @@ Followed follow(const RouteConfig& route) {
     now += from_seconds(dt);
     result.path.push_back(robot.position);
   }
-  result.passages = follower.passages();
+  result.waypoint_times = follower.waypoint_times();
   result.done = follower.done();
   result.duration = to_seconds(now);
   return result;
@@ -63,11 +63,11 @@ TEST(Route, PassesItsNamedPointsInOrderAndStops) {
   route.points = {{"a", 0, 0}, {"b", 5, 0}, {"", 5, 4}, {"c", 1, 4}, {"a", 0, 0}};
   const Followed walk = follow(route);
   EXPECT_TRUE(walk.done);
-  ASSERT_EQ(walk.passages.size(), 4U);
-  EXPECT_EQ(walk.passages[1].point, "b");
-  EXPECT_EQ(walk.passages[2].point, "c");
-  EXPECT_EQ(walk.passages[3].point, "a");
-  const auto at_c = static_cast<std::size_t>(walk.passages[2].stamp / from_seconds(0.0025));
+  ASSERT_EQ(walk.waypoint_times.size(), 4U);
+  EXPECT_EQ(walk.waypoint_times[1].point, "b");
+  EXPECT_EQ(walk.waypoint_times[2].point, "c");
+  EXPECT_EQ(walk.waypoint_times[3].point, "a");
+  const auto at_c = static_cast<std::size_t>(walk.waypoint_times[2].stamp / from_seconds(0.0025));
   EXPECT_LT((walk.path[at_c - 1] - Eigen::Vector2d(1.0, 4.0)).norm(), 0.05);
   EXPECT_NEAR(walk.duration, to_seconds(from_seconds(nominal_duration(route))), 8.0);
 }

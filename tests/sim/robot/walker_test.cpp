@@ -20,7 +20,7 @@ void expect_good_walk(double friction, double bump_height) {
   EXPECT_TRUE(walk.done);
   EXPECT_FALSE(walk.fell);
   EXPECT_FALSE(walk.touched_wall);
-  ASSERT_EQ(walk.passages.size(), 3U);
+  ASSERT_EQ(walk.waypoint_times.size(), 3U);
   for (const RobotState& state : walk.states) {
     ASSERT_LT(std::abs(state.T_world_base.translation.y()), 0.15);
   }

@@ -53,7 +53,7 @@ inline TruthSample body_motion(const World& world) {
 struct Walk {
   std::vector<TruthSample> motion;  ///< of the body, at the physics rate
   std::vector<RobotState> states;   ///< at the physics rate
-  std::vector<Passage> passages;
+  std::vector<WaypointTime> waypoint_times;
   bool done = false;
   bool fell = false;
   bool touched_wall = false;
@@ -69,7 +69,7 @@ inline Walk walk(const WorldSetup& setup, const RouteConfig& route) {
     walker.step();
     walk.touched_wall = walk.touched_wall || walker.world().state().touches_wall;
   }
-  walk.passages = walker.route().passages();
+  walk.waypoint_times = walker.route().waypoint_times();
   walk.done = walker.route().done();
   walk.fell = walker.fallen();
   return walk;

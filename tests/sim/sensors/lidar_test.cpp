@@ -62,11 +62,11 @@ Trajectory still(const Vector3d& position = {40.0, 0.0, 0.45}) {
   return {{0, {Eigen::Quaterniond::Identity(), position}}};
 }
 
-/// One sweep of a new LiDAR.
-LidarScan one_sweep(const Scene& scene, const LidarConfig& config, const Trajectory& poses,
+/// One scan of a new LiDAR.
+LidarScan one_scan(const Scene& scene, const LidarConfig& config, const Trajectory& poses,
                     std::uint64_t seed = 1) {
   const RayCaster caster(scene);
-  return Lidar(config, caster, seed).sweep(poses.front().stamp, poses);
+  return Lidar(config, caster, seed).scan(poses.front().stamp, poses);
 }
 
 /// Distance of a point from the nearest face of the plain corridor.
@@ -77,7 +77,7 @@ double off_surface(const Vector3d& p) {
 
 TEST(Lidar, PointsSeenFromTheirOwnFiringsLieOnTheSurfaces) {
   const Trajectory poses = rough_motion();
-  const LidarScan scan = one_sweep(plain_corridor(), perfect(), poses);
+  const LidarScan scan = one_scan(plain_corridor(), perfect(), poses);
   EXPECT_EQ(scan.points.size(), 28'800U);
   double worst = 0.0;
   double worst_frozen = 0.0;
@@ -89,11 +89,11 @@ TEST(Lidar, PointsSeenFromTheirOwnFiringsLieOnTheSurfaces) {
         std::max(worst_frozen, off_surface(poses[0].pose * point.position.cast<double>()));
   }
   EXPECT_LT(worst, 1e-3);
-  EXPECT_GT(worst_frozen, 0.2) << "the motion within the sweep matters";
+  EXPECT_GT(worst_frozen, 0.2) << "the motion within the scan matters";
 }
 
 TEST(Lidar, FiresColumnByColumnFromTheLowestRingUpClockwise) {
-  const LidarScan scan = one_sweep(plain_corridor(), perfect(), still());
+  const LidarScan scan = one_scan(plain_corridor(), perfect(), still());
   ASSERT_EQ(scan.points.size(), 28'800U);
   EXPECT_EQ(scan.stamp, 0);
   EXPECT_EQ(scan.end, 100 * kMillisecond);
@@ -118,7 +118,7 @@ TEST(Lidar, FiresColumnByColumnFromTheLowestRingUpClockwise) {
 }
 
 TEST(Lidar, TimesAreThoseThatFloat32SecondsHold) {
-  const LidarScan scan = one_sweep(plain_corridor(), perfect(), still());
+  const LidarScan scan = one_scan(plain_corridor(), perfect(), still());
   const double column_ns = 1e8 / 1800.0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const std::int32_t offset = scan.points[i].time_offset_ns;
@@ -134,15 +134,15 @@ TEST(Lidar, ColumnsNeedNotFillTheLastPacket) {
   LidarConfig config = perfect();
   config.columns = 1000 + 7;
   config.rings = 5;
-  const LidarScan scan = one_sweep(plain_corridor(), config, still());
+  const LidarScan scan = one_scan(plain_corridor(), config, still());
   EXPECT_EQ(scan.points.size(), 5U * 1007U);
 }
 
 TEST(Lidar, RangeNoiseHasTheConfiguredSigma) {
   LidarConfig config = perfect();
-  const LidarScan exact = one_sweep(plain_corridor(), config, still());
+  const LidarScan exact = one_scan(plain_corridor(), config, still());
   config.range_sigma = 0.02;
-  const LidarScan noisy = one_sweep(plain_corridor(), config, still());
+  const LidarScan noisy = one_scan(plain_corridor(), config, still());
   ASSERT_EQ(exact.points.size(), noisy.points.size());
   double sum = 0.0;
   double squares = 0.0;
@@ -161,7 +161,7 @@ TEST(Lidar, DropsWhatIsTooNearOrTooFar) {
   config.range_sigma = 0.02;
   config.range_min = 1.2;
   config.range_max = 8.0;
-  const LidarScan scan = one_sweep(plain_corridor(), config, still());
+  const LidarScan scan = one_scan(plain_corridor(), config, still());
   ASSERT_GT(scan.points.size(), 10'000U);
   const auto range = [](const LidarPoint& point) { return point.position.norm(); };
   for (const LidarPoint& point : scan.points) {
@@ -175,13 +175,13 @@ TEST(Lidar, MissesTheConfiguredShareAtRandom) {
   LidarConfig config = perfect();
   config.miss_probability = 0.05;
   const double points =
-      static_cast<double>(one_sweep(plain_corridor(), config, still()).points.size());
+      static_cast<double>(one_scan(plain_corridor(), config, still()).points.size());
   EXPECT_NEAR(points, 0.95 * 28'800, 4.0 * std::sqrt(28'800 * 0.05 * 0.95));
 }
 
 TEST(Lidar, SeesNothingInTheOpen) {
   Scene scene = wall_at(500.0, 0.5);
-  EXPECT_TRUE(one_sweep(scene, perfect(), still(Vector3d::Zero())).points.empty());
+  EXPECT_TRUE(one_scan(scene, perfect(), still(Vector3d::Zero())).points.empty());
 }
 
 TEST(LidarDetection, FallsWithRangeAndIncidenceAndRisesWithReflectivity) {
@@ -206,7 +206,7 @@ TEST(LidarDetection, HalfTheReturnsOfAFacingTenPercentTargetAreSeenAtItsRange) {
   narrow.rings = 3;
   narrow.elevation_min_deg = -0.1;
   narrow.elevation_max_deg = 0.1;
-  const LidarScan scan = one_sweep(wall_at(30.0, 0.1), narrow, still(Vector3d::Zero()));
+  const LidarScan scan = one_scan(wall_at(30.0, 0.1), narrow, still(Vector3d::Zero()));
   int ahead = 0;
   for (const LidarPoint& point : scan.points) {
     if (std::abs(point.position.y()) < 30.0 * std::tan(0.05)) ++ahead;
@@ -218,7 +218,7 @@ TEST(LidarDetection, HalfTheReturnsOfAFacingTenPercentTargetAreSeenAtItsRange) {
 TEST(LidarDetection, GrazingWallsVanishBeforeTheEndWall) {
   LidarConfig config;
   config.range_sigma = 0.0;
-  const LidarScan scan = one_sweep(plain_corridor(), config, still());
+  const LidarScan scan = one_scan(plain_corridor(), config, still());
   double farthest_on_wall = 0.0;
   double farthest = 0.0;
   for (const LidarPoint& point : scan.points) {
@@ -234,7 +234,7 @@ TEST(LidarDetection, GrazingWallsVanishBeforeTheEndWall) {
 }
 
 TEST(Lidar, StrengthIsReflectivityTimesCosineOfIncidence) {
-  const LidarScan scan = one_sweep(plain_corridor(), perfect(), still());
+  const LidarScan scan = one_scan(plain_corridor(), perfect(), still());
   int checked = 0;
   for (const LidarPoint& point : scan.points) {
     const Vector3d p = point.position.cast<double>();
@@ -249,10 +249,10 @@ TEST(Lidar, StrengthIsReflectivityTimesCosineOfIncidence) {
 
 TEST(Lidar, BeamsThatMeetTheBodyBringNoReturn) {
   LidarConfig config = perfect();
-  const std::size_t open = one_sweep(plain_corridor(), config, still()).points.size();
+  const std::size_t open = one_scan(plain_corridor(), config, still()).points.size();
   config.body_min = LidarConfig().body_min;
   config.body_max = LidarConfig().body_max;
-  const LidarScan scan = one_sweep(plain_corridor(), config, still());
+  const LidarScan scan = one_scan(plain_corridor(), config, still());
   EXPECT_LT(scan.points.size(), open);
   EXPECT_GT(scan.points.size(), open * 9 / 10);
   for (const LidarPoint& point : scan.points) {
@@ -270,8 +270,8 @@ TEST(Lidar, TruthGoesWithEveryPoint) {
   const Scene scene = plain_corridor();
   const RayCaster caster(scene);
   Lidar lidar(LidarConfig{}, caster, 1);
-  SweepTruth truth;
-  const LidarScan scan = lidar.sweep(0, still(), &truth);
+  ScanTruth truth;
+  const LidarScan scan = lidar.scan(0, still(), &truth);
   ASSERT_EQ(truth.normals.size(), scan.points.size());
   ASSERT_EQ(truth.surfaces.size(), scan.points.size());
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
@@ -295,10 +295,10 @@ bool same(const LidarScan& a, const LidarScan& b) {
 TEST(Lidar, RepeatsBitForBitWithItsSeedAndOnlyWithIt) {
   const Trajectory poses = rough_motion();
   const LidarConfig config;
-  EXPECT_TRUE(same(one_sweep(plain_corridor(), config, poses, 5),
-                   one_sweep(plain_corridor(), config, poses, 5)));
-  EXPECT_FALSE(same(one_sweep(plain_corridor(), config, poses, 5),
-                    one_sweep(plain_corridor(), config, poses, 6)));
+  EXPECT_TRUE(same(one_scan(plain_corridor(), config, poses, 5),
+                   one_scan(plain_corridor(), config, poses, 5)));
+  EXPECT_FALSE(same(one_scan(plain_corridor(), config, poses, 5),
+                    one_scan(plain_corridor(), config, poses, 6)));
 }
 
 TEST(LidarConfig, EveryParameterTakesItsOwnText) {
@@ -328,7 +328,7 @@ TEST(Lidar, DeadRingsAreTheStatedShareAndTheSameForTheWholeRun) {
   Lidar lidar(config, caster, 3);
   const auto rings_of = [&](Time start) {
     std::set<int> rings;
-    const LidarScan scan = lidar.sweep(start, still());
+    const LidarScan scan = lidar.scan(start, still());
     for (const LidarPoint& point : scan.points) rings.insert(point.ring);
     return rings;
   };
@@ -336,15 +336,15 @@ TEST(Lidar, DeadRingsAreTheStatedShareAndTheSameForTheWholeRun) {
   EXPECT_EQ(first.size(), 12U);
   EXPECT_EQ(rings_of(kSecond), first);
   config.defects.dead_ring_share = 1.0;
-  EXPECT_TRUE(one_sweep(scene, config, still()).points.empty());
+  EXPECT_TRUE(one_scan(scene, config, still()).points.empty());
 }
 
 TEST(Lidar, ACoveredSectorReturnsNothingAndTheRestIsUntouched) {
   LidarConfig config = perfect();
-  const LidarScan whole = one_sweep(plain_corridor(), config, still());
+  const LidarScan whole = one_scan(plain_corridor(), config, still());
   config.defects.blind_center_deg = 170.0;  // reaches over the seam at 180 degrees
   config.defects.blind_width_deg = 60.0;
-  const LidarScan rest = one_sweep(plain_corridor(), config, still());
+  const LidarScan rest = one_scan(plain_corridor(), config, still());
   std::vector<LidarPoint> kept;
   for (const LidarPoint& point : whole.points) {
     const double azimuth = std::atan2(point.position.y(), point.position.x());

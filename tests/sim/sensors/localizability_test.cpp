@@ -74,8 +74,8 @@ struct Beam {
   double range;        ///< measured [m]
 };
 
-/// One noisy sweep from a standing sensor, as beams and true planes.
-std::vector<Beam> beams_of(const LidarScan& scan, const SweepTruth& seen) {
+/// One noisy scan from a standing sensor, as beams and true planes.
+std::vector<Beam> beams_of(const LidarScan& scan, const ScanTruth& seen) {
   std::vector<Beam> beams;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Vector3d p = scan.points[i].position.cast<double>();
@@ -125,7 +125,7 @@ Matrix6 prior_information(double rotation_sigma, double translation_sigma) {
   return inverse_variance.asDiagonal();
 }
 
-/// Errors (rotation, translation; body axes) of registered sweeps and the information they had.
+/// Errors (rotation, translation; body axes) of registered scans and the information they had.
 struct Spread {
   Matrix6 covariance = Matrix6::Zero();  ///< of the errors about the truth
   Matrix6 information = Matrix6::Zero();
@@ -141,8 +141,8 @@ Spread spread_of_registrations(const Scene& scene, const LidarConfig& config, in
       Matrix6(prior.llt().matrixL()).transpose().inverse();  // of the prior's covariance
   Spread spread;
   for (int draw = 0; draw < draws; ++draw) {
-    SweepTruth seen;
-    const LidarScan scan = lidar.sweep(0, {{0, truth}}, &seen);
+    ScanTruth seen;
+    const LidarScan scan = lidar.scan(0, {{0, truth}}, &seen);
     Vector6 off;
     for (double& each : off) each = random.normal();
     off = prior_root * off;
@@ -158,12 +158,12 @@ Spread spread_of_registrations(const Scene& scene, const LidarConfig& config, in
 }
 
 TEST(ScanInformation, OneFacingReturnInformsByItsInverseVarianceAlongItsNormal) {
-  SweepTruth sweep;
-  sweep.points = {{5.0F, 0.0F, 0.0F}};
-  sweep.normals = {{-1.0F, 0.0F, 0.0F}};
-  sweep.cosines = {1.0F};
-  sweep.surfaces = {0};
-  const ScanInformation scan = scan_information(7, sweep, Pose{}, 0.1);
+  ScanTruth scan;
+  scan.points = {{5.0F, 0.0F, 0.0F}};
+  scan.normals = {{-1.0F, 0.0F, 0.0F}};
+  scan.cosines = {1.0F};
+  scan.surfaces = {0};
+  const ScanInformation scan = scan_information(7, scan, Pose{}, 0.1);
   Matrix6 expected = Matrix6::Zero();
   expected(3, 3) = 100.0;
   EXPECT_TRUE(scan.information.isApprox(expected, 1e-9)) << scan.information;
@@ -177,21 +177,21 @@ TEST(ScanInformation, EqualsTheFiniteDifferencesOfTheRangesThatTheSceneGives) {
   LidarConfig config = coarse_lidar();
   config.range_sigma = 0.0;
   Lidar lidar(config, caster, 1);
-  // The sensor sits beside the body's origin, and both turn within the sweep.
+  // The sensor sits beside the body's origin, and both turn within the scan.
   const Pose T_body_lidar{so3_exp({0.0, 0.1, 0.2}), {0.1, -0.05, 0.2}};
-  Trajectory sweep;
+  Trajectory scan;
   for (int i = 0; i <= 40; ++i) {
     const double t = 0.0025 * i;
     const Pose body{so3_exp({0.02, 0.3 * t, 0.4 + 0.5 * t}), {0.3 + 0.8 * t, -0.2, 0.5}};
-    sweep.push_back({from_seconds(t), body * T_body_lidar});
+    scan.push_back({from_seconds(t), body * T_body_lidar});
   }
-  SweepTruth seen;
-  const LidarScan scan = lidar.sweep(0, sweep, &seen);
-  const Pose end = sweep.back().pose * T_body_lidar.inverse();
+  ScanTruth seen;
+  const LidarScan scan = lidar.scan(0, scan, &seen);
+  const Pose end = scan.back().pose * T_body_lidar.inverse();
   Matrix6 expected = Matrix6::Zero();
-  SweepTruth kept;
+  ScanTruth kept;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const Pose at = *pose_at(sweep, scan.points[i].time_offset_ns);
+    const Pose at = *pose_at(scan, scan.points[i].time_offset_ns);
     const Vector3d beam = scan.points[i].position.cast<double>().normalized();
     const auto range_at = [&](const Vector6& by) -> std::optional<double> {
       const Pose shifted = end * Pose{so3_exp(by.head<3>()), by.tail<3>()} * end.inverse() * at;
@@ -225,7 +225,7 @@ double deviation_along(const Vector3d& axis, const Matrix6& covariance) {
   return std::sqrt(in_body.dot(covariance.bottomRightCorner<3, 3>() * in_body));
 }
 
-TEST(ScanInformation, BoundsTheSpreadOfRegisteredSweepsInARichRoomOnEveryAxis) {
+TEST(ScanInformation, BoundsTheSpreadOfRegisteredScansInARichRoomOnEveryAxis) {
   const int draws = 1000;  // sampling error of a deviation: 2.2 %
   const Matrix6 prior = prior_information(0.02, 0.1);
   const Spread spread = spread_of_registrations(rich_room(), coarse_lidar(), draws, prior);
@@ -271,24 +271,24 @@ TEST(ScanInformation, BoundsTheSpreadWithinFifteenPercentWhereTheAxisIsWeaklySee
 }
 
 TEST(ScanInformation, LeavesOutWhatMoves) {
-  SweepTruth sweep;
-  sweep.points = {{5.0F, 0.0F, 0.0F}, {3.0F, 0.5F, 0.1F}};
-  sweep.normals = {{-1.0F, 0.0F, 0.0F}, {-0.8F, 0.6F, 0.0F}};
-  sweep.cosines = {1.0F, 0.9F};
-  sweep.surfaces = {3, 7};
-  EXPECT_EQ(scan_information(0, sweep, Pose{}, 0.1).returns, 2);
-  const ScanInformation scan = scan_information(0, sweep, Pose{}, 0.1, 7);
+  ScanTruth scan;
+  scan.points = {{5.0F, 0.0F, 0.0F}, {3.0F, 0.5F, 0.1F}};
+  scan.normals = {{-1.0F, 0.0F, 0.0F}, {-0.8F, 0.6F, 0.0F}};
+  scan.cosines = {1.0F, 0.9F};
+  scan.surfaces = {3, 7};
+  EXPECT_EQ(scan_information(0, scan, Pose{}, 0.1).returns, 2);
+  const ScanInformation scan = scan_information(0, scan, Pose{}, 0.1, 7);
   EXPECT_EQ(scan.returns, 1);
   EXPECT_DOUBLE_EQ(scan.information.bottomRightCorner(3, 3).trace(), 100.0);
 }
 
-TEST(ScanInformation, OfASweepWithoutReturnsIsZero) {
+TEST(ScanInformation, OfAScanWithoutReturnsIsZero) {
   const ScanInformation scan = scan_information(0, {}, Pose{}, 0.0);
   EXPECT_TRUE(scan.information.isZero());
   EXPECT_EQ(scan.range_sigma, kLeastRangeSigma);
 }
 
-TEST(SimulatedTruth, HoldsTheInformationOfEverySweepThatDidNotGetLost) {
+TEST(SimulatedTruth, HoldsTheInformationOfEveryScanThatDidNotGetLost) {
   SimulationConfig config;
   config.scene.corridor.length = 10.0;
   config.route.points = {{"a", 0.0, 0.0}, {"b", 2.0, 0.0}};

@@ -31,7 +31,7 @@ export interface Scene {
   bounds?: { min: number[]; max: number[] } | null;
 }
 
-export interface Passage {
+export interface WaypointTime {
   name: string;
   t: Maybe;
   x: Maybe;
@@ -127,7 +127,7 @@ export interface RunPayload extends PagePayload {
   /** scores.json as it was written. */
   scores: Json;
   scene: Scene | null;
-  passages: Passage[] | null;
+  waypoint_times: WaypointTime[] | null;
   truth: Poses | null;
   localizability: Localizability | null;
   legs: Legs | null;

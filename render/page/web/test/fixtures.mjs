@@ -27,7 +27,7 @@ function hostile() {
     default: null,
     unit: "<u>m</u>",
   });
-  page.passages[0].name = "<svg onload=console.error('taken')>";
+  page.waypoint_times[0].name = "<svg onload=console.error('taken')>";
   page.pictures.push({
     name: "x\" onerror=\"console.error('taken')",
     title: "<b>no picture</b>",
@@ -74,7 +74,7 @@ function empty() {
     config_changes: null,
     scores: null,
     scene: null,
-    passages: null,
+    waypoint_times: null,
     truth: null,
     localizability: null,
     legs: null,

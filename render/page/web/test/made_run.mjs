@@ -272,7 +272,7 @@ export function run({
       gates: [],
     },
     scene: scene(),
-    passages: [
+    waypoint_times: [
       { name: "a", t: 5, x: 0, y: 0, z: 0.4 },
       { name: "b", t: seconds / 2, x: kLength, y: 0, z: 0.4 },
     ],

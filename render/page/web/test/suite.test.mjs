@@ -26,7 +26,7 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
     }
   }
   await page.locator("#matrix").getByLabel("of the runs").selectOption("worst");
-  assert.equal(Number(await cell(page, "dial_2", "a").getAttribute("data-value")), data.suite.scenarios[1].estimators.a.scores.ate_m.worst);
+  assert.equal(Number(await cell(page, "severity_2", "a").getAttribute("data-value")), data.suite.scenarios[1].estimators.a.scores.ate_m.worst);
   await page.locator("#matrix").getByLabel("Score").selectOption("m_list_percent.all");
   assert.equal(Number(await cell(page, "alone", "a").getAttribute("data-value")), data.suite.scenarios[3].estimators.a.scores["m_list_percent.all"].worst);
   assert.deepEqual(troubles, []);
@@ -34,8 +34,8 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
 
 test("a lost run is told in words, not by colour alone", { skip }, async () => {
   const { page } = await pages.show(suite());
-  assert.match(await cell(page, "dial_3", "b").innerText(), /✕ 3 of 3 lost/);
-  assert.doesNotMatch(await cell(page, "dial_3", "a").innerText(), /lost/);
+  assert.match(await cell(page, "severity_3", "b").innerText(), /✕ 3 of 3 lost/);
+  assert.doesNotMatch(await cell(page, "severity_3", "a").innerText(), /lost/);
   await page.getByLabel("only with lost runs").check();
   assert.equal(await page.locator("#matrix tbody tr").count(), 1);
 });
@@ -51,22 +51,22 @@ test("rows sort by an estimator, those without a value last", { skip }, async ()
 
 test("a cell opens its runs, and runs link to their pages", { skip }, async () => {
   const { page } = await pages.show(suite());
-  await cell(page, "dial_3", "b").locator("button").click();
+  await cell(page, "severity_3", "b").locator("button").click();
   const told = page.locator(".cell-details");
   assert.match(await told.innerText(), /✕ lost at 12.5 s: error_limit/);
-  assert.equal(await told.locator("a").first().getAttribute("href"), "runs/dial_3/seed-1/report.html");
+  assert.equal(await told.locator("a").first().getAttribute("href"), "runs/severity_3/seed-1/report.html");
   assert.equal(await page.locator('#matrix tr[data-row="alone"] .runs-links a').count(), 1);
 });
 
 test("arrow keys walk the matrix and Enter opens a cell", { skip }, async () => {
   const { page } = await pages.show(suite());
-  await cell(page, "dial_1", "a").locator("button").focus();
+  await cell(page, "severity_1", "a").locator("button").focus();
   for (const key of ["ArrowDown", "ArrowRight", "Enter"]) await page.keyboard.press(key);
-  assert.match(await page.locator(".cell-details h3").innerText(), /^dial_2, b$/);
+  assert.match(await page.locator(".cell-details h3").innerText(), /^severity_2, b$/);
   assert.equal(await page.locator('#matrix button.cell[tabindex="0"]').count(), 1);
 });
 
-test("the dial has a line per estimator, with intervals, over level and truth", { skip }, async () => {
+test("the severity has a line per estimator, with intervals, over level and truth", { skip }, async () => {
   const { page, troubles } = await pages.show(suite());
   const chart = page.locator("#families figure.chart");
   assert.equal(await chart.locator("g.series").count(), 2);
@@ -75,7 +75,7 @@ test("the dial has a line per estimator, with intervals, over level and truth", 
   assert.equal(await chart.locator("path.lost").count(), 1);
   await chart.locator("svg[role=img]").focus();
   await page.keyboard.press("ArrowRight");
-  assert.match(await chart.locator(".readout").innerText(), /^a: ATE \[m\] 0\.0123 \[0\.00984, 0\.0160\] at dial \[step\] 1/);
+  assert.match(await chart.locator(".readout").innerText(), /^a: ATE \[m\] 0\.0123 \[0\.00984, 0\.0160\] at severity \[step\] 1/);
   await page.locator("#families select").nth(2).selectOption("truth");
   assert.equal((await page.locator('#families g[data-series="a"] .bars').getAttribute("d")).match(/V/g).length, 2);
   await chart.getByRole("button", { name: "b", exact: true }).click();

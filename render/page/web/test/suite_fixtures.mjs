@@ -28,10 +28,10 @@ function point(level, each) {
     m_list_high_percent: null, success_rate: each.success_rate, runs: each.runs };
 }
 
-/** Three levels of a dial and one scenario of no family; `b` is lost at the last level. */
-export function suite({ first = "a", names = ["dial_1", "dial_2", "dial_3", "alone"] } = {}) {
+/** Three levels of a severity and one scenario of no family; `b` is lost at the last level. */
+export function suite({ first = "a", names = ["severity_1", "severity_2", "severity_3", "alone"] } = {}) {
   const scenarios = names.map((name, i) => ({
-    name, tags: i < 3 ? ["dial"] : ["other"], family: i < 3 ? "dial" : "", level: i < 3 ? i + 1 : null, level_unit: i < 3 ? "step" : "",
+    name, tags: i < 3 ? ["severity"] : ["other"], family: i < 3 ? "severity" : "", level: i < 3 ? i + 1 : null, level_unit: i < 3 ? "step" : "",
     seeds: [1, 2, 3], fell: [],
     gates: [{ estimator: first, score: "ate_m", statistic: "worst", max: 0.1, min: null, value: 0.02 * (i + 1), seeds: [1], holds: i < 3 }],
     estimators: { [first]: estimator(0.0123 * (i + 1)), b: estimator(i === 2 ? null : 0.05 * (i + 1), i === 2 ? 0 : 3) },
@@ -48,7 +48,7 @@ export function suite({ first = "a", names = ["dial_1", "dial_2", "dial_3", "alo
     schema: "aims.page/1", kind: "suite", title: "Suite made up", version: "0.1.0", headline: kHeadline, runs, roc: null, compare: null, notes: [],
     suite: {
       schema: "aims.suite/1", version: "0.1.0", code: "0123456789abcdef", complete: true, scenarios, failures: [],
-      families: [{ name: "dial", level_unit: "step", mildest_level: 1, median_equivalent_returns: [900, 80, null],
+      families: [{ name: "severity", level_unit: "step", mildest_level: 1, median_equivalent_returns: [900, 80, null],
         estimators: { [first]: { breaks_at: [3], points: levels(first) }, b: { breaks_at: [], points: levels("b") } } }],
     },
   };
@@ -69,7 +69,7 @@ export function detectors(name = "D") {
   };
 }
 
-export function comparison(scenario = "dial_1") {
+export function comparison(scenario = "severity_1") {
   const change = (score, verdict, value, low, high) => ({ scenario, estimator: "a", score, seeds: 3, before: 0.2, after: 0.2 + value, change: value,
     change_low: low, change_high: high, verdict, false_alarm: 0.125 });
   return {

@@ -54,7 +54,7 @@ export function drawLevels(plot: uPlot, levels: number[]): void {
   ctx.restore();
 }
 
-/** Passages and losses, over the curves; `named` writes their names. */
+/** Waypoint times and losses, over the curves; `named` writes their names. */
 export function drawMarks(plot: uPlot, marks: Mark[], named: boolean): void {
   const { ctx, bbox } = plot;
   ctx.save();

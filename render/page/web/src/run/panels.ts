@@ -178,9 +178,9 @@ export function backdrop(data: RunPayload, state: Readonly<State>): Backdrop {
   const shaded = Array.isArray(stretches)
     ? stretches.filter((pair): pair is Stretch => isNumber(pair?.[0]) && isNumber(pair?.[1]))
     : [];
-  const marks: Mark[] = (data.passages ?? [])
-    .filter((passage) => isNumber(passage.t))
-    .map((passage) => ({ t: passage.t!, text: passage.name, color: color("--ink-soft") }));
+  const marks: Mark[] = (data.waypoint_times ?? [])
+    .filter((waypoint_time) => isNumber(waypoint_time.t))
+    .map((waypoint_time) => ({ t: waypoint_time.t!, text: waypoint_time.name, color: color("--ink-soft") }));
   const lost = data.estimators[state.chosen]?.lost_at;
   if (isNumber(lost)) marks.push({ t: lost, text: "lost", color: color("--bad") });
   return { shaded, marks };

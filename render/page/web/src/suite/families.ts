@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** Curves over the level of a family of scenarios, the dial above all. */
+/** Curves over the level of a family of scenarios, the severity above all. */
 import { chart, type Line, type Mark } from "../charts/chart";
 import { choice } from "../charts/controls";
 import { h, own, section } from "../dom";
@@ -94,7 +94,7 @@ export function familySection(data: SuitePayload): HTMLElement | null {
   const families = data.suite.families ?? [];
   if (families.length === 0) return null;
   const order = estimatorsOf(data);
-  let family = families.find((each) => each.name === "dial") ?? families[0]!;
+  let family = families.find((each) => each.name === "severity") ?? families[0]!;
   let quantity = kQuantities[0]!;
   let overTruth = false;
   const place = h("div", {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recordings/stream/sweep_period.hpp"
+#include "recordings/stream/scan_period.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace aims {
 namespace {
 
-/// The period of the nearest whole number of sweeps per second, if within 3 % of `period`.
+/// The period of the nearest whole number of scans per second, if within 3 % of `period`.
 Duration whole_rate(Duration period) {
   const double rate = std::max(1.0, std::round(1.0 / to_seconds(period)));
   const Duration whole = from_seconds(1.0 / rate);
@@ -28,7 +28,7 @@ std::vector<Duration> spacings(std::vector<Time> stamps) {
   return between;
 }
 
-std::optional<Duration> sweep_period(std::vector<Time> stamps, std::optional<Duration> span) {
+std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Duration> span) {
   std::vector<Duration> between = spacings(std::move(stamps));
   std::erase_if(between, [&](Duration each) { return span && each < *span - *span / 10; });
   if (between.empty()) {
@@ -40,8 +40,8 @@ std::optional<Duration> sweep_period(std::vector<Time> stamps, std::optional<Dur
   const Duration base = span && least > *span + *span / 2 ? *span : least;
   std::map<Duration, std::size_t> periods;
   for (const Duration each : between) {
-    const Duration sweeps = std::max<Duration>(1, (each + base / 2) / base);
-    ++periods[(each + sweeps / 2) / sweeps];
+    const Duration scans = std::max<Duration>(1, (each + base / 2) / base);
+    ++periods[(each + scans / 2) / scans];
   }
   const auto most = std::max_element(periods.begin(), periods.end(),
                                      [](auto& a, auto& b) { return a.second < b.second; });

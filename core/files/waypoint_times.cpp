@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/files/passages.hpp"
+#include "core/files/waypoint_times.hpp"
 
 #include <fmt/format.h>
 
@@ -37,19 +37,19 @@ std::optional<std::string> take_name(std::string_view& rest) {
   return name;
 }
 
-std::optional<Passage> parse_row(std::string_view line) {
+std::optional<WaypointTime> parse_row(std::string_view line) {
   std::string_view rest = without_return(line);
   auto name = take_name(rest);
   if (!name || name->empty() || !rest.starts_with(',')) return std::nullopt;
   const auto stamp = parse_stamp(rest.substr(1));
   if (!stamp) return std::nullopt;
-  return Passage{std::move(*name), *stamp};
+  return WaypointTime{std::move(*name), *stamp};
 }
 
 }  // namespace
 
-Result<std::vector<Passage>> parse_passages(std::string_view text, const std::string& name) {
-  std::vector<Passage> passages;
+Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text, const std::string& name) {
+  std::vector<WaypointTime> waypoint_times;
   LineReader lines(text, name);
   const auto header = lines.next();
   if (!header) return failure(fmt::format("{}:1: expected the header '{}'", name, kHeader));
@@ -57,19 +57,19 @@ Result<std::vector<Passage>> parse_passages(std::string_view text, const std::st
     return lines.error(fmt::format("expected the header '{}', found '{}'", kHeader, *header));
   }
   while (const auto line = lines.next()) {
-    auto passage = parse_row(*line);
-    if (!passage) {
+    auto waypoint_time = parse_row(*line);
+    if (!waypoint_time) {
       return lines.error(
           fmt::format("expected a point and its stamp in seconds, as a,12.5; found '{}'", *line));
     }
-    if (!passages.empty() && passage->stamp < passages.back().stamp) {
+    if (!waypoint_times.empty() && waypoint_time->stamp < waypoint_times.back().stamp) {
       return lines.error(fmt::format("expected a stamp not before {}, found {}",
-                                     stamp_text(passages.back().stamp),
-                                     stamp_text(passage->stamp)));
+                                     stamp_text(waypoint_times.back().stamp),
+                                     stamp_text(waypoint_time->stamp)));
     }
-    passages.push_back(std::move(*passage));
+    waypoint_times.push_back(std::move(*waypoint_time));
   }
-  return passages;
+  return waypoint_times;
 }
 
 }  // namespace aims

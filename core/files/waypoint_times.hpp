@@ -10,8 +10,8 @@
 
 namespace aims {
 
-/// Reads the passages that a run writes: a header line "point,stamp_s", then a row each; the stamps
+/// Reads the waypoint times that a run writes: a header line "point,stamp_s", then a row each; the stamps
 /// in seconds must not decrease. Names may be quoted as in RFC 4180. Errors: "name:line: ...".
-Result<std::vector<Passage>> parse_passages(std::string_view text, const std::string& name);
+Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text, const std::string& name);
 
 }  // namespace aims

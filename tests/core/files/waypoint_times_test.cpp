@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/files/passages.hpp"
+#include "core/files/waypoint_times.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,22 +7,22 @@ namespace aims {
 namespace {
 
 std::string message_of(std::string_view text) {
-  const auto parsed = parse_passages(text, "p.csv");
+  const auto parsed = parse_waypoint_times(text, "p.csv");
   return parsed ? "" : parsed.error().message;
 }
 
-TEST(Passages, RowsAreReadInOrder) {
-  const auto passages =
-      parse_passages("point,stamp_s\r\na,2.5\r\n\"b, \"\"far\"\"\",2.5\n\nc,1e2\n", "p.csv");
-  ASSERT_TRUE(passages) << passages.error().message;
-  ASSERT_EQ(passages->size(), 3U);
-  EXPECT_EQ((*passages)[0].point, "a");
-  EXPECT_EQ((*passages)[0].stamp, 2'500'000'000);
-  EXPECT_EQ((*passages)[1].point, "b, \"far\"");
-  EXPECT_EQ((*passages)[2].stamp, 100 * kSecond);
+TEST(Waypoint times, RowsAreReadInOrder) {
+  const auto waypoint_times =
+      parse_waypoint_times("point,stamp_s\r\na,2.5\r\n\"b, \"\"far\"\"\",2.5\n\nc,1e2\n", "p.csv");
+  ASSERT_TRUE(waypoint_times) << waypoint_times.error().message;
+  ASSERT_EQ(waypoint_times->size(), 3U);
+  EXPECT_EQ((*waypoint_times)[0].point, "a");
+  EXPECT_EQ((*waypoint_times)[0].stamp, 2'500'000'000);
+  EXPECT_EQ((*waypoint_times)[1].point, "b, \"far\"");
+  EXPECT_EQ((*waypoint_times)[2].stamp, 100 * kSecond);
 }
 
-TEST(Passages, ErrorsNameFileAndLine) {
+TEST(Waypoint times, ErrorsNameFileAndLine) {
   EXPECT_EQ(message_of(""), "p.csv:1: expected the header 'point,stamp_s'");
   EXPECT_EQ(message_of("a,1\n"), "p.csv:1: expected the header 'point,stamp_s', found 'a,1'");
   EXPECT_EQ(message_of("point,stamp_s\na\n"),

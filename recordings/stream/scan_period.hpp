@@ -8,18 +8,18 @@
 
 namespace aims {
 
-/// A longer sweep is no sweep.
-inline constexpr Duration kLongestSweep = kSecond;
+/// A longer scan is no scan.
+inline constexpr Duration kLongestScan = kSecond;
 
 /// Times between neighbouring stamps, put in order; those of equal stamps are left out.
 std::vector<Duration> spacings(std::vector<Time> stamps);
 
-/// Nominal period of the sweeps that start at `stamps`, some of which may be missing: the spacing
+/// Nominal period of the scans that start at `stamps`, some of which may be missing: the spacing
 /// that most share, else the nearest whole number per second. `span`: how long points fire, if
 /// known. Nothing without two different stamps or a span.
-std::optional<Duration> sweep_period(std::vector<Time> stamps, std::optional<Duration> span);
+std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Duration> span);
 
-/// Nanoseconds per unit (s, ms, us or ns) in which `span` is nearest to a sweep of `about`, or
+/// Nanoseconds per unit (s, ms, us or ns) in which `span` is nearest to a scan of `about`, or
 /// nothing when none comes near.
 std::optional<double> time_unit(double span, Duration about);
 
