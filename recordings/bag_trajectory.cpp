@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "recordings/bag/bag_reader.hpp"
-#include "recordings/stream/message_values.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/stream/message_values.hpp"
 
 namespace aims {
 namespace {

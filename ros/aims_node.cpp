@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "estimator/registry.hpp"
 #include "bench/run/estimate.hpp"
 #include "core/files/tum.hpp"
+#include "estimator/registry.hpp"
 #include "ros/live_recording.hpp"
 #include "ros/node_options.hpp"
 #include "ros/odometry_publisher.hpp"

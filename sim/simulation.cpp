@@ -9,12 +9,12 @@
 #include <optional>
 #include <utility>
 
-#include "sim/links/arrivals.hpp"
 #include "sim/environment/ray_caster.hpp"
 #include "sim/environment/scene_mjcf.hpp"
-#include "sim/sensors/localizability.hpp"
+#include "sim/links/arrivals.hpp"
 #include "sim/robot/quadruped_model.hpp"
 #include "sim/robot/walker.hpp"
+#include "sim/sensors/localizability.hpp"
 
 namespace aims {
 namespace {
@@ -251,7 +251,8 @@ Simulation::~Simulation() = default;
 bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
   const Time until = now() + span;
   while (now() < until && !impl_->finished()) impl_->step();
-  impl_->truth.waypoint_times = waypoint_times_since(impl_->walker.route(), impl_->truth.samples.front().stamp);
+  impl_->truth.waypoint_times =
+      waypoint_times_since(impl_->walker.route(), impl_->truth.samples.front().stamp);
   const bool finished = impl_->finished();
   // What is still on its way at the end arrives too.
   impl_->arrivals.take(finished ? std::numeric_limits<Time>::max() : now(), deliveries);

@@ -8,8 +8,8 @@
 #include "core/error.hpp"
 #include "core/measurements.hpp"
 #include "sim/environment/scene.hpp"
-#include "sim/simulation_config.hpp"
 #include "sim/robot/truth.hpp"
+#include "sim/simulation_config.hpp"
 
 namespace aims {
 

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "core/config.hpp"
-#include "sim/sensors/lidar.hpp"
 #include "sim/environment/scene_config.hpp"
-#include "sim/robot/gait.hpp"
-#include "sim/sensors/imu.hpp"
-#include "sim/sensors/leg_odometry.hpp"
 #include "sim/links/link.hpp"
+#include "sim/robot/gait.hpp"
 #include "sim/robot/push.hpp"
 #include "sim/robot/route.hpp"
+#include "sim/sensors/imu.hpp"
+#include "sim/sensors/leg_odometry.hpp"
+#include "sim/sensors/lidar.hpp"
 
 namespace aims {
 

@@ -9,9 +9,9 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/exit_code.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/run/estimate.hpp"
 #include "recordings/inspection/bag_check.hpp"
 #include "recordings/inspection/bag_info.hpp"
-#include "bench/run/estimate.hpp"
 
 namespace aims {
 namespace {

@@ -9,11 +9,11 @@
 #include "bench/cli/exit_code.hpp"
 #include "bench/cli/interrupt.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/run/seeds.hpp"
 #include "bench/studies/detector_report.hpp"
 #include "bench/studies/detectors.hpp"
-#include "estimator/estimator_spec.hpp"
-#include "bench/run/seeds.hpp"
 #include "core/files/table.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 namespace {

@@ -12,8 +12,8 @@
 #include "bench/cli/progress_display.hpp"
 #include "bench/run/estimate.hpp"
 #include "bench/run/estimate_report.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "core/files/output_folder.hpp"
+#include "estimator/estimator_spec.hpp"
 #include "render/results/pictures.hpp"
 
 namespace aims {

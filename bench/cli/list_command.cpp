@@ -44,7 +44,8 @@ void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folde
   auto folder = std::make_shared<std::string>(scenario_folder.string());
   auto tags = std::make_shared<std::vector<std::string>>();
   command->add_option("--folder", *folder, "Folder of scenarios, searched with those in it");
-  command->add_option("--tags", *tags, "Only scenarios with any of these tags, e.g. stress,severity")
+  command
+      ->add_option("--tags", *tags, "Only scenarios with any of these tags, e.g. stress,severity")
       ->delimiter(',');
   command->footer("Examples:\n  aims list\n  aims list --tags stress,severity");
   command->callback([folder, tags, &exit_code] { exit_code = print_list(*folder, *tags); });

@@ -9,8 +9,8 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/exit_code.hpp"
 #include "bench/cli/options.hpp"
-#include "bench/tuning/sweep_report.hpp"
 #include "bench/jobs/sweep_store.hpp"
+#include "bench/tuning/sweep_report.hpp"
 
 namespace aims {
 namespace {

@@ -13,10 +13,10 @@
 #include "bench/cli/interrupt.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress_display.hpp"
+#include "bench/run/seeds.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "render/film/film_report.hpp"
 #include "render/film/stored_walk.hpp"
-#include "bench/run/seeds.hpp"
 
 namespace aims {
 namespace {

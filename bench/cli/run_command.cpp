@@ -11,11 +11,11 @@
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress_display.hpp"
 #include "bench/cli/report_command.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "bench/run/experiment.hpp"
-#include "render/results/pictures.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/run/seeds.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 namespace {

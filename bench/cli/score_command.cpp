@@ -7,9 +7,9 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/exit_code.hpp"
 #include "bench/cli/options.hpp"
-#include "render/results/pictures.hpp"
 #include "bench/run/scoring_input.hpp"
 #include "bench/run/trajectory_report.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "bench/cli/interrupt.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "bench/run/seeds.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/cli/options.hpp"
-#include "core/error.hpp"
 #include "bench/studies/suite.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

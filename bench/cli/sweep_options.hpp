@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "bench/tuning/sweep_plan.hpp"
 #include "bench/jobs/unit_runner.hpp"
+#include "bench/tuning/sweep_plan.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

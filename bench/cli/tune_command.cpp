@@ -12,9 +12,9 @@
 #include "bench/cli/interrupt.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/sweep_options.hpp"
-#include "core/files/folder_lock.hpp"
 #include "bench/tuning/tune.hpp"
 #include "bench/tuning/tune_report.hpp"
+#include "core/files/folder_lock.hpp"
 
 namespace aims {
 namespace {

@@ -17,7 +17,8 @@ Result<RecordedWalk> open_walk(const std::filesystem::path& file, const Scenario
   walk.run.truth_trajectory = body_trajectory(truth);
   walk.run.localizability =
       run_localizability(scenario.simulation, walk.reader.rig(), truth, walk.run.truth_trajectory);
-  walk.run.truth.waypoint_times = std::move(truth.waypoint_times);  // samples and sweeps served above
+  walk.run.truth.waypoint_times =
+      std::move(truth.waypoint_times);  // samples and sweeps served above
   return walk;
 }
 

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <string>
 
-#include "core/error.hpp"
+#include "bench/jobs/walk_file.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/score_record.hpp"
-#include "bench/jobs/walk_file.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "bench/jobs/sweep_unit.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/tuning/design.hpp"
-#include "bench/jobs/sweep_unit.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

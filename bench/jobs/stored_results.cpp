@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "bench/studies/suite.hpp"
 #include "bench/jobs/unit_store.hpp"
+#include "bench/studies/suite.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {

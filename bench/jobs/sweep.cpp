@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/files/folder_lock.hpp"
 #include "bench/jobs/sweep_folder.hpp"
+#include "core/files/folder_lock.hpp"
 
 namespace aims {
 namespace {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "bench/tuning/sweep_plan.hpp"
 #include "bench/jobs/unit_runner.hpp"
+#include "bench/tuning/sweep_plan.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

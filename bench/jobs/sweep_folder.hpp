@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/jobs/unit_folder.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "core/error.hpp"
 #include "core/files/folder_lock.hpp"
-#include "bench/tuning/sweep_plan.hpp"
-#include "bench/jobs/unit_folder.hpp"
 
 namespace aims {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/jobs/sweep_folder.hpp"
+#include "core/error.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {

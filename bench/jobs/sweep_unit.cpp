@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "bench/run/code_version.hpp"
 #include "bench/jobs/unit_id.hpp"
+#include "bench/run/code_version.hpp"
 
 namespace aims {
 namespace {

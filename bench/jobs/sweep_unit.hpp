@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/jobs/sweep_unit.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "bench/run/scenario.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator_spec.hpp"
-#include "bench/run/scenario.hpp"
 
 namespace aims {
 

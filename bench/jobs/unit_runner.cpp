@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/stopwatch.hpp"
 #include "bench/jobs/process_pool.hpp"
+#include "core/stopwatch.hpp"
 
 namespace aims {
 namespace {

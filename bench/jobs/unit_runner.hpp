@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/jobs/evaluate.hpp"
 #include "bench/jobs/sweep_unit.hpp"
 #include "bench/jobs/unit_folder.hpp"
 #include "bench/jobs/walk_cache.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

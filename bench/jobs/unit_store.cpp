@@ -5,11 +5,11 @@
 
 #include <system_error>
 
-#include "estimator/estimator_spec.hpp"
 #include "bench/jobs/stored_results.hpp"
 #include "bench/jobs/unit_id.hpp"
 #include "bench/run/weak_axis_series.hpp"
 #include "core/files/atomic_file.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

@@ -10,10 +10,10 @@
 #include <tuple>
 #include <vector>
 
+#include "bench/jobs/unit_id.hpp"
+#include "bench/jobs/walk_file.hpp"
 #include "bench/run/code_version.hpp"
 #include "bench/run/stream.hpp"
-#include "bench/jobs/walk_file.hpp"
-#include "bench/jobs/unit_id.hpp"
 #include "sim/simulation.hpp"
 
 namespace aims {

@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
+#include "bench/run/scenario.hpp"
 #include "core/error.hpp"
 #include "core/files/folder_lock.hpp"
-#include "bench/run/scenario.hpp"
 
 namespace aims {
 

@@ -251,7 +251,8 @@ bool take_truth(ByteCursor& cursor, Truth& truth) {
   truth.fell = fell != 0;
   truth.touched_wall = touched_wall != 0;
   return take_entries(cursor, kTruthSampleSize, truth.samples, take_sample) &&
-         take_entries(cursor, sizeof(std::uint64_t) + sizeof(Time), truth.waypoint_times, take_waypoint_time) &&
+         take_entries(cursor, sizeof(std::uint64_t) + sizeof(Time), truth.waypoint_times,
+                      take_waypoint_time) &&
          take_entries(cursor, kScanInformationSize, truth.scans, take_information);
 }
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/measurements.hpp"
 #include "core/files/byte_cursor.hpp"
+#include "core/measurements.hpp"
 #include "sim/robot/truth.hpp"
 
 namespace aims {

@@ -11,18 +11,18 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/measurements.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/mapped_file.hpp"
+#include "core/measurements.hpp"
 #include "sim/robot/truth.hpp"
 
 namespace aims {
 
 /// Writes a simulated walk as one file, bit for bit what the simulation yielded: the rig, every
 /// delivery in order of arrival, and of the truth what scores are made from (motion at the physics
-/// rate, waypoint times, information of the sweeps; no biases, no pictures). A bag holds the truth at
-/// 10 ms alone and nothing of the sweeps, so that scores would differ. Little-endian numbers, one
-/// after the other; 22 bytes per return. The file appears whole, on finish().
+/// rate, waypoint times, information of the sweeps; no biases, no pictures). A bag holds the truth
+/// at 10 ms alone and nothing of the sweeps, so that scores would differ. Little-endian numbers,
+/// one after the other; 22 bytes per return. The file appears whole, on finish().
 class WalkWriter {
  public:
   /// `origin` is kept as text: what the walk is of.

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/random.hpp"
 #include "bench/metrics/statistics.hpp"
+#include "core/random.hpp"
 
 namespace aims {
 

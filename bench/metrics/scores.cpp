@@ -101,8 +101,8 @@ void describe(Fields& fields, ScoreConfig& config) {
   describe_metrics(fields, config);
 }
 
-Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const WaypointTime> waypoint_times,
-             const ScoreConfig& config) {
+Scores score(const Trajectory& estimate, const Trajectory& truth,
+             std::span<const WaypointTime> waypoint_times, const ScoreConfig& config) {
   return score_over(estimate, truth, segments_wanted(waypoint_times, config.segments), config);
 }
 

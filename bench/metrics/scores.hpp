@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/config.hpp"
-#include "core/trajectory.hpp"
 #include "bench/metrics/absolute_error.hpp"
 #include "bench/metrics/alignment.hpp"
 #include "bench/metrics/association.hpp"
@@ -15,6 +13,8 @@
 #include "bench/metrics/relative_error.hpp"
 #include "bench/metrics/segments.hpp"
 #include "bench/metrics/success.hpp"
+#include "core/config.hpp"
+#include "core/trajectory.hpp"
 
 namespace aims {
 
@@ -64,11 +64,11 @@ struct Scores {
   std::vector<SegmentDrift> segment_drifts;  ///< anchored at each segment's begin
 };
 
-/// Scores of an estimate (any fixed frame) against the truth. `waypoint_times` are in order of time.
-/// Poor data (empty, not finite, one pose, no overlap) gives no success and quantities without
-/// value, never an error.
-Scores score(const Trajectory& estimate, const Trajectory& truth, std::span<const WaypointTime> waypoint_times,
-             const ScoreConfig& config);
+/// Scores of an estimate (any fixed frame) against the truth. `waypoint_times` are in order of
+/// time. Poor data (empty, not finite, one pose, no overlap) gives no success and quantities
+/// without value, never an error.
+Scores score(const Trajectory& estimate, const Trajectory& truth,
+             std::span<const WaypointTime> waypoint_times, const ScoreConfig& config);
 
 /// As `score`, with an M_list of each of the segments, in order of time, and of no others.
 Scores score_over(const Trajectory& estimate, const Trajectory& truth,

@@ -15,7 +15,9 @@ std::optional<double> distance_between(const Trajectory& trajectory, Time begin,
   return (last->translation - first->translation).norm();
 }
 
-std::string name_of(const WaypointTime& from, const WaypointTime& to) { return from.point + "-" + to.point; }
+std::string name_of(const WaypointTime& from, const WaypointTime& to) {
+  return from.point + "-" + to.point;
+}
 
 /// Adds a segment; one of the same name as an earlier one is numbered.
 void add_segment(const WaypointTime& from, const WaypointTime& to, std::vector<Segment>& segments) {
@@ -43,12 +45,13 @@ std::vector<Segment> segments_named(std::span<const WaypointTime> waypoint_times
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < waypoint_times.size(); ++i) {
     for (std::size_t j = i + 1; j < waypoint_times.size(); ++j) {
-      const bool wanted =
-          std::find(names.begin(), names.end(), name_of(waypoint_times[i], waypoint_times[j])) != names.end();
+      const bool wanted = std::find(names.begin(), names.end(),
+                                    name_of(waypoint_times[i], waypoint_times[j])) != names.end();
       const auto between = waypoint_times.subspan(i + 1, j - i - 1);
-      const bool direct = std::none_of(between.begin(), between.end(), [&](const WaypointTime& each) {
-        return each.point == waypoint_times[i].point || each.point == waypoint_times[j].point;
-      });
+      const bool direct =
+          std::none_of(between.begin(), between.end(), [&](const WaypointTime& each) {
+            return each.point == waypoint_times[i].point || each.point == waypoint_times[j].point;
+          });
       if (wanted && direct) add_segment(waypoint_times[i], waypoint_times[j], segments);
     }
   }

@@ -20,8 +20,9 @@ struct Segment {
 /// The segments between consecutive waypoint times in order of time.
 std::vector<Segment> segments_of(std::span<const WaypointTime> waypoint_times);
 
-/// The segments of the given names ("a-d"), in order of time: from a waypoint time of the first point to
-/// the next waypoint time of the second, other points in between or not, but neither of the two.
+/// The segments of the given names ("a-d"), in order of time: from a waypoint time of the first
+/// point to the next waypoint time of the second, other points in between or not, but neither of
+/// the two.
 std::vector<Segment> segments_named(std::span<const WaypointTime> waypoint_times,
                                     std::span<const std::string> names);
 

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "bench/run/scenario.hpp"
-#include "recordings/bag_trajectory.hpp"
 #include "core/files/waypoint_times.hpp"
-#include "recordings/stream/recording_topics.hpp"
 #include "core/files/yaml_config.hpp"
+#include "recordings/bag_trajectory.hpp"
+#include "recordings/stream/recording_topics.hpp"
 
 namespace aims {
 namespace {
@@ -26,7 +26,8 @@ Result<BagOrigin> bag_origin(const std::filesystem::path& bag) {
   const auto waypoint_times = read_bag_text(bag, std::string(kWaypointTimesTopic));
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
   if (*waypoint_times) {
-    auto parsed = parse_waypoint_times(**waypoint_times, fmt::format("{}:{}", bag.string(), kWaypointTimesTopic));
+    auto parsed = parse_waypoint_times(**waypoint_times,
+                                       fmt::format("{}:{}", bag.string(), kWaypointTimesTopic));
     if (!parsed) return tl::unexpected(parsed.error());
     origin.waypoint_times = std::move(*parsed);
   }

@@ -12,8 +12,8 @@ namespace aims {
 
 /// What a simulated bag says of its walk, for scoring; nothing of it reaches an estimator.
 struct BagOrigin {
-  std::vector<WaypointTime> waypoint_times;      ///< of the reference points, in order of time
-  std::vector<std::string> segments;  ///< over which its scenario takes M_list; empty: all
+  std::vector<WaypointTime> waypoint_times;  ///< of the reference points, in order of time
+  std::vector<std::string> segments;         ///< over which its scenario takes M_list; empty: all
 };
 
 /// Empty for a bag that was not simulated here. Error for waypoint times that cannot be read.

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include "estimator/registry.hpp"
 #include "bench/run/bag_origin.hpp"
-#include "estimator/estimator_spec.hpp"
-#include "core/stopwatch.hpp"
 #include "bench/run/stream.hpp"
 #include "core/files/yaml_config.hpp"
+#include "core/stopwatch.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims {
 namespace {

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/trajectory.hpp"
-#include "estimator/aims/config.hpp"
 #include "bench/metrics/scores.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/trajectory_scoring.hpp"
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+#include "estimator/aims/config.hpp"
 #include "recordings/stream/recording_reader.hpp"
 
 namespace aims {

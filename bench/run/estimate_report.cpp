@@ -3,17 +3,16 @@
 
 #include <fmt/format.h>
 
-
 #include "bench/metrics/statistics.hpp"
-#include "render/results/estimator_pictures.hpp"
 #include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/tables.hpp"
-#include "render/results/trajectory_pictures.hpp"
 #include "bench/run/trajectory_report.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/tum.hpp"
+#include "render/results/estimator_pictures.hpp"
+#include "render/results/trajectory_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -147,9 +146,9 @@ Result<void> draw_estimate(const EstimateResult& result, const fs::path& folder)
   }
   const std::vector<WaypointTime> none;
   if (drawn) {
-    drawn =
-        draw_degeneracy(title, fmt::format("{:.0f} s recorded", result.recorded_s),
-                        result.estimators, result.scores ? result.scores->waypoint_times : none, folder);
+    drawn = draw_degeneracy(title, fmt::format("{:.0f} s recorded", result.recorded_s),
+                            result.estimators, result.scores ? result.scores->waypoint_times : none,
+                            folder);
   }
   if (drawn && result.scores) drawn = draw_trajectory_pictures(*result.scores, folder);
   return drawn;

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "core/error.hpp"
 #include "bench/run/estimate.hpp"
+#include "core/error.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {

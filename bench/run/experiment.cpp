@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "core/files/output_folder.hpp"
-#include "render/results/pictures.hpp"
 #include "bench/run/results.hpp"
-#include "core/stopwatch.hpp"
 #include "bench/run/summary.hpp"
+#include "core/files/output_folder.hpp"
+#include "core/stopwatch.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 namespace {

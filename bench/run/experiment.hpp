@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/run/gates.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

@@ -9,11 +9,11 @@
 
 #include "bench/run/code_version.hpp"
 #include "bench/run/results.hpp"
-#include "core/stopwatch.hpp"
 #include "bench/run/stream.hpp"
 #include "bench/run/tables.hpp"
-#include "recordings/stream/recording_writer.hpp"
 #include "core/files/tum.hpp"
+#include "core/stopwatch.hpp"
+#include "recordings/stream/recording_writer.hpp"
 #include "sim/sensors/attitude_filter.hpp"
 #include "sim/simulation.hpp"
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "core/error.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/scenario.hpp"
+#include "core/error.hpp"
 #include "recordings/bag/bag_writer.hpp"
 
 namespace aims {
@@ -27,13 +27,13 @@ struct RecordOutcome {
   bool touched_wall = false;
   int left_out = 0;  ///< messages that would have needed a negative time
   std::uintmax_t bag_bytes = 0;
-  std::filesystem::path truth;     ///< NAME.truth.tum: true poses of the body
+  std::filesystem::path truth;           ///< NAME.truth.tum: true poses of the body
   std::filesystem::path waypoint_times;  ///< NAME.waypoint_times.csv
 };
 
 /// Simulates the scenario and records what its sensors deliver, and the truth, as a ROS 1 bag;
-/// truth and waypoint times of the reference points also beside it. Killed at any moment, it leaves a bag
-/// that opens. Error when the scenario cannot be simulated or a file cannot be written.
+/// truth and waypoint times of the reference points also beside it. Killed at any moment, it leaves
+/// a bag that opens. Error when the scenario cannot be simulated or a file cannot be written.
 Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& options,
                              const Observer& observer);
 

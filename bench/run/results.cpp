@@ -28,7 +28,9 @@ Result<void> write_streams(const Scenario& scenario, const RunResult& result,
       write_file_atomically(folder / "config.yaml", effective_config(scenario, result.seed));
   if (written)
     written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory, kTruthSpacing));
-  if (written) written = write_csv(folder / "waypoint_times.csv", waypoint_times_table(result.truth.waypoint_times));
+  if (written)
+    written =
+        write_csv(folder / "waypoint_times.csv", waypoint_times_table(result.truth.waypoint_times));
   if (written)
     written = write_csv(folder / "localizability.csv", localizability_table(result.localizability));
   if (written) written = write_csv(folder / "legs.csv", legs_table(result.legs));

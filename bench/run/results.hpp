@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "core/error.hpp"
-#include "core/time.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
+#include "core/time.hpp"
 
 namespace aims {
 

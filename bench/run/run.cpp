@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/run.hpp"
 
-#include "core/stopwatch.hpp"
 #include "bench/run/stream.hpp"
+#include "core/stopwatch.hpp"
 
 namespace aims {
 
@@ -13,8 +13,8 @@ EstimatorOutcome outcome_of(const TimedEstimator& timed, const RunResult& result
   outcome.name = timed.name();
   outcome.result = timed.estimator().result();
   outcome.map = timed.estimator().map_points();
-  outcome.scores =
-      score(outcome.result.trajectory, result.truth_trajectory, result.truth.waypoint_times, scoring);
+  outcome.scores = score(outcome.result.trajectory, result.truth_trajectory,
+                         result.truth.waypoint_times, scoring);
   outcome.weak_axis_errors =
       weak_axis_errors_of(outcome.result, result.truth_trajectory, result.localizability, scoring,
                           half_scan(scenario.simulation));

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "estimator/estimator.hpp"
 #include "bench/metrics/scores.hpp"
 #include "bench/run/run_legs.hpp"
 #include "bench/run/run_localizability.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/timed_estimator.hpp"
+#include "core/error.hpp"
+#include "estimator/estimator.hpp"
 #include "sim/environment/scene.hpp"
-#include "sim/simulation.hpp"
 #include "sim/robot/truth.hpp"
+#include "sim/simulation.hpp"
 
 namespace aims {
 
@@ -57,7 +57,7 @@ struct RunResult {
   Truth truth;
   Trajectory truth_trajectory;       ///< T_world_body at the physics rate
   RunLocalizability localizability;  ///< what the scans allow to know
-  std::vector<LegInterval> legs;      ///< what became of the leg odometry, from the start
+  std::vector<LegInterval> legs;     ///< what became of the leg odometry, from the start
   std::vector<EstimatorOutcome> estimators;
 };
 

@@ -20,7 +20,7 @@ std::size_t LegPackets::between(Time begin, Time end) const {
 }
 
 std::vector<LegInterval> leg_intervals(const SimulationConfig& config, const LegPackets& packets,
-                                      const Truth& truth, Time end) {
+                                       const Truth& truth, Time end) {
   const Duration offset = from_seconds(config.links.leg_odometry.clock_offset);
   const double sent = config.leg_odometry.rate * to_seconds(kLegInterval);
   std::vector<LegInterval> stretches;

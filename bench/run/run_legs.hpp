@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "core/measurements.hpp"
 #include "core/files/csv.hpp"
-#include "sim/simulation_config.hpp"
+#include "core/measurements.hpp"
 #include "sim/robot/truth.hpp"
+#include "sim/simulation_config.hpp"
 
 namespace aims {
 
@@ -37,7 +37,7 @@ class LegPackets {
 /// The whole stretches of a run that lasted until `end`, of packets sent at the configured rate.
 /// Stamps are taken as they came: where they jitter, a packet may fall into the next stretch.
 std::vector<LegInterval> leg_intervals(const SimulationConfig& config, const LegPackets& packets,
-                                      const Truth& truth, Time end);
+                                       const Truth& truth, Time end);
 
 /// One row per stretch.
 CsvTable legs_table(std::span<const LegInterval> stretches);

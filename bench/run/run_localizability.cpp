@@ -79,9 +79,7 @@ std::vector<PosteriorBound> bounds_without_lidar(const Truth& truth,
   return posterior_bounds(motion_of(truth), truth.scans, parameters);
 }
 
-Duration half_scan(const SimulationConfig& config) {
-  return from_seconds(0.5 / config.lidar.rate);
-}
+Duration half_scan(const SimulationConfig& config) { return from_seconds(0.5 / config.lidar.rate); }
 
 std::vector<WeakAxisError> weak_axis_errors_of(const EstimatorResult& report,
                                                const Trajectory& truth_trajectory,

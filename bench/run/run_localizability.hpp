@@ -4,15 +4,15 @@
 #include <span>
 #include <vector>
 
-#include "core/measurements.hpp"
-#include "estimator/estimator.hpp"
 #include "bench/metrics/localizability.hpp"
 #include "bench/metrics/localizability_scores.hpp"
 #include "bench/metrics/posterior_bound.hpp"
 #include "bench/metrics/scores.hpp"
 #include "core/files/csv.hpp"
-#include "sim/simulation_config.hpp"
+#include "core/measurements.hpp"
+#include "estimator/estimator.hpp"
 #include "sim/robot/truth.hpp"
+#include "sim/simulation_config.hpp"
 
 namespace aims {
 

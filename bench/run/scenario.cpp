@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <map>
 
-#include "estimator/registry.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/files/yaml_position.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims {
 namespace {

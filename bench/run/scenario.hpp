@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/metrics/scores.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "estimator/aims/config.hpp"
-#include "bench/metrics/scores.hpp"
 #include "sim/simulation_config.hpp"
 
 namespace aims {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "estimator/registry.hpp"
 #include "bench/metrics/statistics.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "bench/run/gates.hpp"
+#include "estimator/estimator_spec.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims {
 namespace {

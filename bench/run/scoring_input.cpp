@@ -14,10 +14,10 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
-#include "core/files/waypoint_times.hpp"
-#include "recordings/stream/recording_topics.hpp"
 #include "core/files/trajectory_file.hpp"
+#include "core/files/waypoint_times.hpp"
 #include "core/files/yaml_config.hpp"
+#include "recordings/stream/recording_topics.hpp"
 
 namespace aims {
 namespace {
@@ -139,7 +139,8 @@ Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem
 
 Result<std::vector<Segment>> segments_of_request(const ScoringRequest& request,
                                                  const ScoringInput& input) {
-  if (request.segments.empty()) return segments_wanted(input.waypoint_times, input.scoring.segments);
+  if (request.segments.empty())
+    return segments_wanted(input.waypoint_times, input.scoring.segments);
   const auto list = parse_segments(request.segments);
   if (!list) return tl::unexpected(list.error());
   return resolve_segments(*list, input.waypoint_times, input.truth.trajectory);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/run/trajectory_scoring.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 
@@ -16,8 +16,9 @@ struct ScoringRequest {
   std::vector<std::string> estimates;  ///< likewise
   std::vector<std::string> names;      ///< of the estimates; none: by their files and topics
   std::filesystem::path times;         ///< stamps of KITTI poses; empty: none
-  std::filesystem::path waypoint_times;      ///< waypoint_times.csv; empty: the bag's own, if the truth is one
-  std::string segments;                ///< see `parse_segments`; empty: as the configuration says
+  std::filesystem::path
+      waypoint_times;     ///< waypoint_times.csv; empty: the bag's own, if the truth is one
+  std::string segments;   ///< see `parse_segments`; empty: as the configuration says
   std::string extrinsic;  ///< "x y z qx qy qz qw", T_body_estimate: pose of the estimates' frame
   double time_offset_s = 0.0;          ///< added to the stamps of the estimates
   std::filesystem::path config;        ///< YAML whose group `scoring` counts; empty: defaults

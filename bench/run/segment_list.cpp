@@ -77,8 +77,8 @@ Result<std::vector<Segment>> resolve_segments(const SegmentList& list,
       std::vector<std::string> points;
       for (const WaypointTime& each : waypoint_times) points.push_back(each.point);
       return failure(
-          fmt::format("--segments: '{}': no way between two such waypoint_times; passed are: {}", name,
-                      points.empty() ? "none" : fmt::format("{}", fmt::join(points, ", "))));
+          fmt::format("--segments: '{}': no way between two such waypoint_times; passed are: {}",
+                      name, points.empty() ? "none" : fmt::format("{}", fmt::join(points, ", "))));
     }
     segments.insert(segments.end(), found.begin(), found.end());
   }

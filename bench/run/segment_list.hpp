@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/metrics/segments.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
-#include "bench/metrics/segments.hpp"
 
 namespace aims {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "bench/metrics/scores.hpp"
 #include "core/lie.hpp"
 #include "core/trajectory.hpp"
-#include "bench/metrics/scores.hpp"
 
 namespace aims {
 

@@ -6,8 +6,8 @@
 
 #include <utility>
 
-#include "estimator/registry.hpp"
 #include "estimator/estimator_spec.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/timed_estimator.hpp"
 #include "core/error.hpp"
 #include "core/measurements.hpp"
 #include "estimator/aims/config.hpp"
-#include "bench/run/timed_estimator.hpp"
 
 namespace aims {
 

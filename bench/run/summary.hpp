@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "core/error.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "core/trajectory.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/score_record.hpp"
 #include "core/files/csv.hpp"
+#include "core/trajectory.hpp"
 
 namespace aims {
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "core/files/output_folder.hpp"
 #include "bench/run/tables.hpp"
-#include "render/results/trajectory_pictures.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/output_folder.hpp"
+#include "render/results/trajectory_pictures.hpp"
 
 namespace aims {
 namespace {

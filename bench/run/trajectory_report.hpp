@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/run/score_record.hpp"
-#include "core/files/table.hpp"
 #include "bench/run/trajectory_scoring.hpp"
+#include "core/error.hpp"
+#include "core/files/table.hpp"
 
 namespace aims {
 

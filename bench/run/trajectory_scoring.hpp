@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/trajectory.hpp"
 #include "bench/metrics/scores.hpp"
 #include "bench/metrics/segments.hpp"
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
 
 namespace aims {
 

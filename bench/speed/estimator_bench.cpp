@@ -3,8 +3,8 @@
 
 #include "core/random.hpp"
 #include "estimator/lidar/plane_model.hpp"
-#include "estimator/registry.hpp"
 #include "estimator/lidar/voxel_map.hpp"
+#include "estimator/registry.hpp"
 #include "tests/support/kinematic_world.hpp"
 
 namespace aims {

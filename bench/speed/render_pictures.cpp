@@ -6,8 +6,8 @@
 
 #include "core/random.hpp"
 #include "render/plots/map_picture.hpp"
-#include "render/scene/robot_pictures.hpp"
 #include "render/plots/trajectory_plot.hpp"
+#include "render/scene/robot_pictures.hpp"
 #include "sim/environment/scene_config.hpp"
 #include "tests/support/temporary_folder.hpp"
 

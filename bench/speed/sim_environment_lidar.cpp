@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/sensors/lidar.hpp"
 #include "sim/environment/scene_config.hpp"
+#include "sim/sensors/lidar.hpp"
 
 namespace aims {
 namespace {

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "bench/studies/suite.hpp"
+#include "core/error.hpp"
 #include "core/files/table.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "bench/studies/ablation.hpp"
 #include "bench/run/code_version.hpp"
 #include "bench/run/score_record.hpp"
+#include "bench/studies/ablation.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 

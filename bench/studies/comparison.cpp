@@ -10,9 +10,9 @@
 #include <map>
 #include <set>
 
-#include "core/random.hpp"
 #include "bench/metrics/statistics.hpp"
 #include "bench/studies/suite_summary.hpp"
+#include "core/random.hpp"
 
 namespace aims {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
 #include "bench/jobs/stored_results.hpp"
+#include "bench/metrics/bootstrap.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {

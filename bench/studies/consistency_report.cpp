@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "bench/run/code_version.hpp"
-#include "bench/studies/consistency_study.hpp"
 #include "bench/run/score_record.hpp"
+#include "bench/studies/consistency_study.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 #include "render/plots/time_plot.hpp"

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "estimator/estimator_spec.hpp"
 #include "bench/run/weak_axis_series.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 

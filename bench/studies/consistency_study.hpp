@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/metrics/consistency.hpp"
 #include "bench/studies/suite.hpp"
+#include "core/error.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {

@@ -8,10 +8,10 @@
 #include <mutex>
 #include <utility>
 
+#include "bench/run/run.hpp"
 #include "bench/studies/detector_report.hpp"
 #include "bench/studies/detectors.hpp"
 #include "core/files/output_folder.hpp"
-#include "bench/run/run.hpp"
 
 namespace aims {
 namespace {

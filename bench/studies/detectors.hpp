@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "estimator/estimator.hpp"
 #include "bench/metrics/bootstrap.hpp"
 #include "bench/metrics/detector.hpp"
 #include "bench/metrics/localizability.hpp"
 #include "bench/run/scenario.hpp"
+#include "core/error.hpp"
+#include "estimator/estimator.hpp"
 
 namespace aims {
 

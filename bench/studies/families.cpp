@@ -7,8 +7,8 @@
 #include <map>
 
 #include "bench/metrics/statistics.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "bench/studies/suite_summary.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 namespace {

@@ -12,13 +12,13 @@
 #include <system_error>
 #include <utility>
 
-#include "core/files/folder_lock.hpp"
-#include "bench/run/results.hpp"
 #include "bench/jobs/stored_results.hpp"
+#include "bench/jobs/unit_store.hpp"
+#include "bench/run/results.hpp"
+#include "bench/run/weak_axis_series.hpp"
 #include "bench/studies/suite_progress.hpp"
 #include "bench/studies/suite_report.hpp"
-#include "bench/jobs/unit_store.hpp"
-#include "bench/run/weak_axis_series.hpp"
+#include "core/files/folder_lock.hpp"
 
 namespace aims {
 namespace {

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/run/catalogue.hpp"
 #include "bench/run/gates.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

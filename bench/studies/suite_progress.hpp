@@ -5,8 +5,8 @@
 #include <mutex>
 
 #include "bench/run/run.hpp"
-#include "core/stopwatch.hpp"
 #include "bench/studies/suite.hpp"
+#include "core/stopwatch.hpp"
 
 namespace aims {
 

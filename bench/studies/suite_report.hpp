@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "core/error.hpp"
 #include "bench/studies/suite.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "estimator/registry.hpp"
 #include "bench/metrics/statistics.hpp"
 #include "bench/run/code_version.hpp"
 #include "estimator/estimator_spec.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims {
 namespace {

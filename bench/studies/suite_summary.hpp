@@ -8,8 +8,8 @@
 
 #include "bench/metrics/bootstrap.hpp"
 #include "bench/run/score_record.hpp"
-#include "bench/studies/suite.hpp"
 #include "bench/run/summary.hpp"
+#include "bench/studies/suite.hpp"
 
 namespace aims {
 

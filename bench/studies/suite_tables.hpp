@@ -7,8 +7,8 @@
 #include "bench/studies/families.hpp"
 #include "bench/studies/suite.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "core/files/table.hpp"
 #include "core/files/csv.hpp"
+#include "core/files/table.hpp"
 
 namespace aims {
 

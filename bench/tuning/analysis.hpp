@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/metrics/bootstrap.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/surrogate.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

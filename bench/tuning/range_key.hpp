@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/tuning/design.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

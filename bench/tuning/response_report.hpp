@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/tuning/analysis.hpp"
+#include "core/error.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/metrics/bootstrap.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

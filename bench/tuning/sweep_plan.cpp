@@ -7,11 +7,11 @@
 #include <set>
 #include <utility>
 
+#include "bench/jobs/scenario_variants.hpp"
+#include "bench/jobs/unit_id.hpp"
 #include "bench/run/catalogue.hpp"
 #include "bench/run/seeds.hpp"
 #include "bench/tuning/range_key.hpp"
-#include "bench/jobs/scenario_variants.hpp"
-#include "bench/jobs/unit_id.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/jobs/sweep_unit.hpp"
+#include "bench/tuning/design.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
-#include "bench/tuning/design.hpp"
-#include "bench/jobs/sweep_unit.hpp"
 
 namespace aims {
 

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "core/error.hpp"
+#include "bench/jobs/unit_runner.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/tune_plan.hpp"
-#include "bench/jobs/unit_runner.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

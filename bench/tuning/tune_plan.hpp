@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "core/config.hpp"
-#include "core/error.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/tuning/design.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/optimizer.hpp"
+#include "core/config.hpp"
+#include "core/error.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/tuning/tune.hpp"
+#include "core/error.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/tum.hpp"
 #include "core/lie.hpp"
 #include "core/time.hpp"
-#include "core/files/tum.hpp"
 
 namespace aims {
 

@@ -29,10 +29,9 @@ Result<void> check_replaceable(const fs::path& path, bool overwrite) {
     return failure(fmt::format(
         "{}: exists already; give another --out, or --overwrite to replace it", path.string()));
   }
-  const bool holds_results = fs::exists(path / "scores.json") ||
-                             fs::exists(path / "summary.json") ||
-                             fs::exists(path / "detectors.json") ||
-                             fs::exists(path / "render.json");
+  const bool holds_results =
+      fs::exists(path / "scores.json") || fs::exists(path / "summary.json") ||
+      fs::exists(path / "detectors.json") || fs::exists(path / "render.json");
   if (holds_results || (fs::is_directory(path) && fs::is_empty(path))) return {};
   return failure(fmt::format("{}: holds no results (no scores.json), so it is not overwritten",
                              path.string()));

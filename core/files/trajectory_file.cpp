@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "core/files/atomic_file.hpp"
-#include "recordings/bag_trajectory.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
+#include "recordings/bag_trajectory.hpp"
 
 namespace aims {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/trajectory.hpp"
 #include "core/files/tum.hpp"
+#include "core/trajectory.hpp"
 
 namespace aims {
 

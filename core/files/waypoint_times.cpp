@@ -48,7 +48,8 @@ std::optional<WaypointTime> parse_row(std::string_view line) {
 
 }  // namespace
 
-Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text, const std::string& name) {
+Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text,
+                                                       const std::string& name) {
   std::vector<WaypointTime> waypoint_times;
   LineReader lines(text, name);
   const auto header = lines.next();

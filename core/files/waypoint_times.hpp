@@ -10,8 +10,10 @@
 
 namespace aims {
 
-/// Reads the waypoint times that a run writes: a header line "point,stamp_s", then a row each; the stamps
-/// in seconds must not decrease. Names may be quoted as in RFC 4180. Errors: "name:line: ...".
-Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text, const std::string& name);
+/// Reads the waypoint times that a run writes: a header line "point,stamp_s", then a row each; the
+/// stamps in seconds must not decrease. Names may be quoted as in RFC 4180. Errors: "name:line:
+/// ...".
+Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text,
+                                                       const std::string& name);
 
 }  // namespace aims

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/aims/eskf_estimator.hpp"
 
-#include "estimator/lidar/deskew.hpp"
 #include "estimator/filter/imu_propagation.hpp"
 #include "estimator/filter/initialization.hpp"
 #include "estimator/legs/leg_displacement_model.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
+#include "estimator/lidar/deskew.hpp"
 
 namespace aims {
 namespace {

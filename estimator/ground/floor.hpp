@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "estimator/aims/directional_config.hpp"
-#include "estimator/ground/floor_plane.hpp"
 #include "estimator/filter/kalman_update.hpp"
+#include "estimator/ground/floor_plane.hpp"
 
 namespace aims {
 

@@ -3,8 +3,8 @@
 
 #include "core/measurements.hpp"
 #include "estimator/aims/config.hpp"
-#include "estimator/legs/leg_displacement.hpp"
 #include "estimator/filter/pose_clone.hpp"
+#include "estimator/legs/leg_displacement.hpp"
 
 namespace aims {
 

@@ -12,7 +12,7 @@ constexpr Duration kStep = kMillisecond;
 }  // namespace
 
 ScanMotion::ScanMotion(const NominalState& end_state, std::span<const InertialSegment> segments,
-                         const Pose& T_body_lidar, double gravity) {
+                       const Pose& T_body_lidar, double gravity) {
   const Pose T_end_odom = end_state.T_odom_body().inverse();
   const auto knot = [&](const NominalState& state) {
     const Pose T_end_lidar = T_end_odom * state.T_odom_body() * T_body_lidar;

@@ -17,7 +17,7 @@ class ScanMotion {
   /// Propagates `end_state`, the state at the last segment's end, backward through `segments`
   /// (consecutive, oldest first).
   ScanMotion(const NominalState& end_state, std::span<const InertialSegment> segments,
-              const Pose& T_body_lidar, double gravity);
+             const Pose& T_body_lidar, double gravity);
 
   /// A point fired at `time` from LiDAR coordinates of that instant to body coordinates of the
   /// scan's end; times outside the segments take the nearest end.

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "estimator/degeneracy/axis_weights.hpp"
 #include "estimator/aims/config.hpp"
+#include "estimator/degeneracy/axis_weights.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
 #include "estimator/degeneracy/disagreement.hpp"
 #include "estimator/estimator.hpp"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/time.hpp"
 #include "core/files/byte_cursor.hpp"
+#include "core/time.hpp"
 
 namespace aims {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "recordings/inspection/bag_info.hpp"
 #include "core/files/table.hpp"
+#include "recordings/inspection/bag_info.hpp"
 
 namespace aims {
 

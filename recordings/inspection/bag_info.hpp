@@ -12,8 +12,8 @@
 
 #include "core/error.hpp"
 #include "core/lie.hpp"
-#include "recordings/inspection/clock_offset.hpp"
 #include "recordings/bag/bag_reader.hpp"
+#include "recordings/inspection/clock_offset.hpp"
 #include "recordings/stream/recording_config.hpp"
 
 namespace aims {
@@ -33,8 +33,8 @@ struct TopicInfo {
   std::optional<double> median_offset_s;  ///< record time minus stamp
   std::optional<double> smallest_offset_s;
   std::optional<double> largest_offset_s;
-  std::optional<ClockOffset> clock;        ///< against the IMU, by the turns that both felt
-  Time first_stamp = 0;  ///< of the header, or the record time
+  std::optional<ClockOffset> clock;  ///< against the IMU, by the turns that both felt
+  Time first_stamp = 0;              ///< of the header, or the record time
   Time last_stamp = 0;
 };
 
@@ -48,14 +48,14 @@ struct PointFieldInfo {
 struct CloudInfo {
   std::string topic;
   std::vector<PointFieldInfo> fields;  ///< of a Livox CustomMsg, those of its points
-  std::size_t point_step = 0;  ///< [bytes]
-  std::size_t height = 0;      ///< 1: not organised
-  bool dense = false;          ///< says that it holds no NaN
-  std::uint64_t clouds = 0;    ///< looked at
-  std::uint64_t broken = 0;    ///< met before so many were looked at
-  std::string first_broken;    ///< what was wrong with the first
-  double mean_points = 0.0;       ///< per cloud
-  double not_finite_share = 0.0;  ///< of the points [-]
+  std::size_t point_step = 0;          ///< [bytes]
+  std::size_t height = 0;              ///< 1: not organised
+  bool dense = false;                  ///< says that it holds no NaN
+  std::uint64_t clouds = 0;            ///< looked at
+  std::uint64_t broken = 0;            ///< met before so many were looked at
+  std::string first_broken;            ///< what was wrong with the first
+  double mean_points = 0.0;            ///< per cloud
+  double not_finite_share = 0.0;       ///< of the points [-]
 
   const PointFieldInfo* find(const std::string& name) const;
   const PointFieldInfo* time_field() const;  ///< nullptr: points carry no time

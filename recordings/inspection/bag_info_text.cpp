@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "recordings/inspection/bag_info.hpp"
 #include "core/files/table.hpp"
+#include "recordings/inspection/bag_info.hpp"
 
 namespace aims {
 namespace {

@@ -21,9 +21,9 @@ struct ClockOffset {
 };
 
 /// The offset at which two sensors on one body felt the same turns: the peak of the correlation of
-/// their rates within half a second. `rates` and `reference` are in order of time. Nothing when they
-/// overlap by less than 10 s, hardly turn, or do not agree. A rate averaged over an interval and
-/// stamped at its end counts as half the interval late.
+/// their rates within half a second. `rates` and `reference` are in order of time. Nothing when
+/// they overlap by less than 10 s, hardly turn, or do not agree. A rate averaged over an interval
+/// and stamped at its end counts as half the interval late.
 std::optional<ClockOffset> clock_offset(const std::vector<TurnRate>& rates,
                                         const std::vector<TurnRate>& reference);
 

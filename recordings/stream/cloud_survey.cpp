@@ -155,8 +155,8 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
   std::optional<Duration> span;
   for (std::size_t field = 0; field < time_fields_.size(); ++field) {
     if (!decide_clock(config, field, about, reading)) {
-      notes.push_back(fmt::format(
-          "point field '{}' does not pass with the scan: not taken as time", time_fields_[field]));
+      notes.push_back(fmt::format("point field '{}' does not pass with the scan: not taken as time",
+                                  time_fields_[field]));
       continue;
     }
     std::vector<Duration> spans;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/lie.hpp"
-#include "recordings/stream/event_counts.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/stream/event_counts.hpp"
 
 namespace aims {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/measurements.hpp"
+#include "recordings/messages/message_decoder.hpp"
 #include "recordings/stream/event_counts.hpp"
 #include "recordings/stream/leg_names.hpp"
 #include "recordings/stream/message_values.hpp"
-#include "recordings/messages/message_decoder.hpp"
 
 namespace aims {
 

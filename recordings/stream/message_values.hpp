@@ -7,8 +7,8 @@
 
 #include "core/lie.hpp"
 #include "core/time.hpp"
-#include "recordings/stream/event_counts.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/stream/event_counts.hpp"
 
 namespace aims {
 

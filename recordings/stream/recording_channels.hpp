@@ -12,8 +12,8 @@
 
 #include "core/error.hpp"
 #include "recordings/bag/bag_reader.hpp"
-#include "recordings/stream/recording_config.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/stream/recording_config.hpp"
 
 namespace aims {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "recordings/stream/recording_topics.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "recordings/stream/recording_topics.hpp"
 
 namespace aims {
 namespace {

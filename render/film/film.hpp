@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "render/film/filmed_walk.hpp"
-#include "render/plots/image.hpp"
 #include "render/film/movie.hpp"
+#include "render/plots/image.hpp"
 
 namespace aims {
 

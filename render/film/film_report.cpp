@@ -7,11 +7,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/files/atomic_file.hpp"
+#include "core/files/output_folder.hpp"
+#include "render/film/apng.hpp"
 #include "render/film/ffmpeg.hpp"
 #include "render/film/vector_pictures.hpp"
-#include "core/files/output_folder.hpp"
-#include "core/files/atomic_file.hpp"
-#include "render/film/apng.hpp"
 #include "render/plots/canvas.hpp"
 
 namespace aims {

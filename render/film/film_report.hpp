@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "render/film/film.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/scenario.hpp"
+#include "core/error.hpp"
+#include "render/film/film.hpp"
 
 namespace aims {
 

@@ -3,8 +3,8 @@
 
 #include "bench/metrics/association.hpp"
 #include "bench/run/start_anchor.hpp"
-#include "core/stopwatch.hpp"
 #include "bench/run/stream.hpp"
+#include "core/stopwatch.hpp"
 
 namespace aims {
 namespace {

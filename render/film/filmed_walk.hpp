@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/run.hpp"
+#include "bench/run/scenario.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
 #include "render/film/map_growth.hpp"
-#include "bench/run/run.hpp"
-#include "bench/run/scenario.hpp"
 #include "render/plots/trajectory_plot.hpp"
 #include "sim/environment/scene.hpp"
 #include "sim/robot/truth.hpp"

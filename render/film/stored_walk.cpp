@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "estimator/estimator_spec.hpp"
 #include "bench/run/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/files/waypoint_times.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
+#include "core/files/waypoint_times.hpp"
+#include "estimator/estimator_spec.hpp"
 #include "sim/environment/scene_config.hpp"
 
 namespace aims {

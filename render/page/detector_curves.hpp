@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "core/error.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
 #include "render/page/page_data.hpp"
 
 namespace aims {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "core/error.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

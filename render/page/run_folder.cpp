@@ -9,13 +9,13 @@
 #include <map>
 #include <utility>
 
+#include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/association.hpp"
 #include "bench/run/estimate.hpp"
-#include "bench/jobs/stored_results.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/files/waypoint_times.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
+#include "core/files/waypoint_times.hpp"
 
 namespace aims {
 namespace {

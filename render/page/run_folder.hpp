@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/trajectory.hpp"
 #include "bench/metrics/scores.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/score_record.hpp"
+#include "core/error.hpp"
 #include "core/files/csv_columns.hpp"
+#include "core/trajectory.hpp"
 
 namespace aims {
 

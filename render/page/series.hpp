@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/trajectory.hpp"
 #include "core/files/csv_columns.hpp"
+#include "core/trajectory.hpp"
 #include "render/page/page_data.hpp"
 
 namespace aims {

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "bench/studies/comparison.hpp"
 #include "bench/jobs/stored_results.hpp"
+#include "bench/jobs/unit_store.hpp"
+#include "bench/studies/comparison.hpp"
 #include "bench/studies/suite.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "bench/jobs/unit_store.hpp"
 #include "render/page/detector_curves.hpp"
 #include "render/page/json_access.hpp"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "bench/tuning/objective.hpp"
 #include "bench/jobs/sweep_store.hpp"
+#include "bench/tuning/objective.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

@@ -179,9 +179,11 @@ Panel plan_panel(const TrajectoryPlot& plot, const Study& study) {
 std::vector<Event> events_of(const TrajectoryPlot& plot, const Study& study) {
   std::vector<Event> events;
   for (const WaypointTime& waypoint_time : plot.waypoint_times) {
-    if (plot.truth.front().stamp > waypoint_time.stamp || plot.truth.back().stamp < waypoint_time.stamp)
+    if (plot.truth.front().stamp > waypoint_time.stamp ||
+        plot.truth.back().stamp < waypoint_time.stamp)
       continue;
-    events.push_back({distance_at(plot.truth, study.truth_distance, waypoint_time.stamp), waypoint_time.point});
+    events.push_back(
+        {distance_at(plot.truth, study.truth_distance, waypoint_time.stamp), waypoint_time.point});
   }
   return events;
 }

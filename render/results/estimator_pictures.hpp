@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
+#include "bench/run/run.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
-#include "bench/run/run.hpp"
 
 namespace aims {
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "render/results/estimator_pictures.hpp"
 #include "bench/run/start_anchor.hpp"
-#include "render/scene/robot_pictures.hpp"
 #include "render/plots/trajectory_plot.hpp"
+#include "render/results/estimator_pictures.hpp"
+#include "render/scene/robot_pictures.hpp"
 #include "sim/robot/quadruped_model.hpp"
 
 namespace aims {

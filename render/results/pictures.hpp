@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/error.hpp"
 #include "bench/run/run.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "core/error.hpp"
 #include "bench/run/trajectory_scoring.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 

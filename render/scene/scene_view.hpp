@@ -30,7 +30,8 @@ struct ViewConfig {
   int height = 720;  ///< [px]
   int samples = 4;   ///< per pixel; 0: edges are not smoothed
   bool shadows = true;
-  std::optional<Color> sky = std::nullopt;  ///< one colour for what has no end; none: as the document says
+  std::optional<Color> sky =
+      std::nullopt;  ///< one colour for what has no end; none: as the document says
 };
 
 /// A MuJoCo model ready to be drawn in any configuration. Stays in the thread that made it.

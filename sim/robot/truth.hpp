@@ -30,10 +30,10 @@ struct RobotSnapshot {
 
 /// What really happened. Returned apart from the measurements; no estimator ever sees it.
 struct Truth {
-  std::vector<TruthSample> samples;      ///< at the physics rate
-  std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz
-  std::vector<WaypointTime> waypoint_times;         ///< of the route's named points, in order
-  std::vector<ScanInformation> scans;    ///< of the scans that did not get lost on their way
+  std::vector<TruthSample> samples;          ///< at the physics rate
+  std::vector<RobotSnapshot> snapshots;      ///< at 10 Hz
+  std::vector<WaypointTime> waypoint_times;  ///< of the route's named points, in order
+  std::vector<ScanInformation> scans;        ///< of the scans that did not get lost on their way
   bool fell = false;
   bool touched_wall = false;
 };

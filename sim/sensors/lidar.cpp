@@ -63,7 +63,8 @@ std::vector<bool> living_rings(const LidarConfig& config, std::uint64_t run_seed
   return alive;
 }
 
-/// The time of a firing as a sensor's float32 seconds hold it, so that a recording loses nothing [ns].
+/// The time of a firing as a sensor's float32 seconds hold it, so that a recording loses nothing
+/// [ns].
 std::int32_t sensor_time_offset(double offset_ns) {
   const auto seconds = static_cast<float>(offset_ns * 1e-9);
   return static_cast<std::int32_t>(std::llround(static_cast<double>(seconds) * 1e9));

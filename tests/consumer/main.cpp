@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/files/tum.hpp"
 #include "core/measurements.hpp"
 #include "estimator/registry.hpp"
 #include "recordings/stream/recording_reader.hpp"
-#include "core/files/tum.hpp"
 
 template <class Value>
 Value or_exit(aims::Result<Value> result) {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/run/scenario.hpp"
 #include "bench/jobs/unit_id.hpp"
+#include "bench/run/scenario.hpp"
 
 namespace aims {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/files/byte_cursor.hpp"
 #include "recordings/bag/bag_output.hpp"
 #include "recordings/bag/bag_publisher.hpp"
 #include "recordings/bag/bag_writer.hpp"
-#include "core/files/byte_cursor.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 #include "tests/fuzz/memory_file.hpp"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <span>
 
-#include "recordings/stream/recording_config.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/stream/recording_config.hpp"
 
 namespace aims {
 

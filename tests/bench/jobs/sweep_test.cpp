@@ -10,8 +10,8 @@
 #include "bench/jobs/sweep_folder.hpp"
 #include "bench/jobs/sweep_store.hpp"
 #include "core/files/atomic_file.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/bench/jobs/short_walk.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {

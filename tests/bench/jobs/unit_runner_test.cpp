@@ -8,8 +8,8 @@
 #include <csignal>
 #include <fstream>
 
-#include "tests/support/temporary_folder.hpp"
 #include "tests/bench/jobs/short_walk.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {

@@ -9,14 +9,14 @@
 #include <chrono>
 #include <fstream>
 
-#include "bench/run/run.hpp"
-#include "bench/run/score_record.hpp"
 #include "bench/jobs/evaluate.hpp"
 #include "bench/jobs/walk_file.hpp"
+#include "bench/run/run.hpp"
+#include "bench/run/score_record.hpp"
 #include "core/files/atomic_file.hpp"
 #include "sim/simulation.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/bench/jobs/short_walk.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {

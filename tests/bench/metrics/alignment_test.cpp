@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/random.hpp"
 #include "bench/metrics/absolute_error.hpp"
+#include "core/random.hpp"
 #include "tests/bench/metrics/trajectories.hpp"
 
 namespace aims {

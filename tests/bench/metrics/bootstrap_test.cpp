@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/random.hpp"
 #include "bench/metrics/statistics.hpp"
+#include "core/random.hpp"
 
 namespace aims {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "core/random.hpp"
 #include "bench/metrics/chi_square.hpp"
+#include "core/random.hpp"
 
 namespace aims {
 namespace {

@@ -10,7 +10,8 @@ namespace aims {
 namespace {
 
 std::vector<SegmentDrift> drifts_of(const Trajectory& estimate) {
-  return segment_drifts(estimate, test::true_walk(), segments_of(test::walk_waypoint_times()), kSecond);
+  return segment_drifts(estimate, test::true_walk(), segments_of(test::walk_waypoint_times()),
+                        kSecond);
 }
 
 DriftSummary summary_of(const Trajectory& estimate) {

@@ -7,8 +7,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "core/random.hpp"
 #include "bench/metrics/localizability_scores.hpp"
+#include "core/random.hpp"
 
 namespace aims {
 namespace {

@@ -9,12 +9,13 @@ namespace aims {
 namespace {
 
 std::vector<SegmentDistance> distances_of(const Trajectory& estimate, Duration edge = kSecond) {
-  return segment_distances(estimate, test::true_walk(), segments_of(test::walk_waypoint_times()), 1.0,
-                           edge);
+  return segment_distances(estimate, test::true_walk(), segments_of(test::walk_waypoint_times()),
+                           1.0, edge);
 }
 
 TEST(Segments, AreNamedByTheirPoints) {
-  const std::vector<WaypointTime> waypoint_times = {{"a", 0}, {"b", 1}, {"a", 2}, {"b", 3}, {"c", 4}};
+  const std::vector<WaypointTime> waypoint_times = {
+      {"a", 0}, {"b", 1}, {"a", 2}, {"b", 3}, {"c", 4}};
   const auto segments = segments_of(waypoint_times);
   ASSERT_EQ(segments.size(), 4U);
   EXPECT_EQ(segments[0].name, "a-b");
@@ -25,8 +26,8 @@ TEST(Segments, AreNamedByTheirPoints) {
 }
 
 TEST(Segments, MayLeavePointsInBetweenOut) {
-  const std::vector<WaypointTime> waypoint_times = {{"a", 0}, {"b", 1}, {"d", 2}, {"f", 3}, {"h", 4},
-                                         {"f", 5}, {"d", 6}, {"b", 7}, {"a", 8}};
+  const std::vector<WaypointTime> waypoint_times = {
+      {"a", 0}, {"b", 1}, {"d", 2}, {"f", 3}, {"h", 4}, {"f", 5}, {"d", 6}, {"b", 7}, {"a", 8}};
   const std::vector<std::string> names = {"h-d", "a-d", "d-h", "d-a"};
   const auto segments = segments_named(waypoint_times, names);
   ASSERT_EQ(segments.size(), 4U);
@@ -111,9 +112,9 @@ TEST(MList, HasNoValueWhereTheEstimateIsMissing) {
 
 TEST(MList, LeavesOutATurnOnTheSpot) {
   const std::vector<WaypointTime> waypoint_times = {{"a", 0},
-                                         {"b", from_seconds(test::kThere)},
-                                         {"b2", from_seconds(test::kBackFrom)},
-                                         {"a", from_seconds(test::kEnd)}};
+                                                    {"b", from_seconds(test::kThere)},
+                                                    {"b2", from_seconds(test::kBackFrom)},
+                                                    {"a", from_seconds(test::kEnd)}};
   const auto distances = segment_distances(test::perfect_walk(), test::true_walk(),
                                            segments_of(waypoint_times), 1.0, kSecond);
   ASSERT_EQ(distances.size(), 2U);

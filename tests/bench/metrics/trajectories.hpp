@@ -5,8 +5,8 @@
 #include <functional>
 #include <numbers>
 
-#include "core/trajectory.hpp"
 #include "bench/metrics/association.hpp"
+#include "core/trajectory.hpp"
 
 namespace aims::test {
 

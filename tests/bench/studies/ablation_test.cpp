@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "bench/studies/consistency_study.hpp"
 #include "bench/run/weak_axis_series.hpp"
+#include "bench/studies/consistency_study.hpp"
 #include "core/files/atomic_file.hpp"
 #include "tests/bench/run/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"

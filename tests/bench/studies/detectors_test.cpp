@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "core/random.hpp"
 #include "bench/studies/detector_report.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/random.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

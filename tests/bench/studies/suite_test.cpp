@@ -7,10 +7,10 @@
 #include <fstream>
 #include <map>
 
-#include "bench/studies/families.hpp"
-#include "core/files/folder_lock.hpp"
 #include "bench/jobs/unit_id.hpp"
+#include "bench/studies/families.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/folder_lock.hpp"
 #include "tests/bench/run/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/tuning/range_key.hpp"
 #include "bench/jobs/sweep.hpp"
 #include "bench/jobs/sweep_folder.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "bench/tuning/range_key.hpp"
 #include "tests/bench/jobs/short_walk.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {

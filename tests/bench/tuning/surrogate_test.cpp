@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/random.hpp"
 #include "bench/tuning/design.hpp"
+#include "core/random.hpp"
 
 namespace aims {
 namespace {

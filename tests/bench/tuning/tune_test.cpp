@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "core/random.hpp"
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/tune_report.hpp"
 #include "core/files/yaml_config.hpp"
+#include "core/random.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

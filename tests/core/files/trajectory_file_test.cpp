@@ -9,8 +9,8 @@
 
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/bag_trajectory.hpp"
-#include "recordings/stream/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "recordings/stream/message_encoding.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/files/atomic_file.hpp"
+#include "core/files/byte_cursor.hpp"
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/bag/bag_writer.hpp"
-#include "core/files/byte_cursor.hpp"
 #include "recordings/messages/message_types.hpp"
 
 namespace aims {

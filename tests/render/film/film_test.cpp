@@ -13,7 +13,7 @@ namespace {
 /// A scan of one second whose returns all come from one place of the world, though the sensor
 /// moves.
 LidarScanPtr scan_of(const Eigen::Vector3d& p_world, const Trajectory& T_world_body,
-                      const Pose& T_body_lidar, Time stamp) {
+                     const Pose& T_body_lidar, Time stamp) {
   auto scan = std::make_shared<LidarScan>();
   scan->stamp = stamp;
   scan->end = stamp + kSecond;

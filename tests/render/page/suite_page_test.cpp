@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/studies/comparison.hpp"
 #include "bench/jobs/stored_results.hpp"
+#include "bench/studies/comparison.hpp"
 #include "bench/studies/suite.hpp"
 #include "render/page/json_access.hpp"
 #include "tests/render/page/decoded_page.hpp"

@@ -4,13 +4,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/random.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/tables.hpp"
 #include "core/files/csv.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
+#include "core/random.hpp"
 
 namespace aims::testing {
 namespace {

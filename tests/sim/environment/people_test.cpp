@@ -149,8 +149,7 @@ TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
     const Time start = scan * 3 * kSecond;
     const Vector3d sensor(12.0, 0.1, 0.45);
     ScanTruth truth;
-    const LidarScan scan =
-        lidar.scan(start, {{start, {so3_exp({0.0, 0.0, 0.3}), sensor}}}, &truth);
+    const LidarScan scan = lidar.scan(start, {{start, {so3_exp({0.0, 0.0, 0.3}), sensor}}}, &truth);
     ASSERT_EQ(truth.surfaces.size(), scan.points.size());
     for (std::size_t i = 0; i < scan.points.size(); ++i) {
       if (truth.surfaces[i] < caster.first_moving_surface()) continue;

@@ -7,10 +7,10 @@
 
 #include "sim/environment/scene_config.hpp"
 #include "sim/environment/scene_mjcf.hpp"
-#include "sim/sensors/leg_odometry.hpp"
 #include "sim/robot/quadruped_model.hpp"
 #include "sim/robot/truth.hpp"
 #include "sim/robot/walker.hpp"
+#include "sim/sensors/leg_odometry.hpp"
 
 namespace aims::testing {
 

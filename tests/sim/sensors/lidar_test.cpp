@@ -64,7 +64,7 @@ Trajectory still(const Vector3d& position = {40.0, 0.0, 0.45}) {
 
 /// One scan of a new LiDAR.
 LidarScan one_scan(const Scene& scene, const LidarConfig& config, const Trajectory& poses,
-                    std::uint64_t seed = 1) {
+                   std::uint64_t seed = 1) {
   const RayCaster caster(scene);
   return Lidar(config, caster, seed).scan(poses.front().stamp, poses);
 }
