@@ -30,14 +30,14 @@ void TimedEstimator::finish() {
 
 template <class Work>
 void TimedEstimator::timed(const Work& work) {
-  const EstimatorResult& report = estimator_->report();
-  const std::size_t scans_before = scans_in(report);
+  const EstimatorResult& result = estimator_->result();
+  const std::size_t scans_before = scans_in(result);
   const Stopwatch stopwatch;
   work();
   const double seconds = stopwatch.seconds();
   total_seconds_ += seconds;
   seconds_since_scan_ += seconds;
-  const std::size_t scans = scans_in(report);
+  const std::size_t scans = scans_in(result);
   if (scans <= scans_before) return;
   const auto done = static_cast<double>(scans - scans_before);
   scan_times_ms_.resize(scans, 1e3 * seconds_since_scan_ / done);

@@ -71,7 +71,7 @@ void time_per_scan(benchmark::State& state) {
     auto estimator = make_estimator("aims", EstimatorConfig{}, world.rig());
     for (const Delivery& delivery : deliveries) (*estimator)->consume(delivery);
     (*estimator)->finish();
-    scans += (*estimator)->report().trajectory.size();
+    scans += (*estimator)->result().trajectory.size();
   }
   state.counters["per_scan"] = benchmark::Counter(
       static_cast<double>(scans), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);

@@ -34,7 +34,7 @@ Result<DetectorRun> run_unit(const Unit& unit, const std::string& estimator,
   const auto result =
       run(scenario, {unit.seed, 1}, [&wanted](const Progress&) { return wanted.load(); });
   if (!result) return tl::unexpected(result.error());
-  const EstimatorResult& report = result->estimators.front().report;
+  const EstimatorResult& report = result->estimators.front().result;
   if (report.diagnostics.empty() && !report.trajectory.empty()) {
     return failure(fmt::format("estimator {} records no diagnostics of scans", estimator));
   }
