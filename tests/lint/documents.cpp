@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/lint/documents.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+namespace aims::lint {
+
+namespace fs = std::filesystem;
+
+std::vector<Line> split_lines(const std::string& source, const std::string& text) {
+  std::vector<Line> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back({source, static_cast<int>(lines.size()) + 1, line});
+  }
+  return lines;
+}
+
+std::vector<Line> read_lines(const fs::path& file) {
+  std::ifstream stream(fs::path(AIMS_SOURCE_DIR) / file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return split_lines(file.string(), text.str());
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> files{"README.md"};
+  for (const auto& entry : fs::directory_iterator(fs::path(AIMS_SOURCE_DIR) / "docs")) {
+    if (entry.path().extension() == ".md") files.push_back("docs" / entry.path().filename());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<Line> newest_changes() {
+  const std::regex code("`[^`]*`");
+  std::vector<Line> newest;
+  int sections = 0;
+  for (Line& line : read_lines("CHANGELOG.md")) {
+    sections += line.text.starts_with("## ") ? 1 : 0;
+    if (sections > 1) break;
+    line.text = std::regex_replace(line.text, code, "`...`");
+    newest.push_back(line);
+  }
+  return newest;
+}
+
+std::string place(const Line& line) { return line.source + ":" + std::to_string(line.number); }
+
+}  // namespace aims::lint

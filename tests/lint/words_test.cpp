@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Holds documents against private_words.txt, and their links against the source tree.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <filesystem>
+#include <regex>
+#include <set>
+
+#include "tests/lint/word_list.hpp"
+
+namespace aims::lint {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kWords = "tests/lint/private_words.txt";
+
+void expect_no_private_words(const std::vector<Line>& lines) {
+  for (const std::string& message : private_words_in(lines, read_word_list(kWords))) {
+    ADD_FAILURE() << message;
+  }
+}
+
+/// The fragment that GitHub gives a heading: lower case, blanks as hyphens, no punctuation.
+std::string fragment_of(const std::string& heading) {
+  std::string fragment;
+  for (const char letter : heading) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (std::isalnum(byte) || letter == '_' || letter == '-' || byte >= 128) {
+      fragment += static_cast<char>(std::tolower(byte));
+    } else if (letter == ' ') {
+      fragment += '-';
+    }
+  }
+  return fragment;
+}
+
+std::set<std::string> fragments_of(const fs::path& document) {
+  std::set<std::string> fragments;
+  const std::regex heading("^#+ +(.*[^ ]) *$");
+  for (const Line& line : read_lines(document)) {
+    std::smatch match;
+    if (std::regex_match(line.text, match, heading)) fragments.insert(fragment_of(match[1]));
+  }
+  return fragments;
+}
+
+/// Every match of `pattern`'s first group in the lines of all documents.
+std::vector<Line> matches_in_documents(const std::regex& pattern) {
+  std::vector<Line> found;
+  for (const fs::path& document : documents()) {
+    for (const Line& line : read_lines(document)) {
+      const auto end = std::sregex_iterator();
+      for (auto match = std::sregex_iterator(line.text.begin(), line.text.end(), pattern);
+           match != end; ++match) {
+        found.push_back({line.source, line.number, (*match)[1]});
+      }
+    }
+  }
+  return found;
+}
+
+TEST(Words, AnEntryNamesLineWordAndReplacement) {
+  const auto found = private_words_in(split_lines("page.md", "fine\nthe share of scans\n"),
+                                      read_word_list(kWords));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front(), "page.md:2: \"share\": write fraction");
+}
+
+TEST(Words, AnAllowedPhraseIsNoFinding) {
+  EXPECT_TRUE(private_words_in(split_lines("page.md", "all processes share the pages; each way"),
+                               read_word_list(kWords))
+                  .empty());
+}
+
+TEST(Words, DocumentsUseTheFieldsTerms) {
+  for (const fs::path& document : documents()) expect_no_private_words(read_lines(document));
+}
+
+TEST(Words, TheNewestChangesUseTheFieldsTerms) { expect_no_private_words(newest_changes()); }
+
+TEST(Documents, LinksAndPicturesExist) {
+  for (const Line& link : matches_in_documents(std::regex(R"(\]\(([^)\s]+)\))"))) {
+    if (link.text.starts_with("http")) continue;
+    const std::size_t hash = link.text.find('#');
+    const fs::path folder = fs::path(link.source).parent_path();
+    const std::string file = link.text.substr(0, hash);
+    const fs::path target = file.empty() ? fs::path(link.source) : (folder / file);
+    EXPECT_TRUE(fs::exists(fs::path(AIMS_SOURCE_DIR) / target)) << place(link) << ": " << link.text;
+    if (hash == std::string::npos) continue;
+    EXPECT_TRUE(fragments_of(target.lexically_normal()).contains(link.text.substr(hash + 1)))
+        << place(link) << ": no heading for " << link.text;
+  }
+}
+
+TEST(Documents, EveryPictureIsShown) {
+  std::set<std::string> shown;
+  for (const Line& link : matches_in_documents(std::regex(R"(\]\(([^)\s]+\.(?:png|svg))\))"))) {
+    shown.insert(fs::path(link.text).filename().string());
+  }
+  for (const auto& entry : fs::directory_iterator(fs::path(AIMS_SOURCE_DIR) / "docs")) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".png" && extension != ".svg") continue;
+    EXPECT_TRUE(shown.contains(entry.path().filename().string())) << entry.path() << " is unused";
+  }
+}
+
+TEST(Documents, NamedFilesExist) {
+  const std::regex span(
+      R"(`((?:core|estimator|sim|recordings|bench|render|tests|scripts|models|scenarios|ros|docs|cmake)/[\w./-]*)`)");
+  for (const Line& path : matches_in_documents(span)) {
+    EXPECT_TRUE(fs::exists(fs::path(AIMS_SOURCE_DIR) / path.text))
+        << place(path) << ": " << path.text << " does not exist";
+  }
+}
+
+TEST(Documents, LinesOfProseFitTheWidth) {
+  for (const fs::path& document : documents()) {
+    bool code = false;
+    for (const Line& line : read_lines(document)) {
+      if (line.text.starts_with("```")) code = !code;
+      const bool table = line.text.starts_with("|");
+      const bool link = line.text.find("](") != std::string::npos;
+      const bool command = line.text.find("`aims ") != std::string::npos;
+      if (code || table || link || command) continue;
+      EXPECT_LE(line.text.size(), 160u) << place(line);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace aims::lint
