@@ -4,37 +4,23 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "core/stopwatch.hpp"
 #include "sim/environment/ray_caster.hpp"
 #include "sim/environment/scene_mjcf.hpp"
 #include "sim/links/arrivals.hpp"
 #include "sim/robot/quadruped_model.hpp"
 #include "sim/robot/walker.hpp"
-#include "sim/sensors/localizability.hpp"
+#include "sim/sensors/fisher_information.hpp"
 
 namespace aims {
 namespace {
 
 constexpr Duration kSnapshotPeriod = 100 * kMillisecond;
 constexpr double kStartClearance = 0.15;  ///< of the robot's trunk from solids [m]
-
-/// Adds the wall time of a scope to a total.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& total_;
-  Clock::time_point start_ = Clock::now();
-};
 
 Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene) {
   auto mjcf = scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics,
@@ -178,7 +164,7 @@ void Simulation::Impl::send_scan() {
   const RobotState& state = walker.world().state();
   scan_motion.push_back({state.stamp, state.T_world_base * T_base_body * rig.T_body_lidar});
   if (state.stamp - scan_motion.front().stamp < lidar.period()) return;
-  const Stopwatch watch(times.lidar);
+  const Stopwatch watch;
   ScanTruth seen;
   auto scan =
       std::make_shared<LidarScan>(lidar.scan(scan_motion.front().stamp, scan_motion, &seen));
@@ -190,6 +176,7 @@ void Simulation::Impl::send_scan() {
                                            config.lidar.range_sigma,
                                            caster.first_moving_surface()));
   }
+  times.lidar += watch.seconds();
   scan_motion.erase(scan_motion.begin(), scan_motion.end() - 1);
 }
 
@@ -217,10 +204,9 @@ void Simulation::Impl::record() {
 }
 
 void Simulation::Impl::step() {
-  {
-    const Stopwatch watch(times.physics);
-    step_pushed(walker, pushes);
-  }
+  const Stopwatch watch;
+  step_pushed(walker, pushes);
+  times.physics += watch.seconds();
   record();
 }
 

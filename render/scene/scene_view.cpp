@@ -7,46 +7,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "render/scene/offscreen_context.hpp"
+#include "sim/environment/mujoco_model.hpp"
 
 namespace aims {
 namespace {
 
 constexpr int kMaxGeoms = 20000;
 constexpr double kFieldOfViewDeg = 50.0;  ///< from the lower edge to the upper
-
-struct ModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DataDeleter {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
-using DataPtr = std::unique_ptr<mjData, DataDeleter>;
-
-/// MuJoCo's own handler waits for a key; nothing sensible can follow an internal error.
-[[noreturn]] void on_error(const char*) { std::abort(); }
-
-Result<ModelPtr> load_model(const std::string& mjcf) {
-  if (mju_user_error == nullptr) mju_user_error = on_error;
-  auto files = std::make_unique<mjVFS>();  // 2 MB, too large for the stack
-  mj_defaultVFS(files.get());
-  std::array<char, 1000> why{};
-  if (mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(mjcf.size())) != 0) {
-    return failure("cannot hand the scene to MuJoCo");
-  }
-  std::memcpy(files->filedata[files->nfile - 1], mjcf.data(), mjcf.size());
-  ModelPtr model(mj_loadXML("scene.xml", files.get(), why.data(), static_cast<int>(why.size())));
-  mj_deleteVFS(files.get());
-  if (!model) return failure(std::string("MuJoCo rejects the scene to draw: ") + why.data());
-  return model;
-}
 
 void set_quality(mjModel& model, const ViewConfig& config) {
   model.vis.global.offwidth = config.width;
@@ -130,8 +102,8 @@ Eigen::Vector3d Camera::position() const {
 
 struct SceneView::Impl {
   ViewConfig config;
-  ModelPtr model;
-  DataPtr data;
+  MujocoModel model;
+  MujocoData data;
   std::optional<OffscreenContext> gl;  // outlives what MuJoCo keeps in it
   mjvScene scene{};
   mjvOption option{};
@@ -159,12 +131,9 @@ Result<SceneView> SceneView::create(const std::string& mjcf, const std::vector<f
                                     const ViewConfig& config) {
   auto impl = std::make_unique<Impl>();
   impl->config = config;
-  auto model = load_model(mjcf);
+  auto model = load_mujoco_model(mjcf, height_field);
   if (!model) return tl::unexpected(model.error());
   impl->model = std::move(*model);
-  const auto capacity = static_cast<std::size_t>(impl->model->nhfielddata);
-  std::copy_n(height_field.begin(), std::min(height_field.size(), capacity),
-              impl->model->hfield_data);
   set_quality(*impl->model, config);
   if (config.sky) set_sky(*impl->model, *config.sky);
   impl->data.reset(mj_makeData(impl->model.get()));

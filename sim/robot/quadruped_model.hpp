@@ -5,7 +5,7 @@
 
 namespace aims {
 
-/// The robot as an MJCF document of its own (models/quadruped.xml), built into the library.
+/// The robot as an MJCF document of its own (models/quadruped/quadruped.xml), built into the library.
 /// Bodies: `trunk`, and per leg `FL_hip`, `FL_thigh`, `FL_calf`; sites: `imu`, `lidar`, `FL_foot`.
 std::string_view quadruped_mjcf();
 

@@ -3,10 +3,10 @@
 
 #include <mujoco/mujoco.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
+#include <algorithm>
 #include <string>
+
+#include "sim/environment/mujoco_model.hpp"
 
 namespace aims {
 namespace {
@@ -14,40 +14,6 @@ namespace {
 constexpr double kNominalHeight = 0.29;   ///< [m]
 constexpr double kHighestBump = 0.02;     ///< of a floor with bumps [m]
 constexpr double kNominalLateral = 0.09;  ///< [m]
-
-/// A broken model or state inside the physics engine is a broken invariant: stop, never wait on
-/// the terminal as the default handler does.
-void on_error(const char* message) {
-  std::fprintf(stderr, "physics engine: %s\n", message);
-  std::abort();
-}
-
-/// Warnings are counted by the engine itself, see World::warning_count.
-void on_warning(const char*) {}
-
-struct DeleteModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
-using DataPtr = std::unique_ptr<mjData, DeleteData>;
-
-Result<ModelPtr> load(std::string_view mjcf) {
-  mju_user_error = on_error;
-  mju_user_warning = on_warning;
-  auto files = std::make_unique<mjVFS>();  // 2 MB
-  mj_defaultVFS(files.get());
-  constexpr const char* kName = "world.xml";
-  mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(mjcf.size()));
-  std::memcpy(files->filedata[mj_findFileVFS(files.get(), kName)], mjcf.data(), mjcf.size());
-  std::array<char, 1000> message{};
-  ModelPtr model(mj_loadXML(kName, files.get(), message.data(), message.size()));
-  mj_deleteVFS(files.get());
-  if (!model) return failure("physics model: " + std::string(message.data()));
-  return model;
-}
 
 int id_of(const mjModel* model, mjtObj type, const std::string& name) {
   return mj_name2id(model, type, name.c_str());
@@ -72,8 +38,8 @@ JointVector standing_joints(double height, double lateral) {
 }
 
 struct World::Impl {
-  ModelPtr model;
-  DataPtr data;
+  MujocoModel model;
+  MujocoData data;
   Duration timestep = 0;
   int trunk = -1;
   std::array<int, kLegCount> foot_geom{};
@@ -83,7 +49,6 @@ struct World::Impl {
 
   Result<void> find_parts();
   void set_options(const WorldSetup& setup);
-  Result<void> set_heights(const std::vector<float>& heights);
   void put(double x, double y, double z, double yaw);
   /// Height [m] of the grid point of the floor nearest to (x, y).
   double field_height(double x, double y) const;
@@ -118,16 +83,6 @@ void World::Impl::set_options(const WorldSetup& setup) {
   option.impratio = 10.0;
   timestep = from_seconds(setup.timestep);
   for (const int geom : foot_geom) model->geom_friction[3 * geom] = setup.friction;
-}
-
-Result<void> World::Impl::set_heights(const std::vector<float>& heights) {
-  const int points = model->nhfield > 0 ? model->hfield_nrow[0] * model->hfield_ncol[0] : 0;
-  if (points != static_cast<int>(heights.size())) {
-    return failure("physics model: its height field has " + std::to_string(points) +
-                   " points, but " + std::to_string(heights.size()) + " heights were given");
-  }
-  std::copy(heights.begin(), heights.end(), model->hfield_data);
-  return {};
 }
 
 double World::Impl::field_height(double x, double y) const {
@@ -227,12 +182,11 @@ World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
 Result<World> World::create(const WorldSetup& setup) {
-  auto model = load(setup.mjcf);
+  auto model = load_mujoco_model(setup.mjcf, setup.heights);
   if (!model) return tl::unexpected(model.error());
   auto impl = std::make_unique<Impl>();
   impl->model = std::move(*model);
   if (auto found = impl->find_parts(); !found) return tl::unexpected(found.error());
-  if (auto set = impl->set_heights(setup.heights); !set) return tl::unexpected(set.error());
   impl->set_options(setup);
   impl->data.reset(mj_makeData(impl->model.get()));
   impl->measure_body();

@@ -41,7 +41,7 @@ struct LidarConfig {
   double range_at_10_percent = 50.0;
   double detection_steepness = 6.0;  ///< of the detection probability in the received power [-]
   /// Box around trunk, head and hips in the LiDAR frame [m], with a margin as a driver's mask has
-  /// one: what a beam that enters it returns is masked. From the mast of `models/quadruped.xml`
+  /// one: what a beam that enters it returns is masked. From the mast of `models/quadruped/quadruped.xml`
   /// only the two lowest rings meet it, ahead; thighs and calves stay below all beams. An empty box
   /// masks nothing.
   Eigen::Vector3d body_min = Eigen::Vector3d(-0.10, -0.15, -0.32);

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 
 #include "core/random.hpp"
+#include "sim/environment/mujoco_model.hpp"
 #include "sim/environment/ray_caster.hpp"
 #include "sim/environment/scene_config.hpp"
 
@@ -18,8 +18,6 @@ namespace aims {
 namespace {
 
 using Eigen::Vector3d;
-using ModelPtr = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
-using DataPtr = std::unique_ptr<mjData, decltype(&mj_deleteData)>;
 
 constexpr const char* kRobot = R"(<mujoco model="ball">
   <default><geom contype="2" conaffinity="4" condim="1" margin="0.5"/></default>
@@ -31,27 +29,12 @@ constexpr const char* kRobot = R"(<mujoco model="ball">
   </worldbody>
 </mujoco>)";
 
-/// MuJoCo's own handler waits for a key.
-void fail(const char* message) { throw std::runtime_error(message); }
-
-ModelPtr load(const Scene& scene, MjcfPurpose purpose, const MjcfOptions& options = {}) {
-  mju_user_error = fail;
+MujocoModel load(const Scene& scene, MjcfPurpose purpose, const MjcfOptions& options = {}) {
   const auto text = scene_mjcf(scene, kRobot, purpose, options);
   if (!text) throw std::runtime_error(text.error().message);
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(text->size()));
-  std::memcpy(files->filedata[0], text->data(), text->size());
-  char message[1000] = "";
-  ModelPtr model(mj_loadXML("scene.xml", files.get(), message, sizeof(message)), mj_deleteModel);
-  mj_deleteVFS(files.get());
-  if (!model) throw std::runtime_error(message);
-  const std::vector<float> heights = height_field_data(scene.floor);
-  if (static_cast<int>(heights.size()) != model->nhfielddata) {
-    throw std::runtime_error("height field of another size");
-  }
-  std::copy(heights.begin(), heights.end(), model->hfield_data);
-  return model;
+  auto model = load_mujoco_model(*text, height_field_data(scene.floor));
+  if (!model) throw std::runtime_error(model.error().message);
+  return std::move(*model);
 }
 
 SceneConfig furnished_corridor(double bump_height) {
@@ -66,7 +49,7 @@ SceneConfig furnished_corridor(double bump_height) {
 TEST(SceneMjcf, PhysicsHasFewGeomsAndTheNamedFloor) {
   for (const double bump_height : {0.0, 0.02}) {
     const Scene scene = build_scene(furnished_corridor(bump_height), 1);
-    const ModelPtr model = load(scene, MjcfPurpose::kPhysics);
+    const MujocoModel model = load(scene, MjcfPurpose::kPhysics);
     EXPECT_LT(model->ngeom, 50);
     const int floor = mj_name2id(model.get(), mjOBJ_GEOM, std::string(kFloorGeomName).c_str());
     ASSERT_GE(floor, 0);
@@ -79,7 +62,8 @@ TEST(SceneMjcf, PhysicsHasFewGeomsAndTheNamedFloor) {
 }
 
 TEST(SceneMjcf, RobotsDefaultsDoNotReachTheScene) {
-  const ModelPtr model = load(build_scene({}, 1), MjcfPurpose::kPhysics, {.floor_friction = 0.6});
+  const MujocoModel model =
+      load(build_scene({}, 1), MjcfPurpose::kPhysics, {.floor_friction = 0.6});
   for (int geom = 0; geom < model->ngeom; ++geom) {
     if (model->geom_bodyid[geom] != 0) continue;
     EXPECT_EQ(model->geom_contype[geom], 1);
@@ -92,7 +76,7 @@ TEST(SceneMjcf, RobotsDefaultsDoNotReachTheScene) {
 
 /// Height at which the robot's ball comes to rest on the floor under (x, y).
 double resting_height(const mjModel* model, double x, double y) {
-  const DataPtr data(mj_makeData(model), mj_deleteData);
+  const MujocoData data(mj_makeData(model));
   data->qpos[0] = x;
   data->qpos[1] = y;
   for (int step = 0; step < 300; ++step) {
@@ -105,7 +89,7 @@ double resting_height(const mjModel* model, double x, double y) {
 
 TEST(SceneMjcf, BallsRestOnTheFloorThatRaysSee) {
   const Scene scene = build_scene(furnished_corridor(0.02), 1);
-  const ModelPtr model = load(scene, MjcfPurpose::kPhysics);
+  const MujocoModel model = load(scene, MjcfPurpose::kPhysics);
   const RayCaster caster(scene);
   for (const double x : {0.0, 13.3, 50.1, 78.6}) {
     const double seen = 1.0 - caster.cast({x, 0.1, 1.0}, -Vector3d::UnitZ())->distance;
@@ -114,8 +98,8 @@ TEST(SceneMjcf, BallsRestOnTheFloorThatRaysSee) {
 }
 
 TEST(SceneMjcf, WallsStopTheRobotFlushWithWhatRaysSee) {
-  const ModelPtr model = load(build_scene({}, 1), MjcfPurpose::kPhysics);
-  const DataPtr data(mj_makeData(model.get()), mj_deleteData);
+  const MujocoModel model = load(build_scene({}, 1), MjcfPurpose::kPhysics);
+  const MujocoData data(mj_makeData(model.get()));
   data->qpos[0] = 1.0;  // in front of a door's recess, which physics leaves flat
   data->qpos[1] = -0.99;
   mj_forward(model.get(), data.get());
@@ -132,8 +116,8 @@ TEST(SceneMjcf, WallsStopTheRobotFlushWithWhatRaysSee) {
 /// Compares the ray caster with MuJoCo's own rays through the pictures' model.
 void compare_rays(double bump_height) {
   const Scene scene = build_scene(furnished_corridor(bump_height), 1);
-  const ModelPtr model = load(scene, MjcfPurpose::kRender, {.roof = true});
-  const DataPtr data(mj_makeData(model.get()), mj_deleteData);
+  const MujocoModel model = load(scene, MjcfPurpose::kRender, {.roof = true});
+  const MujocoData data(mj_makeData(model.get()));
   mj_forward(model.get(), data.get());
   const RayCaster caster(scene);
   RandomStream random = rng(11, "rays");
@@ -161,7 +145,7 @@ TEST(SceneMjcf, PicturesShowWhatRaysSeeOnBumps) { compare_rays(0.02); }
 TEST(SceneMjcf, RenderHasNoRoofUnlessAsked) {
   const Scene scene = build_scene({}, 1);
   const int without = load(scene, MjcfPurpose::kRender)->ngeom;
-  const ModelPtr with = load(scene, MjcfPurpose::kRender, {.roof = true, .image_width = 1920});
+  const MujocoModel with = load(scene, MjcfPurpose::kRender, {.roof = true, .image_width = 1920});
   EXPECT_EQ(with->ngeom, without + 1);
   EXPECT_EQ(with->vis.global.offwidth, 1920);
   EXPECT_EQ(with->vis.global.offheight, 720);

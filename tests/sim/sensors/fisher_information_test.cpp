@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/sensors/localizability.hpp"
+#include "sim/sensors/fisher_information.hpp"
 
 #include <gtest/gtest.h>
 
