@@ -145,8 +145,8 @@ TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
   Lidar lidar(lidar_config, caster, 1);
   int met = 0;
   double stale = 0.0;
-  for (int scan = 0; scan < 10; ++scan) {
-    const Time start = scan * 3 * kSecond;
+  for (int index = 0; index < 10; ++index) {
+    const Time start = index * 3 * kSecond;
     const Vector3d sensor(12.0, 0.1, 0.45);
     ScanTruth truth;
     const LidarScan scan = lidar.scan(start, {{start, {so3_exp({0.0, 0.0, 0.3}), sensor}}}, &truth);
