@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/registry.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ constexpr std::array kEntries = {
     EstimatorEntry{"aims_d", "beyond the paper: weights along axes, leg scale, level floor"},
     EstimatorEntry{"tfs", "fixed weights, lost leg packets unnoticed: the paper's ablation"},
     EstimatorEntry{"tfs_clean", "fixed weights, lost leg packets skipped"},
-    EstimatorEntry{"lio", "LiDAR and IMU only, fixed weights"},
+    EstimatorEntry{"lio", "LiDAR and IMU only, fixed weights", false},
     EstimatorEntry{"leg", "leg odometry alone, as the robot reports it"},
 };
 constexpr std::array<Factory, kEntries.size()> kFactories = {
@@ -54,6 +55,11 @@ std::string unknown_estimator_message(std::string_view name) {
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_registry() { return kEntries; }
+
+bool needs_legs(std::string_view name) {
+  const auto entry = std::ranges::find(kEntries, name, &EstimatorEntry::name);
+  return entry != kEntries.end() && entry->needs_legs;
+}
 
 Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name,
                                                   const EstimatorConfig& config,

@@ -15,10 +15,14 @@ namespace aims {
 struct EstimatorEntry {
   std::string_view name;
   std::string_view description;  ///< one line
+  bool needs_legs = true;        ///< leg odometry is a required input
 };
 
 /// Every estimator, in the order of the design.
 std::span<const EstimatorEntry> estimator_registry();
+
+/// Whether the estimator `name` requires leg odometry; an unknown name requires none.
+bool needs_legs(std::string_view name);
 
 /// The estimator `name`. Error for an unknown name, with a near match and the list.
 Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name,

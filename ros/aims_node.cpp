@@ -9,10 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "bench/run/estimate.hpp"
 #include "core/files/tum.hpp"
+#include "estimator/aims/sample_rates.hpp"
 #include "estimator/registry.hpp"
 #include "ros/live_recording.hpp"
+#include "ros/node_config.hpp"
 #include "ros/node_options.hpp"
 #include "ros/odometry_publisher.hpp"
 #include "ros/transport.hpp"
@@ -32,21 +33,9 @@ int bad_input(const Error& error) {
   return kBadInput;
 }
 
-void say(const std::string& text) {
+void print_line(const std::string& text) {
   fmt::print("{}\n", text);
   std::fflush(stdout);  // roslaunch reads from a pipe
-}
-
-Result<EstimateConfig> config_of(const NodeOptions& options) {
-  std::vector<std::string> overrides = {fmt::format("estimators=[{}]", options.estimator)};
-  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  auto config = load_estimate_config(options.config, overrides);
-  if (!config) return config;
-  if (auto known = make_estimator(options.estimator, config->estimator, SensorRig{}); !known) {
-    return tl::unexpected(known.error());
-  }
-  config->recording.topics.truth = "none";  // for scoring alone
-  return config;
 }
 
 /// Estimates until the network ends it; then the rest that the estimator held back.
@@ -66,32 +55,45 @@ Result<void> follow(RecordingReader& reader, Estimator& estimator, OdometryPubli
 }
 
 void print_summary(const RecordingReader& reader, const Estimator& estimator, std::size_t dropped) {
-  for (const auto& [event, count] : reader.counts()) say(fmt::format("note: {}: {}", event, count));
+  for (const auto& [event, count] : reader.counts())
+    print_line(fmt::format("note: {}: {}", event, count));
   for (const auto& [event, count] : estimator.result().counts) {
-    say(fmt::format("note: {}: {}", event, count));
+    print_line(fmt::format("note: {}: {}", event, count));
   }
-  if (dropped > 0) say(fmt::format("note: {} messages left out, since the node was late", dropped));
-  say(fmt::format("{} poses", estimator.result().trajectory.size()));
+  if (dropped > 0)
+    print_line(fmt::format("note: {} messages left out, since the node was late", dropped));
+  print_line(fmt::format("{} poses", estimator.result().trajectory.size()));
+}
+
+Result<void> check_topics(const std::string& estimator, const RecordingSetup& setup) {
+  return needs_legs(estimator) ? check_legs(setup, estimator, "live topics") : Result<void>();
+}
+
+/// The estimator at the network's sample rates; prints what was assumed.
+Result<std::unique_ptr<Estimator>> make_live_estimator(const std::string& name,
+                                                       EstimatorConfig config,
+                                                       const RecordingSetup& setup) {
+  const auto rates = adopt_sample_rates(setup.imu_rate_hz, setup.leg_rate_hz, config);
+  for (const std::string& note : setup.notes) print_line("note: " + note);
+  for (const std::string& note : rates) print_line("note: " + note);
+  return make_estimator(name, config, setup.rig);
 }
 
 int run_node(RosTransport& transport, const NodeOptions& options) {
-  const auto config = config_of(options);
+  const auto config = load_node_config(options);
   if (!config) return bad_input(config.error());
   const LiveRecordingOptions live{.settle = from_seconds(options.settle),
                                   .patience = options.patience};
   auto reader = open_live_recording(
       transport, config->recording, live,
-      [&](const RecordingSetup& setup) { return check_topics(*config, setup, "live topics"); },
-      [](const std::string& missing) { say("waiting: " + missing); });
+      [&](const RecordingSetup& setup) { return check_topics(options.estimator, setup); },
+      [](const std::string& missing) { print_line("waiting: " + missing); });
   if (!reader) return bad_input(reader.error());
-  RecordingSetup setup = reader->setup();
-  const EstimatorConfig own = estimator_config_for(*config, setup);
-  for (const std::string& note : setup.notes) say("note: " + note);
-  auto estimator = make_estimator(options.estimator, own, setup.rig);
+  auto estimator = make_live_estimator(options.estimator, config->estimator, reader->setup());
   if (!estimator) return bad_input(estimator.error());
 
   OdometryPublisher publisher(transport, {options.odom_frame, options.body_frame, options.tf});
-  say(fmt::format("{} publishes {}", options.estimator, transport.resolved("~odometry")));
+  print_line(fmt::format("{} publishes {}", options.estimator, transport.resolved("~odometry")));
   if (auto ok = follow(*reader, **estimator, publisher); !ok) return bad_input(ok.error());
   print_summary(*reader, **estimator, transport.dropped());
   if (options.out.empty()) return kOk;
@@ -103,7 +105,7 @@ int main_of(int argc, char** argv) {
   auto command = parse_node_arguments(RosTransport::own_arguments(argc, argv));
   if (!command) return bad_input(command.error());
   if (!command->help.empty()) {
-    say(command->help);
+    print_line(command->help);
     return kOk;
   }
   std::string problem;

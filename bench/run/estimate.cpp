@@ -3,31 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
 #include "bench/run/bag_origin.hpp"
 #include "bench/run/stream.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
+#include "estimator/aims/sample_rates.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
 namespace {
-
-/// A sample rate that is off by more is another one [-].
-constexpr double kRateTolerance = 0.1;
-
-/// `configured`, or the rate of the recording where that is clearly another and nobody chose.
-void follow_rate(std::optional<double> recorded_hz, const char* key, double default_hz,
-                 double& configured_hz, std::vector<std::string>& notes) {
-  if (!recorded_hz || configured_hz != default_hz) return;
-  if (std::abs(*recorded_hz - configured_hz) <= kRateTolerance * configured_hz) return;
-  configured_hz = *recorded_hz;
-  notes.push_back(
-      fmt::format("estimator.{} = {:.4g}, the rate found in the recording", key, configured_hz));
-}
 
 EstimatorOutcome outcome_of(const TimedEstimator& timed) {
   EstimatorOutcome outcome;
@@ -64,6 +51,18 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   }
 }
 
+/// Error when an estimator needs legs and the recording has none.
+Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
+                          const std::string& recording) {
+  for (const std::string& text : config.estimators) {
+    const auto spec = parse_estimator_spec(text);
+    const std::string name = spec ? spec->name : text;
+    if (!needs_legs(name)) continue;
+    if (auto ok = check_legs(setup, name, recording); !ok) return ok;
+  }
+  return {};
+}
+
 }  // namespace
 
 void describe(Fields& fields, EstimateConfig& config) {
@@ -89,28 +88,6 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
   return config;
 }
 
-Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
-                          const std::string& recording) {
-  for (const std::string& text : config.estimators) {
-    const auto spec = parse_estimator_spec(text);
-    const std::string name = spec ? spec->name : text;
-    if (name == "lio" || setup.has_legs) continue;
-    return failure(
-        fmt::format("{}: estimator {} needs leg odometry, which is not found; name its topic "
-                    "(--topics leg_odometry=/...), or use --estimator lio",
-                    recording, name));
-  }
-  return {};
-}
-
-EstimatorConfig estimator_config_for(const EstimateConfig& config, RecordingSetup& setup) {
-  EstimatorConfig own = config.estimator;
-  const EstimatorConfig defaults;
-  follow_rate(setup.imu_rate_hz, "imu.rate_hz", defaults.imu.rate_hz, own.imu.rate_hz, setup.notes);
-  follow_rate(setup.leg_rate_hz, "leg.rate_hz", defaults.leg.rate_hz, own.leg.rate_hz, setup.notes);
-  return own;
-}
-
 Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOptions& options,
                                 const Observer& observer) {
   const Stopwatch stopwatch;
@@ -122,7 +99,12 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.summary = reader->summary();
   if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)
     return tl::unexpected(ok.error());
-  result.estimator = estimator_config_for(config, result.setup);
+  result.estimator = config.estimator;
+  const RecordingSetup& setup = result.setup;
+  for (std::string& note :
+       adopt_sample_rates(setup.imu_rate_hz, setup.leg_rate_hz, result.estimator)) {
+    result.setup.notes.push_back(std::move(note));
+  }
   auto estimators = make_estimators(config.estimators, result.estimator, result.setup.rig);
   if (!estimators) return tl::unexpected(estimators.error());
 

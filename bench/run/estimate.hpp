@@ -55,14 +55,6 @@ struct EstimateResult {
   std::optional<TrajectoryScores> scores;    ///< none without a truth
 };
 
-/// Error when an estimator needs legs and the recording has none; the error calls it `recording`.
-Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
-                          const std::string& recording);
-
-/// The estimators' configuration for a recording: with its own sample rates where these are clearly
-/// others and nobody chose, which is told in the setup's notes.
-EstimatorConfig estimator_config_for(const EstimateConfig& config, RecordingSetup& setup);
-
 /// Streams the recording through the estimators. Error when it cannot be opened, a topic is missing
 /// or an estimator is unknown.
 Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOptions& options,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/stream/recording_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -191,6 +193,15 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag
   bag->rewind();
   return RecordingReader(
       std::make_unique<Impl>(std::move(bag), std::move(*channels), std::move(*plan), config));
+}
+
+Result<void> check_legs(const RecordingSetup& setup, const std::string& estimator,
+                        const std::string& recording) {
+  if (setup.has_legs) return {};
+  return failure(
+      fmt::format("{}: estimator {} needs leg odometry, which is not found; name its topic "
+                  "(--topics leg_odometry=/...), or use --estimator lio",
+                  recording, estimator));
 }
 
 Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deliveries) {

@@ -28,6 +28,10 @@ struct RecordingSetup {
   std::vector<std::string> notes;
 };
 
+/// Error when the recording has no legs, which `estimator` needs; the error calls it `recording`.
+Result<void> check_legs(const RecordingSetup& setup, const std::string& estimator,
+                        const std::string& recording);
+
 /// A recording as the stream that an estimator takes: bag messages become deliveries, in order of
 /// record time. Stamps are those of the message headers, arrivals the record times, both as in the
 /// bag. Memory is bounded by the bag's chunks, not by its length.

@@ -35,7 +35,7 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
     {"render/film", {"core/", "estimator/", "bench/", "render/", "sim/"}},
     {"render/results", {"core/", "estimator/", "bench/", "render/", "sim/"}},
     {"render/page", {"core/", "bench/", "render/", "sim/environment/"}},
-    {"ros", {"core/", "estimator/", "recordings/", "bench/", "ros/"}},
+    {"ros", {"core/", "estimator/", "recordings/", "ros/"}},
 };
 
 /// Prefixes of third-party headers and the folders that may include them, in which kind of file.

@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: links.sh AIMS_NODE. A robot needs none of the libraries that simulate, tune, store and draw.
+set -euo pipefail
+needed=$(ldd "$1" | awk '{ print $1 }')
+grep -q '^libroscpp' <<<"$needed" || { echo "ldd shows no libroscpp: $needed"; exit 1; }
+if grep -iE 'mujoco|embree|pagmo|sqlite|tbb|cairo|osmesa|libgl|ipopt|nlopt' <<<"$needed"; then
+  echo "the node links the libraries above"
+  exit 1
+fi
