@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What is installed, in two components: `runtime` is the program with its scenarios and scripts, `dev` the
-# libraries that a program of somebody else needs to estimate, read bags and score: core, estimator,
-# eval and io. The simulation, the pictures and the harness stay inside the program.
+# What is installed, in three components. `runtime`: the program with its scenarios and scripts. `ros`:
+# the live node (ros/CMakeLists.txt). `dev`: the libraries that another program needs to estimate, read
+# recordings and score. Simulation and rendering stay inside the program: neither `ros` nor `dev`
+# depends on MuJoCo, Embree, pagmo or SQLite.
 include(CMakePackageConfigHelpers)
 
 set(exported_libraries core files estimator metrics recordings)
@@ -38,3 +39,7 @@ install(FILES ${PROJECT_BINARY_DIR}/aimsConfig.cmake ${PROJECT_BINARY_DIR}/aimsC
   DESTINATION ${cmake_folder} COMPONENT dev)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libaims-dev RENAME copyright
   COMPONENT dev)
+if(TARGET aims_node)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/aims-node RENAME copyright
+    COMPONENT ros)
+endif()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `cpack -G DEB` in the build folder: aims_VERSION_ARCH.deb, the program, and libaims-dev_..., for
-# programs of others.
+# `cpack -G DEB` in the build folder: aims_VERSION_ARCH.deb, the program; libaims-dev_..., for
+# programs of others; and, where it was built, aims-node_..., for the robot.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME aims)
 set(CPACK_PACKAGE_VENDOR "the AIMS authors")
@@ -9,6 +9,9 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL runtime dev)
+if(TARGET aims_node)
+  list(APPEND CPACK_COMPONENTS_ALL ros)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
@@ -32,4 +35,12 @@ with headers; CMake finds them by find_package(aims CONFIG).")
 # What aimsConfig.cmake finds.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libboost-dev, libbz2-dev, libeigen3-dev, libexpected-dev, \
 libfmt-dev, liblz4-dev, libyaml-cpp-dev, pkg-config")
+
+set(CPACK_DEBIAN_ROS_PACKAGE_NAME aims-node)
+set(CPACK_DEBIAN_ROS_PACKAGE_SECTION science)
+set(CPACK_COMPONENT_ROS_DESCRIPTION
+  "legged-robot localization in degenerate corridors, ROS 1 node
+Estimates a legged robot's motion live from its LiDAR, IMU and legs. Needs
+nothing of the simulation.")
+set(CPACK_DEBIAN_ROS_PACKAGE_SHLIBDEPS ON)
 include(CPack)

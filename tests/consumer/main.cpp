@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Estimates a trajectory with the installed libraries and prints it as TUM lines: of the recording
-// that is given (consumer run.bag), or of ten made-up seconds at 0.5 m/s with a blind LiDAR.
+// that is given (consumer run.bag), with its final error against the recording's truth on stderr, or
+// of ten synthetic seconds at 0.5 m/s with empty scans.
 #include <cstdio>
 #include <cstdlib>
 
+#include "bench/metrics/absolute_error.hpp"
+#include "bench/metrics/alignment.hpp"
 #include "core/files/tum.hpp"
 #include "core/measurements.hpp"
 #include "estimator/registry.hpp"
@@ -16,7 +19,7 @@ Value or_exit(aims::Result<Value> result) {
   std::exit(2);
 }
 
-void walk(aims::Estimator& estimator) {
+void walk_straight(aims::Estimator& estimator) {
   using aims::kMillisecond;
   for (aims::Time now = 0; now <= 14'000 * kMillisecond; now += 5 * kMillisecond) {
     aims::LegOdometrySample legs;
@@ -28,6 +31,12 @@ void walk(aims::Estimator& estimator) {
     if (now % (100 * kMillisecond) == 0)
       estimator.consume({now, std::make_shared<aims::LidarScan>(now - 100 * kMillisecond, now)});
   }
+}
+
+void print_end_error(const aims::Trajectory& estimate, const aims::Trajectory& truth) {
+  const auto pairs = aims::associate(estimate, truth, aims::Association::kInterpolated, 0);
+  const auto error = aims::end_error(aims::aligned(pairs, aims::align_start(pairs)));
+  if (error) std::fprintf(stderr, "end error %.3f m\n", error->norm_m);
 }
 
 void replay(aims::RecordingReader& recording, aims::Estimator& estimator) {
@@ -43,7 +52,8 @@ int main(int argc, char** argv) {
   if (argc > 1) recording = or_exit(aims::RecordingReader::open(argv[1], {}));
   const aims::SensorRig rig = recording ? recording->setup().rig : aims::SensorRig();
   const auto estimator = or_exit(aims::make_estimator("aims", aims::EstimatorConfig(), rig));
-  recording ? replay(*recording, *estimator) : walk(*estimator);
+  recording ? replay(*recording, *estimator) : walk_straight(*estimator);
   estimator->finish();
+  if (recording) print_end_error(estimator->result().trajectory, recording->truth());
   std::fputs(aims::tum_text(estimator->result().trajectory).c_str(), stdout);
 }

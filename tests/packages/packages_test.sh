@@ -18,6 +18,9 @@ mkdir -p "$work"
 (cd "$build" && cpack -G DEB -B "$work") >"$work/cpack.log" 2>&1 || { cat "$work/cpack.log"; fail "cpack"; }
 program=$(echo "$work"/aims_*.deb)
 libraries=$(echo "$work"/libaims-dev_*.deb)
+node=()  # only where ROS is installed
+if [ -e "$build/ros/aims_node" ]; then node=("$work"/aims-node_*.deb); fi
+all=("$program" "$libraries" "${node[@]}")
 
 # contents PACKAGE FILE...: the package holds each file.
 contents() {
@@ -32,11 +35,16 @@ contents "$program" bin/aims share/aims/scenarios/paper/corridor.yaml \
   share/aims/scenarios/stress/ramp_06.yaml share/aims/slurm/submit.sh share/doc/aims/copyright
 grep -qE '\.hpp$|\.a$|\.cmake$' "$work/contents" && fail "what others build with is in $program"
 contents "$libraries" include/aims/core/lie.hpp include/aims/estimator/registry.hpp \
-  include/aims/eval/scores.hpp include/aims/io/recording/recording_reader.hpp \
-  lib/libaims_core.a lib/libaims_estimator.a lib/libaims_eval.a lib/libaims_io.a \
+  include/aims/bench/metrics/scores.hpp include/aims/recordings/stream/recording_reader.hpp \
+  lib/libaims_core.a lib/libaims_files.a lib/libaims_estimator.a lib/libaims_metrics.a \
+  lib/libaims_recordings.a \
   lib/cmake/aims/aimsConfig.cmake lib/cmake/aims/aimsConfigVersion.cmake \
   lib/cmake/aims/aimsTargets.cmake share/doc/libaims-dev/copyright
-for package in "$program" "$libraries"; do
+if [ ${#node[@]} -gt 0 ]; then
+  contents "${node[0]}" bin/aims_node share/doc/aims-node/copyright
+  grep -qE '\.hpp$|\.a$|\.yaml$' "$work/contents" && fail "what a robot does not need is in ${node[0]}"
+fi
+for package in "${all[@]}"; do
   dpkg-deb -c "$package" | awk '$2 != "root/root" || $6 !~ "^./(usr/.*)?$"' | grep . &&
     fail "$package: the files above are not root's, or not under /usr"
 done
@@ -50,11 +58,21 @@ for name in libeigen3-dev libfmt-dev libexpected-dev libyaml-cpp-dev libboost-de
   libbz2-dev; do
   depends "$libraries" | grep -xF "$name" >"$work/found" || fail "$libraries does not depend on $name"
 done
+for package in "$libraries" "${node[@]}"; do
+  depends "$package" | grep -iE 'mujoco|embree|pagmo|sqlite|tbb|cairo|osmesa' &&
+    fail "$package depends on what only the simulation and the bench need"
+done
+if [ ${#node[@]} -gt 0 ]; then
+  for name in libc6 libfmt9 libyaml-cpp0.7; do
+    depends "${node[0]}" | grep -xF "$name" >"$work/found" || fail "${node[0]} does not depend on $name"
+  done
+  depends "${node[0]}" | grep -q '^libroscpp' || fail "${node[0]} does not depend on roscpp"
+fi
 if command -v apt-cache >/dev/null; then
-  # shellcheck disable=SC2046
-  apt-cache show --no-all-versions $(depends "$program") $(depends "$libraries") \
-    >"$work/known" 2>/dev/null || true
-  for name in $(depends "$program") $(depends "$libraries"); do
+  names=$(for package in "${all[@]}"; do depends "$package"; done | sort -u)
+  # shellcheck disable=SC2086
+  apt-cache show --no-all-versions $names >"$work/known" 2>/dev/null || true
+  for name in $names; do
     grep -qxF "Package: $name" "$work/known" || fail "no Debian package $name"
   done
 else
@@ -66,12 +84,12 @@ root=$work/root
 if [ "$(id -u)" -eq 0 ]; then
   mkdir -p "$root/var/lib/dpkg/"{info,updates}
   touch "$root/var/lib/dpkg/"{status,available}
-  dpkg --root="$root" --force-depends --force-script-chrootless -i "$program" "$libraries" \
+  dpkg --root="$root" --force-depends --force-script-chrootless -i "${all[@]}" \
     >"$work/dpkg.log" 2>&1 || { cat "$work/dpkg.log"; fail "dpkg -i"; }
   [ "$(dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${Status}' libaims-dev)" = \
     "install ok installed" ] || fail "libaims-dev is not installed"
 else
-  for package in "$program" "$libraries"; do dpkg-deb -x "$package" "$root"; done
+  for package in "${all[@]}"; do dpkg-deb -x "$package" "$root"; done
 fi
 cd /
 version=$("$root/usr/bin/aims" --version)
