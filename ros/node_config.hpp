@@ -4,7 +4,7 @@
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "estimator/aims/config.hpp"
-#include "recordings/stream/recording_config.hpp"
+#include "recordings/recording_config.hpp"
 #include "ros/node_options.hpp"
 
 namespace aims {

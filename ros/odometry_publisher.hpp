@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/trajectory.hpp"
-#include "recordings/stream/message_encoding.hpp"
+#include "recordings/messages/message_encoding.hpp"
 #include "ros/transport.hpp"
 
 namespace aims {

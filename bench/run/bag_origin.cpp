@@ -6,8 +6,8 @@
 #include "bench/run/scenario.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "core/files/yaml_config.hpp"
-#include "recordings/bag_trajectory.hpp"
-#include "recordings/stream/recording_topics.hpp"
+#include "recordings/topics/recording_topics.hpp"
+#include "recordings/trajectories/bag_trajectory.hpp"
 
 namespace aims {
 namespace {

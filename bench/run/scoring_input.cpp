@@ -14,10 +14,10 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
-#include "core/files/trajectory_file.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "core/files/yaml_config.hpp"
-#include "recordings/stream/recording_topics.hpp"
+#include "recordings/topics/recording_topics.hpp"
+#include "recordings/trajectories/trajectory_file.hpp"
 
 namespace aims {
 namespace {

@@ -10,8 +10,8 @@
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
-#include "recordings/stream/message_encoding.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

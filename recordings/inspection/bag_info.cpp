@@ -7,14 +7,14 @@
 #include <map>
 #include <utility>
 
-#include "recordings/inspection/bag_inspection.hpp"
+#include "recordings/clouds/cloud_survey.hpp"
 #include "recordings/inspection/bag_warnings.hpp"
+#include "recordings/inspection/sensor_inspection.hpp"
 #include "recordings/inspection/topic_statistics.hpp"
 #include "recordings/messages/message_decoder.hpp"
-#include "recordings/stream/cloud_survey.hpp"
-#include "recordings/stream/message_values.hpp"
+#include "recordings/messages/message_values.hpp"
 #include "recordings/stream/recording_reader.hpp"
-#include "recordings/stream/topic_choice.hpp"
+#include "recordings/topics/topic_choice.hpp"
 
 namespace aims {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/lie.hpp"
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/inspection/clock_offset.hpp"
-#include "recordings/stream/recording_config.hpp"
+#include "recordings/recording_config.hpp"
 
 namespace aims {
 
@@ -66,7 +66,7 @@ struct CloudInfo {
 };
 
 /// The longest time at rest that an IMU saw, and what it read there.
-struct Standstill {
+struct StaticInterval {
   double begin_s = 0.0;  ///< after the first sample
   double length_s = 0.0;
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();    ///< mean rate [rad/s]
@@ -77,9 +77,9 @@ struct Standstill {
 
 struct ImuInfo {
   std::string topic;
-  bool in_g = false;               ///< the specific force is in units of 9.80665 m/s^2
-  bool oriented = false;           ///< its orientation is a unit quaternion
-  std::optional<Standstill> rest;  ///< none: it never stood for a second
+  bool in_g = false;                   ///< the specific force is in units of 9.80665 m/s^2
+  bool oriented = false;               ///< its orientation is a unit quaternion
+  std::optional<StaticInterval> rest;  ///< none: it never stood for a second
 };
 
 /// A transform of tf: static, or the first one seen.

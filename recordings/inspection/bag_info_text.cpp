@@ -61,7 +61,7 @@ std::string imu_text(const ImuInfo& imu) {
   std::string text = fmt::format("\nIMU {}: force in {}, orientation {}\n", imu.topic,
                                  imu.in_g ? "g" : "m/s^2", imu.oriented ? "given" : "not given");
   if (!imu.rest) return text + "  never stands still for a second\n";
-  const Standstill& rest = *imu.rest;
+  const StaticInterval& rest = *imu.rest;
   text +=
       fmt::format("  stands still for {:.1f} s from {:.1f} s on\n", rest.length_s, rest.begin_s);
   text += fmt::format("  gyro bias {} rad/s, noise {} rad/s/sqrt(Hz)\n",

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "recordings/stream/topic_choice.hpp"
+#include "recordings/topics/topic_choice.hpp"
 
 namespace aims {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "recordings/stream/median.hpp"
+#include "recordings/median.hpp"
 
 namespace aims {
 namespace {

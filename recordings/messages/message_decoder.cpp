@@ -6,20 +6,20 @@
 #include <limits>
 #include <utility>
 
+#include "recordings/messages/message_traversal.hpp"
 #include "recordings/messages/message_view_impl.hpp"
-#include "recordings/messages/message_walk.hpp"
 
 namespace aims {
 
 struct MessageDecoder::Impl {
-  std::shared_ptr<const std::vector<MessagePlan>> plans;
+  std::shared_ptr<const std::vector<MessageLayout>> layouts;
 };
 
 Result<MessageDecoder> MessageDecoder::create(std::string_view type, std::string_view definition) {
-  auto plans = plan_message(type, definition);
-  if (!plans) return tl::unexpected(plans.error());
+  auto layouts = message_layouts(type, definition);
+  if (!layouts) return tl::unexpected(layouts.error());
   auto impl = std::make_shared<Impl>();
-  impl->plans = std::make_shared<const std::vector<MessagePlan>>(std::move(*plans));
+  impl->layouts = std::make_shared<const std::vector<MessageLayout>>(std::move(*layouts));
   MessageDecoder decoder;
   decoder.impl_ = std::move(impl);
   return decoder;
@@ -27,7 +27,7 @@ Result<MessageDecoder> MessageDecoder::create(std::string_view type, std::string
 
 std::vector<MessageField> MessageDecoder::fields() const {
   std::vector<MessageField> fields;
-  for (const MessageSlot& slot : impl_->plans->back().slots) {
+  for (const FieldSlot& slot : impl_->layouts->back().slots) {
     const bool number = slot.kind == FieldKind::kNumber || slot.kind == FieldKind::kNumbers;
     fields.push_back({slot.path, slot.kind,
                       number ? std::optional<NumberType>(slot.number) : std::nullopt,
@@ -37,26 +37,27 @@ std::vector<MessageField> MessageDecoder::fields() const {
 }
 
 Result<MessageView> MessageDecoder::decode(std::span<const std::byte> data) const {
-  const MessagePlan& plan = impl_->plans->back();
+  const MessageLayout& layout = impl_->layouts->back();
   if (data.size() > std::numeric_limits<std::uint32_t>::max()) {
-    return failure(fmt::format("{}: {} bytes are too many for a message", plan.type, data.size()));
+    return failure(
+        fmt::format("{}: {} bytes are too many for a message", layout.type, data.size()));
   }
   auto view = std::make_shared<MessageView::Impl>();
-  view->plans = impl_->plans;
+  view->layouts = impl_->layouts;
   view->bytes = data;
-  view->make_room(plan.segment_sizes.size());
-  MessageWalk walk(*impl_->plans, data);
-  const auto end = walk.end_of(plan, 0, view->segments());
+  view->make_room(layout.segment_sizes.size());
+  MessageTraversal traversal(*impl_->layouts, data);
+  const auto end = traversal.end_of(layout, 0, view->segments());
   if (!end) {
-    const WalkError& error = walk.error();
+    const TraversalError& error = traversal.error();
     return failure(
         fmt::format("{}: field '{}' needs {} bytes at byte {}, but the message ends at "
                     "byte {}",
-                    plan.type, error.field, error.wanted, error.offset, data.size()));
+                    layout.type, error.field, error.needed, error.offset, data.size()));
   }
   if (*end != data.size()) {
-    return failure(
-        fmt::format("{}: expected a message of {} bytes, found {}", plan.type, *end, data.size()));
+    return failure(fmt::format("{}: expected a message of {} bytes, found {}", layout.type, *end,
+                               data.size()));
   }
   MessageView out;
   out.impl_ = std::move(view);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include "recordings/messages/message_view.hpp"
+
 #include <charconv>
 #include <utility>
 
 #include "core/files/byte_cursor.hpp"
-#include "recordings/messages/message_decoder.hpp"
+#include "recordings/messages/message_traversal.hpp"
 #include "recordings/messages/message_view_impl.hpp"
-#include "recordings/messages/message_walk.hpp"
 
 namespace aims {
 namespace {
 
 /// A field of a message, and which of its entries when the path ends in brackets.
 struct Found {
-  const MessageSlot* slot = nullptr;
+  const FieldSlot* slot = nullptr;
   std::size_t start = 0;
   std::optional<std::uint32_t> entry;
 };
@@ -40,21 +40,22 @@ std::optional<PathParts> split(std::string_view path) {
   return parts;
 }
 
-const MessageSlot* slot_named(const MessagePlan& plan, std::string_view path) {
-  const auto found = plan.by_path.find(path);
-  return found == plan.by_path.end() ? nullptr : &plan.slots[found->second];
+const FieldSlot* slot_named(const MessageLayout& layout, std::string_view path) {
+  const auto found = layout.by_path.find(path);
+  return found == layout.by_path.end() ? nullptr : &layout.slots[found->second];
 }
 
 /// Moves `start` from the first entry of an array to another.
-void skip_entries(const std::vector<MessagePlan>& plans, MessageWalk& walk, const MessageSlot& slot,
-                  std::uint32_t entries, std::span<const std::byte> bytes, std::size_t& start) {
+void skip_entries(const std::vector<MessageLayout>& layouts, MessageTraversal& traversal,
+                  const FieldSlot& slot, std::uint32_t entries, std::span<const std::byte> bytes,
+                  std::size_t& start) {
   if (slot.entry_size > 0) {
     start += std::size_t{slot.entry_size} * entries;
     return;
   }
   for (std::uint32_t i = 0; i < entries; ++i) {
     start = slot.kind == FieldKind::kMessages
-                ? walk.end_of(plans[slot.element], start).value_or(start)
+                ? traversal.end_of(layouts[slot.element], start).value_or(start)
                 : start + sizeof(std::uint32_t) + load_number<std::uint32_t>(&bytes[start]);
   }
 }
@@ -71,63 +72,10 @@ Time time_at(const std::byte* bytes, bool is_signed) {
   return Time{load_number<std::uint32_t>(bytes)} * kSecond + load_number<std::uint32_t>(bytes + 4);
 }
 
-double number_of(const std::byte* bytes, const MessageSlot& slot) {
+double number_of(const std::byte* bytes, const FieldSlot& slot) {
   const double value = number_at(bytes, slot.number);
   return slot.is_bool ? static_cast<double>(value != 0.0) : value;
 }
-
-/// Looks a path up in decoded bytes.
-class Lookup {
- public:
-  Lookup(const MessagePlan& root, const std::vector<MessagePlan>& plans,
-         std::span<const std::byte> bytes)
-      : root_(root), plans_(plans), bytes_(bytes), walk_(plans, bytes) {}
-
-  std::optional<Found> find(std::string_view path, const std::uint32_t* segments) {
-    const MessagePlan* plan = &root_;
-    std::size_t message = 0;
-    while (true) {
-      const auto start_of = [&](const MessageSlot& slot) {
-        if (segments != nullptr) return std::size_t{segments[slot.segment]} + slot.offset;
-        return walk_.start_of(*plan, slot, message);
-      };
-      if (const MessageSlot* slot = slot_named(*plan, path))
-        return Found{slot, start_of(*slot), {}};
-      const auto parts = split(path);
-      if (!parts) return std::nullopt;
-      const MessageSlot* slot = slot_named(*plan, parts->name);
-      if (slot == nullptr || !slot->is_array()) return std::nullopt;
-      std::size_t start = start_of(*slot);
-      const auto count = walk_.count_of(*slot, start);
-      if (!count || parts->entry >= *count) return std::nullopt;
-      skip_entries(plans_, walk_, *slot, parts->entry, bytes_, start);
-      if (slot->kind != FieldKind::kMessages) {
-        if (!parts->rest.empty()) return std::nullopt;
-        return Found{slot, start, parts->entry};
-      }
-      plan = &plans_[slot->element];
-      message = start;
-      segments = nullptr;
-      path = parts->rest;
-    }
-  }
-
-  /// The array that a path names: its slot, its count, its first entry.
-  std::optional<std::pair<Found, std::uint32_t>> array(std::string_view path,
-                                                       const std::uint32_t* segments) {
-    auto found = find(path, segments);
-    if (!found || !found->slot->is_array() || found->entry) return std::nullopt;
-    const auto count = walk_.count_of(*found->slot, found->start);
-    if (!count) return std::nullopt;
-    return std::pair(*found, *count);
-  }
-
- private:
-  const MessagePlan& root_;
-  const std::vector<MessagePlan>& plans_;
-  std::span<const std::byte> bytes_;
-  MessageWalk walk_;
-};
 
 /// True for a single value of `one`, or an entry of an array of `many`.
 bool is_one(const Found& found, FieldKind one, FieldKind many) {
@@ -136,31 +84,86 @@ bool is_one(const Found& found, FieldKind one, FieldKind many) {
 
 }  // namespace
 
+/// Looks paths up in a decoded message.
+class FieldLookup {
+ public:
+  explicit FieldLookup(const MessageView::Impl& message)
+      : message_(message), traversal_(*message.layouts, message.bytes) {}
+
+  std::optional<Found> find(std::string_view path) {
+    const std::vector<MessageLayout>& layouts = *message_.layouts;
+    const MessageLayout* layout = &message_.layout();
+    const std::uint32_t* segments = message_.segments();
+    std::size_t message = 0;
+    while (true) {
+      const auto start_of = [&](const FieldSlot& slot) {
+        if (segments != nullptr) return std::size_t{segments[slot.segment]} + slot.offset;
+        return traversal_.start_of(*layout, slot, message);
+      };
+      if (const FieldSlot* slot = slot_named(*layout, path)) {
+        return Found{slot, start_of(*slot), {}};
+      }
+      const auto parts = split(path);
+      if (!parts) return std::nullopt;
+      const FieldSlot* slot = slot_named(*layout, parts->name);
+      if (slot == nullptr || !slot->is_array()) return std::nullopt;
+      std::size_t start = start_of(*slot);
+      const auto count = traversal_.count_of(*slot, start);
+      if (!count || parts->entry >= *count) return std::nullopt;
+      skip_entries(layouts, traversal_, *slot, parts->entry, message_.bytes, start);
+      if (slot->kind != FieldKind::kMessages) {
+        if (!parts->rest.empty()) return std::nullopt;
+        return Found{slot, start, parts->entry};
+      }
+      layout = &layouts[slot->element];
+      message = start;
+      segments = nullptr;
+      path = parts->rest;
+    }
+  }
+
+  /// The array that a path names: its slot, its first entry, its count.
+  std::optional<std::pair<Found, std::uint32_t>> array(std::string_view path) {
+    auto found = find(path);
+    if (!found || !found->slot->is_array() || found->entry) return std::nullopt;
+    const auto count = traversal_.count_of(*found->slot, found->start);
+    if (!count) return std::nullopt;
+    return std::pair(*found, *count);
+  }
+
+  /// The same, of entries of that kind alone.
+  std::optional<std::pair<Found, std::uint32_t>> array(std::string_view path, FieldKind kind) {
+    auto found = array(path);
+    if (!found || found->first.slot->kind != kind) return std::nullopt;
+    return found;
+  }
+
+ private:
+  const MessageView::Impl& message_;
+  MessageTraversal traversal_;
+};
+
 std::optional<double> MessageView::number(std::string_view path) const {
-  const auto found =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).find(path, impl_->segments());
+  const auto found = FieldLookup(*impl_).find(path);
   if (!found || !is_one(*found, FieldKind::kNumber, FieldKind::kNumbers)) return std::nullopt;
   return number_of(impl_->bytes.data() + found->start, *found->slot);
 }
 
 std::optional<Time> MessageView::time(std::string_view path) const {
-  const auto found =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).find(path, impl_->segments());
+  const auto found = FieldLookup(*impl_).find(path);
   if (!found || !is_one(*found, FieldKind::kTime, FieldKind::kTimes)) return std::nullopt;
   return time_at(impl_->bytes.data() + found->start, found->slot->is_signed);
 }
 
 std::optional<std::string_view> MessageView::text(std::string_view path) const {
-  const auto found =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).find(path, impl_->segments());
+  const auto found = FieldLookup(*impl_).find(path);
   if (!found || !is_one(*found, FieldKind::kText, FieldKind::kTexts)) return std::nullopt;
   return text_at(impl_->bytes, found->start);
 }
 
 std::optional<std::vector<double>> MessageView::numbers(std::string_view path) const {
-  const auto array =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
-  if (!array || array->first.slot->kind != FieldKind::kNumbers) return std::nullopt;
+  const auto array = FieldLookup(*impl_).array(path, FieldKind::kNumbers);
+  if (!array) return std::nullopt;
   const auto& [found, count] = *array;
   std::vector<double> values(count);
   const std::byte* bytes = impl_->bytes.data() + found.start;
@@ -171,9 +174,8 @@ std::optional<std::vector<double>> MessageView::numbers(std::string_view path) c
 }
 
 std::optional<std::vector<std::string_view>> MessageView::texts(std::string_view path) const {
-  const auto array =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
-  if (!array || array->first.slot->kind != FieldKind::kTexts) return std::nullopt;
+  const auto array = FieldLookup(*impl_).array(path, FieldKind::kTexts);
+  if (!array) return std::nullopt;
   std::vector<std::string_view> values(array->second);
   std::size_t start = array->first.start;
   for (std::string_view& value : values) {
@@ -184,36 +186,33 @@ std::optional<std::vector<std::string_view>> MessageView::texts(std::string_view
 }
 
 std::optional<std::span<const std::byte>> MessageView::bytes(std::string_view path) const {
-  const auto array =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
-  if (!array || array->first.slot->kind != FieldKind::kNumbers) return std::nullopt;
+  const auto array = FieldLookup(*impl_).array(path, FieldKind::kNumbers);
+  if (!array) return std::nullopt;
   const auto& [found, count] = *array;
   if (found.slot->entry_size != 1 || found.slot->is_bool) return std::nullopt;
   return impl_->bytes.subspan(found.start, count);
 }
 
 std::optional<std::size_t> MessageView::size(std::string_view path) const {
-  const auto array =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
+  const auto array = FieldLookup(*impl_).array(path);
   if (!array) return std::nullopt;
   return array->second;
 }
 
 std::optional<std::vector<MessageView>> MessageView::messages(std::string_view path) const {
-  const auto array =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
-  if (!array || array->first.slot->kind != FieldKind::kMessages) return std::nullopt;
-  const MessagePlan& entry = (*impl_->plans)[array->first.slot->element];
+  const auto array = FieldLookup(*impl_).array(path, FieldKind::kMessages);
+  if (!array) return std::nullopt;
+  const MessageLayout& entry = (*impl_->layouts)[array->first.slot->element];
   if (array->second > impl_->bytes.size()) return std::nullopt;  // entries without a byte
   std::vector<MessageView> views(array->second);
   std::size_t start = array->first.start;
   for (MessageView& view : views) {
     auto impl = std::make_shared<Impl>();
-    impl->plans = impl_->plans;
+    impl->layouts = impl_->layouts;
     impl->root = array->first.slot->element;
     impl->make_room(entry.segment_sizes.size());
     const std::span<const std::byte> rest = impl_->bytes.subspan(start);
-    const auto size = MessageWalk(*impl->plans, rest).end_of(entry, 0, impl->segments());
+    const auto size = MessageTraversal(*impl->layouts, rest).end_of(entry, 0, impl->segments());
     if (!size) return std::nullopt;
     impl->bytes = rest.first(*size);
     start += *size;
@@ -223,11 +222,10 @@ std::optional<std::vector<MessageView>> MessageView::messages(std::string_view p
 }
 
 std::optional<TableView> MessageView::table(std::string_view path) const {
-  const auto array =
-      Lookup(impl_->plan(), *impl_->plans, impl_->bytes).array(path, impl_->segments());
-  if (!array || array->first.slot->kind != FieldKind::kMessages) return std::nullopt;
+  const auto array = FieldLookup(*impl_).array(path, FieldKind::kMessages);
+  if (!array) return std::nullopt;
   const auto& [found, count] = *array;
-  const MessagePlan& row = (*impl_->plans)[found.slot->element];
+  const MessageLayout& row = (*impl_->layouts)[found.slot->element];
   if (!row.columns) return std::nullopt;
   const std::size_t stride = row.fixed_size();
   return TableView{*row.columns, stride, count, impl_->bytes.subspan(found.start, count * stride)};

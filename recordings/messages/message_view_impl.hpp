@@ -8,18 +8,18 @@
 #include <span>
 #include <vector>
 
-#include "recordings/messages/message_decoder.hpp"
-#include "recordings/messages/message_plan.hpp"
+#include "recordings/messages/message_layout.hpp"
+#include "recordings/messages/message_view.hpp"
 
 namespace aims {
 
 /// A decoded message: its bytes, and where its segments start.
 struct MessageView::Impl {
-  std::shared_ptr<const std::vector<MessagePlan>> plans;
-  std::optional<std::uint32_t> root;  ///< the plan of an entry of an array; none: the type's own
+  std::shared_ptr<const std::vector<MessageLayout>> layouts;
+  std::optional<std::uint32_t> root;  ///< layout of an array's entry; none: the type's own
   std::span<const std::byte> bytes;
 
-  const MessagePlan& plan() const { return root ? (*plans)[*root] : plans->back(); }
+  const MessageLayout& layout() const { return root ? (*layouts)[*root] : layouts->back(); }
 
   void make_room(std::size_t segments) {
     if (segments > few_.size()) many_.resize(segments);

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/messages/number_type.hpp"
+
 #include <algorithm>
 #include <array>
 
 #include "core/files/byte_cursor.hpp"
-#include "recordings/messages/message_decoder.hpp"
 
 namespace aims {
+
+std::string_view name_of(NumberType type) {
+  static constexpr std::array<std::string_view, 10> kNames = {
+      "int8",   "uint8", "int16",  "uint16",  "int32",
+      "uint32", "int64", "uint64", "float32", "float64"};
+  return kNames[static_cast<std::size_t>(type)];
+}
 
 std::size_t size_of(NumberType type) {
   static constexpr std::array<std::size_t, 10> kSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
@@ -38,9 +46,8 @@ double number_at(const std::byte* bytes, NumberType type) {
   return 0.0;
 }
 
-const ColumnLayout* TableView::find(std::string_view name) const {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [name](const ColumnLayout& each) { return each.name == name; });
+const ColumnLayout* find_column(std::span<const ColumnLayout> columns, std::string_view name) {
+  const auto found = std::ranges::find(columns, name, &ColumnLayout::name);
   return found == columns.end() ? nullptr : &*found;
 }
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "recordings/bag/message_source.hpp"
-#include "recordings/stream/leg_stream.hpp"
-#include "recordings/stream/point_cloud.hpp"
-#include "recordings/stream/recording_channels.hpp"
+#include "recordings/clouds/point_cloud.hpp"
+#include "recordings/legs/leg_stream.hpp"
 #include "recordings/stream/recording_reader.hpp"
+#include "recordings/topics/recording_channels.hpp"
 
 namespace aims {
 

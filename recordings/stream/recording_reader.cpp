@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "recordings/stream/leg_stream.hpp"
-#include "recordings/stream/recording_channels.hpp"
+#include "recordings/legs/leg_stream.hpp"
 #include "recordings/stream/recording_plan.hpp"
-#include "recordings/stream/topic_choice.hpp"
+#include "recordings/topics/recording_channels.hpp"
+#include "recordings/topics/topic_choice.hpp"
 
 namespace aims {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
 #include "recordings/bag/bag_reader.hpp"
-#include "recordings/stream/recording_config.hpp"
+#include "recordings/recording_config.hpp"
 
 namespace aims {
 

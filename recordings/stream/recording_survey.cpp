@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recordings/clouds/scan_period.hpp"
+#include "recordings/median.hpp"
 #include "recordings/stream/gravity_unit.hpp"
-#include "recordings/stream/median.hpp"
-#include "recordings/stream/scan_period.hpp"
 
 namespace aims {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "recordings/stream/cloud_survey.hpp"
-#include "recordings/stream/leg_stream.hpp"
-#include "recordings/stream/recorded_frames.hpp"
-#include "recordings/stream/recording_channels.hpp"
+#include "recordings/clouds/cloud_survey.hpp"
+#include "recordings/frames/recorded_frames.hpp"
+#include "recordings/legs/leg_stream.hpp"
 #include "recordings/stream/recording_plan.hpp"
+#include "recordings/topics/recording_channels.hpp"
 
 namespace aims {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "recordings/messages/message_types.hpp"
-#include "recordings/stream/recording_topics.hpp"
+#include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/measurements.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_bytes.hpp"
-#include "recordings/stream/message_encoding.hpp"
+#include "recordings/messages/message_encoding.hpp"
 
 namespace aims {
 
@@ -28,7 +28,7 @@ struct BodyMotion {
 enum class ImuOutput { kMain, kFast };
 
 /// Writes what a robot's sensors deliver, and the truth, as a ROS 1 bag with the topics of
-/// `recordings/stream/recording_topics.hpp`. A message that would need a negative time is left out
+/// `recordings/topics/recording_topics.hpp`. A message that would need a negative time is left out
 /// and counted, as ROS has none; one recorded at 0 is recorded at 1 ns, as ROS takes 0 for "never".
 class RecordingWriter {
  public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Estimates a trajectory with the installed libraries and prints it as TUM lines: of the recording
-// that is given (consumer run.bag), with its final error against the recording's truth on stderr, or
-// of ten synthetic seconds at 0.5 m/s with empty scans.
+// that is given (consumer run.bag), with its final error against the recording's truth on stderr,
+// or of ten synthetic seconds at 0.5 m/s with empty scans.
 #include <cstdio>
 #include <cstdlib>
 

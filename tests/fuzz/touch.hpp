@@ -6,7 +6,7 @@
 #include <span>
 
 #include "recordings/messages/message_decoder.hpp"
-#include "recordings/stream/recording_config.hpp"
+#include "recordings/recording_config.hpp"
 
 namespace aims {
 

@@ -24,6 +24,25 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
     {"sim/sensors", {"core/", "sim/environment/", "sim/robot/", "sim/sensors/"}},
     {"sim/links", {"core/", "sim/links/"}},
     {"recordings", {"core/", "recordings/"}},
+    {"recordings/bag", {"core/", "recordings/bag/", "recordings/messages/message_type.hpp"}},
+    {"recordings/messages", {"core/", "recordings/messages/", "recordings/event_counts.hpp"}},
+    {"recordings/clouds",
+     {"core/", "recordings/messages/", "recordings/clouds/", "recordings/recording_config.hpp",
+      "recordings/event_counts.hpp", "recordings/median.hpp"}},
+    {"recordings/frames",
+     {"core/", "recordings/messages/", "recordings/frames/", "recordings/recording_config.hpp",
+      "recordings/event_counts.hpp"}},
+    {"recordings/legs",
+     {"core/", "recordings/messages/", "recordings/legs/", "recordings/event_counts.hpp"}},
+    {"recordings/topics",
+     {"core/", "recordings/bag/", "recordings/messages/", "recordings/topics/",
+      "recordings/recording_config.hpp"}},
+    {"recordings/trajectories",
+     {"core/", "recordings/bag/", "recordings/messages/", "recordings/trajectories/"}},
+    {"recordings/stream",
+     {"core/", "recordings/bag/", "recordings/messages/", "recordings/clouds/",
+      "recordings/frames/", "recordings/legs/", "recordings/topics/", "recordings/stream/",
+      "recordings/recording_config.hpp", "recordings/event_counts.hpp", "recordings/median.hpp"}},
     {"bench/metrics", {"core/", "bench/metrics/"}},
     {"bench/run", {"core/", "estimator/", "sim/", "recordings/", "bench/", "render/"}},
     {"bench/jobs", {"core/", "estimator/", "sim/", "recordings/", "bench/", "render/"}},
@@ -97,6 +116,15 @@ TEST(IncludeRules, EachFolderIncludesOnlyWhatTheTableAllows) {
         if (!is_own(header)) continue;
         EXPECT_TRUE(starts_with_any(header, allowed)) << file << " includes " << header;
       }
+    }
+  }
+}
+
+TEST(IncludeRules, TheVocabularyIncludesNoFileFormat) {
+  for (const fs::path& file : sources_in(fs::path(AIMS_SOURCE_DIR) / "core")) {
+    if (file.parent_path().filename() == "files") continue;
+    for (const std::string& line : lines_of(file)) {
+      EXPECT_FALSE(included(line).starts_with("core/files/")) << file << ": " << line;
     }
   }
 }

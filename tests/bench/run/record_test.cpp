@@ -13,7 +13,7 @@
 #include "core/files/tum.hpp"
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/messages/message_decoder.hpp"
-#include "recordings/stream/recording_topics.hpp"
+#include "recordings/topics/recording_topics.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -10,8 +10,8 @@
 
 #include "core/files/tum.hpp"
 #include "recordings/bag/bag_writer.hpp"
+#include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
-#include "recordings/stream/message_encoding.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

@@ -16,9 +16,9 @@
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_decoder.hpp"
-#include "recordings/messages/message_plan.hpp"
+#include "recordings/messages/message_encoding.hpp"
+#include "recordings/messages/message_layout.hpp"
 #include "recordings/messages/message_types.hpp"
-#include "recordings/stream/message_encoding.hpp"
 
 namespace aims {
 namespace {

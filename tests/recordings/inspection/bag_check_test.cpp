@@ -43,7 +43,7 @@ BagInfo good_bag() {
   ImuInfo imu;
   imu.topic = "/imu";
   imu.oriented = true;
-  imu.rest = Standstill{.begin_s = 0.0, .length_s = 5.0, .force = {0.0, 0.0, 9.81}};
+  imu.rest = StaticInterval{.begin_s = 0.0, .length_s = 5.0, .force = {0.0, 0.0, 9.81}};
   bag.imus = {imu};
   bag.transforms = {{"imu", "lidar", {}, true}};
   bag.used = {"/points", "/imu", "/odom", "/joints", "/contacts", ""};

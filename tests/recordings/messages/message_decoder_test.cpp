@@ -9,8 +9,8 @@
 #include <algorithm>
 
 #include "core/files/byte_cursor.hpp"
+#include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
-#include "recordings/stream/message_encoding.hpp"
 #include "tests/recordings/messages/random_message.hpp"
 
 namespace aims {

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
-#include "recordings/stream/frame_tree.hpp"
-#include "recordings/stream/leg_names.hpp"
-#include "recordings/stream/point_cloud.hpp"
-#include "recordings/stream/recording_config.hpp"
-#include "recordings/stream/scan_period.hpp"
+#include "recordings/clouds/point_cloud.hpp"
+#include "recordings/clouds/scan_period.hpp"
+#include "recordings/frames/frame_tree.hpp"
+#include "recordings/legs/leg_names.hpp"
+#include "recordings/recording_config.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 
 namespace aims {

@@ -12,8 +12,8 @@
 #include "core/measurements.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_bytes.hpp"
+#include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_type.hpp"
-#include "recordings/stream/message_encoding.hpp"
 #include "recordings/stream/recording_reader.hpp"
 #include "tests/support/temporary_folder.hpp"
 

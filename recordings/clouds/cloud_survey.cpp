@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/clouds/cloud_survey.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "recordings/clouds/scan_period.hpp"
+#include "recordings/median.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::size_t kMostClouds = 60;
+/// Times from the start of a scan are below this; above, they have another origin [ns].
+constexpr double kOtherOrigin = 5e9;
+
+constexpr std::array<std::string_view, 5> kIntensityFields = {"intensity", "reflectivity", "i",
+                                                              "intensities", "signal"};
+
+struct Unit {
+  PointTimeUnit unit;
+  double ns;
+  std::string_view name;
+};
+constexpr std::array<Unit, 4> kUnits = {{{PointTimeUnit::kSeconds, 1e9, "s"},
+                                         {PointTimeUnit::kMilliseconds, 1e6, "ms"},
+                                         {PointTimeUnit::kMicroseconds, 1e3, "us"},
+                                         {PointTimeUnit::kNanoseconds, 1.0, "ns"}}};
+
+std::string_view unit_name(double ns) {
+  for (const Unit& unit : kUnits) {
+    if (unit.ns == ns) return unit.name;
+  }
+  return "?";
+}
+
+}  // namespace
+
+void CloudSurvey::learn_fields(const PointTable& table) {
+  for (const std::string_view name : time_field_names()) {
+    if (table.find(name) != nullptr) time_fields_.emplace_back(name);
+  }
+  if (const ColumnLayout* intensity = table.find_any(kIntensityFields)) {
+    intensity_field_ = intensity->name;
+  }
+}
+
+void CloudSurvey::learn_points(const PointTable& table, Cloud& cloud) {
+  std::vector<std::optional<PointField>> times;
+  for (const std::string& name : time_fields_) {
+    const ColumnLayout* column = table.find(name);
+    times.push_back(column ? std::optional(PointField(table, *column)) : std::nullopt);
+  }
+  const ColumnLayout* intensity = intensity_field_.empty() ? nullptr : table.find(intensity_field_);
+  const PointField x(table, *table.find("x")), y(table, *table.find("y")),
+      z(table, *table.find("z"));
+  cloud.ranges.resize(times.size());
+  rings_.begin(table);
+  std::optional<double> last_azimuth;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::byte* bytes = table.point(i);
+    const Eigen::Vector3d position(x.at(bytes), y.at(bytes), z.at(bytes));
+    if (!position.allFinite() || position.isZero(0.0)) continue;
+    rings_.add(table, i, position);
+    const double azimuth = std::atan2(position.y(), position.x());
+    const double step = last_azimuth ? azimuth - *last_azimuth : 0.0;
+    if (std::abs(step) < 0.2) (step > 0.0 ? rising_azimuths_ : falling_azimuths_) += step != 0.0;
+    last_azimuth = azimuth;
+    if (intensity != nullptr) {
+      const double value = PointField(table, *intensity).at(bytes);
+      if (std::isfinite(value)) largest_intensity_ = std::max(largest_intensity_, value);
+    }
+    for (std::size_t field = 0; field < times.size(); ++field) {
+      if (!times[field]) continue;
+      const double time = times[field]->at(bytes);
+      if (!std::isfinite(time)) continue;
+      auto& range = cloud.ranges[field];
+      if (!range) range = TimeRange{time, time};
+      range->first = std::min(range->first, time);
+      range->last = std::max(range->last, time);
+    }
+  }
+}
+
+void CloudSurvey::add(const PointTable& table, Time record_time) {
+  if (clouds_.size() >= kMostClouds) return;
+  if (clouds_.empty()) learn_fields(table);
+  Cloud cloud{table.stamp, record_time, table.time_base, {}};
+  learn_points(table, cloud);
+  clouds_.push_back(std::move(cloud));
+}
+
+std::vector<Time> CloudSurvey::stamps() const {
+  std::vector<Time> all;
+  for (const Cloud& cloud : clouds_) all.push_back(cloud.stamp);
+  return all;
+}
+
+std::optional<double> CloudSurvey::median_first(std::size_t field) const {
+  std::vector<double> all;
+  for (const Cloud& cloud : clouds_) {
+    if (cloud.ranges.size() > field && cloud.ranges[field]) {
+      all.push_back(cloud.ranges[field]->first);
+    }
+  }
+  return upper_median(all);
+}
+
+/// Whether that field holds times that pass with the scan; if so, how to read them.
+bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
+                               CloudReading& reading) const {
+  std::vector<double> spans;
+  for (const Cloud& cloud : clouds_) {
+    if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
+    spans.push_back(cloud.ranges[field]->last - cloud.ranges[field]->first);
+  }
+  const std::optional<double> span = upper_median(spans);
+  if (!span || !(*span > 0.0)) return false;
+  std::optional<double> unit = time_unit(*span, about);
+  for (const Unit& each : kUnits) {
+    if (each.unit == config.point_time_unit) unit = each.ns;
+  }
+  if (!unit) return false;
+  reading.time_field = time_fields_[field];
+  reading.time_unit = *unit;
+  reading.clock = PointClock::kStamp;
+  std::vector<double> behind;  // of the first point after the stamp, on the stamps' clock [ns]
+  for (const Cloud& cloud : clouds_) {
+    if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
+    const double first = cloud.ranges[field]->first * *unit;
+    const double base = static_cast<double>(cloud.time_base.value_or(0));
+    behind.push_back(base + first - static_cast<double>(cloud.stamp));
+  }
+  const double first = *median_first(field) * *unit;
+  const bool from_stamp = std::abs(first) < kOtherOrigin;
+  const bool has_base = std::any_of(clouds_.begin(), clouds_.end(),
+                                    [](const Cloud& cloud) { return cloud.time_base.has_value(); });
+  const bool same_clock = std::abs(*upper_median(behind)) < static_cast<double>(kLongestScan);
+  if (has_base) {
+    reading.clock = same_clock ? PointClock::kEpoch : PointClock::kStamp;
+  } else if (!from_stamp) {
+    reading.clock = same_clock ? PointClock::kEpoch : PointClock::kOther;
+  }
+  return true;
+}
+
+void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& reading,
+                               std::vector<std::string>& notes) const {
+  const Duration fallback = from_seconds(1.0 / config.lidar_rate);
+  const Duration about =
+      std::min(upper_median(spacings(stamps())).value_or(fallback), kLongestScan);
+  std::optional<Duration> span;
+  for (std::size_t field = 0; field < time_fields_.size(); ++field) {
+    if (!decide_clock(config, field, about, reading)) {
+      notes.push_back(fmt::format("point field '{}' does not pass with the scan: not taken as time",
+                                  time_fields_[field]));
+      continue;
+    }
+    std::vector<Duration> spans;
+    for (const Cloud& cloud : clouds_) {
+      if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
+      const auto& range = *cloud.ranges[field];
+      const auto length = point_time(range.last - range.first, reading.time_unit);
+      if (length && *length > 0 && *length <= kLongestScan) spans.push_back(*length);
+    }
+    span = upper_median(spans);
+    break;
+  }
+  const std::optional<Duration> period = scan_period(stamps(), span);
+  reading.period =
+      std::clamp(period.value_or(fallback), kMillisecond, static_cast<Duration>(kLongestScan));
+  if (!period) {
+    notes.push_back(fmt::format("too few clouds to tell the scan's period: {:g} s by lidar_rate",
+                                to_seconds(reading.period)));
+  }
+  if (reading.clock == PointClock::kNone) {
+    notes.push_back(fmt::format(
+        "points carry no time: made up from azimuth, spinning {}, {:.4g} s a turn "
+        "(lidar_clockwise, lidar_rate)",
+        reading.clockwise ? "clockwise" : "counter-clockwise", to_seconds(reading.period)));
+    const int steps = rising_azimuths_ + falling_azimuths_;
+    const int against = reading.clockwise ? rising_azimuths_ : falling_azimuths_;
+    if (steps > 100 && against > 0.7 * steps) {
+      notes.push_back(
+          fmt::format("azimuths run the other way from point to point: set "
+                      "lidar_clockwise: {}",
+                      !reading.clockwise));
+    }
+    return;
+  }
+  static constexpr std::array<std::string_view, 4> kOrigins = {
+      "", "counted from the cloud's stamp", "on the stamps' clock",
+      "on a clock of its own, of which only differences are used"};
+  notes.push_back(fmt::format("point time: field '{}' in {}, {}", reading.time_field,
+                              unit_name(reading.time_unit),
+                              kOrigins[static_cast<std::size_t>(reading.clock)]));
+}
+
+/// Whether the stamp marks the start or the end of the scan.
+void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& reading,
+                               std::vector<std::string>& notes) const {
+  const auto period = static_cast<double>(reading.period);
+  std::vector<double> latencies;
+  std::vector<double> firsts;  // first point after the stamp [ns]
+  for (const Cloud& cloud : clouds_) {
+    latencies.push_back(static_cast<double>(cloud.arrival) - static_cast<double>(cloud.stamp));
+    for (std::size_t field = 0; field < cloud.ranges.size(); ++field) {
+      if (time_fields_[field] != reading.time_field || !cloud.ranges[field]) continue;
+      double first = cloud.ranges[field]->first * reading.time_unit;
+      if (reading.clock == PointClock::kEpoch) {
+        first -= static_cast<double>(cloud.stamp - cloud.time_base.value_or(0));
+      }
+      firsts.push_back(first);
+    }
+  }
+  const double first = upper_median(firsts).value_or(0.0);
+  const double latency = upper_median(latencies).value_or(period);
+  // A cloud cannot arrive before its scan is over. Exactly at its stamp: not an arrival at all.
+  const bool too_early = latency < 0.5 * period && latency > -0.5 * period && latency != 0.0;
+  const bool to_stamp = reading.clock == PointClock::kStamp || reading.clock == PointClock::kEpoch;
+  reading.counted_from_start = !to_stamp;
+  reading.stamp = CloudStamp::kStart;
+  if (config.cloud_stamp != CloudStamp::kAuto) {
+    reading.stamp = config.cloud_stamp;
+    // Times that begin with the scan while the stamp is said to be its end.
+    if (reading.clock == PointClock::kStamp && first > -0.2 * period) {
+      reading.counted_from_start = true;
+    }
+  } else if (to_stamp && first < -0.5 * period) {
+    reading.stamp = CloudStamp::kEnd;
+    notes.push_back("points fire before their cloud's stamp: it marks the end of the scan");
+  } else if (!to_stamp && too_early) {
+    reading.stamp = CloudStamp::kEnd;
+    notes.push_back(
+        fmt::format("clouds arrive {:.1f} ms after their stamp, before a scan that "
+                    "starts there is over: it is taken as the end (cloud_stamp)",
+                    1e-6 * latency));
+  } else if (to_stamp && too_early) {
+    notes.push_back(
+        fmt::format("clouds arrive {:.1f} ms after their stamp though their points fire "
+                    "later: if the stamp marks the end, set cloud_stamp: end",
+                    1e-6 * latency));
+  }
+}
+
+void CloudSurvey::decide_intensity(CloudReading& reading, std::vector<std::string>& notes) const {
+  reading.intensity_field = intensity_field_;
+  if (intensity_field_.empty() || largest_intensity_ <= 1.0) return;
+  const double full = largest_intensity_ <= 255.0 ? 255.0 : 65535.0;
+  reading.intensity_scale = static_cast<float>(1.0 / full);
+  notes.push_back(fmt::format("point field '{}' up to {:.4g}: divided by {:g}", intensity_field_,
+                              largest_intensity_, full));
+}
+
+CloudReading CloudSurvey::decide(const RecordingConfig& config,
+                                 std::vector<std::string>& notes) const {
+  CloudReading reading;
+  reading.clockwise = config.lidar_clockwise;
+  decide_times(config, reading, notes);
+  decide_stamp(config, reading, notes);
+  rings_.decide(reading, notes);
+  decide_intensity(reading, notes);
+  return reading;
+}
+
+}  // namespace aims

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "recordings/clouds/point_table.hpp"
+#include "recordings/event_counts.hpp"
+#include "recordings/recording_config.hpp"
+
+namespace aims {
+
+/// Where the firing time of a point comes from.
+enum class PointClock {
+  kNone,   ///< made up from its azimuth and the spin
+  kStamp,  ///< its field, counted from the cloud's stamp
+  kEpoch,  ///< its field, on the clock of the stamps
+  kOther,  ///< its field, on a clock of its own: only differences count
+};
+
+/// Where the ring of a point comes from.
+enum class RingSource { kNone, kField, kRow, kColumn, kElevation };
+
+/// How the clouds of a recording are understood.
+struct CloudReading {
+  PointClock clock = PointClock::kNone;
+  std::string time_field;
+  double time_unit = 1.0;                 ///< of that field [ns]
+  CloudStamp stamp = CloudStamp::kStart;  ///< never kAuto
+  bool counted_from_start = true;         ///< times begin with the scan, whatever the stamp marks
+  Duration period = 100 * kMillisecond;   ///< nominal, of one scan
+  bool clockwise = true;                  ///< sense of spin, for kNone
+  RingSource ring_source = RingSource::kNone;
+  std::string ring_field;
+  int flipped_rings = 0;                ///< > 0: ring 0 is the top one of so many
+  std::vector<double> ring_elevations;  ///< rising, for kElevation [rad]
+  std::string intensity_field;          ///< empty: none
+  float intensity_scale = 1.0F;         ///< brings it to [0, 1]
+};
+
+/// The points in firing order, each at its own time; what is not finite, at the origin, or more
+/// than a second from the stamp is dropped and counted. `table` is valid.
+LidarScan read_cloud(const PointTable& table, const CloudReading& reading, EventCounts& counts);
+
+/// Names under which drivers give the time of a point.
+std::span<const std::string_view> time_field_names();
+
+/// The time of a point [ns], as its field has it; empty when it is no time.
+std::optional<Time> point_time(double value, double unit_ns);
+
+}  // namespace aims

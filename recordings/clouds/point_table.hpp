@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/time.hpp"
+#include "recordings/messages/message_decoder.hpp"
+
+namespace aims {
+
+/// The points of one cloud message as rows of fields: a view into the message's bytes. Every row,
+/// and every field within it, lies within `bytes`.
+struct PointTable {
+  Time stamp = 0;          ///< of the header
+  std::string_view frame;  ///< of the header
+  std::vector<ColumnLayout> columns;
+  std::size_t width = 0;       ///< points in a row
+  std::size_t height = 1;      ///< more than 1: an organised cloud
+  std::size_t point_step = 0;  ///< [bytes]
+  std::size_t row_step = 0;    ///< [bytes]
+  bool big_endian = false;
+  std::optional<Time> time_base;  ///< to which times of points are relative, if not to the stamp
+  std::span<const std::byte> bytes;
+
+  std::size_t size() const { return width * height; }
+  const std::byte* point(std::size_t index) const {
+    return bytes.data() + (index / width) * row_step + (index % width) * point_step;
+  }
+  /// The first field of that name, or nullptr.
+  const ColumnLayout* find(std::string_view name) const { return find_column(columns, name); }
+  /// The first field with one of these names, or nullptr.
+  const ColumnLayout* find_any(std::span<const std::string_view> names) const;
+};
+
+/// The points of a sensor_msgs/PointCloud2 or of a livox CustomMsg. Error for a layout that does
+/// not hold together: fields or rows beyond the data, or no x, y, z as float.
+Result<PointTable> point_table(const MessageView& message);
+
+/// Error unless rows, points and fields lie within the bytes, and x, y, z are there.
+Result<void> validate(const PointTable& table);
+
+/// One field of every point.
+class PointField {
+ public:
+  PointField(const PointTable& table, const ColumnLayout& column)
+      : type_(column.type), offset_(column.offset), big_endian_(table.big_endian) {}
+
+  double at(const std::byte* point) const;
+
+ private:
+  NumberType type_;
+  std::size_t offset_;
+  bool big_endian_;
+};
+
+}  // namespace aims

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "recordings/clouds/point_cloud.hpp"
+
+namespace aims {
+
+/// Names under which drivers give the ring of a point.
+std::span<const std::string_view> ring_field_names();
+
+/// Learns from the points of the first clouds how their rings are told.
+class RingSurvey {
+ public:
+  /// Looks at the layout of a cloud; before its points.
+  void begin(const PointTable& table);
+  /// Takes the point at `index`, which is finite and not the origin.
+  void add(const PointTable& table, std::size_t index, const Eigen::Vector3d& position);
+
+  /// Fills in how rings are read; appends to `notes` what was made up.
+  void decide(CloudReading& reading, std::vector<std::string>& notes) const;
+
+ private:
+  struct Mean {
+    double elevation_sum = 0.0;  ///< [rad]
+    int points = 0;
+  };
+
+  bool highest_first() const;
+
+  bool begun_ = false;
+  RingSource source_ = RingSource::kNone;
+  std::string name_;
+  std::optional<PointField> field_;  ///< of the present cloud
+  std::vector<Mean> rings_;
+  std::vector<float> elevations_;  ///< [rad]; where nothing else tells
+};
+
+}  // namespace aims

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/clouds/scan_period.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "recordings/median.hpp"
+
+namespace aims {
+namespace {
+
+/// The period of the nearest whole number of scans per second, if within 3 % of `period`.
+Duration whole_rate(Duration period) {
+  const double rate = std::max(1.0, std::round(1.0 / to_seconds(period)));
+  const Duration whole = from_seconds(1.0 / rate);
+  return std::abs(whole - period) <= period * 3 / 100 ? whole : period;
+}
+
+}  // namespace
+
+std::vector<Duration> spacings(std::vector<Time> stamps) {
+  std::sort(stamps.begin(), stamps.end());
+  std::vector<Duration> between;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    if (stamps[i] > stamps[i - 1]) between.push_back(stamps[i] - stamps[i - 1]);
+  }
+  return between;
+}
+
+std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Duration> span) {
+  std::vector<Duration> between = spacings(std::move(stamps));
+  std::erase_if(between, [&](Duration each) { return span && each < *span - *span / 10; });
+  if (between.empty()) {
+    if (!span || *span <= 0) return std::nullopt;
+    // The last firing comes a little before the end.
+    return whole_rate(*span);
+  }
+  const Duration least = *std::min_element(between.begin(), between.end());
+  const Duration base = span && least > *span + *span / 2 ? *span : least;
+  std::map<Duration, std::size_t> periods;
+  for (const Duration each : between) {
+    const Duration scans = std::max<Duration>(1, (each + base / 2) / base);
+    ++periods[(each + scans / 2) / scans];
+  }
+  const auto most = std::max_element(periods.begin(), periods.end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  if (2 * most->second >= between.size()) return most->first;
+  std::vector<Duration> each;
+  for (const auto& [period, times] : periods) each.insert(each.end(), times, period);
+  // Stamps that jitter: how long points fire tells the period better, if it is near.
+  const Duration usual = *upper_median(each);
+  const Duration fired = whole_rate(span.value_or(usual));
+  return std::abs(fired - usual) <= usual / 4 ? fired : whole_rate(usual);
+}
+
+std::optional<double> time_unit(double span, Duration about) {
+  std::optional<double> best;
+  double best_ratio = 20.0;
+  for (const double ns : {1e9, 1e6, 1e3, 1.0}) {
+    const double length = span * ns / static_cast<double>(about);
+    if (!(length > 0.0)) continue;
+    const double ratio = std::max(length, 1.0 / length);
+    if (ratio >= best_ratio) continue;
+    best_ratio = ratio;
+    best = ns;
+  }
+  return best;
+}
+
+std::optional<double> sample_rate(std::vector<Time> stamps) {
+  std::sort(stamps.begin(), stamps.end());
+  const std::vector<Duration> between = spacings(stamps);
+  if (between.empty()) return std::nullopt;
+  std::map<Duration, std::size_t> times;
+  for (const Duration each : between) ++times[each];
+  const auto most = std::max_element(times.begin(), times.end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  if (3 * most->second >= between.size()) return 1.0 / to_seconds(most->first);
+  const Duration usual = *upper_median(between);
+  const auto near = std::count_if(between.begin(), between.end(), [&](Duration each) {
+    return std::abs(each - usual) < usual / 10;
+  });
+  if (2 * static_cast<std::size_t>(near) >= between.size()) return 1.0 / to_seconds(usual);
+  return static_cast<double>(between.size()) / to_seconds(stamps.back() - stamps.front());
+}
+
+}  // namespace aims

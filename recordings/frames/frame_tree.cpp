@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/frames/frame_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "recordings/messages/message_values.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::size_t kMostPairs = 1000;
+
+}  // namespace
+
+std::string FrameTree::plain(std::string_view frame) {
+  if (frame.starts_with('/')) frame.remove_prefix(1);
+  return std::string(frame);
+}
+
+bool FrameTree::add(std::string_view parent, std::string_view child, const Pose& T_parent_child) {
+  const std::string from = plain(parent);
+  const std::string to = plain(child);
+  const double norm = T_parent_child.rotation.norm();
+  if (from == to || from.empty() || to.empty() || pairs_ >= kMostPairs) return false;
+  if (!T_parent_child.translation.allFinite() || !(norm > 0.5) || !(norm < 2.0)) return false;
+  if (neighbours_[from].contains(to)) return true;
+  Pose pose = T_parent_child;
+  if (is_off_unit(pose.rotation)) pose.rotation.normalize();
+  neighbours_[from][to] = pose;
+  neighbours_[to][from] = pose.inverse();
+  ++pairs_;
+  return true;
+}
+
+void FrameTree::add(const MessageView& message, EventCounts& counts) {
+  const std::size_t size = message.size("transforms").value_or(0);
+  for (std::size_t i = 0; i < std::min(size, kMostPairs); ++i) {
+    const std::string path = fmt::format("transforms[{}].", i);
+    const auto parent = message.text(path + "header.frame_id");
+    const auto child = message.text(path + "child_frame_id");
+    const auto translation = vector_at(message, path + "transform.translation");
+    const auto rotation = quaternion_at(message, path + "transform.rotation");
+    if (!parent || !child || !translation || !rotation) return;
+    const Pose pose{*rotation, *translation};
+    if (!add(*parent, *child, pose)) ++counts["tf_unusable"];
+  }
+}
+
+std::vector<std::string> FrameTree::chain(std::string_view from, std::string_view to) const {
+  const std::string start = plain(from);
+  const std::string goal = plain(to);
+  if (start == goal) return {start};
+  std::map<std::string, std::string> came_from = {{start, start}};
+  std::deque<std::string> open = {start};
+  while (!open.empty() && !came_from.contains(goal)) {
+    const std::string here = open.front();
+    open.pop_front();
+    const auto found = neighbours_.find(here);
+    if (found == neighbours_.end()) continue;
+    for (const auto& [there, pose] : found->second) {
+      if (came_from.emplace(there, here).second) open.push_back(there);
+    }
+  }
+  if (!came_from.contains(goal)) return {};
+  std::vector<std::string> frames = {goal};
+  while (frames.back() != start) frames.push_back(came_from[frames.back()]);
+  std::reverse(frames.begin(), frames.end());
+  return frames;
+}
+
+std::optional<Pose> FrameTree::transform(std::string_view from, std::string_view to) const {
+  const std::vector<std::string> frames = chain(from, to);
+  if (frames.empty()) return std::nullopt;
+  std::optional<Pose> total;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const Pose& step = neighbours_.at(frames[i - 1]).at(frames[i]);
+    total = total ? *total * step : step;
+  }
+  return total.value_or(Pose{});
+}
+
+}  // namespace aims

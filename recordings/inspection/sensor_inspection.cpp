@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/inspection/sensor_inspection.hpp"
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "recordings/clouds/point_table.hpp"
+#include "recordings/median.hpp"
+#include "recordings/messages/message_values.hpp"
+#include "recordings/stream/gravity_unit.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::uint64_t kCloudsLookedAt = 20;
+constexpr std::size_t kUnitSamples = 100;  ///< of an IMU, to tell its unit
+
+}  // namespace
+
+CloudInspection::CloudInspection(std::string topic) { info_.topic = std::move(topic); }
+
+void CloudInspection::add(const MessageView& message) {
+  if (info_.clouds == kCloudsLookedAt) return;
+  const auto table = point_table(message);
+  if (!table) {
+    ++info_.broken;
+    info_.first_broken = info_.first_broken.empty() ? table.error().message : info_.first_broken;
+    return;
+  }
+  if (info_.clouds++ == 0) {
+    info_.height = table->height;
+    info_.point_step = table->point_step;
+    info_.dense = message.number("is_dense").value_or(1.0) != 0.0;
+    for (const ColumnLayout& each : table->columns) {
+      info_.fields.push_back({each.name, std::string(name_of(each.type)), each.offset});
+    }
+  }
+  points_ += table->size();
+  const PointField x(*table, *table->find("x"));
+  for (std::size_t i = 0; i < table->size(); ++i) {
+    not_finite_ += std::isfinite(x.at(table->point(i))) ? 0 : 1;
+  }
+}
+
+CloudInfo CloudInspection::finish() const {
+  CloudInfo info = info_;
+  if (info.clouds > 0) {
+    info.mean_points = static_cast<double>(points_) / static_cast<double>(info.clouds);
+  }
+  if (points_ > 0) {
+    info.not_finite_share = static_cast<double>(not_finite_) / static_cast<double>(points_);
+  }
+  return info;
+}
+
+ImuInspection::ImuInspection(std::string topic) { info_.topic = std::move(topic); }
+
+void ImuInspection::add(const MessageView& message, Time stamp) {
+  const auto rate = vector_at(message, "angular_velocity");
+  const auto force = vector_at(message, "linear_acceleration");
+  if (!rate || !force || !force->allFinite()) return;
+  const ImuSample sample = {stamp, *rate, *force};
+  if (unit_known_) return add_in_si(sample);
+  first_.push_back(sample);
+  const auto orientation = quaternion_at(message, "orientation");
+  info_.oriented = orientation && std::abs(orientation->norm() - 1.0) < 1e-2;
+  if (first_.size() == kUnitSamples) settle_unit();
+}
+
+ImuInfo ImuInspection::finish() {
+  if (!unit_known_) settle_unit();
+  info_.rest = rest_.longest();
+  return info_;
+}
+
+/// A robot's mean force is near one g, whichever unit it is told in.
+void ImuInspection::settle_unit() {
+  std::vector<double> norms;
+  for (const ImuSample& each : first_) norms.push_back(each.specific_force.norm());
+  const double usual = upper_median(norms).value_or(kStandardGravity);
+  info_.in_g = is_in_gravities(usual);
+  unit_known_ = true;
+  for (const ImuSample& each : first_) add_in_si(each);
+  first_.clear();
+}
+
+void ImuInspection::add_in_si(ImuSample sample) {
+  if (info_.in_g) sample.specific_force *= kStandardGravity;
+  rest_.add(sample);
+}
+
+}  // namespace aims

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "recordings/inspection/bag_info.hpp"
+#include "recordings/inspection/static_interval.hpp"
+#include "recordings/messages/message_decoder.hpp"
+
+namespace aims {
+
+/// Looks at the first clouds of a topic.
+class CloudInspection {
+ public:
+  explicit CloudInspection(std::string topic);
+  void add(const MessageView& message);
+  CloudInfo finish() const;
+
+ private:
+  CloudInfo info_;
+  std::uint64_t points_ = 0;
+  std::uint64_t not_finite_ = 0;
+};
+
+/// Listens to one IMU topic.
+class ImuInspection {
+ public:
+  explicit ImuInspection(std::string topic);
+  void add(const MessageView& message, Time stamp);
+  ImuInfo finish();
+
+ private:
+  void settle_unit();
+  void add_in_si(ImuSample sample);
+
+  ImuInfo info_;
+  bool unit_known_ = false;
+  std::vector<ImuSample> first_;  ///< until the unit is known
+  StaticIntervalFinder rest_;
+};
+
+}  // namespace aims

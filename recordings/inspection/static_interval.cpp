@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/inspection/static_interval.hpp"
+
+#include <cmath>
+
+namespace aims {
+namespace {
+
+constexpr double kStillRate = 0.1;         ///< mean rate [rad/s]
+constexpr double kStillRateSpread = 0.03;  ///< standard deviation, any axis [rad/s]
+constexpr double kStillForceSpread = 0.3;  ///< standard deviation, any axis [m/s^2]
+constexpr int kFewestSamples = 10;         ///< of a window
+
+Eigen::Vector3d spread(const Eigen::Vector3d& sum, const Eigen::Vector3d& squares, int count) {
+  const Eigen::Vector3d mean = sum / count;
+  return (squares / count - mean.cwiseProduct(mean)).cwiseMax(0.0).cwiseSqrt();
+}
+
+}  // namespace
+
+void StaticIntervalFinder::Sums::add(const ImuSample& sample, const ImuSample& origin) {
+  if (samples == 0) begin = sample.stamp;
+  end = sample.stamp;
+  ++samples;
+  const Eigen::Vector3d rate_off = sample.angular_velocity - origin.angular_velocity;
+  const Eigen::Vector3d force_off = sample.specific_force - origin.specific_force;
+  rate += rate_off;
+  rate_squares += rate_off.cwiseProduct(rate_off);
+  force += force_off;
+  force_squares += force_off.cwiseProduct(force_off);
+}
+
+void StaticIntervalFinder::Sums::add(const Sums& other) {
+  if (samples == 0) begin = other.begin;
+  end = other.end;
+  samples += other.samples;
+  rate += other.rate;
+  rate_squares += other.rate_squares;
+  force += other.force;
+  force_squares += other.force_squares;
+}
+
+bool StaticIntervalFinder::is_still(const Sums& window) const {
+  if (window.samples < kFewestSamples) return false;
+  const Eigen::Vector3d mean = origin_->angular_velocity + window.rate / window.samples;
+  return mean.norm() < kStillRate &&
+         spread(window.rate, window.rate_squares, window.samples).maxCoeff() < kStillRateSpread &&
+         spread(window.force, window.force_squares, window.samples).maxCoeff() < kStillForceSpread;
+}
+
+void StaticIntervalFinder::close_window() {
+  if (is_still(window_)) {
+    stretch_.add(window_);
+    if (stretch_.end - stretch_.begin > longest_.end - longest_.begin) longest_ = stretch_;
+  } else {
+    stretch_ = {};
+  }
+  window_ = {};
+}
+
+void StaticIntervalFinder::add(const ImuSample& sample) {
+  if (!sample.angular_velocity.allFinite() || !sample.specific_force.allFinite()) return;
+  if (!origin_) origin_ = sample;
+  const bool full = window_.samples > 0 &&
+                    (sample.stamp - window_.begin >= kSecond || sample.stamp < window_.end);
+  if (full) close_window();
+  window_.add(sample, *origin_);
+}
+
+std::optional<StaticInterval> StaticIntervalFinder::longest() const {
+  StaticIntervalFinder finished = *this;
+  finished.close_window();
+  const Sums& rest = finished.longest_;
+  if (rest.samples < kFewestSamples) return std::nullopt;
+  const double interval = to_seconds(rest.end - rest.begin) / (rest.samples - 1);
+  StaticInterval found;
+  found.begin_s = to_seconds(rest.begin - origin_->stamp);
+  found.length_s = to_seconds(rest.end - rest.begin);
+  found.gyro_bias = origin_->angular_velocity + rest.rate / rest.samples;
+  found.force = origin_->specific_force + rest.force / rest.samples;
+  const double to_density = std::sqrt(interval);
+  found.gyro_noise = to_density * spread(rest.rate, rest.rate_squares, rest.samples);
+  found.force_noise = to_density * spread(rest.force, rest.force_squares, rest.samples);
+  return found;
+}
+
+}  // namespace aims

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "recordings/event_counts.hpp"
+#include "recordings/legs/leg_names.hpp"
+#include "recordings/messages/message_decoder.hpp"
+#include "recordings/messages/message_values.hpp"
+
+namespace aims {
+
+/// Angles and rates of the joints at an instant.
+struct JointReading {
+  Time stamp = 0;
+  std::array<double, kJointCount> position{};               ///< [rad]
+  std::optional<std::array<double, kJointCount>> velocity;  ///< [rad/s]
+};
+
+/// Which feet stand at an instant.
+struct ContactReading {
+  Time stamp = 0;
+  std::array<bool, kLegCount> contact{};
+};
+
+/// What nav_msgs/Odometry says, without contacts and joints.
+std::optional<LegOdometrySample> odometry_at(const MessageView& message, EventCounts& counts);
+
+/// What geometry_msgs/TwistStamped or Twist says: the sample without a pose.
+std::optional<LegOdometrySample> twist_at(const MessageView& message, Time record_time);
+
+/// What sensor_msgs/JointState says; nothing when a joint is missing.
+std::optional<JointReading> joints_at(const MessageView& message, Time record_time,
+                                      const std::vector<std::string>& joint_names);
+
+/// How contacts are read.
+struct ContactRule {
+  std::string field;
+  double threshold = 20.0;  ///< value from which a foot stands
+  std::vector<std::string> foot_names;
+};
+
+/// The numbers of the field that tell contacts, one per foot in the order of the legs.
+std::optional<std::array<double, kLegCount>> loads_at(const MessageView& message,
+                                                      const ContactRule& rule);
+
+std::optional<ContactReading> contacts_at(const MessageView& message, Time record_time,
+                                          const ContactRule& rule);
+
+}  // namespace aims

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/legs/leg_names.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace aims {
+namespace {
+
+constexpr std::size_t kLongestName = 200;
+
+std::string lower(std::string_view text) {
+  std::string result(text.substr(0, kLongestName));
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::vector<std::string> result(1);
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c))) {
+      result.back() += c;
+    } else if (!result.back().empty()) {
+      result.emplace_back();
+    }
+  }
+  return result;
+}
+
+bool has_any(const std::vector<std::string>& each, std::initializer_list<std::string_view> wanted) {
+  return std::any_of(each.begin(), each.end(), [&](const std::string& word) {
+    return std::find(wanted.begin(), wanted.end(), word) != wanted.end();
+  });
+}
+
+bool holds_any(const std::string& text, std::initializer_list<std::string_view> parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](std::string_view part) { return text.find(part) != std::string::npos; });
+}
+
+bool is_foot(std::string_view name) { return holds_any(lower(name), {"foot", "toe", "contact"}); }
+
+}  // namespace
+
+std::optional<int> leg_of_name(std::string_view name) {
+  const std::vector<std::string> each = words(lower(name));
+  if (has_any(each, {"fl", "lf"})) return 0;
+  if (has_any(each, {"fr", "rf"})) return 1;
+  if (has_any(each, {"rl", "lr", "lh", "hl", "bl"})) return 2;
+  if (has_any(each, {"rr", "rh", "hr", "br"})) return 3;
+  const bool front = has_any(each, {"front", "fore"});
+  const bool rear = has_any(each, {"rear", "hind", "back"});
+  const bool left = has_any(each, {"left"});
+  const bool right = has_any(each, {"right"});
+  if (front == rear || left == right) return std::nullopt;
+  return (front ? 0 : 2) + (left ? 0 : 1);
+}
+
+std::optional<int> joint_of_name(std::string_view name) {
+  const std::string text = lower(name);
+  if (holds_any(text, {"kfe", "calf", "knee", "kn", "shank", "lower"})) return 2;
+  if (holds_any(text, {"hfe", "thigh", "hip_y", "hip_pitch", "hip_fe", "hy", "upper"})) return 1;
+  if (holds_any(text, {"haa", "hip", "hx", "abd", "abad", "shoulder"})) return 0;
+  return std::nullopt;
+}
+
+std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded,
+                                      std::span<const std::string> configured, std::size_t size) {
+  JointOrder order;
+  std::array<bool, kJointCount> found{};
+  const std::size_t named = std::min(recorded.size(), size);
+  for (std::size_t i = 0; i < named; ++i) {
+    std::optional<std::size_t> joint;
+    if (!configured.empty()) {
+      const auto at = std::find(configured.begin(), configured.end(), recorded[i]);
+      if (at != configured.end()) joint = static_cast<std::size_t>(at - configured.begin());
+    } else if (!is_foot(recorded[i])) {
+      const auto leg = leg_of_name(recorded[i]);
+      const auto part = joint_of_name(recorded[i]);
+      if (leg && part) joint = static_cast<std::size_t>(3 * *leg + *part);
+    }
+    if (!joint || *joint >= order.size() || found[*joint]) continue;
+    order[*joint] = i;
+    found[*joint] = true;
+  }
+  if (std::all_of(found.begin(), found.end(), [](bool each) { return each; })) return order;
+  const bool told_something =
+      std::any_of(found.begin(), found.end(), [](bool each) { return each; });
+  if (!configured.empty() || told_something || size != order.size()) return std::nullopt;
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  return order;
+}
+
+std::optional<std::vector<int>> foot_order(std::span<const std::string_view> recorded,
+                                           std::span<const std::string> configured,
+                                           std::size_t size) {
+  if (size > kLongestName) return std::nullopt;
+  std::vector<int> order(size, -1);
+  std::array<bool, kLegCount> found{};
+  const auto take = [&](std::size_t entry, std::optional<int> leg) {
+    if (!leg || found[static_cast<std::size_t>(*leg)]) return;
+    order[entry] = *leg;
+    found[static_cast<std::size_t>(*leg)] = true;
+  };
+  // Beside joints an entry is a foot's by its name, or the knee's, which bears the foot's load.
+  const bool among_joints = size >= static_cast<std::size_t>(kJointCount);
+  const bool has_feet = std::any_of(recorded.begin(), recorded.end(), is_foot);
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i < configured.size()) {
+      take(i, leg_of_name(configured[i]));
+    } else if (configured.empty() && i < recorded.size()) {
+      const bool wanted =
+          !among_joints || (has_feet ? is_foot(recorded[i]) : joint_of_name(recorded[i]) == 2);
+      if (wanted) take(i, leg_of_name(recorded[i]));
+    }
+  }
+  if (std::all_of(found.begin(), found.end(), [](bool each) { return each; })) return order;
+  if (!configured.empty() || size != static_cast<std::size_t>(kLegCount)) return std::nullopt;
+  return std::vector<int>{0, 1, 2, 3};
+}
+
+}  // namespace aims

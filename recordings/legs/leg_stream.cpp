@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/legs/leg_stream.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aims {
+namespace {
+
+constexpr double kUpRate = 0.5;           ///< of the upward direction to the felt one [1/s]
+constexpr double kLevellingRate = 1.0;    ///< of an integrated attitude to gravity [1/s]
+constexpr double kLongestStep = 0.5;      ///< a longer gap tells nothing of the way [s]
+constexpr double kFastestTwist = 1000.0;  ///< [m/s], [rad/s]
+constexpr Duration kOldestContact = kSecond / 5;
+
+}  // namespace
+
+void UpDirection::add(const ImuSample& sample) {
+  const double force = sample.specific_force.norm();
+  if (!sample.angular_velocity.allFinite() || !std::isfinite(force) || !(force > 0.1)) return;
+  const Eigen::Vector3d felt = sample.specific_force / force;
+  if (!up_) {
+    up_ = felt;
+  } else {
+    const double step = std::clamp(to_seconds(sample.stamp - stamp_), 0.0, kLongestStep);
+    const Eigen::Vector3d turned = so3_exp(-step * sample.angular_velocity) * *up_;
+    const Eigen::Vector3d drawn = turned + kUpRate * step * (felt - turned);
+    up_ = drawn.norm() > 1e-6 ? Eigen::Vector3d(drawn.normalized()) : felt;
+  }
+  stamp_ = sample.stamp;
+}
+
+void LegStream::add_imu(const ImuSample& sample) {
+  if (!sample.angular_velocity.allFinite()) return;
+  imu_ = sample;
+  up_.add(sample);
+}
+
+bool LegStream::same_instant(Time a, Time b) const {
+  return std::max(a, b) - std::min(a, b) <= config_.half_period;
+}
+
+void LegStream::attach(LegOdometrySample& sample) const {
+  if (joints_ && same_instant(joints_->stamp, sample.stamp)) {
+    sample.joint_position = joints_->position;
+    if (joints_->velocity) sample.joint_velocity = *joints_->velocity;
+  }
+  if (contacts_ && same_instant(contacts_->stamp, sample.stamp)) {
+    sample.contact = contacts_->contact;
+  }
+}
+
+std::optional<Eigen::Vector3d> LegStream::up_in_base() const {
+  if (!up_.in_body()) return std::nullopt;
+  return config_.T_body_base.rotation.conjugate() * *up_.in_body();
+}
+
+LegOdometrySample LegStream::add_odometry(LegOdometrySample sample, EventCounts& counts) {
+  attach(sample);
+  if (twist_check_.add(sample)) ++counts["legs_twist_in_odometry_axes_seconds"];
+  return sample;
+}
+
+LegOdometrySample LegStream::add_twist(LegOdometrySample sample) {
+  attach(sample);
+  integrate(sample);
+  return sample;
+}
+
+/// Moves the pose on by the twist since the last sample; roll and pitch are kept by gravity.
+void LegStream::integrate(LegOdometrySample& sample) {
+  const std::optional<Eigen::Vector3d> up = up_in_base();
+  if (!integrated_) {
+    if (up) {
+      const auto level = Eigen::Quaterniond::FromTwoVectors(*up, Eigen::Vector3d::UnitZ());
+      T_odom_base_.rotation = yaw_rotation(-yaw_of(level)) * level;
+    }
+    integrated_ = sample.stamp;
+  }
+  const double step = to_seconds(sample.stamp - *integrated_);
+  const bool plausible = sample.angular_velocity.norm() < kFastestTwist &&
+                         sample.linear_velocity.norm() < kFastestTwist;
+  if (step > 0.0 && step <= kLongestStep && plausible) {
+    Eigen::Quaterniond& rotation = T_odom_base_.rotation;
+    rotation = (rotation * so3_exp(sample.angular_velocity * step)).normalized();
+    if (up) {
+      const Eigen::Vector3d believed = rotation.conjugate() * Eigen::Vector3d::UnitZ();
+      rotation = (rotation * so3_exp(kLevellingRate * step * up->cross(believed))).normalized();
+    }
+    T_odom_base_.translation += rotation * sample.linear_velocity * step;
+  }
+  integrated_ = std::max(*integrated_, sample.stamp);
+  sample.T_odom_base = T_odom_base_;
+}
+
+/// Rates from the angles of the last message, where none are recorded.
+void LegStream::differentiate(JointReading& reading) const {
+  if (reading.velocity || !joints_) return;
+  const double step = to_seconds(reading.stamp - joints_->stamp);
+  if (!(step > 0.0) || step > kLongestStep) return;
+  reading.velocity.emplace();
+  for (std::size_t i = 0; i < reading.position.size(); ++i) {
+    (*reading.velocity)[i] = (reading.position[i] - joints_->position[i]) / step;
+  }
+}
+
+/// The base's velocity by the leg model: the mean over the standing feet; without any, the last
+/// goes on.
+std::optional<LegOdometrySample> LegStream::walk(const JointReading& joints, EventCounts& counts) {
+  joints_wait_ = false;
+  if (!joints.velocity || !imu_ || !contacts_) return ++counts["legs_incomplete"], std::nullopt;
+  if (joints.stamp - contacts_->stamp > kOldestContact) {
+    return ++counts["legs_without_contacts"], std::nullopt;
+  }
+  LegOdometrySample sample;
+  sample.stamp = joints.stamp;
+  sample.joint_position = joints.position;
+  sample.joint_velocity = *joints.velocity;
+  sample.contact = contacts_->contact;
+  sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int feet = 0;
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    if (!sample.contact[static_cast<std::size_t>(leg)]) continue;
+    const LegMotion motion{Eigen::Vector3d(&sample.joint_position[3 * leg]),
+                           Eigen::Vector3d(&sample.joint_velocity[3 * leg]),
+                           sample.angular_velocity};
+    const bool rolls = config_.foot_model == FootModel::kRolling;
+    const Eigen::Vector3d up = up_in_base().value_or(Eigen::Vector3d::UnitZ());
+    sum += rolls ? velocity_from_rolling_foot(leg, motion, up, config_.geometry)
+                 : velocity_from_foot(leg, motion, config_.geometry);
+    ++feet;
+  }
+  if (feet > 0) velocity_ = sum / feet;
+  if (feet == 0) ++counts["legs_no_foot_stands"];
+  if (!velocity_.allFinite()) {
+    velocity_.setZero();
+    return ++counts["legs_not_finite"], std::nullopt;
+  }
+  sample.linear_velocity = velocity_;
+  integrate(sample);
+  return sample;
+}
+
+std::optional<LegOdometrySample> LegStream::add_joints(JointReading reading, EventCounts& counts) {
+  differentiate(reading);
+  if (config_.source != LegSource::kKinematics) {
+    joints_ = std::move(reading);
+    return std::nullopt;
+  }
+  std::optional<LegOdometrySample> sample;
+  if (joints_wait_) sample = walk(*joints_, counts);  // no contacts came for the last ones
+  joints_ = std::move(reading);
+  joints_wait_ = true;
+  if (sample) return sample;
+  if (contacts_ && same_instant(contacts_->stamp, joints_->stamp)) return walk(*joints_, counts);
+  return std::nullopt;
+}
+
+std::optional<LegOdometrySample> LegStream::add_contacts(const ContactReading& reading,
+                                                         EventCounts& counts) {
+  contacts_ = reading;
+  if (config_.source != LegSource::kKinematics || !joints_wait_) return std::nullopt;
+  if (!same_instant(reading.stamp, joints_->stamp)) return std::nullopt;
+  return walk(*joints_, counts);
+}
+
+}  // namespace aims

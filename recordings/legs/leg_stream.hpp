@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "core/leg_kinematics.hpp"
+#include "core/measurements.hpp"
+#include "recordings/event_counts.hpp"
+#include "recordings/legs/leg_messages.hpp"
+#include "recordings/legs/twist_check.hpp"
+
+namespace aims {
+
+/// The upward direction as an IMU feels it: turned by its gyro, drawn to the specific force.
+class UpDirection {
+ public:
+  void add(const ImuSample& sample);
+  /// Unit vector in body axes; nothing before the first sample.
+  const std::optional<Eigen::Vector3d>& in_body() const { return up_; }
+
+ private:
+  std::optional<Eigen::Vector3d> up_;
+  Time stamp_ = 0;
+};
+
+/// From which messages legs are read.
+enum class LegSource { kNone, kOdometry, kTwist, kKinematics };
+
+struct LegStreamConfig {
+  LegSource source = LegSource::kNone;
+  Duration half_period = 0;  ///< messages no farther apart than this are of one instant
+  Pose T_body_base;
+  LegGeometry geometry;
+  FootModel foot_model = FootModel::kPoint;
+};
+
+/// Makes leg odometry samples of what a robot's legs report, whatever that is. Fed in the order of
+/// the recording; each call yields the sample that it completes.
+class LegStream {
+ public:
+  explicit LegStream(const LegStreamConfig& config) : config_(config) {}
+
+  void add_imu(const ImuSample& sample);
+  LegOdometrySample add_odometry(LegOdometrySample sample, EventCounts& counts);
+  /// A sample without a pose: the pose is integrated.
+  LegOdometrySample add_twist(LegOdometrySample sample);
+  std::optional<LegOdometrySample> add_joints(JointReading reading, EventCounts& counts);
+  std::optional<LegOdometrySample> add_contacts(const ContactReading& reading, EventCounts& counts);
+
+ private:
+  bool same_instant(Time a, Time b) const;
+  void attach(LegOdometrySample& sample) const;
+  void integrate(LegOdometrySample& sample);
+  void differentiate(JointReading& reading) const;
+  std::optional<LegOdometrySample> walk(const JointReading& joints, EventCounts& counts);
+  std::optional<Eigen::Vector3d> up_in_base() const;
+
+  LegStreamConfig config_;
+  UpDirection up_;
+  TwistCheck twist_check_;
+  std::optional<ImuSample> imu_;
+  std::optional<JointReading> joints_;
+  std::optional<ContactReading> contacts_;
+  bool joints_wait_ = false;  ///< for contacts of their instant
+  std::optional<Time> integrated_;
+  Pose T_odom_base_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< last of standing feet [m/s]
+};
+
+}  // namespace aims

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/messages/message_values.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace aims {
+
+Time header_stamp(const MessageView& message, Time record_time) {
+  return message.time("header.stamp").value_or(record_time);
+}
+
+std::optional<Eigen::Vector3d> vector_at(const MessageView& message, std::string_view path) {
+  const std::string prefix = std::string(path) + '.';
+  const auto x = message.number(prefix + "x");
+  const auto y = message.number(prefix + "y");
+  const auto z = message.number(prefix + "z");
+  if (!x || !y || !z) return std::nullopt;
+  return Eigen::Vector3d(*x, *y, *z);
+}
+
+std::optional<Eigen::Quaterniond> quaternion_at(const MessageView& message, std::string_view path) {
+  const auto axis = vector_at(message, path);
+  const auto w = message.number(std::string(path) + ".w");
+  if (!axis || !w) return std::nullopt;
+  return Eigen::Quaterniond(*w, axis->x(), axis->y(), axis->z());
+}
+
+bool is_off_unit(const Eigen::Quaterniond& rotation) {
+  return !(std::abs(rotation.norm() - 1.0) <= 1e-9);
+}
+
+std::optional<Pose> message_pose(const MessageView& message, std::string_view path,
+                                 EventCounts& counts) {
+  const std::string prefix(path);
+  const auto position = vector_at(message, prefix + ".position");
+  const auto rotation = quaternion_at(message, prefix + ".orientation");
+  if (!position || !rotation) return std::nullopt;
+  Pose pose{*rotation, *position};
+  const double norm = pose.rotation.norm();
+  if (!(norm > 0.5) || !(norm < 2.0)) {
+    ++counts["pose_without_rotation"];
+    pose.rotation.setIdentity();
+  } else if (is_off_unit(pose.rotation)) {
+    pose.rotation.normalize();
+  }
+  return pose;
+}
+
+}  // namespace aims

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/topics/topic_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "recordings/topics/recording_topics.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::string_view kNone = "none";
+constexpr std::size_t kMostListed = 60;
+
+bool holds(std::string_view text, std::string_view part) {
+  return std::search(text.begin(), text.end(), part.begin(), part.end(), [](char a, char b) {
+           return std::tolower(static_cast<unsigned char>(a)) == b;
+         }) != text.end();
+}
+
+bool is_cloud(const BagConnection& c) { return is_cloud_type(c.type); }
+bool is_imu(const BagConnection& c) { return c.type == "sensor_msgs/Imu"; }
+bool is_odometry(const BagConnection& c) { return c.type == "nav_msgs/Odometry"; }
+bool is_twist(const BagConnection& c) {
+  return c.type == "geometry_msgs/TwistStamped" ||
+         c.type == "geometry_msgs/TwistWithCovarianceStamped" || c.type == "geometry_msgs/Twist";
+}
+bool is_legs(const BagConnection& c) { return is_odometry(c) || is_twist(c); }
+bool is_joints(const BagConnection& c) { return c.type == "sensor_msgs/JointState"; }
+bool is_anything(const BagConnection&) { return true; }
+bool is_truth(const BagConnection& c) {
+  return is_odometry(c) || c.type == "geometry_msgs/PoseStamped" ||
+         c.type == "geometry_msgs/PoseWithCovarianceStamped";
+}
+bool is_called_truth(const BagConnection& c) {
+  return holds(c.topic, "ground_truth") || holds(c.topic, "groundtruth") || holds(c.topic, "truth");
+}
+bool may_be_odometry(const BagConnection& c) { return is_odometry(c) && !is_called_truth(c); }
+bool may_be_twist(const BagConnection& c) {
+  return is_twist(c) && c.type != "geometry_msgs/Twist" && !holds(c.topic, "cmd") &&
+         !is_called_truth(c);
+}
+bool may_be_contacts(const BagConnection& c) {
+  return c.type == "aims_msgs/FootContacts" || holds(c.topic, "contact") ||
+         holds(c.topic, "foot_force");
+}
+
+struct Wish {
+  std::string_view key;
+  std::string_view expected;  ///< in words
+  bool (*fits)(const BagConnection&);
+};
+
+std::string topic_list(std::span<const BagConnection> connections) {
+  std::set<std::string> lines;
+  for (const BagConnection& each : connections) {
+    lines.insert(fmt::format("{} ({})", each.topic, each.type));
+  }
+  std::string text;
+  std::size_t listed = 0;
+  for (const std::string& line : lines) {
+    if (listed++ == kMostListed)
+      return text + fmt::format(", and {} more", lines.size() - kMostListed);
+    text += (text.empty() ? "" : ", ") + line;
+  }
+  return text.empty() ? "no topic at all" : text;
+}
+
+/// Chooses topics one after the other, in the same bag.
+class Chooser {
+ public:
+  Chooser(const std::filesystem::path& bag, std::span<const BagConnection> connections)
+      : bag_(bag), connections_(connections) {}
+
+  /// The topic that was asked for, if it is there and of a fitting type.
+  Result<std::string> asked(const Wish& wish, const std::string& topic) const {
+    const auto found = find(topic);
+    if (found == nullptr) {
+      std::vector<std::string> names;
+      for (const BagConnection& each : connections_) names.push_back(each.topic);
+      const std::string near = near_match(topic, names);
+      return failure(fmt::format("{}: no topic '{}' (topics.{}){}; it has {}", bag_.string(), topic,
+                                 wish.key, near.empty() ? "" : "; did you mean '" + near + "'?",
+                                 topic_list(connections_)));
+    }
+    if (!wish.fits(*found)) {
+      return failure(fmt::format("{}: topic '{}' (topics.{}) is {}, expected {}", bag_.string(),
+                                 topic, wish.key, found->type, wish.expected));
+    }
+    return topic;
+  }
+
+  /// The usual topic, or the only one that fits, or nothing; several are an error.
+  Result<std::string> found(const Wish& wish, std::string_view usual) const {
+    const BagConnection* known = find(usual);
+    if (known != nullptr && wish.fits(*known)) return std::string(usual);
+    std::set<std::string> topics;
+    for (const BagConnection& each : connections_) {
+      if (wish.fits(each) && each.messages > 0) topics.insert(each.topic);
+    }
+    if (topics.empty()) return std::string();
+    if (topics.size() == 1) return *topics.begin();
+    std::string list;
+    for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
+    return failure(fmt::format("{}: several topics are {}: {}; choose one with topics.{} (or none)",
+                               bag_.string(), wish.expected, list, wish.key));
+  }
+
+  tl::unexpected<Error> missing(const Wish& wish) const {
+    return failure(fmt::format("{}: no topic is {} (topics.{}; 'none' to do without); it has {}",
+                               bag_.string(), wish.expected, wish.key, topic_list(connections_)));
+  }
+
+  const BagConnection* find(std::string_view topic) const {
+    const auto at = std::find_if(connections_.begin(), connections_.end(),
+                                 [&](const BagConnection& each) { return each.topic == topic; });
+    return at == connections_.end() ? nullptr : &*at;
+  }
+
+ private:
+  const std::filesystem::path& bag_;
+  std::span<const BagConnection> connections_;
+};
+
+/// A topic without which there is nothing to estimate.
+Result<std::string> needed(const Chooser& chooser, const Wish& wish, const std::string& wanted,
+                           std::string_view usual) {
+  if (wanted == kNone) return std::string();
+  if (!wanted.empty()) return chooser.asked(wish, wanted);
+  auto topic = chooser.found(wish, usual);
+  if (topic && topic->empty()) return chooser.missing(wish);
+  return topic;
+}
+
+Result<std::string> legs(const Chooser& chooser, const std::string& wanted) {
+  constexpr std::string_view kExpected = "nav_msgs/Odometry or geometry_msgs/TwistStamped";
+  if (wanted == kNone) return std::string();
+  if (!wanted.empty()) return chooser.asked({"leg_odometry", kExpected, is_legs}, wanted);
+  auto topic =
+      chooser.found({"leg_odometry", "nav_msgs/Odometry", may_be_odometry}, kLegOdometryTopic);
+  if (!topic || !topic->empty()) return topic;
+  return chooser.found({"leg_odometry", "geometry_msgs/TwistStamped", may_be_twist}, "");
+}
+
+/// What stands beside the legs or replaces their odometry. Several that fit: none is taken.
+Result<std::string> beside(const Chooser& chooser, const Wish& wish, const std::string& wanted,
+                           std::string_view usual, bool (*likely)(const BagConnection&),
+                           std::vector<std::string>& notes) {
+  if (wanted == kNone) return std::string();
+  if (!wanted.empty()) return chooser.asked(wish, wanted);
+  auto topic = chooser.found({wish.key, wish.expected, likely}, usual);
+  if (topic) return topic;
+  notes.push_back(topic.error().message.substr(topic.error().message.find("several topics")));
+  return std::string();
+}
+
+}  // namespace
+
+bool is_cloud_type(std::string_view type) {
+  return type == "sensor_msgs/PointCloud2" || type.ends_with("/CustomMsg");
+}
+
+std::string_view type_of(std::span<const BagConnection> connections, std::string_view topic) {
+  const auto at = std::find_if(connections.begin(), connections.end(),
+                               [&](const BagConnection& each) { return each.topic == topic; });
+  return at == connections.end() ? std::string_view() : std::string_view(at->type);
+}
+
+Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
+                                   std::span<const BagConnection> connections,
+                                   const TopicsConfig& wanted, std::vector<std::string>& notes) {
+  const Chooser chooser(bag, connections);
+  TopicsConfig topics;
+  const auto keep = [](std::string& member, const Result<std::string>& topic) -> Result<void> {
+    if (!topic) return tl::unexpected(topic.error());
+    member = *topic;
+    return {};
+  };
+  const Wish lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
+  const Wish imu = {"imu", "sensor_msgs/Imu", is_imu};
+  const Wish joints = {"joint_states", "sensor_msgs/JointState", is_joints};
+  const Wish contacts = {"contacts", "contacts of feet", is_anything};
+  auto ok = keep(topics.lidar, needed(chooser, lidar, wanted.lidar, kLidarTopic));
+  if (ok) ok = keep(topics.imu, needed(chooser, imu, wanted.imu, kImuTopic));
+  if (ok) ok = keep(topics.leg_odometry, legs(chooser, wanted.leg_odometry));
+  if (ok) {
+    ok = keep(topics.joint_states,
+              beside(chooser, joints, wanted.joint_states, kJointStatesTopic, is_joints, notes));
+  }
+  if (ok) {
+    ok = keep(topics.contacts, beside(chooser, contacts, wanted.contacts, kFootContactsTopic,
+                                      may_be_contacts, notes));
+  }
+  if (ok && !wanted.truth.empty() && wanted.truth != kNone) {
+    const Wish truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
+    ok = keep(topics.truth, chooser.asked(truth, wanted.truth));
+  } else if (ok && wanted.truth.empty()) {
+    const BagConnection* known = chooser.find(kTruthImuTopic);
+    if (known != nullptr && is_truth(*known)) topics.truth = known->topic;
+  }
+  if (!ok) return tl::unexpected(ok.error());
+  return topics;
+}
+
+}  // namespace aims

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+#include "recordings/trajectories/trajectory_file.hpp"
+
+namespace aims {
+
+/// Reads the poses of one topic of a ROS 1 bag: nav_msgs/Odometry, geometry_msgs/PoseStamped,
+/// PoseWithCovarianceStamped or TransformStamped, or the last nav_msgs/Path. Stamps are those of
+/// the headers, or record times when no header has one. Without `topic`: the only fitting one, or
+/// the preferred one among several. Under strict rules, poses that are none and stamps that do not
+/// increase are left out and counted in a note. Errors list the topics that exist.
+Result<TrajectoryFile> read_bag_trajectory(const std::filesystem::path& file,
+                                           const std::string& topic,
+                                           const TrajectoryFileOptions& options);
+
+/// The text of the last std_msgs/String on `topic`; nothing when the bag has no such topic.
+Result<std::optional<std::string>> read_bag_text(const std::filesystem::path& file,
+                                                 const std::string& topic);
+
+}  // namespace aims

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/trajectories/trajectory_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <optional>
+
+#include "core/files/atomic_file.hpp"
+#include "core/files/kitti.hpp"
+#include "core/files/number_lines.hpp"
+#include "recordings/trajectories/bag_trajectory.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kTumColumns = 8;
+constexpr std::size_t kKittiColumns = 12;
+
+/// A file, and the topic behind a colon when the whole is no file itself.
+struct Source {
+  fs::path file;
+  std::string topic;
+};
+
+Source split(const std::string& source) {
+  std::error_code ignored;
+  const std::size_t colon = source.rfind(':');
+  if (fs::exists(source, ignored) || colon == std::string::npos) return {source, ""};
+  const bool names_topic = source.find('/', colon) == colon + 1;
+  if (!names_topic && !fs::exists(source.substr(0, colon), ignored)) return {source, ""};
+  return {source.substr(0, colon), source.substr(colon + 1)};
+}
+
+Result<Trajectory> stamped(const std::vector<Pose>& poses, const std::string& name,
+                           const std::vector<StampList>& lists, std::vector<std::string>& notes) {
+  std::vector<std::string> counts;
+  for (const StampList& list : lists) {
+    counts.push_back(fmt::format("{} has {}", list.name, list.stamps.size()));
+    if (list.stamps.size() != poses.size()) continue;
+    Trajectory trajectory;
+    for (std::size_t i = 0; i < poses.size(); ++i) trajectory.push_back({list.stamps[i], poses[i]});
+    notes.push_back(fmt::format("{}: KITTI poses take the stamps of {}", name, list.name));
+    return trajectory;
+  }
+  return failure(
+      fmt::format("{}: {} KITTI poses without stamps; expected a file with as many, one "
+                  "stamp in seconds a line (--times){}{}",
+                  name, poses.size(), counts.empty() ? "" : "; ", fmt::join(counts, ", ")));
+}
+
+Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptions& options) {
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  const std::string name = file.string();
+  LineReader lines(*text, name);
+  const auto first = lines.next();
+  if (!first) {
+    return failure(fmt::format("{}:1: expected poses as TUM or KITTI lines, found none", name));
+  }
+  TrajectoryFile result;
+  result.file = file;
+  const std::size_t columns = words_of(*first).size();
+  Result<Trajectory> trajectory = Trajectory();
+  if (columns == kTumColumns) {
+    result.kind = "TUM";
+    trajectory = parse_tum(*text, name, options.rules);
+  } else if (columns == kKittiColumns) {
+    result.kind = "KITTI poses";
+    const auto poses = parse_kitti(*text, name, options.rules);
+    if (!poses) return tl::unexpected(poses.error());
+    trajectory = stamped(*poses, name, options.stamps, result.notes);
+  } else {
+    return lines.error(
+        fmt::format("expected 8 columns (TUM: stamp x y z qx qy qz qw) or 12 (KITTI "
+                    "poses), found {}",
+                    columns));
+  }
+  if (!trajectory) return tl::unexpected(trajectory.error());
+  result.trajectory = std::move(*trajectory);
+  return result;
+}
+
+}  // namespace
+
+bool is_bag(const fs::path& file) {
+  constexpr std::string_view kMagic = "#ROSBAG";
+  std::string start(kMagic.size(), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return stream && start == kMagic;
+}
+
+Result<TrajectoryFile> read_trajectory(const std::string& source,
+                                       const TrajectoryFileOptions& options) {
+  const auto [file, topic] = split(source);
+  // A file called a bag is read as one, so that its reader says what is wrong with it.
+  if (is_bag(file) || file.extension() == ".bag") return read_bag_trajectory(file, topic, options);
+  if (!topic.empty()) {
+    return failure(fmt::format("{}: a topic ({}) belongs to a ROS 1 bag, and this is none",
+                               file.string(), topic));
+  }
+  return read_text(file, options);
+}
+
+}  // namespace aims

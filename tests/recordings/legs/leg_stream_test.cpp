@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/legs/leg_stream.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aims {
+namespace {
+
+LegStreamConfig kinematic() {
+  LegStreamConfig config;
+  config.source = LegSource::kKinematics;
+  config.half_period = 2 * kMillisecond;
+  return config;
+}
+
+ImuSample at_rest(Time stamp) {
+  ImuSample sample;
+  sample.stamp = stamp;
+  sample.specific_force.z() = 9.81;
+  return sample;
+}
+
+/// All legs swing back at the hip: a base that moves forward.
+JointReading striding(Time stamp, double angle = 0.8) {
+  JointReading reading;
+  reading.stamp = stamp;
+  reading.velocity.emplace();
+  for (std::size_t leg = 0; leg < 4; ++leg) {
+    reading.position[3 * leg + 1] = angle;
+    reading.position[3 * leg + 2] = -1.6;
+    (*reading.velocity)[3 * leg + 1] = 1.0;
+  }
+  return reading;
+}
+
+TEST(LegStream, WaitsForContactsOfTheSameInstantAndElseTakesTheLast) {
+  LegStream legs(kinematic());
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  EXPECT_FALSE(legs.add_joints(striding(10 * kMillisecond), counts));
+  const auto same = legs.add_contacts({11 * kMillisecond, {true, true, true, true}}, counts);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->stamp, 10 * kMillisecond);
+  EXPECT_GT(same->linear_velocity.x(), 0.2);
+  EXPECT_FALSE(legs.add_joints(striding(20 * kMillisecond), counts));
+  const auto with_last = legs.add_joints(striding(30 * kMillisecond), counts);
+  ASSERT_TRUE(with_last);
+  EXPECT_EQ(with_last->stamp, 20 * kMillisecond);
+  EXPECT_TRUE(counts.empty());
+}
+
+TEST(LegStream, GoesOnWithTheLastVelocityWhileNoFootStands) {
+  LegStream legs(kinematic());
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  legs.add_contacts({10 * kMillisecond, {true, false, false, true}}, counts);
+  const auto standing = legs.add_joints(striding(10 * kMillisecond), counts);
+  legs.add_contacts({20 * kMillisecond, {}}, counts);
+  const auto flying = legs.add_joints(striding(20 * kMillisecond), counts);
+  ASSERT_TRUE(standing && flying);
+  EXPECT_EQ(flying->linear_velocity, standing->linear_velocity);
+  EXPECT_NEAR(flying->T_odom_base.translation.x(), 0.01 * standing->linear_velocity.x(), 1e-6);
+  EXPECT_EQ(counts, (EventCounts{{"legs_no_foot_stands", 1}}));
+}
+
+TEST(LegStream, OldContactsAreNotTakenForNew) {
+  LegStream legs(kinematic());
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  legs.add_contacts({0, {true, true, true, true}}, counts);
+  legs.add_joints(striding(kSecond), counts);
+  EXPECT_FALSE(legs.add_joints(striding(kSecond + 10 * kMillisecond), counts));
+  EXPECT_EQ(counts, (EventCounts{{"legs_without_contacts", 1}}));
+}
+
+TEST(LegStream, RatesComeFromTheAnglesWhereNoneAreRecorded) {
+  LegStream legs(kinematic());
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  const ContactReading standing{0, {true, true, true, true}};
+  JointReading first = striding(0, 0.8);
+  JointReading second = striding(10 * kMillisecond, 0.81);
+  first.velocity.reset();
+  second.velocity.reset();
+  legs.add_contacts(standing, counts);
+  EXPECT_FALSE(legs.add_joints(first, counts));
+  ContactReading later = standing;
+  later.stamp = 10 * kMillisecond;
+  EXPECT_FALSE(legs.add_joints(second, counts));
+  const auto sample = legs.add_contacts(later, counts);
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->joint_velocity[1], 1.0, 1e-9);
+}
+
+TEST(LegStream, UpIsKeptByTheGyroAndDrawnToTheFeltForce) {
+  UpDirection up;
+  for (int k = 0; k <= 2000; ++k) {
+    ImuSample sample = at_rest(k * 10 * kMillisecond);
+    sample.specific_force = {9.81 * std::sin(0.3), 0.0, 9.81 * std::cos(0.3)};
+    up.add(sample);
+  }
+  EXPECT_LT((*up.in_body() - Eigen::Vector3d(std::sin(0.3), 0.0, std::cos(0.3))).norm(), 1e-6);
+  // A quick turn about y is followed at once, long before the force would have drawn it there.
+  ImuSample turning = at_rest(20'010 * kMillisecond);
+  turning.specific_force = {9.81 * std::sin(0.3), 0.0, 9.81 * std::cos(0.3)};
+  turning.angular_velocity.y() = 20.0;
+  up.add(turning);
+  EXPECT_NEAR(std::atan2(up.in_body()->x(), up.in_body()->z()), 0.3 - 0.2, 2e-3);
+}
+
+TEST(LegStream, NumbersBeyondReasonDoNotSpoilThePose) {
+  LegStreamConfig config;
+  config.source = LegSource::kTwist;
+  LegStream legs(config);
+  LegOdometrySample sample;
+  sample.linear_velocity.x() = 1.0;
+  legs.add_twist(sample);
+  sample.stamp = 10 * kMillisecond;
+  sample.angular_velocity.z() = 1e300;
+  legs.add_twist(sample);
+  sample.stamp = 20 * kMillisecond;
+  sample.angular_velocity.z() = std::nan("");
+  legs.add_twist(sample);
+  sample.stamp = 30 * kMillisecond;
+  sample.angular_velocity.z() = 0.0;
+  EXPECT_NEAR(legs.add_twist(sample).T_odom_base.translation.x(), 0.01, 1e-12);
+}
+
+/// Seconds counted as of a twist in the wrong axes, on a walk along a curve.
+int wrong_seconds(bool in_odometry_axes) {
+  LegStreamConfig config;
+  config.source = LegSource::kOdometry;
+  LegStream legs(config);
+  EventCounts counts;
+  LegOdometrySample sample;
+  for (int k = 0; k < 1000; ++k) {
+    const double heading = 0.003 * k;
+    const Eigen::Vector3d velocity = yaw_rotation(heading) * Eigen::Vector3d(0.6, 0.0, 0.0);
+    sample.stamp = k * 10 * kMillisecond;
+    sample.T_odom_base.rotation = yaw_rotation(heading);
+    sample.T_odom_base.translation += 0.01 * velocity;
+    sample.linear_velocity = in_odometry_axes ? velocity : Eigen::Vector3d(0.6, 0.0, 0.0);
+    legs.add_odometry(sample, counts);
+  }
+  return counts["legs_twist_in_odometry_axes_seconds"];
+}
+
+TEST(LegStream, ATwistInOdometryAxesIsCountedOnceTheRobotHasTurned) {
+  EXPECT_EQ(wrong_seconds(false), 0);
+  EXPECT_GE(wrong_seconds(true), 6);  // from half a radian of heading on
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/trajectories/trajectory_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "recordings/bag/bag_writer.hpp"
+#include "recordings/messages/message_encoding.hpp"
+#include "recordings/messages/message_types.hpp"
+#include "recordings/trajectories/bag_trajectory.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+constexpr Time kEpoch = 1'600'000'000 * kSecond;
+
+Pose pose_number(int i) { return {yaw_rotation(0.1 * i), {1.0 * i, -0.5 * i, 0.25}}; }
+
+MessageType pose_stamped_type() {
+  const MessageType odometry = odometry_type();
+  return {
+      "geometry_msgs/PoseStamped", "d3812c3cbc69362b77dc0b19b345f8f5",
+      "Header header\nPose pose\n" + odometry.definition.substr(odometry.definition.find("\n="))};
+}
+
+MessageType path_type() {
+  const MessageType pose = pose_stamped_type();
+  const std::string rest = pose.definition.substr(pose.definition.find("\n="));
+  return {"nav_msgs/Path", "6227e2b7e9cce15051f669a5e197bbf7",
+          "Header header\ngeometry_msgs/PoseStamped[] poses\n\n" + std::string(80, '=') +
+              "\nMSG: geometry_msgs/PoseStamped\nHeader header\nPose pose\n" + rest};
+}
+
+void put_header(MessageBytes& bytes, Time stamp) {
+  bytes.put(std::uint32_t{7});
+  bytes.time(stamp);
+  bytes.text("world");
+}
+
+void put_pose(MessageBytes& bytes, const Pose& pose) {
+  for (const double value : pose.translation) bytes.put(value);
+  for (const double value : pose.rotation.coeffs()) bytes.put(value);
+}
+
+class TrajectoryFiles : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) const {
+    const auto path = folder_.path() / name;
+    std::ofstream(path) << text;
+    return path.string();
+  }
+
+  /// Ten poses as odometry on "/odom", stamped from `first` on, and more topics when asked.
+  std::string bag(Time first, bool more) const {
+    const auto path = folder_.path() / "run.bag";
+    auto writer = BagWriter::create(path);
+    EXPECT_TRUE(writer);
+    const auto odometry = writer->add_connection("/odom", odometry_type());
+    std::optional<std::uint32_t> path_id;
+    std::optional<std::uint32_t> pose_id;
+    if (more) path_id = writer->add_connection("/path", path_type());
+    if (more) pose_id = writer->add_connection("/pose", pose_stamped_type());
+    for (int i = 0; i < 10; ++i) {
+      const Time stamp = first == 0 ? 0 : first + i * kSecond;
+      const Time record_time = kEpoch + i * kSecond;
+      const MessageHeader header{0, stamp, "world"};
+      const auto message = odometry_message(header, "imu", {pose_number(i), {}, {}});
+      EXPECT_TRUE(writer->write(odometry, record_time, message.view()));
+      if (!more) continue;
+      MessageBytes pose;
+      put_header(pose, stamp);
+      put_pose(pose, pose_number(i));
+      EXPECT_TRUE(writer->write(*pose_id, record_time, pose.view()));
+      MessageBytes grown;  // a path repeats what it had
+      put_header(grown, stamp);
+      grown.length(static_cast<std::size_t>(i) + 1);
+      for (int k = 0; k <= i; ++k) {
+        put_header(grown, first + k * kSecond);
+        put_pose(grown, pose_number(k));
+      }
+      EXPECT_TRUE(writer->write(*path_id, record_time, grown.view()));
+    }
+    EXPECT_TRUE(writer->close());
+    return path.string();
+  }
+
+  static std::string message_of(const std::string& source, TrajectoryFileOptions options = {}) {
+    const auto read = read_trajectory(source, options);
+    return read ? "" : read.error().message;
+  }
+
+  static void expect_ten_poses(const Result<TrajectoryFile>& read, Time first) {
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->trajectory.size(), 10U);
+    for (int i = 0; i < 10; ++i) {
+      const StampedPose& each = read->trajectory[static_cast<std::size_t>(i)];
+      EXPECT_EQ(each.stamp, first + i * kSecond);
+      EXPECT_EQ(each.pose.translation, pose_number(i).translation);
+      EXPECT_TRUE(each.pose.rotation.isApprox(pose_number(i).rotation, 1e-15));
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(TrajectoryFiles, TheKindIsToldByTheContent) {
+  const auto tum = read_trajectory(file("a.txt", "# c\n1 0 0 0 0 0 0 1\n"), {});
+  ASSERT_TRUE(tum) << tum.error().message;
+  EXPECT_EQ(tum->kind, "TUM");
+  const auto kitti =
+      read_trajectory(file("b.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n"),
+                      {.rules = PoseRules::kStrict, .stamps = {{"times.txt", {3 * kSecond}}}});
+  ASSERT_TRUE(kitti) << kitti.error().message;
+  EXPECT_EQ(kitti->kind, "KITTI poses");
+  EXPECT_EQ(kitti->trajectory.front().stamp, 3 * kSecond);
+  EXPECT_NE(kitti->notes.front().find("take the stamps of times.txt"), std::string::npos);
+  const auto bagged = read_trajectory(bag(kEpoch, false), {});
+  ASSERT_TRUE(bagged) << bagged.error().message;
+  EXPECT_EQ(bagged->kind, "nav_msgs/Odometry on /odom");
+}
+
+TEST_F(TrajectoryFiles, TextErrorsNameFileAndLine) {
+  EXPECT_NE(message_of(file("a", "# c\n1 2 3\n")).find("a:2: expected 8 columns (TUM"),
+            std::string::npos);
+  EXPECT_NE(message_of(file("a", "\n# c\n")).find("a:1: expected poses"), std::string::npos);
+  EXPECT_NE(message_of(file("a", "1 0 0 0 0 0 0 1\n1 0 0\n")).find("a:2: expected 8 columns"),
+            std::string::npos);
+  EXPECT_NE(message_of("/nonexistent.tum").find("/nonexistent.tum: cannot be read"),
+            std::string::npos);
+  EXPECT_NE(message_of("/nonexistent.tum:/odom").find("/nonexistent.tum"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, KittiPosesNeedAsManyStamps) {
+  const std::string poses = file("p.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n1 0 0 4 0 1 0 5 0 0 1 6\n");
+  EXPECT_NE(message_of(poses).find("2 KITTI poses without stamps"), std::string::npos);
+  const std::string message = message_of(
+      poses,
+      {.rules = PoseRules::kStrict, .stamps = {{"times.txt", {0}}, {"the truth", {0, 1, 2}}}});
+  EXPECT_NE(message.find("times.txt has 1, the truth has 3"), std::string::npos) << message;
+}
+
+TEST_F(TrajectoryFiles, OdometryPosesAndPathsOfABagAreTheSameTrajectory) {
+  const std::string run = bag(kEpoch, true);
+  for (const char* topic : {"/odom", "/pose", "/path"}) {
+    SCOPED_TRACE(topic);
+    expect_ten_poses(read_trajectory(run + ":" + topic, {}), kEpoch);
+  }
+}
+
+TEST_F(TrajectoryFiles, ATopicMayBeLeftOutWhenThereIsOneOrAPreferredOne) {
+  expect_ten_poses(read_trajectory(bag(kEpoch, false), {}), kEpoch);
+  std::filesystem::remove(folder_.path() / "run.bag");
+  const std::string several = bag(kEpoch, true);
+  EXPECT_NE(message_of(several).find("several topics with poses"), std::string::npos);
+  EXPECT_NE(message_of(several).find("/path (nav_msgs/Path)"), std::string::npos);
+  const auto preferred = read_trajectory(several, {.preferred_topic = "/pose"});
+  expect_ten_poses(preferred, kEpoch);
+  EXPECT_NE(preferred->notes.front().find("/pose taken of several"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, AMissingTopicIsAnsweredWithThoseThatExist) {
+  const std::string message = message_of(bag(kEpoch, false) + ":/gps");
+  EXPECT_NE(message.find("no topic /gps; there are /odom (nav_msgs/Odometry)"), std::string::npos)
+      << message;
+}
+
+TEST_F(TrajectoryFiles, WithoutHeaderStampsRecordTimesAreUsedAndSaid) {
+  const auto read = read_trajectory(bag(0, false), {});
+  expect_ten_poses(read, kEpoch);
+  EXPECT_NE(read->notes.front().find("record times are used"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, PosesOfATruthThatAreNoneAreLeftOutAndCounted) {
+  const auto path = folder_.path() / "poor.bag";
+  auto writer = BagWriter::create(path);
+  const auto odometry = writer->add_connection("/odom", odometry_type());
+  const auto write = [&](Time stamp, double x) {
+    const MessageHeader header{0, stamp, "world"};
+    const Pose pose{Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}};
+    EXPECT_TRUE(
+        writer->write(odometry, stamp, odometry_message(header, "imu", {pose, {}, {}}).view()));
+  };
+  write(kSecond, 1.0);
+  write(kSecond, 2.0);
+  write(2 * kSecond, std::numeric_limits<double>::quiet_NaN());
+  write(3 * kSecond, 3.0);
+  ASSERT_TRUE(writer->close());
+  const auto truth = read_trajectory(path.string(), {});
+  ASSERT_TRUE(truth) << truth.error().message;
+  EXPECT_EQ(truth->trajectory.size(), 2U);
+  EXPECT_NE(truth->notes.front().find("2 of 4 poses left out"), std::string::npos);
+  const auto estimate = read_trajectory(path.string(), {.rules = PoseRules::kAsGiven});
+  ASSERT_TRUE(estimate);
+  EXPECT_EQ(estimate->trajectory.size(), 4U);
+}
+
+TEST_F(TrajectoryFiles, ATextFileCalledBagIsRefused) {
+  const std::string message = message_of(file("text.bag", "1 0 0 0 0 0 0 1\n"));
+  EXPECT_NE(message.find("text.bag"), std::string::npos);
+  EXPECT_NE(message.find("expected a ROS 1 bag"), std::string::npos) << message;
+}
+
+TEST_F(TrajectoryFiles, TheLastTextOfATopicIsRead) {
+  const auto path = folder_.path() / "text.bag";
+  auto writer = BagWriter::create(path);
+  const auto id = writer->add_connection("/aims/waypoint_times", string_type());
+  EXPECT_TRUE(writer->write(id, kSecond, string_message("old").view()));
+  EXPECT_TRUE(writer->write(id, 2 * kSecond, string_message("point,stamp_s\n").view()));
+  ASSERT_TRUE(writer->close());
+  const auto text = read_bag_text(path, "/aims/waypoint_times");
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_EQ(**text, "point,stamp_s\n");
+  const auto none = read_bag_text(path, "/other");
+  ASSERT_TRUE(none);
+  EXPECT_FALSE(*none);
+}
+
+}  // namespace
+}  // namespace aims
