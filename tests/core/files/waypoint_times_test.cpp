@@ -11,7 +11,7 @@ std::string message_of(std::string_view text) {
   return parsed ? "" : parsed.error().message;
 }
 
-TEST(Waypoint times, RowsAreReadInOrder) {
+TEST(WaypointTimes, RowsAreReadInOrder) {
   const auto waypoint_times =
       parse_waypoint_times("point,stamp_s\r\na,2.5\r\n\"b, \"\"far\"\"\",2.5\n\nc,1e2\n", "p.csv");
   ASSERT_TRUE(waypoint_times) << waypoint_times.error().message;
@@ -22,7 +22,7 @@ TEST(Waypoint times, RowsAreReadInOrder) {
   EXPECT_EQ((*waypoint_times)[2].stamp, 100 * kSecond);
 }
 
-TEST(Waypoint times, ErrorsNameFileAndLine) {
+TEST(WaypointTimes, ErrorsNameFileAndLine) {
   EXPECT_EQ(message_of(""), "p.csv:1: expected the header 'point,stamp_s'");
   EXPECT_EQ(message_of("a,1\n"), "p.csv:1: expected the header 'point,stamp_s', found 'a,1'");
   EXPECT_EQ(message_of("point,stamp_s\na\n"),
