@@ -21,23 +21,47 @@ if(AIMS_FUZZ)
   target_link_options(aims_flags INTERFACE ${fuzz_flags})
 endif()
 
-# A unity batch compiles several source files as one, so that what they all include is read once: a
-# whole build takes less than half the time, a change of one file compiles its batch. Off by default
-# for the libraries, where that file alone is faster; scripts/demo.sh and scripts/test.sh switch it
-# on in a build folder that they make. Names of anonymous namespaces are shared in a batch.
+# A batch compiles several source files as one, so that what they all include is read once: a whole
+# build takes less than half the time, a change of one file compiles its batch. Off by default for
+# the libraries, where that file alone is faster; scripts/demo.sh and scripts/test.sh switch it on in
+# a build folder that they make.
 option(AIMS_UNITY "Compile the source files of a library in batches" OFF)
-set(unity_batch 8)
 
-# aims_batches(TARGET): compiles the target in batches if AIMS_UNITY.
+# aims_batches(TARGET [FUNCTIONS]): compiles the target in batches. Files of a batch share their
+# anonymous namespace: a file that defines a constant or type (FUNCTIONS: also an alias or function,
+# which in a library are mostly overloads) of a name that an earlier file has is compiled alone.
 function(aims_batches target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${AIMS_UNITY}
-    UNITY_BUILD_BATCH_SIZE ${unity_batch})
+  set(definition "\n(const[a-z]* [^\n=({]* k|struct |class |enum class )[A-Z][A-Za-z0-9]*")
+  if("FUNCTIONS" IN_LIST ARGN)
+    set(definition "${definition}|\nusing [A-Z][A-Za-z0-9]* =|\n[A-Za-z][^\n=(]* [a-z_0-9]+\\(")
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  set(taken "")
+  foreach(source ${sources})
+    get_filename_component(path ${source} ABSOLUTE)
+    set(alone ON)  # generated
+    if(EXISTS ${path} AND NOT path MATCHES "^${PROJECT_BINARY_DIR}/")
+      set(alone OFF)
+      file(READ ${path} text)
+      string(REGEX MATCHALL "${definition}" names "${text}")
+      list(TRANSFORM names REPLACE "( =|\\()$" "")
+      list(TRANSFORM names REPLACE "^.*[ *&]" "")
+      foreach(name ${names})
+        if(name IN_LIST taken)
+          set(alone ON)
+        endif()
+      endforeach()
+      list(APPEND taken ${names})
+    endif()
+    set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ${alone})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
 # aims_cold(TARGET): for code that runs once per command and includes much. Always in batches, as
 # eight files together compile in the time of one, and without costly optimisations.
 function(aims_cold target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${unity_batch})
+  aims_batches(${target})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
@@ -49,7 +73,9 @@ function(aims_library name)
   add_library(aims::${name} ALIAS aims_${name})
   target_link_libraries(aims_${name} PUBLIC $<BUILD_INTERFACE:aims_flags> ${arg_LINKS}
     PRIVATE ${arg_PRIVATE_LINKS})
-  aims_batches(aims_${name})
+  if(AIMS_UNITY)
+    aims_batches(aims_${name})
+  endif()
 endfunction()
 
 # aims_test(NAME SOURCES file... [LINKS target...] [LABEL unit|scenario|stress])
@@ -61,6 +87,9 @@ function(aims_test name)
   endif()
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE aims_flags ${arg_LINKS} GTest::gtest_main)
+  if(AIMS_UNITY)
+    aims_batches(test_${name} FUNCTIONS)
+  endif()
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600)
 endfunction()

@@ -43,4 +43,9 @@ install_packages() {
     $missing
 }
 
-configure() { cmake --preset release >build/configure.log 2>&1 || { cat build/configure.log; return 1; }; }
+# A new build folder compiles in batches, which suits a whole build; one that exists keeps its options.
+configure() {
+  local options=()
+  [ -e build/release/CMakeCache.txt ] || options=(-DAIMS_UNITY=ON)
+  cmake --preset release "${options[@]}" >build/configure.log 2>&1 || { cat build/configure.log; return 1; }
+}

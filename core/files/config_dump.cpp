@@ -64,7 +64,7 @@ bool is_plain(const std::string& text) {
   return std::all_of(text.begin(), text.end(), plain);
 }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
@@ -82,10 +82,10 @@ std::string quoted(const std::string& text) {
 
 std::string yaml_value(const Parameter& parameter) {
   const std::string text = parameter.text();
-  if (!parameter.sequence) return is_plain(text) ? text : quoted(text);
+  if (!parameter.sequence) return is_plain(text) ? text : in_quotes(text);
   std::vector<std::string> entries = sequence_entries(text).value_or(std::vector<std::string>());
   for (std::string& entry : entries) {
-    if (!is_plain(entry)) entry = quoted(entry);
+    if (!is_plain(entry)) entry = in_quotes(entry);
   }
   return fmt::format("[{}]", fmt::join(entries, ", "));
 }
