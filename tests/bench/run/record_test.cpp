@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Two metres of a corridor with every kind of fault on the links.
-Scenario short_walk() {
+Scenario faulty_walk() {
   Scenario scenario;
   scenario.name = "short";
   scenario.simulation.scene.corridor.length = 10.0;
@@ -94,7 +94,7 @@ class Recorded : public ::testing::Test {
     return samples;
   }
 
-  Scenario scenario_ = short_walk();
+  Scenario scenario_ = faulty_walk();
   TemporaryFolder folder_;
   RecordOutcome outcome_;
   std::vector<Delivery> deliveries_;
@@ -200,7 +200,7 @@ TEST(Record, TwiceIsTheSameBytes) {
   std::vector<std::string> bytes;
   for (const char* name : {"a.bag", "b.bag"}) {
     const RecordOptions options = {.seed = 2, .bag = folder.path() / name};
-    ASSERT_TRUE(record(short_walk(), options, go_on));
+    ASSERT_TRUE(record(faulty_walk(), options, go_on));
     bytes.push_back(read_file(options.bag).value());
   }
   EXPECT_EQ(bytes[0], bytes[1]);
@@ -210,19 +210,19 @@ TEST(Record, ReplacesABagOnlyWhenTold) {
   TemporaryFolder folder;
   RecordOptions options = {.seed = 2, .bag = folder.path() / "walk.bag"};
   ASSERT_TRUE(write_file_atomically(options.bag, "mine"));
-  const auto refused = record(short_walk(), options, go_on);
+  const auto refused = record(faulty_walk(), options, go_on);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("walk.bag"), std::string::npos) << refused.error().message;
   EXPECT_EQ(read_file(options.bag).value(), "mine");
   options.overwrite = true;
-  EXPECT_TRUE(record(short_walk(), options, go_on));
+  EXPECT_TRUE(record(faulty_walk(), options, go_on));
   EXPECT_GT(fs::file_size(options.bag), 10'000U);
 }
 
 TEST(Record, StoppedEarlyHoldsWhatWasWalked) {
   TemporaryFolder folder;
   const RecordOptions options = {.seed = 2, .bag = folder.path() / "walk.bag"};
-  const RecordOutcome outcome = record(short_walk(), options, [](const Progress& now) {
+  const RecordOutcome outcome = record(faulty_walk(), options, [](const Progress& now) {
                                   return now.simulated_s < 1.5;
                                 }).value();
   EXPECT_FALSE(outcome.complete);
@@ -232,7 +232,7 @@ TEST(Record, StoppedEarlyHoldsWhatWasWalked) {
 
 TEST(Record, LeavesOutWhatWouldNeedANegativeTimeAndSaysSo) {
   TemporaryFolder folder;
-  Scenario scenario = short_walk();
+  Scenario scenario = faulty_walk();
   scenario.simulation.links.lidar.clock_offset = -0.05;
   const RecordOptions options = {.seed = 2, .bag = folder.path() / "walk.bag"};
   EXPECT_EQ(record(scenario, options, go_on).value().left_out, 1);
