@@ -12,7 +12,7 @@ Eigen::Matrix3d abduction_rotation(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
 }
 
-/// A rod of that length hanging down, turned about the y axis.
+/// End of a rod that hangs down, rotated about the y axis.
 Eigen::Vector3d rod(double length, double angle) {
   return {-length * std::sin(angle), 0.0, -length * std::cos(angle)};
 }

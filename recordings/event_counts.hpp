@@ -6,7 +6,7 @@
 
 namespace aims {
 
-/// How often something happened, by its name: "cloud_points_not_finite".
+/// Number of occurrences of each event, by name: "cloud_points_not_finite".
 using EventCounts = std::map<std::string, int>;
 
 }  // namespace aims

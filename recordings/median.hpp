@@ -7,7 +7,7 @@
 
 namespace aims {
 
-/// The upper median, or nothing of no values.
+/// The upper median; nothing for no values.
 template <class Value>
 std::optional<Value> upper_median(std::vector<Value> values) {
   if (values.empty()) return std::nullopt;

@@ -4,7 +4,7 @@
 namespace aims {
 namespace {
 
-Spec words(std::string meaning) { return {.unit = "-", .meaning = std::move(meaning)}; }
+Spec dimensionless(std::string meaning) { return {.unit = "-", .meaning = std::move(meaning)}; }
 
 Spec delay_of(const std::string& sensor) {
   return {.unit = "s",
@@ -13,10 +13,11 @@ Spec delay_of(const std::string& sensor) {
 }
 
 void describe_frames(Fields& f, RecordingConfig& c) {
-  f.text("imu_frame", c.imu_frame, words("tf name; empty: the frame of the IMU's messages"));
-  f.text("lidar_frame", c.lidar_frame, words("tf name; empty: the frame of the clouds"));
+  f.text("imu_frame", c.imu_frame,
+         dimensionless("tf name; empty: the frame of the IMU's messages"));
+  f.text("lidar_frame", c.lidar_frame, dimensionless("tf name; empty: the frame of the clouds"));
   f.text("base_frame", c.base_frame,
-         words("tf name of the legs' base; empty: child frame of the odometry"));
+         dimensionless("tf name of the legs' base; empty: child frame of the odometry"));
   f.group("T_imu_lidar", c.T_imu_lidar);
   f.group("T_imu_base", c.T_imu_base);
 }
@@ -28,47 +29,52 @@ void describe_clouds(Fields& f, RecordingConfig& c) {
             {"ms", PointTimeUnit::kMilliseconds},
             {"us", PointTimeUnit::kMicroseconds},
             {"ns", PointTimeUnit::kNanoseconds}},
-           words("unit of the points' times; auto: from their span against the scan"));
+           dimensionless("unit of the points' times; auto: from their span and the scan period"));
   f.choice("cloud_stamp", c.cloud_stamp,
            {{"auto", CloudStamp::kAuto}, {"start", CloudStamp::kStart}, {"end", CloudStamp::kEnd}},
-           words("what a cloud's stamp marks; auto: from the points' times and the arrival"));
+           dimensionless("end of the scan that a cloud's stamp marks; auto: from the points' times "
+                         "and the arrival"));
   f.number("lidar_rate", c.lidar_rate,
            {.unit = "Hz",
             .range = in_range(1.0, 1000.0),
-            .meaning = "scans per second, where neither stamps nor points tell"});
+            .meaning = "scan rate, if neither stamps nor point times determine it"});
   f.flag("lidar_clockwise", c.lidar_clockwise,
-         words("sense of spin seen from above, where points carry no time"));
+         dimensionless("direction of spin seen from above, if points have no time"));
 }
 
 void describe_legs(Fields& f, RecordingConfig& c) {
   f.text("contacts_field", c.contacts_field,
-         words("path of the array of contacts; empty: the first array of numbers"));
+         dimensionless("path of the array of contacts; empty: the first array of numbers"));
   f.number("contact_threshold", c.contact_threshold,
-           {.unit = "N", .meaning = "value from which a foot stands; of flags: 0.5"});
-  f.texts("foot_names", c.foot_names,
-          words("of the array's entries, e.g. [FR, FL, RR, RL]; empty: FL, FR, RL, RR"));
+           {.unit = "N", .meaning = "smallest value of a foot in contact; of flags: 0.5"});
+  f.texts(
+      "foot_names", c.foot_names,
+      dimensionless("names of the array's entries, e.g. [FR, FL, RR, RL]; empty: FL, FR, RL, RR"));
   f.texts("joint_names", c.joint_names,
-          words("of the 12 joints: per leg (FL, FR, RL, RR) abduction, hip, knee; empty: found"));
+          dimensionless("names of the 12 joints: per leg (FL, FR, RL, RR) abduction, hip, knee; "
+                        "empty: detected"));
   f.group("leg_geometry", c.leg_geometry);
   f.choice("foot_model", c.foot_model,
            {{"point", FootModel::kPoint}, {"rolling", FootModel::kRolling}},
-           words("what a standing foot is taken for, for legs without odometry"));
+           dimensionless("contact model of the foot, for legs without odometry"));
 }
 
 }  // namespace
 
 void describe(Fields& f, TopicsConfig& c) {
-  f.text("lidar", c.lidar, words("sensor_msgs/PointCloud2 or livox CustomMsg"));
-  f.text("imu", c.imu, words("sensor_msgs/Imu"));
+  f.text("lidar", c.lidar, dimensionless("sensor_msgs/PointCloud2 or livox CustomMsg"));
+  f.text("imu", c.imu, dimensionless("sensor_msgs/Imu"));
   f.text("leg_odometry", c.leg_odometry,
-         words("nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist"));
-  f.text("joint_states", c.joint_states, words("sensor_msgs/JointState"));
-  f.text("contacts", c.contacts, words("any message with an array of numbers, one per foot"));
-  f.text("truth", c.truth, words("nav_msgs/Odometry or geometry_msgs/PoseStamped, for scoring"));
+         dimensionless("nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist"));
+  f.text("joint_states", c.joint_states, dimensionless("sensor_msgs/JointState"));
+  f.text("contacts", c.contacts,
+         dimensionless("any message with an array of numbers, one per foot"));
+  f.text("truth", c.truth,
+         dimensionless("nav_msgs/Odometry or geometry_msgs/PoseStamped, for scoring"));
 }
 
 void describe(Fields& f, ExtrinsicConfig& c) {
-  f.flag("given", c.given, words("use these values, not the bag's tf"));
+  f.flag("override_tf", c.override_tf, dimensionless("use these values instead of the bag's tf"));
   f.vector("translation", c.translation,
            {.unit = "m", .range = in_range(-100.0, 100.0), .meaning = "in the IMU frame"});
   f.vector("rotation_rpy_deg", c.rotation_rpy_deg,
@@ -82,7 +88,7 @@ void describe(Fields& f, RecordingConfig& c) {
   describe_frames(f, c);
   f.choice("imu_unit", c.imu_unit,
            {{"auto", ImuUnit::kAuto}, {"m/s^2", ImuUnit::kMetres}, {"g", ImuUnit::kGravities}},
-           words("of the specific force; auto: from its size at the start"));
+           dimensionless("unit of the specific force; auto: from its norm at the start"));
   describe_clouds(f, c);
   f.number("imu_delay", c.imu_delay, delay_of("IMU"));
   f.number("lidar_delay", c.lidar_delay, delay_of("LiDAR"));

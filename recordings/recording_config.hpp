@@ -10,8 +10,8 @@
 
 namespace aims {
 
-/// Topics of a recording. An empty name: the topic that recordings written here have, else the only
-/// topic of a fitting type, if there is just one. "none": do without.
+/// Topics of a recording. An empty name: the default topic of AIMS, else the only topic of a
+/// suitable type. "none": not used.
 struct TopicsConfig {
   std::string lidar;         ///< sensor_msgs/PointCloud2 or livox_ros_driver(2)/CustomMsg
   std::string imu;           ///< sensor_msgs/Imu
@@ -21,16 +21,16 @@ struct TopicsConfig {
   std::string truth;         ///< nav_msgs/Odometry or PoseStamped; read for scoring only
 };
 
-/// Where a sensor sits on the body when the bag's tf does not say, or says wrong.
+/// Extrinsics of a sensor, for a bag whose tf lacks them or is wrong.
 struct ExtrinsicConfig {
-  bool given = false;                                     ///< use these values, not the bag's tf
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< in the IMU frame [m]
+  bool override_tf = false;  ///< use these values instead of the bag's tf
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();       ///< in the IMU frame [m]
   Eigen::Vector3d rotation_rpy_deg = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw [deg]
 };
 
 enum class ImuUnit { kAuto, kMetres, kGravities };
 enum class PointTimeUnit { kAuto, kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
-/// What the header stamp of a cloud marks.
+/// Instant of the scan that a cloud's header stamp marks.
 enum class CloudStamp { kAuto, kStart, kEnd };
 
 /// How a recording is read.
@@ -44,15 +44,16 @@ struct RecordingConfig {
   ImuUnit imu_unit = ImuUnit::kAuto;
   PointTimeUnit point_time_unit = PointTimeUnit::kAuto;
   CloudStamp cloud_stamp = CloudStamp::kAuto;
-  double lidar_rate = 10.0;         ///< scans per second, where points carry no time [Hz]
-  bool lidar_clockwise = true;      ///< sense of spin seen from above, where points carry no time
-  double imu_delay = 0.0;           ///< subtracted from the stamps of the IMU [s]
-  double lidar_delay = 0.0;         ///< subtracted from the stamps of the LiDAR [s]
-  double leg_delay = 0.0;           ///< subtracted from the stamps of the legs [s]
-  std::string contacts_field;       ///< path of the array; empty: the first array of numbers
-  double contact_threshold = 20.0;  ///< value from which a foot stands [N or the message's unit]
+  double lidar_rate = 10.0;     ///< scan rate, if points have no time [Hz]
+  bool lidar_clockwise = true;  ///< direction of spin seen from above, if points have no time
+  double imu_delay = 0.0;       ///< subtracted from the stamps of the IMU [s]
+  double lidar_delay = 0.0;     ///< subtracted from the stamps of the LiDAR [s]
+  double leg_delay = 0.0;       ///< subtracted from the stamps of the legs [s]
+  std::string contacts_field;   ///< path of the array; empty: the first array of numbers
+  double contact_threshold =
+      20.0;  ///< smallest value of a foot in contact [N or the message's unit]
   std::vector<std::string> foot_names;       ///< of the array's entries, e.g. [FR, FL, RR, RL]
-  std::vector<std::string> joint_names;      ///< of the 12 joints, leg by leg; empty: as recorded
+  std::vector<std::string> joint_names;      ///< of the 12 joints, leg by leg; empty: detected
   LegGeometry leg_geometry;                  ///< for legs without odometry
   FootModel foot_model = FootModel::kPoint;  ///< for legs without odometry
 };

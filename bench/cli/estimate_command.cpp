@@ -128,7 +128,7 @@ void add_estimate_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  aims estimate walk.bag\n"
       "  aims estimate robot.bag --estimators aims,lio --topics lidar=/velodyne_points,imu=/imu\n"
-      "  aims estimate robot.bag --set recording.T_imu_lidar.given=true \\\n"
+      "  aims estimate robot.bag --set recording.T_imu_lidar.override_tf=true \\\n"
       "      --set recording.T_imu_lidar.translation=[0.2,0,0.1]");
   command->callback([arguments, &exit_code] { exit_code = estimate_command(*arguments); });
 }

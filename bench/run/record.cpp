@@ -140,7 +140,7 @@ Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& opti
   outcome.simulated_s = to_seconds(simulation->now());
   outcome.fell = truth.fell;
   outcome.touched_wall = truth.touched_wall;
-  outcome.left_out = recorder.writer().left_out();
+  outcome.left_out = recorder.writer().dropped();
   outcome.bag_bytes = fs::file_size(options.bag);
   outcome.wall_s = stopwatch.seconds();
   return outcome;

@@ -37,7 +37,7 @@ tl::unexpected<Error> unwritable(const fs::path& file, const std::string& why) {
   return failure(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
-/// A name that no other process picks, on this machine or on another that shares the disk.
+/// A name that no other process uses, on this machine or another that shares the disk.
 std::string temporary_name(const fs::path& file) {
   char host[256] = {};
   if (::gethostname(host, sizeof(host) - 1) != 0) host[0] = '\0';
@@ -89,10 +89,10 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
 }
 
 Result<void> AtomicFile::commit(bool flush) {
-  // Some file systems cannot flush and say EINVAL; that is no failure to write.
+  // Some file systems cannot flush and return EINVAL; that is no write error.
   if (flush && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
     return refuse(errno);
-  // A full network disk may speak up only here.
+  // A full network disk may report the error only here.
   if (::close(std::exchange(descriptor_, -1)) != 0) return refuse(errno);
   if (::rename(temporary_.c_str(), file_.c_str()) != 0) return refuse(errno);
   temporary_.clear();

@@ -10,7 +10,7 @@
 namespace aims {
 namespace {
 
-/// A key of the nested document with what stands under it, in the order of description.
+/// A key of the nested document with its children, in the order of description.
 struct Entry {
   std::string name = {};
   const Parameter* parameter = nullptr;
@@ -52,7 +52,7 @@ Entry tree_of(const Fields& fields) {
   return root;
 }
 
-/// Whether YAML reads the text back unchanged without quotes, also inside a flow sequence.
+/// Whether YAML reads the text back unchanged without quotes, even in a flow sequence.
 bool is_plain(const std::string& text) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '/' || c == '-' || c == '+';

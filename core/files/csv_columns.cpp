@@ -13,7 +13,7 @@
 namespace aims {
 namespace {
 
-/// Takes rows off a text of comma-separated values (RFC 4180).
+/// Reads rows of comma-separated values (RFC 4180).
 class RowReader {
  public:
   explicit RowReader(std::string_view text) : text_(text) {}
@@ -34,7 +34,7 @@ class RowReader {
   }
 
  private:
-  /// Reads up to the comma or line end behind the cell; false at the end of the text.
+  /// Reads up to the comma or line end after the cell; false at the end of the text.
   bool take_cell(std::string& cell) {
     bool quoted = false;
     for (; position_ < text_.size(); ++position_) {

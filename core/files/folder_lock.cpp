@@ -11,25 +11,26 @@
 namespace aims {
 namespace {
 
-constexpr int kMade = O_RDWR | O_CREAT;  ///< a lock's own file
+constexpr int kCreate = O_RDWR | O_CREAT;  ///< a separate lock file
 
 }  // namespace
 
 std::optional<FolderLock> FolderLock::take(const std::filesystem::path& folder) {
-  return lock(folder / ".lock", LOCK_EX | LOCK_NB, kMade);
+  return lock(folder / ".lock", LOCK_EX | LOCK_NB, kCreate);
 }
 
 std::optional<FolderLock> FolderLock::share(const std::filesystem::path& folder) {
-  return lock(folder / ".lock", LOCK_SH | LOCK_NB, kMade);
+  return lock(folder / ".lock", LOCK_SH | LOCK_NB, kCreate);
 }
 
 std::optional<FolderLock> FolderLock::wait(const std::filesystem::path& folder,
                                            const std::string& name) {
-  return lock(folder / name, LOCK_EX, kMade);
+  return lock(folder / name, LOCK_EX, kCreate);
 }
 
 std::optional<FolderLock> FolderLock::take_file(const std::filesystem::path& file) {
-  return lock(file, LOCK_EX | LOCK_NB, O_RDWR);  // some network disks want a file open for writing
+  return lock(file, LOCK_EX | LOCK_NB,
+              O_RDWR);  // some network disks require a file open for writing
 }
 
 std::optional<FolderLock> FolderLock::share_file(const std::filesystem::path& file) {

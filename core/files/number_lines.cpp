@@ -65,15 +65,15 @@ std::optional<Time> parse_stamp(std::string_view word) {
   decimals.resize(9, '0');
   const auto seconds = parse_digits(unsigned_word.substr(0, dot));
   const auto fraction = parse_digits(decimals);
-  constexpr auto kMostSeconds =
+  constexpr auto kMaxSeconds =
       static_cast<std::uint64_t>(std::numeric_limits<Time>::max() / kSecond);
   if (exact && seconds && fraction) {
-    if (*seconds >= kMostSeconds) return std::nullopt;
+    if (*seconds >= kMaxSeconds) return std::nullopt;
     const auto stamp = static_cast<Time>(*seconds) * kSecond + static_cast<Time>(*fraction);
     return negative ? -stamp : stamp;
   }
   const auto number = parse_number(word);
-  if (!number || std::abs(*number) >= static_cast<double>(kMostSeconds)) return std::nullopt;
+  if (!number || std::abs(*number) >= static_cast<double>(kMaxSeconds)) return std::nullopt;
   return from_seconds(*number);
 }
 

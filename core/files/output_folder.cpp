@@ -22,12 +22,12 @@ tl::unexpected<Error> file_failure(const fs::path& path, const char* what,
   return failure(fmt::format("{}: {}: {}", path.string(), what, code.message()));
 }
 
-/// A folder that is not one of results is never replaced, whatever was asked.
+/// A folder without results is never replaced, even with --overwrite.
 Result<void> check_replaceable(const fs::path& path, bool overwrite) {
   if (!fs::exists(path)) return {};
   if (!overwrite) {
     return failure(fmt::format(
-        "{}: exists already; give another --out, or --overwrite to replace it", path.string()));
+        "{}: exists already; choose another --out, or --overwrite to replace it", path.string()));
   }
   const bool holds_results =
       fs::exists(path / "scores.json") || fs::exists(path / "summary.json") ||
@@ -47,7 +47,7 @@ std::vector<fs::path> missing_parents(const fs::path& path) {
   return missing;
 }
 
-/// Removes a partial folder that no living run holds. False when one does.
+/// Removes a partial folder unless a running process holds it; false if one does.
 bool clear_stale(const fs::path& partial) {
   const auto lock = FolderLock::take(partial);
   if (!lock) return false;

@@ -16,7 +16,7 @@
 namespace aims {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "PLY is written as the memory has it");
+static_assert(std::endian::native == std::endian::little, "PLY is written without byte swapping");
 
 constexpr std::size_t kPointBytes = 3 * sizeof(float);
 
@@ -26,14 +26,14 @@ const std::map<std::string_view, std::size_t> kTypeSizes = {
     {"float", 4}, {"double", 8}, {"int8", 1},    {"uint8", 1},  {"int16", 2}, {"uint16", 2},
     {"int32", 4}, {"uint32", 4}, {"float32", 4}, {"float64", 8}};
 
-/// What the header says of the vertices.
+/// The vertices of a header.
 struct Layout {
   std::size_t count = 0;                 ///< vertices
   std::size_t stride = 0;                ///< of one [bytes]
   std::vector<std::string> coordinates;  ///< "TYPE NAME" of the first three properties
 };
 
-/// The next header line without its end, or nothing when the text ends before.
+/// The next header line, or nothing at the end of the text.
 std::optional<std::string_view> take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<std::size_t> parse_count(std::string_view word) {
   return count;
 }
 
-/// Takes the property of a vertex into the layout; false for a list or an unknown type.
+/// Adds a property of a vertex to the layout; false for a list or an unknown type.
 bool add_property(const std::vector<std::string_view>& words, Layout& layout) {
   const auto size = words.size() == 3 ? kTypeSizes.find(words[1]) : kTypeSizes.end();
   if (size == kTypeSizes.end()) return false;
@@ -62,7 +62,7 @@ bool add_property(const std::vector<std::string_view>& words, Layout& layout) {
   return true;
 }
 
-/// Reads up to `end_header`; what is wrong, or nothing.
+/// Reads up to `end_header`; returns the error, or nothing.
 std::optional<std::string> read_header(std::string_view& text, Layout& layout) {
   if (take_line(text) != "ply") return "expected the first line 'ply'";
   if (take_line(text) != "format binary_little_endian 1.0") {

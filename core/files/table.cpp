@@ -25,7 +25,7 @@ std::string line(const std::vector<std::string>& cells, const std::vector<std::s
   return text + "\n";
 }
 
-/// A cell of a Markdown table, in which a bar would end it.
+/// A cell of a Markdown table, with bars escaped.
 std::string escaped(const std::string& cell) {
   std::string text;
   for (const char c : cell) text += c == '|' ? std::string("\\|") : std::string(1, c);

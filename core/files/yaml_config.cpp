@@ -67,7 +67,7 @@ class Assigner {
   Assigner(std::string file, const CollectFields& collect)
       : file_(std::move(file)), collect_(collect), fields_(collect()) {}
 
-  /// All entries of `map`, whose keys lie under `prefix`; `base` at the top level is passed over.
+  /// Assigns all entries of `map`, whose keys are below `prefix`; skips `base` at the top level.
   Result<void> assign_map(const YAML::Node& map, const std::string& prefix) {
     std::vector<std::string> seen;
     for (const auto& entry : map) {
@@ -162,7 +162,7 @@ class Assigner {
     return text ? *text : kind_of(value);
   }
 
-  /// The node whose place an error shall name: the value, or its key when the value is nothing.
+  /// The node whose position an error names: the value, or its key if the value is empty.
   static YAML::Node at(const YAML::Node& name, const YAML::Node& value) {
     return value.Mark().is_null() || value.IsNull() ? name : value;
   }
@@ -180,7 +180,7 @@ class Assigner {
 Result<void> load_file(const fs::path& file, const CollectFields& collect,
                        std::vector<fs::path> chain);
 
-/// Loads the file that the document's `base` names, if it names one.
+/// Loads the document's `base`, if any.
 Result<void> load_base(const YAML::Node& document, const std::string& name,
                        const CollectFields& collect, const std::vector<fs::path>& chain) {
   for (const auto& entry : document) {

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Longest chain of bases that is followed; loading has refused cycles before.
-constexpr int kDeepestBase = 32;
+/// Longest chain of bases that is followed; loading rejects cycles before.
+constexpr int kMaxBases = 32;
 
 struct Position {
   fs::path file;
@@ -53,7 +53,7 @@ Position deepest(const fs::path& file, const YAML::Node& root,
 /// The deepest match in the file or its bases; the file itself wins a tie.
 Position search(fs::path file, const std::vector<std::string>& parts) {
   Position best{file, YAML::Mark::null_mark(), 0};
-  for (int i = 0; i < kDeepestBase; ++i) {
+  for (int i = 0; i < kMaxBases; ++i) {
     const YAML::Node root = YAML::LoadFile(file.string());
     if (!root.IsMap()) break;
     const Position here = deepest(file, root, parts);
@@ -74,7 +74,7 @@ std::string with_position(const fs::path& file, const std::string& message) {
                          message);
     }
   } catch (const YAML::Exception&) {
-    // The file changed since it was loaded: the message stands without its place.
+    // The file changed since it was loaded: the message has no position.
   }
   return fmt::format("{}: {}", file.string(), message);
 }

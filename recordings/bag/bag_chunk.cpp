@@ -9,8 +9,8 @@
 namespace aims {
 namespace {
 
-/// Bytes per byte that lz4 can reach at most.
-constexpr std::uint64_t kMostLz4Ratio = 256;
+/// Largest ratio of unpacked to packed bytes that lz4 can reach.
+constexpr std::uint64_t kMaxLz4Ratio = 256;
 
 /// "FILE: at byte N: in the chunk, at its byte M: WHAT".
 tl::unexpected<Error> refuse_inside(const BagFile& file, const ChunkPlace& place,
@@ -65,27 +65,28 @@ Result<void> check_counts(const BagFile& file, const ChunkPlace& place,
   for (const ChunkMessage& message : content.messages) {
     ++counts[message.connection];
     if (message.time < place.start || message.time > place.end) {
-      return refuse_inside(file, place, message.offset,
-                           fmt::format("expected a record time from {} to {} ns, as the index "
-                                       "says, found {}",
-                                       place.start, place.end, message.time));
+      return refuse_inside(
+          file, place, message.offset,
+          fmt::format("expected a record time from {} to {} ns, as the index states, found {}",
+                      place.start, place.end, message.time));
     }
   }
   for (const auto& [id, count] : place.counts) {
     if (counts[id] != count) {
-      return file.refuse(place.position,
-                         fmt::format("expected {} messages of connection {} in this chunk, as the "
-                                     "index says, found {}",
-                                     count, id, counts[id]));
+      return file.refuse(
+          place.position,
+          fmt::format(
+              "expected {} messages of connection {} in this chunk, as the index states, found {}",
+              count, id, counts[id]));
     }
   }
   const auto listed = [&](const auto& each) { return place.counts.contains(each.first); };
   const auto extra = std::find_if_not(counts.begin(), counts.end(), listed);
   if (extra == counts.end()) return {};
-  return file.refuse(place.position,
-                     fmt::format("{} messages of connection {} in this chunk, of which the index "
-                                 "does not tell",
-                                 extra->second, extra->first));
+  return file.refuse(
+      place.position,
+      fmt::format("{} messages of connection {} in this chunk, which the index omits",
+                  extra->second, extra->first));
 }
 
 }  // namespace
@@ -124,7 +125,7 @@ BagConnection* BagConnections::find(std::uint32_t id) {
   return const_cast<BagConnection*>(std::as_const(*this).find(id));
 }
 
-void BagConnections::forget_counts() {
+void BagConnections::reset_counts() {
   for (auto& [id, connection] : by_id_) connection.messages = 0;
 }
 
@@ -157,10 +158,10 @@ Result<ChunkPlace> chunk_place(const BagFile& file, const FileRecord& record) {
   const bool none = *compression == BagCompression::kNone;
   const bool lz4 = *compression == BagCompression::kLz4;
   if ((none && *size != record.data_size) ||
-      (lz4 && *size > kMostLz4Ratio * record.data_size + kMostLz4Ratio)) {
+      (lz4 && *size > kMaxLz4Ratio * record.data_size + kMaxLz4Ratio)) {
     return file.refuse(record.position,
-                       fmt::format("a chunk cannot be of {} bytes when {} bytes ({}) hold it",
-                                   *size, record.data_size, *name));
+                       fmt::format("a chunk of {} bytes cannot be packed into {} bytes ({})", *size,
+                                   record.data_size, *name));
   }
   return place;
 }
@@ -187,7 +188,7 @@ Result<void> check_chunk_index(const BagFile& file, const ChunkPlace& place,
                                const ChunkContent& content) {
   if (auto agree = check_counts(file, place, content); !agree) return agree;
   std::uint64_t position = place.end_position();
-  std::size_t told = 0;
+  std::size_t listed = 0;
   for (std::uint32_t i = 0; i < place.index_records; ++i) {
     const auto record = file.record(position);
     if (!record) return tl::unexpected(record.error());
@@ -209,18 +210,18 @@ Result<void> check_chunk_index(const BagFile& file, const ChunkPlace& place,
       if (found == content.messages.end() || found->offset != offset || found->time != time ||
           found->connection != *id) {
         return file.refuse(record->data_position + at,
-                           fmt::format("the index tells of a message of connection {} at byte {} "
+                           fmt::format("the index lists a message of connection {} at byte {} "
                                        "of the chunk, which is not there",
                                        *id, offset));
       }
-      ++told;
+      ++listed;
     }
     position = record->end();
   }
-  if (told == content.messages.size()) return {};
+  if (listed == content.messages.size()) return {};
   return file.refuse(place.end_position(),
                      fmt::format("expected {} index entries behind the chunk, found {}",
-                                 content.messages.size(), told));
+                                 content.messages.size(), listed));
 }
 
 }  // namespace aims

@@ -17,19 +17,20 @@ namespace aims {
 /// Connections of a bag by their ids.
 class BagConnections {
  public:
-  /// Adds what a connection record says; the same again is fine, something else is an error.
+  /// Adds a connection record. A repetition is accepted; a different record of the same id is an
+  /// error.
   Result<void> add(const RecordFields& header, std::span<const std::byte> data);
   const BagConnection* find(std::uint32_t id) const;
   BagConnection* find(std::uint32_t id);
   const std::map<std::uint32_t, BagConnection>& all() const { return by_id_; }
-  /// Sets the messages of all connections to none.
-  void forget_counts();
+  /// Sets the message counts of all connections to zero.
+  void reset_counts();
 
  private:
   std::map<std::uint32_t, BagConnection> by_id_;
 };
 
-/// Where a chunk lies and what it holds.
+/// Position and content of a chunk, without its messages.
 struct ChunkPlace {
   std::uint64_t position = 0;       ///< of its record in the file
   std::uint64_t data_position = 0;  ///< of its packed content
@@ -42,7 +43,7 @@ struct ChunkPlace {
   std::uint32_t index_records = 0;                ///< behind the chunk
 
   std::uint64_t end_position() const { return data_position + packed_size; }
-  /// Bytes needed to have it in memory.
+  /// Bytes needed to hold it in memory.
   std::uint64_t memory() const;
 };
 
@@ -58,19 +59,19 @@ struct ChunkMessage {
 /// An unpacked chunk.
 struct ChunkContent {
   std::vector<std::byte> bytes;
-  std::vector<std::byte> packed;       ///< room for unpacking, kept for the next chunk
+  std::vector<std::byte> packed;       ///< buffer of the packed bytes, reused for the next chunk
   std::vector<ChunkMessage> messages;  ///< in the order of the file
 };
 
-/// The chunk whose record is given, by its header alone: no times, no counts.
+/// The chunk of a record, from its header alone: without times and counts.
 Result<ChunkPlace> chunk_place(const BagFile& file, const FileRecord& record);
 
 /// Reads and unpacks a chunk, and finds its messages. Connection records inside are added to
-/// `connections`; a message of none of them is an error, as is anything that is not whole.
+/// `connections`; a message of another connection or an incomplete record is an error.
 Result<void> load_chunk(const BagFile& file, const ChunkPlace& place, BagConnections& connections,
                         ChunkContent& content);
 
-/// Holds the index records behind a chunk, and its chunk info, against what the chunk holds.
+/// Error unless the index records behind a chunk, and its chunk info, agree with its content.
 Result<void> check_chunk_index(const BagFile& file, const ChunkPlace& place,
                                const ChunkContent& content);
 

@@ -15,9 +15,9 @@ namespace aims {
 namespace {
 
 /// Headers hold a topic and a few numbers [bytes].
-constexpr std::uint32_t kMostHeaderBytes = 1 << 16;
+constexpr std::uint32_t kMaxHeaderBytes = 1 << 16;
 /// Read at once in the hope that it holds a whole header.
-constexpr std::size_t kFirstLook = 256;
+constexpr std::size_t kFirstReadBytes = 256;
 
 tl::unexpected<Error> cannot_read(const std::filesystem::path& file, const std::string& why) {
   return failure(fmt::format("{}: cannot be read: {}", file.string(), why));
@@ -81,12 +81,12 @@ Result<FileRecord> BagFile::record(std::uint64_t position) const {
   FileRecord record;
   record.position = position;
   std::vector<std::byte>& bytes = record.header_bytes;
-  bytes.resize(std::min<std::uint64_t>(kFirstLook, size_ - position));
+  bytes.resize(std::min<std::uint64_t>(kFirstReadBytes, size_ - position));
   if (const auto got = read(position, bytes); !got) return tl::unexpected(got.error());
   const auto header_size = load_number<std::uint32_t>(bytes.data());
-  if (header_size > kMostHeaderBytes) {
+  if (header_size > kMaxHeaderBytes) {
     return refuse(position, fmt::format("expected a record's header of at most {} bytes, found {}",
-                                        kMostHeaderBytes, header_size));
+                                        kMaxHeaderBytes, header_size));
   }
   const std::size_t whole = 2 * kLength + header_size;
   const std::size_t known = bytes.size();

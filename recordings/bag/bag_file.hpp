@@ -25,10 +25,10 @@ struct FileRecord {
   std::uint64_t end() const { return data_position + data_size; }
 };
 
-/// A file read at any place; whatever is not there is an error that names file and offset.
+/// A file with random access; reading beyond its end is an error that names file and offset.
 class BagFile {
  public:
-  /// Error for what is missing, a folder or not a file at all.
+  /// Error for a missing file, a folder or anything but a regular file.
   static Result<BagFile> open(const std::filesystem::path& file);
   BagFile(BagFile&& other) noexcept;
   BagFile& operator=(BagFile&& other) noexcept;
@@ -41,8 +41,8 @@ class BagFile {
   Result<void> read(std::uint64_t position, std::span<std::byte> out) const;
   /// The record at `position`, whose data lies within the file.
   Result<FileRecord> record(std::uint64_t position) const;
-  /// The data of a record; error when it is longer than `most`.
-  Result<std::vector<std::byte>> data(const FileRecord& record, std::size_t most) const;
+  /// The data of a record; error when it is longer than `max_size`.
+  Result<std::vector<std::byte>> data(const FileRecord& record, std::size_t max_size) const;
 
   /// "FILE: at byte POSITION: WHAT".
   tl::unexpected<Error> refuse(std::uint64_t position, const std::string& what) const;

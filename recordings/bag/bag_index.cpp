@@ -9,10 +9,10 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostConnectionBytes = std::size_t{16} << 20;
-constexpr std::size_t kMostChunkInfoBytes = std::size_t{16} << 20;
+constexpr std::size_t kMaxConnectionBytes = std::size_t{16} << 20;
+constexpr std::size_t kMaxChunkInfoBytes = std::size_t{16} << 20;
 
-/// Bytes as an error may show them.
+/// Printable form of bytes, for errors.
 std::string shown(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -50,7 +50,7 @@ Result<void> read_connection(const BagFile& file, std::uint64_t& position, BagIn
     return file.refuse(
         position, fmt::format("expected a connection in the index, found {}", name_of(record->op)));
   }
-  const auto data = file.data(*record, kMostConnectionBytes);
+  const auto data = file.data(*record, kMaxConnectionBytes);
   if (!data) return tl::unexpected(data.error());
   const auto added = index.connections.add(record->header, *data);
   if (!added) return file.refuse(position, added.error().message);
@@ -58,10 +58,10 @@ Result<void> read_connection(const BagFile& file, std::uint64_t& position, BagIn
   return {};
 }
 
-/// The messages per connection that a chunk info tells of.
+/// Reads the messages per connection from a chunk info.
 Result<void> read_counts(const BagFile& file, const FileRecord& record, BagIndex& index,
                          ChunkPlace& place) {
-  const auto data = file.data(record, kMostChunkInfoBytes);
+  const auto data = file.data(record, kMaxChunkInfoBytes);
   if (!data) return tl::unexpected(data.error());
   const auto count = record.header.number<std::uint32_t>("count");
   if (!count || data->size() != 8 * std::uint64_t{*count}) {
@@ -111,7 +111,7 @@ Result<void> read_chunk_info(const BagFile& file, std::uint64_t& position, BagIn
   return {};
 }
 
-/// Chunks in the order of the file, none of them over another.
+/// Sorts the chunks by position. Error when two overlap.
 Result<void> sort_chunks(const BagFile& file, BagIndex& index) {
   std::stable_sort(
       index.chunks.begin(), index.chunks.end(),
@@ -175,7 +175,7 @@ Result<BagIndex> read_index(const BagFile& file) {
     return file.refuse(header->position,
                        "expected 'index_pos', 'conn_count' and 'chunk_count' in the file header");
   }
-  const std::string remedy = "; --recover reads what is whole, `rosbag reindex` mends it";
+  const std::string remedy = "; --recover reads the intact chunks, `rosbag reindex` repairs it";
   if (*index_position == 0) {
     return file.refuse(header->position, "the bag was never closed and has no index" + remedy);
   }

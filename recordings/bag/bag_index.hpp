@@ -9,7 +9,7 @@
 
 namespace aims {
 
-/// What is known of a bag before its messages are read.
+/// Connections and chunks of a bag.
 struct BagIndex {
   BagConnections connections;
   std::vector<ChunkPlace> chunks;  ///< in the order of the file; none is empty
@@ -23,8 +23,8 @@ Result<FileRecord> read_file_header(const BagFile& file);
 /// Reads the index that the file header points to.
 Result<BagIndex> read_index(const BagFile& file);
 
-/// Reads all chunks to know which are whole: those that the index tells of or, where that is gone,
-/// those met when walking from the start. Chunks beyond `memory_limit` count as not whole.
+/// Reads all chunks and keeps the intact ones: those that the index lists or, without an index,
+/// those found by scanning from the start. Chunks beyond `memory_limit` count as damaged.
 Result<BagIndex> recover_index(const BagFile& file, std::size_t memory_limit);
 
 }  // namespace aims

@@ -43,7 +43,7 @@ class FileOutput final : public BagOutput {
   }
 
   Result<void> close() override {
-    // A full network disk may speak up only here.
+    // A full network disk may report the error only here.
     const int outcome = ::close(std::exchange(fd_, -1));
     if (outcome != 0) return refuse(errno);
     return {};
@@ -59,12 +59,13 @@ class FileOutput final : public BagOutput {
   int fd_;
 };
 
-tl::unexpected<Error> cannot_make(const std::filesystem::path& file, int code) {
-  return failure(
-      fmt::format("{}: cannot be made: {}", file.string(), std::generic_category().message(code)));
+tl::unexpected<Error> cannot_create(const std::filesystem::path& file, int code) {
+  return failure(fmt::format("{}: cannot be created: {}", file.string(),
+                             std::generic_category().message(code)));
 }
 
-/// A file without a name in the folder of `file`, or -1 where the file system has no such thing.
+/// A file without a name in the folder of `file`, or -1 where the file system does not support
+/// this.
 int open_unnamed(const std::filesystem::path& file) {
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0644);
@@ -86,10 +87,10 @@ Result<std::unique_ptr<BagOutput>> create_bag_output(const std::filesystem::path
       return tl::unexpected(written.error());
     }
     if (give_name(fd, file)) return output;
-    if (errno == EEXIST) return cannot_make(file, EEXIST);
+    if (errno == EEXIST) return cannot_create(file, EEXIST);
   }
   const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd < 0) return cannot_make(file, errno);
+  if (fd < 0) return cannot_create(file, errno);
   auto output = std::make_unique<FileOutput>(file, fd);
   if (const auto written = output->write_at(0, first); !written) {
     return tl::unexpected(written.error());

@@ -11,8 +11,7 @@
 
 namespace aims {
 
-/// The three things that writing a bag does to a file. Between any two of them the file is a whole
-/// bag, and so it is while a call is under way.
+/// The three operations that writing a bag needs. The file is a valid bag between and during them.
 class BagOutput {
  public:
   virtual ~BagOutput() = default;
@@ -21,8 +20,8 @@ class BagOutput {
   virtual Result<void> close() = 0;
 };
 
-/// A new file that begins with `first`: under its name it is never seen without. Error when it
-/// exists or cannot be made.
+/// A new file that begins with `first`, which it contains from the moment it is visible. Error when
+/// it exists or cannot be created.
 Result<std::unique_ptr<BagOutput>> create_bag_output(const std::filesystem::path& file,
                                                      std::span<const std::byte> first);
 

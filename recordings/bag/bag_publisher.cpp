@@ -20,7 +20,7 @@ std::vector<std::byte> file_header(std::uint64_t index_position, const BagIndexB
   return bytes;
 }
 
-/// Where the first chunk lies.
+/// Position of the first chunk.
 constexpr std::uint64_t kFirstChunk =
     kBagMagic.size() + 2 * sizeof(std::uint32_t) + kFileHeaderSize;
 
@@ -37,13 +37,16 @@ std::vector<std::byte> BagPublisher::empty_bag() {
   return bytes;
 }
 
-BagPublisher::BagPublisher(std::unique_ptr<BagOutput> output, std::uint64_t room)
-    : output_(std::move(output)), room_(room), end_(kFirstChunk), index_position_(kFirstChunk) {}
+BagPublisher::BagPublisher(std::unique_ptr<BagOutput> output, std::uint64_t reserve)
+    : output_(std::move(output)),
+      reserve_(reserve),
+      end_(kFirstChunk),
+      index_position_(kFirstChunk) {}
 
-std::uint64_t BagPublisher::beside_index(std::uint64_t wished, std::uint64_t size) const {
+std::uint64_t BagPublisher::clear_of_index(std::uint64_t wanted, std::uint64_t size) const {
   const std::uint64_t end = index_position_ + published_.size();
-  const bool touches = wished < end && wished + size > index_position_;
-  return touches ? end : wished;
+  const bool touches = wanted < end && wanted + size > index_position_;
+  return touches ? end : wanted;
 }
 
 Result<void> BagPublisher::publish(std::uint64_t position, const BagIndexBytes& index) {
@@ -59,14 +62,14 @@ Result<void> BagPublisher::publish(std::uint64_t position, const BagIndexBytes& 
 
 Result<void> BagPublisher::make_room(std::uint64_t size) {
   if (published_.size() == 0 || end_ + size <= index_position_) return {};
-  return publish(beside_index(end_ + size, published_.size()), published_);
+  return publish(clear_of_index(end_ + size, published_.size()), published_);
 }
 
 Result<void> BagPublisher::add_chunk(std::span<const std::byte> chunk, const BagIndexBytes& index) {
   if (auto made = make_room(chunk.size()); !made) return made;
   if (auto written = output_->write_at(end_, chunk); !written) return written;
   const std::uint64_t end = end_ + chunk.size();
-  auto published = publish(beside_index(end + room_, index.size()), index);
+  auto published = publish(clear_of_index(end + reserve_, index.size()), index);
   if (published) end_ = end;
   return published;
 }

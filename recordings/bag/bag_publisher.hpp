@@ -22,21 +22,21 @@ struct BagIndexBytes {
   std::uint64_t size() const { return connections.size() + chunk_infos.size(); }
 };
 
-/// Puts chunks into a bag so that at every instant the file header points at an index that is whole
-/// and tells of chunks that are whole. The index that counts is never written over: the next chunk
-/// goes before it, where there is room, and the next index to another place; only then the header,
-/// a few bytes inside one page, is turned to the new one.
+/// Adds chunks to a bag so that at every instant the file header points at a complete index of
+/// complete chunks. The current index is never overwritten: the next chunk goes before it, into
+/// reserved space, and the next index to another place. Only then is the header, a few bytes inside
+/// one page, redirected.
 class BagPublisher {
  public:
-  /// What a bag without chunks is: the bytes that `output` begins with.
+  /// The bytes of a bag without chunks, with which `output` begins.
   static std::vector<std::byte> empty_bag();
 
-  /// `room`: bytes left free before a published index for the chunk to come.
-  BagPublisher(std::unique_ptr<BagOutput> output, std::uint64_t room);
+  /// `reserve`: bytes left free before a published index for the next chunk.
+  BagPublisher(std::unique_ptr<BagOutput> output, std::uint64_t reserve);
 
-  /// Where the next chunk will lie.
+  /// Position of the next chunk.
   std::uint64_t chunk_position() const { return end_; }
-  /// Adds a chunk, with its index records, at `chunk_position()`; `index` tells of it already.
+  /// Adds a chunk, with its index records, at `chunk_position()`; `index` contains it already.
   Result<void> add_chunk(std::span<const std::byte> chunk, const BagIndexBytes& index);
   /// Moves the index right behind the last chunk, cuts the file there and closes it.
   Result<void> finish(const BagIndexBytes& index);
@@ -44,13 +44,13 @@ class BagPublisher {
  private:
   Result<void> publish(std::uint64_t position, const BagIndexBytes& index);
   Result<void> make_room(std::uint64_t size);
-  /// A place from `wished` on that does not touch the index that counts.
-  std::uint64_t beside_index(std::uint64_t wished, std::uint64_t size) const;
+  /// The first position from `wanted` on at which `size` bytes do not overlap the current index.
+  std::uint64_t clear_of_index(std::uint64_t wanted, std::uint64_t size) const;
 
   std::unique_ptr<BagOutput> output_;
-  std::uint64_t room_;
+  std::uint64_t reserve_;
   std::uint64_t end_;             ///< of the last chunk
-  std::uint64_t index_position_;  ///< of the index that counts
+  std::uint64_t index_position_;  ///< of the current index
   BagIndexBytes published_;
 };
 

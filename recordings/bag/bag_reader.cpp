@@ -13,7 +13,7 @@
 namespace aims {
 namespace {
 
-/// Where a message stands in the order of reading.
+/// Sort key of the reading order.
 struct MessageKey {
   Time time = 0;
   std::uint64_t chunk = 0;   ///< position in the file
@@ -76,8 +76,8 @@ struct BagReader::Impl {
   std::vector<std::unique_ptr<LoadedChunk>> loaded = {};
   std::vector<std::unique_ptr<LoadedChunk>> spare = {};  ///< buffers for reuse
   std::uint64_t memory = 0;                              ///< of the loaded chunks [bytes]
-  std::optional<MessageKey> last = std::nullopt;         ///< given
-  bool given = false;  ///< the top's message is in the caller's hands
+  std::optional<MessageKey> last = std::nullopt;         ///< returned
+  bool lent = false;                                     ///< the caller holds the message on top
 
   void prepare();
   void release(std::unique_ptr<LoadedChunk> chunk);
@@ -92,11 +92,11 @@ bool BagReader::Impl::wanted(const ChunkPlace& place) const {
                      [this](const auto& each) { return chosen.contains(each.first); });
 }
 
-/// Makes the chunks that are still to be read, from the place reached.
+/// Lists the chunks that are still to be read from the current position.
 void BagReader::Impl::prepare() {
   for (auto& chunk : loaded) release(std::move(chunk));
   loaded.clear();
-  given = false;
+  lent = false;
   pending.clear();
   for (const ChunkPlace& chunk : index.chunks) {
     if (wanted(chunk)) pending.push_back(&chunk);
@@ -107,16 +107,16 @@ void BagReader::Impl::prepare() {
 }
 
 void BagReader::Impl::release(std::unique_ptr<LoadedChunk> chunk) {
-  constexpr std::size_t kKeptBytes = std::size_t{16} << 20;
+  constexpr std::size_t kMaxSpareBytes = std::size_t{16} << 20;
   memory -= chunk->memory();
   const std::size_t kept = chunk->content.bytes.capacity() + chunk->content.packed.capacity();
-  if (spare.size() < 2 && kept <= kKeptBytes) spare.push_back(std::move(chunk));
+  if (spare.size() < 2 && kept <= kMaxSpareBytes) spare.push_back(std::move(chunk));
 }
 
-/// Leaves the message that the caller had.
+/// Drops the message that was lent to the caller.
 void BagReader::Impl::step() {
-  if (!given) return;
-  given = false;
+  if (!lent) return;
+  lent = false;
   std::pop_heap(loaded.begin(), loaded.end(), later);
   if (++loaded.back()->next < loaded.back()->content.messages.size()) {
     std::push_heap(loaded.begin(), loaded.end(), later);
@@ -136,7 +136,7 @@ Result<void> BagReader::Impl::load(const ChunkPlace& place) {
   if (memory + place.memory() > options.memory_limit) {
     return file.refuse(place.position,
                        fmt::format("{} chunks overlap in time and need more than {} bytes; a copy "
-                                   "made by `rosbag filter` is in order of time",
+                                   "made by `rosbag filter` is sorted by time",
                                    loaded.size() + 1, options.memory_limit));
   }
   std::unique_ptr<LoadedChunk> chunk;
@@ -151,7 +151,7 @@ Result<void> BagReader::Impl::load(const ChunkPlace& place) {
   ChunkContent& content = chunk->content;
   Result<void> got = load_chunk(file, place, index.connections, content);
   if (got && !options.recover) got = check_chunk_index(file, place, content);
-  if (!got) return failure(got.error().message + "; --recover leaves out what is damaged");
+  if (!got) return failure(got.error().message + "; --recover skips damaged chunks");
   std::erase_if(content.messages, [&](const ChunkMessage& message) {
     const MessageKey key{message.time, place.position, message.offset};
     return !chosen.contains(message.connection) || (last && !(*last < key));
@@ -213,7 +213,7 @@ Result<std::optional<BagMessage>> BagReader::next() {
   if (bag.loaded.empty()) return std::optional<BagMessage>();
   const LoadedChunk& top = *bag.loaded.front();
   const ChunkMessage& message = top.content.messages[top.next];
-  bag.given = true;
+  bag.lent = true;
   bag.last = top.key();
   const std::span<const std::byte> bytes = top.content.bytes;
   return BagMessage{bag.chosen.at(message.connection), message.time,

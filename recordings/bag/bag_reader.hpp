@@ -15,15 +15,15 @@
 namespace aims {
 
 struct BagOpenOptions {
-  /// Read what is whole in a bag that was never closed or was cut short, instead of an error.
+  /// Read the intact chunks of a bag that was never closed or was truncated, instead of an error.
   bool recover = false;
   /// Chunks in memory at a time; a bag that needs more is an error [bytes].
   std::size_t memory_limit = std::size_t{1} << 30;
 };
 
 /// Reads a ROS 1 bag (format 2.0) message by message in order of record time, then of place in the
-/// file. Memory is bounded by the chunks that overlap in time, never by what the file claims: each
-/// length is checked before it is believed. Errors name the file, the offset and what was expected.
+/// file. Memory is bounded by the chunks that overlap in time: each length in the file is checked
+/// before it is used. Errors name the file, the offset and what was expected.
 class BagReader final : public MessageSource {
  public:
   static Result<BagReader> open(const std::filesystem::path& file, BagOpenOptions options = {});
@@ -37,8 +37,7 @@ class BagReader final : public MessageSource {
   const std::vector<BagConnection>& connections() const override;
   const BagSummary& summary() const override;
 
-  /// From here on only messages of these topics are given; chunks without them are not read.
-  /// Topics that the bag does not have are no error.
+  /// Restricts `next` to these topics; chunks without them are not read. Absent topics are ignored.
   void select(std::span<const std::string> topics) override;
 
   /// The next message, or nothing at the end.

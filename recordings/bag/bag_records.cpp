@@ -13,7 +13,7 @@ struct Field {
   std::span<const std::byte> value;
 };
 
-/// The field at the cursor, or nothing when it is not whole.
+/// The field at the cursor, or nothing when it is incomplete.
 std::optional<Field> next_field(ByteCursor& cursor) {
   const auto size = cursor.number<std::uint32_t>();
   if (!size) return std::nullopt;

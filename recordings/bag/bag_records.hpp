@@ -30,18 +30,18 @@ enum class BagOp : std::uint8_t {
   kConnection = 7,
 };
 
-/// What the operation is called in errors.
+/// Name of the record type in errors.
 std::string_view name_of(BagOp op);
 
 /// Named values of a record's header, in place: `name=value`, each with its length before it.
 class RecordFields {
  public:
   RecordFields() = default;
-  /// Error when the lengths do not add up or a field has no name.
+  /// Error when the lengths are inconsistent or a field has no name.
   static Result<RecordFields> parse(std::span<const std::byte> bytes);
 
   std::optional<std::span<const std::byte>> find(std::string_view name) const;
-  /// A number of exactly its own size, else nothing.
+  /// A number, or nothing when the field has another size.
   template <class T>
   std::optional<T> number(std::string_view name) const {
     const auto value = find(name);
@@ -67,7 +67,7 @@ struct BagRecord {
   std::span<const std::byte> data;
 };
 
-/// The record at the cursor; the error says what was expected, not where.
+/// The record at the cursor; the error states what was expected, not where.
 Result<BagRecord> read_record(ByteCursor& cursor);
 
 /// Builds the header of a record: fields in the order added.
@@ -82,7 +82,7 @@ class HeaderBuilder {
   }
   HeaderBuilder& time(std::string_view name, Time value);
   HeaderBuilder& op(BagOp value);
-  /// Writes the length that the header turned out to have.
+  /// Writes the length of the header.
   void finish();
 
  private:

@@ -6,11 +6,11 @@
 namespace aims {
 namespace {
 
-/// Makes times and counts of a chunk from its content; false when it is not whole.
-bool survey(const BagFile& file, std::size_t memory_limit, BagIndex& index, ChunkPlace& place,
-            ChunkContent& content) {
+/// Fills in times and counts of a chunk from its content; false when it is damaged.
+bool read_chunk(const BagFile& file, std::size_t memory_limit, BagIndex& index, ChunkPlace& place,
+                ChunkContent& content) {
   if (place.memory() > memory_limit) return false;
-  // Connections of a chunk that turns out damaged must not stay.
+  // Connections of a damaged chunk are discarded.
   BagConnections connections = index.connections;
   if (!load_chunk(file, place, connections, content)) return false;
   index.connections = std::move(connections);
@@ -24,8 +24,9 @@ bool survey(const BagFile& file, std::size_t memory_limit, BagIndex& index, Chun
   return true;
 }
 
-/// Adds the chunks that are met from `position` on; yields where the walk ends.
-std::uint64_t walk(const BagFile& file, std::uint64_t position, std::vector<ChunkPlace>& chunks) {
+/// Appends the chunks found from `position` on; returns where scanning ends.
+std::uint64_t scan_chunks(const BagFile& file, std::uint64_t position,
+                          std::vector<ChunkPlace>& chunks) {
   std::uint64_t end = position;
   while (true) {
     const auto record = file.record(position);
@@ -54,12 +55,12 @@ Result<BagIndex> recover_index(const BagFile& file, std::size_t memory_limit) {
     const auto header = read_file_header(file);
     if (!header) return tl::unexpected(header.error());
     index.indexed = false;
-    index.lost_bytes = file.size() - walk(file, header->end(), candidates);
+    index.lost_bytes = file.size() - scan_chunks(file, header->end(), candidates);
   }
-  index.connections.forget_counts();
+  index.connections.reset_counts();
   ChunkContent content;
   for (ChunkPlace& place : candidates) {
-    if (!survey(file, memory_limit, index, place, content)) {
+    if (!read_chunk(file, memory_limit, index, place, content)) {
       index.lost_bytes += place.packed_size;
     } else if (!place.counts.empty()) {
       index.chunks.push_back(std::move(place));

@@ -15,8 +15,8 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostChunkBytes = std::size_t{1} << 30;
-constexpr std::size_t kMostMessageBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 30;
 constexpr Time kEndOfTime = static_cast<Time>(std::numeric_limits<std::uint32_t>::max()) * kSecond;
 
 /// Bytes of a connection and its count in a chunk's info.
@@ -24,7 +24,7 @@ constexpr std::size_t kCountSize = 8;
 
 struct Connection {
   std::vector<std::byte> record;
-  bool in_file = false;          ///< its record lies in a chunk already
+  bool in_file = false;          ///< its record is in a chunk already
   std::vector<std::byte> index;  ///< entries of the open chunk
 };
 
@@ -52,11 +52,11 @@ struct BagWriter::Impl {
   Time end = 0;
   bool has_messages = false;
   bool closed = false;
-  std::optional<Error> broken;  ///< what went wrong, for good
+  std::optional<Error> broken;  ///< the first error, returned by every later call
 
   Result<void> close_chunk();
   Result<void> close_file();
-  /// Appends the index records of the open chunk and forgets them; yields messages by connection.
+  /// Moves the index records of the open chunk to `out`; returns the message counts by connection.
   std::vector<std::byte> take_index(std::vector<std::byte>& out);
   tl::unexpected<Error> refuse(const std::string& why) const {
     return failure(fmt::format("{}: {}", file.string(), why));
@@ -135,7 +135,7 @@ Result<BagWriter> BagWriter::create(const std::filesystem::path& file, BagWriter
 
 Result<BagWriter> BagWriter::create(std::unique_ptr<BagOutput> output, const std::string& name,
                                     BagWriterOptions options) {
-  options.chunk_size = std::clamp<std::size_t>(options.chunk_size, 1, kMostChunkBytes);
+  options.chunk_size = std::clamp<std::size_t>(options.chunk_size, 1, kMaxChunkBytes);
   const std::uint64_t room = options.chunk_size + options.chunk_size / 4 + (1 << 12);
   auto impl = std::unique_ptr<Impl>(new Impl{name,
                                              options,
@@ -172,7 +172,7 @@ Result<void> BagWriter::write(std::uint32_t connection, Time record_time,
     return bag.refuse(
         fmt::format("expected a record time above 0 and below 2^32 s, found {} ns", record_time));
   }
-  if (data.size() > kMostMessageBytes) {
+  if (data.size() > kMaxMessageBytes) {
     return bag.refuse(fmt::format("a message of {} bytes is too large", data.size()));
   }
   Connection& to = bag.connections[connection];

@@ -19,29 +19,30 @@ class BagOutput;
 
 struct BagWriterOptions {
   BagCompression compression = BagCompression::kNone;
-  std::size_t chunk_size = std::size_t{4} << 20;  ///< a chunk is closed when it has so many bytes
+  std::size_t chunk_size = std::size_t{4} << 20;  ///< a chunk is closed when it has this many bytes
 };
 
-/// Writes a ROS 1 bag (format 2.0). After each closed chunk the file on disk is a whole bag with an
-/// index of all closed chunks: a process killed at any moment leaves a bag that every reader opens.
+/// Writes a ROS 1 bag (format 2.0). After each closed chunk the file on disk is a valid bag with an
+/// index of all closed chunks: a process killed at any moment leaves a readable bag.
 class BagWriter {
  public:
   /// Error when the file exists or cannot be written.
   static Result<BagWriter> create(const std::filesystem::path& file, BagWriterOptions options = {});
-  /// Onto anything that takes writes and begins with an empty bag; `name` is for errors.
+  /// Writes to an output that begins with an empty bag; errors call it `name`.
   static Result<BagWriter> create(std::unique_ptr<BagOutput> output, const std::string& name,
                                   BagWriterOptions options = {});
   BagWriter(BagWriter&&) noexcept;
   BagWriter& operator=(BagWriter&&) noexcept;
-  ~BagWriter();  ///< closes, without a word about what went wrong: call `close`
+  ~BagWriter();  ///< closes and ignores errors: call `close` to see them
 
-  /// Announces a topic; yields the id to write with. Latching topics are handed to late listeners.
+  /// Announces a topic; returns the id to write with. Late subscribers receive the last message of
+  /// a latching topic.
   std::uint32_t add_connection(const std::string& topic, const MessageType& type,
                                bool latching = false);
 
-  /// Appends a message as serialized by ROS 1. Error when the disk is full, naming the file; the
-  /// bag then still opens with the chunks closed before. `record_time` is above 0: at 0, rosbag's
-  /// own reader does not see a message.
+  /// Appends a message as serialized by ROS 1. Error when the disk is full; the bag then remains
+  /// readable up to the last closed chunk. `record_time` > 0: rosbag's own reader skips messages at
+  /// 0.
   Result<void> write(std::uint32_t connection, Time record_time, std::span<const std::byte> data);
 
   /// Closes the last chunk and the file. Nothing may be written afterwards.

@@ -14,13 +14,13 @@ namespace aims {
 namespace {
 
 constexpr std::array<std::string_view, 3> kNames = {"none", "lz4", "bz2"};
-constexpr int kBz2BlockSize = 9;  ///< in 100 kB, as rosbag writes
-constexpr std::size_t kFirstRoom = std::size_t{64} << 10;
+constexpr int kBz2BlockSize = 9;  ///< in 100 kB, as rosbag uses
+constexpr std::size_t kFirstCapacity = std::size_t{64} << 10;
 
 Result<std::vector<std::byte>> compress_lz4(std::span<const std::byte> bytes) {
   LZ4F_preferences_t preferences{};
   preferences.frameInfo.blockSizeID = LZ4F_max4MB;
-  // rosbag's own reader takes nothing else.
+  // rosbag's own reader accepts nothing else.
   preferences.frameInfo.blockMode = LZ4F_blockIndependent;
   preferences.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
   std::vector<std::byte> out(LZ4F_compressFrameBound(bytes.size(), &preferences));
@@ -49,10 +49,10 @@ tl::unexpected<Error> wrong_size(std::size_t size, const char* found) {
   return failure(fmt::format("expected {} bytes when unpacked, found {}", size, found));
 }
 
-/// More room in `out`, which `filled` bytes of `size` fill already.
+/// Enlarges `out`, of which `filled` bytes are used, up to `size`.
 void grow(std::vector<std::byte>& out, std::size_t filled, std::size_t size, std::size_t packed) {
   if (filled < out.size()) return;
-  const std::size_t wanted = std::max({2 * out.size(), 4 * packed, kFirstRoom});
+  const std::size_t wanted = std::max({2 * out.size(), 4 * packed, kFirstCapacity});
   out.resize(std::min(wanted, size));
 }
 
@@ -67,7 +67,7 @@ Result<void> decompress_lz4(std::span<const std::byte> packed, std::size_t size,
   std::size_t filled = 0;
   while (true) {
     grow(out, filled, size, packed.size());
-    // At the claimed size one byte of room shows whether more would come.
+    // At the stated size one more byte of capacity shows whether the frame holds more.
     std::byte spare{};
     const bool full = filled == size;
     std::size_t room = full ? 1 : out.size() - filled;

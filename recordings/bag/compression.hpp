@@ -11,10 +11,10 @@
 
 namespace aims {
 
-/// How the content of a bag's chunks is packed.
+/// Compression of a bag's chunks.
 enum class BagCompression { kNone, kLz4, kBz2 };
 
-/// As bags name it: "none", "lz4", "bz2".
+/// Its name in bags: "none", "lz4", "bz2".
 std::string_view name_of(BagCompression compression);
 std::optional<BagCompression> compression_named(std::string_view name);
 
@@ -23,7 +23,7 @@ Result<std::vector<std::byte>> compress(BagCompression compression,
                                         std::span<const std::byte> bytes);
 
 /// Unpacks exactly `size` bytes into `out`. Error when the packed bytes are damaged or hold fewer
-/// or more; memory grows with what is truly unpacked and never beyond `size`.
+/// or more; memory grows with the bytes unpacked, up to `size`.
 Result<void> decompress(BagCompression compression, std::span<const std::byte> packed,
                         std::size_t size, std::vector<std::byte>& out);
 

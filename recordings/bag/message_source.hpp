@@ -19,12 +19,12 @@ struct BagConnection {
   std::string topic;
   std::string type;        ///< e.g. "sensor_msgs/PointCloud2"
   std::string md5;         ///< of the definition
-  std::string definition;  ///< the message type in words, with all types that it uses
+  std::string definition;  ///< text of the message type and of all types that it uses
   bool latching = false;
-  std::uint64_t messages = 0;  ///< in the bag, by its index
+  std::uint64_t messages = 0;  ///< number in the bag, by its index
 };
 
-/// One recorded message; valid until the reader moves on.
+/// One recorded message; valid until the next call of the reader.
 struct BagMessage {
   const BagConnection* connection = nullptr;
   Time record_time = 0;             ///< since the epoch
@@ -32,12 +32,12 @@ struct BagMessage {
   std::uint64_t offset = 0;         ///< of the chunk that holds it, in the file [bytes]
 };
 
-/// What the index of a bag says.
+/// Totals of a bag, from its index.
 struct BagSummary {
   std::uint64_t file_size = 0;  ///< [bytes]
   std::uint64_t chunks = 0;
   std::uint64_t messages = 0;
-  std::uint64_t lost_bytes = 0;  ///< in chunks that are not whole, and behind; when recovered
+  std::uint64_t lost_bytes = 0;  ///< in and behind damaged chunks, when recovered
   Time start = 0;                ///< earliest record time, since the epoch
   Time end = 0;                  ///< latest record time
   std::string compression;       ///< "none", "lz4", "bz2", or several: "lz4, none"
@@ -49,23 +49,23 @@ class MessageSource {
  public:
   virtual ~MessageSource() = default;
 
-  /// What errors call it: the bag's path.
+  /// Its name in errors: the bag's path.
   virtual std::string name() const = 0;
 
-  /// In order of their ids; none comes later.
+  /// In order of their ids; complete from the start.
   virtual const std::vector<BagConnection>& connections() const = 0;
 
-  /// What is known beforehand; of a running robot only the start.
+  /// Totals; of a running robot those of the start alone.
   virtual const BagSummary& summary() const = 0;
 
-  /// From here on only messages of these topics are given. Topics that are absent are no error.
+  /// Restricts `next` to these topics. Absent topics are ignored.
   virtual void select(std::span<const std::string> topics) = 0;
 
   /// The next message, or nothing at the end.
   virtual Result<std::optional<BagMessage>> next() = 0;
 
-  /// Starts again at the first message. Of a running robot only what had come when the source was
-  /// made can be read twice, and `next` ends there until the source goes live.
+  /// Starts again at the first message. Of a running robot only the messages gathered before the
+  /// source was created can be read twice; `next` ends there until the source goes live.
   virtual void rewind() = 0;
 
  protected:

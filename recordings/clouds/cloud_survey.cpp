@@ -13,9 +13,9 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostClouds = 60;
-/// Times from the start of a scan are below this; above, they have another origin [ns].
-constexpr double kOtherOrigin = 5e9;
+constexpr std::size_t kMaxClouds = 60;
+/// Larger point times are not relative to the scan [ns].
+constexpr double kMaxRelativeTime = 5e9;
 
 constexpr std::array<std::string_view, 5> kIntensityFields = {"intensity", "reflectivity", "i",
                                                               "intensities", "signal"};
@@ -39,7 +39,7 @@ std::string_view unit_name(double ns) {
 
 }  // namespace
 
-void CloudSurvey::learn_fields(const PointTable& table) {
+void CloudSurvey::find_fields(const PointTable& table) {
   for (const std::string_view name : time_field_names()) {
     if (table.find(name) != nullptr) time_fields_.emplace_back(name);
   }
@@ -48,7 +48,14 @@ void CloudSurvey::learn_fields(const PointTable& table) {
   }
 }
 
-void CloudSurvey::learn_points(const PointTable& table, Cloud& cloud) {
+void CloudSurvey::extend(std::optional<TimeRange>& range, double time) {
+  if (!std::isfinite(time)) return;
+  if (!range) range = TimeRange{time, time};
+  range->first = std::min(range->first, time);
+  range->last = std::max(range->last, time);
+}
+
+void CloudSurvey::read_points(const PointTable& table, Cloud& cloud) {
   std::vector<std::optional<PointField>> times;
   for (const std::string& name : time_fields_) {
     const ColumnLayout* column = table.find(name);
@@ -74,22 +81,16 @@ void CloudSurvey::learn_points(const PointTable& table, Cloud& cloud) {
       if (std::isfinite(value)) largest_intensity_ = std::max(largest_intensity_, value);
     }
     for (std::size_t field = 0; field < times.size(); ++field) {
-      if (!times[field]) continue;
-      const double time = times[field]->at(bytes);
-      if (!std::isfinite(time)) continue;
-      auto& range = cloud.ranges[field];
-      if (!range) range = TimeRange{time, time};
-      range->first = std::min(range->first, time);
-      range->last = std::max(range->last, time);
+      if (times[field]) extend(cloud.ranges[field], times[field]->at(bytes));
     }
   }
 }
 
 void CloudSurvey::add(const PointTable& table, Time record_time) {
-  if (clouds_.size() >= kMostClouds) return;
-  if (clouds_.empty()) learn_fields(table);
+  if (clouds_.size() >= kMaxClouds) return;
+  if (clouds_.empty()) find_fields(table);
   Cloud cloud{table.stamp, record_time, table.time_base, {}};
-  learn_points(table, cloud);
+  read_points(table, cloud);
   clouds_.push_back(std::move(cloud));
 }
 
@@ -109,7 +110,7 @@ std::optional<double> CloudSurvey::median_first(std::size_t field) const {
   return upper_median(all);
 }
 
-/// Whether that field holds times that pass with the scan; if so, how to read them.
+/// Whether the field advances during a scan as a time does; if so, how to read it.
 bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
                                CloudReading& reading) const {
   std::vector<double> spans;
@@ -127,24 +128,35 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
   reading.time_field = time_fields_[field];
   reading.time_unit = *unit;
   reading.clock = PointClock::kStamp;
-  std::vector<double> behind;  // of the first point after the stamp, on the stamps' clock [ns]
+  std::vector<double> delays;  // of the first firing after the stamp, on the stamps' clock [ns]
   for (const Cloud& cloud : clouds_) {
     if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
     const double first = cloud.ranges[field]->first * *unit;
     const double base = static_cast<double>(cloud.time_base.value_or(0));
-    behind.push_back(base + first - static_cast<double>(cloud.stamp));
+    delays.push_back(base + first - static_cast<double>(cloud.stamp));
   }
   const double first = *median_first(field) * *unit;
-  const bool from_stamp = std::abs(first) < kOtherOrigin;
+  const bool from_stamp = std::abs(first) < kMaxRelativeTime;
   const bool has_base = std::any_of(clouds_.begin(), clouds_.end(),
                                     [](const Cloud& cloud) { return cloud.time_base.has_value(); });
-  const bool same_clock = std::abs(*upper_median(behind)) < static_cast<double>(kLongestScan);
+  const bool same_clock = std::abs(*upper_median(delays)) < static_cast<double>(kLongestScan);
   if (has_base) {
     reading.clock = same_clock ? PointClock::kEpoch : PointClock::kStamp;
   } else if (!from_stamp) {
     reading.clock = same_clock ? PointClock::kEpoch : PointClock::kOther;
   }
   return true;
+}
+
+/// Median duration from the first to the last firing of a cloud, by the chosen field.
+std::optional<Duration> CloudSurvey::firing_span(std::size_t field, double unit_ns) const {
+  std::vector<Duration> spans;
+  for (const Cloud& cloud : clouds_) {
+    if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
+    const auto length = point_time(cloud.ranges[field]->last - cloud.ranges[field]->first, unit_ns);
+    if (length && *length > 0 && *length <= kLongestScan) spans.push_back(*length);
+  }
+  return upper_median(spans);
 }
 
 void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& reading,
@@ -154,59 +166,49 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
       std::min(upper_median(spacings(stamps())).value_or(fallback), kLongestScan);
   std::optional<Duration> span;
   for (std::size_t field = 0; field < time_fields_.size(); ++field) {
-    if (!decide_clock(config, field, about, reading)) {
-      notes.push_back(fmt::format("point field '{}' does not pass with the scan: not taken as time",
-                                  time_fields_[field]));
-      continue;
+    if (decide_clock(config, field, about, reading)) {
+      span = firing_span(field, reading.time_unit);
+      break;
     }
-    std::vector<Duration> spans;
-    for (const Cloud& cloud : clouds_) {
-      if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
-      const auto& range = *cloud.ranges[field];
-      const auto length = point_time(range.last - range.first, reading.time_unit);
-      if (length && *length > 0 && *length <= kLongestScan) spans.push_back(*length);
-    }
-    span = upper_median(spans);
-    break;
+    notes.push_back(fmt::format("point field '{}' does not advance during the scan: not a time",
+                                time_fields_[field]));
   }
   const std::optional<Duration> period = scan_period(stamps(), span);
   reading.period =
       std::clamp(period.value_or(fallback), kMillisecond, static_cast<Duration>(kLongestScan));
   if (!period) {
-    notes.push_back(fmt::format("too few clouds to tell the scan's period: {:g} s by lidar_rate",
+    notes.push_back(fmt::format("too few clouds to measure the scan period: {:g} s from lidar_rate",
                                 to_seconds(reading.period)));
   }
-  if (reading.clock == PointClock::kNone) {
-    notes.push_back(fmt::format(
-        "points carry no time: made up from azimuth, spinning {}, {:.4g} s a turn "
-        "(lidar_clockwise, lidar_rate)",
-        reading.clockwise ? "clockwise" : "counter-clockwise", to_seconds(reading.period)));
-    const int steps = rising_azimuths_ + falling_azimuths_;
-    const int against = reading.clockwise ? rising_azimuths_ : falling_azimuths_;
-    if (steps > 100 && against > 0.7 * steps) {
-      notes.push_back(
-          fmt::format("azimuths run the other way from point to point: set "
-                      "lidar_clockwise: {}",
-                      !reading.clockwise));
-    }
-    return;
-  }
+  if (reading.clock == PointClock::kNone) return note_azimuth_times(reading, notes);
   static constexpr std::array<std::string_view, 4> kOrigins = {
-      "", "counted from the cloud's stamp", "on the stamps' clock",
-      "on a clock of its own, of which only differences are used"};
+      "", "relative to the cloud's stamp", "on the clock of the stamps",
+      "on another clock, of which only differences are used"};
   notes.push_back(fmt::format("point time: field '{}' in {}, {}", reading.time_field,
                               unit_name(reading.time_unit),
                               kOrigins[static_cast<std::size_t>(reading.clock)]));
 }
 
-/// Whether the stamp marks the start or the end of the scan.
-void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& reading,
-                               std::vector<std::string>& notes) const {
-  const auto period = static_cast<double>(reading.period);
-  std::vector<double> latencies;
-  std::vector<double> firsts;  // first point after the stamp [ns]
+void CloudSurvey::note_azimuth_times(const CloudReading& reading,
+                                     std::vector<std::string>& notes) const {
+  notes.push_back(fmt::format(
+      "points have no time: derived from azimuth, spinning {}, {:.4g} s per turn "
+      "(lidar_clockwise, lidar_rate)",
+      reading.clockwise ? "clockwise" : "counter-clockwise", to_seconds(reading.period)));
+  const int steps = rising_azimuths_ + falling_azimuths_;
+  const int opposite = reading.clockwise ? rising_azimuths_ : falling_azimuths_;
+  if (steps > 100 && opposite > 0.7 * steps) {
+    notes.push_back(
+        fmt::format("azimuths change in the opposite direction from point to point: set "
+                    "lidar_clockwise: {}",
+                    !reading.clockwise));
+  }
+}
+
+/// Median time of the first firing after the cloud's stamp [ns]; 0 without times.
+double CloudSurvey::first_firing_ns(const CloudReading& reading) const {
+  std::vector<double> firsts;
   for (const Cloud& cloud : clouds_) {
-    latencies.push_back(static_cast<double>(cloud.arrival) - static_cast<double>(cloud.stamp));
     for (std::size_t field = 0; field < cloud.ranges.size(); ++field) {
       if (time_fields_[field] != reading.time_field || !cloud.ranges[field]) continue;
       double first = cloud.ranges[field]->first * reading.time_unit;
@@ -216,16 +218,27 @@ void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& read
       firsts.push_back(first);
     }
   }
-  const double first = upper_median(firsts).value_or(0.0);
+  return upper_median(firsts).value_or(0.0);
+}
+
+/// Whether the stamp marks the start or the end of the scan.
+void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& reading,
+                               std::vector<std::string>& notes) const {
+  const auto period = static_cast<double>(reading.period);
+  std::vector<double> latencies;
+  for (const Cloud& cloud : clouds_) {
+    latencies.push_back(static_cast<double>(cloud.arrival) - static_cast<double>(cloud.stamp));
+  }
+  const double first = first_firing_ns(reading);
   const double latency = upper_median(latencies).value_or(period);
-  // A cloud cannot arrive before its scan is over. Exactly at its stamp: not an arrival at all.
+  // A cloud cannot arrive before its scan is complete. A latency of exactly 0 is no measurement.
   const bool too_early = latency < 0.5 * period && latency > -0.5 * period && latency != 0.0;
   const bool to_stamp = reading.clock == PointClock::kStamp || reading.clock == PointClock::kEpoch;
   reading.counted_from_start = !to_stamp;
   reading.stamp = CloudStamp::kStart;
   if (config.cloud_stamp != CloudStamp::kAuto) {
     reading.stamp = config.cloud_stamp;
-    // Times that begin with the scan while the stamp is said to be its end.
+    // Times that begin with the scan although the stamp is configured as its end.
     if (reading.clock == PointClock::kStamp && first > -0.2 * period) {
       reading.counted_from_start = true;
     }
@@ -235,13 +248,13 @@ void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& read
   } else if (!to_stamp && too_early) {
     reading.stamp = CloudStamp::kEnd;
     notes.push_back(
-        fmt::format("clouds arrive {:.1f} ms after their stamp, before a scan that "
-                    "starts there is over: it is taken as the end (cloud_stamp)",
+        fmt::format("clouds arrive {:.1f} ms after their stamp, before a scan that starts there "
+                    "is complete: the stamp is taken as the end (cloud_stamp)",
                     1e-6 * latency));
   } else if (to_stamp && too_early) {
     notes.push_back(
-        fmt::format("clouds arrive {:.1f} ms after their stamp though their points fire "
-                    "later: if the stamp marks the end, set cloud_stamp: end",
+        fmt::format("clouds arrive {:.1f} ms after their stamp although their points fire later: "
+                    "if the stamp marks the end, set cloud_stamp: end",
                     1e-6 * latency));
   }
 }

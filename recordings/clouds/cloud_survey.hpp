@@ -10,20 +10,20 @@
 
 namespace aims {
 
-/// Learns from the first clouds of a recording how to read them.
+/// Finds out from the first clouds of a recording how to read them.
 class CloudSurvey {
  public:
-  /// Takes the next cloud; `table` is valid. Later ones than the first 60 change nothing.
+  /// Adds the next cloud; `table` is valid. Clouds after the first 60 are ignored.
   void add(const PointTable& table, Time record_time);
 
   bool enough() const { return clouds_.size() >= 30; }
   std::size_t size() const { return clouds_.size(); }
 
-  /// How to read the clouds; appends to `notes` what was assumed, with its remedy.
+  /// How to read the clouds; appends each assumption to `notes`, with the setting that changes it.
   CloudReading decide(const RecordingConfig& config, std::vector<std::string>& notes) const;
 
  private:
-  /// What the points of one cloud say of their times.
+  /// Smallest and largest time of the points of one cloud.
   struct TimeRange {
     double first = 0.0, last = 0.0;  ///< in the field's own unit
   };
@@ -32,16 +32,20 @@ class CloudSurvey {
     std::optional<Time> time_base;
     std::vector<std::optional<TimeRange>> ranges;  ///< by candidate field
   };
-  void learn_fields(const PointTable& table);
-  void learn_points(const PointTable& table, Cloud& cloud);
+  void find_fields(const PointTable& table);
+  static void extend(std::optional<TimeRange>& range, double time);
+  void read_points(const PointTable& table, Cloud& cloud);
   bool decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
                     CloudReading& reading) const;
   void decide_times(const RecordingConfig& config, CloudReading& reading,
                     std::vector<std::string>& notes) const;
+  void note_azimuth_times(const CloudReading& reading, std::vector<std::string>& notes) const;
   void decide_stamp(const RecordingConfig& config, CloudReading& reading,
                     std::vector<std::string>& notes) const;
   void decide_intensity(CloudReading& reading, std::vector<std::string>& notes) const;
   std::vector<Time> stamps() const;
+  std::optional<Duration> firing_span(std::size_t field, double unit_ns) const;
+  double first_firing_ns(const CloudReading& reading) const;
   std::optional<double> median_first(std::size_t field) const;
 
   std::vector<Cloud> clouds_;

@@ -9,13 +9,13 @@
 namespace aims {
 namespace {
 
-/// A point farther from its cloud's stamp belongs to no scan.
-constexpr Duration kFarthest = kSecond;
+/// Largest difference between the time of a point and its cloud's stamp.
+constexpr Duration kMaxPointOffset = kSecond;
 constexpr double kTurn = 2.0 * std::numbers::pi;
-/// A first firing seen this little before the azimuth of the first point is no last firing [rad].
+/// Azimuth margin before the first point within which an early point belongs to the start [rad].
 constexpr double kStartMargin = 0.02;
 
-/// The fields of a cloud as its points are read.
+/// The fields of a cloud that are read.
 struct Columns {
   PointField x, y, z;
   std::optional<PointField> time, ring, intensity;
@@ -49,7 +49,7 @@ std::uint16_t ring_of_elevation(const Eigen::Vector3f& p, const std::vector<doub
   return static_cast<std::uint16_t>(nearest - elevations.begin());
 }
 
-/// Reads the points of one cloud; times stay counted from `zero`.
+/// Reads the points of one cloud, with times relative to `zero`.
 class CloudDecoder {
  public:
   CloudDecoder(const PointTable& table, const CloudReading& reading, EventCounts& counts)
@@ -74,7 +74,7 @@ class CloudDecoder {
   Time zero_ = 0;  ///< on the clock of the points' field
 };
 
-/// What the points' times are counted from, on the clock of their field.
+/// Origin of the points' times, on the clock of their field.
 Time CloudDecoder::zero() const {
   if (reading_.clock == PointClock::kEpoch) {
     return table_.time_base ? table_.stamp - *table_.time_base : table_.stamp;
@@ -93,7 +93,7 @@ bool CloudDecoder::read_time(const std::byte* bytes, LidarPoint& point) {
   const auto time = point_time(columns_.time->at(bytes), reading_.time_unit);
   Time after = 0;
   if (!time || __builtin_sub_overflow(*time, zero_, &after)) return false;
-  if (after < -kFarthest || after > kFarthest) return false;
+  if (after < -kMaxPointOffset || after > kMaxPointOffset) return false;
   point.time_offset_ns = static_cast<std::int32_t>(after);
   return true;
 }
@@ -188,7 +188,7 @@ std::optional<Time> point_time(double value, double unit_ns) {
   const double ns = value * unit_ns;
   if (!(std::abs(ns) < 9e18)) return std::nullopt;
   if (std::abs(ns) < 1e15) return std::llround(ns);
-  // Long since the epoch: whole units apart from the rest, so that no digit is lost.
+  // Times since the epoch: integer and fractional part apart, so that no digit is lost.
   const double whole = std::floor(value);
   return static_cast<Time>(whole) * static_cast<Time>(unit_ns) +
          std::llround((value - whole) * unit_ns);

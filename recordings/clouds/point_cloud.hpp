@@ -13,40 +13,40 @@ namespace aims {
 
 /// Where the firing time of a point comes from.
 enum class PointClock {
-  kNone,   ///< made up from its azimuth and the spin
-  kStamp,  ///< its field, counted from the cloud's stamp
+  kNone,   ///< derived from its azimuth and the spin
+  kStamp,  ///< its field, relative to the cloud's stamp
   kEpoch,  ///< its field, on the clock of the stamps
-  kOther,  ///< its field, on a clock of its own: only differences count
+  kOther,  ///< its field, on another clock: only differences are used
 };
 
 /// Where the ring of a point comes from.
 enum class RingSource { kNone, kField, kRow, kColumn, kElevation };
 
-/// How the clouds of a recording are understood.
+/// How the clouds of a recording are read.
 struct CloudReading {
   PointClock clock = PointClock::kNone;
   std::string time_field;
   double time_unit = 1.0;                 ///< of that field [ns]
   CloudStamp stamp = CloudStamp::kStart;  ///< never kAuto
-  bool counted_from_start = true;         ///< times begin with the scan, whatever the stamp marks
+  bool counted_from_start = true;         ///< times begin with the scan, not at the stamp
   Duration period = 100 * kMillisecond;   ///< nominal, of one scan
-  bool clockwise = true;                  ///< sense of spin, for kNone
+  bool clockwise = true;                  ///< direction of spin, for kNone
   RingSource ring_source = RingSource::kNone;
   std::string ring_field;
-  int flipped_rings = 0;                ///< > 0: ring 0 is the top one of so many
-  std::vector<double> ring_elevations;  ///< rising, for kElevation [rad]
+  int flipped_rings = 0;                ///< > 0: number of rings, of which ring 0 is the highest
+  std::vector<double> ring_elevations;  ///< ascending, for kElevation [rad]
   std::string intensity_field;          ///< empty: none
-  float intensity_scale = 1.0F;         ///< brings it to [0, 1]
+  float intensity_scale = 1.0F;         ///< scales it to [0, 1]
 };
 
-/// The points in firing order, each at its own time; what is not finite, at the origin, or more
-/// than a second from the stamp is dropped and counted. `table` is valid.
+/// The points in firing order, each with its own time. A point that is not finite, at the origin,
+/// or more than a second from the stamp is dropped and counted. `table` is valid.
 LidarScan read_cloud(const PointTable& table, const CloudReading& reading, EventCounts& counts);
 
-/// Names under which drivers give the time of a point.
+/// Names of a point's time field in known drivers.
 std::span<const std::string_view> time_field_names();
 
-/// The time of a point [ns], as its field has it; empty when it is no time.
+/// A field value as a time [ns]; nothing when it is out of range.
 std::optional<Time> point_time(double value, double unit_ns);
 
 }  // namespace aims

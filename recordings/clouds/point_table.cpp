@@ -10,13 +10,13 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostFields = 256;
+constexpr std::size_t kMaxFields = 256;
 /// sensor_msgs/PointField: 1 to 8.
 constexpr std::array<NumberType, 8> kPointFieldTypes = {
     NumberType::kInt8,  NumberType::kUint8,  NumberType::kInt16,   NumberType::kUint16,
     NumberType::kInt32, NumberType::kUint32, NumberType::kFloat32, NumberType::kFloat64};
 
-/// A size that a message states, or nothing.
+/// A size in a message, or nothing.
 std::optional<std::size_t> size_at(const MessageView& message, std::string_view path) {
   const std::optional<double> value = message.number(path);
   if (!value || !(*value >= 0.0) || *value > 4294967295.0) return std::nullopt;
@@ -25,7 +25,7 @@ std::optional<std::size_t> size_at(const MessageView& message, std::string_view 
 
 Result<std::vector<ColumnLayout>> point_fields(const MessageView& message) {
   const std::size_t count = message.size("fields").value_or(0);
-  if (count > kMostFields) return failure(fmt::format("point cloud with {} fields", count));
+  if (count > kMaxFields) return failure(fmt::format("point cloud with {} fields", count));
   std::vector<ColumnLayout> columns;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string field = fmt::format("fields[{}].", i);
@@ -59,7 +59,7 @@ Result<PointTable> generic_table(const MessageView& message) {
   table.width = *width;
   table.height = *height;
   table.point_step = *point_step;
-  // Some writers leave the row step empty where there is one row alone.
+  // Some writers leave the row step at 0 when there is only one row.
   table.row_step = *row_step == 0 ? *width * *point_step : *row_step;
   table.big_endian = message.number("is_bigendian").value_or(0.0) != 0.0;
   table.bytes = *data;
@@ -127,7 +127,7 @@ Result<void> validate(const PointTable& table) {
       table.height - 1 > table.bytes.size() ||
       (table.height - 1) * table.row_step + table.width * table.point_step > table.bytes.size()) {
     return failure(fmt::format(
-        "{} x {} points of {} bytes, rows of {}: more than the {} bytes given", table.width,
+        "{} x {} points of {} bytes, rows of {}: more than the {} bytes of data", table.width,
         table.height, table.point_step, table.row_step, table.bytes.size()));
   }
   return {};

@@ -15,8 +15,8 @@
 
 namespace aims {
 
-/// The points of one cloud message as rows of fields: a view into the message's bytes. Every row,
-/// and every field within it, lies within `bytes`.
+/// The points of one cloud message as rows of fields: a view into the message's bytes. Every field
+/// of every row lies within `bytes`.
 struct PointTable {
   Time stamp = 0;          ///< of the header
   std::string_view frame;  ///< of the header
@@ -26,7 +26,7 @@ struct PointTable {
   std::size_t point_step = 0;  ///< [bytes]
   std::size_t row_step = 0;    ///< [bytes]
   bool big_endian = false;
-  std::optional<Time> time_base;  ///< to which times of points are relative, if not to the stamp
+  std::optional<Time> time_base;  ///< origin of the points' times, if not the stamp
   std::span<const std::byte> bytes;
 
   std::size_t size() const { return width * height; }
@@ -39,11 +39,11 @@ struct PointTable {
   const ColumnLayout* find_any(std::span<const std::string_view> names) const;
 };
 
-/// The points of a sensor_msgs/PointCloud2 or of a livox CustomMsg. Error for a layout that does
-/// not hold together: fields or rows beyond the data, or no x, y, z as float.
+/// The points of a sensor_msgs/PointCloud2 or of a livox CustomMsg. Error for an inconsistent
+/// layout: fields or rows beyond the data, or no x, y, z as float.
 Result<PointTable> point_table(const MessageView& message);
 
-/// Error unless rows, points and fields lie within the bytes, and x, y, z are there.
+/// Error unless rows, points and fields lie within the bytes and x, y, z exist.
 Result<void> validate(const PointTable& table);
 
 /// One field of every point.

@@ -10,14 +10,14 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostRings = 256;
-constexpr std::size_t kMostElevations = 100'000;
+constexpr std::size_t kMaxRings = 256;
+constexpr std::size_t kMaxElevations = 100'000;
 constexpr double kRingGap = 1e-3;  ///< between the elevations of neighbouring rings, at least [rad]
 
 constexpr std::array<std::string_view, 5> kRingFields = {"ring", "line", "channel", "laser_id",
                                                          "scan_id"};
 
-/// Centres of the groups into which the elevations fall, or nothing when they do not.
+/// Centres of the clusters of elevations; empty when there are no clear clusters.
 std::vector<double> ring_elevations(std::vector<float> elevations) {
   std::sort(elevations.begin(), elevations.end());
   std::vector<double> rings;
@@ -26,7 +26,7 @@ std::vector<double> ring_elevations(std::vector<float> elevations) {
     if (i < elevations.size() && elevations[i] - elevations[i - 1] < kRingGap) continue;
     if (elevations[i - 1] - elevations[begin] > 5.0 * kRingGap) return {};
     rings.push_back(0.5 * (elevations[begin] + elevations[i - 1]));
-    if (rings.size() > kMostRings) return {};
+    if (rings.size() > kMaxRings) return {};
     begin = i;
   }
   if (rings.size() < 2) return {};
@@ -40,11 +40,11 @@ std::span<const std::string_view> ring_field_names() { return kRingFields; }
 void RingSurvey::begin(const PointTable& table) {
   if (!begun_) {
     begun_ = true;
-    const std::size_t least = std::min(table.width, table.height);
+    const std::size_t smaller = std::min(table.width, table.height);
     if (const ColumnLayout* ring = table.find_any(kRingFields)) {
       source_ = RingSource::kField;
       name_ = ring->name;
-    } else if (least > 1 && least <= kMostRings) {
+    } else if (smaller > 1 && smaller <= kMaxRings) {
       source_ = table.height <= table.width ? RingSource::kRow : RingSource::kColumn;
     }
   }
@@ -56,21 +56,21 @@ void RingSurvey::begin(const PointTable& table) {
 void RingSurvey::add(const PointTable& table, std::size_t index, const Eigen::Vector3d& position) {
   const double elevation = std::atan2(position.z(), std::hypot(position.x(), position.y()));
   if (source_ == RingSource::kNone) {
-    if (elevations_.size() < kMostElevations) elevations_.push_back(static_cast<float>(elevation));
+    if (elevations_.size() < kMaxElevations) elevations_.push_back(static_cast<float>(elevation));
     return;
   }
   double ring = -1.0;
   if (source_ == RingSource::kRow) ring = static_cast<double>(index / table.width);
   if (source_ == RingSource::kColumn) ring = static_cast<double>(index % table.width);
   if (field_) ring = field_->at(table.point(index));
-  if (!(ring >= 0.0) || ring >= static_cast<double>(kMostRings)) return;
+  if (!(ring >= 0.0) || ring >= static_cast<double>(kMaxRings)) return;
   const auto at = static_cast<std::size_t>(ring);
   if (at >= rings_.size()) rings_.resize(at + 1);
   rings_[at].elevation_sum += elevation;
   ++rings_[at].points;
 }
 
-/// Whether elevation falls from ring to ring.
+/// Whether the elevation decreases from ring to ring.
 bool RingSurvey::highest_first() const {
   int rising = 0, falling = 0;
   std::optional<double> below;
@@ -89,21 +89,21 @@ void RingSurvey::decide(CloudReading& reading, std::vector<std::string>& notes) 
   if (source_ == RingSource::kNone) {
     reading.ring_elevations = ring_elevations(elevations_);
     if (reading.ring_elevations.empty()) {
-      notes.push_back("points carry no ring and their elevations form none: all are ring 0");
+      notes.push_back("points have no ring and their elevations form no clusters: all are ring 0");
       return;
     }
     reading.ring_source = RingSource::kElevation;
-    notes.push_back(fmt::format("points carry no ring: told from elevation, {} rings",
+    notes.push_back(fmt::format("points have no ring: derived from elevation, {} rings",
                                 reading.ring_elevations.size()));
     return;
   }
   if (source_ != RingSource::kField) {
-    notes.push_back(fmt::format("points carry no ring: told from the {} of the organised cloud",
+    notes.push_back(fmt::format("points have no ring: derived from the {} of the organised cloud",
                                 source_ == RingSource::kRow ? "row" : "column"));
   }
   if (!highest_first()) return;
   reading.flipped_rings = static_cast<int>(rings_.size());
-  notes.push_back("ring 0 is the highest: numbered from the lowest");
+  notes.push_back("ring 0 is the highest: renumbered from the lowest");
 }
 
 }  // namespace aims

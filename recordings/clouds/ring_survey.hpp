@@ -12,18 +12,18 @@
 
 namespace aims {
 
-/// Names under which drivers give the ring of a point.
+/// Names of a point's ring field in known drivers.
 std::span<const std::string_view> ring_field_names();
 
-/// Learns from the points of the first clouds how their rings are told.
+/// Finds out from the first clouds how to determine the ring of a point.
 class RingSurvey {
  public:
-  /// Looks at the layout of a cloud; before its points.
+  /// Reads the layout of a cloud, before its points.
   void begin(const PointTable& table);
-  /// Takes the point at `index`, which is finite and not the origin.
+  /// Adds the point at `index`, which is finite and not at the origin.
   void add(const PointTable& table, std::size_t index, const Eigen::Vector3d& position);
 
-  /// Fills in how rings are read; appends to `notes` what was made up.
+  /// Fills in how rings are read; appends assumptions to `notes`.
   void decide(CloudReading& reading, std::vector<std::string>& notes) const;
 
  private:
@@ -37,9 +37,9 @@ class RingSurvey {
   bool begun_ = false;
   RingSource source_ = RingSource::kNone;
   std::string name_;
-  std::optional<PointField> field_;  ///< of the present cloud
+  std::optional<PointField> field_;  ///< of the current cloud
   std::vector<Mean> rings_;
-  std::vector<float> elevations_;  ///< [rad]; where nothing else tells
+  std::vector<float> elevations_;  ///< [rad]; without any other source of the ring
 };
 
 }  // namespace aims

@@ -10,11 +10,11 @@
 namespace aims {
 namespace {
 
-/// The period of the nearest whole number of scans per second, if within 3 % of `period`.
-Duration whole_rate(Duration period) {
+/// The period of the nearest integer rate [Hz], if within 3 % of `period`.
+Duration integer_rate(Duration period) {
   const double rate = std::max(1.0, std::round(1.0 / to_seconds(period)));
-  const Duration whole = from_seconds(1.0 / rate);
-  return std::abs(whole - period) <= period * 3 / 100 ? whole : period;
+  const Duration rounded = from_seconds(1.0 / rate);
+  return std::abs(rounded - period) <= period * 3 / 100 ? rounded : period;
 }
 
 }  // namespace
@@ -33,25 +33,25 @@ std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Dura
   std::erase_if(between, [&](Duration each) { return span && each < *span - *span / 10; });
   if (between.empty()) {
     if (!span || *span <= 0) return std::nullopt;
-    // The last firing comes a little before the end.
-    return whole_rate(*span);
+    // The last firing is slightly before the end of the scan.
+    return integer_rate(*span);
   }
-  const Duration least = *std::min_element(between.begin(), between.end());
-  const Duration base = span && least > *span + *span / 2 ? *span : least;
+  const Duration shortest = *std::min_element(between.begin(), between.end());
+  const Duration base = span && shortest > *span + *span / 2 ? *span : shortest;
   std::map<Duration, std::size_t> periods;
   for (const Duration each : between) {
     const Duration scans = std::max<Duration>(1, (each + base / 2) / base);
     ++periods[(each + scans / 2) / scans];
   }
-  const auto most = std::max_element(periods.begin(), periods.end(),
+  const auto mode = std::max_element(periods.begin(), periods.end(),
                                      [](auto& a, auto& b) { return a.second < b.second; });
-  if (2 * most->second >= between.size()) return most->first;
+  if (2 * mode->second >= between.size()) return mode->first;
   std::vector<Duration> each;
   for (const auto& [period, times] : periods) each.insert(each.end(), times, period);
-  // Stamps that jitter: how long points fire tells the period better, if it is near.
+  // Jittering stamps: the firing span measures the period better, if it is close.
   const Duration usual = *upper_median(each);
-  const Duration fired = whole_rate(span.value_or(usual));
-  return std::abs(fired - usual) <= usual / 4 ? fired : whole_rate(usual);
+  const Duration fired = integer_rate(span.value_or(usual));
+  return std::abs(fired - usual) <= usual / 4 ? fired : integer_rate(usual);
 }
 
 std::optional<double> time_unit(double span, Duration about) {
@@ -74,9 +74,9 @@ std::optional<double> sample_rate(std::vector<Time> stamps) {
   if (between.empty()) return std::nullopt;
   std::map<Duration, std::size_t> times;
   for (const Duration each : between) ++times[each];
-  const auto most = std::max_element(times.begin(), times.end(),
+  const auto mode = std::max_element(times.begin(), times.end(),
                                      [](auto& a, auto& b) { return a.second < b.second; });
-  if (3 * most->second >= between.size()) return 1.0 / to_seconds(most->first);
+  if (3 * mode->second >= between.size()) return 1.0 / to_seconds(mode->first);
   const Duration usual = *upper_median(between);
   const auto near = std::count_if(between.begin(), between.end(), [&](Duration each) {
     return std::abs(each - usual) < usual / 10;

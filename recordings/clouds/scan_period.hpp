@@ -8,23 +8,23 @@
 
 namespace aims {
 
-/// A longer scan is no scan.
+/// Longest scan that is accepted.
 inline constexpr Duration kLongestScan = kSecond;
 
-/// Times between neighbouring stamps, put in order; those of equal stamps are left out.
+/// Differences of neighbouring stamps after sorting, without those that are zero.
 std::vector<Duration> spacings(std::vector<Time> stamps);
 
-/// Nominal period of the scans that start at `stamps`, some of which may be missing: the spacing
-/// that most share, else the nearest whole number per second. `span`: how long points fire, if
+/// Nominal period of the scans that start at `stamps`, some of which may be missing: the most
+/// frequent spacing, else the nearest integer rate. `span`: time from first to last firing, if
 /// known. Nothing without two different stamps or a span.
 std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Duration> span);
 
 /// Nanoseconds per unit (s, ms, us or ns) in which `span` is nearest to a scan of `about`, or
-/// nothing when none comes near.
+/// nothing when none is close.
 std::optional<double> time_unit(double span, Duration about);
 
-/// Samples per second [Hz]: by the spacing that a third share, so that losses do not count; else by
-/// the median, if half are near it; else, stamps being in disorder, by the mean.
+/// Sample rate [Hz]: from the most frequent spacing, if it covers a third of all, so that losses
+/// have no effect; else from the median, if half are close to it; else from the mean.
 std::optional<double> sample_rate(std::vector<Time> stamps);
 
 }  // namespace aims

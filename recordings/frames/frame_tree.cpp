@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/frames/frame_tree.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <deque>
 
@@ -11,7 +9,7 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostPairs = 1000;
+constexpr std::size_t kMaxPairs = 1000;
 
 }  // namespace
 
@@ -24,7 +22,7 @@ bool FrameTree::add(std::string_view parent, std::string_view child, const Pose&
   const std::string from = plain(parent);
   const std::string to = plain(child);
   const double norm = T_parent_child.rotation.norm();
-  if (from == to || from.empty() || to.empty() || pairs_ >= kMostPairs) return false;
+  if (from == to || from.empty() || to.empty() || pairs_ >= kMaxPairs) return false;
   if (!T_parent_child.translation.allFinite() || !(norm > 0.5) || !(norm < 2.0)) return false;
   if (neighbours_[from].contains(to)) return true;
   Pose pose = T_parent_child;
@@ -36,16 +34,8 @@ bool FrameTree::add(std::string_view parent, std::string_view child, const Pose&
 }
 
 void FrameTree::add(const MessageView& message, EventCounts& counts) {
-  const std::size_t size = message.size("transforms").value_or(0);
-  for (std::size_t i = 0; i < std::min(size, kMostPairs); ++i) {
-    const std::string path = fmt::format("transforms[{}].", i);
-    const auto parent = message.text(path + "header.frame_id");
-    const auto child = message.text(path + "child_frame_id");
-    const auto translation = vector_at(message, path + "transform.translation");
-    const auto rotation = quaternion_at(message, path + "transform.rotation");
-    if (!parent || !child || !translation || !rotation) return;
-    const Pose pose{*rotation, *translation};
-    if (!add(*parent, *child, pose)) ++counts["tf_unusable"];
+  for (const FrameTransform& each : transforms_in(message)) {
+    if (!add(each.parent, each.child, each.T_parent_child)) ++counts["tf_unusable"];
   }
 }
 

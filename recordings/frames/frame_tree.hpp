@@ -13,30 +13,30 @@
 
 namespace aims {
 
-/// Fixed transforms between named frames, as tf gives them. The first transform of a pair holds.
+/// Fixed transforms between named frames of tf. The first transform of a pair is kept.
 class FrameTree {
  public:
-  /// False, and nothing learnt, for a transform that is none (not finite, no rotation), of a frame
-  /// to itself, or beyond a thousand pairs.
+  /// False, without effect, for an invalid transform (not finite, no rotation), of a frame to
+  /// itself, or beyond a thousand pairs.
   bool add(std::string_view parent, std::string_view child, const Pose& T_parent_child);
 
-  /// Takes the transforms of a tf2_msgs/TFMessage or tf/tfMessage.
+  /// Adds the transforms of a tf2_msgs/TFMessage or tf/tfMessage.
   void add(const MessageView& message, EventCounts& counts);
 
-  bool knows(std::string_view frame) const { return neighbours_.contains(plain(frame)); }
+  bool contains(std::string_view frame) const { return neighbours_.contains(plain(frame)); }
 
-  /// Frame `to` in frame `from`, along the shortest chain: a single transform keeps its very
-  /// numbers. Nothing when the frames are not connected.
+  /// Frame `to` in frame `from`, along the shortest chain; a single transform is returned
+  /// unchanged. Nothing when the frames are not connected.
   std::optional<Pose> transform(std::string_view from, std::string_view to) const;
 
   /// The frames of that chain, both ends included; empty when there is none.
   std::vector<std::string> chain(std::string_view from, std::string_view to) const;
 
  private:
-  /// Without the slash that old drivers put in front.
+  /// The name without the leading slash of old drivers.
   static std::string plain(std::string_view frame);
 
-  /// By frame, the poses of its neighbours in it.
+  /// Poses of the neighbours in each frame.
   std::map<std::string, std::map<std::string, Pose>> neighbours_;
   std::size_t pairs_ = 0;
 };

@@ -9,18 +9,18 @@
 namespace aims {
 namespace {
 
-Pose pose_of(const ExtrinsicConfig& given) {
-  const Eigen::Vector3d rpy = given.rotation_rpy_deg * (std::numbers::pi / 180.0);
+Pose pose_of(const ExtrinsicConfig& configured) {
+  const Eigen::Vector3d rpy = configured.rotation_rpy_deg * (std::numbers::pi / 180.0);
   const Eigen::Quaterniond roll(Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()));
   const Eigen::Quaterniond pitch(Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()));
-  return {yaw_rotation(rpy.z()) * pitch * roll, given.translation};
+  return {yaw_rotation(rpy.z()) * pitch * roll, configured.translation};
 }
 
 }  // namespace
 
 void RecordedFrames::add(const MessageView& message, bool fixed) {
-  EventCounts again;
-  if (fixed) fixed_.add(message, again);
+  EventCounts counted_below;
+  if (fixed) fixed_.add(message, counted_below);
   all_.add(message, counts_);
 }
 
@@ -30,25 +30,24 @@ std::optional<Pose> RecordedFrames::find(const std::string& from, const std::str
   if (auto pose = fixed_.transform(from, to)) return pose;
   auto pose = all_.transform(from, to);
   if (pose) {
-    notes.push_back(fmt::format("{}: from /tf at the start, taken as fixed",
+    notes.push_back(fmt::format("{}: from /tf at the start, assumed fixed",
                                 fmt::join(all_.chain(from, to), " -> ")));
   }
   return pose;
 }
 
-Pose RecordedFrames::extrinsic(const ExtrinsicConfig& given, const std::string& from,
+Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::string& from,
                                const std::string& to, std::string_view key,
                                std::vector<std::string>& notes) const {
-  if (given.given) return pose_of(given);
+  if (configured.override_tf) return pose_of(configured);
   if (!from.empty() && from == to) {
-    notes.push_back(fmt::format("frame '{}' serves both ends of {}: identity", from, key));
+    notes.push_back(fmt::format("frame '{}' is both ends of {}: identity", from, key));
   }
   if (auto pose = find(from, to, notes)) return *pose;
-  notes.push_back(
-      fmt::format("NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Give "
-                  "recording.{}.translation and "
-                  "rotation_rpy_deg with recording.{}.given=true, or name the frames",
-                  from, to, key, key));
+  notes.push_back(fmt::format(
+      "NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Set recording.{}.translation and "
+      "rotation_rpy_deg with recording.{}.override_tf=true, or name the frames",
+      from, to, key, key));
   return {};
 }
 

@@ -12,23 +12,23 @@
 
 namespace aims {
 
-/// Where a recording's tf puts the sensors.
+/// Sensor extrinsics from a recording's tf.
 class RecordedFrames {
  public:
-  /// Takes a message of tf; `fixed`: of /tf_static.
+  /// Adds a message of tf; `fixed`: of /tf_static.
   void add(const MessageView& message, bool fixed);
 
-  bool knows(std::string_view frame) const { return all_.knows(frame); }
+  bool contains(std::string_view frame) const { return all_.contains(frame); }
 
-  /// Frame `to` in frame `from`, by fixed transforms, else by /tf, which `notes` then say.
+  /// Frame `to` in frame `from`, from fixed transforms, else from /tf with a line in `notes`.
   std::optional<Pose> find(const std::string& from, const std::string& to,
                            std::vector<std::string>& notes) const;
 
-  /// As configured, else as found, else the identity; `key` is the setting that gives it.
-  Pose extrinsic(const ExtrinsicConfig& given, const std::string& from, const std::string& to,
+  /// As configured, else from tf, else the identity; `key` is its setting.
+  Pose extrinsic(const ExtrinsicConfig& configured, const std::string& from, const std::string& to,
                  std::string_view key, std::vector<std::string>& notes) const;
 
-  /// Transforms that could not be used.
+  /// Counts of invalid transforms.
   const EventCounts& counts() const { return counts_; }
 
  private:

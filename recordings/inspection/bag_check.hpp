@@ -9,30 +9,30 @@
 
 namespace aims {
 
-/// Whether a bag has what a system asks for.
+/// Whether a bag meets a requirement.
 enum class Fulfilment {
   kMet,
-  kPoor,     ///< it runs, worse than it could
-  kMissing,  ///< it does not run, or gives nonsense
+  kPoor,     ///< the system runs, with reduced accuracy
+  kMissing,  ///< the system does not run, or its result is unusable
 };
 
-/// One thing that a system asks of a bag, and what the bag has of it.
+/// One requirement of a system, and how the bag meets it.
 struct RequirementCheck {
   std::string system;
   std::string requirement;  ///< e.g. "ring of each point (uint16)"
   Fulfilment fulfilment = Fulfilment::kMet;
   std::string found;   ///< e.g. "/imu/data at 50 Hz"
-  std::string remedy;  ///< of what is poor or missing
+  std::string remedy;  ///< if poor or missing
 };
 
-/// Holds the bag against what FAST-LIO2, LIO-SAM, LeGO-LOAM, LINS, LOAM, Leg-KILO and the
-/// estimators here need (docs/decisions.md names the sources).
+/// Checks the bag against the requirements of FAST-LIO2, LIO-SAM, LeGO-LOAM, LINS, LOAM, Leg-KILO
+/// and AIMS (docs/decisions.md names the sources).
 std::vector<RequirementCheck> check_bag(const BagInfo& info);
 
 /// A row per system: runs, runs poorly, or cannot run.
 TextTable check_table(const std::vector<RequirementCheck>& checks);
 
-/// What is poor or missing, with its remedy, system by system.
+/// The poor and missing requirements with their remedies, by system.
 std::string check_text(const std::vector<RequirementCheck>& checks);
 
 }  // namespace aims

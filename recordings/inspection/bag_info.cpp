@@ -11,18 +11,18 @@
 #include "recordings/inspection/bag_warnings.hpp"
 #include "recordings/inspection/sensor_inspection.hpp"
 #include "recordings/inspection/topic_statistics.hpp"
-#include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/stream/recording_reader.hpp"
+#include "recordings/topics/connection_decoders.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostTransforms = 256;
-constexpr std::size_t kMostTurns = 100'000;
+constexpr std::size_t kMaxTransforms = 256;
+constexpr std::size_t kMaxTurnRates = 100'000;
 
-/// Goes over every message once.
+/// Accumulates the info, message by message.
 class Survey {
  public:
   void add(const BagMessage& message, BagInfo& info) {
@@ -70,11 +70,11 @@ class Survey {
                      std::optional<Time> stamp) {
     const auto rate = vector_at(message, path);
     std::vector<TurnRate>& rates = turns_[topic];
-    if (!rate || !rate->allFinite() || !stamp || rates.size() == kMostTurns) return;
+    if (!rate || !rate->allFinite() || !stamp || rates.size() == kMaxTurnRates) return;
     if (rates.empty() || rates.back().stamp < *stamp) rates.push_back({*stamp, rate->norm()});
   }
 
-  /// Holds every sensor that feels turns against the fastest IMU.
+  /// Estimates the clock offset of every sensor with angular rates relative to the fastest IMU.
   void compare_clocks(BagInfo& info) const {
     if (imus_.empty()) return;
     const auto fewer = [this](const auto& a, const auto& b) {
@@ -89,54 +89,34 @@ class Survey {
   }
 
   std::optional<MessageView> decode(const BagMessage& message, BagInfo& info) {
-    const BagConnection& connection = *message.connection;
-    auto known = decoders_.find(connection.id);
-    if (known == decoders_.end()) {
-      auto made = MessageDecoder::create(connection.type, connection.definition);
-      if (!made) count_undecodable(made.error(), message, info);
-      auto decoder = made ? std::optional(std::move(*made)) : std::nullopt;
-      known = decoders_.emplace(connection.id, std::move(decoder)).first;
-    }
-    if (!known->second) return std::nullopt;
-    auto view = known->second->decode(message.data);
+    auto view = decoders_.decode(message);
     if (view) return std::move(*view);
-    count_undecodable(view.error(), message, info);
+    if (info.undecodable++ == 0) {
+      info.first_undecodable =
+          fmt::format("{} in the chunk at offset {}: {}", message.connection->topic, message.offset,
+                      view.error().message);
+    }
     return std::nullopt;
   }
 
-  static void count_undecodable(const Error& error, const BagMessage& message, BagInfo& info) {
-    if (info.undecodable++ > 0) return;
-    info.first_undecodable = fmt::format("{} in the chunk at offset {}: {}",
-                                         message.connection->topic, message.offset, error.message);
-  }
-
   static void add_transforms(const MessageView& message, bool fixed, BagInfo& info) {
-    const std::size_t count = std::min(message.size("transforms").value_or(0), kMostTransforms);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::string path = fmt::format("transforms[{}].", i);
-      TransformInfo found;
-      found.parent = std::string(message.text(path + "header.frame_id").value_or(""));
-      found.child = std::string(message.text(path + "child_frame_id").value_or(""));
-      found.fixed = fixed;
-      const auto rotation = quaternion_at(message, path + "transform.rotation");
-      const auto translation = vector_at(message, path + "transform.translation");
-      if (!rotation || !translation) continue;
-      found.T_parent_child = {*rotation, *translation};
+    for (const FrameTransform& each : transforms_in(message)) {
       const bool known = std::any_of(
-          info.transforms.begin(), info.transforms.end(), [&found](const TransformInfo& each) {
-            return each.parent == found.parent && each.child == found.child;
+          info.transforms.begin(), info.transforms.end(), [&each](const TransformInfo& other) {
+            return other.parent == each.parent && other.child == each.child;
           });
-      if (!known && info.transforms.size() < kMostTransforms)
-        info.transforms.push_back(std::move(found));
+      if (known || info.transforms.size() >= kMaxTransforms) continue;
+      info.transforms.push_back(
+          {std::string(each.parent), std::string(each.child), each.T_parent_child, fixed});
     }
   }
 
-  std::map<std::uint32_t, std::optional<MessageDecoder>> decoders_;
+  ConnectionDecoders decoders_;
   std::map<std::string, TopicStatistics> statistics_;
   std::map<std::string, std::string> frames_;
   std::map<std::string, CloudInspection> clouds_;
   std::map<std::string, ImuInspection> imus_;
-  std::map<std::string, std::vector<TurnRate>> turns_;  ///< of the first minutes
+  std::map<std::string, std::vector<TurnRate>> turns_;  ///< angular rates by topic
 };
 
 }  // namespace

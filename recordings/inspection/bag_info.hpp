@@ -18,7 +18,7 @@
 
 namespace aims {
 
-/// When the messages of one topic came, and what their stamps say.
+/// Timing of the messages of one topic.
 struct TopicInfo {
   std::string topic;
   std::string type;
@@ -27,13 +27,13 @@ struct TopicInfo {
   bool stamped = false;                   ///< the type has a header
   std::optional<double> rate_hz;          ///< of the median spacing of stamps
   std::optional<double> largest_gap_s;    ///< between stamps
-  std::optional<double> loss;             ///< share of messages that the spacings miss [-]
+  std::optional<double> loss;             ///< fraction of messages missing, from the spacings [-]
   std::uint64_t repeated = 0;             ///< stamps equal to the one before
   std::uint64_t backwards = 0;            ///< stamps before the one before
   std::optional<double> median_offset_s;  ///< record time minus stamp
   std::optional<double> smallest_offset_s;
   std::optional<double> largest_offset_s;
-  std::optional<ClockOffset> clock;  ///< against the IMU, by the turns that both felt
+  std::optional<ClockOffset> clock;  ///< relative to the IMU, from the angular rates of both
   Time first_stamp = 0;              ///< of the header, or the record time
   Time last_stamp = 0;
 };
@@ -44,28 +44,28 @@ struct PointFieldInfo {
   std::uint32_t offset = 0;
 };
 
-/// What the clouds of a topic are made of, from the first ones.
+/// Layout of the clouds of a topic, from the first ones.
 struct CloudInfo {
   std::string topic;
   std::vector<PointFieldInfo> fields;  ///< of a Livox CustomMsg, those of its points
   std::size_t point_step = 0;          ///< [bytes]
   std::size_t height = 0;              ///< 1: not organised
-  bool dense = false;                  ///< says that it holds no NaN
-  std::uint64_t clouds = 0;            ///< looked at
-  std::uint64_t broken = 0;            ///< met before so many were looked at
-  std::string first_broken;            ///< what was wrong with the first
+  bool dense = false;                  ///< is_dense: declares that it contains no NaN
+  std::uint64_t clouds = 0;            ///< number examined
+  std::uint64_t broken = 0;            ///< unreadable ones met while examining these
+  std::string first_broken;            ///< error of the first
   double mean_points = 0.0;            ///< per cloud
-  double not_finite_share = 0.0;       ///< of the points [-]
+  double not_finite_fraction = 0.0;    ///< of the points [-]
 
   const PointFieldInfo* find(const std::string& name) const;
-  const PointFieldInfo* time_field() const;  ///< nullptr: points carry no time
-  const PointFieldInfo* ring_field() const;  ///< nullptr: points carry no ring
+  const PointFieldInfo* time_field() const;  ///< nullptr: points have no time
+  const PointFieldInfo* ring_field() const;  ///< nullptr: points have no ring
 
  private:
   const PointFieldInfo* find_any(std::span<const std::string_view> names) const;
 };
 
-/// The longest time at rest that an IMU saw, and what it read there.
+/// The longest interval without motion, and the mean and noise of the IMU in it.
 struct StaticInterval {
   double begin_s = 0.0;  ///< after the first sample
   double length_s = 0.0;
@@ -77,12 +77,12 @@ struct StaticInterval {
 
 struct ImuInfo {
   std::string topic;
-  bool in_g = false;                   ///< the specific force is in units of 9.80665 m/s^2
-  bool oriented = false;               ///< its orientation is a unit quaternion
-  std::optional<StaticInterval> rest;  ///< none: it never stood for a second
+  bool in_g = false;      ///< the specific force is in units of 9.80665 m/s^2
+  bool oriented = false;  ///< its orientation is a unit quaternion
+  std::optional<StaticInterval> static_interval;  ///< none: shorter than a second
 };
 
-/// A transform of tf: static, or the first one seen.
+/// A transform of tf: static, or the first one recorded.
 struct TransformInfo {
   std::string parent;
   std::string child;
@@ -90,7 +90,7 @@ struct TransformInfo {
   bool fixed = false;
 };
 
-/// Everything that `aims info` and `aims check` know of a bag.
+/// The data of `aims info` and `aims check`.
 struct BagInfo {
   std::filesystem::path file;
   BagSummary summary;
@@ -98,21 +98,21 @@ struct BagInfo {
   std::vector<CloudInfo> clouds;
   std::vector<ImuInfo> imus;
   std::vector<TransformInfo> transforms;
-  std::uint64_t undecodable = 0;       ///< messages that do not fit their definition
-  std::string first_undecodable;       ///< what was wrong with the first
-  TopicsConfig used;                   ///< by `aims estimate`; empty where it finds none
-  std::vector<std::string> notes;      ///< how `aims estimate` would read it
-  std::optional<std::string> refusal;  ///< why `aims estimate` could not
-  std::vector<std::string> warnings;   ///< what is odd, each with its remedy
+  std::uint64_t undecodable = 0;       ///< messages that contradict their definition
+  std::string first_undecodable;       ///< error of the first
+  TopicsConfig used;                   ///< topics used by `aims estimate`; empty: none
+  std::vector<std::string> notes;      ///< of `aims estimate`: assumptions and conversions
+  std::optional<std::string> refusal;  ///< error of `aims estimate`, if it cannot read the bag
+  std::vector<std::string> warnings;   ///< problems, each with its remedy
 
   const TopicInfo* find(const std::string& topic) const;
 };
 
-/// Reads the whole bag once. Error when it cannot be opened or breaks off.
+/// Reads every message of the bag once. Error when it cannot be opened or read to its end.
 Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig& config,
                          BagOpenOptions options);
 
-/// The info as it is shown on a terminal.
+/// The info as text for the terminal.
 std::string info_text(const BagInfo& info);
 
 }  // namespace aims

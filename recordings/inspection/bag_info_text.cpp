@@ -26,10 +26,8 @@ std::string head_text(const BagInfo& info) {
 
 std::string topics_text(const BagInfo& info) {
   TextTable table;
-  table.header = {"topic",        "type",      "messages",
-                  "Hz",           "gap max s", "lost %",
-                  "repeated",     "backwards", "recorded after stamp s",
-                  "clock - IMU s"};
+  table.header = {"topic",  "type",     "messages",  "Hz",      "gap max s",
+                  "lost %", "repeated", "backwards", "delay s", "clock offset s"};
   for (const TopicInfo& each : info.topics) {
     const std::string offset = each.median_offset_s
                                    ? fmt::format("{:.3f} ({:.3f} to {:.3f})", *each.median_offset_s,
@@ -47,8 +45,8 @@ std::string topics_text(const BagInfo& info) {
 std::string cloud_text(const CloudInfo& cloud) {
   std::string text = fmt::format("\ncloud {}: {:.0f} points", cloud.topic, cloud.mean_points);
   if (cloud.height > 1) text += fmt::format(" in {} rows", cloud.height);
-  if (cloud.not_finite_share > 0.0) {
-    text += fmt::format(", {:.1f} % not finite", 100.0 * cloud.not_finite_share);
+  if (cloud.not_finite_fraction > 0.0) {
+    text += fmt::format(", {:.1f} % not finite", 100.0 * cloud.not_finite_fraction);
   }
   text += fmt::format("; {} bytes a point:", cloud.point_step);
   for (const PointFieldInfo& each : cloud.fields) {
@@ -58,17 +56,17 @@ std::string cloud_text(const CloudInfo& cloud) {
 }
 
 std::string imu_text(const ImuInfo& imu) {
-  std::string text = fmt::format("\nIMU {}: force in {}, orientation {}\n", imu.topic,
-                                 imu.in_g ? "g" : "m/s^2", imu.oriented ? "given" : "not given");
-  if (!imu.rest) return text + "  never stands still for a second\n";
-  const StaticInterval& rest = *imu.rest;
-  text +=
-      fmt::format("  stands still for {:.1f} s from {:.1f} s on\n", rest.length_s, rest.begin_s);
+  std::string text = fmt::format("\nIMU {}: specific force in {}, orientation {}\n", imu.topic,
+                                 imu.in_g ? "g" : "m/s^2", imu.oriented ? "valid" : "not valid");
+  if (!imu.static_interval) return text + "  no interval of a second without motion\n";
+  const StaticInterval& interval = *imu.static_interval;
+  text += fmt::format("  without motion for {:.1f} s from {:.1f} s on\n", interval.length_s,
+                      interval.begin_s);
   text += fmt::format("  gyro bias {} rad/s, noise {} rad/s/sqrt(Hz)\n",
-                      vector_text(rest.gyro_bias, 5), vector_text(rest.gyro_noise, 6));
-  text +=
-      fmt::format("  force {} m/s^2 (norm {:.4f}), noise {} m/s^2/sqrt(Hz)\n",
-                  vector_text(rest.force, 4), rest.force.norm(), vector_text(rest.force_noise, 5));
+                      vector_text(interval.gyro_bias, 5), vector_text(interval.gyro_noise, 6));
+  text += fmt::format("  specific force {} m/s^2 (norm {:.4f}), noise {} m/s^2/sqrt(Hz)\n",
+                      vector_text(interval.force, 4), interval.force.norm(),
+                      vector_text(interval.force_noise, 5));
   return text;
 }
 
@@ -82,7 +80,7 @@ Eigen::Vector3d rpy_deg(const Eigen::Quaterniond& q) {
 
 std::string transform_text(const TransformInfo& each) {
   return fmt::format("  {} -> {}{}: {} m, rpy {} deg\n", each.parent, each.child,
-                     each.fixed ? "" : " (moving, first seen)",
+                     each.fixed ? "" : " (moving; first one)",
                      vector_text(each.T_parent_child.translation, 4),
                      vector_text(rpy_deg(each.T_parent_child.rotation), 3));
 }

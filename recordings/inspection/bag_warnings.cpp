@@ -11,15 +11,15 @@
 namespace aims {
 namespace {
 
-constexpr double kMuchLoss = 0.01;             ///< [-]
-constexpr double kLongGapSamples = 10.0;       ///< in periods of the topic
-constexpr double kOddOffset = 0.5;             ///< between record time and stamp [s]
-constexpr double kOffsetBetweenTopics = 0.15;  ///< [s]
-constexpr double kOddClock = 0.015;            ///< more than averaging over a sample explains [s]
-constexpr double kShortRest = 2.0;             ///< [s]
+constexpr double kMaxLoss = 0.01;              ///< [-]
+constexpr double kMaxGapPeriods = 10.0;        ///< in periods of the topic
+constexpr double kMaxOffset = 0.5;             ///< between record time and stamp [s]
+constexpr double kMaxOffsetDifference = 0.15;  ///< [s]
+constexpr double kMaxClockOffset = 0.015;      ///< above what averaging over a sample causes [s]
+constexpr double kMinStaticInterval = 2.0;     ///< [s]
 constexpr double kGravity = 9.81;              ///< [m/s^2]
-constexpr double kOddForce = 0.3;              ///< of a resting accelerometer from gravity [m/s^2]
-constexpr double kSlowImu = 100.0;             ///< [Hz]
+constexpr double kMaxForceError = 0.3;         ///< of a static accelerometer from gravity [m/s^2]
+constexpr double kMinImuRate = 100.0;          ///< [Hz]
 
 bool is_sensor(const TopicInfo& topic) {
   return topic.type.starts_with("sensor_msgs/") || is_cloud_type(topic.type) ||
@@ -28,26 +28,23 @@ bool is_sensor(const TopicInfo& topic) {
 
 void warn_of_times(const TopicInfo& topic, std::vector<std::string>& out) {
   if (!is_sensor(topic) || topic.messages < 2) return;
-  if (topic.loss.value_or(0.0) > kMuchLoss) {
+  if (topic.loss.value_or(0.0) > kMaxLoss) {
     out.push_back(
-        fmt::format("{}: about {:.1f} % of the messages are missing, lost on the robot or while "
-                    "recording: look at its "
-                    "network, record on a faster disk or with a larger buffer (rosbag record -b 0)",
+        fmt::format("{}: about {:.1f} % of the messages are missing: check the robot's network, "
+                    "record to a faster disk or with a larger buffer (rosbag record -b 0)",
                     topic.topic, 100.0 * *topic.loss));
   }
-  if (topic.rate_hz && topic.largest_gap_s.value_or(0.0) * *topic.rate_hz > kLongGapSamples) {
-    out.push_back(
-        fmt::format("{}: a gap of {:.2f} s; estimators coast through it on the other "
-                    "sensors",
-                    topic.topic, *topic.largest_gap_s));
+  if (topic.rate_hz && topic.largest_gap_s.value_or(0.0) * *topic.rate_hz > kMaxGapPeriods) {
+    out.push_back(fmt::format("{}: a gap of {:.2f} s; estimators bridge it with the other sensors",
+                              topic.topic, *topic.largest_gap_s));
   }
   if (topic.repeated + topic.backwards > 0) {
     out.push_back(
-        fmt::format("{}: {} stamps repeat and {} go backwards; such messages are dropped: "
-                    "mend the driver's clock",
+        fmt::format("{}: {} stamps repeat and {} go backwards; such messages are dropped: fix the "
+                    "driver's clock",
                     topic.topic, topic.repeated, topic.backwards));
   }
-  if (topic.stamped && std::abs(topic.median_offset_s.value_or(0.0)) > kOddOffset) {
+  if (topic.stamped && std::abs(topic.median_offset_s.value_or(0.0)) > kMaxOffset) {
     out.push_back(
         fmt::format("{}: stamps are {:.3f} s before the record times; if the clocks "
                     "differ, set the sensor's delay (recording.imu_delay, lidar_delay, "
@@ -56,31 +53,32 @@ void warn_of_times(const TopicInfo& topic, std::vector<std::string>& out) {
   }
 }
 
-/// A clock of its own shows in when the same turns are felt.
+/// A different clock shows as a shift between the angular rates.
 void warn_of_clock(const TopicInfo& topic, std::vector<std::string>& out) {
-  if (!topic.clock || std::abs(topic.clock->seconds) < kOddClock) return;
+  if (!topic.clock || std::abs(topic.clock->seconds) < kMaxClockOffset) return;
   out.push_back(
-      fmt::format("{}: feels turns {:.1f} ms {} the IMU (correlation {:.2f}); if it is the "
-                  "legs' topic, recording.leg_delay={:.4f} makes it good",
+      fmt::format("{}: angular rates are {:.1f} ms {} the IMU's (correlation {:.2f}); if it is the "
+                  "legs' topic, set recording.leg_delay={:.4f}",
                   topic.topic, 1e3 * std::abs(topic.clock->seconds),
-                  topic.clock->seconds > 0.0 ? "after" : "before", topic.clock->correlation,
+                  topic.clock->seconds > 0.0 ? "behind" : "ahead of", topic.clock->correlation,
                   topic.clock->seconds));
 }
 
-/// Sensors that are late by different amounts may have clocks of their own.
+/// Sensors with different delays may use different clocks.
 void warn_of_offsets(const BagInfo& info, std::vector<std::string>& out) {
-  const TopicInfo* least = nullptr;
-  const TopicInfo* most = nullptr;
+  const TopicInfo* earliest = nullptr;
+  const TopicInfo* latest = nullptr;
   for (const TopicInfo& each : info.topics) {
     if (!is_sensor(each) || !each.median_offset_s) continue;
-    if (!least || *each.median_offset_s < *least->median_offset_s) least = &each;
-    if (!most || *each.median_offset_s > *most->median_offset_s) most = &each;
+    if (!earliest || *each.median_offset_s < *earliest->median_offset_s) earliest = &each;
+    if (!latest || *each.median_offset_s > *latest->median_offset_s) latest = &each;
   }
-  if (!least || *most->median_offset_s - *least->median_offset_s < kOffsetBetweenTopics) return;
-  out.push_back(
-      fmt::format("{} is recorded {:.3f} s after its stamps, {} {:.3f} s: their clocks "
-                  "may differ; synchronise them, or set recording.*_delay",
-                  most->topic, *most->median_offset_s, least->topic, *least->median_offset_s));
+  if (!earliest || *latest->median_offset_s - *earliest->median_offset_s < kMaxOffsetDifference)
+    return;
+  out.push_back(fmt::format(
+      "{} is recorded {:.3f} s after its stamps, {} {:.3f} s: their clocks "
+      "may differ; synchronise them, or set recording.*_delay",
+      latest->topic, *latest->median_offset_s, earliest->topic, *earliest->median_offset_s));
 }
 
 void warn_of_clouds(const CloudInfo& cloud, std::vector<std::string>& out) {
@@ -91,48 +89,48 @@ void warn_of_clouds(const CloudInfo& cloud, std::vector<std::string>& out) {
   if (cloud.clouds == 0) return;
   if (!cloud.time_field()) {
     out.push_back(
-        fmt::format("{}: points carry no time; it is made up from their azimuth: switch "
-                    "it on in the driver, or the motion within a scan blurs",
+        fmt::format("{}: points have no time; it is derived from their azimuth: enable it in the "
+                    "driver, otherwise deskewing is approximate",
                     cloud.topic));
   }
   if (!cloud.ring_field() && cloud.height == 1) {
     out.push_back(
-        fmt::format("{}: points carry no ring; it is made up from their elevation", cloud.topic));
+        fmt::format("{}: points have no ring; it is derived from their elevation", cloud.topic));
   }
-  if (cloud.not_finite_share > 0.0 && cloud.dense) {
+  if (cloud.not_finite_fraction > 0.0 && cloud.dense) {
     out.push_back(
         fmt::format("{}: {:.1f} % of the points are NaN though is_dense is true; some "
                     "systems stop at that",
-                    cloud.topic, 100.0 * cloud.not_finite_share));
+                    cloud.topic, 100.0 * cloud.not_finite_fraction));
   }
 }
 
 void warn_of_imu(const BagInfo& info, const ImuInfo& imu, std::vector<std::string>& out) {
   if (imu.in_g) {
-    out.push_back(
-        fmt::format("{}: the specific force is in g, not m/s^2; it is converted here, "
-                    "other systems may not do so",
-                    imu.topic));
+    out.push_back(fmt::format(
+        "{}: the specific force is in g, not m/s^2; aims converts it, other systems may not",
+        imu.topic));
   }
   const TopicInfo* topic = info.find(imu.topic);
-  if (topic && topic->rate_hz.value_or(kSlowImu) < kSlowImu) {
+  if (topic && topic->rate_hz.value_or(kMinImuRate) < kMinImuRate) {
     out.push_back(
-        fmt::format("{}: {:.0f} Hz; footfalls alias into an IMU this slow unless it "
-                    "averages, and many systems ask for 100 Hz or more",
+        fmt::format("{}: {:.0f} Hz; footfalls alias into an IMU of this rate unless it averages, "
+                    "and many systems require 100 Hz or more",
                     imu.topic, *topic->rate_hz));
   }
-  if (!imu.rest || imu.rest->begin_s > 1.0 || imu.rest->length_s < kShortRest) {
+  if (!imu.static_interval || imu.static_interval->begin_s > 1.0 ||
+      imu.static_interval->length_s < kMinStaticInterval) {
     out.push_back(
-        fmt::format("{}: the robot does not stand still for {:.0f} s at the start; tilt "
-                    "and gyro bias are then guessed: let it stand before it walks",
-                    imu.topic, kShortRest));
+        fmt::format("{}: the robot is not static for {:.0f} s at the start; tilt and gyro bias are "
+                    "then uncertain: let it stand before it walks",
+                    imu.topic, kMinStaticInterval));
   }
-  if (!imu.rest) return;
-  if (std::abs(imu.rest->force.norm() - kGravity) > kOddForce) {
+  if (!imu.static_interval) return;
+  if (std::abs(imu.static_interval->force.norm() - kGravity) > kMaxForceError) {
     out.push_back(
-        fmt::format("{}: at rest it reads {:.3f} m/s^2; expected {:.2f}: calibrate the "
-                    "accelerometer",
-                    imu.topic, imu.rest->force.norm(), kGravity));
+        fmt::format("{}: specific force of {:.3f} m/s^2 without motion; expected {:.2f}: calibrate "
+                    "the accelerometer",
+                    imu.topic, imu.static_interval->force.norm(), kGravity));
   }
 }
 
@@ -147,12 +145,12 @@ std::vector<std::string> bag_warnings(const BagInfo& info) {
   std::vector<std::string> out;
   if (!info.summary.indexed || info.summary.lost_bytes > 0) {
     out.push_back(
-        fmt::format("the bag was never closed: {} bytes behind the last whole chunk are "
-                    "lost; rosbag reindex makes it readable elsewhere",
+        fmt::format("the bag was never closed: {} bytes after the last intact chunk are lost; "
+                    "rosbag reindex makes it readable by other tools",
                     info.summary.lost_bytes));
   }
   if (info.undecodable > 0) {
-    out.push_back(fmt::format("{} messages do not fit their definition; the first: {}",
+    out.push_back(fmt::format("{} messages contradict their definition; the first: {}",
                               info.undecodable, info.first_undecodable));
   }
   for (const TopicInfo& each : info.topics) {
@@ -164,8 +162,8 @@ std::vector<std::string> bag_warnings(const BagInfo& info) {
   for (const ImuInfo& each : info.imus) warn_of_imu(info, each, out);
   if (!info.clouds.empty() && !has_sensor_transform(info)) {
     out.push_back(
-        "no fixed transform on /tf_static: where the LiDAR sits on the IMU is unknown; "
-        "give recording.T_imu_lidar");
+        "no fixed transform on /tf_static: the pose of the LiDAR on the IMU is unknown; set "
+        "recording.T_imu_lidar");
   }
   return out;
 }

@@ -8,7 +8,7 @@
 
 namespace aims {
 
-/// What in the bag will hurt an estimate, each with its remedy, in one sentence.
+/// Problems of the bag for an estimator, each with its remedy, one sentence each.
 std::vector<std::string> bag_warnings(const BagInfo& info);
 
 }  // namespace aims

@@ -8,13 +8,13 @@ namespace aims {
 namespace {
 
 constexpr Duration kGrid = 5 * kMillisecond;
-constexpr int kMostLag = 100;            ///< grid steps: half a second
-constexpr double kShortest = 10.0;       ///< common time [s]
-constexpr double kLongest = 120.0;       ///< of it that is looked at [s]
-constexpr double kLeastSpread = 0.01;    ///< standard deviation of the rates [rad/s]
-constexpr double kLeastAgreement = 0.6;  ///< correlation
+constexpr int kMaxLag = 100;             ///< grid steps: half a second
+constexpr double kMinOverlap = 10.0;     ///< common time [s]
+constexpr double kMaxOverlap = 120.0;    ///< of it that is used [s]
+constexpr double kMinDeviation = 0.01;   ///< standard deviation of the rates [rad/s]
+constexpr double kMinCorrelation = 0.6;  ///< correlation
 
-/// The rate every `kGrid` from `begin` on, linear between samples, without its mean.
+/// The rate every `kGrid` from `begin` on, interpolated linearly, minus its mean.
 std::vector<double> resampled(const std::vector<TurnRate>& rates, Time begin, std::size_t count) {
   std::vector<double> values(count);
   std::size_t next = 1;
@@ -39,13 +39,13 @@ double energy(const std::vector<double>& values, std::size_t from, std::size_t t
   return sum;
 }
 
-/// Correlation of `a` with `b` when `a` is `lag` grid steps late; |lag| <= kMostLag.
+/// Correlation of `a` with `b` for `a` delayed by `lag` grid steps; |lag| <= kMaxLag.
 double correlation(const std::vector<double>& a, const std::vector<double>& b, int lag) {
-  const std::size_t count = b.size() - 2 * kMostLag;
-  const auto shift = static_cast<std::size_t>(kMostLag + lag);
+  const std::size_t count = b.size() - 2 * kMaxLag;
+  const auto shift = static_cast<std::size_t>(kMaxLag + lag);
   double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) sum += a[shift + i] * b[kMostLag + i];
-  const double norm = energy(a, shift, shift + count) * energy(b, kMostLag, kMostLag + count);
+  for (std::size_t i = 0; i < count; ++i) sum += a[shift + i] * b[kMaxLag + i];
+  const double norm = energy(a, shift, shift + count) * energy(b, kMaxLag, kMaxLag + count);
   return norm > 0.0 ? sum / std::sqrt(norm) : 0.0;
 }
 
@@ -56,26 +56,26 @@ std::optional<ClockOffset> clock_offset(const std::vector<TurnRate>& rates,
   if (rates.size() < 2 || reference.size() < 2) return std::nullopt;
   const Time begin = std::max(rates.front().stamp, reference.front().stamp);
   const Time end = std::min(rates.back().stamp, reference.back().stamp);
-  if (to_seconds(end - begin) < kShortest) return std::nullopt;
-  const double span = std::min(to_seconds(end - begin), kLongest);
+  if (to_seconds(end - begin) < kMinOverlap) return std::nullopt;
+  const double span = std::min(to_seconds(end - begin), kMaxOverlap);
   const auto count = static_cast<std::size_t>(span / to_seconds(kGrid));
   const std::vector<double> a = resampled(rates, begin, count);
   const std::vector<double> b = resampled(reference, begin, count);
-  const double least = kLeastSpread * kLeastSpread * static_cast<double>(count);
-  if (energy(a, 0, count) < least || energy(b, 0, count) < least) return std::nullopt;
+  const double min_energy = kMinDeviation * kMinDeviation * static_cast<double>(count);
+  if (energy(a, 0, count) < min_energy || energy(b, 0, count) < min_energy) return std::nullopt;
 
   std::vector<double> by_lag;
-  for (int lag = -kMostLag; lag <= kMostLag; ++lag) by_lag.push_back(correlation(a, b, lag));
+  for (int lag = -kMaxLag; lag <= kMaxLag; ++lag) by_lag.push_back(correlation(a, b, lag));
   const auto peak = std::max_element(by_lag.begin(), by_lag.end());
-  if (*peak < kLeastAgreement || peak == by_lag.begin() || peak + 1 == by_lag.end()) {
+  if (*peak < kMinCorrelation || peak == by_lag.begin() || peak + 1 == by_lag.end()) {
     return std::nullopt;
   }
   // The top of the parabola through the peak and its neighbours.
   const double before = *(peak - 1);
   const double after = *(peak + 1);
-  const double bend = before - 2.0 * *peak + after;
-  const double fraction = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
-  const double lag = static_cast<double>(peak - by_lag.begin()) - kMostLag + fraction;
+  const double curvature = before - 2.0 * *peak + after;
+  const double fraction = curvature < 0.0 ? 0.5 * (before - after) / curvature : 0.0;
+  const double lag = static_cast<double>(peak - by_lag.begin()) - kMaxLag + fraction;
   return ClockOffset{lag * to_seconds(kGrid), *peak};
 }
 

@@ -8,22 +8,22 @@
 
 namespace aims {
 
-/// How fast something turns, whichever way it is mounted.
+/// Norm of the angular velocity, independent of the mounting.
 struct TurnRate {
   Time stamp = 0;
   double rate = 0.0;  ///< norm of the angular velocity [rad/s]
 };
 
-/// How one sensor's clock stands to another's.
+/// Offset of one sensor's clock to another's.
 struct ClockOffset {
-  double seconds = 0.0;      ///< stamps of the sensor minus stamps of the reference, for one motion
+  double seconds = 0.0;  ///< stamp of the sensor minus stamp of the reference, for the same motion
   double correlation = 0.0;  ///< of the two rates at that offset, at most 1
 };
 
-/// The offset at which two sensors on one body felt the same turns: the peak of the correlation of
-/// their rates within half a second. `rates` and `reference` are in order of time. Nothing when
-/// they overlap by less than 10 s, hardly turn, or do not agree. A rate averaged over an interval
-/// and stamped at its end counts as half the interval late.
+/// The time offset between two sensors on one body: the peak of the correlation of their angular
+/// rates within half a second. `rates` and `reference` are in order of time. Nothing when they
+/// overlap by less than 10 s, hardly rotate, or correlate by less than 0.6. A rate averaged over an
+/// interval and stamped at its end appears delayed by half the interval.
 std::optional<ClockOffset> clock_offset(const std::vector<TurnRate>& rates,
                                         const std::vector<TurnRate>& reference);
 

@@ -13,15 +13,15 @@
 namespace aims {
 namespace {
 
-constexpr std::uint64_t kCloudsLookedAt = 20;
-constexpr std::size_t kUnitSamples = 100;  ///< of an IMU, to tell its unit
+constexpr std::uint64_t kMaxClouds = 20;
+constexpr std::size_t kUnitSamples = 100;  ///< of an IMU, to find its unit
 
 }  // namespace
 
 CloudInspection::CloudInspection(std::string topic) { info_.topic = std::move(topic); }
 
 void CloudInspection::add(const MessageView& message) {
-  if (info_.clouds == kCloudsLookedAt) return;
+  if (info_.clouds == kMaxClouds) return;
   const auto table = point_table(message);
   if (!table) {
     ++info_.broken;
@@ -49,7 +49,7 @@ CloudInfo CloudInspection::finish() const {
     info.mean_points = static_cast<double>(points_) / static_cast<double>(info.clouds);
   }
   if (points_ > 0) {
-    info.not_finite_share = static_cast<double>(not_finite_) / static_cast<double>(points_);
+    info.not_finite_fraction = static_cast<double>(not_finite_) / static_cast<double>(points_);
   }
   return info;
 }
@@ -65,21 +65,21 @@ void ImuInspection::add(const MessageView& message, Time stamp) {
   first_.push_back(sample);
   const auto orientation = quaternion_at(message, "orientation");
   info_.oriented = orientation && std::abs(orientation->norm() - 1.0) < 1e-2;
-  if (first_.size() == kUnitSamples) settle_unit();
+  if (first_.size() == kUnitSamples) decide_unit();
 }
 
 ImuInfo ImuInspection::finish() {
-  if (!unit_known_) settle_unit();
-  info_.rest = rest_.longest();
+  if (!unit_known_) decide_unit();
+  info_.static_interval = static_intervals_.longest();
   return info_;
 }
 
-/// A robot's mean force is near one g, whichever unit it is told in.
-void ImuInspection::settle_unit() {
+/// Finds the unit from the norm of the first samples, which is near one g.
+void ImuInspection::decide_unit() {
   std::vector<double> norms;
   for (const ImuSample& each : first_) norms.push_back(each.specific_force.norm());
-  const double usual = upper_median(norms).value_or(kStandardGravity);
-  info_.in_g = is_in_gravities(usual);
+  const double typical = upper_median(norms).value_or(kStandardGravity);
+  info_.in_g = is_in_gravities(typical);
   unit_known_ = true;
   for (const ImuSample& each : first_) add_in_si(each);
   first_.clear();
@@ -87,7 +87,7 @@ void ImuInspection::settle_unit() {
 
 void ImuInspection::add_in_si(ImuSample sample) {
   if (info_.in_g) sample.specific_force *= kStandardGravity;
-  rest_.add(sample);
+  static_intervals_.add(sample);
 }
 
 }  // namespace aims

@@ -12,7 +12,7 @@
 
 namespace aims {
 
-/// Looks at the first clouds of a topic.
+/// Layout of the first clouds of a topic.
 class CloudInspection {
  public:
   explicit CloudInspection(std::string topic);
@@ -25,7 +25,7 @@ class CloudInspection {
   std::uint64_t not_finite_ = 0;
 };
 
-/// Listens to one IMU topic.
+/// Unit, orientation and noise of one IMU topic.
 class ImuInspection {
  public:
   explicit ImuInspection(std::string topic);
@@ -33,13 +33,13 @@ class ImuInspection {
   ImuInfo finish();
 
  private:
-  void settle_unit();
+  void decide_unit();
   void add_in_si(ImuSample sample);
 
   ImuInfo info_;
   bool unit_known_ = false;
   std::vector<ImuSample> first_;  ///< until the unit is known
-  StaticIntervalFinder rest_;
+  StaticIntervalFinder static_intervals_;
 };
 
 }  // namespace aims

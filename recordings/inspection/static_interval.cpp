@@ -6,12 +6,12 @@
 namespace aims {
 namespace {
 
-constexpr double kStillRate = 0.1;         ///< mean rate [rad/s]
-constexpr double kStillRateSpread = 0.03;  ///< standard deviation, any axis [rad/s]
-constexpr double kStillForceSpread = 0.3;  ///< standard deviation, any axis [m/s^2]
-constexpr int kFewestSamples = 10;         ///< of a window
+constexpr double kMaxRate = 0.1;            ///< mean rate [rad/s]
+constexpr double kMaxRateDeviation = 0.03;  ///< standard deviation, any axis [rad/s]
+constexpr double kMaxForceDeviation = 0.3;  ///< standard deviation, any axis [m/s^2]
+constexpr int kMinSamples = 10;             ///< of a window
 
-Eigen::Vector3d spread(const Eigen::Vector3d& sum, const Eigen::Vector3d& squares, int count) {
+Eigen::Vector3d deviation(const Eigen::Vector3d& sum, const Eigen::Vector3d& squares, int count) {
   const Eigen::Vector3d mean = sum / count;
   return (squares / count - mean.cwiseProduct(mean)).cwiseMax(0.0).cwiseSqrt();
 }
@@ -40,20 +40,22 @@ void StaticIntervalFinder::Sums::add(const Sums& other) {
   force_squares += other.force_squares;
 }
 
-bool StaticIntervalFinder::is_still(const Sums& window) const {
-  if (window.samples < kFewestSamples) return false;
+bool StaticIntervalFinder::is_static(const Sums& window) const {
+  if (window.samples < kMinSamples) return false;
   const Eigen::Vector3d mean = origin_->angular_velocity + window.rate / window.samples;
-  return mean.norm() < kStillRate &&
-         spread(window.rate, window.rate_squares, window.samples).maxCoeff() < kStillRateSpread &&
-         spread(window.force, window.force_squares, window.samples).maxCoeff() < kStillForceSpread;
+  return mean.norm() < kMaxRate &&
+         deviation(window.rate, window.rate_squares, window.samples).maxCoeff() <
+             kMaxRateDeviation &&
+         deviation(window.force, window.force_squares, window.samples).maxCoeff() <
+             kMaxForceDeviation;
 }
 
 void StaticIntervalFinder::close_window() {
-  if (is_still(window_)) {
-    stretch_.add(window_);
-    if (stretch_.end - stretch_.begin > longest_.end - longest_.begin) longest_ = stretch_;
+  if (is_static(window_)) {
+    interval_.add(window_);
+    if (interval_.end - interval_.begin > longest_.end - longest_.begin) longest_ = interval_;
   } else {
-    stretch_ = {};
+    interval_ = {};
   }
   window_ = {};
 }
@@ -70,17 +72,18 @@ void StaticIntervalFinder::add(const ImuSample& sample) {
 std::optional<StaticInterval> StaticIntervalFinder::longest() const {
   StaticIntervalFinder finished = *this;
   finished.close_window();
-  const Sums& rest = finished.longest_;
-  if (rest.samples < kFewestSamples) return std::nullopt;
-  const double interval = to_seconds(rest.end - rest.begin) / (rest.samples - 1);
+  const Sums& interval = finished.longest_;
+  if (interval.samples < kMinSamples) return std::nullopt;
+  const double period = to_seconds(interval.end - interval.begin) / (interval.samples - 1);
   StaticInterval found;
-  found.begin_s = to_seconds(rest.begin - origin_->stamp);
-  found.length_s = to_seconds(rest.end - rest.begin);
-  found.gyro_bias = origin_->angular_velocity + rest.rate / rest.samples;
-  found.force = origin_->specific_force + rest.force / rest.samples;
-  const double to_density = std::sqrt(interval);
-  found.gyro_noise = to_density * spread(rest.rate, rest.rate_squares, rest.samples);
-  found.force_noise = to_density * spread(rest.force, rest.force_squares, rest.samples);
+  found.begin_s = to_seconds(interval.begin - origin_->stamp);
+  found.length_s = to_seconds(interval.end - interval.begin);
+  found.gyro_bias = origin_->angular_velocity + interval.rate / interval.samples;
+  found.force = origin_->specific_force + interval.force / interval.samples;
+  const double to_density = std::sqrt(period);
+  found.gyro_noise = to_density * deviation(interval.rate, interval.rate_squares, interval.samples);
+  found.force_noise =
+      to_density * deviation(interval.force, interval.force_squares, interval.samples);
   return found;
 }
 

@@ -9,17 +9,18 @@
 
 namespace aims {
 
-/// Finds the longest standstill in a stream of inertial samples, second by second.
+/// Finds the longest interval without motion in a stream of inertial samples, in windows of a
+/// second.
 class StaticIntervalFinder {
  public:
   /// `sample` in rad/s and m/s^2.
   void add(const ImuSample& sample);
 
-  /// The longest stretch of at least a second.
+  /// The longest interval of at least a second.
   std::optional<StaticInterval> longest() const;
 
  private:
-  /// Sums over samples, about the first one's values so that nothing cancels.
+  /// Sums over samples relative to the first one, against cancellation.
   struct Sums {
     Time begin = 0;
     Time end = 0;
@@ -34,11 +35,11 @@ class StaticIntervalFinder {
   };
 
   void close_window();
-  bool is_still(const Sums& window) const;
+  bool is_static(const Sums& window) const;
 
   std::optional<ImuSample> origin_;
-  Sums window_;   ///< of the present second
-  Sums stretch_;  ///< of the windows at rest up to now
+  Sums window_;    ///< of the current second
+  Sums interval_;  ///< of the static windows up to now
   Sums longest_;
 };
 

@@ -9,15 +9,15 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostKept = 1'000'000;
-/// A spacing that is longer by more stands for lost messages [-].
+constexpr std::size_t kMaxSamples = 1'000'000;
+/// Ratio to the median above which a spacing means lost messages [-].
 constexpr double kLossThreshold = 1.5;
 
-/// Share of messages missing, were they all `usual` seconds apart.
-double loss_of(const std::vector<float>& spacings, double usual) {
+/// Fraction of messages missing, at a nominal spacing of `typical` seconds.
+double loss_of(const std::vector<float>& spacings, double typical) {
   double missing = 0.0;
   for (const float spacing : spacings) {
-    if (spacing > kLossThreshold * usual) missing += std::round(spacing / usual) - 1.0;
+    if (spacing > kLossThreshold * typical) missing += std::round(spacing / typical) - 1.0;
   }
   return missing / (missing + static_cast<double>(spacings.size()) + 1.0);
 }
@@ -34,11 +34,11 @@ void TopicStatistics::add(Time record_time, std::optional<Time> stamp) {
     if (spacing == 0.0) ++repeated_;
     if (spacing < 0.0) ++backwards_;
     largest_gap_s_ = std::max(largest_gap_s_, spacing);
-    if (spacing > 0.0 && spacings_s_.size() < kMostKept) {
+    if (spacing > 0.0 && spacings_s_.size() < kMaxSamples) {
       spacings_s_.push_back(static_cast<float>(spacing));
     }
   }
-  if (stamp && offsets_s_.size() < kMostKept) {
+  if (stamp && offsets_s_.size() < kMaxSamples) {
     offsets_s_.push_back(static_cast<float>(to_seconds(record_time - *stamp)));
   }
   last_ = time;
@@ -52,10 +52,10 @@ void TopicStatistics::finish(TopicInfo& info) {
   info.backwards = backwards_;
   info.first_stamp = first_;
   info.last_stamp = last_;
-  if (const auto usual = upper_median(spacings_s_); usual && *usual > 0.0) {
-    info.rate_hz = 1.0 / *usual;
+  if (const auto typical = upper_median(spacings_s_); typical && *typical > 0.0) {
+    info.rate_hz = 1.0 / *typical;
     info.largest_gap_s = largest_gap_s_;
-    info.loss = loss_of(spacings_s_, *usual);
+    info.loss = loss_of(spacings_s_, *typical);
   }
   if (offsets_s_.empty()) return;
   info.median_offset_s = upper_median(offsets_s_);

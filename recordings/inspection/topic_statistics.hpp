@@ -9,14 +9,14 @@
 
 namespace aims {
 
-/// Gathers what `TopicInfo` says of times, message by message. Memory is bounded: medians are of
-/// the first million messages.
+/// Computes the timing of `TopicInfo`, message by message. Memory is bounded: medians use the first
+/// million messages.
 class TopicStatistics {
  public:
   /// `stamp` is empty for a message without a header.
   void add(Time record_time, std::optional<Time> stamp);
 
-  /// Fills in the times of `info`.
+  /// Fills in the timing of `info`.
   void finish(TopicInfo& info);
 
  private:

@@ -96,7 +96,7 @@ std::optional<ContactReading> contacts_at(const MessageView& message, Time recor
   ContactReading reading;
   reading.stamp = header_stamp(message, record_time);
   for (std::size_t leg = 0; leg < loads->size(); ++leg) {
-    // The torque of a knee that bears is of either sign.
+    // The torque of a loaded knee has either sign.
     reading.contact[leg] = std::abs((*loads)[leg]) >= rule.threshold;
   }
   return reading;

@@ -21,30 +21,30 @@ struct JointReading {
   std::optional<std::array<double, kJointCount>> velocity;  ///< [rad/s]
 };
 
-/// Which feet stand at an instant.
+/// Which feet are in contact at an instant.
 struct ContactReading {
   Time stamp = 0;
   std::array<bool, kLegCount> contact{};
 };
 
-/// What nav_msgs/Odometry says, without contacts and joints.
+/// The sample of a nav_msgs/Odometry, without contacts and joints.
 std::optional<LegOdometrySample> odometry_at(const MessageView& message, EventCounts& counts);
 
-/// What geometry_msgs/TwistStamped or Twist says: the sample without a pose.
+/// The sample of a geometry_msgs/TwistStamped or Twist, without a pose.
 std::optional<LegOdometrySample> twist_at(const MessageView& message, Time record_time);
 
-/// What sensor_msgs/JointState says; nothing when a joint is missing.
+/// The joints of a sensor_msgs/JointState; nothing when one is missing.
 std::optional<JointReading> joints_at(const MessageView& message, Time record_time,
                                       const std::vector<std::string>& joint_names);
 
 /// How contacts are read.
 struct ContactRule {
   std::string field;
-  double threshold = 20.0;  ///< value from which a foot stands
+  double threshold = 20.0;  ///< smallest value of a foot in contact
   std::vector<std::string> foot_names;
 };
 
-/// The numbers of the field that tell contacts, one per foot in the order of the legs.
+/// The numbers of the contact field, one per foot in the order of the legs.
 std::optional<std::array<double, kLegCount>> loads_at(const MessageView& message,
                                                       const ContactRule& rule);
 

@@ -7,10 +7,10 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kLongestName = 200;
+constexpr std::size_t kMaxNameBytes = 200;
 
 std::string lower(std::string_view text) {
-  std::string result(text.substr(0, kLongestName));
+  std::string result(text.substr(0, kMaxNameBytes));
   for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
 }
@@ -84,9 +84,8 @@ std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded
     found[*joint] = true;
   }
   if (std::all_of(found.begin(), found.end(), [](bool each) { return each; })) return order;
-  const bool told_something =
-      std::any_of(found.begin(), found.end(), [](bool each) { return each; });
-  if (!configured.empty() || told_something || size != order.size()) return std::nullopt;
+  const bool any_found = std::any_of(found.begin(), found.end(), [](bool each) { return each; });
+  if (!configured.empty() || any_found || size != order.size()) return std::nullopt;
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   return order;
 }
@@ -94,7 +93,7 @@ std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded
 std::optional<std::vector<int>> foot_order(std::span<const std::string_view> recorded,
                                            std::span<const std::string> configured,
                                            std::size_t size) {
-  if (size > kLongestName) return std::nullopt;
+  if (size > kMaxNameBytes) return std::nullopt;
   std::vector<int> order(size, -1);
   std::array<bool, kLegCount> found{};
   const auto take = [&](std::size_t entry, std::optional<int> leg) {
@@ -102,7 +101,8 @@ std::optional<std::vector<int>> foot_order(std::span<const std::string_view> rec
     order[entry] = *leg;
     found[static_cast<std::size_t>(*leg)] = true;
   };
-  // Beside joints an entry is a foot's by its name, or the knee's, which bears the foot's load.
+  // In an array of joints, the foot's entry has the foot's name or is the knee, which carries its
+  // load.
   const bool among_joints = size >= static_cast<std::size_t>(kJointCount);
   const bool has_feet = std::any_of(recorded.begin(), recorded.end(), is_foot);
   for (std::size_t i = 0; i < size; ++i) {

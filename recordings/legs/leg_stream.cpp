@@ -7,25 +7,25 @@
 namespace aims {
 namespace {
 
-constexpr double kUpRate = 0.5;           ///< of the upward direction to the felt one [1/s]
-constexpr double kLevellingRate = 1.0;    ///< of an integrated attitude to gravity [1/s]
-constexpr double kLongestStep = 0.5;      ///< a longer gap tells nothing of the way [s]
-constexpr double kFastestTwist = 1000.0;  ///< [m/s], [rad/s]
-constexpr Duration kOldestContact = kSecond / 5;
+constexpr double kUpRate = 0.5;  ///< correction of the upward direction to the specific force [1/s]
+constexpr double kLevellingRate = 1.0;  ///< correction of an integrated attitude to gravity [1/s]
+constexpr double kMaxStep = 0.5;        ///< longest step that is integrated [s]
+constexpr double kMaxTwist = 1000.0;    ///< [m/s], [rad/s]
+constexpr Duration kMaxContactAge = kSecond / 5;
 
 }  // namespace
 
 void UpDirection::add(const ImuSample& sample) {
   const double force = sample.specific_force.norm();
   if (!sample.angular_velocity.allFinite() || !std::isfinite(force) || !(force > 0.1)) return;
-  const Eigen::Vector3d felt = sample.specific_force / force;
+  const Eigen::Vector3d measured = sample.specific_force / force;
   if (!up_) {
-    up_ = felt;
+    up_ = measured;
   } else {
-    const double step = std::clamp(to_seconds(sample.stamp - stamp_), 0.0, kLongestStep);
+    const double step = std::clamp(to_seconds(sample.stamp - stamp_), 0.0, kMaxStep);
     const Eigen::Vector3d turned = so3_exp(-step * sample.angular_velocity) * *up_;
-    const Eigen::Vector3d drawn = turned + kUpRate * step * (felt - turned);
-    up_ = drawn.norm() > 1e-6 ? Eigen::Vector3d(drawn.normalized()) : felt;
+    const Eigen::Vector3d corrected = turned + kUpRate * step * (measured - turned);
+    up_ = corrected.norm() > 1e-6 ? Eigen::Vector3d(corrected.normalized()) : measured;
   }
   stamp_ = sample.stamp;
 }
@@ -67,7 +67,7 @@ LegOdometrySample LegStream::add_twist(LegOdometrySample sample) {
   return sample;
 }
 
-/// Moves the pose on by the twist since the last sample; roll and pitch are kept by gravity.
+/// Integrates the twist since the last sample; gravity corrects roll and pitch.
 void LegStream::integrate(LegOdometrySample& sample) {
   const std::optional<Eigen::Vector3d> up = up_in_base();
   if (!integrated_) {
@@ -78,14 +78,14 @@ void LegStream::integrate(LegOdometrySample& sample) {
     integrated_ = sample.stamp;
   }
   const double step = to_seconds(sample.stamp - *integrated_);
-  const bool plausible = sample.angular_velocity.norm() < kFastestTwist &&
-                         sample.linear_velocity.norm() < kFastestTwist;
-  if (step > 0.0 && step <= kLongestStep && plausible) {
+  const bool plausible =
+      sample.angular_velocity.norm() < kMaxTwist && sample.linear_velocity.norm() < kMaxTwist;
+  if (step > 0.0 && step <= kMaxStep && plausible) {
     Eigen::Quaterniond& rotation = T_odom_base_.rotation;
     rotation = (rotation * so3_exp(sample.angular_velocity * step)).normalized();
     if (up) {
-      const Eigen::Vector3d believed = rotation.conjugate() * Eigen::Vector3d::UnitZ();
-      rotation = (rotation * so3_exp(kLevellingRate * step * up->cross(believed))).normalized();
+      const Eigen::Vector3d predicted_up = rotation.conjugate() * Eigen::Vector3d::UnitZ();
+      rotation = (rotation * so3_exp(kLevellingRate * step * up->cross(predicted_up))).normalized();
     }
     T_odom_base_.translation += rotation * sample.linear_velocity * step;
   }
@@ -93,11 +93,11 @@ void LegStream::integrate(LegOdometrySample& sample) {
   sample.T_odom_base = T_odom_base_;
 }
 
-/// Rates from the angles of the last message, where none are recorded.
+/// Rates from the angles of the last message, if none are recorded.
 void LegStream::differentiate(JointReading& reading) const {
   if (reading.velocity || !joints_) return;
   const double step = to_seconds(reading.stamp - joints_->stamp);
-  if (!(step > 0.0) || step > kLongestStep) return;
+  if (!(step > 0.0) || step > kMaxStep) return;
   reading.velocity.emplace();
   for (std::size_t i = 0; i < reading.position.size(); ++i) {
     (*reading.velocity)[i] = (reading.position[i] - joints_->position[i]) / step;
@@ -106,10 +106,11 @@ void LegStream::differentiate(JointReading& reading) const {
 
 /// The base's velocity by the leg model: the mean over the standing feet; without any, the last
 /// goes on.
-std::optional<LegOdometrySample> LegStream::walk(const JointReading& joints, EventCounts& counts) {
+std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReading& joints,
+                                                               EventCounts& counts) {
   joints_wait_ = false;
   if (!joints.velocity || !imu_ || !contacts_) return ++counts["legs_incomplete"], std::nullopt;
-  if (joints.stamp - contacts_->stamp > kOldestContact) {
+  if (joints.stamp - contacts_->stamp > kMaxContactAge) {
     return ++counts["legs_without_contacts"], std::nullopt;
   }
   LegOdometrySample sample;
@@ -132,7 +133,7 @@ std::optional<LegOdometrySample> LegStream::walk(const JointReading& joints, Eve
     ++feet;
   }
   if (feet > 0) velocity_ = sum / feet;
-  if (feet == 0) ++counts["legs_no_foot_stands"];
+  if (feet == 0) ++counts["legs_no_contact"];
   if (!velocity_.allFinite()) {
     velocity_.setZero();
     return ++counts["legs_not_finite"], std::nullopt;
@@ -149,11 +150,13 @@ std::optional<LegOdometrySample> LegStream::add_joints(JointReading reading, Eve
     return std::nullopt;
   }
   std::optional<LegOdometrySample> sample;
-  if (joints_wait_) sample = walk(*joints_, counts);  // no contacts came for the last ones
+  if (joints_wait_)
+    sample = forward_kinematics(*joints_, counts);  // without contacts of the same instant
   joints_ = std::move(reading);
   joints_wait_ = true;
   if (sample) return sample;
-  if (contacts_ && same_instant(contacts_->stamp, joints_->stamp)) return walk(*joints_, counts);
+  if (contacts_ && same_instant(contacts_->stamp, joints_->stamp))
+    return forward_kinematics(*joints_, counts);
   return std::nullopt;
 }
 
@@ -162,7 +165,7 @@ std::optional<LegOdometrySample> LegStream::add_contacts(const ContactReading& r
   contacts_ = reading;
   if (config_.source != LegSource::kKinematics || !joints_wait_) return std::nullopt;
   if (!same_instant(reading.stamp, joints_->stamp)) return std::nullopt;
-  return walk(*joints_, counts);
+  return forward_kinematics(*joints_, counts);
 }
 
 }  // namespace aims

@@ -11,7 +11,7 @@
 
 namespace aims {
 
-/// The upward direction as an IMU feels it: turned by its gyro, drawn to the specific force.
+/// The upward direction from an IMU: propagated by its gyro, corrected towards the specific force.
 class UpDirection {
  public:
   void add(const ImuSample& sample);
@@ -23,19 +23,19 @@ class UpDirection {
   Time stamp_ = 0;
 };
 
-/// From which messages legs are read.
+/// Source of leg odometry.
 enum class LegSource { kNone, kOdometry, kTwist, kKinematics };
 
 struct LegStreamConfig {
   LegSource source = LegSource::kNone;
-  Duration half_period = 0;  ///< messages no farther apart than this are of one instant
+  Duration half_period = 0;  ///< messages no farther apart than this belong to one instant
   Pose T_body_base;
   LegGeometry geometry;
   FootModel foot_model = FootModel::kPoint;
 };
 
-/// Makes leg odometry samples of what a robot's legs report, whatever that is. Fed in the order of
-/// the recording; each call yields the sample that it completes.
+/// Converts the messages of a robot's legs to leg odometry samples. Messages come in the order of
+/// the recording; each call returns the sample that it completes.
 class LegStream {
  public:
   explicit LegStream(const LegStreamConfig& config) : config_(config) {}
@@ -52,7 +52,8 @@ class LegStream {
   void attach(LegOdometrySample& sample) const;
   void integrate(LegOdometrySample& sample);
   void differentiate(JointReading& reading) const;
-  std::optional<LegOdometrySample> walk(const JointReading& joints, EventCounts& counts);
+  std::optional<LegOdometrySample> forward_kinematics(const JointReading& joints,
+                                                      EventCounts& counts);
   std::optional<Eigen::Vector3d> up_in_base() const;
 
   LegStreamConfig config_;
@@ -61,10 +62,10 @@ class LegStream {
   std::optional<ImuSample> imu_;
   std::optional<JointReading> joints_;
   std::optional<ContactReading> contacts_;
-  bool joints_wait_ = false;  ///< for contacts of their instant
+  bool joints_wait_ = false;  ///< for contacts of the same instant
   std::optional<Time> integrated_;
   Pose T_odom_base_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< last of standing feet [m/s]
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< from the last feet in contact [m/s]
 };
 
 }  // namespace aims

@@ -6,18 +6,18 @@
 namespace aims {
 namespace {
 
-constexpr double kWindow = 1.0;        ///< [s]
-constexpr double kLongestStep = 0.1;   ///< a longer gap leaves the way open [s]
-constexpr double kLeastWay = 0.2;      ///< in a window, to tell anything [m]
-constexpr double kDisagreement = 0.5;  ///< of the way, at least
-constexpr double kAgreement = 0.2;     ///< of the way, at most
+constexpr double kWindow = 1.0;            ///< [s]
+constexpr double kMaxStep = 0.1;           ///< a longer gap restarts the window [s]
+constexpr double kMinDistance = 0.2;       ///< shortest displacement of a window that is tested [m]
+constexpr double kMinRejectedError = 0.5;  ///< relative error of the rejected axes, at least
+constexpr double kMaxAcceptedError = 0.2;  ///< relative error of the accepted axes, at most
 
 }  // namespace
 
 bool TwistCheck::add(const LegOdometrySample& sample) {
   const auto before = std::exchange(last_, sample);
   const double step = before ? to_seconds(sample.stamp - before->stamp) : -1.0;
-  if (!start_ || !(step > 0.0) || step > kLongestStep) {
+  if (!start_ || !(step > 0.0) || step > kMaxStep) {
     start_ = sample;
     by_base_axes_.setZero();
     by_odometry_axes_.setZero();
@@ -26,14 +26,15 @@ bool TwistCheck::add(const LegOdometrySample& sample) {
   by_base_axes_ += step * (sample.T_odom_base.rotation * sample.linear_velocity);
   by_odometry_axes_ += step * sample.linear_velocity;
   if (to_seconds(sample.stamp - start_->stamp) < kWindow) return false;
-  const Eigen::Vector3d way = sample.T_odom_base.translation - start_->T_odom_base.translation;
-  const double length = way.norm();
-  const bool tells = length > kLeastWay && (by_base_axes_ - way).norm() > kDisagreement * length &&
-                     (by_odometry_axes_ - way).norm() < kAgreement * length;
+  const Eigen::Vector3d moved = sample.T_odom_base.translation - start_->T_odom_base.translation;
+  const double length = moved.norm();
+  const bool in_odometry_axes = length > kMinDistance &&
+                                (by_base_axes_ - moved).norm() > kMinRejectedError * length &&
+                                (by_odometry_axes_ - moved).norm() < kMaxAcceptedError * length;
   start_ = sample;
   by_base_axes_.setZero();
   by_odometry_axes_.setZero();
-  return tells;
+  return in_odometry_axes;
 }
 
 }  // namespace aims

@@ -13,8 +13,8 @@
 
 namespace aims {
 
-/// Serializes values one after the other as ROS 1 does: little endian, no padding, a uint32 length
-/// before strings and variable arrays.
+/// Serializes values as ROS 1 does: little endian, without padding, a uint32 length before strings
+/// and variable arrays.
 class MessageBytes {
  public:
   template <class Number>
@@ -47,7 +47,7 @@ class MessageBytes {
     if (size > 0) std::memcpy(extend(size), data, size);
   }
 
-  /// Room for `size` further bytes, valid until the next call.
+  /// Appends `size` uninitialized bytes; the pointer is valid until the next call.
   std::byte* extend(std::size_t size) {
     bytes_.resize(bytes_.size() + size);
     return bytes_.data() + (bytes_.size() - size);

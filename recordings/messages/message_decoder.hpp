@@ -15,10 +15,10 @@
 
 namespace aims {
 
-/// What a field of a message holds.
+/// Kind of a message field.
 enum class FieldKind { kNumber, kTime, kText, kNumbers, kTimes, kTexts, kMessages };
 
-/// A field of a message, by its path from the message's top; arrays of messages are one field.
+/// A field of a message, by its path; an array of messages is one field.
 struct MessageField {
   std::string path;
   FieldKind kind = FieldKind::kNumber;
@@ -26,7 +26,7 @@ struct MessageField {
   bool is_bool = false;
 };
 
-/// Decodes the messages of one connection by the definition that the bag itself carries.
+/// Decodes the messages of one connection by the definition in the bag.
 class MessageDecoder {
  public:
   /// Error for a definition that cannot be read, naming the line and the type.
@@ -35,8 +35,8 @@ class MessageDecoder {
   /// All fields in the order of the definition, those of nested messages in place.
   std::vector<MessageField> fields() const;
 
-  /// Error for bytes that end early or are too many, naming the field and the offset within it.
-  /// Memory stays within a small multiple of the bytes given.
+  /// Error for too few or too many bytes, naming the field and the offset.
+  /// Memory is bounded by a small multiple of the size of `data`.
   Result<MessageView> decode(std::span<const std::byte> data) const;
 
  private:

@@ -10,9 +10,9 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostNameBytes = 128;
-constexpr std::size_t kMostTypes = 512;
-constexpr std::size_t kMostFields = 4096;
+constexpr std::size_t kMaxNameBytes = 128;
+constexpr std::size_t kMaxTypes = 512;
+constexpr std::size_t kMaxFields = 4096;
 constexpr std::string_view kBlank = " \t\r\f\v";
 constexpr std::string_view kSectionWord = "MSG:";
 
@@ -26,7 +26,7 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_name_character(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
 
 bool is_name(std::string_view text) {
-  return !text.empty() && text.size() <= kMostNameBytes && is_letter(text[0]) &&
+  return !text.empty() && text.size() <= kMaxNameBytes && is_letter(text[0]) &&
          std::all_of(text.begin(), text.end(), is_name_character);
 }
 
@@ -41,7 +41,7 @@ bool is_separator(std::string_view line) {
   return line.size() >= 3 && line.find_first_not_of('=') == std::string_view::npos;
 }
 
-/// Takes "[]" or "[36]" off the type; false when the brackets make no sense.
+/// Splits "[]" or "[36]" off the type; false when the brackets are malformed.
 bool split_array(std::string_view word, FieldDefinition& field) {
   const std::size_t bracket = word.find('[');
   field.type = word.substr(0, bracket);
@@ -54,7 +54,7 @@ bool split_array(std::string_view word, FieldDefinition& field) {
   return error == std::errc() && end == count.data() + count.size() && field.count > 0;
 }
 
-/// The field of a line without comment, or why it is none.
+/// The field of a line without comment.
 Result<FieldDefinition> parse_field(std::string_view line) {
   const std::size_t gap = line.find_first_of(kBlank);
   const std::string_view shown = line.substr(0, 80);
@@ -77,7 +77,7 @@ bool is_constant(std::string_view line) {
 }
 
 Result<void> add_field(std::string_view line, int number, TypeDefinition& type) {
-  // What stands before the '=' of a constant looks like a field; its value may hold a '#'.
+  // A constant looks like a field up to its '='; its value may contain a '#'.
   const bool constant = is_constant(line);
   line = trimmed(line.substr(0, line.find(constant ? '=' : '#')));
   if (line.empty()) return {};
@@ -85,8 +85,8 @@ Result<void> add_field(std::string_view line, int number, TypeDefinition& type) 
   if (!field) return tl::unexpected(field.error());
   if (constant && field->array == ArrayKind::kNone) return {};
   if (constant) return failure(fmt::format("expected 'TYPE NAME', found '{}'", line.substr(0, 80)));
-  if (type.fields.size() >= kMostFields) {
-    return failure(fmt::format("a type of more than {} fields", kMostFields));
+  if (type.fields.size() >= kMaxFields) {
+    return failure(fmt::format("a type of more than {} fields", kMaxFields));
   }
   field->line = number;
   type.fields.push_back(std::move(*field));
@@ -114,7 +114,7 @@ Result<std::vector<TypeDefinition>> parse_definition(std::string_view type, std:
     } else if (expect_name && line.starts_with(kSectionWord)) {
       const std::string_view name = trimmed(line.substr(kSectionWord.size()));
       if (!is_type_name(name)) return refuse(number, "expected 'MSG: package/Type'");
-      if (types.size() >= kMostTypes) return refuse(number, "too many types");
+      if (types.size() >= kMaxTypes) return refuse(number, "too many types");
       types.push_back({std::string(name), {}});
       expect_name = false;
     } else if (expect_name && !line.empty()) {

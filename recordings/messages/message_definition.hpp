@@ -18,7 +18,7 @@ struct FieldDefinition {
   std::string name;
   ArrayKind array = ArrayKind::kNone;
   std::uint32_t count = 1;  ///< entries of a fixed array
-  int line = 0;             ///< in the whole text, from 1
+  int line = 0;             ///< in the text, from 1
 };
 
 /// A message type as written; constants are left out.
@@ -27,8 +27,8 @@ struct TypeDefinition {
   std::vector<FieldDefinition> fields;
 };
 
-/// Splits the definition text of a bag: the type itself first, then those that it uses, each after
-/// a line of '=' and "MSG: package/Type". Errors name the type and the line.
+/// Parses a definition text: the type itself first, then the types that it uses, each after a line
+/// of '=' and "MSG: package/Type". Errors name the type and the line.
 Result<std::vector<TypeDefinition>> parse_definition(std::string_view type, std::string_view text);
 
 }  // namespace aims

@@ -125,7 +125,7 @@ MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometr
   out.length(kLegNames.size());
   for (const std::string_view foot : kLegNames) out.text(foot);
   out.length(sample.contact.size());
-  for (const bool stands : sample.contact) out.put(stands);
+  for (const bool in_contact : sample.contact) out.put(in_contact);
   return out;
 }
 

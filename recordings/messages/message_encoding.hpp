@@ -9,28 +9,22 @@
 
 #include "core/measurements.hpp"
 #include "recordings/messages/message_bytes.hpp"
+#include "recordings/messages/message_values.hpp"
 
 namespace aims {
 
-/// The start of most messages.
+/// std_msgs/Header.
 struct MessageHeader {
   std::uint32_t sequence = 0;
   Time stamp = 0;  ///< >= 0
   std::string_view frame;
 };
 
-/// A pose and a twist, as nav_msgs/Odometry has them.
+/// Pose and twist of nav_msgs/Odometry.
 struct OdometryContent {
   Pose pose;                                                  ///< child frame in the header's frame
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();  ///< in child axes [m/s]
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in child axes [rad/s]
-};
-
-/// One fixed transform of tf.
-struct FrameTransform {
-  std::string_view parent;
-  std::string_view child;
-  Pose T_parent_child;
 };
 
 /// sensor_msgs/PointCloud2 with 22 bytes a point: x, y, z, intensity float32 at 0, 4, 8, 12, ring

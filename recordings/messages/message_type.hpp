@@ -5,11 +5,11 @@
 
 namespace aims {
 
-/// A ROS 1 message type, as a bag announces it.
+/// A ROS 1 message type.
 struct MessageType {
   std::string name;        ///< e.g. "sensor_msgs/Imu"
-  std::string md5;         ///< 32 hex digits, by which ROS tells versions of a type apart
-  std::string definition;  ///< its fields, then those of every type that it uses
+  std::string md5;         ///< 32 hex digits that identify the version of the type
+  std::string definition;  ///< text of its fields, then of every type that it uses
 };
 
 }  // namespace aims

@@ -7,7 +7,7 @@
 namespace aims {
 namespace {
 
-/// A type that others are made of.
+/// A type that other types contain.
 struct Part {
   std::string_view name;
   std::string_view fields;

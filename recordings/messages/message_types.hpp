@@ -5,14 +5,14 @@
 
 namespace aims {
 
-// The message types that are written here. Definitions hold the fields alone, without the comments
-// of the packages that they come from: these do not count for the md5.
+// The message types that AIMS writes. Definitions hold the fields without comments, which do not
+// enter the md5.
 MessageType string_type();         ///< std_msgs/String
 MessageType point_cloud_type();    ///< sensor_msgs/PointCloud2
 MessageType imu_type();            ///< sensor_msgs/Imu
 MessageType joint_state_type();    ///< sensor_msgs/JointState
 MessageType odometry_type();       ///< nav_msgs/Odometry
 MessageType transforms_type();     ///< tf2_msgs/TFMessage
-MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: which feet stand
+MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: which feet are in contact
 
 }  // namespace aims

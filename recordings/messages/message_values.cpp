@@ -5,6 +5,11 @@
 #include <string>
 
 namespace aims {
+namespace {
+
+using NoMessages = std::vector<MessageView>;
+
+}  // namespace
 
 Time header_stamp(const MessageView& message, Time record_time) {
   return message.time("header.stamp").value_or(record_time);
@@ -24,6 +29,21 @@ std::optional<Eigen::Quaterniond> quaternion_at(const MessageView& message, std:
   const auto w = message.number(std::string(path) + ".w");
   if (!axis || !w) return std::nullopt;
   return Eigen::Quaterniond(*w, axis->x(), axis->y(), axis->z());
+}
+
+std::vector<FrameTransform> transforms_in(const MessageView& message) {
+  constexpr std::size_t kMaxTransforms = 1000;
+  std::vector<FrameTransform> transforms;
+  for (const MessageView& each : message.messages("transforms").value_or(NoMessages())) {
+    const auto parent = each.text("header.frame_id");
+    const auto child = each.text("child_frame_id");
+    const auto translation = vector_at(each, "transform.translation");
+    const auto rotation = quaternion_at(each, "transform.rotation");
+    if (!parent || !child || !translation || !rotation) break;
+    if (transforms.size() == kMaxTransforms) break;
+    transforms.push_back({*parent, *child, {*rotation, *translation}});
+  }
+  return transforms;
 }
 
 bool is_off_unit(const Eigen::Quaterniond& rotation) {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "core/lie.hpp"
 #include "core/time.hpp"
@@ -18,15 +19,25 @@ Time header_stamp(const MessageView& message, Time record_time);
 /// A vector "x", "y", "z" below `path`, or nothing.
 std::optional<Eigen::Vector3d> vector_at(const MessageView& message, std::string_view path);
 
-/// A pose "position", "orientation" below `path`, or nothing. A rotation off unit length is made
-/// unit; one that is none becomes the identity and is counted as "pose_without_rotation".
+/// A pose "position", "orientation" below `path`, or nothing. The quaternion is normalized; a norm
+/// outside (0.5, 2) yields the identity and is counted as "pose_without_rotation".
 std::optional<Pose> message_pose(const MessageView& message, std::string_view path,
                                  EventCounts& counts);
+
+/// One transform of a tf2_msgs/TFMessage or tf/tfMessage.
+struct FrameTransform {
+  std::string_view parent;
+  std::string_view child;
+  Pose T_parent_child;
+};
+
+/// The transforms of such a message, at most 1000, up to the first malformed one.
+std::vector<FrameTransform> transforms_in(const MessageView& message);
 
 /// Quaternion "x", "y", "z", "w" below `path`, as recorded, or nothing.
 std::optional<Eigen::Quaterniond> quaternion_at(const MessageView& message, std::string_view path);
 
-/// Farther from unit length than rounding explains.
+/// Whether the norm differs from 1 by more than rounding.
 bool is_off_unit(const Eigen::Quaterniond& rotation);
 
 }  // namespace aims

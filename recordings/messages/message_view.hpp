@@ -14,8 +14,7 @@
 namespace aims {
 
 /// One decoded message. Paths are written "pose.pose.position.x", elements "transforms[0].header".
-/// A path that the message does not have, or of another kind, gives nothing. Views point into the
-/// bytes that were decoded.
+/// An absent path, or a field of another kind, yields nothing. Views point into the decoded bytes.
 class MessageView {
  public:
   std::optional<double> number(std::string_view path) const;  ///< any number, or a bool as 0 or 1
@@ -26,11 +25,11 @@ class MessageView {
   std::optional<std::span<const std::byte>> bytes(
       std::string_view path) const;                              ///< uint8[], int8[]
   std::optional<std::size_t> size(std::string_view path) const;  ///< entries of any array
-  /// The entries of an array of messages, each with paths of its own, in one pass: `size` and
-  /// "path[i].field" start at the first entry each time.
+  /// The entries of an array of messages, with paths relative to the entry. One pass, whereas
+  /// "path[i].field" starts at the first entry each time.
   std::optional<std::vector<MessageView>> messages(std::string_view path) const;
-  /// An array of messages that hold numbers, bools and times alone; a time is two uint32 columns
-  /// "name.sec" and "name.nsec", a nested message's fields are "name.field".
+  /// An array of messages that consist of numbers, bools and times. A time becomes two uint32
+  /// columns "name.sec" and "name.nsec"; the fields of a nested message are "name.field".
   std::optional<TableView> table(std::string_view path) const;
 
  private:

@@ -1,45 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/stream/recording_plan.hpp"
 
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "recordings/stream/recording_survey.hpp"
+#include "recordings/topics/connection_decoders.hpp"
+#include "recordings/topics/topic_choice.hpp"
 
 namespace aims {
 namespace {
 
-// The survey ends with the first of these.
+// The survey ends at the first of these limits.
 constexpr Duration kSurveySpan = 10 * kSecond;
-constexpr Duration kLongestSurveySpan = 60 * kSecond;  ///< while a topic has not been met
+constexpr Duration kMaxSurveySpan = 60 * kSecond;  ///< while a topic has no message
 constexpr std::size_t kSurveyMessages = 50'000;
 constexpr std::size_t kSurveyBytes = std::size_t{512} << 20;
 constexpr std::size_t kTransformMessages = 2000;
 constexpr std::size_t kFixedTransformMessages = 100;
 
-/// Reads the first messages of tf alone; chunks without them are not read.
+/// Reads the first messages of one tf topic.
 Result<void> survey_transforms(MessageSource& bag, const std::string& topic, bool fixed,
                                RecordingSurvey& survey) {
-  std::map<std::uint32_t, MessageDecoder> decoders;
-  for (const BagConnection& connection : bag.connections()) {
-    if (connection.topic != topic) continue;
-    auto decoder = MessageDecoder::create(connection.type, connection.definition);
-    if (decoder) decoders.emplace(connection.id, std::move(*decoder));
-  }
-  if (decoders.empty()) return {};
+  if (type_of(bag.connections(), topic).empty()) return {};
+  ConnectionDecoders decoders;
   bag.select(std::vector<std::string>{topic});
   bag.rewind();
   for (std::size_t i = 0; i < kTransformMessages; ++i) {
     const auto message = bag.next();
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
-    // Fixed ones may be told late; the others are wanted as they are at the start.
+    // Fixed transforms may be published late; of the others the first ones are used.
     const Duration past = (*message)->record_time - bag.summary().start;
     if (fixed ? i >= kFixedTransformMessages : past > kSurveySpan) break;
-    const auto decoder = decoders.find((*message)->connection->id);
-    if (decoder == decoders.end()) continue;
-    const auto view = decoder->second.decode((*message)->data);
+    const auto view = decoders.decode(**message);
     if (view) survey.add_transforms(*view, fixed);
   }
   return {};
@@ -54,15 +48,15 @@ Result<void> survey_sensors(MessageSource& bag, const RecordingChannels& channel
   for (std::size_t i = 0; i < kSurveyMessages && bytes < kSurveyBytes; ++i) {
     const auto message = bag.next();
     if (!message) {
-      // What came before may do; the stream will meet the error where it is.
+      // The messages before it may suffice; the reader reports the error when it gets there.
       if (start) return {};
       return tl::unexpected(message.error());
     }
     if (!*message) break;
     if (!start) start = (*message)->record_time;
     const Duration past = (*message)->record_time - *start;
-    if (survey.enough() || past > kLongestSurveySpan) break;
-    if (past > kSurveySpan && survey.met_all()) break;
+    if (survey.enough() || past > kMaxSurveySpan) break;
+    if (past > kSurveySpan && survey.has_all_topics()) break;
     bytes += (*message)->data.size();
     if (const Channel* channel = channels.find(**message)) survey.add(**message, *channel);
   }

@@ -13,20 +13,20 @@
 
 namespace aims {
 
-/// Everything decided before the first message is given.
+/// Everything decided before the first message is delivered.
 struct RecordingPlan {
   RecordingSetup setup;
   CloudReading cloud;
-  double force_scale = 1.0;  ///< brings specific force to m/s^2
+  double force_scale = 1.0;  ///< scales specific force to m/s^2
   LegStreamConfig legs;
   ContactRule contacts;
-  Pose T_truth_body;             ///< the body in the frame of which truth is told
-  bool truth_is_of_body = true;  ///< then its poses stay as they are
-  Duration arrival_shift = 0;    ///< added to record times
-  std::array<bool, kRoleCount> stamped_by_record{};  ///< no stamps: record times are taken
+  Pose T_truth_body;                                 ///< body pose in the frame of the truth
+  bool truth_is_of_body = true;                      ///< then its poses are used unchanged
+  Duration arrival_shift = 0;                        ///< added to record times
+  std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used
 };
 
-/// Looks at the start of a recording and decides how to read it; `notes` come before its own.
+/// Looks at the start of a recording and decides how to read it; its notes follow `notes`.
 Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& config,
                                      const TopicsConfig& topics, const RecordingChannels& channels,
                                      std::vector<std::string> notes);

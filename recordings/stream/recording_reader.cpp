@@ -15,9 +15,9 @@
 namespace aims {
 namespace {
 
-/// One call of `advance` gives no more than this, however many messages share an instant.
-constexpr std::size_t kMostDeliveries = 100'000;
-constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+/// Limits of one call of `advance`, for many messages at one instant.
+constexpr std::size_t kMaxDeliveries = 100'000;
+constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
 
 }  // namespace
 
@@ -48,10 +48,10 @@ struct RecordingReader::Impl {
   RecordingPlan plan;
   RecordingConfig config;
   LegStream legs;
-  std::optional<BagMessage> next;  ///< read, not yet given
+  std::optional<BagMessage> next;  ///< read, not yet delivered
   bool started = false;
-  Time until = 0;        ///< record time up to which messages have been given
-  Time record_time = 0;  ///< of the message being taken
+  Time until = 0;        ///< record time up to which messages have been delivered
+  Time record_time = 0;  ///< of the current message
   Duration position = 0;
   std::array<std::optional<Time>, kRoleCount> last_stamps;
   Trajectory truth;
@@ -65,7 +65,7 @@ Result<void> RecordingReader::Impl::fetch() {
   return {};
 }
 
-/// The stamp as it is passed on.
+/// The stamp of the delivery.
 Time RecordingReader::Impl::stamp_of(Role role, Time stamp, double delay) const {
   const bool recorded = plan.stamped_by_record[static_cast<std::size_t>(role)];
   return (recorded ? record_time : stamp) - from_seconds(delay);
@@ -220,7 +220,7 @@ Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deli
   const std::size_t before = deliveries.size();
   std::size_t bytes = 0;
   while (impl.next && impl.next->record_time < impl.until) {
-    if (bytes > kMostBytes || deliveries.size() - before > kMostDeliveries) break;
+    if (bytes > kMaxBytes || deliveries.size() - before > kMaxDeliveries) break;
     bytes += impl.next->data.size();
     impl.take(*impl.next, deliveries);
     impl.next.reset();

@@ -16,15 +16,15 @@
 
 namespace aims {
 
-/// What was found before the first message was given: decided once, on the start of the bag.
+/// How the recording is read: decided once, from its start.
 struct RecordingSetup {
-  TopicsConfig topics;  ///< as used; empty where the recording has none
+  TopicsConfig topics;  ///< as used; empty: none
   SensorRig rig;
   bool has_legs = false;
   bool has_truth = false;
-  std::optional<double> imu_rate_hz;  ///< from the usual spacing of the first stamps
+  std::optional<double> imu_rate_hz;  ///< from the first stamps
   std::optional<double> leg_rate_hz;  ///< as for the IMU
-  /// What was assumed, converted or made up, one sentence each: "IMU in g: multiplied by 9.80665".
+  /// Assumptions and conversions, one sentence each: "IMU in g: multiplied by 9.80665".
   std::vector<std::string> notes;
 };
 
@@ -32,16 +32,16 @@ struct RecordingSetup {
 Result<void> check_legs(const RecordingSetup& setup, const std::string& estimator,
                         const std::string& recording);
 
-/// A recording as the stream that an estimator takes: bag messages become deliveries, in order of
-/// record time. Stamps are those of the message headers, arrivals the record times, both as in the
-/// bag. Memory is bounded by the bag's chunks, not by its length.
+/// A recording as the stream of an estimator: messages become deliveries, in order of record time.
+/// Stamps are those of the message headers, arrivals the record times. Memory is bounded by the
+/// bag's chunks, not by its length.
 class RecordingReader {
  public:
-  /// Looks at the start of the bag and decides topics, units, extrinsics. Errors list the topics
-  /// that exist when one is missing or ambiguous.
+  /// Decides topics, units and extrinsics from the start of the bag. Errors list the existing
+  /// topics when one is missing or ambiguous.
   static Result<RecordingReader> open(const std::filesystem::path& bag,
                                       const RecordingConfig& config, BagOpenOptions options = {});
-  /// The same from any source of messages; `open` of a bag calls this one.
+  /// The same from any source of messages.
   static Result<RecordingReader> open(std::unique_ptr<MessageSource> source,
                                       const RecordingConfig& config);
   RecordingReader(RecordingReader&&) noexcept;
@@ -55,13 +55,13 @@ class RecordingReader {
   /// Poor data (an empty cloud, NaN, repeated stamps) is counted; a broken bag is an error.
   Result<bool> advance(Duration span, std::vector<Delivery>& deliveries);
 
-  /// Record time of the last message given, since the start of the bag.
+  /// Record time of the last message read, since the start of the bag.
   Duration position() const;
 
-  /// True poses of the body (IMU frame) met so far; stamps as those of deliveries.
+  /// True poses of the body (IMU frame) read so far; stamps as those of deliveries.
   const Trajectory& truth() const;
 
-  /// Events worth a count: "cloud_points_not_finite", "imu_stamp_not_increasing", ...
+  /// Counts of irregularities: "cloud_points_not_finite", "imu_stamp_not_increasing", ...
   const std::map<std::string, int>& counts() const;
 
  private:

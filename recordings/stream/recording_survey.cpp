@@ -13,27 +13,21 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostSamples = 2000;
-constexpr double kFastestRobot = 35.0;  ///< where gyros of 2000 deg/s saturate [rad/s]
-/// Clocks of sensors and recorder that differ by more are different clocks.
-constexpr Duration kSameClock = 5 * kSecond;
+constexpr std::size_t kMaxSamples = 2000;
+constexpr double kMaxTurnRate = 35.0;  ///< saturation of a gyro of 2000 deg/s [rad/s]
+/// Larger differences mean that recorder and sensors use different clocks.
+constexpr Duration kMaxClockDifference = 5 * kSecond;
 
 bool all_zero(const std::vector<Time>& stamps) {
   return stamps.size() >= 3 &&
          std::all_of(stamps.begin(), stamps.end(), [](Time stamp) { return stamp == 0; });
 }
 
-/// A frame that does not move with the robot, by its name.
-bool is_world(const std::string& frame) {
-  return frame.find("odom") != std::string::npos || frame.find("map") != std::string::npos ||
-         frame.find("world") != std::string::npos;
-}
-
 }  // namespace
 
 void RecordingSurvey::note_times(Role role, const MessageView& view, Time record_time) {
   Seen& each = seen(role);
-  if (each.stamps.size() >= kMostSamples) return;
+  if (each.stamps.size() >= kMaxSamples) return;
   const Time stamp = header_stamp(view, record_time);
   each.stamps.push_back(stamp);
   each.latencies.push_back(record_time - stamp);
@@ -54,12 +48,10 @@ void RecordingSurvey::add(const BagMessage& message, const Channel& channel) {
   }
   if (channel.is(Role::kLidar)) add_cloud(*view, message.record_time);
   if (channel.is(Role::kImu)) add_imu(*view);
-  if (channel.is(Role::kJoints)) {
-    ++joint_messages_;
-    if (joints_at(*view, message.record_time, config_.joint_names)) ++joint_orders_;
-    if (const auto effort = view->numbers("effort"); effort && !effort->empty()) ++effort_messages_;
+  if (channel.is(Role::kJoints)) legs_.add_joints(*view, message.record_time);
+  if (channel.is(Role::kContacts)) {
+    legs_.add_contacts(*view, channel.connection->type, channel.decoder);
   }
-  if (channel.is(Role::kContacts)) add_contacts(*view, channel);
 }
 
 void RecordingSurvey::add_cloud(const MessageView& view, Time record_time) {
@@ -72,32 +64,11 @@ void RecordingSurvey::add_imu(const MessageView& view) {
   const auto force = vector_at(view, "linear_acceleration");
   const auto turn = vector_at(view, "angular_velocity");
   if (!force || !turn || !force->allFinite() || !turn->allFinite()) return;
-  if (forces_.size() < kMostSamples) forces_.push_back(force->norm());
-  fastest_turn_ = std::max(fastest_turn_, turn->norm());
+  if (forces_.size() < kMaxSamples) forces_.push_back(force->norm());
+  largest_turn_rate_ = std::max(largest_turn_rate_, turn->norm());
 }
 
-void RecordingSurvey::choose_contact_field(const Channel& channel) {
-  contact_field_ = config_.contacts_field;
-  const bool joints = channel.connection->type == "sensor_msgs/JointState";
-  if (contact_field_.empty() && joints) contact_field_ = "effort";
-  for (const MessageField& field : channel.decoder.fields()) {
-    if (field.kind != FieldKind::kNumbers) continue;
-    if (contact_field_.empty()) contact_field_ = field.path;
-    if (field.path == contact_field_) contacts_are_flags_ = field.is_bool;
-  }
-}
-
-void RecordingSurvey::add_contacts(const MessageView& view, const Channel& channel) {
-  if (contact_field_.empty()) choose_contact_field(channel);
-  const auto loads = loads_at(view, {contact_field_, 0.0, config_.foot_names});
-  if (!loads) return;
-  ++contact_messages_;
-  for (const double load : *loads) {
-    if (std::isfinite(load)) largest_load_ = std::max(largest_load_, std::abs(load));
-  }
-}
-
-bool RecordingSurvey::met_all() const {
+bool RecordingSurvey::has_all_topics() const {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
     if (role == Role::kTruth || topic_of(topics_, role).empty()) continue;
@@ -109,10 +80,10 @@ bool RecordingSurvey::met_all() const {
 bool RecordingSurvey::enough() const {
   const bool lidar = topics_.lidar.empty() || clouds_.enough();
   const bool imu = topics_.imu.empty() || seen(Role::kImu).stamps.size() >= 200;
-  return lidar && imu && met_all();
+  return lidar && imu && has_all_topics();
 }
 
-/// Clocks: stamps that were never set, and a recorder whose clock is not the sensors'.
+/// Clocks: stamps that were never set, and a recorder clock that differs from the sensors'.
 void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
   std::vector<std::string>& notes = plan.setup.notes;
   std::optional<Duration> imu, lidar;
@@ -126,7 +97,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
     }
     if (all_zero(seen_[i].stamps)) {
       plan.stamped_by_record[i] = true;
-      notes.push_back(fmt::format("{}: stamps are all zero, record times are taken", topic));
+      notes.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
       continue;
     }
     const Duration latency = *upper_median(seen_[i].latencies);
@@ -140,10 +111,10 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
     }
   }
   const std::optional<Duration> first = imu ? imu : lidar;
-  if (!first || std::abs(*first) < kSameClock) return;
+  if (!first || std::abs(*first) < kMaxClockDifference) return;
   plan.arrival_shift = -*first;
   notes.push_back(fmt::format(
-      "the recorder's clock is {:.3f} s ahead of the sensors': arrivals are moved by that",
+      "the recorder's clock is {:.3f} s ahead of the sensors': arrivals are shifted by it",
       to_seconds(*first)));
 }
 
@@ -157,7 +128,7 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
     if (!gravities && (force < 5.0 || force > 15.0)) {
       notes.push_back(
           fmt::format("specific force of {:.3g} at the start is neither gravity in m/s^2 "
-                      "nor in g: taken as m/s^2 (imu_unit)",
+                      "nor in g: assumed to be m/s^2 (imu_unit)",
                       force));
     }
   }
@@ -166,65 +137,19 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
     notes.push_back(
         fmt::format("IMU in g ({:.3f} at the start): multiplied by {}", force, kStandardGravity));
   }
-  if (fastest_turn_ > kFastestRobot) {
+  if (largest_turn_rate_ > kMaxTurnRate) {
     notes.push_back(fmt::format(
-        "angular velocity up to {:.3g}: rad/s are expected, are these deg/s?", fastest_turn_));
-  }
-}
-
-void RecordingSurvey::decide_contacts(RecordingPlan& plan) const {
-  plan.contacts = {contact_field_, config_.contact_threshold, config_.foot_names};
-  if (topics_.contacts.empty()) return;
-  if (contact_messages_ == 0) {
-    plan.setup.notes.push_back(fmt::format(
-        "{}: field '{}' does not tell four feet: no contacts (contacts_field, foot_names)",
-        topics_.contacts, contact_field_));
-    return;
-  }
-  if (!contacts_are_flags_ && largest_load_ > 1.0) return;
-  plan.contacts.threshold = 0.5;
-  if (!contacts_are_flags_) {
-    plan.setup.notes.push_back(
-        fmt::format("{}: '{}' is at most 1 at the start: a flag, threshold 0.5", topics_.contacts,
-                    contact_field_));
+        "angular velocity up to {:.3g}: rad/s are expected, are these deg/s?", largest_turn_rate_));
   }
 }
 
 void RecordingSurvey::decide_legs(RecordingPlan& plan) const {
-  std::vector<std::string>& notes = plan.setup.notes;
   const Seen& legs = seen(Role::kLegs);
+  plan.contacts = legs_.decide_contacts(plan.setup.notes);
   LegStreamConfig& stream = plan.legs;
   stream.geometry = config_.leg_geometry;
   stream.foot_model = config_.foot_model;
-  const bool has_joints = joint_orders_ > 0;
-  if (!topics_.joint_states.empty() && joint_messages_ > 0 && !has_joints) {
-    notes.push_back(fmt::format("{}: the twelve joints are not told by their names (joint_names)",
-                                topics_.joint_states));
-  }
-  if (!topics_.leg_odometry.empty()) {
-    stream.source = legs.type == "nav_msgs/Odometry" ? LegSource::kOdometry : LegSource::kTwist;
-    if (stream.source == LegSource::kTwist) {
-      notes.push_back(fmt::format("{}: a twist without a pose, which is integrated", legs.type));
-      if (is_world(legs.frame)) {
-        notes.push_back(
-            fmt::format("the twist's frame '{}' does not move with the robot: its axes are "
-                        "taken as the base's all the same",
-                        legs.frame));
-      }
-    }
-    if (legs.type == "geometry_msgs/Twist") {
-      notes.push_back("geometry_msgs/Twist has no stamp: record times are taken");
-    }
-  } else if (has_joints && contact_messages_ > 0) {
-    stream.source = LegSource::kKinematics;
-    notes.push_back("leg odometry: from joints, contacts and gyro by the leg model (leg_geometry)");
-  } else {
-    notes.push_back("no leg odometry, nor joints with contacts: estimators run without legs");
-    if (has_joints && effort_messages_ > 0 && topics_.contacts.empty()) {
-      notes.push_back(fmt::format("knees that bear can tell contacts: topics.contacts: {}",
-                                  topics_.joint_states));
-    }
-  }
+  stream.source = legs_.decide_source(legs.type, legs.frame, plan.setup.notes);
   const bool kinematic = stream.source == LegSource::kKinematics;
   plan.setup.leg_rate_hz = sample_rate(kinematic ? seen(Role::kJoints).stamps : legs.stamps);
   plan.setup.has_legs = stream.source != LegSource::kNone;
@@ -241,11 +166,11 @@ std::string RecordingSurvey::base_frame() const {
   const Seen& legs = seen(Role::kLegs);
   if (!legs.child_frame.empty()) return legs.child_frame;
   const bool twist = !legs.frame.empty() && legs.type != "nav_msgs/Odometry";
-  if (twist && !is_world(legs.frame)) return legs.frame;
+  if (twist && !is_world_frame(legs.frame)) return legs.frame;
   const std::string& joints = seen(Role::kJoints).frame;
-  if (!joints.empty() && frames_.knows(joints)) return joints;
+  if (!joints.empty() && frames_.contains(joints)) return joints;
   for (const char* usual : {"base", "base_link", "trunk", "body"}) {
-    if (frames_.knows(usual)) return usual;
+    if (frames_.contains(usual)) return usual;
   }
   return {};
 }
@@ -265,7 +190,7 @@ void RecordingSurvey::decide_frames(RecordingPlan& plan) const {
   plan.legs.T_body_base = setup.rig.T_body_base;
 }
 
-/// Which frame the truth is of, and where the body is in it.
+/// The frame of the truth, and the body pose in it.
 void RecordingSurvey::decide_truth(RecordingPlan& plan) const {
   plan.setup.has_truth = !topics_.truth.empty();
   const std::string& child = seen(Role::kTruth).child_frame;
@@ -273,8 +198,8 @@ void RecordingSurvey::decide_truth(RecordingPlan& plan) const {
   const auto pose = frames_.find(child, imu_frame(), plan.setup.notes);
   if (!pose) {
     plan.setup.notes.push_back(
-        fmt::format("truth is of frame '{}', not connected to the IMU's '{}': "
-                    "taken as the IMU's",
+        fmt::format("the truth's frame '{}' is not connected to the IMU's '{}': "
+                    "assumed to be the IMU's",
                     child, imu_frame()));
     return;
   }
@@ -295,7 +220,6 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   }
   decide_stamps(plan);
   decide_imu(plan);
-  decide_contacts(plan);
   decide_legs(plan);
   decide_frames(plan);
   decide_truth(plan);

@@ -9,33 +9,33 @@
 
 #include "recordings/clouds/cloud_survey.hpp"
 #include "recordings/frames/recorded_frames.hpp"
-#include "recordings/legs/leg_stream.hpp"
+#include "recordings/legs/leg_survey.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/topics/recording_channels.hpp"
 
 namespace aims {
 
-/// Learns from the start of a recording how to read the rest.
+/// Finds out from the start of a recording how to read it.
 class RecordingSurvey {
  public:
   RecordingSurvey(const RecordingConfig& config, const TopicsConfig& topics)
-      : config_(config), topics_(topics) {}
+      : config_(config), topics_(topics), legs_(config, topics) {}
 
-  /// Takes the next message of a chosen topic.
+  /// Adds the next message of a chosen topic.
   void add(const BagMessage& message, const Channel& channel);
-  /// Takes a message of tf; `fixed`: of /tf_static.
+  /// Adds a message of tf; `fixed`: of /tf_static.
   void add_transforms(const MessageView& message, bool fixed) { frames_.add(message, fixed); }
 
-  /// Enough of every chosen topic.
+  /// Whether there are enough messages of every chosen topic.
   bool enough() const;
-  /// At least one message of every chosen topic.
-  bool met_all() const;
+  /// Whether there is a message of every chosen topic.
+  bool has_all_topics() const;
 
   /// Decides; appends to `notes`, which become those of the setup. Error when no cloud is readable.
   Result<RecordingPlan> decide(const std::filesystem::path& bag, std::vector<std::string> notes);
 
  private:
-  /// What is seen of one topic.
+  /// Stamps and frames of one topic.
   struct Seen {
     std::vector<Time> stamps;
     std::vector<Duration> latencies;  ///< record time minus stamp
@@ -49,13 +49,10 @@ class RecordingSurvey {
   void note_times(Role role, const MessageView& view, Time record_time);
   void add_cloud(const MessageView& view, Time record_time);
   void add_imu(const MessageView& view);
-  void add_contacts(const MessageView& view, const Channel& channel);
-  void choose_contact_field(const Channel& channel);
 
   void decide_stamps(RecordingPlan& plan) const;
   void decide_imu(RecordingPlan& plan) const;
   void decide_legs(RecordingPlan& plan) const;
-  void decide_contacts(RecordingPlan& plan) const;
   void decide_frames(RecordingPlan& plan) const;
   void decide_truth(RecordingPlan& plan) const;
   std::string imu_frame() const;
@@ -65,14 +62,10 @@ class RecordingSurvey {
   TopicsConfig topics_;
   std::array<Seen, kRoleCount> seen_;
   CloudSurvey clouds_;
-  std::string cloud_error_;     ///< of the first that could not be read
-  std::vector<double> forces_;  ///< magnitudes, as recorded
-  double fastest_turn_ = 0.0;
-  int joint_messages_ = 0, joint_orders_ = 0, effort_messages_ = 0;
-  std::string contact_field_;
-  bool contacts_are_flags_ = false;
-  int contact_messages_ = 0;
-  double largest_load_ = 0.0;
+  std::string cloud_error_;         ///< of the first that could not be read
+  std::vector<double> forces_;      ///< norms, in the recorded unit
+  double largest_turn_rate_ = 0.0;  ///< [rad/s]
+  LegSurvey legs_;
   RecordedFrames frames_;
 };
 

@@ -83,19 +83,19 @@ Result<void> RecordingWriter::write(Topic topic, Time record_time, const Message
 
 Result<void> RecordingWriter::write_imu(ImuOutput output, Time arrival, const ImuSample& sample,
                                         const Eigen::Quaterniond& orientation) {
-  if (sample.stamp < 0) return ++left_out_, Result<void>{};
+  if (sample.stamp < 0) return ++dropped_, Result<void>{};
   const Topic topic = output == ImuOutput::kMain ? kImu : kFastImu;
   return write(topic, arrival,
                imu_message(header(topic, sample.stamp, kImuFrame), sample, orientation));
 }
 
 Result<void> RecordingWriter::write_scan(Time arrival, const LidarScan& scan) {
-  if (scan.stamp < 0) return ++left_out_, Result<void>{};
+  if (scan.stamp < 0) return ++dropped_, Result<void>{};
   return write(kLidar, arrival, cloud_message(header(kLidar, scan.stamp, kLidarFrame), scan));
 }
 
 Result<void> RecordingWriter::write_legs(Time arrival, const LegOdometrySample& sample) {
-  if (sample.stamp < 0) return ++left_out_, Result<void>{};
+  if (sample.stamp < 0) return ++dropped_, Result<void>{};
   const auto joints = header(kJointStates, sample.stamp, kBaseFrame);
   if (auto ok = write(kJointStates, arrival, joint_state_message(joints, sample)); !ok) return ok;
   const auto contacts = header(kFootContacts, sample.stamp, kBaseFrame);

@@ -27,12 +27,12 @@ struct BodyMotion {
 /// Which of the two outputs of the IMU a sample comes from.
 enum class ImuOutput { kMain, kFast };
 
-/// Writes what a robot's sensors deliver, and the truth, as a ROS 1 bag with the topics of
-/// `recordings/topics/recording_topics.hpp`. A message that would need a negative time is left out
-/// and counted, as ROS has none; one recorded at 0 is recorded at 1 ns, as ROS takes 0 for "never".
+/// Writes sensor data and the truth as a ROS 1 bag with the topics of
+/// `recordings/topics/recording_topics.hpp`. Messages with a negative time are dropped and counted,
+/// since ROS cannot represent them; record time 0 becomes 1 ns, since ROS uses 0 for "never".
 class RecordingWriter {
  public:
-  /// `scenario` is kept as text on `kScenarioTopic`. Error when the file exists or cannot be
+  /// `scenario` is stored as text on `kScenarioTopic`. Error when the file exists or cannot be
   /// written.
   static Result<RecordingWriter> create(const std::filesystem::path& file, const SensorRig& rig,
                                         std::string_view scenario, BagWriterOptions options = {});
@@ -40,15 +40,15 @@ class RecordingWriter {
   Result<void> write_imu(ImuOutput output, Time arrival, const ImuSample& sample,
                          const Eigen::Quaterniond& orientation);
   Result<void> write_scan(Time arrival, const LidarScan& scan);
-  /// Joint states, contacts, then odometry, all recorded at the same time.
+  /// Joint states, contacts, then odometry, with the same record time.
   Result<void> write_legs(Time arrival, const LegOdometrySample& sample);
   /// The truth of the IMU's and the LiDAR's frame.
   Result<void> write_truth(const BodyMotion& motion);
-  /// The reference points' waypoint times, as in waypoint_times.csv.
+  /// The waypoint times, as in waypoint_times.csv.
   Result<void> write_waypoint_times(Time arrival, std::string_view csv);
   Result<void> close();
 
-  int left_out() const { return left_out_; }
+  int dropped() const { return dropped_; }
 
  private:
   /// The topics, in the order in which they are announced.
@@ -76,7 +76,7 @@ class RecordingWriter {
   SensorRig rig_;
   std::array<std::int64_t, kTopicCount> connections_;  ///< -1: not announced yet
   std::array<std::uint32_t, kTopicCount> sequences_{};
-  int left_out_ = 0;
+  int dropped_ = 0;
 };
 
 }  // namespace aims

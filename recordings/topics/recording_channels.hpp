@@ -17,14 +17,14 @@
 
 namespace aims {
 
-/// What a topic is read for; one topic may serve for several.
+/// What a topic is read for; one topic may have several roles.
 enum class Role { kLidar, kImu, kLegs, kJoints, kContacts, kTruth };
 inline constexpr std::size_t kRoleCount = 6;
 
-/// "lidar", "imu", ...: as in the names of counts.
+/// "lidar", "imu", ...: prefix of the counts.
 std::string_view name_of(Role role);
 
-/// The topic chosen for a role.
+/// The topic of a role.
 const std::string& topic_of(const TopicsConfig& topics, Role role);
 
 /// One connection of a bag that is read, with its decoder.

@@ -5,7 +5,7 @@
 
 namespace aims {
 
-// Topics and frames of the recordings that are written here.
+// Topics and frames of the recordings that AIMS writes.
 inline constexpr std::string_view kLidarTopic = "/lidar/points";
 inline constexpr std::string_view kImuTopic = "/imu/data";
 inline constexpr std::string_view kFastImuTopic = "/imu/data_fast";

@@ -13,7 +13,7 @@ namespace aims {
 namespace {
 
 constexpr std::string_view kNone = "none";
-constexpr std::size_t kMostListed = 60;
+constexpr std::size_t kMaxListed = 60;
 
 bool holds(std::string_view text, std::string_view part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), [](char a, char b) {
@@ -48,7 +48,7 @@ bool may_be_contacts(const BagConnection& c) {
          holds(c.topic, "foot_force");
 }
 
-struct Wish {
+struct Request {
   std::string_view key;
   std::string_view expected;  ///< in words
   bool (*fits)(const BagConnection&);
@@ -62,56 +62,57 @@ std::string topic_list(std::span<const BagConnection> connections) {
   std::string text;
   std::size_t listed = 0;
   for (const std::string& line : lines) {
-    if (listed++ == kMostListed)
-      return text + fmt::format(", and {} more", lines.size() - kMostListed);
+    if (listed++ == kMaxListed)
+      return text + fmt::format(", and {} more", lines.size() - kMaxListed);
     text += (text.empty() ? "" : ", ") + line;
   }
   return text.empty() ? "no topic at all" : text;
 }
 
-/// Chooses topics one after the other, in the same bag.
+/// Chooses topics of one bag.
 class Chooser {
  public:
   Chooser(const std::filesystem::path& bag, std::span<const BagConnection> connections)
       : bag_(bag), connections_(connections) {}
 
-  /// The topic that was asked for, if it is there and of a fitting type.
-  Result<std::string> asked(const Wish& wish, const std::string& topic) const {
+  /// The requested topic, if it exists and has a suitable type.
+  Result<std::string> requested(const Request& request, const std::string& topic) const {
     const auto found = find(topic);
     if (found == nullptr) {
       std::vector<std::string> names;
       for (const BagConnection& each : connections_) names.push_back(each.topic);
       const std::string near = near_match(topic, names);
       return failure(fmt::format("{}: no topic '{}' (topics.{}){}; it has {}", bag_.string(), topic,
-                                 wish.key, near.empty() ? "" : "; did you mean '" + near + "'?",
+                                 request.key, near.empty() ? "" : "; did you mean '" + near + "'?",
                                  topic_list(connections_)));
     }
-    if (!wish.fits(*found)) {
+    if (!request.fits(*found)) {
       return failure(fmt::format("{}: topic '{}' (topics.{}) is {}, expected {}", bag_.string(),
-                                 topic, wish.key, found->type, wish.expected));
+                                 topic, request.key, found->type, request.expected));
     }
     return topic;
   }
 
-  /// The usual topic, or the only one that fits, or nothing; several are an error.
-  Result<std::string> found(const Wish& wish, std::string_view usual) const {
-    const BagConnection* known = find(usual);
-    if (known != nullptr && wish.fits(*known)) return std::string(usual);
+  /// The default topic, or the only suitable one, or nothing; several are an error.
+  Result<std::string> found(const Request& request, std::string_view default_topic) const {
+    const BagConnection* known = find(default_topic);
+    if (known != nullptr && request.fits(*known)) return std::string(default_topic);
     std::set<std::string> topics;
     for (const BagConnection& each : connections_) {
-      if (wish.fits(each) && each.messages > 0) topics.insert(each.topic);
+      if (request.fits(each) && each.messages > 0) topics.insert(each.topic);
     }
     if (topics.empty()) return std::string();
     if (topics.size() == 1) return *topics.begin();
     std::string list;
     for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
     return failure(fmt::format("{}: several topics are {}: {}; choose one with topics.{} (or none)",
-                               bag_.string(), wish.expected, list, wish.key));
+                               bag_.string(), request.expected, list, request.key));
   }
 
-  tl::unexpected<Error> missing(const Wish& wish) const {
+  tl::unexpected<Error> missing(const Request& request) const {
     return failure(fmt::format("{}: no topic is {} (topics.{}; 'none' to do without); it has {}",
-                               bag_.string(), wish.expected, wish.key, topic_list(connections_)));
+                               bag_.string(), request.expected, request.key,
+                               topic_list(connections_)));
   }
 
   const BagConnection* find(std::string_view topic) const {
@@ -125,33 +126,34 @@ class Chooser {
   std::span<const BagConnection> connections_;
 };
 
-/// A topic without which there is nothing to estimate.
-Result<std::string> needed(const Chooser& chooser, const Wish& wish, const std::string& wanted,
-                           std::string_view usual) {
+/// A required topic.
+Result<std::string> required_topic(const Chooser& chooser, const Request& request,
+                                   const std::string& wanted, std::string_view default_topic) {
   if (wanted == kNone) return std::string();
-  if (!wanted.empty()) return chooser.asked(wish, wanted);
-  auto topic = chooser.found(wish, usual);
-  if (topic && topic->empty()) return chooser.missing(wish);
+  if (!wanted.empty()) return chooser.requested(request, wanted);
+  auto topic = chooser.found(request, default_topic);
+  if (topic && topic->empty()) return chooser.missing(request);
   return topic;
 }
 
 Result<std::string> legs(const Chooser& chooser, const std::string& wanted) {
   constexpr std::string_view kExpected = "nav_msgs/Odometry or geometry_msgs/TwistStamped";
   if (wanted == kNone) return std::string();
-  if (!wanted.empty()) return chooser.asked({"leg_odometry", kExpected, is_legs}, wanted);
+  if (!wanted.empty()) return chooser.requested({"leg_odometry", kExpected, is_legs}, wanted);
   auto topic =
       chooser.found({"leg_odometry", "nav_msgs/Odometry", may_be_odometry}, kLegOdometryTopic);
   if (!topic || !topic->empty()) return topic;
   return chooser.found({"leg_odometry", "geometry_msgs/TwistStamped", may_be_twist}, "");
 }
 
-/// What stands beside the legs or replaces their odometry. Several that fit: none is taken.
-Result<std::string> beside(const Chooser& chooser, const Wish& wish, const std::string& wanted,
-                           std::string_view usual, bool (*likely)(const BagConnection&),
-                           std::vector<std::string>& notes) {
+/// An optional topic. Of several suitable ones none is chosen.
+Result<std::string> optional_topic(const Chooser& chooser, const Request& request,
+                                   const std::string& wanted, std::string_view default_topic,
+                                   bool (*is_likely)(const BagConnection&),
+                                   std::vector<std::string>& notes) {
   if (wanted == kNone) return std::string();
-  if (!wanted.empty()) return chooser.asked(wish, wanted);
-  auto topic = chooser.found({wish.key, wish.expected, likely}, usual);
+  if (!wanted.empty()) return chooser.requested(request, wanted);
+  auto topic = chooser.found({request.key, request.expected, is_likely}, default_topic);
   if (topic) return topic;
   notes.push_back(topic.error().message.substr(topic.error().message.find("several topics")));
   return std::string();
@@ -179,24 +181,24 @@ Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
     member = *topic;
     return {};
   };
-  const Wish lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
-  const Wish imu = {"imu", "sensor_msgs/Imu", is_imu};
-  const Wish joints = {"joint_states", "sensor_msgs/JointState", is_joints};
-  const Wish contacts = {"contacts", "contacts of feet", is_anything};
-  auto ok = keep(topics.lidar, needed(chooser, lidar, wanted.lidar, kLidarTopic));
-  if (ok) ok = keep(topics.imu, needed(chooser, imu, wanted.imu, kImuTopic));
+  const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
+  const Request imu = {"imu", "sensor_msgs/Imu", is_imu};
+  const Request joints = {"joint_states", "sensor_msgs/JointState", is_joints};
+  const Request contacts = {"contacts", "contacts of feet", is_anything};
+  auto ok = keep(topics.lidar, required_topic(chooser, lidar, wanted.lidar, kLidarTopic));
+  if (ok) ok = keep(topics.imu, required_topic(chooser, imu, wanted.imu, kImuTopic));
   if (ok) ok = keep(topics.leg_odometry, legs(chooser, wanted.leg_odometry));
   if (ok) {
-    ok = keep(topics.joint_states,
-              beside(chooser, joints, wanted.joint_states, kJointStatesTopic, is_joints, notes));
+    ok = keep(topics.joint_states, optional_topic(chooser, joints, wanted.joint_states,
+                                                  kJointStatesTopic, is_joints, notes));
   }
   if (ok) {
-    ok = keep(topics.contacts, beside(chooser, contacts, wanted.contacts, kFootContactsTopic,
-                                      may_be_contacts, notes));
+    ok = keep(topics.contacts, optional_topic(chooser, contacts, wanted.contacts,
+                                              kFootContactsTopic, may_be_contacts, notes));
   }
   if (ok && !wanted.truth.empty() && wanted.truth != kNone) {
-    const Wish truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
-    ok = keep(topics.truth, chooser.asked(truth, wanted.truth));
+    const Request truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
+    ok = keep(topics.truth, chooser.requested(truth, wanted.truth));
   } else if (ok && wanted.truth.empty()) {
     const BagConnection* known = chooser.find(kTruthImuTopic);
     if (known != nullptr && is_truth(*known)) topics.truth = known->topic;

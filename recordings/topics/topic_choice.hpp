@@ -13,12 +13,11 @@
 
 namespace aims {
 
-/// Whether messages of that type are clouds that can be read: PointCloud2 or livox CustomMsg.
+/// Whether the type is a readable cloud: PointCloud2 or livox CustomMsg.
 bool is_cloud_type(std::string_view type);
 
-/// The topics that a recording is read from; empty where it has none or none is wanted. Errors name
-/// the file and list the topics that exist: for a missing topic, one of a wrong type, or several of
-/// a fitting type.
+/// The topics to read; empty where the recording has none or none is requested. Errors name the
+/// file and list the existing topics: for a missing topic, a wrong type, or several suitable ones.
 Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
                                    std::span<const BagConnection> connections,
                                    const TopicsConfig& wanted, std::vector<std::string>& notes);

@@ -7,20 +7,19 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <string_view>
 #include <utility>
 
 #include "recordings/bag/bag_reader.hpp"
-#include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/message_values.hpp"
+#include "recordings/topics/connection_decoders.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a message type keeps its one pose.
+/// Fields of the pose in a message type.
 struct PoseLayout {
   std::string_view type;
   std::string_view position;
@@ -59,7 +58,7 @@ std::string wanted_types() {
   return fmt::format("{}", fmt::join(types, ", "));
 }
 
-/// The topic to read: as given, or the only one with poses, or the preferred one.
+/// The topic to read: the given one, the only one with poses, or the preferred one.
 Result<std::string> choose_topic(const BagReader& bag, const std::string& given,
                                  const std::string& preferred, std::vector<std::string>& notes) {
   const std::string name = bag.file().string();
@@ -82,7 +81,7 @@ Result<std::string> choose_topic(const BagReader& bag, const std::string& given,
   }
   if (fitting.size() == 1) return fitting.front();
   if (has(preferred)) {
-    notes.push_back(fmt::format("{}: topic {} taken of several with poses", name, preferred));
+    notes.push_back(fmt::format("{}: topic {} chosen of several with poses", name, preferred));
     return preferred;
   }
   if (fitting.empty()) {
@@ -95,7 +94,7 @@ Result<std::string> choose_topic(const BagReader& bag, const std::string& given,
       name, bag.file().filename().string(), fitting.front(), listed(bag.connections(), true)));
 }
 
-/// A pose whose norm is one within rounding of float32 is normalized; others stay as they are.
+/// A quaternion whose norm is 1 within float32 rounding is normalized; others stay unchanged.
 std::optional<StampedPose> pose_in(const MessageView& view, const PoseLayout& layout) {
   const auto stamp = view.time("header.stamp");
   const auto position = vector_at(view, layout.position);
@@ -106,15 +105,15 @@ std::optional<StampedPose> pose_in(const MessageView& view, const PoseLayout& la
   return StampedPose{*stamp, {*rotation, *position}};
 }
 
-/// Reads the messages of one topic, each by the definition of its own connection.
+/// Reads the poses of one topic.
 class TopicReader {
  public:
   TopicReader(BagReader& bag, std::string topic) : bag_(bag), topic_(std::move(topic)) {}
 
-  /// Appends every pose, with record times beside them; of paths the last one's.
+  /// Appends every pose and its record time; of paths only those of the last one.
   Result<void> read(Trajectory& poses, std::vector<Time>& record_times) {
     bag_.select({&topic_, 1});
-    std::vector<std::byte> path;  // of the last one, since each repeats those before
+    std::vector<std::byte> path;  // the last one, since each repeats the poses before
     BagMessage last_path;
     while (true) {
       const auto message = bag_.next();
@@ -134,18 +133,12 @@ class TopicReader {
     return add_path(last_path, poses, record_times);
   }
 
-  /// Of the first message that names one; e.g. "imu".
+  /// From the first message that names one; e.g. "imu".
   const std::string& body_frame() const { return body_frame_; }
 
  private:
   Result<MessageView> decode(const BagMessage& message) {
-    const BagConnection& connection = *message.connection;
-    if (!decoders_.contains(connection.id)) {
-      auto decoder = MessageDecoder::create(connection.type, connection.definition);
-      if (!decoder) return error(message, decoder.error().message);
-      decoders_.emplace(connection.id, std::move(*decoder));
-    }
-    auto view = decoders_.at(connection.id).decode(message.data);
+    auto view = decoders_.decode(message);
     if (!view) return error(message, view.error().message);
     return view;
   }
@@ -185,37 +178,36 @@ class TopicReader {
   BagReader& bag_;
   std::string topic_;
   std::string body_frame_;
-  std::map<std::uint32_t, MessageDecoder> decoders_;
+  ConnectionDecoders decoders_;
 };
 
 bool is_pose(const Pose& pose) {
   return pose.translation.allFinite() && std::abs(pose.rotation.norm() - 1.0) < 1e-3;
 }
 
-/// Leaves out what a truth must not have, and says how much of it.
-void keep_sound(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
-  Trajectory sound;
+/// Removes invalid poses and appends their number to `notes`.
+void drop_invalid(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
+  Trajectory valid;
   for (const StampedPose& each : poses) {
-    const bool later = sound.empty() || each.stamp > sound.back().stamp;
-    if (later && is_pose(each.pose)) sound.push_back(each);
+    const bool later = valid.empty() || each.stamp > valid.back().stamp;
+    if (later && is_pose(each.pose)) valid.push_back(each);
   }
-  if (sound.size() < poses.size()) {
+  if (valid.size() < poses.size()) {
     notes.push_back(
-        fmt::format("{}: {} of {} poses left out: not finite, not a pose, or stamped "
-                    "not after the one before",
-                    name, poses.size() - sound.size(), poses.size()));
+        fmt::format("{}: {} of {} poses dropped: not finite, not a pose, or stamps that do not increase",
+                    name, poses.size() - valid.size(), poses.size()));
   }
-  poses = std::move(sound);
+  poses = std::move(valid);
 }
 
-/// Record times in place of header stamps, when no header has any.
+/// Uses record times as stamps if all header stamps are zero.
 void stamp_by_record_time(Trajectory& poses, const std::vector<Time>& record_times,
                           const std::string& name, std::vector<std::string>& notes) {
   const bool any = std::any_of(poses.begin(), poses.end(),
                                [](const StampedPose& each) { return each.stamp != 0; });
   if (any || poses.size() < 2) return;
   for (std::size_t i = 0; i < poses.size(); ++i) poses[i].stamp = record_times[i];
-  notes.push_back(fmt::format("{}: headers carry no stamps: record times are used", name));
+  notes.push_back(fmt::format("{}: headers have no stamps: record times are used", name));
 }
 
 }  // namespace
@@ -241,7 +233,7 @@ Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::stri
   const std::string name = fmt::format("{}:{}", file.string(), *chosen);
   if (result.trajectory.empty()) return failure(name + ": expected poses, found none");
   stamp_by_record_time(result.trajectory, record_times, name, result.notes);
-  if (options.rules == PoseRules::kStrict) keep_sound(result.trajectory, name, result.notes);
+  if (options.rules == PoseRules::kStrict) drop_invalid(result.trajectory, name, result.notes);
   return result;
 }
 
@@ -249,21 +241,17 @@ Result<std::optional<std::string>> read_bag_text(const fs::path& file, const std
   auto bag = BagReader::open(file);
   if (!bag) return tl::unexpected(bag.error());
   bag->select({&topic, 1});
+  ConnectionDecoders decoders;
   std::optional<std::string> text;
   while (true) {
     const auto message = bag->next();
     if (!message) return tl::unexpected(message.error());
     if (!*message) return text;
-    const BagConnection& connection = *(*message)->connection;
-    const auto decoder = MessageDecoder::create(connection.type, connection.definition);
-    if (!decoder) {
-      return failure(fmt::format("{}: {}: {}", file.string(), topic, decoder.error().message));
-    }
-    const auto view = decoder->decode((*message)->data);
+    const auto view = decoders.decode(**message);
     const auto data = view ? view->text("data") : std::nullopt;
     if (!data) {
       return failure(fmt::format("{}: {}: expected a std_msgs/String, found {}", file.string(),
-                                 topic, connection.type));
+                                 topic, (*message)->connection->type));
     }
     text = std::string(*data);
   }

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kTumColumns = 8;
 constexpr std::size_t kKittiColumns = 12;
 
-/// A file, and the topic behind a colon when the whole is no file itself.
+/// A file, and the topic after a colon unless the source itself is a file.
 struct Source {
   fs::path file;
   std::string topic;
@@ -96,10 +96,10 @@ bool is_bag(const fs::path& file) {
 Result<TrajectoryFile> read_trajectory(const std::string& source,
                                        const TrajectoryFileOptions& options) {
   const auto [file, topic] = split(source);
-  // A file called a bag is read as one, so that its reader says what is wrong with it.
+  // A file named .bag is read as a bag, so that a damaged one gets the bag reader's error.
   if (is_bag(file) || file.extension() == ".bag") return read_bag_trajectory(file, topic, options);
   if (!topic.empty()) {
-    return failure(fmt::format("{}: a topic ({}) belongs to a ROS 1 bag, and this is none",
+    return failure(fmt::format("{}: a topic ({}) needs a ROS 1 bag, which this file is not",
                                file.string(), topic));
   }
   return read_text(file, options);

@@ -109,7 +109,7 @@ TEST(Fields, AssignmentReachesTheConfiguration) {
   EXPECT_EQ(sample.items[1].width, 4.0);
 }
 
-TEST(Fields, RefuseWhatTheyDoNotExpect) {
+TEST(Fields, RejectUnexpectedValues) {
   for (const char* text :
        {"", "x", "1x", "nan", "inf", "-inf", "1e999", "-1", "1,5", "+-1", "[1]"}) {
     EXPECT_FALSE(takes("eta", text)) << text;
@@ -128,7 +128,7 @@ TEST(Fields, RefuseWhatTheyDoNotExpect) {
   }
 }
 
-TEST(Fields, ARefusedVectorIsLeftAsItWas) {
+TEST(Fields, ARejectedVectorIsUnchanged) {
   Sample sample;
   EXPECT_FALSE(assign(fields_of(sample), "axis", "[3, 4, 99]"));
   EXPECT_EQ(sample.axis, Eigen::Vector3d::UnitX());
@@ -184,7 +184,7 @@ RC_GTEST_PROP(SequenceText, IsUndoneBySequenceEntries, ()) {
   RC_ASSERT(sequence_entries(sequence_text(entries)) == entries);
 }
 
-TEST(NearMatch, FindsTyposAndKeepsQuietOtherwise) {
+TEST(NearMatch, FindsTyposOnly) {
   const std::vector<std::string> words = {"corridor", "garage", "eta"};
   EXPECT_EQ(near_match("coridor", words), "corridor");
   EXPECT_EQ(near_match("garbage", words), "garage");

@@ -29,7 +29,7 @@ TEST(LegKinematics, JacobianMatchesFiniteDifferences) {
   }
 }
 
-TEST(LegKinematics, AnglesBringTheFootBackToWhereItWas) {
+TEST(LegKinematics, InverseKinematicsInvertsForwardKinematics) {
   RandomStream random(2, "test");
   for (int trial = 0; trial < 40; ++trial) {
     const int leg = trial % kLegCount;
@@ -50,7 +50,7 @@ TEST(LegKinematics, AnglesForAPointOutOfReachAreFinite) {
 }
 
 /// A base that moves rigidly over a foot that stays: the pose after `dt` keeps the foot in place.
-TEST(LegKinematics, VelocityFromARestingFootMovesTheBaseSoThatTheFootStays) {
+TEST(LegKinematics, VelocityFromAStaticFootKeepsTheFootInPlace) {
   RandomStream random(3, "test");
   const double dt = 1e-6;
   LegGeometry long_legs;

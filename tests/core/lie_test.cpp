@@ -152,7 +152,7 @@ TEST(WrapAngle, HalfATurnIsPlusPi) {
   EXPECT_EQ(wrap_angle(-kPi), kPi);
 }
 
-TEST(Interpolate, MeetsBothEndsAndTurnsEvenly) {
+TEST(Interpolate, MeetsBothEndsAtConstantAngularRate) {
   const Pose a = {yaw_rotation(0.2), {0.0, 0.0, 0.0}};
   const Pose b = {yaw_rotation(1.2), {4.0, -2.0, 1.0}};
   EXPECT_EQ(interpolate(a, b, 0.0).translation, a.translation);
@@ -162,7 +162,7 @@ TEST(Interpolate, MeetsBothEndsAndTurnsEvenly) {
   EXPECT_NEAR(yaw_of(quarter.rotation), 0.45, 1e-14);
 }
 
-TEST(Interpolate, TakesTheShorterWayAround) {
+TEST(Interpolate, TakesTheShorterRotation) {
   Pose b = {yaw_rotation(0.4), Eigen::Vector3d::Zero()};
   b.rotation.coeffs() *= -1.0;
   EXPECT_NEAR(yaw_of(interpolate(Pose(), b, 0.5).rotation), 0.2, 1e-14);

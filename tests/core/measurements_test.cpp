@@ -6,7 +6,7 @@
 namespace aims {
 namespace {
 
-TEST(StampOf, IsWhenTheMeasurementWasComplete) {
+TEST(StampOf, IsTheEndOfTheMeasurement) {
   ImuSample imu;
   imu.stamp = 5;
   LegOdometrySample leg;

@@ -87,7 +87,7 @@ TEST(RandomStream, UniformFillsItsInterval) {
   }
 }
 
-TEST(RandomStream, ChanceIsTheShareOfHits) {
+TEST(RandomStream, ChanceIsTheFractionOfHits) {
   RandomStream stream = rng(5, "chance");
   const Moments m = moments_of(100'000, [&stream] { return stream.chance(0.2) ? 1.0 : 0.0; });
   EXPECT_NEAR(m.mean, 0.2, 0.006);

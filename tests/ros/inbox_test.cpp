@@ -29,7 +29,7 @@ TEST(Inbox, KeepsTheOrderOfArrival) {
   EXPECT_FALSE(inbox.pop());
 }
 
-TEST(Inbox, LeavesOutCloudsThatHaveWaitedTwoSeconds) {
+TEST(Inbox, DropsCloudsThatHaveWaitedTwoSeconds) {
   Inbox inbox;
   inbox.push(message(1.0, 500'000));
   inbox.push(message(1.1, 100));

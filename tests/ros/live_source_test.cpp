@@ -52,7 +52,7 @@ class LiveSourceTest : public testing::Test {
   Network network_{{message(b_, 40, 4), message(a_, 50, 5)}};
 };
 
-TEST_F(LiveSourceTest, AnnouncesWhatWasGathered) {
+TEST_F(LiveSourceTest, AnnouncesTheGatheredTopics) {
   const LiveSource source(gathered_, network_.wait());
   ASSERT_EQ(source.connections().size(), 2U);
   EXPECT_EQ(source.connections()[0].topic, "/a");
@@ -72,14 +72,14 @@ TEST_F(LiveSourceTest, CanBeReadAgainUntilItGoesLive) {
   EXPECT_EQ(network_.coming.size(), 2U) << "nothing was waited for";
 }
 
-TEST_F(LiveSourceTest, GoesOnLiveFromWhereItIs) {
+TEST_F(LiveSourceTest, GoesLiveFromItsPosition) {
   LiveSource source(gathered_, network_.wait());
   source.next();
   source.go_live();
   EXPECT_EQ(values_of(source), (std::vector{2, 3, 4, 5}));
 }
 
-TEST_F(LiveSourceTest, GivesAllAfterARewind) {
+TEST_F(LiveSourceTest, ReturnsAllAfterARewind) {
   LiveSource source(gathered_, network_.wait());
   source.next();
   source.rewind();
@@ -88,7 +88,7 @@ TEST_F(LiveSourceTest, GivesAllAfterARewind) {
   EXPECT_TRUE(gathered_->empty()) << "memory is given back";
 }
 
-TEST_F(LiveSourceTest, GivesSelectedTopicsAlone) {
+TEST_F(LiveSourceTest, ReturnsSelectedTopicsOnly) {
   LiveSource source(gathered_, network_.wait());
   const std::array<std::string, 2> topics = {"/b", "/absent"};
   source.select(topics);
@@ -98,7 +98,7 @@ TEST_F(LiveSourceTest, GivesSelectedTopicsAlone) {
   EXPECT_EQ(values_of(source), (std::vector{2, 4}));
 }
 
-TEST_F(LiveSourceTest, LeavesOutTopicsAndTypesThatWereNotGathered) {
+TEST_F(LiveSourceTest, SkipsTopicsAndTypesThatWereNotGathered) {
   network_.coming.push_front(message(connection("/c"), 35, 7));
   network_.coming.push_front(message(connection("/a", "another"), 36, 8));
   // The same publisher, started again: another connection of the same type.

@@ -6,7 +6,7 @@
 namespace aims {
 namespace {
 
-TEST(NodeOptions, ParametersFillInWhatTheCommandLineLeavesOpen) {
+TEST(NodeOptions, ParametersFillInMissingOptions) {
   auto command = parse_node_arguments({"--estimator", "lio", "--set", "a.b=1", "--tf"});
   ASSERT_TRUE(command) << command.error().message;
   const auto applied = apply_parameters({{"estimator", "leg"},
@@ -24,7 +24,7 @@ TEST(NodeOptions, ParametersFillInWhatTheCommandLineLeavesOpen) {
             (std::vector<std::string>{"recording.topics.imu=/imu", "a.b=1"}));
 }
 
-TEST(NodeOptions, HelpIsAsked) {
+TEST(NodeOptions, HelpIsReturned) {
   const auto command = parse_node_arguments({"--help"});
   ASSERT_TRUE(command);
   EXPECT_NE(command->help.find("--patience"), std::string::npos);

@@ -102,13 +102,13 @@ TEST_F(Recordings, AKilledSimulationLeavesABagThatOpens) {
   EXPECT_GT(with_messages, 0);
 }
 
-TEST_F(Recordings, InfoTellsWhatTheBagHolds) {
+TEST_F(Recordings, InfoShowsTopicsFieldsTransformsAndImu) {
   ASSERT_EQ(simulate("--fast-imu 200").exit_code, 0);
   const Outcome info = aims("info walk.bag");
   EXPECT_EQ(info.exit_code, 0) << info.output;
   for (const char* part :
        {"/imu/data_fast", "sensor_msgs/PointCloud2", "time float32@18", "ring uint16@16",
-        "imu -> lidar: [0.0300, 0.0000, 0.1600]", "stands still", "force in m/s^2"}) {
+        "imu -> lidar: [0.0300, 0.0000, 0.1600]", "without motion", "force in m/s^2"}) {
     EXPECT_NE(info.output.find(part), std::string::npos) << part << "\n" << info.output;
   }
 }

@@ -28,7 +28,7 @@ TEST(AtomicFile, WritesReplacesAndLeavesNothingElse) {
   EXPECT_EQ(files_in(directory.path()), 1U);
 }
 
-TEST(AtomicFile, WritesBytesAndNothingAtAll) {
+TEST(AtomicFile, WritesBytesAndEmptyFiles) {
   const TemporaryFolder directory;
   const fs::path file = directory.path() / "f.bin";
   const std::array<std::byte, 3> bytes = {std::byte{0}, std::byte{255}, std::byte{10}};
@@ -38,7 +38,7 @@ TEST(AtomicFile, WritesBytesAndNothingAtAll) {
   EXPECT_EQ(read_file(file).value(), "");
 }
 
-TEST(AtomicFile, InPiecesAppearsOnCommitAlone) {
+TEST(AtomicFile, WrittenInPartsAppearsOnCommit) {
   const TemporaryFolder directory;
   const fs::path file = directory.path() / "f.txt";
   {

@@ -10,7 +10,7 @@
 namespace aims {
 namespace {
 
-TEST(CsvColumns, GivesBackWhatCsvTableWrote) {
+TEST(CsvColumns, ReadsWhatCsvTableWrites) {
   CsvTable table({"name", "x, in m", "flag"});
   table.add("plain").add(0.1).add(true).end_row();
   table.add("say \"so\",\nplease").add(1e-300).add(false).end_row();
@@ -28,7 +28,7 @@ TEST(CsvColumns, GivesBackWhatCsvTableWrote) {
   EXPECT_EQ((*back->numbers("flag"))[1], 0.0);
 }
 
-TEST(CsvColumns, ColumnThatIsNotThereHasNoNumbers) {
+TEST(CsvColumns, AMissingColumnHasNoNumbers) {
   const auto table = CsvColumns::parse("a\n1\n", "t.csv");
   ASSERT_TRUE(table);
   EXPECT_FALSE(table->has("b"));
@@ -36,7 +36,7 @@ TEST(CsvColumns, ColumnThatIsNotThereHasNoNumbers) {
   EXPECT_TRUE(table->texts("b").empty());
 }
 
-TEST(CsvColumns, NamesTheLineOfARowThatWasCutAndOfACellThatIsNoNumber) {
+TEST(CsvColumns, NamesTheLineOfATruncatedRowAndOfAnInvalidNumber) {
   const auto refused = [](const std::string& text, const std::string& expected) {
     const auto table = CsvColumns::parse(text, "t.csv");
     const auto numbers = table ? table->numbers("a") : Result<std::vector<double>>();
@@ -52,7 +52,7 @@ TEST(CsvColumns, NamesTheLineOfARowThatWasCutAndOfACellThatIsNoNumber) {
   refused("a,b\n\"x\ny\",3\n", "t.csv:2: a: expected a number");
 }
 
-TEST(CsvColumns, TakesCarriageReturns) {
+TEST(CsvColumns, AcceptsCarriageReturns) {
   const auto table = CsvColumns::parse("a,b\r\n1,2\r\n", "t.csv");
   ASSERT_TRUE(table);
   EXPECT_EQ(*table->numbers("b"), std::vector<double>{2.0});

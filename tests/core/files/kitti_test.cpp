@@ -43,7 +43,7 @@ TEST(Kitti, ErrorsNameFileAndLine) {
   EXPECT_NE(message_of("-1 0 0 0 0 1 0 0 0 0 1 0\n").find("found a reflection"), std::string::npos);
 }
 
-TEST(Kitti, AsGivenKeepsAPoseThatIsNone) {
+TEST(Kitti, AsGivenKeepsAnInvalidPose) {
   const auto poses = parse_kitti("1 0 0 nan 0 1 0 0 0 0 1 0\n", "p.txt", PoseRules::kAsGiven);
   ASSERT_TRUE(poses) << poses.error().message;
   ASSERT_EQ(poses->size(), 1U);

@@ -26,13 +26,13 @@ TEST(OutputFolder, AppearsOnlyOnCommit) {
   EXPECT_FALSE(fs::exists(temporary.path() / "deep" / "run.partial"));
 }
 
-TEST(OutputFolder, LeavesNothingWhenNeverCommitted) {
+TEST(OutputFolder, LeavesNothingWithoutCommit) {
   const TemporaryFolder temporary;
   { auto folder = OutputFolder::create(temporary.path() / "new" / "deep" / "run", false); }
   EXPECT_TRUE(fs::is_empty(temporary.path()));
 }
 
-TEST(OutputFolder, NeverReplacesResultsUnasked) {
+TEST(OutputFolder, NeverReplacesResultsWithoutOverwrite) {
   const TemporaryFolder temporary;
   const fs::path out = temporary.path() / "run";
   fs::create_directory(out);
@@ -63,13 +63,13 @@ TEST(OutputFolder, RefusesWhileAnotherRunWritesThere) {
   EXPECT_FALSE(OutputFolder::create(temporary.path() / "run", false));
 }
 
-TEST(OutputFolder, SaysWhereItCannotWrite) {
+TEST(OutputFolder, NamesTheFolderThatCannotBeWritten) {
   const auto folder = OutputFolder::create("/proc/nowhere/run", false);
   ASSERT_FALSE(folder);
   EXPECT_NE(folder.error().message.find("/proc/nowhere"), std::string::npos);
 }
 
-TEST(OutputFolder, TakesOverWhatAKilledRunLeft) {
+TEST(OutputFolder, ReplacesTheRemainsOfAKilledRun) {
   const TemporaryFolder temporary;
   fs::create_directory(temporary.path() / "run.partial");
   write(temporary.path() / "run.partial" / "half", "");

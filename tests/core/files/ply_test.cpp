@@ -41,7 +41,7 @@ TEST(Ply, IsTheFormatThatOthersRead) {
                 bytes_of({1.0F, 2.0F, 3.0F}));
 }
 
-TEST(Ply, PassesOverWhatOthersAdd) {
+TEST(Ply, SkipsOtherProperties) {
   const std::string text =
       "ply\r\nformat binary_little_endian 1.0\r\ncomment by hand\r\nelement vertex 2\r\n"
       "property float32 x\r\nproperty float32 y\r\nproperty float32 z\r\nproperty uchar red\r\n"

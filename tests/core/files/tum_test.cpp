@@ -50,7 +50,7 @@ TEST(Tum, ErrorsNameFileAndLine) {
             "t.tum:3: expected a stamp after 2.000000000, found 2.000000000");
 }
 
-TEST(Tum, AsGivenKeepsPosesThatAreNone) {
+TEST(Tum, AsGivenKeepsInvalidPoses) {
   const auto parsed = parse_tum("2 nan 0 0 0 0 0 1\n2 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0.9999\n",
                                 "t.tum", PoseRules::kAsGiven);
   ASSERT_TRUE(parsed) << parsed.error().message;

@@ -248,7 +248,7 @@ TEST(Overrides, FilesGoOnTopInOrder) {
   EXPECT_NE(missing.error().message.find("gone.yaml"), std::string::npos);
 }
 
-TEST(Overrides, ErrorsSayThatTheyCameFromSet) {
+TEST(Overrides, ErrorsNameTheSetting) {
   Sample c;
   const auto message = [&c](const std::string& setting) {
     return apply_overrides(c, std::vector<std::string>{setting}).error().message;

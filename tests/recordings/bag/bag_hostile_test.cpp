@@ -42,13 +42,13 @@ class HostileBag : public testing::Test {
   fs::path file_ = folder_.path() / "hostile.bag";
 };
 
-TEST_F(HostileBag, WhatIsNoFile) {
+TEST_F(HostileBag, PathsThatAreNotFilesAreErrors) {
   EXPECT_NE(read_all(folder_.path() / "none.bag").error.find("No such file"), std::string::npos);
   EXPECT_NE(read_all(folder_.path()).error.find("it is a directory"), std::string::npos);
   EXPECT_NE(read_all("/dev/zero").error.find("expected a regular file"), std::string::npos);
 }
 
-TEST_F(HostileBag, WhatIsNoBag) {
+TEST_F(HostileBag, FilesThatAreNotBagsAreErrors) {
   expect_error("", "at byte 0: expected a ROS 1 bag, found an empty file");
   expect_error("stamp x y z\n1 2 3 4\n", "('#ROSBAG V2.0'), found 'stamp x y z\\x0a1'");
   expect_error("#ROSBAG V1.2\nabc", "expected a bag of version 2.0, found '#ROSBAG V1.2'");
@@ -81,7 +81,7 @@ TEST_F(HostileBag, Encrypted) {
                "encrypted by rosbag/AesCbcEncryptor");
 }
 
-TEST_F(HostileBag, IndexBehindTheEnd) {
+TEST_F(HostileBag, AnIndexBeyondTheEnd) {
   std::string bytes = sample();
   patch(bytes, "index_pos=", 0, std::uint64_t{1} << 63);
   expect_error(bytes, "at byte 9223372036854775808: expected the index, but the file ends at");
@@ -98,7 +98,7 @@ TEST_F(HostileBag, MoreConnectionsOrChunksThanThereAre) {
   expect_error(bytes, "expected a record, but the file ends at byte");
 }
 
-TEST_F(HostileBag, AHeaderThatClaimsTooMuch) {
+TEST_F(HostileBag, AHeaderLongerThanTheFile) {
   std::string bytes = sample();
   const std::uint32_t huge = 0xfffffff0;
   std::memcpy(bytes.data() + 13, &huge, 4);
@@ -108,13 +108,13 @@ TEST_F(HostileBag, AHeaderThatClaimsTooMuch) {
   expect_error(bytes, "expected a field 'name=value' at byte 0 of a header of");
 }
 
-TEST_F(HostileBag, ChunksThatLieAboutTheirSize) {
+TEST_F(HostileBag, ChunksOfAWrongSize) {
   std::string bytes = sample();
   patch(bytes, "size=", 0, std::uint32_t{1000000});
-  expect_error(bytes, "at byte 4117: a chunk cannot be of 1000000 bytes when");
+  expect_error(bytes, "at byte 4117: a chunk of 1000000 bytes cannot be packed into");
   bytes = sample(BagCompression::kLz4);
   patch(bytes, "size=", 0, std::uint32_t{4000000000});
-  expect_error(bytes, "at byte 4117: a chunk cannot be of 4000000000 bytes when");
+  expect_error(bytes, "at byte 4117: a chunk of 4000000000 bytes cannot be packed into");
   for (const BagCompression compression : {BagCompression::kLz4, BagCompression::kBz2}) {
     bytes = sample(compression);
     patch(bytes, "size=", 0, std::uint32_t{20});
@@ -143,7 +143,7 @@ TEST_F(HostileBag, UnknownCompression) {
   expect_error(bytes, "at byte 4117: expected compression none, lz4 or bz2, found 'zstd'");
 }
 
-TEST_F(HostileBag, AMessageOfAConnectionThatNobodyAnnounced) {
+TEST_F(HostileBag, AMessageOfAnUnknownConnection) {
   std::string bytes = sample();
   // Field 0 is the connection record's in the first chunk, field 1 that of its first message.
   patch(bytes, "conn=", 1, std::uint32_t{77});
@@ -151,7 +151,7 @@ TEST_F(HostileBag, AMessageOfAConnectionThatNobodyAnnounced) {
   EXPECT_NE(error_of(bytes).find("at byte 4117: in this chunk, at byte "), std::string::npos);
 }
 
-TEST_F(HostileBag, ConnectionRecordsThatDisagree) {
+TEST_F(HostileBag, ContradictingConnectionRecords) {
   std::string bytes = sample();
   bytes.replace(bytes.find("topic=/b"), 8, "topic=/c");
   expect_error(bytes,
@@ -167,7 +167,7 @@ TEST_F(HostileBag, AMessageLongerThanItsChunk) {
   expect_error(bytes, "expected 100000 bytes of a message, found ");
 }
 
-TEST_F(HostileBag, AnIndexThatTellsOtherThings) {
+TEST_F(HostileBag, AnIndexThatContradictsItsChunk) {
   std::string bytes = sample();
   const std::size_t entry = bytes.find("ver=", 4117) + 12;
   for (const std::size_t at : {entry, entry + 5, entry + 8}) {
@@ -188,7 +188,7 @@ TEST_F(HostileBag, AnIndexThatTellsOtherThings) {
   expect_error(bytes, "a chunk's info names connection 9 which no record announces");
 }
 
-TEST_F(HostileBag, OneChunkToldOfTwice) {
+TEST_F(HostileBag, AChunkListedTwice) {
   std::string bytes = sample();
   patch(bytes, "chunk_pos=", 1, std::uint64_t{4117});
   expect_error(bytes, "at byte 4117: the index has a chunk here, inside the one at byte 4117");
@@ -196,7 +196,7 @@ TEST_F(HostileBag, OneChunkToldOfTwice) {
   expect_error(bytes, "at byte 13: expected a chunk, found the file header");
 }
 
-TEST_F(HostileBag, AnyByteChangedIsReadOrRefusedButNeverMore) {
+TEST_F(HostileBag, AnyChangedByteIsReadOrAnError) {
   std::mt19937 random(7);
   for (const BagCompression compression :
        {BagCompression::kNone, BagCompression::kLz4, BagCompression::kBz2}) {

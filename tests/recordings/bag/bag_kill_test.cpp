@@ -100,7 +100,7 @@ void check_one_kill(std::uint32_t seed) {
   EXPECT_EQ(listed_by_rosbag_storage(file), static_cast<int>(read.messages.size()));
 }
 
-TEST(BagWriter, LeavesAWholeBagWhenKilled) {
+TEST(BagWriter, LeavesAValidBagWhenKilled) {
   for (std::uint32_t seed = 0; seed < 40; ++seed) check_one_kill(seed);
 }
 

@@ -68,7 +68,7 @@ class CheckedOutput final : public BagOutput {
   std::size_t closed_ = 0;
 };
 
-TEST(BagPublisher, NeverWritesOverWhatCounts) {
+TEST(BagPublisher, NeverOverwritesTheCurrentIndex) {
   std::mt19937 random(5);
   for (int run = 0; run < 3000; ++run) {
     auto owned = std::make_unique<CheckedOutput>();

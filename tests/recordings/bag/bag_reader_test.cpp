@@ -20,7 +20,7 @@ std::vector<SampleMessage> in_order_of_time(std::vector<SampleMessage> messages)
   return messages;
 }
 
-RC_GTEST_PROP(BagReader, GivesWhatWasWrittenInOrderOfTimeThenPlace, ()) {
+RC_GTEST_PROP(BagReader, ReturnsMessagesInOrderOfTimeThenPosition, ()) {
   const TemporaryFolder folder;
   std::vector<SampleMessage> messages;
   const int count = *rc::gen::inRange(0, 60);
@@ -44,7 +44,7 @@ RC_GTEST_PROP(BagReader, GivesWhatWasWrittenInOrderOfTimeThenPlace, ()) {
   RC_ASSERT(recovered.summary.lost_bytes == 0U);
 }
 
-TEST(BagReader, SummaryTellsOfTheWholeBag) {
+TEST(BagReader, SummaryCoversTheWholeBag) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "r.bag";
   write_bag(file, few_messages(), {BagCompression::kLz4, 300});
@@ -67,7 +67,7 @@ TEST(BagReader, SummaryTellsOfTheWholeBag) {
   EXPECT_EQ(bag->connections()[0].md5, string_type().md5);
 }
 
-TEST(BagReader, SelectGivesChosenTopicsFromWhereItStands) {
+TEST(BagReader, SelectRestrictsTopicsFromTheCurrentPosition) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "r.bag";
   write_bag(file, few_messages(), {BagCompression::kNone, 150});
@@ -126,7 +126,7 @@ TEST(BagReader, ChunksThatOverlapInTimeBeyondTheLimitAreAnError) {
       << scarce.error;
 }
 
-TEST(BagReader, RecoversTheWholeChunksOfEveryTruncatedBag) {
+TEST(BagReader, RecoversTheIntactChunksOfEveryTruncatedBag) {
   const TemporaryFolder folder;
   const auto whole = folder.path() / "whole.bag";
   const auto file = folder.path() / "cut.bag";
@@ -150,7 +150,7 @@ TEST(BagReader, RecoversTheWholeChunksOfEveryTruncatedBag) {
   EXPECT_EQ(most, messages.size());
 }
 
-TEST(BagReader, RecoverLeavesOutADamagedChunkAndCountsIt) {
+TEST(BagReader, RecoverySkipsAndCountsADamagedChunk) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "r.bag";
   const std::vector<SampleMessage> messages = few_messages();

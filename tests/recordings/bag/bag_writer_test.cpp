@@ -105,14 +105,14 @@ void check_every_prefix(std::uint32_t seed, BagWriterOptions options) {
   expect_whole(file, image, messages, messages.size());
 }
 
-TEST(BagWriter, LeavesAWholeBagAfterEveryStep) {
+TEST(BagWriter, LeavesAValidBagAfterEveryStep) {
   for (std::uint32_t seed = 0; seed < 12; ++seed) {
     const std::size_t chunk = seed % 3 == 0 ? 1 : (seed % 3 == 1 ? 300 : 2000);
     check_every_prefix(seed, {seed % 2 == 0 ? BagCompression::kNone : BagCompression::kLz4, chunk});
   }
 }
 
-TEST(BagWriter, AClosedBagHasNothingBetweenAndBehind) {
+TEST(BagWriter, AClosedBagHasNoGaps) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "r.bag";
   write_bag(file, few_messages(), {BagCompression::kNone, 100});
@@ -133,7 +133,7 @@ TEST(BagWriter, AClosedBagHasNothingBetweenAndBehind) {
   EXPECT_GT(records, 20);
 }
 
-TEST(BagWriter, ABagWithoutMessagesOpensAndKnowsItsTopics) {
+TEST(BagWriter, ABagWithoutMessagesListsItsTopics) {
   const TemporaryFolder folder;
   auto bag = BagWriter::create(folder.path() / "r.bag");
   ASSERT_TRUE(bag);
@@ -164,14 +164,14 @@ TEST(BagWriter, RefusesAnExistingFileAndAMissingFolder) {
   ASSERT_TRUE(put_file(file, "precious"));
   const auto existing = BagWriter::create(file);
   ASSERT_FALSE(existing);
-  EXPECT_EQ(existing.error().message, file.string() + ": cannot be made: File exists");
+  EXPECT_EQ(existing.error().message, file.string() + ": cannot be created: File exists");
   EXPECT_EQ(read_file(file).value(), "precious");
   const auto missing = BagWriter::create(folder.path() / "no" / "r.bag");
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("No such file"), std::string::npos);
 }
 
-TEST(BagWriter, RefusesWhatABagCannotHold) {
+TEST(BagWriter, RejectsWhatABagCannotStore) {
   const TemporaryFolder folder;
   auto bag = BagWriter::create(folder.path() / "r.bag");
   bag->add_connection("/a", string_type());

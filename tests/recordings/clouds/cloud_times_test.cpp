@@ -48,7 +48,7 @@ Recording read_untimed(const std::filesystem::path& bag, double sense, Duration 
   return test::read_recording(bag, config);
 }
 
-TEST_F(CloudTimes, PointsWithoutTimeFireAlongTheTurn) {
+TEST_F(CloudTimes, PointsWithoutTimeAreTimedByAzimuth) {
   const Recording read = read_untimed(bag(), -1.0, 105 * kMillisecond);
   const auto scans = test::scans_of(read.deliveries);
   ASSERT_EQ(scans.size(), 4U);
@@ -60,9 +60,9 @@ TEST_F(CloudTimes, PointsWithoutTimeFireAlongTheTurn) {
   }
 }
 
-TEST_F(CloudTimes, AWrongSenseOfSpinIsSaidAndSetByTheConfiguration) {
+TEST_F(CloudTimes, AWrongDirectionOfSpinIsNotedAndConfigurable) {
   EXPECT_TRUE(read_untimed(bag(), 1.0, 105 * kMillisecond)
-                  .noted("azimuths run the other way from point to point: set "
+                  .noted("azimuths change in the opposite direction from point to point: set "
                          "lidar_clockwise: false"));
   RecordingConfig config;
   config.lidar_clockwise = false;
@@ -71,7 +71,7 @@ TEST_F(CloudTimes, AWrongSenseOfSpinIsSaidAndSetByTheConfiguration) {
   EXPECT_NEAR(test::scans_of(read.deliveries)[2]->points[50].time_offset_ns, 25e6, 100.0);
 }
 
-TEST_F(CloudTimes, ACloudThatComesTooEarlyIsStampedAtItsEnd) {
+TEST_F(CloudTimes, ACloudThatArrivesTooEarlyIsStampedAtItsEnd) {
   const Recording early = read_untimed(bag(), -1.0, 5 * kMillisecond);
   EXPECT_TRUE(early.noted("clouds arrive 5.0 ms after their stamp"));
   EXPECT_EQ(test::scans_of(early.deliveries)[1]->stamp, kStart);

@@ -43,7 +43,7 @@ BagInfo good_bag() {
   ImuInfo imu;
   imu.topic = "/imu";
   imu.oriented = true;
-  imu.rest = StaticInterval{.begin_s = 0.0, .length_s = 5.0, .force = {0.0, 0.0, 9.81}};
+  imu.static_interval = StaticInterval{.begin_s = 0.0, .length_s = 5.0, .force = {0.0, 0.0, 9.81}};
   bag.imus = {imu};
   bag.transforms = {{"imu", "lidar", {}, true}};
   bag.used = {"/points", "/imu", "/odom", "/joints", "/contacts", ""};
@@ -67,14 +67,14 @@ void remove_field(BagInfo& bag, const std::string& name) {
   std::erase_if(bag.clouds[0].fields, [&name](const auto& each) { return each.name == name; });
 }
 
-TEST(BagCheck, AWholeBagSuitsEverySystem) {
+TEST(BagCheck, ACompleteBagMeetsAllRequirements) {
   for (const std::string& system : kSystems) {
     EXPECT_EQ(worst(good_bag(), system), Fulfilment::kMet) << system;
   }
   EXPECT_TRUE(bag_warnings(good_bag()).empty()) << bag_warnings(good_bag()).front();
 }
 
-TEST(BagCheck, WithoutRingsLioSamStopsAndOthersGoOn) {
+TEST(BagCheck, WithoutRingsLioSamDoesNotRun) {
   BagInfo bag = good_bag();
   remove_field(bag, "ring");
   EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kMissing);
@@ -82,14 +82,14 @@ TEST(BagCheck, WithoutRingsLioSamStopsAndOthersGoOn) {
   EXPECT_EQ(worst(bag, "LOAM"), Fulfilment::kPoor);
 }
 
-TEST(BagCheck, ARingOfAnotherTypeIsNoRingToLioSam) {
+TEST(BagCheck, LioSamRequiresTheRingAsUint16) {
   BagInfo bag = good_bag();
   bag.clouds[0].fields[4].type = "uint8";
   EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kMissing);
   EXPECT_EQ(worst(bag, "FAST-LIO2"), Fulfilment::kMet);
 }
 
-TEST(BagCheck, WithoutTimesLegKiloStopsAndOthersBlur) {
+TEST(BagCheck, WithoutPointTimesLegKiloDoesNotRun) {
   BagInfo bag = good_bag();
   remove_field(bag, "time");
   EXPECT_EQ(worst(bag, "Leg-KILO"), Fulfilment::kMissing);
@@ -98,7 +98,7 @@ TEST(BagCheck, WithoutTimesLegKiloStopsAndOthersBlur) {
   EXPECT_EQ(worst(bag, "LOAM"), Fulfilment::kMet);
 }
 
-TEST(BagCheck, WithoutAnOrientationOnlyLioSamStops) {
+TEST(BagCheck, OnlyLioSamRequiresAnOrientation) {
   BagInfo bag = good_bag();
   bag.imus[0].oriented = false;
   EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kMissing);
@@ -106,7 +106,7 @@ TEST(BagCheck, WithoutAnOrientationOnlyLioSamStops) {
   EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMet);
 }
 
-TEST(BagCheck, AnImuInGStopsThoseThatDoNotConvert) {
+TEST(BagCheck, AnImuInGIsMissingForSystemsWithoutConversion) {
   BagInfo bag = good_bag();
   bag.imus[0].in_g = true;
   EXPECT_EQ(worst(bag, "FAST-LIO2"), Fulfilment::kMissing);
@@ -121,14 +121,14 @@ TEST(BagCheck, AtFiftyHertzTheImuIsPoor) {
   EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMet);
 }
 
-TEST(BagCheck, NaNStopsLioSam) {
+TEST(BagCheck, LioSamRequiresDenseClouds) {
   BagInfo bag = good_bag();
-  bag.clouds[0].not_finite_share = 0.2;
+  bag.clouds[0].not_finite_fraction = 0.2;
   EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kMissing);
-  EXPECT_EQ(bag_warnings(bag).size(), 1U) << "is_dense says otherwise";
+  EXPECT_EQ(bag_warnings(bag).size(), 1U) << "contradicts is_dense";
 }
 
-TEST(BagCheck, WithoutLegsTheEstimatorsThatFuseThemStop) {
+TEST(BagCheck, WithoutLegsOnlyLidarInertialSystemsRun) {
   BagInfo bag = good_bag();
   bag.used.leg_odometry = bag.used.joint_states = bag.used.contacts = "";
   std::erase_if(bag.topics,
@@ -147,14 +147,14 @@ TEST(BagCheck, WithoutCloudsNothingRuns) {
   }
 }
 
-TEST(BagCheck, ACloudTopicThatCannotBeReadCountsAsNone) {
+TEST(BagCheck, AnUnreadableCloudTopicCountsAsMissing) {
   BagInfo bag = good_bag();
   bag.clouds[0].clouds = 0;
   bag.clouds[0].broken = 20;
   EXPECT_EQ(worst(bag, "LOAM"), Fulfilment::kMissing);
 }
 
-TEST(BagCheck, TheTableSaysWhoRuns) {
+TEST(BagCheck, TheTableListsWhichSystemsRun) {
   BagInfo bag = good_bag();
   remove_field(bag, "ring");
   const TextTable table = check_table(check_bag(bag));
@@ -172,17 +172,17 @@ TEST(BagWarnings, EachNamesItsRemedy) {
   };
   const std::vector<Case> cases = {
       {"larger buffer", [](BagInfo& bag) { bag.topics[2].loss = 0.05; }},
-      {"coast", [](BagInfo& bag) { bag.topics[0].largest_gap_s = 2.0; }},
+      {"bridge", [](BagInfo& bag) { bag.topics[0].largest_gap_s = 2.0; }},
       {"driver's clock", [](BagInfo& bag) { bag.topics[3].backwards = 3; }},
       {"recording.leg_delay=0.0300",
        [](BagInfo& bag) {
          bag.topics[2].clock = ClockOffset{0.03, 0.9};
        }},
-      {"stand before it walks", [](BagInfo& bag) { bag.imus[0].rest.reset(); }},
-      {"calibrate", [](BagInfo& bag) { bag.imus[0].rest->force.z() = 9.2; }},
+      {"stand before it walks", [](BagInfo& bag) { bag.imus[0].static_interval.reset(); }},
+      {"calibrate", [](BagInfo& bag) { bag.imus[0].static_interval->force.z() = 9.2; }},
       {"recording.T_imu_lidar", [](BagInfo& bag) { bag.transforms.clear(); }},
       {"rosbag reindex", [](BagInfo& bag) { bag.summary.indexed = false; }},
-      {"switch it on", [](BagInfo& bag) { remove_field(bag, "time"); }},
+      {"enable it", [](BagInfo& bag) { remove_field(bag, "time"); }},
   };
   for (const Case& each : cases) {
     BagInfo bag = good_bag();

@@ -26,7 +26,7 @@ std::vector<TurnRate> measured(double hz, double late_s, double noise_sigma, std
   return rates;
 }
 
-TEST(ClockOffset, FindsHowLateASensorIsToAMillisecond) {
+TEST(ClockOffset, IsExactToAMillisecond) {
   const auto reference = measured(50.0, 0.0, 0.02, 1);
   for (const double late : {-0.120, -0.031, 0.0, 0.008, 0.2, 0.41}) {
     const auto found = clock_offset(measured(200.0, late, 0.05, 2), reference);
@@ -36,20 +36,20 @@ TEST(ClockOffset, FindsHowLateASensorIsToAMillisecond) {
   }
 }
 
-TEST(ClockOffset, SaysNothingOfSensorsThatDoNotAgree) {
+TEST(ClockOffset, IsAbsentForUncorrelatedSensors) {
   RandomStream noise(3, "noise");
   std::vector<TurnRate> other = measured(200.0, 0.0, 0.0, 1);
   for (TurnRate& each : other) each.rate = std::abs(noise.normal());
   EXPECT_FALSE(clock_offset(other, measured(50.0, 0.0, 0.02, 1)).has_value());
 }
 
-TEST(ClockOffset, SaysNothingOfARobotThatStands) {
+TEST(ClockOffset, IsAbsentWithoutMotion) {
   std::vector<TurnRate> still;
   for (int i = 0; i < 4000; ++i) still.push_back({i * 5 * kMillisecond, 0.002});
   EXPECT_FALSE(clock_offset(still, still).has_value());
 }
 
-TEST(ClockOffset, SaysNothingOfShortOrEmptyRecordings) {
+TEST(ClockOffset, IsAbsentForShortRecordings) {
   EXPECT_FALSE(clock_offset({}, {}).has_value());
   const auto brief = measured(200.0, 0.0, 0.01, 1, 5.0);
   EXPECT_FALSE(clock_offset(brief, brief).has_value());

@@ -33,7 +33,7 @@ void feed(StaticIntervalFinder& finder, RandomStream& noise, double from, double
   }
 }
 
-TEST(StaticIntervalFinder, MeasuresBiasAndNoiseDensityWhereTheRobotStands) {
+TEST(StaticIntervalFinder, MeasuresBiasAndNoiseDensity) {
   StaticIntervalFinder finder;
   RandomStream noise(11, "noise");
   feed(finder, noise, 0.0, 20.0, false);
@@ -50,7 +50,7 @@ TEST(StaticIntervalFinder, MeasuresBiasAndNoiseDensityWhereTheRobotStands) {
   }
 }
 
-TEST(StaticIntervalFinder, TakesTheLongestStretch) {
+TEST(StaticIntervalFinder, FindsTheLongestInterval) {
   StaticIntervalFinder finder;
   RandomStream noise(12, "noise");
   feed(finder, noise, 0.0, 2.0, false);
@@ -61,14 +61,14 @@ TEST(StaticIntervalFinder, TakesTheLongestStretch) {
   EXPECT_NEAR(rest.length_s, 7.5, 0.6);
 }
 
-TEST(StaticIntervalFinder, FindsNoneInAWalk) {
+TEST(StaticIntervalFinder, FindsNoneWhileWalking) {
   StaticIntervalFinder finder;
   RandomStream noise(13, "noise");
   feed(finder, noise, 0.0, 10.0, true);
   EXPECT_FALSE(finder.longest().has_value());
 }
 
-TEST(StaticIntervalFinder, IsNotFooledByASteadyTurn) {
+TEST(StaticIntervalFinder, ASteadyTurnIsNotStatic) {
   StaticIntervalFinder finder;
   for (int i = 0; i < 500; ++i) {
     finder.add({i * 10 * kMillisecond, Vector3d(0.0, 0.0, 0.5), kForce});
@@ -76,7 +76,7 @@ TEST(StaticIntervalFinder, IsNotFooledByASteadyTurn) {
   EXPECT_FALSE(finder.longest().has_value());
 }
 
-TEST(StaticIntervalFinder, PassesOverSamplesThatAreNotFinite) {
+TEST(StaticIntervalFinder, IgnoresSamplesThatAreNotFinite) {
   StaticIntervalFinder finder;
   for (int i = 0; i < 300; ++i) {
     ImuSample sample{i * 10 * kMillisecond, kBias, kForce};

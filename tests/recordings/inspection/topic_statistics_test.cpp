@@ -14,7 +14,7 @@ TopicInfo info_of(TopicStatistics& statistics) {
   return info;
 }
 
-TEST(TopicStatistics, TellsTheRateInSpiteOfLosses) {
+TEST(TopicStatistics, RateIsRobustToLosses) {
   TopicStatistics statistics;
   int lost = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -41,7 +41,7 @@ TEST(TopicStatistics, CountsStampsThatRepeatOrGoBackwards) {
   EXPECT_EQ(info.backwards, 1U);
 }
 
-TEST(TopicStatistics, TellsHowLateMessagesAreRecorded) {
+TEST(TopicStatistics, MeasuresTheRecordingDelay) {
   TopicStatistics statistics;
   for (int i = 0; i < 101; ++i) {
     const Time stamp = i * kPeriod;
@@ -54,7 +54,7 @@ TEST(TopicStatistics, TellsHowLateMessagesAreRecorded) {
   EXPECT_NEAR(info.largest_offset_s.value(), 0.090, 1e-6);
 }
 
-TEST(TopicStatistics, WithoutHeadersGoesByRecordTimes) {
+TEST(TopicStatistics, UsesRecordTimesWithoutHeaders) {
   TopicStatistics statistics;
   for (int i = 0; i < 10; ++i) statistics.add(i * kPeriod, std::nullopt);
   const TopicInfo info = info_of(statistics);

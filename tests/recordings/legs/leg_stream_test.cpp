@@ -33,7 +33,7 @@ JointReading striding(Time stamp, double angle = 0.8) {
   return reading;
 }
 
-TEST(LegStream, WaitsForContactsOfTheSameInstantAndElseTakesTheLast) {
+TEST(LegStream, CombinesContactsOfTheSameInstantElseTheLastOnes) {
   LegStream legs(kinematic());
   EventCounts counts;
   legs.add_imu(at_rest(0));
@@ -49,7 +49,7 @@ TEST(LegStream, WaitsForContactsOfTheSameInstantAndElseTakesTheLast) {
   EXPECT_TRUE(counts.empty());
 }
 
-TEST(LegStream, GoesOnWithTheLastVelocityWhileNoFootStands) {
+TEST(LegStream, KeepsTheLastVelocityWithoutContacts) {
   LegStream legs(kinematic());
   EventCounts counts;
   legs.add_imu(at_rest(0));
@@ -60,10 +60,10 @@ TEST(LegStream, GoesOnWithTheLastVelocityWhileNoFootStands) {
   ASSERT_TRUE(standing && flying);
   EXPECT_EQ(flying->linear_velocity, standing->linear_velocity);
   EXPECT_NEAR(flying->T_odom_base.translation.x(), 0.01 * standing->linear_velocity.x(), 1e-6);
-  EXPECT_EQ(counts, (EventCounts{{"legs_no_foot_stands", 1}}));
+  EXPECT_EQ(counts, (EventCounts{{"legs_no_contact", 1}}));
 }
 
-TEST(LegStream, OldContactsAreNotTakenForNew) {
+TEST(LegStream, OldContactsAreNotUsed) {
   LegStream legs(kinematic());
   EventCounts counts;
   legs.add_imu(at_rest(0));
@@ -73,7 +73,7 @@ TEST(LegStream, OldContactsAreNotTakenForNew) {
   EXPECT_EQ(counts, (EventCounts{{"legs_without_contacts", 1}}));
 }
 
-TEST(LegStream, RatesComeFromTheAnglesWhereNoneAreRecorded) {
+TEST(LegStream, MissingRatesAreDifferencesOfAngles) {
   LegStream legs(kinematic());
   EventCounts counts;
   legs.add_imu(at_rest(0));
@@ -92,7 +92,7 @@ TEST(LegStream, RatesComeFromTheAnglesWhereNoneAreRecorded) {
   EXPECT_NEAR(sample->joint_velocity[1], 1.0, 1e-9);
 }
 
-TEST(LegStream, UpIsKeptByTheGyroAndDrawnToTheFeltForce) {
+TEST(LegStream, UpIsPropagatedByTheGyroAndCorrectedByTheSpecificForce) {
   UpDirection up;
   for (int k = 0; k <= 2000; ++k) {
     ImuSample sample = at_rest(k * 10 * kMillisecond);
@@ -108,7 +108,7 @@ TEST(LegStream, UpIsKeptByTheGyroAndDrawnToTheFeltForce) {
   EXPECT_NEAR(std::atan2(up.in_body()->x(), up.in_body()->z()), 0.3 - 0.2, 2e-3);
 }
 
-TEST(LegStream, NumbersBeyondReasonDoNotSpoilThePose) {
+TEST(LegStream, ImplausibleTwistsAreNotIntegrated) {
   LegStreamConfig config;
   config.source = LegSource::kTwist;
   LegStream legs(config);

@@ -43,7 +43,7 @@ RC_GTEST_PROP(MessageDecoder, ReadsEveryValueOfAnyMessage, ()) {
   for (const auto& [path, value] : message.sizes) RC_ASSERT(view->size(path) == value);
 }
 
-RC_GTEST_PROP(MessageDecoder, RefusesMessagesCutOrTooLong, ()) {
+RC_GTEST_PROP(MessageDecoder, RejectsTruncatedAndOverlongMessages, ()) {
   const RandomMessage message(*rc::gen::inRange<std::uint32_t>(0, 1'000'000));
   const auto decoder = MessageDecoder::create(message.type(), message.definition());
   RC_ASSERT(decoder.has_value());
@@ -53,7 +53,7 @@ RC_GTEST_PROP(MessageDecoder, RefusesMessagesCutOrTooLong, ()) {
   RC_ASSERT(!decoder->decode(bytes_of(message.bytes() + "x")));
 }
 
-TEST(MessageDecoder, PathsOfOtherKindsGiveNothing) {
+TEST(MessageDecoder, PathsOfOtherKindsYieldNothing) {
   const MessageDecoder decoder = decoder_of(transforms_type());
   const MessageBytes bytes = transforms_message(kSecond, {{"a", "b", Pose{}}, {"a", "c", Pose{}}});
   const auto view = decoder.decode(bytes.view());
@@ -77,7 +77,7 @@ TEST(MessageDecoder, PathsOfOtherKindsGiveNothing) {
   EXPECT_FALSE(view->table("transforms")) << "rows of no fixed size";
 }
 
-TEST(MessageDecoder, EntriesOfAnArrayAreMessagesOfTheirOwn) {
+TEST(MessageDecoder, EntriesOfAnArrayAreMessages) {
   const MessageBytes bytes = transforms_message(
       kSecond, {{"a", "b", Pose{}}, {"a", "longer", {Eigen::Quaterniond::Identity(), {1, 2, 3}}}});
   const auto view = decoder_of(transforms_type()).decode(bytes.view());
@@ -168,7 +168,7 @@ TEST(MessageDecoder, FieldsAreListedInOrder) {
   EXPECT_TRUE(decoder->fields()[4].is_bool);
 }
 
-TEST(MessageDecoder, ABareNameIsOfTheUsersPackageFirst) {
+TEST(MessageDecoder, ABareNamePrefersTheUsersPackage) {
   const std::string definition = std::string("V a\nother/V b\n") + kSeparator +
                                  "MSG: other/V\nfloat64 x\n" + kSeparator + "MSG: p/V\nuint8 x\n";
   const auto decoder = MessageDecoder::create("p/T", definition);
@@ -177,7 +177,7 @@ TEST(MessageDecoder, ABareNameIsOfTheUsersPackageFirst) {
   EXPECT_EQ(decoder->fields()[1].number, NumberType::kFloat64);
 }
 
-TEST(MessageDecoder, DefinitionsThatCannotBeReadSayWhere) {
+TEST(MessageDecoder, ErrorsOfDefinitionsNameTheLine) {
   EXPECT_EQ(creation_error("uint8 a\nV b\n"),
             "definition of 'p/T': line 2: unknown message definition 'V' of field 'b'");
   EXPECT_EQ(creation_error("uint8 a\nuint8\n"),
@@ -198,7 +198,7 @@ TEST(MessageDecoder, DefinitionsThatCannotBeReadSayWhere) {
   EXPECT_EQ(creation_error("", "std_msgs/Empty"), "");
 }
 
-TEST(MessageDecoder, DefinitionsThatUnfoldWithoutEndAreRefused) {
+TEST(MessageDecoder, ExpandingDefinitionsAreRejected) {
   std::string deep = "T1 a\n";
   std::string wide = "W1 a\nW1 b\n";
   for (int i = 1; i < 30; ++i) {
@@ -214,7 +214,7 @@ TEST(MessageDecoder, DefinitionsThatUnfoldWithoutEndAreRefused) {
   EXPECT_NE(creation_error(wide).find("more than 4096 fields"), std::string::npos);
 }
 
-TEST(MessageDecoder, MessagesThatEndEarlySayInWhichField) {
+TEST(MessageDecoder, ErrorsOfTruncatedMessagesNameTheField) {
   const MessageDecoder decoder = decoder_of(transforms_type());
   const MessageBytes bytes = transforms_message(kSecond, {{"a", "b", Pose{}}, {"a", "c", Pose{}}});
   const std::size_t size = bytes.view().size();

@@ -36,7 +36,7 @@ MessageBytes joints(Time stamp, const std::vector<std::string>& names) {
   return out;
 }
 
-TEST_F(RecordedJoints, KneesThatBearTellContactsWhereNothingElseDoes) {
+TEST_F(RecordedJoints, KneeTorquesReplaceContacts) {
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);
   robot.add_imu(kStart, 20);
@@ -53,7 +53,7 @@ TEST_F(RecordedJoints, KneesThatBearTellContactsWhereNothingElseDoes) {
   }
   robot.close();
   EXPECT_TRUE(test::read_recording(bag()).noted(
-      "knees that bear can tell contacts: topics.contacts: /joint_states"));
+      "knee torques can indicate contacts: set topics.contacts: /joint_states"));
   RecordingConfig config;
   config.topics.contacts = "/joint_states";
   const Recording read = test::read_recording(bag(), config);
@@ -68,14 +68,14 @@ TEST_F(RecordedJoints, KneesThatBearTellContactsWhereNothingElseDoes) {
   EXPECT_LT((legs[0].linear_velocity - expected).norm(), 1e-12);
 }
 
-TEST_F(RecordedJoints, JointsThatNamesDoNotTellAreSaid) {
+TEST_F(RecordedJoints, UnknownJointNamesAreNoted) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 20);
   robot.add_clouds(kStart, 3);
   robot.add("/joint_states", joint_state_type(), kStart, joints(kStart, {"FL_hip", "arm_1"}));
   robot.close();
   const Recording read = test::read_recording(bag());
-  EXPECT_TRUE(read.noted("the twelve joints are not told by their names (joint_names)"));
+  EXPECT_TRUE(read.noted("the names do not identify the twelve joints (joint_names)"));
   EXPECT_EQ(read.counts.at("joints_malformed"), 1);
 }
 

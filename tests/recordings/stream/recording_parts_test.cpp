@@ -12,13 +12,13 @@
 namespace aims {
 namespace {
 
-TEST(ScanPeriod, IsTheSpacingThatMostShareWhateverIsLost) {
+TEST(ScanPeriod, IsTheMostFrequentSpacingDespiteLosses) {
   EXPECT_EQ(scan_period({0, 100, 200, 500, 600, 900}, std::nullopt), 100);
   // Every gap is of several scans; how long points fire tells of how many.
   EXPECT_EQ(scan_period({0, 300, 500, 900}, 99), 100);
 }
 
-TEST(ScanPeriod, IsTheNearestRateOfStampsThatJitter) {
+TEST(ScanPeriod, IsTheNearestRateForJitteringStamps) {
   RandomStream random(3, "test");
   std::vector<Time> stamps;
   for (int k = 0; k < 40; ++k) {
@@ -43,7 +43,7 @@ TEST(PointTime, KeepsTheDigitsOfSecondsSinceTheEpoch) {
   EXPECT_EQ(point_time(-1e10, 1e9), std::nullopt);
 }
 
-TEST(LegNames, AreToldInTheNamingOfManyRobots) {
+TEST(LegNames, FollowTheConventionsOfManyRobots) {
   for (const char* name :
        {"FL_hip_joint", "LF_HAA", "fl.hx", "front_left_hip_x", "/LF/hip", "left_front_shoulder"}) {
     EXPECT_EQ(leg_of_name(name), 0) << name;
@@ -88,7 +88,7 @@ TEST(LegNames, FeetAreOrderedByConfigurationThenByName) {
 
 Pose random_pose(RandomStream& random) { return {so3_exp(random.normal3()), random.normal3()}; }
 
-TEST(FrameTree, ASingleTransformKeepsItsVeryNumbers) {
+TEST(FrameTree, ASingleTransformIsUnchanged) {
   RandomStream random(5, "test");
   const Pose pose = random_pose(random);
   FrameTree tree;
@@ -113,7 +113,7 @@ TEST(FrameTree, ChainsOfAnyDirectionMultiplyOut) {
   EXPECT_EQ(tree.chain("a", "d"), (std::vector<std::string>{"a", "b", "c", "d"}));
 }
 
-TEST(FrameTree, WhatIsNoTransformIsRefused) {
+TEST(FrameTree, InvalidTransformsAreRejected) {
   FrameTree tree;
   Pose pose;
   pose.rotation.coeffs().setZero();
@@ -122,7 +122,7 @@ TEST(FrameTree, WhatIsNoTransformIsRefused) {
   pose.translation.x() = std::nan("");
   EXPECT_FALSE(tree.add("a", "b", pose));
   EXPECT_FALSE(tree.add("", "b", {}));
-  EXPECT_FALSE(tree.knows("b"));
+  EXPECT_FALSE(tree.contains("b"));
 }
 
 TEST(RecordingConfig, EveryFieldIsSetByItsKey) {

@@ -30,7 +30,7 @@ MessageBytes odometry(Time stamp, const std::string& child = "base", double spee
   return odometry_message({0, stamp, "odom"}, child, content);
 }
 
-TEST_F(RecordingReaderTest, SeveralFittingTopicsAreAnErrorThatNamesThem) {
+TEST_F(RecordingReaderTest, SeveralSuitableTopicsAreAnErrorThatNamesThem) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 5);
   robot.add_cloud(RawCloud::of(kStart, {{1, 2, 3, 0}}), kStart, "/left/points");
@@ -45,7 +45,7 @@ TEST_F(RecordingReaderTest, SeveralFittingTopicsAreAnErrorThatNamesThem) {
   EXPECT_EQ(test::read_recording(bag(), config).error, "");
 }
 
-TEST_F(RecordingReaderTest, AMissingTopicIsAnErrorThatListsThoseThatExist) {
+TEST_F(RecordingReaderTest, AMissingTopicIsAnErrorThatListsTheExistingOnes) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 5);
   robot.close();
@@ -80,7 +80,7 @@ TEST_F(RecordingReaderTest, AnUnreadableDefinitionIsAnErrorThatNamesTheTopic) {
   EXPECT_NE(error.find("NoSuchType"), std::string::npos) << error;
 }
 
-TEST_F(RecordingReaderTest, PointsThatAreNoReturnsAreDroppedAndCounted) {
+TEST_F(RecordingReaderTest, InvalidPointsAreDroppedAndCounted) {
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);
   robot.add_imu(kStart, 20);
@@ -128,7 +128,7 @@ std::vector<RawCloud> malformed_clouds() {
   return clouds;
 }
 
-TEST_F(RecordingReaderTest, CloudsThatDoNotHoldTogetherAreCounted) {
+TEST_F(RecordingReaderTest, MalformedCloudsAreCounted) {
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);
   robot.add_imu(kStart, 20);
@@ -154,7 +154,7 @@ TEST_F(RecordingReaderTest, NoReadableCloudAtAllIsAnError) {
   }
 }
 
-TEST_F(RecordingReaderTest, MessagesCutShortAreCounted) {
+TEST_F(RecordingReaderTest, TruncatedMessagesAreCounted) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 10);
   robot.add_clouds(kStart, 2);
@@ -168,7 +168,7 @@ TEST_F(RecordingReaderTest, MessagesCutShortAreCounted) {
   EXPECT_EQ(test::imu_of(read.deliveries).size(), 10U);
 }
 
-TEST_F(RecordingReaderTest, WithoutTfTheExtrinsicsAreIdentityAndLoud) {
+TEST_F(RecordingReaderTest, WithoutTfTheExtrinsicsAreIdentityAndNoted) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 10);
   robot.add_clouds(kStart, 2);
@@ -176,13 +176,13 @@ TEST_F(RecordingReaderTest, WithoutTfTheExtrinsicsAreIdentityAndLoud) {
   const Recording read = test::read_recording(bag());
   ASSERT_EQ(read.error, "");
   EXPECT_TRUE(
-      read.noted("NO TRANSFORM from 'imu' to 'lidar' in tf: identity is assumed. Give "
+      read.noted("NO TRANSFORM from 'imu' to 'lidar' in tf: identity is assumed. Set "
                  "recording.T_imu_lidar.translation"));
   EXPECT_TRUE(read.noted("no leg odometry"));
   EXPECT_FALSE(read.setup.has_legs);
 }
 
-TEST_F(RecordingReaderTest, TransformsOfTfServeWhereTfStaticIsSilent) {
+TEST_F(RecordingReaderTest, TfReplacesAMissingTfStatic) {
   RobotRecording robot(bag());
   Pose mounted;
   mounted.translation = {0.1, 0.2, 0.3};
@@ -193,10 +193,10 @@ TEST_F(RecordingReaderTest, TransformsOfTfServeWhereTfStaticIsSilent) {
   const Recording read = test::read_recording(bag());
   ASSERT_EQ(read.error, "");
   EXPECT_EQ(read.setup.rig.T_body_lidar.translation, mounted.translation);
-  EXPECT_TRUE(read.noted("imu -> lidar: from /tf at the start, taken as fixed"));
+  EXPECT_TRUE(read.noted("imu -> lidar: from /tf at the start, assumed fixed"));
 }
 
-TEST_F(RecordingReaderTest, TopicsWithoutStampsTakeTheRecordTimes) {
+TEST_F(RecordingReaderTest, TopicsWithoutStampsUseRecordTimes) {
   RobotRecording robot(bag());
   for (int k = 0; k < 10; ++k) {
     robot.add("/imu", imu_type(), kStart + k * 20 * kMillisecond,
@@ -206,13 +206,13 @@ TEST_F(RecordingReaderTest, TopicsWithoutStampsTakeTheRecordTimes) {
   robot.close();
   const Recording read = test::read_recording(bag());
   ASSERT_EQ(read.error, "");
-  EXPECT_TRUE(read.noted("/imu: stamps are all zero, record times are taken"));
+  EXPECT_TRUE(read.noted("/imu: stamps are all zero, record times are used"));
   const auto samples = test::imu_of(read.deliveries);
   ASSERT_EQ(samples.size(), 10U);
   EXPECT_EQ(samples[3].stamp, kStart + 60 * kMillisecond);
 }
 
-TEST_F(RecordingReaderTest, ARecorderWithAnotherClockIsMovedToTheSensors) {
+TEST_F(RecordingReaderTest, ArrivalsOfAnotherClockAreShiftedToTheSensors) {
   RobotRecording robot(bag());
   constexpr Duration kAhead = 1'000'000 * kSecond;
   for (int k = 0; k < 100; ++k) {
@@ -231,7 +231,7 @@ TEST_F(RecordingReaderTest, ARecorderWithAnotherClockIsMovedToTheSensors) {
   EXPECT_EQ(read.deliveries.front().arrival, kStart);
 }
 
-TEST_F(RecordingReaderTest, StampsFarFromThoseOfTheImuAreSaid) {
+TEST_F(RecordingReaderTest, StampsFarFromThoseOfTheImuAreNoted) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 100);
   robot.add_clouds(kStart, 5);
@@ -245,7 +245,7 @@ TEST_F(RecordingReaderTest, StampsFarFromThoseOfTheImuAreSaid) {
                                         "topics: set recording.leg_delay"));
 }
 
-TEST_F(RecordingReaderTest, NumbersThatAreNoneAreCountedAndPassedOn) {
+TEST_F(RecordingReaderTest, NumbersThatAreNotFiniteAreCounted) {
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);
   robot.add_imu(kStart, 20);
@@ -263,7 +263,7 @@ TEST_F(RecordingReaderTest, NumbersThatAreNoneAreCountedAndPassedOn) {
   EXPECT_EQ(test::imu_of(read.deliveries).size(), 21U);
 }
 
-TEST_F(RecordingReaderTest, APoseWithoutRotationIsUprightAndCounted) {
+TEST_F(RecordingReaderTest, APoseWithoutRotationBecomesIdentityAndIsCounted) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 20);
   robot.add_clouds(kStart, 3);
@@ -278,7 +278,7 @@ TEST_F(RecordingReaderTest, APoseWithoutRotationIsUprightAndCounted) {
   EXPECT_EQ(read.counts, (std::map<std::string, int>{{"pose_without_rotation", 1}}));
 }
 
-TEST_F(RecordingReaderTest, TruthOfAnotherFrameIsTurnedIntoThatOfTheBody) {
+TEST_F(RecordingReaderTest, TruthOfAnotherFrameIsTransformedToTheBody) {
   RobotRecording robot(bag());
   Pose mounted;
   mounted.translation = {0.5, 0.0, 0.0};
@@ -301,7 +301,7 @@ TEST_F(RecordingReaderTest, TruthOfAnotherFrameIsTurnedIntoThatOfTheBody) {
   EXPECT_EQ(test::legs_of(read.deliveries).size(), 5U);
 }
 
-TEST_F(RecordingReaderTest, AGapOfAYearIsPassedAtOnce) {
+TEST_F(RecordingReaderTest, AGapOfAYearIsSkippedAtOnce) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 5);
   robot.add_imu(kStart + 365LL * 86400 * kSecond, 5);
@@ -318,7 +318,7 @@ TEST_F(RecordingReaderTest, AGapOfAYearIsPassedAtOnce) {
   EXPECT_EQ(reader->advance(kSecond, deliveries), false);
 }
 
-TEST_F(RecordingReaderTest, ImuUnitsAreToldBySizeOrByTheConfiguration) {
+TEST_F(RecordingReaderTest, ImuUnitsFollowFromTheNormOrTheConfiguration) {
   const auto read = [&](double force, const RecordingConfig& config) {
     std::filesystem::remove(bag());
     RobotRecording robot(bag());

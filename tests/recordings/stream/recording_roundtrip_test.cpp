@@ -107,10 +107,10 @@ class RecordingRoundTrip : public ::testing::Test {
   std::map<std::string, int> counts_;
 };
 
-TEST_F(RecordingRoundTrip, AWalkComesBackBitForBit) {
+TEST_F(RecordingRoundTrip, ASequenceIsReadBackBitForBit) {
   expect_the_same([](auto&) {});
   EXPECT_EQ(notes_, std::vector<std::string>(
-                        {"point time: field 'time' in s, counted from the cloud's stamp"}));
+                        {"point time: field 'time' in s, relative to the cloud's stamp"}));
   EXPECT_EQ(setup_.topics.imu, "/imu/data");
   EXPECT_EQ(setup_.topics.leg_odometry, "/leg_odometry");
   EXPECT_TRUE(setup_.has_legs);
@@ -135,7 +135,7 @@ TEST_F(RecordingRoundTrip, LostCloudsDoNotLengthenTheScan) {
   });
 }
 
-TEST_F(RecordingRoundTrip, ErrorsOfStampsDuplicatesAndLateArrivalsStayAsTheyWere) {
+TEST_F(RecordingRoundTrip, StampErrorsDuplicatesAndLateArrivalsArePreserved) {
   expect_the_same([](std::vector<Delivery>& deliveries) {
     RandomStream random(12, "test");
     std::vector<Delivery> sent;

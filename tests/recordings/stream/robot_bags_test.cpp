@@ -139,7 +139,7 @@ std::unique_ptr<TemporaryFolder> RobotBags::folder_;
 int RobotBags::exit_code_ = 0;
 std::string RobotBags::said_;
 
-TEST_F(RobotBags, VelodyneTimesBeforeTheStampMakeItTheEnd) {
+TEST_F(RobotBags, VelodyneTimesBeforeTheStampMarkItAsTheEnd) {
   expect_scans("velodyne_end", 10);  // float32 seconds near 0.1 hold 7.5 ns
   EXPECT_TRUE(noted("it marks the end of the scan"));
   EXPECT_TRUE(noted("'intensity' up to"));
@@ -161,13 +161,13 @@ TEST_F(RobotBags, OusterRowsBecomeFiringOrderWithoutMisses) {
 
 TEST_F(RobotBags, RingsFromTheRowOfAnOrganisedCloudWithPaddedRows) {
   expect_scans("ouster_row_padding", 1);
-  EXPECT_TRUE(noted("told from the row"));
+  EXPECT_TRUE(noted("derived from the row"));
 }
 
 TEST_F(RobotBags, DoublesByColumnWithMicroseconds) {
   expect_scans("column_major", 1);
   EXPECT_TRUE(noted("field 'time_offset' in us"));
-  EXPECT_TRUE(noted("told from the column"));
+  EXPECT_TRUE(noted("derived from the column"));
 }
 
 TEST_F(RobotBags, HesaiTimesSinceTheEpoch) {
@@ -176,7 +176,7 @@ TEST_F(RobotBags, HesaiTimesSinceTheEpoch) {
   EXPECT_TRUE(noted("it marks the end of the scan"));
 }
 
-TEST_F(RobotBags, PointTimesOnAnotherClockCountFromTheFirst) {
+TEST_F(RobotBags, PointTimesOnAnotherClockAreRelativeToTheFirst) {
   expect_scans("other_clock", 200);
   EXPECT_TRUE(noted("on a clock of its own"));
 }
@@ -189,7 +189,7 @@ TEST_F(RobotBags, LivoxCloudWithNanosecondsInDoubles) {
 TEST_F(RobotBags, FloatMilliseconds) {
   expect_scans("milliseconds", 10);
   EXPECT_TRUE(noted("field 't' in ms"));
-  EXPECT_TRUE(noted("told from elevation, 16 rings"));
+  EXPECT_TRUE(noted("derived from elevation, 16 rings"));
 }
 
 TEST_F(RobotBags, LivoxCustomMessagesAndAnImuInGravities) {
@@ -204,7 +204,7 @@ TEST_F(RobotBags, LivoxCustomMessagesAndAnImuInGravities) {
 TEST_F(RobotBags, BarePointsGetRingAndTimeFromTheirDirection) {
   open("bare", {});
   EXPECT_TRUE(noted("made up from azimuth, spinning clockwise"));
-  EXPECT_TRUE(noted("told from elevation, 16 rings"));
+  EXPECT_TRUE(noted("derived from elevation, 16 rings"));
   const auto scans = test::scans_of(deliveries_);
   ASSERT_EQ(scans.size(), expected_.scans.size());
   const auto by_place = [](const LidarPoint& a, const LidarPoint& b) {
@@ -223,7 +223,7 @@ TEST_F(RobotBags, BarePointsGetRingAndTimeFromTheirDirection) {
   }
 }
 
-TEST_F(RobotBags, LegsByJointsAndContactsMoveTheBaseOverItsRestingFeet) {
+TEST_F(RobotBags, JointsAndContactsGiveLegOdometry) {
   RecordingConfig config;
   config.topics.lidar = "none";
   open("joints_and_contacts", config);
@@ -261,9 +261,9 @@ TEST_F(RobotBags, ATwistIsIntegratedAndExtrinsicsFollowTheChain) {
   EXPECT_NEAR(rig.T_body_lidar.rotation.norm(), 1.0, 1e-12);
 }
 
-TEST_F(RobotBags, ConfiguredExtrinsicsComeBeforeTf) {
+TEST_F(RobotBags, ConfiguredExtrinsicsOverrideTf) {
   RecordingConfig config;
-  config.T_imu_lidar.given = true;
+  config.T_imu_lidar.override_tf = true;
   config.T_imu_lidar.translation = {1.0, 2.0, 3.0};
   config.T_imu_lidar.rotation_rpy_deg = {0.0, 0.0, 90.0};
   open("twist", config);

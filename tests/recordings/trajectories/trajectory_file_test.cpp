@@ -107,7 +107,7 @@ class TrajectoryFiles : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(TrajectoryFiles, TheKindIsToldByTheContent) {
+TEST_F(TrajectoryFiles, TheKindFollowsFromTheContent) {
   const auto tum = read_trajectory(file("a.txt", "# c\n1 0 0 0 0 0 0 1\n"), {});
   ASSERT_TRUE(tum) << tum.error().message;
   EXPECT_EQ(tum->kind, "TUM");
@@ -151,7 +151,7 @@ TEST_F(TrajectoryFiles, OdometryPosesAndPathsOfABagAreTheSameTrajectory) {
   }
 }
 
-TEST_F(TrajectoryFiles, ATopicMayBeLeftOutWhenThereIsOneOrAPreferredOne) {
+TEST_F(TrajectoryFiles, TheTopicIsOptionalWithOneOrAPreferredTopic) {
   expect_ten_poses(read_trajectory(bag(kEpoch, false), {}), kEpoch);
   std::filesystem::remove(folder_.path() / "run.bag");
   const std::string several = bag(kEpoch, true);
@@ -159,22 +159,22 @@ TEST_F(TrajectoryFiles, ATopicMayBeLeftOutWhenThereIsOneOrAPreferredOne) {
   EXPECT_NE(message_of(several).find("/path (nav_msgs/Path)"), std::string::npos);
   const auto preferred = read_trajectory(several, {.preferred_topic = "/pose"});
   expect_ten_poses(preferred, kEpoch);
-  EXPECT_NE(preferred->notes.front().find("/pose taken of several"), std::string::npos);
+  EXPECT_NE(preferred->notes.front().find("/pose chosen of several"), std::string::npos);
 }
 
-TEST_F(TrajectoryFiles, AMissingTopicIsAnsweredWithThoseThatExist) {
+TEST_F(TrajectoryFiles, AnErrorOfAMissingTopicListsTheExistingOnes) {
   const std::string message = message_of(bag(kEpoch, false) + ":/gps");
   EXPECT_NE(message.find("no topic /gps; there are /odom (nav_msgs/Odometry)"), std::string::npos)
       << message;
 }
 
-TEST_F(TrajectoryFiles, WithoutHeaderStampsRecordTimesAreUsedAndSaid) {
+TEST_F(TrajectoryFiles, WithoutHeaderStampsRecordTimesAreUsed) {
   const auto read = read_trajectory(bag(0, false), {});
   expect_ten_poses(read, kEpoch);
   EXPECT_NE(read->notes.front().find("record times are used"), std::string::npos);
 }
 
-TEST_F(TrajectoryFiles, PosesOfATruthThatAreNoneAreLeftOutAndCounted) {
+TEST_F(TrajectoryFiles, InvalidPosesAreDroppedAndCounted) {
   const auto path = folder_.path() / "poor.bag";
   auto writer = BagWriter::create(path);
   const auto odometry = writer->add_connection("/odom", odometry_type());
@@ -192,13 +192,13 @@ TEST_F(TrajectoryFiles, PosesOfATruthThatAreNoneAreLeftOutAndCounted) {
   const auto truth = read_trajectory(path.string(), {});
   ASSERT_TRUE(truth) << truth.error().message;
   EXPECT_EQ(truth->trajectory.size(), 2U);
-  EXPECT_NE(truth->notes.front().find("2 of 4 poses left out"), std::string::npos);
+  EXPECT_NE(truth->notes.front().find("2 of 4 poses dropped"), std::string::npos);
   const auto estimate = read_trajectory(path.string(), {.rules = PoseRules::kAsGiven});
   ASSERT_TRUE(estimate);
   EXPECT_EQ(estimate->trajectory.size(), 4U);
 }
 
-TEST_F(TrajectoryFiles, ATextFileCalledBagIsRefused) {
+TEST_F(TrajectoryFiles, ATextFileNamedBagIsAnError) {
   const std::string message = message_of(file("text.bag", "1 0 0 0 0 0 0 1\n"));
   EXPECT_NE(message.find("text.bag"), std::string::npos);
   EXPECT_NE(message.find("expected a ROS 1 bag"), std::string::npos) << message;

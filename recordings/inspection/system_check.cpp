@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/inspection/system_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace aims {
+namespace {
+
+constexpr double kMinStaticStart = 2.0;  ///< [s]
+
+}  // namespace
+
+Inventory inventory_of(const BagInfo& bag) {
+  Inventory found{&bag};
+  for (const CloudInfo& each : bag.clouds) {
+    const TopicInfo* times = bag.find(each.topic);
+    if (each.clouds == 0 || (found.cloud && times->messages <= found.cloud_times->messages))
+      continue;
+    found.cloud = &each;
+    found.cloud_times = times;
+  }
+  for (const ImuInfo& each : bag.imus) {
+    const TopicInfo* times = bag.find(each.topic);
+    if (found.imu && times->rate_hz.value_or(0.0) <= found.imu_times->rate_hz.value_or(0.0))
+      continue;
+    found.imu = &each;
+    found.imu_times = times;
+  }
+  return found;
+}
+
+bool SystemCheck::clouds() {
+  if (bag_.cloud) {
+    met("3-D LiDAR clouds",
+        fmt::format("{}, {:.0f} points", bag_.cloud->topic, bag_.cloud->mean_points));
+    return true;
+  }
+  add(Fulfilment::kMissing, "3-D LiDAR clouds", "none",
+      "record sensor_msgs/PointCloud2 or livox CustomMsg");
+  return false;
+}
+
+void SystemCheck::point_times(Fulfilment without, const std::string& remedy) {
+  if (!bag_.cloud) return;
+  if (const auto* field = bag_.cloud->time_field()) {
+    return met("time of each point", field->name + " " + field->type);
+  }
+  add(without, "time of each point", "no such field", remedy);
+}
+
+void SystemCheck::rings(Fulfilment without, const std::string& remedy) {
+  if (!bag_.cloud) return;
+  const auto* field = bag_.cloud->ring_field();
+  if (field) return met("ring of each point", field->name + " " + field->type);
+  if (bag_.cloud->height > 1) return met("ring of each point", "rows of the organised cloud");
+  add(without, "ring of each point", "no such field", remedy);
+}
+
+void SystemCheck::exact_field(const std::string& name, const std::string& type,
+                              Fulfilment without) {
+  if (!bag_.cloud) return;
+  const PointFieldInfo* field = bag_.cloud->find(name);
+  const std::string required = fmt::format("field '{}' as {}", name, type);
+  if (field && field->type == type) return met(required, fmt::format("at {}", field->offset));
+  add(without, required, field ? "as " + field->type : "no such field",
+      "rename or convert the field");
+}
+
+void SystemCheck::dense() {
+  if (!bag_.cloud) return;
+  if (bag_.cloud->dense && bag_.cloud->not_finite_fraction == 0.0) {
+    return met("dense clouds", "no NaN");
+  }
+  add(Fulfilment::kMissing, "dense clouds",
+      fmt::format("is_dense {}, {:.1f} % NaN", bag_.cloud->dense,
+                  100.0 * bag_.cloud->not_finite_fraction),
+      "it stops at the first cloud that is not dense: drop the misses");
+}
+
+void SystemCheck::imu(double min_hz, double good_hz) {
+  if (!bag_.imu) {
+    return add(Fulfilment::kMissing, "IMU", "none", "record sensor_msgs/Imu");
+  }
+  const double rate = bag_.imu_times->rate_hz.value_or(0.0);
+  const std::string found = fmt::format("{} at {:.0f} Hz", bag_.imu->topic, rate);
+  const std::string required = fmt::format("IMU of {:.0f} Hz or more", good_hz);
+  if (rate >= 0.95 * good_hz) {
+    met(required, found);
+  } else {
+    add(rate >= 0.95 * min_hz ? Fulfilment::kPoor : Fulfilment::kMissing, required, found,
+        "record the IMU at its full rate; of a simulation: --fast-imu 200");
+  }
+  imu_coverage();
+}
+
+void SystemCheck::imu_in_si() {
+  if (!bag_.imu) return;
+  if (!bag_.imu->in_g) return met("IMU in m/s^2", "yes");
+  add(Fulfilment::kMissing, "IMU in m/s^2", "in g", "multiply the specific force by 9.80665");
+}
+
+void SystemCheck::orientation() {
+  if (!bag_.imu) return;
+  if (bag_.imu->oriented) return met("orientation of the IMU", "unit quaternions");
+  add(Fulfilment::kMissing, "orientation of the IMU", "no unit quaternion",
+      "use a 9-axis IMU or add an attitude filter");
+}
+
+void SystemCheck::static_start() {
+  const auto* interval =
+      bag_.imu && bag_.imu->static_interval ? &*bag_.imu->static_interval : nullptr;
+  if (interval && interval->begin_s < 1.0 && interval->length_s >= kMinStaticStart) {
+    return met("static start", fmt::format("{:.1f} s", interval->length_s));
+  }
+  add(Fulfilment::kPoor, "static start", "motion within the first seconds",
+      fmt::format("let the robot stand for {:.0f} s before it walks", kMinStaticStart));
+}
+
+void SystemCheck::extrinsics(const std::string& remedy) {
+  const auto& known = bag_.bag->transforms;
+  if (std::any_of(known.begin(), known.end(), [](const auto& each) { return each.fixed; })) {
+    return met("LiDAR to IMU transform", "tf_static");
+  }
+  add(Fulfilment::kPoor, "LiDAR to IMU transform", "no tf_static", remedy);
+}
+
+void SystemCheck::joints_and_contacts() {
+  const bool both = has_type("sensor_msgs/JointState") && !bag_.bag->used.contacts.empty();
+  if (both) return met("joint states and foot contacts", bag_.bag->used.contacts);
+  add(Fulfilment::kMissing, "joint states and foot contacts",
+      has_type("sensor_msgs/JointState") ? "joint states only" : "none",
+      "record the robot's joint states and foot forces");
+}
+
+void SystemCheck::legs() {
+  const TopicsConfig& used = bag_.bag->used;
+  if (!used.leg_odometry.empty()) return met("leg odometry", used.leg_odometry);
+  if (!used.joint_states.empty() && !used.contacts.empty()) {
+    return met("leg odometry", "from joints and contacts");
+  }
+  add(Fulfilment::kMissing, "leg odometry", "none",
+      "name its topic (--topics leg_odometry=/...), or use the estimator lio");
+}
+
+void SystemCheck::readable() {
+  if (!bag_.bag->refusal) return met("readable by aims", "yes");
+  add(Fulfilment::kMissing, "readable by aims", "no", *bag_.bag->refusal);
+}
+
+void SystemCheck::imu_coverage() {
+  if (!bag_.cloud) return;
+  const bool covers = bag_.imu_times->first_stamp <= bag_.cloud_times->first_stamp + kSecond / 10 &&
+                      bag_.imu_times->last_stamp + kSecond / 10 >= bag_.cloud_times->last_stamp;
+  if (covers) return met("IMU covers all clouds", "yes");
+  add(Fulfilment::kPoor, "IMU covers all clouds", "no",
+      "start recording the IMU before the LiDAR and stop it after; some systems otherwise wait "
+      "forever");
+}
+
+bool SystemCheck::has_type(const std::string& type) const {
+  const auto& topics = bag_.bag->topics;
+  return std::any_of(topics.begin(), topics.end(),
+                     [&type](const TopicInfo& each) { return each.type == type; });
+}
+
+void SystemCheck::met(const std::string& requirement, const std::string& found) {
+  add(Fulfilment::kMet, requirement, found, "");
+}
+
+void SystemCheck::add(Fulfilment fulfilment, const std::string& requirement,
+                      const std::string& found, const std::string& remedy) {
+  out_.push_back({system_, requirement, fulfilment, found, remedy});
+}
+
+}  // namespace aims

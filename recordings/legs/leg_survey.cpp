@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/legs/leg_survey.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace aims {
+
+bool is_world_frame(const std::string& frame) {
+  return frame.find("odom") != std::string::npos || frame.find("map") != std::string::npos ||
+         frame.find("world") != std::string::npos;
+}
+
+void LegSurvey::add_joints(const MessageView& message, Time record_time) {
+  ++joint_messages_;
+  if (joints_at(message, record_time, config_.joint_names)) ++complete_joint_messages_;
+  if (const auto effort = message.numbers("effort"); effort && !effort->empty()) ++effort_messages_;
+}
+
+void LegSurvey::choose_contact_field(const std::string& type, const MessageDecoder& decoder) {
+  contact_field_ = config_.contacts_field;
+  if (contact_field_.empty() && type == "sensor_msgs/JointState") contact_field_ = "effort";
+  for (const MessageField& field : decoder.fields()) {
+    if (field.kind != FieldKind::kNumbers) continue;
+    if (contact_field_.empty()) contact_field_ = field.path;
+    if (field.path == contact_field_) contacts_are_flags_ = field.is_bool;
+  }
+}
+
+void LegSurvey::add_contacts(const MessageView& message, const std::string& type,
+                             const MessageDecoder& decoder) {
+  if (contact_field_.empty()) choose_contact_field(type, decoder);
+  const auto loads = loads_at(message, {contact_field_, 0.0, config_.foot_names});
+  if (!loads) return;
+  ++contact_messages_;
+  for (const double load : *loads) {
+    if (std::isfinite(load)) largest_load_ = std::max(largest_load_, std::abs(load));
+  }
+}
+
+ContactRule LegSurvey::decide_contacts(std::vector<std::string>& notes) const {
+  ContactRule rule = {contact_field_, config_.contact_threshold, config_.foot_names};
+  if (topics_.contacts.empty()) return rule;
+  if (contact_messages_ == 0) {
+    notes.push_back(fmt::format(
+        "{}: field '{}' does not name four feet: no contacts (contacts_field, foot_names)",
+        topics_.contacts, contact_field_));
+    return rule;
+  }
+  if (!contacts_are_flags_ && largest_load_ > 1.0) return rule;
+  rule.threshold = 0.5;
+  if (!contacts_are_flags_) {
+    notes.push_back(fmt::format("{}: '{}' is at most 1 at the start: a flag, threshold 0.5",
+                                topics_.contacts, contact_field_));
+  }
+  return rule;
+}
+
+void LegSurvey::note_twist(const std::string& type, const std::string& frame,
+                           std::vector<std::string>& notes) const {
+  notes.push_back(fmt::format("{}: a twist without a pose, which is integrated", type));
+  if (is_world_frame(frame)) {
+    notes.push_back(
+        fmt::format("the twist's frame '{}' does not move with the robot: its axes are "
+                    "assumed to be the base's",
+                    frame));
+  }
+  if (type == "geometry_msgs/Twist") {
+    notes.push_back("geometry_msgs/Twist has no stamp: record times are used");
+  }
+}
+
+LegSource LegSurvey::decide_source(const std::string& type, const std::string& frame,
+                                   std::vector<std::string>& notes) const {
+  const bool has_joints = complete_joint_messages_ > 0;
+  if (!topics_.joint_states.empty() && joint_messages_ > 0 && !has_joints) {
+    notes.push_back(fmt::format("{}: the names do not identify the twelve joints (joint_names)",
+                                topics_.joint_states));
+  }
+  if (!topics_.leg_odometry.empty()) {
+    if (type == "nav_msgs/Odometry") return LegSource::kOdometry;
+    note_twist(type, frame, notes);
+    return LegSource::kTwist;
+  }
+  if (has_joints && contact_messages_ > 0) {
+    notes.push_back(
+        "leg odometry: from joints, contacts and gyro by leg kinematics (leg_geometry)");
+    return LegSource::kKinematics;
+  }
+  notes.push_back("no leg odometry, and no joints with contacts: estimators run without legs");
+  if (has_joints && effort_messages_ > 0 && topics_.contacts.empty()) {
+    notes.push_back(fmt::format("knee torques can indicate contacts: set topics.contacts: {}",
+                                topics_.joint_states));
+  }
+  return LegSource::kNone;
+}
+
+}  // namespace aims

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recordings/legs/leg_messages.hpp"
+#include "recordings/legs/leg_stream.hpp"
+#include "recordings/messages/message_decoder.hpp"
+#include "recordings/recording_config.hpp"
+
+namespace aims {
+
+/// Whether a frame does not move with the robot, by its name.
+bool is_world_frame(const std::string& frame);
+
+/// Finds out from the first messages of a recording how to obtain leg odometry.
+class LegSurvey {
+ public:
+  LegSurvey(const RecordingConfig& config, const TopicsConfig& topics)
+      : config_(config), topics_(topics) {}
+
+  void add_joints(const MessageView& message, Time record_time);
+  void add_contacts(const MessageView& message, const std::string& type,
+                    const MessageDecoder& decoder);
+
+  /// How contacts are read; appends assumptions to `notes`, as all below.
+  ContactRule decide_contacts(std::vector<std::string>& notes) const;
+
+  /// The source of leg odometry. `type` and `frame` are those of the leg odometry topic, if any.
+  LegSource decide_source(const std::string& type, const std::string& frame,
+                          std::vector<std::string>& notes) const;
+
+ private:
+  void choose_contact_field(const std::string& type, const MessageDecoder& decoder);
+  void note_twist(const std::string& type, const std::string& frame,
+                  std::vector<std::string>& notes) const;
+
+  RecordingConfig config_;
+  TopicsConfig topics_;
+  int joint_messages_ = 0;
+  int complete_joint_messages_ = 0;  ///< with all twelve joints
+  int effort_messages_ = 0;
+  int contact_messages_ = 0;
+  std::string contact_field_;
+  bool contacts_are_flags_ = false;
+  double largest_load_ = 0.0;
+};
+
+}  // namespace aims
