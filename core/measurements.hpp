@@ -23,7 +23,7 @@ enum class ImuSampling {
 struct ImuSample {
   Time stamp = 0;  ///< end of the interval that the sample averages, or the instant sampled
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
-  Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< [m/s^2], +9.81 up at rest
+  Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< [m/s^2], +9.81 upwards when static
 };
 
 /// One LiDAR return in the LiDAR frame at the instant of its own firing (not deskewed).

@@ -25,7 +25,7 @@ constexpr int kOk = 0;
 constexpr int kBadInput = 2;
 constexpr int kInternal = 3;
 
-/// Deliveries are handed over in pieces of so much record time.
+/// Record time of one batch of deliveries.
 constexpr Duration kBatch = 5 * kMillisecond;
 
 int bad_input(const Error& error) {
@@ -38,8 +38,9 @@ void print_line(const std::string& text) {
   std::fflush(stdout);  // roslaunch reads from a pipe
 }
 
-/// Estimates until the network ends it; then the rest that the estimator held back.
-Result<void> follow(RecordingReader& reader, Estimator& estimator, OdometryPublisher& publisher) {
+/// Estimates until the node is asked to end, then processes what the estimator has queued.
+Result<void> estimate_live(RecordingReader& reader, Estimator& estimator,
+                           OdometryPublisher& publisher) {
   std::vector<Delivery> deliveries;
   bool more = true;
   while (more) {
@@ -61,7 +62,7 @@ void print_summary(const RecordingReader& reader, const Estimator& estimator, st
     print_line(fmt::format("note: {}: {}", event, count));
   }
   if (dropped > 0)
-    print_line(fmt::format("note: {} messages left out, since the node was late", dropped));
+    print_line(fmt::format("note: {} messages dropped, since the node was too slow", dropped));
   print_line(fmt::format("{} poses", estimator.result().trajectory.size()));
 }
 
@@ -94,7 +95,7 @@ int run_node(RosTransport& transport, const NodeOptions& options) {
 
   OdometryPublisher publisher(transport, {options.odom_frame, options.body_frame, options.tf});
   print_line(fmt::format("{} publishes {}", options.estimator, transport.resolved("~odometry")));
-  if (auto ok = follow(*reader, **estimator, publisher); !ok) return bad_input(ok.error());
+  if (auto ok = estimate_live(*reader, **estimator, publisher); !ok) return bad_input(ok.error());
   print_summary(*reader, **estimator, transport.dropped());
   if (options.out.empty()) return kOk;
   const auto written = write_tum(options.out, (*estimator)->result().trajectory);

@@ -10,20 +10,20 @@
 
 namespace aims {
 
-/// Messages that wait for a busy node, in order of arrival. One that has waited too long is left
-/// out and counted: a large one, a cloud, soon, since it costs most and the next one tells the
-/// same; a small one late, since an estimator cannot do without. Memory is bounded by these spans.
+/// Queue of messages for a busy node, in order of arrival. A message that has waited too long is
+/// dropped and counted: a large one (a cloud) early, since it costs the most time and the next one
+/// replaces it; a small one late, since an estimator depends on it. These limits bound the memory.
 class Inbox {
  public:
-  static constexpr std::size_t kLarge = 16384;                    ///< from here on [bytes]
-  static constexpr std::int64_t kLongestWaitLarge = 2000000000;   ///< [ns]
-  static constexpr std::int64_t kLongestWaitSmall = 20000000000;  ///< [ns]
+  static constexpr std::size_t kLargeSize = 16384;            ///< size of a large message [bytes]
+  static constexpr std::int64_t kMaxWaitLarge = 2000000000;   ///< [ns]
+  static constexpr std::int64_t kMaxWaitSmall = 20000000000;  ///< [ns]
 
   void push(RosMessage message);
   std::optional<RosMessage> pop();
   bool empty() const { return messages_.empty(); }
 
-  /// Messages left out so far.
+  /// Messages dropped so far.
   std::size_t dropped() const { return dropped_; }
 
  private:

@@ -17,22 +17,23 @@
 namespace aims {
 namespace {
 
-constexpr double kPoll = 0.2;             ///< between looks for new topics [s]
-constexpr double kComplainEvery = 5.0;    ///< [s]
-constexpr Duration kKept = 10 * kSecond;  ///< of what is gathered, however long it takes
+constexpr double kPoll = 0.2;          ///< between queries for new topics [s]
+constexpr double kReportPeriod = 5.0;  ///< [s]
+constexpr Duration kMaxGathered =
+    10 * kSecond;  ///< of the messages gathered, however long it takes
 
-/// Types that hold nothing to estimate from, and may be heavy.
+/// Large types that estimators do not use.
 constexpr std::array<std::string_view, 6> kIgnoredTypes = {
     "sensor_msgs/Image", "sensor_msgs/CompressedImage", "stereo_msgs/DisparityImage",
     "rosgraph_msgs/Log", "rosgraph_msgs/Clock",         "visualization_msgs/MarkerArray"};
 
-/// Collects what comes on all topics, at most `kKept` of it, and latched messages for ever.
+/// Collects the messages of all topics of the last `kMaxGathered`, and all latched messages.
 class Gathering {
  public:
   explicit Gathering(RosTransport& transport)
       : transport_(transport), own_(transport.resolved("~")) {}
 
-  /// Takes messages for `kPoll`.
+  /// Collects messages for `kPoll`.
   void collect() {
     for (const auto& [topic, type] : transport_.topics()) {
       if (std::ranges::find(kIgnoredTypes, type) != kIgnoredTypes.end()) continue;
@@ -42,7 +43,7 @@ class Gathering {
     }
     const Stopwatch timer;
     while (timer.seconds() < kPoll) {
-      // Time 0: a simulated clock that has not begun.
+      // Time 0: a simulated clock that has not started.
       if (auto message = transport_.wait(kPoll); message && message->arrival > 0) {
         messages_->push_back(std::move(*message));
       }
@@ -60,8 +61,8 @@ class Gathering {
 
  private:
   void trim() {
-    if (span() <= kKept) return;
-    const Time oldest = messages_->back().arrival - kKept;
+    if (span() <= kMaxGathered) return;
+    const Time oldest = messages_->back().arrival - kMaxGathered;
     std::erase_if(*messages_, [&](const RosMessage& message) {
       return message.arrival < oldest && !message.connection->latching;
     });
@@ -74,7 +75,7 @@ class Gathering {
 };
 
 Result<RecordingReader> try_open(RosTransport& transport, const Gathering& gathering,
-                                 const RecordingConfig& config, const EnoughFound& enough) {
+                                 const RecordingConfig& config, const SetupCheck& check_setup) {
   auto wait = [&transport]() -> std::optional<RosMessage> {
     while (transport.running()) {
       if (auto message = transport.wait(kPoll)) return message;
@@ -85,7 +86,7 @@ Result<RecordingReader> try_open(RosTransport& transport, const Gathering& gathe
   LiveSource& live = *source;
   auto reader = RecordingReader::open(std::move(source), config);
   if (!reader) return reader;
-  if (auto ok = enough(reader->setup()); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
   for (const std::string& topic : gathering.subscribed()) {
     if (!live.selects(topic)) transport.unsubscribe(topic);
   }
@@ -97,28 +98,28 @@ Result<RecordingReader> try_open(RosTransport& transport, const Gathering& gathe
 
 Result<RecordingReader> open_live_recording(
     RosTransport& transport, const RecordingConfig& config, const LiveRecordingOptions& options,
-    const EnoughFound& enough, const std::function<void(const std::string&)>& waiting) {
+    const SetupCheck& check_setup, const std::function<void(const std::string&)>& waiting) {
   Gathering gathering(transport);
   const Stopwatch since_start;
-  Stopwatch since_complaint;
+  Stopwatch since_report;
   std::string missing = "no messages yet";
   while (transport.running()) {
     gathering.collect();
     if (gathering.span() >= options.settle) {
-      auto reader = try_open(transport, gathering, config, enough);
+      auto reader = try_open(transport, gathering, config, check_setup);
       if (reader) return reader;
       missing = reader.error().message;
     } else if (gathering.span() > 0) {
       missing = fmt::format("{:.1f} s of messages so far", to_seconds(gathering.span()));
     }
     if (options.patience > 0.0 && since_start.seconds() > options.patience) {
-      return failure(fmt::format("gave up after {:g} s: {}", options.patience, missing));
+      return failure(fmt::format("timeout after {:g} s: {}", options.patience, missing));
     }
-    if (since_complaint.seconds() < kComplainEvery) continue;
+    if (since_report.seconds() < kReportPeriod) continue;
     waiting(missing);
-    since_complaint = Stopwatch();
+    since_report = Stopwatch();
   }
-  return failure(fmt::format("ended before it began: {}", missing));
+  return failure(fmt::format("stopped before the estimate started: {}", missing));
 }
 
 }  // namespace aims

@@ -12,20 +12,19 @@
 namespace aims {
 
 struct LiveRecordingOptions {
-  Duration settle = 3 * kSecond;  ///< gathered before the reader decides
-  double patience = 0.0;          ///< given up after so long [s]; 0: never
+  Duration settle = 3 * kSecond;  ///< gathered before topics, units and extrinsics are decided
+  double patience = 0.0;          ///< timeout without the needed topics [s]; 0: none
 };
 
-/// Whether what was found will do; an error says what is missing.
-using EnoughFound = std::function<Result<void>(const RecordingSetup& setup)>;
+/// Error unless the setup suffices, naming what is missing.
+using SetupCheck = std::function<Result<void>(const RecordingSetup& setup)>;
 
-/// Takes the topics of the network, until topics, units and extrinsics can be decided as for a bag
-/// and `enough` is content; from then on takes those that are used. While something is missing,
-/// `waiting` is told what every few seconds. Error when the node was asked to end before, or
-/// patience has run out.
+/// Gathers all topics of the network until topics, units and extrinsics can be decided as for a bag
+/// and `check_setup` passes; then only those that are used. Meanwhile `waiting` is called every few
+/// seconds with what is missing. Error when the node is asked to end, or after the timeout.
 Result<RecordingReader> open_live_recording(RosTransport& transport, const RecordingConfig& config,
                                             const LiveRecordingOptions& options,
-                                            const EnoughFound& enough,
+                                            const SetupCheck& check_setup,
                                             const std::function<void(const std::string&)>& waiting);
 
 }  // namespace aims

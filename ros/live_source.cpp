@@ -40,12 +40,12 @@ void LiveSource::announce(const RosConnection& connection) {
   for (BagConnection& known : connections_) known.messages += &known == find(connection) ? 1 : 0;
 }
 
-/// The message as a bag gives it; nothing for one that is not wanted.
+/// The message as read from a bag; nothing for one that is not selected.
 std::optional<BagMessage> LiveSource::given(const RosMessage& message) {
   const BagConnection* connection = find(*message.connection);
   if (connection == nullptr) return std::nullopt;
   if (!selects(connection->topic)) return std::nullopt;
-  // A clock that was set back must not turn the order of arrival round.
+  // A clock that was set back must not reverse the order of arrival.
   last_ = std::max(last_, message.arrival);
   return BagMessage{.connection = connection, .record_time = last_, .data = message.data};
 }

@@ -15,15 +15,15 @@
 
 namespace aims {
 
-/// Messages that have come and wait, in order of arrival.
+/// Queued messages, in order of arrival.
 using RosMessages = std::deque<RosMessage>;
 
-/// The topics of a running robot as a source like a bag: at first what was gathered before, which
-/// can be read again, then, live, all that comes. Messages of a topic or type that was not among
-/// those gathered are left out.
+/// The topics of a running robot as a message source. At first it contains the gathered messages,
+/// which can be read again; once live, it continues with new ones. Messages of topics or types that
+/// were not gathered are skipped.
 class LiveSource final : public MessageSource {
  public:
-  /// Waits for the next message; nothing: there will be no more.
+  /// Waits for the next message; nothing when there are no more.
   using Wait = std::function<std::optional<RosMessage>()>;
 
   /// `gathered` keeps its messages until the source goes live.
@@ -36,10 +36,10 @@ class LiveSource final : public MessageSource {
   Result<std::optional<BagMessage>> next() override;
   void rewind() override;
 
-  /// Whether messages of that topic are given.
+  /// Whether messages of that topic are returned.
   bool selects(const std::string& topic) const { return !selected_ || selected_->contains(topic); }
 
-  /// From here on `next` goes on from where it is, and waits for more instead of ending.
+  /// Makes `next` wait for new messages after the gathered ones instead of ending.
   void go_live() { live_ = true; }
 
  private:
@@ -56,7 +56,7 @@ class LiveSource final : public MessageSource {
   bool live_ = false;
   std::size_t position_ = 0;  ///< among the gathered messages
   RosMessage current_;        ///< the last message that was waited for
-  Time last_ = 0;             ///< record time of the last message given
+  Time last_ = 0;             ///< record time of the last message returned
 };
 
 }  // namespace aims

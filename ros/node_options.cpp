@@ -20,7 +20,7 @@ constexpr const char* kFooter =
 
 constexpr std::string_view kSettingPrefix = "set/";
 
-/// The options that may also come as parameters.
+/// The options that may also be parameters.
 Fields fields_of_options(NodeOptions& options) {
   Fields fields;
   fields.text("estimator", options.estimator, {});
@@ -37,7 +37,7 @@ Fields fields_of_options(NodeOptions& options) {
 void add_options(CLI::App& app, NodeOptions& options) {
   app.add_option("--estimator", options.estimator, "Estimator to run (aims)");
   app.add_option("--config", options.config, "YAML file with recording, estimator");
-  app.add_option("--set", options.overrides, "key=value on top; repeatable")
+  app.add_option("--set", options.overrides, "key=value, applied after the file; repeatable")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--out", options.out, "TUM file to write at the end");
@@ -48,7 +48,7 @@ void add_options(CLI::App& app, NodeOptions& options) {
                  "Time [s] gathered before topics, units and extrinsics are decided (3)")
       ->check(CLI::Range(0.1, 60.0));
   app.add_option("--patience", options.patience,
-                 "Give up after so long [s] without the topics that are needed; 0: never (0)")
+                 "Timeout [s] without the needed topics; 0: none (0)")
       ->check(CLI::Range(0.0, 1e6));
 }
 
@@ -59,7 +59,7 @@ Result<NodeCommand> parse_node_arguments(std::vector<std::string> arguments) {
   CLI::App app(kDescription, "aims_node");
   app.footer(kFooter);
   add_options(app, command.options);
-  std::ranges::reverse(arguments);  // as CLI11 wants them
+  std::ranges::reverse(arguments);  // the order that CLI11 expects
   try {
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {

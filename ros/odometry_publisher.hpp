@@ -10,17 +10,17 @@
 
 namespace aims {
 
-/// What the published poses are called.
+/// Frames of the published poses.
 struct OdometryFrames {
   std::string odom;  ///< frame of the poses
   std::string body;  ///< child frame: the IMU's
-  bool tf = false;   ///< also publish them as transforms on /tf
+  bool tf = false;   ///< also publish transforms on /tf
 };
 
 /// The pose `to` with the mean twist since `from`, in the axes of `to`.
 OdometryContent odometry_between(const StampedPose& from, const StampedPose& to);
 
-/// Publishes an estimator's poses as nav_msgs/Odometry on ~odometry, and on /tf if asked to.
+/// Publishes an estimator's poses as nav_msgs/Odometry on ~odometry, and optionally on /tf.
 class OdometryPublisher {
  public:
   OdometryPublisher(RosTransport& transport, OdometryFrames frames);

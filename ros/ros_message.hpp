@@ -9,19 +9,19 @@
 
 namespace aims {
 
-/// One topic as one publisher announces it.
+/// One topic of one publisher.
 struct RosConnection {
   std::string topic;       ///< resolved, e.g. "/imu/data"
   std::string type;        ///< e.g. "sensor_msgs/Imu"
   std::string md5;         ///< of the definition
-  std::string definition;  ///< the message type in words, with all types that it uses
+  std::string definition;  ///< text of the message type and of all types that it uses
   bool latching = false;
 };
 
-/// A message as it came over the network.
+/// A message from the network.
 struct RosMessage {
   std::shared_ptr<const RosConnection> connection;
-  std::int64_t arrival = 0;     ///< ROS time at which it came [ns]
+  std::int64_t arrival = 0;     ///< ROS time of arrival [ns]
   std::vector<std::byte> data;  ///< as serialized by ROS 1, little endian
 };
 

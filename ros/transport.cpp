@@ -18,12 +18,12 @@ namespace {
 
 using topic_tools::ShapeShifter;
 
-/// Messages that wait in roscpp while one is worked on: five seconds at 200 Hz.
+/// Length of roscpp's queue: five seconds at 200 Hz.
 constexpr std::uint32_t kQueueSize = 1000;
-/// How often a waiting node looks whether it was asked to end [s].
-constexpr double kLongestWait = 0.1;
+/// Period in which a waiting node checks whether it was asked to end [s].
+constexpr double kMaxWait = 0.1;
 
-/// What ShapeShifter and roscpp's serialization write to.
+/// Output of ShapeShifter and roscpp's serialization.
 struct ByteStream {
   std::vector<std::byte>& bytes;
   std::uint8_t* advance(std::uint32_t size) {
@@ -173,7 +173,7 @@ std::optional<RosMessage> RosTransport::wait(double seconds) {
   while (impl_->inbox.empty()) {
     const double left = (end - ros::WallTime::now()).toSec();
     if (left <= 0.0 || !ros::ok()) return std::nullopt;
-    impl_->queue.callAvailable(ros::WallDuration(std::min(left, kLongestWait)));
+    impl_->queue.callAvailable(ros::WallDuration(std::min(left, kMaxWait)));
   }
   return impl_->inbox.pop();
 }
@@ -193,7 +193,7 @@ void RosTransport::publish(std::size_t publisher, const std::byte* data, std::si
   ShapeShifter message;
   message.morph(connection.md5, connection.type, connection.definition,
                 connection.latching ? "1" : "0");
-  // Only read from: roscpp has one stream type for both directions.
+  // Only read: roscpp has one stream type for both directions.
   auto* bytes = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(data));
   ros::serialization::IStream stream(bytes, static_cast<std::uint32_t>(size));
   message.read(stream);

@@ -79,11 +79,11 @@ Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& n
   while (!reader.at_end()) {
     const int line = reader.line();
     const std::size_t before = table.cells_.size();
-    const bool whole = reader.take(table.cells_);
+    const bool complete = reader.take(table.cells_);
     const std::size_t found = table.cells_.size() - before;
-    if (!whole || found != table.header_.size()) {
+    if (!complete || found != table.header_.size()) {
       return failure(fmt::format("{}:{}: expected {} cells and a line end, found {} cells{}", name,
-                                 line, table.header_.size(), found, whole ? "" : ", cut short"));
+                                 line, table.header_.size(), found, complete ? "" : ", truncated"));
     }
     table.lines_.push_back(line);
   }

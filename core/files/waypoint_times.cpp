@@ -16,7 +16,7 @@ std::string_view without_return(std::string_view line) {
   return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
 }
 
-/// Takes the quoted name off the front of `rest`, or nothing when its quote never closes.
+/// Removes the quoted name from the front of `rest`; nothing when its quote never closes.
 std::optional<std::string> take_quoted(std::string_view& rest) {
   std::string name;
   for (std::size_t i = 1; i < rest.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 
 /// Headers hold a topic and a few numbers [bytes].
 constexpr std::uint32_t kMaxHeaderBytes = 1 << 16;
-/// Read at once in the hope that it holds a whole header.
+/// Bytes of the first read, enough for most headers.
 constexpr std::size_t kFirstReadBytes = 256;
 
 tl::unexpected<Error> cannot_read(const std::filesystem::path& file, const std::string& why) {

@@ -12,7 +12,7 @@
 
 namespace aims {
 
-/// The index of a bag as it lies in the file: connection records, then chunk infos.
+/// The index of a bag as in the file: connection records, then chunk infos.
 struct BagIndexBytes {
   std::vector<std::byte> connections;
   std::vector<std::byte> chunk_infos;

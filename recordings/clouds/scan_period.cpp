@@ -49,9 +49,9 @@ std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Dura
   std::vector<Duration> each;
   for (const auto& [period, times] : periods) each.insert(each.end(), times, period);
   // Jittering stamps: the firing span measures the period better, if it is close.
-  const Duration usual = *upper_median(each);
-  const Duration fired = integer_rate(span.value_or(usual));
-  return std::abs(fired - usual) <= usual / 4 ? fired : integer_rate(usual);
+  const Duration typical = *upper_median(each);
+  const Duration fired = integer_rate(span.value_or(typical));
+  return std::abs(fired - typical) <= typical / 4 ? fired : integer_rate(typical);
 }
 
 std::optional<double> time_unit(double span, Duration about) {
@@ -77,11 +77,11 @@ std::optional<double> sample_rate(std::vector<Time> stamps) {
   const auto mode = std::max_element(times.begin(), times.end(),
                                      [](auto& a, auto& b) { return a.second < b.second; });
   if (3 * mode->second >= between.size()) return 1.0 / to_seconds(mode->first);
-  const Duration usual = *upper_median(between);
+  const Duration typical = *upper_median(between);
   const auto near = std::count_if(between.begin(), between.end(), [&](Duration each) {
-    return std::abs(each - usual) < usual / 10;
+    return std::abs(each - typical) < typical / 10;
   });
-  if (2 * static_cast<std::size_t>(near) >= between.size()) return 1.0 / to_seconds(usual);
+  if (2 * static_cast<std::size_t>(near) >= between.size()) return 1.0 / to_seconds(typical);
   return static_cast<double>(between.size()) / to_seconds(stamps.back() - stamps.front());
 }
 

@@ -104,8 +104,8 @@ void LegStream::differentiate(JointReading& reading) const {
   }
 }
 
-/// The base's velocity by the leg model: the mean over the standing feet; without any, the last
-/// goes on.
+/// Velocity of the base by leg kinematics: the mean over the feet in contact, or the last value
+/// without contacts.
 std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReading& joints,
                                                                EventCounts& counts) {
   joints_wait_ = false;

@@ -21,7 +21,7 @@ struct FieldDefinition {
   int line = 0;             ///< in the text, from 1
 };
 
-/// A message type as written; constants are left out.
+/// A message type as written, without constants.
 struct TypeDefinition {
   std::string name;  ///< with package
   std::vector<FieldDefinition> fields;

@@ -169,8 +169,8 @@ std::string RecordingSurvey::base_frame() const {
   if (twist && !is_world_frame(legs.frame)) return legs.frame;
   const std::string& joints = seen(Role::kJoints).frame;
   if (!joints.empty() && frames_.contains(joints)) return joints;
-  for (const char* usual : {"base", "base_link", "trunk", "body"}) {
-    if (frames_.contains(usual)) return usual;
+  for (const char* name : {"base", "base_link", "trunk", "body"}) {
+    if (frames_.contains(name)) return name;
   }
   return {};
 }

@@ -51,7 +51,7 @@ bool may_be_contacts(const BagConnection& c) {
 struct Request {
   std::string_view key;
   std::string_view expected;  ///< in words
-  bool (*fits)(const BagConnection&);
+  bool (*is_suitable)(const BagConnection&);
 };
 
 std::string topic_list(std::span<const BagConnection> connections) {
@@ -86,7 +86,7 @@ class Chooser {
                                  request.key, near.empty() ? "" : "; did you mean '" + near + "'?",
                                  topic_list(connections_)));
     }
-    if (!request.fits(*found)) {
+    if (!request.is_suitable(*found)) {
       return failure(fmt::format("{}: topic '{}' (topics.{}) is {}, expected {}", bag_.string(),
                                  topic, request.key, found->type, request.expected));
     }
@@ -96,10 +96,10 @@ class Chooser {
   /// The default topic, or the only suitable one, or nothing; several are an error.
   Result<std::string> found(const Request& request, std::string_view default_topic) const {
     const BagConnection* known = find(default_topic);
-    if (known != nullptr && request.fits(*known)) return std::string(default_topic);
+    if (known != nullptr && request.is_suitable(*known)) return std::string(default_topic);
     std::set<std::string> topics;
     for (const BagConnection& each : connections_) {
-      if (request.fits(each) && each.messages > 0) topics.insert(each.topic);
+      if (request.is_suitable(each) && each.messages > 0) topics.insert(each.topic);
     }
     if (topics.empty()) return std::string();
     if (topics.size() == 1) return *topics.begin();
@@ -128,18 +128,19 @@ class Chooser {
 
 /// A required topic.
 Result<std::string> required_topic(const Chooser& chooser, const Request& request,
-                                   const std::string& wanted, std::string_view default_topic) {
-  if (wanted == kNone) return std::string();
-  if (!wanted.empty()) return chooser.requested(request, wanted);
+                                   const std::string& configured, std::string_view default_topic) {
+  if (configured == kNone) return std::string();
+  if (!configured.empty()) return chooser.requested(request, configured);
   auto topic = chooser.found(request, default_topic);
   if (topic && topic->empty()) return chooser.missing(request);
   return topic;
 }
 
-Result<std::string> legs(const Chooser& chooser, const std::string& wanted) {
+Result<std::string> legs(const Chooser& chooser, const std::string& configured) {
   constexpr std::string_view kExpected = "nav_msgs/Odometry or geometry_msgs/TwistStamped";
-  if (wanted == kNone) return std::string();
-  if (!wanted.empty()) return chooser.requested({"leg_odometry", kExpected, is_legs}, wanted);
+  if (configured == kNone) return std::string();
+  if (!configured.empty())
+    return chooser.requested({"leg_odometry", kExpected, is_legs}, configured);
   auto topic =
       chooser.found({"leg_odometry", "nav_msgs/Odometry", may_be_odometry}, kLegOdometryTopic);
   if (!topic || !topic->empty()) return topic;
@@ -148,11 +149,11 @@ Result<std::string> legs(const Chooser& chooser, const std::string& wanted) {
 
 /// An optional topic. Of several suitable ones none is chosen.
 Result<std::string> optional_topic(const Chooser& chooser, const Request& request,
-                                   const std::string& wanted, std::string_view default_topic,
+                                   const std::string& configured, std::string_view default_topic,
                                    bool (*is_likely)(const BagConnection&),
                                    std::vector<std::string>& notes) {
-  if (wanted == kNone) return std::string();
-  if (!wanted.empty()) return chooser.requested(request, wanted);
+  if (configured == kNone) return std::string();
+  if (!configured.empty()) return chooser.requested(request, configured);
   auto topic = chooser.found({request.key, request.expected, is_likely}, default_topic);
   if (topic) return topic;
   notes.push_back(topic.error().message.substr(topic.error().message.find("several topics")));
@@ -173,7 +174,8 @@ std::string_view type_of(std::span<const BagConnection> connections, std::string
 
 Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
                                    std::span<const BagConnection> connections,
-                                   const TopicsConfig& wanted, std::vector<std::string>& notes) {
+                                   const TopicsConfig& configured,
+                                   std::vector<std::string>& notes) {
   const Chooser chooser(bag, connections);
   TopicsConfig topics;
   const auto keep = [](std::string& member, const Result<std::string>& topic) -> Result<void> {
@@ -185,21 +187,21 @@ Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
   const Request imu = {"imu", "sensor_msgs/Imu", is_imu};
   const Request joints = {"joint_states", "sensor_msgs/JointState", is_joints};
   const Request contacts = {"contacts", "contacts of feet", is_anything};
-  auto ok = keep(topics.lidar, required_topic(chooser, lidar, wanted.lidar, kLidarTopic));
-  if (ok) ok = keep(topics.imu, required_topic(chooser, imu, wanted.imu, kImuTopic));
-  if (ok) ok = keep(topics.leg_odometry, legs(chooser, wanted.leg_odometry));
+  auto ok = keep(topics.lidar, required_topic(chooser, lidar, configured.lidar, kLidarTopic));
+  if (ok) ok = keep(topics.imu, required_topic(chooser, imu, configured.imu, kImuTopic));
+  if (ok) ok = keep(topics.leg_odometry, legs(chooser, configured.leg_odometry));
   if (ok) {
-    ok = keep(topics.joint_states, optional_topic(chooser, joints, wanted.joint_states,
+    ok = keep(topics.joint_states, optional_topic(chooser, joints, configured.joint_states,
                                                   kJointStatesTopic, is_joints, notes));
   }
   if (ok) {
-    ok = keep(topics.contacts, optional_topic(chooser, contacts, wanted.contacts,
+    ok = keep(topics.contacts, optional_topic(chooser, contacts, configured.contacts,
                                               kFootContactsTopic, may_be_contacts, notes));
   }
-  if (ok && !wanted.truth.empty() && wanted.truth != kNone) {
+  if (ok && !configured.truth.empty() && configured.truth != kNone) {
     const Request truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
-    ok = keep(topics.truth, chooser.requested(truth, wanted.truth));
-  } else if (ok && wanted.truth.empty()) {
+    ok = keep(topics.truth, chooser.requested(truth, configured.truth));
+  } else if (ok && configured.truth.empty()) {
     const BagConnection* known = chooser.find(kTruthImuTopic);
     if (known != nullptr && is_truth(*known)) topics.truth = known->topic;
   }

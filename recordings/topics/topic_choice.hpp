@@ -20,7 +20,7 @@ bool is_cloud_type(std::string_view type);
 /// file and list the existing topics: for a missing topic, a wrong type, or several suitable ones.
 Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
                                    std::span<const BagConnection> connections,
-                                   const TopicsConfig& wanted, std::vector<std::string>& notes);
+                                   const TopicsConfig& configured, std::vector<std::string>& notes);
 
 /// Type of the topic, or empty.
 std::string_view type_of(std::span<const BagConnection> connections, std::string_view topic);

@@ -193,9 +193,9 @@ void drop_invalid(Trajectory& poses, const std::string& name, std::vector<std::s
     if (later && is_pose(each.pose)) valid.push_back(each);
   }
   if (valid.size() < poses.size()) {
-    notes.push_back(
-        fmt::format("{}: {} of {} poses dropped: not finite, not a pose, or stamps that do not increase",
-                    name, poses.size() - valid.size(), poses.size()));
+    notes.push_back(fmt::format(
+        "{}: {} of {} poses dropped: not finite, not a pose, or stamps that do not increase", name,
+        poses.size() - valid.size(), poses.size()));
   }
   poses = std::move(valid);
 }

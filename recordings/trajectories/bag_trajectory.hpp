@@ -12,9 +12,9 @@ namespace aims {
 
 /// Reads the poses of one topic of a ROS 1 bag: nav_msgs/Odometry, geometry_msgs/PoseStamped,
 /// PoseWithCovarianceStamped or TransformStamped, or the last nav_msgs/Path. Stamps are those of
-/// the headers, or record times when no header has one. Without `topic`: the only fitting one, or
-/// the preferred one among several. Under strict rules, poses that are none and stamps that do not
-/// increase are left out and counted in a note. Errors list the topics that exist.
+/// the headers, or record times when no header has one. Without `topic`: the only suitable one, or
+/// the preferred one. Under strict rules, invalid poses and poses whose stamps do not increase are
+/// dropped and counted in a note. Errors list the existing topics.
 Result<TrajectoryFile> read_bag_trajectory(const std::filesystem::path& file,
                                            const std::string& topic,
                                            const TrajectoryFileOptions& options);

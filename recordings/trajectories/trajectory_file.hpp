@@ -37,7 +37,9 @@ struct TrajectoryFile {
   std::vector<std::string> notes;  ///< assumptions and dropped poses, one sentence each
 };
 
-/// Reads `source`: a text file of TUM lines or KITTI poses, distinguished by the number of columns, or a ROS 1 bag, recognized by its first bytes, with the topic after a colon ("run.bag:/odom"). Errors name the file, its line or offset, and what was expected; for a topic, the existing ones.
+/// Reads `source`: a text file of TUM lines or KITTI poses, distinguished by the number of columns,
+/// or a ROS 1 bag, recognized by its first bytes, with the topic after a colon ("run.bag:/odom").
+/// Errors name the file, its line or offset, and what was expected; for a topic, the existing ones.
 Result<TrajectoryFile> read_trajectory(const std::string& source,
                                        const TrajectoryFileOptions& options);
 

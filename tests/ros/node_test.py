@@ -28,7 +28,7 @@ def distance(a, b):
 
 
 class Listener:
-    """Takes ~odometry and /tf as any other node would."""
+    """Subscribes to ~odometry and /tf."""
 
     def __init__(self, network):
         for name in ("ROS_MASTER_URI", "ROS_IP", "ROS_LOG_DIR"):
@@ -83,11 +83,11 @@ class LiveEstimate(unittest.TestCase):
             heard = len(cls.listener.odometry)
             time.sleep(0.6)
 
-    def test_a_topic_that_is_missing_is_told_with_those_that_exist(self):
+    def test_an_error_of_a_missing_topic_lists_the_existing_ones(self):
         with Network(os.path.abspath("log")) as network:
             network.start(["/usr/lib/rosbag/play", "--quiet", "walk.bag"],
                           stdout=subprocess.DEVNULL)
-            fails(self, ["gave up after 3 s", "/absent", "/imu/data"], network.environment,
+            fails(self, ["timeout after 3 s", "/absent", "/imu/data"], network.environment,
                   "--settle", "1", "--patience", "3", "--set", "recording.topics.imu=/absent")
 
     def test_the_node_ends_well(self):
@@ -108,17 +108,17 @@ class LiveEstimate(unittest.TestCase):
         self.assertGreater(len(self.listener.odometry), 0.8 * len(self.live))
         for message in self.listener.odometry:
             pose = message.pose.pose
-            told = (pose.position.x, pose.position.y, pose.position.z, pose.orientation.x,
+            published = (pose.position.x, pose.position.y, pose.position.z, pose.orientation.x,
                     pose.orientation.y, pose.orientation.z, pose.orientation.w)
-            self.assertEqual(told, self.live[message.header.stamp.to_nsec()])
+            self.assertEqual(published, self.live[message.header.stamp.to_nsec()])
             self.assertEqual((message.header.frame_id, message.child_frame_id), ("odom", "imu"))
 
     def test_transforms_are_those_of_the_odometry(self):
-        told = {m.header.stamp.to_nsec(): m.pose.pose.position for m in self.listener.odometry}
-        self.assertGreater(len(self.listener.transforms), 0.8 * len(told))
+        odometry = {m.header.stamp.to_nsec(): m.pose.pose.position for m in self.listener.odometry}
+        self.assertGreater(len(self.listener.transforms), 0.8 * len(odometry))
         for message in self.listener.transforms:
             transform, = message.transforms
-            position = told.get(transform.header.stamp.to_nsec())
+            position = odometry.get(transform.header.stamp.to_nsec())
             moved = transform.transform.translation
             if position:
                 self.assertEqual((moved.x, moved.y, moved.z), (position.x, position.y, position.z))
@@ -139,15 +139,15 @@ def fails(test, expected, environment, *arguments):
 
 
 class BadUsage(unittest.TestCase):
-    def test_a_missing_master_is_told(self):
+    def test_a_missing_master_is_an_error(self):
         nowhere = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{free_port()}",
                        ROS_LOG_DIR=os.path.abspath("log"))
         fails(self, ["no ROS master at http://127.0.0.1:"], nowhere)
 
-    def test_bad_settings_are_told_before_anything_is_waited_for(self):
+    def test_bad_settings_are_errors_before_waiting(self):
         with Network(os.path.abspath("log")) as network:
             environment = network.environment
-            fails(self, ["gave up after 1 s: no messages yet"], environment, "--patience", "1")
+            fails(self, ["timeout after 1 s: no messages yet"], environment, "--patience", "1")
             fails(self, ["'amis'", "did you mean"], environment, "--estimator", "amis")
             fails(self, ["recording.topics.imoo"], environment, "--set",
                   "recording.topics.imoo=/imu")
