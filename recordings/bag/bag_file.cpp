@@ -88,10 +88,10 @@ Result<FileRecord> BagFile::record(std::uint64_t position) const {
     return refuse(position, fmt::format("expected a record's header of at most {} bytes, found {}",
                                         kMaxHeaderBytes, header_size));
   }
-  const std::size_t whole = 2 * kLength + header_size;
+  const std::size_t total = 2 * kLength + header_size;
   const std::size_t known = bytes.size();
-  bytes.resize(whole);
-  if (whole > known) {
+  bytes.resize(total);
+  if (total > known) {
     const auto got = read(position + known, std::span(bytes).subspan(known));
     if (!got) return tl::unexpected(got.error());
   }
@@ -101,7 +101,7 @@ Result<FileRecord> BagFile::record(std::uint64_t position) const {
   if (!op) return refuse(position, "expected a record's header with 'op' from 2 to 7");
   record.header = *fields;
   record.op = *op;
-  record.data_position = position + whole;
+  record.data_position = position + total;
   record.data_size = load_number<std::uint32_t>(bytes.data() + kLength + header_size);
   if (record.data_size > size_ - record.data_position) {
     return refuse(position, fmt::format("expected {} bytes of {}, but the file ends at byte {}",

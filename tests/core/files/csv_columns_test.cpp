@@ -46,7 +46,7 @@ TEST(CsvColumns, NamesTheLineOfATruncatedRowAndOfAnInvalidNumber) {
   refused("", "t.csv:1");
   refused("a,b", "t.csv:1");
   refused("a,b\n1,2\n3", "t.csv:3: expected 2 cells");
-  refused("a,b\n1,2\n3,4", "t.csv:3: expected 2 cells and a line end, found 2 cells, cut short");
+  refused("a,b\n1,2\n3,4", "t.csv:3: expected 2 cells and a line end, found 2 cells, truncated");
   refused("a,b\n1\n", "t.csv:2: expected 2 cells");
   refused("a,b\n\"1\n2\",3\n\"open,4\n", "t.csv:4");
   refused("a,b\n\"x\ny\",3\n", "t.csv:2: a: expected a number");
