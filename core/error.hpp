@@ -7,16 +7,16 @@
 
 namespace aims {
 
-/// Reason of a failure: what, where, and what was expected, in one line.
+/// Why something could not be done: what, where, and what was expected, in one line.
 struct Error {
   std::string message;
 };
 
-/// A value or an error.
+/// A value, or the reason why there is none.
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// An error with that message.
+/// The failed outcome with that message.
 inline tl::unexpected<Error> failure(std::string message) {
   return tl::unexpected<Error>(Error{std::move(message)});
 }

@@ -5,7 +5,7 @@
 
 namespace aims {
 
-/// Wall time since construction.
+/// Wall time since it was made.
 class Stopwatch {
  public:
   double seconds() const {
