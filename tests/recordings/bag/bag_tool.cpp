@@ -136,13 +136,13 @@ std::string hex(std::string_view text) {
   return out;
 }
 
-void print_fields(const MessageView& view, const std::vector<MessagePlan>& plans,
-                  const MessagePlan& plan, const std::string& prefix) {
-  for (const MessageSlot& slot : plan.slots) {
+void print_fields(const MessageView& view, const std::vector<MessageLayout>& layouts,
+                  const MessageLayout& layout, const std::string& prefix) {
+  for (const FieldSlot& slot : layout.slots) {
     const std::string path = prefix + slot.path;
     if (slot.kind == FieldKind::kMessages) {
       for (std::size_t i = 0; i < view.size(path).value(); ++i) {
-        print_fields(view, plans, plans[slot.element], fmt::format("{}[{}].", path, i));
+        print_fields(view, layouts, layouts[slot.element], fmt::format("{}[{}].", path, i));
       }
     } else if (slot.kind == FieldKind::kNumber) {
       fmt::print("{} {:.17g}\n", path, view.number(path).value());
@@ -174,8 +174,8 @@ int decode(const std::string& file) {
   std::map<std::uint32_t, MessageDecoder> decoders;
   const auto read = for_each_message(file, {}, [&](const BagMessage& message) -> Result<void> {
     const BagConnection& connection = *message.connection;
-    const auto plans = plan_message(connection.type, connection.definition);
-    if (!plans) return tl::unexpected(plans.error());
+    const auto layouts = message_layouts(connection.type, connection.definition);
+    if (!layouts) return tl::unexpected(layouts.error());
     if (!decoders.contains(connection.id)) {
       const auto made = MessageDecoder::create(connection.type, connection.definition);
       decoders.emplace(connection.id, made.value());
@@ -183,7 +183,7 @@ int decode(const std::string& file) {
     const auto view = decoders.at(connection.id).decode(message.data);
     if (!view) return tl::unexpected(view.error());
     fmt::print("{} {}\n", message.record_time, connection.topic);
-    print_fields(*view, *plans, plans->back(), "");
+    print_fields(*view, *layouts, layouts->back(), "");
     return {};
   });
   return read ? 0 : fail(read.error());
