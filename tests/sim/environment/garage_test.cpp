@@ -135,7 +135,7 @@ TEST(GarageScene, ConfigurationsThatCannotBeBuiltNameTheKey) {
       names(error([](GarageConfig& c) { c.hall_height = 2.5; }), "scene.garage.hall_height"));
   EXPECT_TRUE(names(error([](GarageConfig& c) { c.height = 3.3; }), "scene.garage.hall_height"));
   EXPECT_TRUE(
-      names(error([](GarageConfig& c) { c.mouth_distance = 44.5; }), "scene.garage.approach"));
+      names(error([](GarageConfig& c) { c.opening_distance = 44.5; }), "scene.garage.approach"));
   EXPECT_TRUE(names(error([](GarageConfig& c) { c.exit = 8.0; }), "scene.garage.exit"));
   EXPECT_TRUE(
       names(error([](GarageConfig& c) { c.doors.spacing = 1.0; }), "scene.garage.doors.spacing"));

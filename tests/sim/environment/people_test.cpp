@@ -69,7 +69,7 @@ TEST(MeetPeople, AgreesWithMarchingAlongTheRay) {
       hits.surface[lane] = -1;
       stamps[lane] = start + lane * 55'555;
     }
-    meet_people(people, rays, stamps, 100, 20.0F, hits);
+    intersect_people(people, rays, stamps, 100, 20.0F, hits);
     for (int lane = 0; lane < kRayPacketSize; ++lane) {
       const Vector3d direction(rays.direction_x[lane], rays.direction_y[lane],
                                rays.direction_z[lane]);
@@ -114,7 +114,7 @@ TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
     HitPacket together;
     together.distance.fill(20.0F);
     together.surface.fill(-1);
-    meet_people(people, rays, stamps, 0, 20.0F, together);
+    intersect_people(people, rays, stamps, 0, 20.0F, together);
     for (int lane = 0; lane < kRayPacketSize; ++lane) {
       RayPacket alone;
       alone.origin_z.fill(0.5F);
@@ -125,7 +125,7 @@ TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
       HitPacket single;
       single.distance.fill(20.0F);
       single.surface.fill(-1);
-      meet_people(people, alone, stamp, 0, 20.0F, single);
+      intersect_people(people, alone, stamp, 0, 20.0F, single);
       ASSERT_EQ(together.surface[lane], single.surface[0]) << packet << " " << lane;
       ASSERT_EQ(together.distance[lane], single.distance[0]);
       met += single.surface[0] >= 0 ? 1 : 0;
@@ -141,7 +141,7 @@ TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
   const RayCaster caster(scene);
   LidarConfig lidar_config;
   lidar_config.range_sigma = 0.0;
-  lidar_config.body_min = lidar_config.body_max = Vector3d::Zero();
+  lidar_config.body_mask_min = lidar_config.body_mask_max = Vector3d::Zero();
   Lidar lidar(lidar_config, caster, 1);
   int met = 0;
   double stale = 0.0;
@@ -217,11 +217,11 @@ TEST(PeopleScene, KeepToLanesBesideTheRobotAndComeFromTheSeed) {
 
 TEST(PeopleScene, LanesThroughWallsOrRobotAreRefused) {
   SceneConfig config = with_people(1);
-  config.people.lane = 0.9;
-  EXPECT_NE(validate(config).error().message.find("scene.people.lane"), std::string::npos);
-  config.people.lane = 0.5;
-  EXPECT_NE(validate(config).error().message.find("scene.people.lane"), std::string::npos);
-  config.people.lane = 0.75;
+  config.people.lane_offset = 0.9;
+  EXPECT_NE(validate(config).error().message.find("scene.people.lane_offset"), std::string::npos);
+  config.people.lane_offset = 0.5;
+  EXPECT_NE(validate(config).error().message.find("scene.people.lane_offset"), std::string::npos);
+  config.people.lane_offset = 0.75;
   EXPECT_TRUE(validate(config));
 }
 

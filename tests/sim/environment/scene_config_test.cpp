@@ -92,7 +92,7 @@ TEST(CorridorScene, FeaturesThatAreOffChangeNothing) {
   const std::string plain = scene_mjcf(build_scene(config, 3), "", MjcfPurpose::kRender).value();
   config.corridor.glass = {.share = 0.0, .pane = 5.0, .limit_deg = 30.0, .behind = 3.0};
   config.ramp = {.start = 1.0, .length = 2.0, .grade = 0.0};
-  config.people = {.count = 0, .speed = 2.0, .lane = 5.0};
+  config.people = {.count = 0, .speed = 2.0, .lane_offset = 5.0};
   config.garage.cars = 1;
   config.tunnel.radius = 7.0;
   ASSERT_TRUE(validate(config));
@@ -190,7 +190,7 @@ TEST(CorridorScene, PillarsStandOutOfTheWallAndCollide) {
 TEST(CorridorScene, ClutterKeepsTheLaneFree) {
   SceneConfig config = plain_corridor();
   config.corridor.clutter.density = 1.0;
-  config.corridor.clutter.lane_width = 1.3;
+  config.corridor.clutter.free_width = 1.3;
   const Scene scene = build_scene(config, 9);
   const auto is_clutter = [](const Solid& s) { return s.visible && !s.roof && !s.collides; };
   const auto objects = std::count_if(scene.solids.begin(), scene.solids.end(), is_clutter);
@@ -301,7 +301,7 @@ TEST(SceneConfig, RejectsWhatCannotBeBuilt) {
     c.pillars.spacing = 8.0;
     c.pillars.depth = 0.7;
   }));
-  EXPECT_TRUE(names("clutter.lane_width", [](CorridorConfig& c) { c.clutter = {1.0, 2.1}; }));
+  EXPECT_TRUE(names("clutter.free_width", [](CorridorConfig& c) { c.clutter = {1.0, 2.1}; }));
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(Link, ClockOffsetShiftsEveryStampAndNoArrival) {
 
 TEST(Link, LosesExactlyWhatIsSentInAnOutage) {
   LinkConfig config;
-  config.outage = {.start = 0.5, .length = 0.2, .period = 1.0};
+  config.outage = {.start = 0.5, .duration = 0.2, .period = 1.0};
   const auto present = arrived(send_samples(config, 600), 600);  // three seconds
   for (int i = 0; i < 600; ++i) {
     const int within = i % 200;
@@ -195,7 +195,7 @@ TEST(Link, LosesExactlyWhatIsSentInAnOutage) {
 
 TEST(Link, AnOutageWithoutAPeriodComesOnce) {
   LinkConfig config;
-  config.outage = {.start = 0.1, .length = 0.05, .period = 0.0};
+  config.outage = {.start = 0.1, .duration = 0.05, .period = 0.0};
   EXPECT_EQ(bursts(arrived(send_samples(config, 600), 600)), std::vector<int>{10});
 }
 
@@ -226,7 +226,7 @@ TEST(Link, OneFaultLeavesTheOthersAsTheyWere) {
   config.reorder_probability = 0.3;
   config.duplicate_probability = 0.3;
   EXPECT_EQ(arrived(send_samples(config, kCount), kCount), present);
-  config.outage = {.start = 20.0, .length = 1.0, .period = 0.0};
+  config.outage = {.start = 20.0, .duration = 1.0, .period = 0.0};
   const auto with_outage = arrived(send_samples(config, kCount), kCount);
   EXPECT_TRUE(std::equal(present.begin(), present.begin() + 4000, with_outage.begin()));
   EXPECT_TRUE(std::equal(present.begin() + 4200, present.end(), with_outage.begin() + 4200));

@@ -28,7 +28,7 @@ LidarConfig coarse_lidar() {
   config.range_sigma = kSigma;
   config.miss_probability = 0.0;
   config.range_at_10_percent = 1e4;
-  config.body_min = config.body_max = Vector3d::Zero();
+  config.body_mask_min = config.body_mask_max = Vector3d::Zero();
   return config;
 }
 
@@ -285,7 +285,7 @@ TEST(ScanInformation, LeavesOutWhatMoves) {
 TEST(ScanInformation, OfAScanWithoutReturnsIsZero) {
   const ScanInformation scan = scan_information(0, {}, Pose{}, 0.0);
   EXPECT_TRUE(scan.information.isZero());
-  EXPECT_EQ(scan.range_sigma, kLeastRangeSigma);
+  EXPECT_EQ(scan.range_sigma, kMinRangeSigma);
 }
 
 TEST(SimulatedTruth, HoldsTheInformationOfEveryScanThatDidNotGetLost) {

@@ -16,7 +16,7 @@ constexpr Duration kStep = 2'500'000;
 LegOdometryConfig perfect(FootModel model) {
   LegOdometryConfig config;
   config.foot_model = model;
-  config.angle_noise = config.angle_offset = config.angle_rate_noise = 0.0;
+  config.joint_angle_noise = config.joint_angle_offset = config.joint_rate_noise = 0.0;
   config.load_noise = 0.0;
   config.gyro_noise_density = config.gyro_bias = config.gyro_scale_error = 0.0;
   config.velocity_scale_error = 0.0;
