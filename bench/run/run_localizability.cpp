@@ -107,7 +107,10 @@ CsvTable localizability_table(const RunLocalizability& localizability) {
     table.add(axis.x()).add(axis.y()).add(axis.z());
     table.add(scan.rotation_lambda_min).add(scan.rotation_sigma);
     for (const DegeneracyLevel& level : kDegeneracyLevels) table.add(is_degenerate(scan, level));
-    table.add(bound_along(bound, axis)).add(bound.along).add(bound.lateral).add(bound.vertical);
+    table.add(bound_along(bound, axis))
+        .add(bound.longitudinal)
+        .add(bound.lateral)
+        .add(bound.vertical);
     table.add(bound.heading).add(bound.leg_scale).end_row();
   }
   return table;
