@@ -39,7 +39,7 @@ TEST(Person, WalksUpAndDownAtItsSpeed) {
   }
 }
 
-TEST(MeetPeople, AgreesWithMarchingAlongTheRay) {
+TEST(IntersectPeople, AgreesWithMarchingAlongTheRay) {
   constexpr std::uint64_t kSeed = 21;
   RandomStream random = rng(kSeed, "rays");
   PeopleConfig config;
@@ -95,7 +95,7 @@ TEST(MeetPeople, AgreesWithMarchingAlongTheRay) {
   EXPECT_GT(met, 1500) << "most rays should meet the person";
 }
 
-TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
+TEST(IntersectPeople, PacketsAgreeWithSingleRays) {
   PeopleConfig config;
   config.count = 5;
   config.speed = 3.0;
@@ -134,7 +134,7 @@ TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
   EXPECT_GT(met, 200);
 }
 
-TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
+TEST(LidarOfPeople, HitsThemAtTheirPositionAtTheTimeOfFiring) {
   SceneConfig config = with_people(8);
   config.people.speed = 3.0;
   const Scene scene = build_scene(config, 2);
@@ -169,7 +169,7 @@ TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
   EXPECT_GT(stale, 0.1) << "the scan's start would have been the wrong time";
 }
 
-TEST(LidarOfPeople, PeopleWhoStandStillAreSeenLikeSolids) {
+TEST(LidarOfPeople, StandingPeopleLookLikeSolids) {
   SceneConfig config = with_people(6);
   config.people.speed = 0.0;
   const Scene scene = build_scene(config, 5);

@@ -92,7 +92,7 @@ TEST(FloorHeight, IsThatOfTheTrianglesOnBumps) {
   }
 }
 
-TEST(GlassScene, ReturnsSteepBeamsAndLetsOthersThrough) {
+TEST(GlassScene, ReturnsBeamsNearNormalIncidenceOnly) {
   const RayCaster caster(build_scene(glass_corridor(1.0), 1));
   for (double degrees = 0.5; degrees < 60.0; degrees += 1.0) {
     for (const double side : {1.0, -1.0}) {
@@ -110,7 +110,7 @@ TEST(GlassScene, ReturnsSteepBeamsAndLetsOthersThrough) {
       << "from behind one pane through both";
 }
 
-TEST(GlassScene, PacketsMeetWhatSingleRaysMeet) {
+TEST(GlassScene, PacketsHitTheSameAsSingleRays) {
   const RayCaster caster(build_scene(glass_corridor(0.5), 1));
   RandomStream random = rng(11, "packets");
   for (int packet = 0; packet < 300; ++packet) {
@@ -134,7 +134,7 @@ TEST(GlassScene, PacketsMeetWhatSingleRaysMeet) {
   }
 }
 
-TEST(GlassScene, PanesCoverTheirShareAndLeaveDoorsAlone) {
+TEST(GlassScene, PanesCoverTheConfiguredFractionAndLeaveOutDoors) {
   for (const double share : {0.25, 0.5, 1.0}) {
     const Span along{-3.0, 28.0};
     double covered = 0.0;

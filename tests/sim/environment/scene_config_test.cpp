@@ -187,7 +187,7 @@ TEST(CorridorScene, PillarsStandOutOfTheWallAndCollide) {
   EXPECT_TRUE(is_inside_solid(scene, {7.0, 1.0, 1.0}, 0.0));
 }
 
-TEST(CorridorScene, ClutterKeepsTheLaneFree) {
+TEST(CorridorScene, ClutterKeepsTheMiddleFree) {
   SceneConfig config = plain_corridor();
   config.corridor.clutter.density = 1.0;
   config.corridor.clutter.free_width = 1.3;
@@ -263,7 +263,7 @@ TEST(Scene, RepeatsWithItsSeedAndOnlyWithIt) {
   EXPECT_TRUE(same(build_scene(config, 1), build_scene(config, 2))) << "its own seed holds";
 }
 
-TEST(Scene, TellsFreePointsFromSolidOnes) {
+TEST(Scene, SeparatesFreePointsFromSolidOnes) {
   const Scene scene = build_scene(plain_corridor(), 1);
   EXPECT_FALSE(is_inside_solid(scene, {0.0, 0.0, 0.4}, 0.5));
   EXPECT_FALSE(is_inside_solid(scene, {40.0, 0.8, 0.4}, 0.29));

@@ -62,7 +62,7 @@ TEST(Link, WithDefaultConfigurationChangesNothing) {
   }
 }
 
-TEST(Link, LosesTheConfiguredShareIndependently) {
+TEST(Link, LosesTheConfiguredFractionIndependently) {
   constexpr int kCount = 100'000;
   LinkConfig config;
   config.loss = 0.05;
@@ -74,7 +74,7 @@ TEST(Link, LosesTheConfiguredShareIndependently) {
   EXPECT_NEAR(mean_length, 1.0 / 0.95, 0.02);
 }
 
-TEST(Link, LosesBurstsOfTheConfiguredLengthAndShare) {
+TEST(Link, LosesBurstsOfTheConfiguredLengthAndFraction) {
   constexpr int kCount = 400'000;
   LinkConfig config;
   config.burst_fraction = 0.08;
@@ -138,7 +138,7 @@ TEST(Link, KeepsTheOrderUnlessPacketsAreHeldBack) {
   EXPECT_NEAR(overtaken, expected, 4.0 * std::sqrt(expected));
 }
 
-TEST(Link, DuplicatesTheConfiguredShareWithTheSameContent) {
+TEST(Link, DuplicatesTheConfiguredFractionWithTheSameContent) {
   LinkConfig config;
   config.duplicate_probability = 0.2;
   config.jitter = 0.003;
@@ -216,7 +216,7 @@ TEST(Link, StampJitterMovesStampsWithinItsBoundsAndNoArrival) {
   EXPECT_NEAR(sum / 20'000.0, 0.0, 4.0 * 0.002 / std::sqrt(3.0 * 20'000.0));
 }
 
-TEST(Link, OneFaultLeavesTheOthersAsTheyWere) {
+TEST(Link, OneFaultDoesNotAffectTheOthers) {
   constexpr int kCount = 5000;
   LinkConfig config;
   config.loss = 0.1;

@@ -36,7 +36,7 @@ std::vector<std::pair<double, double>> pushes_of(const Pushes& pushes, double fo
   return found;
 }
 
-TEST(Pushes, FallOneInEachPartOfTheTimeAndLastAsTheyShould) {
+TEST(Pushes, ComeOncePerPartOfTheIntervalWithTheConfiguredDuration) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto found = pushes_of(Pushes(some_pushes(), seed), 30.0);
     ASSERT_EQ(found.size(), 8U) << "seed " << seed;
@@ -150,7 +150,7 @@ TEST(Pushes, ChangeNothingBeforeTheFirstAndNoOtherStream) {
   EXPECT_NE(with.truth.samples[850].velocity, without.truth.samples[850].velocity);
 }
 
-TEST(Pushes, FallBeforeTheRecordingToo) {
+TEST(Pushes, AlsoActBeforeTheRecording) {
   SimulationConfig config = standing_robot();
   config.push = {.count = 1, .force = 40.0, .duration = 0.2, .start = 2.0, .end = 2.2};
   const Motion whole = simulate(config, 1);

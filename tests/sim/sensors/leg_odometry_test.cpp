@@ -53,7 +53,7 @@ double relative_error(const std::vector<LegOdometrySample>& samples) {
   return samples.back().T_odom_base.translation.head<2>().norm() / walked - 1.0;
 }
 
-TEST(LegOdometry, RollingFeetMeasureTheWayWithinOnePercent) {
+TEST(LegOdometry, RollingFeetMeasureTheDistanceWithinOnePercent) {
   EXPECT_LT(std::abs(relative_error(measure(perfect(FootModel::kRolling)))), 0.01);
 }
 
@@ -103,7 +103,7 @@ TEST(LegOdometry, HeadingDriftsWithItsOwnGyro) {
   EXPECT_GT(std::abs(drift - other), 0.005);
 }
 
-TEST(LegOdometry, SlipBurstsLengthenTheWay) {
+TEST(LegOdometry, SlipBurstsLengthenTheMeasuredDistance) {
   LegOdometryConfig config = perfect(FootModel::kRolling);
   config.slip_rate = 2.0;
   EXPECT_GT(relative_error(measure(config)), 0.01);

@@ -171,7 +171,7 @@ TEST(Lidar, DropsWhatIsTooNearOrTooFar) {
   }
 }
 
-TEST(Lidar, MissesTheConfiguredShareAtRandom) {
+TEST(Lidar, MissesTheConfiguredFractionAtRandom) {
   LidarConfig config = perfect();
   config.miss_probability = 0.05;
   const double points =
@@ -247,7 +247,7 @@ TEST(Lidar, StrengthIsReflectivityTimesCosineOfIncidence) {
   EXPECT_GT(checked, 10'000);
 }
 
-TEST(Lidar, BeamsThatMeetTheBodyBringNoReturn) {
+TEST(Lidar, BeamsInTheBodyMaskReturnNothing) {
   LidarConfig config = perfect();
   const std::size_t open = one_scan(plain_corridor(), config, still()).points.size();
   config.body_mask_min = LidarConfig().body_mask_min;
@@ -320,7 +320,7 @@ TEST(LidarConfig, RejectsLimitsInTheWrongOrder) {
   EXPECT_FALSE(validate(config));
 }
 
-TEST(Lidar, DeadRingsAreTheStatedShareAndTheSameForTheWholeRun) {
+TEST(Lidar, DeadRingsAreTheConfiguredFractionAndConstantInARun) {
   const Scene scene = plain_corridor();
   const RayCaster caster(scene);
   LidarConfig config = perfect();
@@ -339,7 +339,7 @@ TEST(Lidar, DeadRingsAreTheStatedShareAndTheSameForTheWholeRun) {
   EXPECT_TRUE(one_scan(scene, config, still()).points.empty());
 }
 
-TEST(Lidar, ACoveredSectorReturnsNothingAndTheRestIsUntouched) {
+TEST(Lidar, ABlockedSectorReturnsNothingAndTheRestIsUnchanged) {
   LidarConfig config = perfect();
   const LidarScan whole = one_scan(plain_corridor(), config, still());
   config.defects.blocked_sector_center_deg = 170.0;  // reaches over the seam at 180 degrees
