@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writing, reading and decoding bags of a robot's size: clouds of 0.75 MB at 10 Hz, IMU at 50 Hz,
-// leg odometry at 200 Hz. The folder is TMPDIR's; what is measured is this code and the page cache.
+// Writing, reading and decoding bags with the messages of a robot: point clouds of 0.75 MB at 10 Hz,
+// IMU at 50 Hz, leg odometry at 200 Hz. Files are in TMPDIR, so this measures the code and the page
+// cache.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr int kPoints = 34'000;
 
-/// Points as a sensor sees them: smooth along the scan, noisy in the last millimetres.
+/// Points like those of a sensor: smooth along the scan, noisy in the last millimetres.
 MessageBytes sample_cloud() {
   LidarScan scan;
   std::mt19937 random(1);
@@ -41,7 +42,7 @@ MessageBytes sample_odometry() {
   return odometry_message({1, kSecond, "odom"}, "base", OdometryContent{});
 }
 
-/// Writes that many tenths of a second of a robot; yields the bytes of the messages.
+/// Writes the messages of `scans` tenths of a second; returns their size [bytes].
 std::int64_t write_robot(const std::filesystem::path& file, BagCompression compression,
                          std::int64_t scans) {
   static const MessageBytes cloud = sample_cloud();
@@ -77,7 +78,7 @@ void write_bag(benchmark::State& state) {
     state.PauseTiming();
     bytes += size;
     const auto on_disk = static_cast<double>(std::filesystem::file_size(file));
-    state.counters["file_share"] = on_disk / static_cast<double>(size);
+    state.counters["file_fraction"] = on_disk / static_cast<double>(size);
     std::filesystem::remove(file);
     state.ResumeTiming();
   }
@@ -130,7 +131,7 @@ void decode_cloud(benchmark::State& state) {
   }
 }
 
-/// Compression, and tenths of a second: bz2 is slow.
+/// Compression and number of scans; fewer for bz2, which is slow.
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->ArgNames({"compression", "scans"})->Args({0, 100})->Args({1, 100})->Args({2, 5});
   bench->Unit(benchmark::kMillisecond)->UseRealTime();

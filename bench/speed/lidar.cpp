@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays per second in the corridor: casting alone, and whole scans with their return model.
+// Rays per second in the corridor: ray casting alone, and whole scans with the return model.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -58,8 +58,8 @@ void cast_rays(benchmark::State& state, const SceneConfig& config) {
   state.counters["triangles"] = static_cast<double>(caster.triangle_count());
 }
 
-/// A walking robot's poses at the physics rate.
-Trajectory walk(double from_x) {
+/// Poses of a walking robot at the physics rate.
+Trajectory walking_poses(double from_x) {
   Trajectory poses;
   for (int i = 0; i <= 44; ++i) {
     const double t = 0.0025 * i;
@@ -72,7 +72,7 @@ Trajectory walk(double from_x) {
 void scan(benchmark::State& state, const SceneConfig& config) {
   const RayCaster caster(build_scene(config, 1));
   Lidar lidar(LidarConfig{}, caster, 1);
-  const Trajectory poses = walk(40.0);
+  const Trajectory poses = walking_poses(40.0);
   std::size_t points = 0;
   for (auto _ : state) {
     const LidarScan scan = lidar.scan(0, poses);

@@ -31,7 +31,7 @@ std::vector<Eigen::Vector3f> corridor_points(std::int64_t count) {
   return points;
 }
 
-Trajectory straight_way(double drift) {
+Trajectory straight_path(double drift) {
   Trajectory trajectory;
   for (int i = 0; i < 2000; ++i) {
     StampedPose sample;
@@ -50,7 +50,7 @@ void MapPictureFromAbove(benchmark::State& state) {
   const TemporaryFolder folder;
   MapPicture map;
   map.points = corridor_points(state.range(0));
-  map.trajectory = straight_way(0.1);
+  map.trajectory = straight_path(0.1);
   for (auto _ : state) {
     report(state, write_map_picture(folder.path() / "map.png", MapView::kAbove, map));
   }
@@ -61,8 +61,8 @@ void TrajectoriesOfFiveEstimators(benchmark::State& state) {
   const TemporaryFolder folder;
   TrajectoryPlot plot;
   plot.scene = build_scene({}, 1);
-  plot.truth = straight_way(0.0);
-  for (int i = 1; i <= 5; ++i) plot.estimates.push_back({"estimate", straight_way(0.1 * i)});
+  plot.truth = straight_path(0.0);
+  for (int i = 1; i <= 5; ++i) plot.estimates.push_back({"estimate", straight_path(0.1 * i)});
   for (auto _ : state) report(state, write_trajectory_plot(folder.path() / "plot.png", plot));
 }
 BENCHMARK(TrajectoriesOfFiveEstimators)->Unit(benchmark::kMillisecond);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real-time factor of a whole run on one thread, and its split.
+// Real-time factor of a whole run on one thread, and of its parts.
 #include <benchmark/benchmark.h>
 
 #include "bench/run/run.hpp"

@@ -90,7 +90,10 @@ TEST(CorridorScene, PlainOneIsSevenBoxesAtKnownPlaces) {
 TEST(CorridorScene, FeaturesThatAreOffChangeNothing) {
   SceneConfig config;
   const std::string plain = scene_mjcf(build_scene(config, 3), "", MjcfPurpose::kRender).value();
-  config.corridor.glass = {.share = 0.0, .pane = 5.0, .limit_deg = 30.0, .behind = 3.0};
+  config.corridor.glass = {.fraction = 0.0,
+                           .pane_length = 5.0,
+                           .max_incidence_deg = 30.0,
+                           .backing_distance = 3.0};
   config.ramp = {.start = 1.0, .length = 2.0, .grade = 0.0};
   config.people = {.count = 0, .speed = 2.0, .lane_offset = 5.0};
   config.garage.cars = 1;
