@@ -30,7 +30,7 @@ Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scen
                     config.scene.floor_friction};
 }
 
-/// The IMU once more at its second rate: the same draws give it the same turn-on biases and scales.
+/// The second output of the IMU: the same random draws give the same turn-on biases and scales.
 std::optional<Imu> second_output(const SimulationConfig& config, Duration timestep,
                                  std::uint64_t seed) {
   if (config.fast_imu_rate <= 0.0) return std::nullopt;
@@ -39,7 +39,7 @@ std::optional<Imu> second_output(const SimulationConfig& config, Duration timest
   return Imu(fast, timestep, seed);
 }
 
-/// Random offset of the start, so that each seed walks its own way; at most three sigma.
+/// Random offset of the start position and heading, at most three sigma.
 Placement start_offset(const RobotConfig& config, std::uint64_t seed) {
   RandomStream random(seed, "robot.start");
   const auto draw = [&random](double sigma) {
@@ -58,14 +58,14 @@ void step_pushed(Walker& walker, const Pushes& pushes) {
   walker.step();
 }
 
-/// Waypoint times of the recording; those before its start are nobody's reference.
+/// Waypoint times of the recording, without those before its start.
 std::vector<WaypointTime> waypoint_times_since(const RouteFollower& route, Time start) {
   std::vector<WaypointTime> waypoint_times = route.waypoint_times();
   std::erase_if(waypoint_times, [start](const WaypointTime& each) { return each.stamp < start; });
   return waypoint_times;
 }
 
-/// Error when a point of the route is not free, or the robot would start touching a solid.
+/// Error when a route point is inside a solid, or the robot would start in contact with one.
 Result<void> check_route(const SimulationConfig& config, const Scene& scene, const World& world) {
   for (std::size_t i = 0; i < config.route.points.size(); ++i) {
     const RoutePoint& p = config.route.points[i];
@@ -165,14 +165,14 @@ void Simulation::Impl::send_scan() {
   scan_motion.push_back({state.stamp, state.T_world_base * T_base_body * rig.T_body_lidar});
   if (state.stamp - scan_motion.front().stamp < lidar.period()) return;
   const Stopwatch watch;
-  ScanTruth seen;
+  ScanTruth hits;
   auto scan =
-      std::make_shared<LidarScan>(lidar.scan(scan_motion.front().stamp, scan_motion, &seen));
+      std::make_shared<LidarScan>(lidar.scan(scan_motion.front().stamp, scan_motion, &hits));
   const Time end = scan->end;
   deliver(state.stamp, LidarScanPtr(std::move(scan)), lidar_link);
   if (!sent.empty()) {
     const Pose T_world_lidar = pose_at(scan_motion, end).value_or(scan_motion.back().pose);
-    truth.scans.push_back(scan_information(end, seen, T_world_lidar * rig.T_body_lidar.inverse(),
+    truth.scans.push_back(scan_information(end, hits, T_world_lidar * rig.T_body_lidar.inverse(),
                                            config.lidar.range_sigma,
                                            caster.first_moving_surface()));
   }
@@ -180,7 +180,7 @@ void Simulation::Impl::send_scan() {
   scan_motion.erase(scan_motion.begin(), scan_motion.end() - 1);
 }
 
-/// Appends the present state to the truth and lets every sensor see it.
+/// Appends the present state to the truth and samples every sensor.
 void Simulation::Impl::record() {
   const RobotState& state = walker.world().state();
   TruthSample sample;
@@ -240,7 +240,7 @@ bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
   impl_->truth.waypoint_times =
       waypoint_times_since(impl_->walker.route(), impl_->truth.samples.front().stamp);
   const bool finished = impl_->finished();
-  // What is still on its way at the end arrives too.
+  // At the end all pending packets arrive.
   impl_->arrivals.take(finished ? std::numeric_limits<Time>::max() : now(), deliveries);
   return !finished;
 }

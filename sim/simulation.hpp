@@ -19,7 +19,7 @@ struct SimulationTimes {
   double lidar = 0.0;    ///< ray casting and the return model
 };
 
-/// One robot walking one route through one scene, yielding what its sensors deliver.
+/// One robot on one route through one scene, and the measurements of its sensors.
 /// Same configuration and seed: the same deliveries and truth, bit for bit.
 class Simulation {
  public:
@@ -33,8 +33,8 @@ class Simulation {
   /// False once the route is done, the robot has fallen, or the time limit is reached.
   bool advance(Duration span, std::vector<Delivery>& deliveries);
 
-  /// Takes what the IMU's second output (`fast_imu_rate`) gave since the last call: the same sensor
-  /// with the same errors and its own noise, no packet of it lost.
+  /// Returns the samples of the second IMU output (`fast_imu_rate`) since the last call: the same
+  /// sensor errors with independent noise, without packet loss.
   std::vector<ImuSample> take_fast_imu();
 
   Time now() const;

@@ -11,7 +11,7 @@ void describe(Fields& f, PhysicsConfig& c) {
   f.number("timestep", c.timestep,
            {.unit = "s",
             .range = in_range(0.0005, 0.005),
-            .meaning = "step of the integrator; divides the period of every sensor",
+            .meaning = "Time step of the integrator; every sensor period is a multiple of it.",
             .source = "2.5 ms divides the periods of 50 Hz and 200 Hz, 2 ms does not"});
 }
 
@@ -19,12 +19,11 @@ void describe(Fields& f, RobotConfig& c) {
   f.number("start_position_sigma", c.start_position_sigma,
            {.unit = "m",
             .range = in_range(0.0, 0.05),
-            .meaning = "standard deviation per axis of the start about the route's first point"});
-  f.number(
-      "start_heading_sigma", c.start_heading_sigma,
-      {.unit = "rad",
-       .range = in_range(0.0, 0.1),
-       .meaning = "standard deviation of the heading at the start; each run walks its own way"});
+            .meaning = "Standard deviation per axis of the start position about the first point."});
+  f.number("start_heading_sigma", c.start_heading_sigma,
+           {.unit = "rad",
+            .range = in_range(0.0, 0.1),
+            .meaning = "Standard deviation of the heading at the start."});
   f.group("gait", c.gait);
 }
 
@@ -48,16 +47,18 @@ void describe(Fields& f, SimulationConfig& c) {
       "fast_imu_rate", c.fast_imu_rate,
       {.unit = "Hz",
        .range = in_range(0.0, 2000.0),
-       .meaning = "of a second output of the IMU, for recordings; estimators here do not get it",
-       .source = "other systems ask for 200 Hz or more; 0: none"});
+       .meaning = "Rate of a second IMU output for recordings, which the estimators do not use; "
+                  "0 for none.",
+       .source = "other systems need 200 Hz or more"});
   f.number("recording_start", c.recording_start,
            {.unit = "s",
             .range = at_least(0),
-            .meaning = "sensors are off until then, while the robot already walks"});
-  f.number("max_duration", c.max_duration,
-           {.unit = "s",
-            .range = positive(),
-            .meaning = "simulated time after which the run ends, finished or not"});
+            .meaning = "Time at which the sensors are switched on; the robot walks from time 0."});
+  f.number(
+      "max_duration", c.max_duration,
+      {.unit = "s",
+       .range = positive(),
+       .meaning = "Simulated time after which the run ends, whether or not the route is done."});
 }
 
 Result<void> validate(const SimulationConfig& config) {

@@ -27,7 +27,7 @@ struct RobotConfig {
 };
 void describe(Fields& f, RobotConfig& c);
 
-/// The ways of the three sensors' packets. By default only leg odometry loses some.
+/// Links of the three sensors. By default only leg odometry loses packets.
 struct LinksConfig {
   LinkConfig imu;
   LinkConfig leg_odometry = {.loss = 0.05};
@@ -35,7 +35,7 @@ struct LinksConfig {
 };
 void describe(Fields& f, LinksConfig& c);
 
-/// Everything that a run simulates; with the seed it decides every byte of the result.
+/// Configuration of a simulated run; with the seed it determines every byte of the result.
 struct SimulationConfig {
   SceneConfig scene;
   RouteConfig route;
@@ -47,7 +47,7 @@ struct SimulationConfig {
   LidarConfig lidar;
   LinksConfig links;
   double fast_imu_rate = 0.0;    ///< of the IMU's second output, for recordings; 0: none [Hz]
-  double recording_start = 0.0;  ///< until then the robot walks unrecorded: a cold start [s]
+  double recording_start = 0.0;  ///< the robot walks unrecorded until then [s]
   double max_duration = 900.0;   ///< simulated time after which the run ends [s]
 };
 void describe(Fields& f, SimulationConfig& c);

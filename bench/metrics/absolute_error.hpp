@@ -10,7 +10,7 @@ namespace aims {
 
 /// Difference of estimated and true displacement from start to end.
 struct EndError {
-  double norm_m = 0.0;  ///< M_end; equals the paper's when the robot truly returns
+  double norm_m = 0.0;  ///< M_end; as in the paper when the true end is the start
   double xy_m = 0.0;    ///< its horizontal part
   double z_m = 0.0;     ///< its vertical part, absolute
 };

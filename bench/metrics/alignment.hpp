@@ -8,7 +8,7 @@
 
 namespace aims {
 
-/// How the estimate's frame is laid over the truth's.
+/// Alignment of the frame of the estimate with the frame of the truth.
 enum class AlignmentKind {
   kStartPose,     ///< first pair equal in position and rotation (evo: align_origin)
   kStartHeading,  ///< first pair equal in position and heading; both frames have z up
@@ -16,20 +16,20 @@ enum class AlignmentKind {
   kYaw,           ///< least squares over all positions, heading and translation (4 DoF)
 };
 
-/// A transform from the estimate's frame to the truth's, and how it was found.
+/// The transform from the frame of the estimate to that of the truth, and its kind.
 struct Alignment {
   Pose T_truth_estimate;
   AlignmentKind kind = AlignmentKind::kStartPose;
-  bool degenerate = false;  ///< positions too straight (or too few) to tell the rotation
+  bool degenerate = false;  ///< rotation unobservable: positions too straight or too few
 };
 
-/// Lays the first pair's estimate onto its truth; identity when there are no pairs.
+/// Aligns the first pair; identity without pairs.
 Alignment align_start(std::span<const PosePair> pairs,
                       AlignmentKind kind = AlignmentKind::kStartPose);
 
-/// Umeyama's least squares without scale. The rotation about a straight line of positions cannot
-/// be told: when the second singular value of the cross-covariance is below `straightness` times
-/// the first, the result is marked degenerate and is the yaw-only alignment.
+/// Umeyama's least squares without scale. The rotation about a straight line of positions is
+/// unobservable: when the second singular value of the cross-covariance is below `straightness`
+/// times the first, the result is marked degenerate and is the yaw-only alignment.
 Alignment align_se3(std::span<const PosePair> pairs, double straightness);
 
 /// Least squares over heading and translation; degenerate when the positions do not spread.

@@ -15,7 +15,7 @@ struct PosePair {
   Pose truth;      ///< T_world_body
 };
 
-/// How an estimated pose finds its true one.
+/// Rule for pairs of estimated and true poses.
 enum class Association {
   kInterpolated,  ///< truth interpolated at the estimate's stamps (inside the truth's span)
   kNearest,       ///< evo's rule: each stamp of the shorter takes the nearest of the longer

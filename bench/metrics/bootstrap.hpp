@@ -9,7 +9,7 @@
 
 namespace aims {
 
-/// Bounds of a confidence interval; both empty when the data say nothing of the spread.
+/// Bounds of a confidence interval; both empty when the data do not determine it.
 struct Interval {
   std::optional<double> low;
   std::optional<double> high;

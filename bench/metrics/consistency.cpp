@@ -19,7 +19,7 @@ constexpr std::uint64_t kBootstrapSeed = 1;
 
 bool is_stated(const ConsistencySample& sample) { return sample.sigma_m && *sample.sigma_m > 0.0; }
 
-double normalised(const ConsistencySample& sample) {
+double nees_of(const ConsistencySample& sample) {
   return sample.error_m * sample.error_m / (*sample.sigma_m * *sample.sigma_m);
 }
 
@@ -46,7 +46,7 @@ struct Squares {
     if (!is_stated(sample)) return;
     ++stated;
     covered += is_covered(sample);
-    nees += normalised(sample);
+    nees += nees_of(sample);
     sigma += *sample.sigma_m * *sample.sigma_m;
   }
 
@@ -74,7 +74,7 @@ ConsistencyInstant instant_of(double time_s, const Squares& sums) {
   return instant;
 }
 
-/// Instants that enough runs reach, and the shares of them.
+/// Fractions of the instants that at least half of the runs reach.
 void judge_instants(Consistency& result) {
   int inside = 0;
   int above = 0;
@@ -85,8 +85,8 @@ void judge_instants(Consistency& result) {
     above += instant.above();
   }
   if (result.judged == 0) return;
-  result.inside_share = static_cast<double>(inside) / result.judged;
-  result.above_share = static_cast<double>(above) / result.judged;
+  result.inside_fraction = static_cast<double>(inside) / result.judged;
+  result.above_fraction = static_cast<double>(above) / result.judged;
 }
 
 /// All samples, and the mean over runs of the means over time.
@@ -110,7 +110,7 @@ void judge_all(std::span<const ConsistencyRun> runs, Consistency& result) {
         return mean(drawn);
       },
       kBootstrapSeed);
-  result.along = coverage_of(all.covered, all.stated, false);
+  result.two_sigma = coverage_of(all.covered, all.stated, false);
   result.error_rms_m = root_mean(all.error, all.count);
   result.efficiency = all.efficiency();
 }
@@ -127,13 +127,13 @@ Coverage coverage_of(int inside, int runs, bool independent) {
   Coverage coverage{inside, runs, std::nullopt, {}};
   if (runs == 0) return coverage;
   const double n = runs;
-  const double share = inside / n;
-  coverage.share = share;
+  const double fraction = inside / n;
+  coverage.fraction = fraction;
   if (!independent) return coverage;
   const double z2 = kNormalQuantile * kNormalQuantile;
-  const double middle = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
-  const double half =
-      kNormalQuantile / (1.0 + z2 / n) * std::sqrt(share * (1.0 - share) / n + z2 / (4.0 * n * n));
+  const double middle = (fraction + z2 / (2.0 * n)) / (1.0 + z2 / n);
+  const double half = kNormalQuantile / (1.0 + z2 / n) *
+                      std::sqrt(fraction * (1.0 - fraction) / n + z2 / (4.0 * n * n));
   coverage.interval = {std::max(0.0, middle - half), std::min(1.0, middle + half)};
   return coverage;
 }

@@ -9,24 +9,24 @@
 
 namespace aims {
 
-/// An estimator's error along one axis at one instant of a run, and what is said of it.
+/// The error of an estimator along one axis at one instant of a run, with its stated deviation.
 struct ConsistencySample {
   double time_s = 0.0;
   double error_m = 0.0;           ///< signed; its sign means nothing
-  std::optional<double> sigma_m;  ///< that the estimator states; none or not positive: not stated
-  double bound_m = 0.0;           ///< least possible standard deviation, with all sensors
+  std::optional<double> sigma_m;  ///< stated by the estimator; none or not positive: not stated
+  double bound_m = 0.0;           ///< posterior Cramer-Rao bound, all sensors
   double leg_bound_m = 0.0;       ///< the same without the LiDAR
 };
 
-/// The samples of one run in order of time, which is counted alike in every run; the last is the
-/// end of the walk.
+/// The samples of one run in order of time, on a time axis that all runs share; the last is the end
+/// of the run.
 using ConsistencyRun = std::vector<ConsistencySample>;
 
-/// A share of runs with its 95 % interval (Wilson 1927).
+/// A fraction of runs with its 95 % interval (Wilson 1927).
 struct Coverage {
   int inside = 0;
   int runs = 0;
-  std::optional<double> share;
+  std::optional<double> fraction;
   Interval interval;
 };
 
@@ -35,8 +35,8 @@ struct ConsistencyInstant {
   double time_s = 0.0;
   Coverage covered;            ///< inside 2 sigma, of the runs that state a covariance here
   std::optional<double> nees;  ///< mean over them of error^2 over the stated variance
-  Interval bounds;             ///< 95 % of that mean, were the filter consistent: chi-square / runs
-  double error_rms_m = 0.0;    ///< over runs, as all that follows
+  Interval bounds;             ///< 95 % bounds of a consistent filter: chi-square / runs
+  double error_rms_m = 0.0;    ///< over runs, as are the following
   double sigma_rms_m = 0.0;
   double bound_rms_m = 0.0;
   double leg_bound_rms_m = 0.0;
@@ -46,33 +46,32 @@ struct ConsistencyInstant {
   bool above() const { return nees && *nees > *bounds.high; }
 };
 
-/// How an estimator's error along the weak axis agrees with what it states, over runs.
+/// Agreement of the error along the weak axis with the stated covariance, over runs.
 struct Consistency {
   int runs = 0;
   std::vector<ConsistencyInstant> instants;
-  ConsistencyInstant end;              ///< each run's last sample; the time is the latest of them
-  int judged = 0;                      ///< instants with at least two runs and half of all
-  std::optional<double> inside_share;  ///< of them, with the mean NEES inside its bounds
-  std::optional<double> above_share;   ///< of them, with the mean NEES above its bounds
-  std::optional<double> mean_nees;     ///< mean over runs of their means over time
-  Interval mean_nees_interval;         ///< 95 % bootstrap over runs
-  Coverage along;                      ///< samples inside 2 sigma (no interval: they correlate)
-  double error_rms_m = 0.0;            ///< over runs and time
-  std::optional<double> efficiency;    ///< bound over error, both rms over runs and time
+  ConsistencyInstant end;  ///< each run's last sample; the time is the latest of them
+  int judged = 0;          ///< instants with at least two runs and half of all
+  std::optional<double> inside_fraction;  ///< of them, with the mean NEES inside its bounds
+  std::optional<double> above_fraction;   ///< of them, with the mean NEES above its bounds
+  std::optional<double> mean_nees;        ///< mean over runs of their means over time
+  Interval mean_nees_interval;            ///< 95 % bootstrap over runs
+  Coverage two_sigma;                     ///< samples inside 2 sigma (no interval: they correlate)
+  double error_rms_m = 0.0;               ///< over runs and time
+  std::optional<double> efficiency;       ///< bound over error, both rms over runs and time
 };
 
-/// Bounds within which the mean over `runs` of a normalised squared error of one dimension lies
-/// with 95 % probability when the filter is consistent (Bar-Shalom, Li and Kirubarajan 2001,
-/// section 5.4.2). Empty for no runs.
+/// Bounds within which the mean over `runs` of a normalized estimation error squared (NEES) of one
+/// dimension lies with 95 % probability when the filter is consistent (Bar-Shalom, Li and
+/// Kirubarajan 2001, section 5.4.2). Empty for no runs.
 Interval mean_nees_bounds(int runs);
 
-/// Share of `inside` of `runs` with its interval; the interval only where the trials are
-/// independent.
+/// Fraction `inside` / `runs`, with its interval when the trials are independent.
 Coverage coverage_of(int inside, int runs, bool independent);
 
-/// Judges runs of one scenario; samples of equal time make an instant. Over time a run's errors
-/// correlate, so that bounds are given per instant; the share of instants inside them has no exact
-/// distribution, but is 95 % on average when the filter is consistent.
+/// Consistency over runs of one scenario; samples of equal time form an instant. Errors of a run
+/// correlate over time, so bounds are per instant; the fraction of instants inside them has no
+/// exact distribution, but is 95 % on average when the filter is consistent.
 Consistency consistency_of(std::span<const ConsistencyRun> runs);
 
 }  // namespace aims

@@ -30,34 +30,35 @@ double wins(const std::vector<double>& positives, const std::vector<double>& neg
   return sum;
 }
 
-/// A stretch of scans [begin, end) with the same truth.
-struct Spell {
+/// Scans [begin, end) with the same truth.
+struct LabelInterval {
   std::size_t begin = 0;
   std::size_t end = 0;
   bool degenerate = false;
 };
 
-std::vector<Spell> spells_of(const LabelledRun& run) {
-  std::vector<Spell> spells;
+std::vector<LabelInterval> intervals_of(const LabelledRun& run) {
+  std::vector<LabelInterval> intervals;
   for (std::size_t i = 0; i < run.size(); ++i) {
-    if (!spells.empty() && spells.back().degenerate == run[i].degenerate) {
-      spells.back().end = i + 1;
+    if (!intervals.empty() && intervals.back().degenerate == run[i].degenerate) {
+      intervals.back().end = i + 1;
     } else {
-      spells.push_back({i, i + 1, run[i].degenerate});
+      intervals.push_back({i, i + 1, run[i].degenerate});
     }
   }
-  return spells;
+  return intervals;
 }
 
-/// Joins what is of one kind and only interrupted by spells of the other that are too short; those
-/// at the run's ends are kept, as their true length is not known.
-std::vector<Spell> without_short(const LabelledRun& run, std::vector<Spell> spells, bool degenerate,
-                                 Duration shortest) {
-  std::vector<Spell> kept;
-  for (std::size_t i = 0; i < spells.size(); ++i) {
-    const bool at_end = i == 0 || i + 1 == spells.size();
-    const Spell& each = spells[i];
-    const bool is_short = !at_end && run[each.end].stamp - run[each.begin].stamp < shortest;
+/// Merges short intervals of one class into their neighbours; those at the ends of the run are
+/// kept, as their true length is unknown.
+std::vector<LabelInterval> without_short(const LabelledRun& run,
+                                         std::vector<LabelInterval> intervals, bool degenerate,
+                                         Duration min_duration) {
+  std::vector<LabelInterval> kept;
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const bool at_end = i == 0 || i + 1 == intervals.size();
+    const LabelInterval& each = intervals[i];
+    const bool is_short = !at_end && run[each.end].stamp - run[each.begin].stamp < min_duration;
     const bool flipped = each.degenerate == degenerate && is_short;
     const bool value = flipped ? !each.degenerate : each.degenerate;
     if (!kept.empty() && kept.back().degenerate == value) {
@@ -70,10 +71,6 @@ std::vector<Spell> without_short(const LabelledRun& run, std::vector<Spell> spel
 }
 
 }  // namespace
-
-double mann_whitney(const LabelledRun& positives, const LabelledRun& negatives) {
-  return wins(sorted_scores(positives, true), sorted_scores(negatives, false));
-}
 
 AucTable::AucTable(std::span<const LabelledRun> runs) {
   const auto count = static_cast<Eigen::Index>(runs.size());
@@ -134,25 +131,25 @@ std::vector<RocPoint> roc_curve(std::span<const LabelledRun> runs) {
   return curve;
 }
 
-RocPoint operating_point(std::span<const RocPoint> curve, double most_false_alarms) {
+RocPoint operating_point(std::span<const RocPoint> curve, double max_false_positive_rate) {
   const auto beyond =
-      std::find_if(curve.begin(), curve.end(), [most_false_alarms](const RocPoint& point) {
-        return point.false_alarms > most_false_alarms;
+      std::find_if(curve.begin(), curve.end(), [max_false_positive_rate](const RocPoint& point) {
+        return point.false_positive_rate > max_false_positive_rate;
       });
   return beyond == curve.begin() ? curve.front() : *std::prev(beyond);
 }
 
-DetectionDelays detection_delays(const LabelledRun& run, double threshold, Duration shortest) {
-  // Pauses first, so that flickering counts as one spell and not as many too short ones.
-  const std::vector<Spell> spells =
-      without_short(run, without_short(run, spells_of(run), false, shortest), true, shortest);
+DetectionDelays detection_delays(const LabelledRun& run, double threshold, Duration min_duration) {
+  // Short intervals that are not degenerate first, so that flickering counts as one interval.
+  const std::vector<LabelInterval> intervals = without_short(
+      run, without_short(run, intervals_of(run), false, min_duration), true, min_duration);
   DetectionDelays delays;
-  for (std::size_t i = 1; i < spells.size(); ++i) {
-    if (!spells[i].degenerate) continue;
+  for (std::size_t i = 1; i < intervals.size(); ++i) {
+    if (!intervals[i].degenerate) continue;
     ++delays.onsets;
-    for (std::size_t scan = spells[i].begin; scan < spells[i].end; ++scan) {
+    for (std::size_t scan = intervals[i].begin; scan < intervals[i].end; ++scan) {
       if (run[scan].score < threshold) continue;
-      delays.delays_s.push_back(to_seconds(run[scan].stamp - run[spells[i].begin].stamp));
+      delays.delays_s.push_back(to_seconds(run[scan].stamp - run[intervals[i].begin].stamp));
       break;
     }
   }

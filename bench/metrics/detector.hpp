@@ -10,22 +10,19 @@
 
 namespace aims {
 
-/// One scan as a detector and the truth see it. Larger scores speak for degeneracy.
+/// The score of a detector for one scan, and the truth. Larger scores indicate degeneracy.
 struct LabelledScan {
   Time stamp = 0;
   double score = 0.0;
-  bool degenerate = false;  ///< by the truth
+  bool degenerate = false;  ///< ground truth
 };
 
 /// The scans of one run, in order of time. Scans without a finite score are left out beforehand.
 using LabelledRun = std::vector<LabelledScan>;
 
-/// How often a degenerate scan of `positives` scores above another of `negatives`, ties counting
-/// half: the Mann-Whitney statistic U.
-double mann_whitney(const LabelledRun& positives, const LabelledRun& negatives);
-
-/// Area under the ROC curve of scans pooled over runs, U / (degenerate * others): 0.5 is chance,
-/// below it the score points the wrong way. None unless both classes occur.
+/// Area under the ROC curve (AUC) of scans pooled over runs: U / (degenerate * others) with the
+/// Mann-Whitney statistic U. 0.5 is a random score, less is a reversed one. None unless both
+/// classes occur.
 class AucTable {
  public:
   explicit AucTable(std::span<const LabelledRun> runs);
@@ -44,27 +41,28 @@ class AucTable {
 /// A detector that alarms at scores of at least `threshold`.
 struct RocPoint {
   double threshold = 0.0;
-  double false_alarms = 0.0;  ///< share of the scans that are not degenerate
-  double detections = 0.0;    ///< share of those that are
+  double false_positive_rate = 0.0;  ///< alarms / scans that are not degenerate
+  double true_positive_rate = 0.0;   ///< alarms / degenerate scans
 };
 
 /// The ROC curve of the pooled scans from (0, 0) to (1, 1), a point per score that occurs; empty
 /// unless both classes occur.
 std::vector<RocPoint> roc_curve(std::span<const LabelledRun> runs);
 
-/// The point of most detections with at most that share of false alarms; `curve` is not empty.
-RocPoint operating_point(std::span<const RocPoint> curve, double most_false_alarms);
+/// The point of the largest true positive rate within the given false positive rate; `curve` is not
+/// empty.
+RocPoint operating_point(std::span<const RocPoint> curve, double max_false_positive_rate);
 
-/// How soon a detector alarmed after degeneracy set in.
+/// Delays between the onset of degeneracy and the first alarm.
 struct DetectionDelays {
   int onsets = 0;
-  std::vector<double> delays_s;  ///< of the detected ones
+  std::vector<double> delays_s;  ///< of the detected onsets
   int missed() const { return onsets - static_cast<int>(delays_s.size()); }
 };
 
-/// Delays from each true onset to the first alarm within the same spell. Spells of degeneracy and
-/// pauses between them that are shorter than `shortest` do not count as such; a spell that is
-/// under way when the run starts has no onset.
-DetectionDelays detection_delays(const LabelledRun& run, double threshold, Duration shortest);
+/// Delays from each true onset to the first alarm in the same degenerate interval. Intervals of
+/// either class shorter than `min_duration` are merged with their neighbours; a degenerate interval
+/// at the start of the run has no onset.
+DetectionDelays detection_delays(const LabelledRun& run, double threshold, Duration min_duration);
 
 }  // namespace aims

@@ -8,7 +8,7 @@
 namespace aims {
 namespace {
 
-/// Share of the largest eigenvalue below which one is taken for rounding.
+/// Fraction of the largest eigenvalue below which an eigenvalue counts as zero.
 constexpr double kRounding = 1e-9;
 
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
@@ -16,22 +16,22 @@ using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 /// A generalized inverse of a positive semidefinite matrix (Moore and Penrose).
 Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& matrix) {
   const Solver solver(matrix);
-  const double least = kRounding * solver.eigenvalues().cwiseAbs().maxCoeff();
+  const double floor = kRounding * solver.eigenvalues().cwiseAbs().maxCoeff();
   const Eigen::Vector3d inverse = solver.eigenvalues().unaryExpr(
-      [least](double value) { return value > least ? 1.0 / value : 0.0; });
+      [floor](double value) { return value > floor ? 1.0 / value : 0.0; });
   return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
 }
 
-/// The information `wanted` about one block, less what goes into the `other`.
-BlockInformation schur_complement(const Eigen::Matrix3d& wanted, const Eigen::Matrix3d& cross,
+/// Information about one block when the `other` block is unknown as well.
+BlockInformation schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
                                   const Eigen::Matrix3d& other) {
-  const Eigen::Matrix3d rest = wanted - cross * pseudo_inverse(other) * cross.transpose();
+  const Eigen::Matrix3d rest = block - cross * pseudo_inverse(other) * cross.transpose();
   const Solver solver(0.5 * (rest + rest.transpose()));
-  const double least = kRounding * std::max(0.0, Solver(wanted).eigenvalues()(2));
+  const double floor = kRounding * std::max(0.0, Solver(block).eigenvalues()(2));
   BlockInformation result;
   result.axes = solver.eigenvectors();
   result.eigenvalues =
-      solver.eigenvalues().unaryExpr([least](double value) { return value > least ? value : 0.0; });
+      solver.eigenvalues().unaryExpr([floor](double value) { return value > floor ? value : 0.0; });
   return result;
 }
 

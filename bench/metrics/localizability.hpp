@@ -16,10 +16,10 @@ namespace aims {
 /// The information about three of the pose's six parameters when the other three are unknown too
 /// (the Schur complement), by its axes.
 struct BlockInformation {
-  Eigen::Vector3d eigenvalues = Eigen::Vector3d::Zero();  ///< ascending; 0: nothing is known
+  Eigen::Vector3d eigenvalues = Eigen::Vector3d::Zero();  ///< ascending; 0: no information
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();     ///< unit columns, body axes
 
-  /// Axis of least information.
+  /// Axis with the smallest eigenvalue.
   Eigen::Vector3d weak_axis() const { return axes.col(0); }
 };
 
@@ -33,12 +33,13 @@ BlockInformation rotation_information(const Eigen::Matrix<double, 6, 6>& informa
 /// Cramer-Rao bound of one parameter: 1 / sqrt(information), infinite without information.
 double bound_of(double information);
 
-/// How well one scan fixes the robot's place, by the truth.
+/// Localizability of one scan: its information about the pose, from the ground truth.
 struct Localizability {
   Time stamp = 0;  ///< true end of the scan
   int returns = 0;
-  double lambda_min = 0.0;  ///< least eigenvalue of the translation information [1/m^2]
-  /// Returns of a facing surface that would inform as much along the weak axis: lambda_min sigma^2.
+  double lambda_min = 0.0;  ///< smallest eigenvalue of the translation information [1/m^2]
+  /// Number of perpendicular returns with the same information along the weak axis:
+  /// lambda_min sigma^2.
   double equivalent_returns = 0.0;
   double sigma = std::numeric_limits<double>::infinity();         ///< Cramer-Rao bound along it [m]
   Eigen::Vector3d weak_axis_in_body = Eigen::Vector3d::UnitX();   ///< unit; its sign means nothing
@@ -60,11 +61,11 @@ struct DegeneracyLevel {
   double equivalent_returns;  ///< fewer are degenerate
 };
 
-/// The limits in use, strictest first. See docs/decisions.md for their choice.
+/// The limits in use, smallest first.
 inline constexpr std::array<DegeneracyLevel, 3> kDegeneracyLevels = {
     {{"n10", 10.0}, {"n100", 100.0}, {"n1000", 1000.0}}};
 
-/// True when the scan holds less about its weak axis than the limit asks for.
+/// True when the scan has fewer equivalent returns along its weak axis than the limit.
 bool is_degenerate(const Localizability& scan, const DegeneracyLevel& level);
 
 }  // namespace aims

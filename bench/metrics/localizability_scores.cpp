@@ -76,9 +76,9 @@ std::vector<WeakAxisError> weak_axis_errors(std::span<const PosePair> pairs,
     error.equivalent_returns = scans[i].equivalent_returns;
     error.error_m = axis.dot(pair.estimate.translation - pair.truth.translation);
     error.bound_m = bound_along(bounds[i], axis);
-    if (const auto said = nearest_stamp(stated_stamps, scans[i].stamp, tolerance)) {
+    if (const auto match = nearest_stamp(stated_stamps, scans[i].stamp, tolerance)) {
       const Eigen::Vector3d& in_body = scans[i].weak_axis_in_body;
-      error.variance = in_body.dot(stated[*said].position_in_body * in_body);
+      error.variance = in_body.dot(stated[*match].position_in_body * in_body);
     }
     errors.push_back(error);
   }

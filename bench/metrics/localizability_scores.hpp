@@ -18,7 +18,7 @@ namespace aims {
 std::optional<std::size_t> nearest_stamp(std::span<const Time> stamps, Time stamp,
                                          Duration tolerance);
 
-/// What an estimator says of its own position error at the end of a scan.
+/// Position covariance that an estimator states at the end of a scan.
 struct StatedCovariance {
   Time stamp = 0;
   Eigen::Matrix3d position_in_body = Eigen::Matrix3d::Zero();  ///< [m^2]
@@ -30,11 +30,11 @@ struct WeakAxisError {
   double equivalent_returns = 0.0;  ///< of the scan
   double error_m = 0.0;             ///< signed; the axis' sign means nothing
   double bound_m = 0.0;             ///< posterior bound along the same axis
-  std::optional<double> variance;   ///< that the estimator states along it [m^2]
+  std::optional<double> variance;   ///< stated by the estimator along it [m^2]
 };
 
 /// Errors along the weak axis at every scan for which there are an estimated pose and a bound
-/// within `tolerance`. `pairs` are laid onto the truth at their start; `scans` and `bounds` belong
+/// within `tolerance`. `pairs` are aligned at their start; `scans` and `bounds` belong
 /// to the same scans.
 std::vector<WeakAxisError> weak_axis_errors(std::span<const PosePair> pairs,
                                             std::span<const StatedCovariance> stated,
@@ -48,13 +48,13 @@ struct WeakAxisScore {
   int scans = 0;
   std::optional<double> error_rms_m;
   std::optional<double> bound_rms_m;
-  /// Bound over error, both rms: 1 is as good as can be.
+  /// Bound over error, both rms: 1 is optimal.
   std::optional<double> efficiency;
-  /// Mean of error^2 over the stated variance: 1 is consistent, above it overconfident.
+  /// Mean of error^2 over the stated variance (NEES): 1 is consistent, more is overconfident.
   std::optional<double> nees;
 };
 
-/// Over all scans, and over the degenerate ones of each level.
+/// Scores over all scans, and over the degenerate scans of each level.
 std::vector<WeakAxisScore> weak_axis_scores(std::span<const WeakAxisError> errors);
 
 }  // namespace aims

@@ -9,8 +9,8 @@ namespace aims {
 namespace {
 
 constexpr double kGravity = 9.81;      ///< [m/s^2]
-constexpr double kMovingSpeed = 0.05;  ///< a faster start knows nothing of its speed [m/s]
-constexpr double kFreeSpeed = 1.0;     ///< what is supposed of it then [m/s]
+constexpr double kMovingSpeed = 0.05;  ///< above it the initial speed is unknown [m/s]
+constexpr double kUnknownSpeed = 1.0;  ///< prior standard deviation of an unknown speed [m/s]
 
 /// Offsets of the error state: rotation in body axes (right), position and velocity in world axes,
 /// biases in body axes, the legs' scale.
@@ -43,7 +43,7 @@ Matrix initial_covariance(const TrueMotion& start, const BoundParameters& parame
     P.block<3, 3>(offset, offset) = variance * Matrix3d::Identity();
   };
   fill(kPosition, squared(known.position_sigma));
-  fill(kVelocity, squared(moving ? kFreeSpeed : known.velocity_sigma));
+  fill(kVelocity, squared(moving ? kUnknownSpeed : known.velocity_sigma));
   fill(kGyro, squared(parameters.gyro.bias_sigma));
   fill(kForce, squared(parameters.accelerometer.bias_sigma));
   P(kScale, kScale) = squared(parameters.legs.scale_sigma);
@@ -118,7 +118,7 @@ PosteriorBound bound_at(const Matrix& P, const TrueMotion& at) {
   bound.stamp = at.stamp;
   bound.position = P.block<3, 3>(kPosition, kPosition);
   const Eigen::Quaterniond heading = yaw_rotation(yaw_of(at.T_world_body.rotation));
-  bound.along = bound_along(bound, heading * Vector3d::UnitX());
+  bound.longitudinal = bound_along(bound, heading * Vector3d::UnitX());
   bound.lateral = bound_along(bound, heading * Vector3d::UnitY());
   bound.vertical = bound_along(bound, Vector3d::UnitZ());
   const Vector3d up = at.T_world_body.rotation.conjugate() * Vector3d::UnitZ();

@@ -17,16 +17,16 @@ struct TriadErrors {
   double bias_sigma = 0.0;     ///< of the bias at the start [unit]
 };
 
-/// True errors of the leg odometry, as far as the bound knows them.
+/// Errors of the leg odometry in the model of the bound.
 struct LegErrors {
   bool used = true;
-  double packets_per_second = 200.0;  ///< that arrive on average [Hz]
+  double packets_per_second = 200.0;  ///< received on average [Hz]
   double velocity_sigma = 0.01;       ///< white, of one packet and axis [m/s]
   double scale_sigma = 0.03;          ///< of the run's constant scale [-]
 };
 
-/// What is known of the state at the first true pose: the odometry frame defines position and
-/// heading, the rest is to be found.
+/// Prior standard deviations at the first true pose: the odometry frame defines position and
+/// heading, the other states are estimated.
 struct InitialKnowledge {
   double position_sigma = 1e-4;  ///< [m]
   double heading_sigma = 1e-4;   ///< [rad]
@@ -52,11 +52,11 @@ struct TrueMotion {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in body axes [rad/s]
 };
 
-/// The least possible standard deviation of any unbiased estimate at the end of one scan.
+/// Lower bound of the standard deviation of any unbiased estimate at the end of one scan.
 struct PosteriorBound {
   Time stamp = 0;
   Eigen::Matrix3d position = Eigen::Matrix3d::Zero();  ///< covariance, world axes [m^2]
-  double along = 0.0;                                  ///< along the body's heading [m]
+  double longitudinal = 0.0;                           ///< along the body's heading [m]
   double lateral = 0.0;                                ///< to its left [m]
   double vertical = 0.0;                               ///< [m]
   double heading = 0.0;                                ///< [rad]
@@ -71,8 +71,8 @@ double bound_along(const PosteriorBound& bound, const Eigen::Vector3d& axis);
 /// rotation, position, velocity, both IMU biases and the constant scale of the legs. `motion` has
 /// increasing stamps, finely enough to integrate (20 ms); `scans` are in order of time, and only
 /// those inside the motion's span count. One entry per scan, with or without `lidar`.
-/// The LiDAR is held against a known map: no SLAM can do as well. Of the legs, slip, rolling
-/// feet, joint offsets and late touchdown are left out: real legs are worse.
+/// The LiDAR is matched to a known map, so no SLAM system reaches the bound. The leg model has no
+/// slip, rolling feet, joint offsets or late touchdown: real legs are worse.
 std::vector<PosteriorBound> posterior_bounds(std::span<const TrueMotion> motion,
                                              std::span<const ScanInformation> scans,
                                              const BoundParameters& parameters);

@@ -67,21 +67,21 @@ RpeScore relative_pose_error(std::span<const PosePair> pairs, const RpeOptions& 
     positions.push_back(options.pairs_from_truth ? each.truth.translation
                                                  : each.estimate.translation);
   }
-  const IndexPairs stretches = pairs_over_path(positions, options);
+  const IndexPairs index_pairs = pairs_over_path(positions, options);
   RpeScore score;
   score.delta = options.delta;
-  score.pairs = static_cast<int>(stretches.size());
-  if (stretches.empty()) return score;
+  score.pairs = static_cast<int>(index_pairs.size());
+  if (index_pairs.empty()) return score;
   Spread translation;
   Spread rotation;
-  for (const auto& [i, j] : stretches) {
+  for (const auto& [i, j] : index_pairs) {
     const Pose true_motion = pairs[i].truth.inverse() * pairs[j].truth;
     const Pose estimated_motion = pairs[i].estimate.inverse() * pairs[j].estimate;
     const Pose error = true_motion.inverse() * estimated_motion;
     translation.add(error.translation.norm());
     rotation.add(so3_log(error.rotation).norm());
   }
-  const auto count = static_cast<double>(stretches.size());
+  const auto count = static_cast<double>(index_pairs.size());
   score.translation_rmse_m = std::sqrt(translation.squares / count);
   score.translation_max_m = translation.max;
   score.rotation_rmse_rad = std::sqrt(rotation.squares / count);

@@ -14,7 +14,7 @@ namespace aims {
 /// Which pairs of poses the relative error compares.
 struct RpeOptions {
   double delta = 1.0;               ///< path length between the two poses [m]
-  bool all_pairs = false;           ///< from every pose, not only from where the last stretch ended
+  bool all_pairs = false;           ///< from every pose, not only from the end of the last pair
   bool pairs_from_truth = true;     ///< path measured along the truth (evo's default: the estimate)
   double relative_tolerance = 0.1;  ///< of delta, for `all_pairs` only
 };
@@ -29,8 +29,8 @@ struct RpeScore {
   std::optional<double> rotation_max_rad;
 };
 
-/// Indices (from, to) of poses about `delta` of path apart, by evo's rules: consecutive stretches
-/// end at the first pose at or beyond delta, and the one from the very first pose is left out;
+/// Indices (from, to) of poses about `delta` of path apart, by the rules of evo: consecutive pairs
+/// end at the first pose at or beyond delta, and the pair from the very first pose is left out;
 /// with all pairs each pose takes the later one nearest to delta, if within the tolerance.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_over_path(
     std::span<const Eigen::Vector3d> positions, const RpeOptions& options);

@@ -9,7 +9,7 @@ constexpr double kRpeDeltas[] = {1.0, 10.0};  ///< [m]
 void describe_association(Fields& f, ScoreConfig& c) {
   f.choice("association", c.association,
            {{"interpolated", Association::kInterpolated}, {"nearest", Association::kNearest}},
-           {.meaning = "How an estimated pose finds its true one; nearest is evo's rule.",
+           {.meaning = "Association of estimated and true poses; nearest is the rule of evo.",
             .source = "evo, core/sync"});
   f.number("association_tolerance", c.association_tolerance,
            {.unit = "s",
@@ -18,7 +18,7 @@ void describe_association(Fields& f, ScoreConfig& c) {
             .source = "evo's default"});
   f.choice("anchor", c.anchor,
            {{"pose", AlignmentKind::kStartPose}, {"heading", AlignmentKind::kStartHeading}},
-           {.meaning = "What of the first pose is laid onto the truth besides its position."});
+           {.meaning = "Alignment at the first pose: position and heading, or the whole pose."});
   f.number("straightness", c.straightness,
            {.unit = "-",
             .range = in_half_open(0.0, 1.0),
@@ -28,37 +28,35 @@ void describe_association(Fields& f, ScoreConfig& c) {
   f.number("edge_tolerance", c.edge_tolerance,
            {.unit = "s",
             .range = at_least(0.0),
-            .meaning = "Time without an estimate allowed at the start and the end; covers the "
-                       "standing start that estimators initialize on."});
-  f.number("longest_gap", c.longest_gap,
-           {.unit = "s", .range = positive(), .meaning = "Time without an estimate allowed."});
+            .meaning = "Longest time without an estimate at the start and at the end; covers the "
+                       "standing start in which estimators initialize."});
+  f.number("max_gap", c.max_gap,
+           {.unit = "s", .range = positive(), .meaning = "Longest time without an estimate."});
 }
 
 void describe_metrics(Fields& f, ScoreConfig& c) {
   f.texts("segments", c.segments,
-          {.meaning = "Ways that have an M_list, as [a-d, d-h]; empty: from each named point to "
-                      "the next.",
+          {.meaning = "Segments for M_list, as [a-d, d-h]; empty: from each named point to the "
+                      "next.",
            .source = "table II"});
-  f.number("shortest_segment", c.shortest_segment,
-           {.unit = "m",
-            .range = positive(),
-            .meaning = "Shorter ways between reference points have no M_list."});
+  f.number("min_segment_length", c.min_segment_length,
+           {.unit = "m", .range = positive(), .meaning = "Shortest segment with an M_list."});
   f.flag("rpe_all_pairs", c.rpe_all_pairs,
-         {.meaning = "Relative error from every pose instead of consecutive stretches.",
+         {.meaning = "Relative pose error from every pose instead of consecutive pairs.",
           .source = "evo, core/filters"});
   f.flag("rpe_pairs_from_truth", c.rpe_pairs_from_truth,
-         {.meaning = "Measure the stretches of the relative error along the truth, so that every "
-                     "estimator is held to the same; evo's default is the estimate."});
-  f.number("lost_error_offset", c.lost_error_offset,
+         {.meaning = "Measure the path length of the relative pose error along the truth, the same "
+                     "for every estimator; the default of evo is the estimate."});
+  f.number("max_error_offset", c.max_error_offset,
            {.unit = "m",
             .range = at_least(0.0),
-            .meaning = "Position error at the start beyond which the robot is lost; half the "
-                       "width of a narrow corridor."});
-  f.number("lost_error_per_path", c.lost_error_per_path,
+            .meaning = "Largest position error of a success at the start; half the width of a "
+                       "narrow corridor."});
+  f.number("max_error_per_path", c.max_error_per_path,
            {.unit = "-",
             .range = at_least(0.0),
-            .meaning = "Position error allowed per metre walked; dead reckoning on legs alone "
-                       "does about as badly.",
+            .meaning = "Growth of the largest position error of a success per metre of path; "
+                       "about the drift of leg odometry alone.",
             .source = "table I, legged odometry"});
 }
 
@@ -70,7 +68,7 @@ std::optional<EndError> end_error_if_reached(std::span<const PosePair> anchored,
 }
 
 void score_pairs(Scores& scores, std::span<const PosePair> pairs, const ScoreConfig& config) {
-  // One pose is equal to its truth after any alignment, which says nothing.
+  // After alignment a single pose always equals its truth.
   if (pairs.size() < 2) return;
   const std::vector<PosePair> anchored = aligned(pairs, align_start(pairs, config.anchor));
   scores.ate_m = ate_rmse(anchored);
@@ -117,24 +115,24 @@ Scores score_over(const Trajectory& estimate, const Trajectory& truth,
 
   Scores scores;
   const SuccessVerdict verdict = judge(estimate, valid_truth, anchored,
-                                       {.error_offset = config.lost_error_offset,
-                                        .error_per_path = config.lost_error_per_path,
+                                       {.error_offset = config.max_error_offset,
+                                        .error_per_path = config.max_error_per_path,
                                         .edge = edge,
-                                        .gap = from_seconds(config.longest_gap)});
-  scores.success = verdict.reason == LostReason::kNone;
-  scores.lost_reason = verdict.reason;
-  scores.lost_at = verdict.lost_at;
+                                        .gap = from_seconds(config.max_gap)});
+  scores.success = verdict.reason == FailureReason::kNone;
+  scores.failure_reason = verdict.reason;
+  scores.diverged_at = verdict.diverged_at;
   scores.poses = static_cast<int>(estimate.size());
   scores.poses_invalid = static_cast<int>(estimate.size() - valid.size());
   scores.poses_compared = static_cast<int>(pairs.size());
   scores.true_path_m = path_length(valid_truth);
-  scores.segments = segment_distances(valid, valid_truth, segments, config.shortest_segment, edge);
+  scores.segments =
+      segment_distances(valid, valid_truth, segments, config.min_segment_length, edge);
   scores.m_list_percent = m_list_percent(scores.segments);
   scores.m_end = end_error_if_reached(anchored, valid_truth, edge);
   score_pairs(scores, pairs, config);
   scores.rpe = relative_errors(pairs, config);
   if (anchored.size() >= 2) scores.drift = drift_summary(anchored, valid_truth, segments);
-  scores.segment_drifts = segment_drifts(valid, valid_truth, segments, edge);
   return scores;
 }
 

@@ -18,55 +18,53 @@
 
 namespace aims {
 
-/// How an estimate is held against the truth.
+/// Parameters of the scores.
 struct ScoreConfig {
   Association association = Association::kInterpolated;
   double association_tolerance = 0.01;                  ///< [s]
   AlignmentKind anchor = AlignmentKind::kStartHeading;  ///< or kStartPose
   double straightness = 1e-6;                           ///< [-]
   double edge_tolerance = 3.0;                          ///< [s]
-  double longest_gap = 2.0;                             ///< [s]
-  double shortest_segment = 1.0;                        ///< [m]
-  std::vector<std::string> segments;  ///< "a-d"; none: from each named point to the next
+  double max_gap = 2.0;                                 ///< [s]
+  double min_segment_length = 1.0;                      ///< [m]
+  std::vector<std::string> segments;  ///< "a-d"; empty: from each named point to the next
   bool rpe_all_pairs = false;
   bool rpe_pairs_from_truth = true;
-  double lost_error_offset = 1.0;     ///< [m]
-  double lost_error_per_path = 0.05;  ///< [-]
+  double max_error_offset = 1.0;     ///< [m]
+  double max_error_per_path = 0.05;  ///< [-]
 };
 
 void describe(Fields& fields, ScoreConfig& config);
 
-/// Everything that evaluation says of one estimate. A quantity without a meaning has no value;
-/// none is ever NaN.
+/// All scores of one estimate. An undefined quantity has no value; none is ever NaN.
 struct Scores {
   bool success = false;
-  LostReason lost_reason = LostReason::kNoOverlap;
-  std::optional<Time> lost_at;  ///< none exactly on success
+  FailureReason failure_reason = FailureReason::kNoOverlap;
+  std::optional<Time> diverged_at;  ///< none exactly on success
 
   int poses = 0;             ///< given by the estimator
-  int poses_invalid = 0;     ///< of those left out: not finite, not a pose, out of order
-  int poses_compared = 0;    ///< with a true pose
-  double true_path_m = 0.0;  ///< length that the robot truly walked
+  int poses_invalid = 0;     ///< not finite, not a rigid transform, or out of order
+  int poses_compared = 0;    ///< associated with a true pose
+  double true_path_m = 0.0;  ///< length of the true path
 
   std::vector<SegmentDistance> segments;  ///< M_list of each, in order
   std::optional<double> m_list_percent;   ///< over all segments
   std::optional<EndError> m_end;          ///< none when the estimate does not reach the end
 
-  std::optional<double> ate_m;              ///< anchored at the start
+  std::optional<double> ate_m;              ///< aligned at the start
   std::optional<double> ate_se3_m;          ///< after the best SE(3) alignment
   std::optional<double> ate_yaw_m;          ///< after the best heading and translation
   bool ate_se3_degenerate = false;          ///< path too straight: ate_se3_m is ate_yaw_m
-  std::optional<double> max_error_m;        ///< anchored at the start
-  std::optional<double> max_abs_z_error_m;  ///< anchored at the start
+  std::optional<double> max_error_m;        ///< aligned at the start
+  std::optional<double> max_abs_z_error_m;  ///< aligned at the start
 
-  std::vector<RpeScore> rpe;                 ///< over 1 m and over 10 m
-  std::optional<DriftSummary> drift;         ///< anchored at the start
-  std::vector<SegmentDrift> segment_drifts;  ///< anchored at each segment's begin
+  std::vector<RpeScore> rpe;          ///< over 1 m and over 10 m
+  std::optional<DriftSummary> drift;  ///< aligned at the start
 };
 
 /// Scores of an estimate (any fixed frame) against the truth. `waypoint_times` are in order of
-/// time. Poor data (empty, not finite, one pose, no overlap) gives no success and quantities
-/// without value, never an error.
+/// time. Poor data (empty, not finite, one pose, no overlap) gives no success and undefined
+/// quantities, never an error.
 Scores score(const Trajectory& estimate, const Trajectory& truth,
              std::span<const WaypointTime> waypoint_times, const ScoreConfig& config);
 

@@ -71,17 +71,17 @@ std::optional<Time> within_span(const Trajectory& trajectory, Time stamp, Durati
 }
 
 std::vector<SegmentDistance> segment_distances(const Trajectory& estimate, const Trajectory& truth,
-                                               std::span<const Segment> segments, double shortest,
+                                               std::span<const Segment> segments, double min_length,
                                                Duration edge) {
   std::vector<SegmentDistance> distances;
   for (const Segment& segment : segments) {
     const auto whole = distance_between(truth, segment.begin, segment.end);
-    if (!whole || *whole < shortest) continue;
+    if (!whole || *whole < min_length) continue;
     SegmentDistance distance{segment, *whole, std::nullopt, std::nullopt, std::nullopt};
     const auto begin = within_span(estimate, segment.begin, edge);
     const auto end = within_span(estimate, segment.end, edge);
     const auto true_distance = begin && end ? distance_between(truth, *begin, *end) : std::nullopt;
-    if (true_distance && *true_distance >= shortest) {
+    if (true_distance && *true_distance >= min_length) {
       const double estimated = *distance_between(estimate, *begin, *end);
       distance.true_distance_m = *true_distance;
       distance.estimated_distance_m = estimated;

@@ -10,11 +10,11 @@
 
 namespace aims {
 
-/// The way between two reference points passed one after the other.
+/// The part of a route between two waypoints.
 struct Segment {
   std::string name;  ///< "a-b"; the second of the same name is "a-b#2"
-  Time begin = 0;    ///< when the robot truly passed the first point
-  Time end = 0;      ///< when it truly passed the second
+  Time begin = 0;    ///< true time at the first waypoint
+  Time end = 0;      ///< true time at the second waypoint
 };
 
 /// The segments between consecutive waypoint times in order of time.
@@ -35,15 +35,15 @@ std::vector<Segment> segments_wanted(std::span<const WaypointTime> waypoint_time
 struct SegmentDistance {
   Segment segment;
   double true_distance_m = 0.0;                ///< d_i
-  std::optional<double> estimated_distance_m;  ///< d_hat_i; none: no estimate at the ends
+  std::optional<double> estimated_distance_m;  ///< d_hat_i; none without an estimate at the ends
   std::optional<double> percent;               ///< 100 |d_hat_i - d_i| / d_i
   std::optional<double> signed_percent;        ///< 100 (d_hat_i - d_i) / d_i; < 0: shortened
 };
 
-/// Distances of every segment at least `shortest` [m] long. A segment's end up to `edge` outside
+/// Distances of every segment at least `min_length` [m] long. A segment's end up to `edge` outside
 /// the estimate's span moves to that span's border for the truth and the estimate alike.
 std::vector<SegmentDistance> segment_distances(const Trajectory& estimate, const Trajectory& truth,
-                                               std::span<const Segment> segments, double shortest,
+                                               std::span<const Segment> segments, double min_length,
                                                Duration edge);
 
 /// M_list over all segments in percent: 100 sum |d_hat_i - d_i| / sum d_i (unnumbered equation of

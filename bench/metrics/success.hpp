@@ -9,38 +9,38 @@
 
 namespace aims {
 
-/// Why a run does not count as localized to its end.
-enum class LostReason {
-  kNone,        ///< it does
-  kNoOverlap,   ///< fewer than two estimated poses in the truth's span
-  kInvalid,     ///< a pose that is not finite, or not a pose
-  kStartsLate,  ///< no estimate near the truth's begin
-  kGap,         ///< no estimate for too long
-  kEndsEarly,   ///< no estimate near the truth's end
+/// Why an estimate is not a success.
+enum class FailureReason {
+  kNone,        ///< success
+  kNoOverlap,   ///< fewer than two estimated poses in the time span of the truth
+  kInvalid,     ///< a pose that is not finite or not a rigid transform
+  kStartsLate,  ///< no estimate near the start of the truth
+  kGap,         ///< a gap without estimates that is too long
+  kEndsEarly,   ///< no estimate near the end of the truth
   kErrorLimit,  ///< position error beyond the limit
 };
 
-/// A word for reports: "", "no_overlap", "invalid_pose", "starts_late", "gap", ...
-std::string_view name_of(LostReason reason);
+/// Identifier for result files: "", "no_overlap", "invalid_pose", "starts_late", "gap", ...
+std::string_view name_of(FailureReason reason);
 
-/// Limits of a run that counts as localized.
+/// Limits of a success.
 struct SuccessLimits {
   double error_offset = 1.0;     ///< allowed position error at the start [m]
-  double error_per_path = 0.05;  ///< allowed position error per metre walked [-]
-  Duration edge = 3 * kSecond;   ///< allowed lack of estimates at either end
-  Duration gap = 2 * kSecond;    ///< allowed lack of estimates in between
+  double error_per_path = 0.05;  ///< allowed position error per metre of path [-]
+  Duration edge = 3 * kSecond;   ///< allowed time without estimates at either end
+  Duration gap = 2 * kSecond;    ///< allowed time without estimates in between
 };
 
-/// When and why the estimate was lost; `lost_at` has a value exactly when there is a reason.
+/// When and why an estimate failed; `diverged_at` has a value exactly when there is a reason.
 struct SuccessVerdict {
-  LostReason reason = LostReason::kNone;
-  std::optional<Time> lost_at;
+  FailureReason reason = FailureReason::kNone;
+  std::optional<Time> diverged_at;
 };
 
-/// The earliest loss of an estimate. `estimate` is as the estimator gave it, `pairs` are its valid
-/// poses anchored at the start. An estimate is lost when its position error exceeds
-/// error_offset + error_per_path * (true path walked so far), when it is missing at either end or
-/// for too long, or when it holds an invalid pose.
+/// The earliest failure of an estimate. `estimate` is the output of the estimator, `pairs` are its
+/// valid poses aligned at the start. An estimate fails when its position error exceeds
+/// error_offset + error_per_path * (true path so far), when it is missing at either end or for
+/// longer than `gap`, or when it contains an invalid pose.
 SuccessVerdict judge(const Trajectory& estimate, const Trajectory& truth,
                      std::span<const PosePair> pairs, const SuccessLimits& limits);
 

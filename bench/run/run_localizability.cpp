@@ -56,7 +56,7 @@ BoundParameters bound_parameters(const SimulationConfig& config, const SensorRig
   parameters.legs.packets_per_second =
       config.leg_odometry.rate * (1.0 - link.loss) * (1.0 - link.burst_fraction);
   parameters.legs.velocity_sigma =
-      std::max(1e-4, config.leg_odometry.angle_rate_noise * config.robot.gait.body_height /
+      std::max(1e-4, config.leg_odometry.joint_rate_noise * config.robot.gait.body_height /
                          std::sqrt(kStandingFeet));
   parameters.legs.scale_sigma = config.leg_odometry.velocity_scale_error;
   parameters.T_body_base = rig.T_body_base;
@@ -107,7 +107,10 @@ CsvTable localizability_table(const RunLocalizability& localizability) {
     table.add(axis.x()).add(axis.y()).add(axis.z());
     table.add(scan.rotation_lambda_min).add(scan.rotation_sigma);
     for (const DegeneracyLevel& level : kDegeneracyLevels) table.add(is_degenerate(scan, level));
-    table.add(bound_along(bound, axis)).add(bound.along).add(bound.lateral).add(bound.vertical);
+    table.add(bound_along(bound, axis))
+        .add(bound.longitudinal)
+        .add(bound.lateral)
+        .add(bound.vertical);
     table.add(bound.heading).add(bound.leg_scale).end_row();
   }
   return table;

@@ -21,7 +21,7 @@ Json json_of(const std::optional<Part>& part, Member Part::*member) {
 }
 
 Json axis_json(const AxisError& error) {
-  return {{"along", error.along_m},
+  return {{"along", error.longitudinal_m},
           {"lateral", error.lateral_m},
           {"vertical", error.vertical_m},
           {"heading_rad", error.heading_rad}};
@@ -140,8 +140,8 @@ Json json_of(const std::optional<double>& value) {
 Json scores_json(const Scores& scores) {
   Json json;
   json["success"] = scores.success;
-  json["lost_reason"] = name_of(scores.lost_reason);
-  json["lost_at_s"] = scores.lost_at ? Json(to_seconds(*scores.lost_at)) : Json();
+  json["lost_reason"] = name_of(scores.failure_reason);
+  json["lost_at_s"] = scores.diverged_at ? Json(to_seconds(*scores.diverged_at)) : Json();
   add_segments(json, scores);
   json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
   json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);

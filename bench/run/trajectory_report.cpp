@@ -64,8 +64,8 @@ std::string cell(const ScoredEstimate& estimate, const RunRecord& record, const 
 /// Whether it is localized to its end, or why not since when [s after the truth's start].
 std::string success_cell(const Scores& scores, const Trajectory& truth) {
   if (scores.success) return "yes";
-  return fmt::format("{} at {:.1f} s", name_of(scores.lost_reason),
-                     to_seconds(*scores.lost_at - truth.front().stamp));
+  return fmt::format("{} at {:.1f} s", name_of(scores.failure_reason),
+                     to_seconds(*scores.diverged_at - truth.front().stamp));
 }
 
 Json estimate_json(const ScoredEstimate& estimate, const ScoreConfig& scoring) {

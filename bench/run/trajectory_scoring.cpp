@@ -73,11 +73,11 @@ void note_truth(const ScoringInput& input, std::vector<std::string>& notes) {
     const auto begin = pose_at(truth, each.begin);
     const auto end = pose_at(truth, each.end);
     const double length = begin && end ? (end->translation - begin->translation).norm() : 0.0;
-    if (length >= input.scoring.shortest_segment) continue;
+    if (length >= input.scoring.min_segment_length) continue;
     notes.push_back(
         begin && end
             ? fmt::format("segment {}: its ends are {:.2f} m apart, less than "
-                          "scoring.shortest_segment: no M_list",
+                          "scoring.min_segment_length: no M_list",
                           each.name, length)
             : fmt::format("segment {}: not within the truth's stamps: no M_list", each.name));
   }

@@ -70,7 +70,7 @@ CsvTable csv_of(const ConsistencyStudy& study) {
     for (const ConsistencyInstant& at : each.result.instants) {
       table.add(each.scenario).add(each.estimator).add(at.time_s).add(at.covered.runs);
       table.add(at.nees).add(at.bounds.low).add(at.bounds.high).add(at.inside());
-      table.add(at.covered.share);
+      table.add(at.covered.fraction);
       table.add(at.error_rms_m).add(at.sigma_rms_m).add(at.bound_rms_m).add(at.leg_bound_rms_m);
       table.end_row();
     }
@@ -85,7 +85,7 @@ Json interval_json(const Interval& interval) {
 Json coverage_json(const Coverage& coverage) {
   return {{"inside", coverage.inside},
           {"of", coverage.runs},
-          {"share", json_of(coverage.share)},
+          {"share", json_of(coverage.fraction)},
           {"interval", interval_json(coverage.interval)}};
 }
 
@@ -115,11 +115,11 @@ Json case_json(const ConsistencyCase& each) {
           {"estimator", each.estimator},
           {"runs", r.runs},
           {"instants", r.judged},
-          {"inside_share", json_of(r.inside_share)},
-          {"above_share", json_of(r.above_share)},
+          {"inside_share", json_of(r.inside_fraction)},
+          {"above_share", json_of(r.above_fraction)},
           {"mean_nees", json_of(r.mean_nees)},
           {"mean_nees_interval", interval_json(r.mean_nees_interval)},
-          {"two_sigma", coverage_json(r.along)},
+          {"two_sigma", coverage_json(r.two_sigma)},
           {"error_rms_m", json_of(r.error_rms_m)},
           {"efficiency", json_of(r.efficiency)},
           {"end", end_json(r.end)},
@@ -187,8 +187,8 @@ Result<void> draw(const ConsistencyCase& each, const fs::path& folder) {
       fmt::format("{}: consistency of {} along the weak axis", each.scenario, each.estimator);
   plot.subtitle = fmt::format(
       "{} seeds; NEES inside its bounds at {} % of {} instants", each.result.runs,
-      text_of(each.result.inside_share ? std::optional(100.0 * *each.result.inside_share)
-                                       : std::nullopt,
+      text_of(each.result.inside_fraction ? std::optional(100.0 * *each.result.inside_fraction)
+                                          : std::nullopt,
               0),
       each.result.judged);
   plot.panels = {nees_panel(each.result), spread_panel(each.result)};
@@ -214,8 +214,8 @@ TextTable consistency_table(const ConsistencyStudy& study) {
     const Consistency& r = each.result;
     table.rows.push_back({each.scenario, each.estimator, std::to_string(r.runs),
                           with_interval(r.mean_nees, r.mean_nees_interval, 2),
-                          text_of(r.inside_share, 2), text_of(r.above_share, 2),
-                          text_of(r.along.share, 2), fmt::format("{:.3f}", r.error_rms_m),
+                          text_of(r.inside_fraction, 2), text_of(r.above_fraction, 2),
+                          text_of(r.two_sigma.fraction, 2), fmt::format("{:.3f}", r.error_rms_m),
                           text_of(r.efficiency, 2)});
   }
   return table;

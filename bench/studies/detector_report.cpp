@@ -33,7 +33,7 @@ Json json_of(const std::optional<double>& value) { return value ? Json(*value) :
 Json score_json(const DetectorScore& score) {
   Json curve = Json::array();
   for (const RocPoint& point : score.curve) {
-    curve.push_back({point.false_alarms, point.detections});
+    curve.push_back({point.false_positive_rate, point.true_positive_rate});
   }
   return {{"scenario", score.scenario.empty() ? Json() : Json(score.scenario)},
           {"level", score.level},
@@ -173,7 +173,7 @@ RocPlot roc_plot(const DetectorStudy& study, const std::string& estimator) {
       RocSeries& series = panel.series.emplace_back();
       series.name = fmt::format("{} ({:.2f})", score.index, *score.auc);
       for (const RocPoint& point : score.curve) {
-        series.points.emplace_back(point.false_alarms, point.detections);
+        series.points.emplace_back(point.false_positive_rate, point.true_positive_rate);
       }
     }
   }

@@ -47,7 +47,7 @@ void score_operating_point(std::span<const LabelledRun> runs, bool high_is_degen
   const std::vector<RocPoint> curve = roc_curve(runs);
   if (curve.empty()) return;
   const RocPoint point = operating_point(curve, kFalseAlarms);
-  score.detections = point.detections;
+  score.detections = point.true_positive_rate;
   if (std::isfinite(point.threshold)) {
     score.threshold = high_is_degenerate ? point.threshold : -point.threshold;
   }

@@ -5,15 +5,15 @@
 
 namespace aims {
 
-/// The walls that a feature of a corridor is on, seen along it: left is +y of its own axes.
+/// Walls of a corridor that have a feature, looking along it: left is +y of its own axes.
 enum class WallSides { kNone, kLeft, kRight, kBoth, kAlternate };
 
 /// Doors set back into the walls.
 struct DoorConfig {
   WallSides sides = WallSides::kRight;
-  double spacing = 8.0;  ///< between centres along one wall [m]
-  double jitter = 0.5;   ///< largest shift of a centre along the wall [m]
-  double depth = 0.15;   ///< of the door's face behind the wall's [m]
+  double spacing = 8.0;  ///< between the centres of two doors in one wall [m]
+  double jitter = 0.5;   ///< largest random shift of a door along its wall [m]
+  double depth = 0.15;   ///< of the door's face behind the wall's face [m]
   double width = 0.9;    ///< of the opening [m]
   double height = 2.05;  ///< of the opening [m]
 };

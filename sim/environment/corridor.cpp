@@ -12,8 +12,8 @@
 namespace aims {
 namespace {
 
-constexpr int kMaxPillars = 40;   ///< they collide, and physics must stay fast
-constexpr double kWalkway = 1.0;  ///< that pillars must leave free [m]
+constexpr int kMaxPillars = 40;   ///< each collides, which costs physics time
+constexpr double kWalkway = 1.0;  ///< width that pillars must leave free [m]
 
 Span extent(const CorridorConfig& config) {
   return {-config.margin, config.length + config.margin};
@@ -56,10 +56,10 @@ void add_pillars(const CorridorConfig& config, double height, const std::vector<
   }
 }
 
-/// One box or cylinder that touches the wall and stays out of the lane.
+/// One box or cylinder that touches the wall and stays out of the walkway.
 Solid clutter_object(const CorridorConfig& config, double x, const Material& material,
                      RandomStream& random) {
-  const double room = 0.5 * (config.width - config.clutter.lane_width);
+  const double room = 0.5 * (config.width - config.clutter.free_width);
   Solid solid;
   solid.shape = random.chance(0.4) ? Shape::kCylinder : Shape::kBox;
   const double depth = random.uniform(0.4, 1.0) * std::min(room, 0.4);
@@ -87,11 +87,11 @@ void add_clutter(const CorridorConfig& config, const RampConfig& ramp, const Mat
   }
 }
 
-/// Half width of what closes the corridor: with the space behind glass, where there is any.
+/// Half width of end walls and ceiling: they also cover the space behind glass.
 double closed_half_width(const CorridorConfig& config) {
   const double walls = outer_half_width(config.width, config.doors.depth);
-  if (config.glass.share <= 0.0) return walls;
-  return std::max(walls, 0.5 * config.width + config.glass.behind + kWallThickness);
+  if (config.glass.fraction <= 0.0) return walls;
+  return std::max(walls, 0.5 * config.width + config.glass.backing_distance + kWallThickness);
 }
 
 void add_ends(const CorridorConfig& config, double height, const Materials& materials,
@@ -159,9 +159,10 @@ void add_side(const CorridorConfig& config, const RampConfig& ramp, Side which,
   add_wall({outer, height, openings_over(doors, config.doors.height, ramp), config.doors.depth,
             glass_panes(config.glass, extent(config), doors)},
            materials, side);
-  if (config.glass.share > 0.0) {
-    const double behind = config.glass.behind;
-    side.box(outer, behind, behind + kWallThickness, -kOverlap, height + kOverlap, materials.wall);
+  if (config.glass.fraction > 0.0) {
+    const double backing = config.glass.backing_distance;
+    side.box(outer, backing, backing + kWallThickness, -kOverlap, height + kOverlap,
+             materials.wall);
   }
   add_pillars(config, height, pillar_spans(config, which, doors), materials, side);
 }
@@ -171,18 +172,19 @@ Result<void> validate_pillars(const CorridorConfig& config) {
   if (pillars.spacing <= 0.0 || pillars.sides == WallSides::kNone) return {};
   const Span along = extent(config);
   const double walls = pillars.sides == WallSides::kBoth ? 2.0 : 1.0;
-  const double closest = std::max(pillars.size, walls * (along.end - along.begin) / kMaxPillars);
-  if (pillars.spacing <= closest) {
+  const double min_spacing =
+      std::max(pillars.size, walls * (along.end - along.begin) / kMaxPillars);
+  if (pillars.spacing <= min_spacing) {
     return failure(fmt::format(
         "scene.corridor.pillars.spacing: expected more than {:.2f} m (their size, and at most {} "
         "pillars), got {}",
-        closest, kMaxPillars, pillars.spacing));
+        min_spacing, kMaxPillars, pillars.spacing));
   }
-  const double deepest = 0.5 * (config.width - kWalkway);
-  if (pillars.depth > deepest) {
+  const double max_depth = 0.5 * (config.width - kWalkway);
+  if (pillars.depth > max_depth) {
     return failure(fmt::format(
         "scene.corridor.pillars.depth: expected at most {:.2f} m (to leave {} m to walk), got {}",
-        deepest, kWalkway, pillars.depth));
+        max_depth, kWalkway, pillars.depth));
   }
   return {};
 }
@@ -195,19 +197,20 @@ Result<void> validate(const CorridorConfig& config) {
     return doors;
   }
   if (const auto pillars = validate_pillars(config); !pillars) return pillars;
-  if (config.glass.share > 0.0) {
-    const double least = config.doors.depth + kDoorThickness + kWallThickness;
-    if (config.glass.behind <= least) {
-      return failure(
-          fmt::format("scene.corridor.glass.behind: expected more than {} m (the wall), got {}",
-                      least, config.glass.behind));
+  if (config.glass.fraction > 0.0) {
+    const double min_distance = config.doors.depth + kDoorThickness + kWallThickness;
+    if (config.glass.backing_distance <= min_distance) {
+      return failure(fmt::format(
+          "scene.corridor.glass.backing_distance: expected more than {} m (the wall), got {}",
+          min_distance, config.glass.backing_distance));
     }
   }
-  const double widest = config.width - 0.2;
-  if (config.clutter.density > 0.0 && config.clutter.lane_width > widest) {
-    return failure(fmt::format(
-        "scene.corridor.clutter.lane_width: expected at most {:.2f} m (room for clutter), got {}",
-        widest, config.clutter.lane_width));
+  const double max_width = config.width - 0.2;
+  if (config.clutter.density > 0.0 && config.clutter.free_width > max_width) {
+    return failure(
+        fmt::format("scene.corridor.clutter.free_width: expected at most {:.2f} m (to leave room "
+                    "for clutter), got {}",
+                    max_width, config.clutter.free_width));
   }
   return {};
 }

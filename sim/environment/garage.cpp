@@ -21,7 +21,7 @@ constexpr double kGateDepth = 0.25;  ///< [m]
 constexpr double kDoorWidth = 0.9;   ///< of the hall [m]
 constexpr double kPillar = 0.5;      ///< width of a pillar [m]
 constexpr double kBayWidth = 2.7;    ///< of a parking bay [m]
-constexpr int kMostCars = 5;         ///< they collide
+constexpr int kMaxCars = 5;          ///< each collides, which costs physics time
 
 /// The hall's faces in the world [m].
 struct Hall {
@@ -29,10 +29,10 @@ struct Hall {
 };
 
 Hall hall_of(const GarageConfig& c) {
-  return {.west = c.approach - c.mouth_distance,
-          .east = c.approach + c.hall_beyond,
-          .south = -c.mouth_distance,
-          .north = c.hall_beyond,
+  return {.west = c.approach - c.opening_distance,
+          .east = c.approach + c.hall_extent,
+          .south = -c.opening_distance,
+          .north = c.hall_extent,
           .height = c.hall_height};
 }
 
@@ -49,18 +49,18 @@ void add_hall_wall(const Pose& T_world_line, const Span& outer, const Hall& hall
   add_wall({outer, hall.height, openings_at(doors, door_height), door_depth, {}}, materials, side);
 }
 
-/// A wall with a corridor's mouth at its line's origin, and the piece above the mouth.
-void add_mouth_wall(const GarageConfig& c, const Pose& T_world_line, const Span& outer,
-                    const Hall& hall, const Span& door, const Materials& materials,
-                    std::vector<Solid>& solids) {
-  const double mouth = 0.5 * c.width + kOverlap;
+/// A wall with a corridor's opening at the origin of its line, and the lintel above it.
+void add_wall_with_opening(const GarageConfig& c, const Pose& T_world_line, const Span& outer,
+                           const Hall& hall, const Span& door, const Materials& materials,
+                           std::vector<Solid>& solids) {
+  const double opening = 0.5 * c.width + kOverlap;
   const DoorConfig& doors = c.doors;
-  add_hall_wall(T_world_line, {outer.begin, -mouth}, hall, {door}, doors.depth, doors.height,
+  add_hall_wall(T_world_line, {outer.begin, -opening}, hall, {door}, doors.depth, doors.height,
                 materials, solids);
-  add_hall_wall(T_world_line, {mouth, outer.end}, hall, {}, doors.depth, doors.height, materials,
+  add_hall_wall(T_world_line, {opening, outer.end}, hall, {}, doors.depth, doors.height, materials,
                 solids);
   SideBuilder side(T_world_line, Side::kLeft, 0.0, solids);
-  side.box({-mouth - kOverlap, mouth + kOverlap}, 0.0, kWallThickness, c.height,
+  side.box({-opening - kOverlap, opening + kOverlap}, 0.0, kWallThickness, c.height,
            hall.height + kOverlap, materials.wall);
 }
 
@@ -76,11 +76,11 @@ void add_hall_walls(const GarageConfig& c, const Hall& hall, const Materials& ma
     return Span{centre - 0.5 * kGateWidth, centre + 0.5 * kGateWidth};
   };
   // West, going north, and south, going west: the corridors open through them.
-  add_mouth_wall(c, line_at(hall.west, 0.0, kQuarterTurn), {hall.south - t, hall.north + t}, hall,
-                 door(0.6 * hall.south), materials, solids);
-  add_mouth_wall(c, line_at(c.approach, hall.south, 2.0 * kQuarterTurn),
-                 {c.approach - hall.east - t, c.approach - hall.west + t}, hall,
-                 door(0.3 * (c.approach - hall.east)), materials, solids);
+  add_wall_with_opening(c, line_at(hall.west, 0.0, kQuarterTurn), {hall.south - t, hall.north + t},
+                        hall, door(0.6 * hall.south), materials, solids);
+  add_wall_with_opening(c, line_at(c.approach, hall.south, 2.0 * kQuarterTurn),
+                        {c.approach - hall.east - t, c.approach - hall.west + t}, hall,
+                        door(0.3 * (c.approach - hall.east)), materials, solids);
   add_hall_wall(line_at(hall.west, hall.north, 0.0), {-t, width + t}, hall,
                 {door(0.15 * width), door(0.9 * width)}, c.doors.depth, c.doors.height, materials,
                 solids);
@@ -97,9 +97,9 @@ void add_hall_walls(const GarageConfig& c, const Hall& hall, const Materials& ma
 
 void add_pillars(const GarageConfig& c, const Hall& hall, const Materials& materials,
                  std::vector<Solid>& solids) {
-  const double off_axis = 0.4 * c.mouth_distance;
-  for (const double x : {c.approach - off_axis, c.approach + 0.5 * c.hall_beyond}) {
-    for (const double y : {-off_axis - 0.5 * kPillar, 0.4 * c.hall_beyond}) {
+  const double off_axis = 0.4 * c.opening_distance;
+  for (const double x : {c.approach - off_axis, c.approach + 0.5 * c.hall_extent}) {
+    for (const double y : {-off_axis - 0.5 * kPillar, 0.4 * c.hall_extent}) {
       solids.push_back(cross_box(line_at(x, y, 0.0), {-0.5 * kPillar, 0.5 * kPillar}, 0.5 * kPillar,
                                  -kOverlap, hall.height + kOverlap, materials.pillar));
     }
@@ -130,7 +130,7 @@ void add_car(const Pose& T_world_car, const Material& paint, const Material& tyr
 /// Cars in bays along the north wall, each parked a little differently.
 void add_cars(const GarageConfig& c, const Hall& hall, const Materials& materials,
               std::uint64_t seed, std::vector<Solid>& solids) {
-  const std::array<Eigen::Vector3f, kMostCars> paints = {
+  const std::array<Eigen::Vector3f, kMaxCars> paints = {
       Eigen::Vector3f(0.62F, 0.15F, 0.14F), Eigen::Vector3f(0.18F, 0.30F, 0.52F),
       Eigen::Vector3f(0.80F, 0.80F, 0.82F), Eigen::Vector3f(0.20F, 0.36F, 0.26F),
       Eigen::Vector3f(0.35F, 0.35F, 0.38F)};
@@ -145,8 +145,8 @@ void add_cars(const GarageConfig& c, const Hall& hall, const Materials& material
   }
 }
 
-/// A way up that ends at the east wall; a wedge, its lower half sunk into the floor.
-void add_way_up(const Hall& hall, const Materials& materials, std::vector<Solid>& solids) {
+/// A ramp to an upper floor that ends at the east wall: a box half sunk into the floor.
+void add_upward_ramp(const Hall& hall, const Materials& materials, std::vector<Solid>& solids) {
   constexpr double kLength = 6.0;
   constexpr double kRise = 1.2;
   constexpr double kHalfThickness = 0.65;
@@ -164,7 +164,7 @@ void add_way_up(const Hall& hall, const Materials& materials, std::vector<Solid>
 CorridorArm arm_of(const GarageConfig& c, double length, std::uint64_t seed,
                    const std::string& stream) {
   CorridorArm arm;
-  arm.along = {-c.margin, length - c.mouth_distance};
+  arm.along = {-c.margin, length - c.opening_distance};
   arm.width = c.width;
   arm.height = c.height;
   arm.begin_closed = true;
@@ -179,45 +179,51 @@ CorridorArm arm_of(const GarageConfig& c, double length, std::uint64_t seed,
 }  // namespace
 
 void describe(Fields& f, GarageConfig& c) {
-  f.number("approach", c.approach,
-           {.unit = "m", .range = in_range(10.0, 500.0), .meaning = "From a to d, along +x."});
-  f.number("exit", c.exit,
-           {.unit = "m", .range = in_range(10.0, 500.0), .meaning = "From d to h, along -y."});
+  f.number(
+      "approach", c.approach,
+      {.unit = "m", .range = in_range(10.0, 500.0), .meaning = "Distance from a to d, along +x."});
+  f.number(
+      "exit", c.exit,
+      {.unit = "m", .range = in_range(10.0, 500.0), .meaning = "Distance from d to h, along -y."});
   f.number("margin", c.margin,
            {.unit = "m",
             .range = in_range(1.0, 500.0),
-            .meaning = "Of corridor behind a and behind h, up to the end walls."});
+            .meaning = "Length of corridor behind a and behind h, up to the end walls."});
   f.number("width", c.width,
-           {.unit = "m", .range = in_range(1.0, 4.0), .meaning = "Of both corridors."});
+           {.unit = "m", .range = in_range(1.0, 4.0), .meaning = "Width of both corridors."});
   f.number("height", c.height,
-           {.unit = "m", .range = in_range(1.0, 10.0), .meaning = "Of both corridors."});
-  f.number("mouth_distance", c.mouth_distance,
+           {.unit = "m", .range = in_range(1.0, 10.0), .meaning = "Height of both corridors."});
+  f.number("opening_distance", c.opening_distance,
            {.unit = "m",
             .range = in_range(7.0, 50.0),
-            .meaning = "From d to where either corridor opens into the hall."});
-  f.number("hall_beyond", c.hall_beyond,
+            .meaning = "Distance from d to the opening of either corridor into the hall."});
+  f.number("hall_extent", c.hall_extent,
            {.unit = "m",
             .range = in_range(11.0, 100.0),
-            .meaning = "Of hall beyond d, along +x and +y."});
+            .meaning = "Extent of the hall beyond d, along +x and along +y."});
   f.number("hall_height", c.hall_height,
-           {.unit = "m", .range = in_range(2.5, 20.0), .meaning = "From floor to ceiling."});
+           {.unit = "m",
+            .range = in_range(2.5, 20.0),
+            .meaning = "Height of the hall from floor to ceiling."});
   f.integer("cars", c.cars,
-            {.unit = "-", .range = in_range(0, kMostCars), .meaning = "Parked in the hall."});
+            {.unit = "-",
+             .range = in_range(0, kMaxCars),
+             .meaning = "Number of cars parked in the hall."});
   f.group("doors", c.doors);
 }
 
 Result<void> validate(const GarageConfig& config) {
-  const double lowest = std::max(config.height, kGateHeight) + 0.1;
-  if (config.hall_height < lowest) {
+  const double min_height = std::max(config.height, kGateHeight) + 0.1;
+  if (config.hall_height < min_height) {
     return failure(fmt::format(
         "scene.garage.hall_height: expected at least {} m (above corridors and gates), got {}",
-        lowest, config.hall_height));
+        min_height, config.hall_height));
   }
-  const double shortest = config.mouth_distance + 1.0;
-  if (std::min(config.approach, config.exit) < shortest) {
+  const double min_length = config.opening_distance + 1.0;
+  if (std::min(config.approach, config.exit) < min_length) {
     return failure(fmt::format(
         "scene.garage.{}: expected at least {} m (1 m of corridor before the hall), got {}",
-        config.approach < shortest ? "approach" : "exit", shortest,
+        config.approach < min_length ? "approach" : "exit", min_length,
         std::min(config.approach, config.exit)));
   }
   return validate_doors(config.doors, config.height, "scene.garage.doors");
@@ -236,7 +242,7 @@ std::vector<Solid> garage_solids(const GarageConfig& config, const ReflectivityC
   add_hall_walls(config, hall, materials, solids);
   add_pillars(config, hall, materials, solids);
   add_cars(config, hall, materials, seed, solids);
-  add_way_up(hall, materials, solids);
+  add_upward_ramp(hall, materials, solids);
   return solids;
 }
 

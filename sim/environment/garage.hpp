@@ -14,15 +14,15 @@ namespace aims {
 /// first corridor runs along +x from a = (0, 0) into the hall, whose point d = (approach, 0) is the
 /// corner of the route; the second leaves the hall along -y, to h = (approach, -exit).
 struct GarageConfig {
-  double approach = 45.0;       ///< from a to d [m]
-  double exit = 45.0;           ///< from d to h [m]
-  double margin = 3.0;          ///< of corridor behind a and behind h [m]
-  double width = 2.2;           ///< of the corridors [m]
-  double height = 2.6;          ///< of the corridors [m]
-  double mouth_distance = 8.0;  ///< from d to where either corridor begins [m]
-  double hall_beyond = 12.0;    ///< of hall behind d, along +x and +y [m]
-  double hall_height = 3.2;     ///< [m]
-  int cars = 5;                 ///< parked along the hall's far wall
+  double approach = 45.0;         ///< from a to d [m]
+  double exit = 45.0;             ///< from d to h [m]
+  double margin = 3.0;            ///< of corridor behind a and behind h [m]
+  double width = 2.2;             ///< of the corridors [m]
+  double height = 2.6;            ///< of the corridors [m]
+  double opening_distance = 8.0;  ///< from d to the opening of either corridor [m]
+  double hall_extent = 12.0;      ///< of the hall beyond d, along +x and along +y [m]
+  double hall_height = 3.2;       ///< [m]
+  int cars = 5;                   ///< parked along the hall's far wall
   DoorConfig doors = {.spacing = 12.0, .depth = 0.05};  ///< of the corridors
 };
 

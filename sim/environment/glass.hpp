@@ -8,14 +8,14 @@
 
 namespace aims {
 
-/// Panes of glass in a corridor's walls. A beam that meets one steeply is returned; any other
-/// passes through, both ways, and meets what is behind.
+/// Panes of glass in a corridor's walls. A pane returns beams near normal incidence; all others
+/// pass through, both ways, and hit the wall behind it.
 struct GlassConfig {
-  double share = 0.0;         ///< of the walls' length that is glass [-]; 0: none
-  double pane = 2.0;          ///< length of a pane [m]
-  double limit_deg = 10.0;    ///< largest angle of incidence that returns a beam [deg]
-  double reflectivity = 0.5;  ///< within that angle, as of a diffuse surface [-]
-  double behind = 1.0;        ///< from the walls' faces to the second walls behind them [m]
+  double fraction = 0.0;            ///< of the length of the walls that is glass [-]; 0: none
+  double pane_length = 2.0;         ///< [m]
+  double max_incidence_deg = 10.0;  ///< largest angle of incidence that returns a beam [deg]
+  double reflectivity = 0.5;        ///< diffuse, within that angle [-]
+  double backing_distance = 1.0;    ///< from the walls to the second walls behind them [m]
 };
 
 void describe(Fields& fields, GlassConfig& config);

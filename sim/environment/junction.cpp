@@ -9,7 +9,7 @@
 namespace aims {
 namespace {
 
-/// An arm with its doors and a dead end behind.
+/// A corridor with doors and an end wall.
 CorridorArm arm_with_doors(const JunctionConfig& c, const Span& along, std::uint64_t seed,
                            const std::string& name) {
   const std::string stream = "scene.junction.doors." + name;
@@ -29,22 +29,28 @@ CorridorArm arm_with_doors(const JunctionConfig& c, const Span& along, std::uint
 }  // namespace
 
 void describe(Fields& f, JunctionConfig& c) {
-  f.number("length", c.length,
-           {.unit = "m",
-            .range = in_range(4.0, 500.0),
-            .meaning = "From the first point to the crossing corridor's centre line."});
-  f.number("branch", c.branch,
-           {.unit = "m",
-            .range = in_range(4.0, 500.0),
-            .meaning = "Of either branch, from the crossing's middle to its last point."});
+  f.number(
+      "length", c.length,
+      {.unit = "m",
+       .range = in_range(4.0, 500.0),
+       .meaning = "Distance from the first point to the centre line of the crossing corridor."});
+  f.number(
+      "branch", c.branch,
+      {.unit = "m",
+       .range = in_range(4.0, 500.0),
+       .meaning = "Length of either branch of the crossing corridor, up to its last route point."});
   f.number("margin", c.margin,
            {.unit = "m",
             .range = in_range(1.0, 500.0),
-            .meaning = "Of corridor before the first and beyond the last points."});
+            .meaning = "Length of corridor beyond the end points of the route."});
   f.number("width", c.width,
-           {.unit = "m", .range = in_range(1.0, 4.0), .meaning = "Between the walls."});
+           {.unit = "m",
+            .range = in_range(1.0, 4.0),
+            .meaning = "Width of both corridors between their walls."});
   f.number("height", c.height,
-           {.unit = "m", .range = in_range(1.0, 20.0), .meaning = "From floor to ceiling."});
+           {.unit = "m",
+            .range = in_range(1.0, 20.0),
+            .meaning = "Height of both corridors from floor to ceiling."});
   f.group("doors", c.doors);
 }
 

@@ -14,8 +14,8 @@ namespace aims {
 /// is at x = length. All ends are dead.
 struct JunctionConfig {
   double length = 13.0;  ///< from a to the crossing's centre line [m]
-  double branch = 12.0;  ///< of either branch, from the crossing's middle to its last point [m]
-  double margin = 12.0;  ///< of corridor behind a and beyond the branches' last points [m]
+  double branch = 12.0;  ///< of either branch, up to its last route point [m]
+  double margin = 12.0;  ///< length of corridor beyond the end points of the route [m]
   double width = 2.2;    ///< between the walls [m]
   double height = 2.6;   ///< from floor to ceiling [m]
   DoorConfig doors;

@@ -41,9 +41,9 @@ std::optional<Entry> enter_cylinder(const Eigen::Vector3d& origin, const Eigen::
   return Entry{top, Eigen::Vector3d::UnitZ()};
 }
 
-/// False when every ray of the packet passes by the person on one side or the other.
-bool may_meet(const Person& person, const RayPacket& rays,
-              const std::array<Time, kRayPacketSize>& stamps) {
+/// False when every ray of the packet passes beside the person.
+bool may_intersect(const Person& person, const RayPacket& rays,
+                   const std::array<Time, kRayPacketSize>& stamps) {
   const Eigen::Vector2d axis = person.position(stamps.front());
   const double walked = person.speed * to_seconds(stamps.back() - stamps.front());
   const double clear = person.radius + std::abs(walked) + 0.01;
@@ -63,30 +63,38 @@ bool may_meet(const Person& person, const RayPacket& rays,
 
 void describe(Fields& f, PeopleConfig& c) {
   f.integer("count", c.count,
-            {.unit = "-", .range = in_range(0, 100), .meaning = "Who walk up and down."});
+            {.unit = "-",
+             .range = in_range(0, 100),
+             .meaning = "Number of people who walk up and down the corridor."});
   f.number("speed", c.speed,
-           {.unit = "m/s", .range = in_range(0.0, 3.0), .meaning = "Of walking."});
+           {.unit = "m/s", .range = in_range(0.0, 3.0), .meaning = "Walking speed of a person."});
   f.number("radius", c.radius,
-           {.unit = "m", .range = in_range(0.05, 0.5), .meaning = "Of the upright cylinder."});
+           {.unit = "m",
+            .range = in_range(0.05, 0.5),
+            .meaning = "Radius of the upright cylinder that models a person."});
   f.number("height", c.height,
-           {.unit = "m", .range = in_range(0.5, 2.5), .meaning = "Of the upright cylinder."});
-  f.number("lane", c.lane,
-           {.unit = "m", .range = at_least(0), .meaning = "From the corridor's centre line."});
+           {.unit = "m",
+            .range = in_range(0.5, 2.5),
+            .meaning = "Height of the upright cylinder that models a person."});
+  f.number("lane_offset", c.lane_offset,
+           {.unit = "m",
+            .range = at_least(0),
+            .meaning = "Distance of a person's path from the centre line of the corridor."});
   f.number("reflectivity", c.reflectivity,
            {.unit = "-",
             .range = {.min = 0.0, .max = 1.0, .min_included = false},
-            .meaning = "Of clothes."});
+            .meaning = "Diffuse reflectivity of clothes."});
 }
 
 Result<void> validate(const PeopleConfig& config, double corridor_width) {
   if (config.count == 0) return {};
-  const double least = kRobotHalfWidth + config.radius;
-  const double most = 0.5 * corridor_width - config.radius;
-  if (config.lane < least || config.lane > most) {
-    return failure(
-        fmt::format("scene.people.lane: expected {:.2f} to {:.2f} m (beside the robot, clear of "
-                    "the walls), got {}",
-                    least, most, config.lane));
+  const double min_offset = kRobotHalfWidth + config.radius;
+  const double max_offset = 0.5 * corridor_width - config.radius;
+  if (config.lane_offset < min_offset || config.lane_offset > max_offset) {
+    return failure(fmt::format(
+        "scene.people.lane_offset: expected {:.2f} to {:.2f} m (beside the robot, clear of "
+        "the walls), got {}",
+        min_offset, max_offset, config.lane_offset));
   }
   return {};
 }
@@ -97,7 +105,7 @@ std::vector<Person> people_in_lanes(const PeopleConfig& config, double begin, do
   std::vector<Person> people;
   for (int i = 0; i < config.count; ++i) {
     Person& person = people.emplace_back();
-    const double y = random.chance(0.5) ? config.lane : -config.lane;
+    const double y = random.chance(0.5) ? config.lane_offset : -config.lane_offset;
     person.from = {begin, y};
     person.to = {end, y};
     person.speed = config.speed;
@@ -109,12 +117,12 @@ std::vector<Person> people_in_lanes(const PeopleConfig& config, double begin, do
   return people;
 }
 
-void meet_people(const std::vector<Person>& people, const RayPacket& rays,
-                 const std::array<Time, kRayPacketSize>& stamps, int first_surface,
-                 float max_distance, HitPacket& hits) {
+void intersect_people(const std::vector<Person>& people, const RayPacket& rays,
+                      const std::array<Time, kRayPacketSize>& stamps, int first_surface,
+                      float max_distance, HitPacket& hits) {
   for (std::size_t i = 0; i < people.size(); ++i) {
     const Person& person = people[i];
-    if (!may_meet(person, rays, stamps)) continue;
+    if (!may_intersect(person, rays, stamps)) continue;
     for (int lane = 0; lane < kRayPacketSize; ++lane) {
       const Eigen::Vector3d origin(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
       const Eigen::Vector3d direction(rays.direction_x[lane], rays.direction_y[lane],

@@ -17,7 +17,7 @@ struct PeopleConfig {
   double speed = 1.2;         ///< [m/s]
   double radius = 0.25;       ///< [m]
   double height = 1.75;       ///< [m]
-  double lane = 0.75;         ///< from the corridor's centre line [m]
+  double lane_offset = 0.75;  ///< of a person's path from the centre line [m]
   double reflectivity = 0.4;  ///< of clothes [-]
 };
 
@@ -26,16 +26,16 @@ void describe(Fields& fields, PeopleConfig& config);
 /// Error for lanes that run into the walls or over the robot.
 Result<void> validate(const PeopleConfig& config, double corridor_width);
 
-/// People between two places along x [m]; each draws side, place and direction from
-/// "scene.people". In one lane they walk through one another.
+/// People between two positions along x [m]; side, position and direction of each are drawn from
+/// "scene.people". People do not collide with each other.
 std::vector<Person> people_in_lanes(const PeopleConfig& config, double begin, double end,
                                     std::uint64_t seed);
 
-/// Lets people hide what rays have met: where a ray meets a person before its hit, the person
-/// becomes the hit, with the surface `first_surface` + the person's index. The ray-cylinder
-/// intersection is exact, each lane at its own time `stamps[lane]`. Rays start outside of people.
-void meet_people(const std::vector<Person>& people, const RayPacket& rays,
-                 const std::array<Time, kRayPacketSize>& stamps, int first_surface,
-                 float max_distance, HitPacket& hits);
+/// Occludes hits by people: where a ray hits a person first, the person becomes the hit, with the
+/// surface `first_surface` + the person's index. The ray-cylinder intersection is exact, each lane
+/// at its own time `stamps[lane]`. Rays start outside of people.
+void intersect_people(const std::vector<Person>& people, const RayPacket& rays,
+                      const std::array<Time, kRayPacketSize>& stamps, int first_surface,
+                      float max_distance, HitPacket& hits);
 
 }  // namespace aims

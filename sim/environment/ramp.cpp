@@ -13,11 +13,15 @@ constexpr double kLargestCell = 0.25;  ///< of the floor's grid [m]
 
 void describe(Fields& f, RampConfig& c) {
   f.number("start", c.start,
-           {.unit = "m", .range = at_least(0), .meaning = "Where the floor begins to rise."});
+           {.unit = "m",
+            .range = at_least(0),
+            .meaning = "Position along x at which the floor begins to rise."});
   f.number("length", c.length,
-           {.unit = "m", .range = in_range(0.5, 200.0), .meaning = "Of the slope, along x."});
+           {.unit = "m", .range = in_range(0.5, 200.0), .meaning = "Length of the slope along x."});
   f.number("grade", c.grade,
-           {.unit = "-", .range = in_range(0.0, 0.25), .meaning = "Rise over length; 0 for none."});
+           {.unit = "-",
+            .range = in_range(0.0, 0.25),
+            .meaning = "Rise of the slope over its length; 0 for a level floor."});
 }
 
 double ramp_height(const RampConfig& ramp, double x) {

@@ -6,7 +6,7 @@
 
 namespace aims {
 
-/// A stretch of floor that rises along +x; behind it the floor stays at its new height.
+/// A slope of the floor along +x; beyond it the floor stays at the new height.
 struct RampConfig {
   double start = 8.0;   ///< where the floor begins to rise [m]
   double length = 8.0;  ///< of the slope, along x [m]

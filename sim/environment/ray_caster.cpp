@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Lets beams pass through glass unless they meet it steeply; the material is the user data.
+/// Rejects hits on glass away from normal incidence; the material is the user data.
 void pass_through_glass(const RTCFilterFunctionNArguments* arguments) {
   const auto limit =
       static_cast<float>(static_cast<const Material*>(arguments->geometryUserPtr)->return_cosine);
@@ -84,7 +84,7 @@ void prepare(const RayPacket& rays, float max_distance, RTCRayHit16& packet) {
   }
 }
 
-/// Copies what was hit; normals become unit vectors towards the ray's origin.
+/// Copies the hits; normals become unit vectors towards the ray's origin.
 void extract(const RTCRayHit16& packet, const RayPacket& rays, HitPacket& hits) {
   const RTCHit16& hit = packet.hit;
   for (int i = 0; i < kRayPacketSize; ++i) {

@@ -21,23 +21,23 @@ struct alignas(64) RayPacket {
   Lanes direction_x{}, direction_y{}, direction_z{};  ///< [-]
 };
 
-/// What sixteen rays met first.
+/// The first hits of sixteen rays.
 struct alignas(64) HitPacket {
   using Lanes = std::array<float, kRayPacketSize>;
-  Lanes distance{};                           ///< [m]; infinity: nothing within reach
+  Lanes distance{};                           ///< [m]; infinity: no hit within the range
   Lanes normal_x{}, normal_y{}, normal_z{};   ///< unit, towards the ray's origin
-  std::array<int, kRayPacketSize> surface{};  ///< index into `RayCaster::materials`; -1: nothing
+  std::array<int, kRayPacketSize> surface{};  ///< index into `RayCaster::materials`; -1: no hit
 };
 
-/// What one ray met first.
+/// The first hit of one ray.
 struct RayHit {
   double distance = 0.0;                              ///< [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, towards the ray's origin
   int surface = 0;                                    ///< index into `RayCaster::materials`
 };
 
-/// Finds what rays meet first in a scene: its visible solids and its floor. Through glass a ray
-/// passes unless it meets it steeply (`Material::return_cosine`). Casting is
+/// Finds the first hits of rays on the visible solids and the floor of a scene. A ray passes
+/// through glass unless it is near normal incidence (`Material::return_cosine`). Casting is
 /// thread-safe, starts no threads, and yields the same bits for the same scene and rays.
 class RayCaster {
  public:
@@ -61,9 +61,9 @@ class RayCaster {
   int floor_surface() const { return static_cast<int>(materials().size()) - 1; }
   std::size_t triangle_count() const;
 
-  /// The scene's people. They move, so that rays do not meet them here; see `meet_people`.
+  /// The scene's people. They move and are not part of the static scene; see `intersect_people`.
   const std::vector<Person>& people() const;
-  /// Surface of the first person; the next ones follow. What moves has a surface of at least that.
+  /// Surface index of the first person; the others follow. All moving surfaces come from there on.
   int first_moving_surface() const { return static_cast<int>(materials().size()); }
 
  private:

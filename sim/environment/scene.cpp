@@ -8,8 +8,8 @@ namespace aims {
 
 Eigen::Vector2d Person::position(Time stamp) const {
   const double distance = (to - from).norm();
-  const double way = std::fmod(start + speed * to_seconds(stamp), 2.0 * distance);
-  const double from_begin = way <= distance ? way : 2.0 * distance - way;
+  const double walked = std::fmod(start + speed * to_seconds(stamp), 2.0 * distance);
+  const double from_begin = walked <= distance ? walked : 2.0 * distance - walked;
   return from + from_begin / distance * (to - from);
 }
 

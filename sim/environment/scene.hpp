@@ -9,11 +9,11 @@
 
 namespace aims {
 
-/// How a surface looks to the LiDAR and to the camera.
+/// Appearance of a surface to the LiDAR and to the camera.
 struct Material {
   double reflectivity = 0.5;  ///< diffuse, at the LiDAR's wavelength, in [0, 1]
   Eigen::Vector3f color = Eigen::Vector3f(0.75F, 0.75F, 0.72F);  ///< RGB in [0, 1]
-  /// Of glass: smallest cosine of incidence that returns a beam; others pass through. 0: opaque.
+  /// Glass: smallest cosine of incidence that returns a beam; 0: opaque.
   double return_cosine = 0.0;
 };
 
@@ -26,8 +26,8 @@ struct Solid {
   /// [m]; of a cylinder along z: radius, radius, half height
   Eigen::Vector3d half_extents = Eigen::Vector3d::Ones();
   Material material;
-  bool collides = true;  ///< part of the physics model (kept under about 50 solids)
-  bool visible = true;   ///< seen by the LiDAR and the camera
+  bool collides = true;  ///< part of the physics model (at most about 50 solids)
+  bool visible = true;   ///< to the LiDAR and the camera
   bool roof = false;     ///< left out of pictures so that the camera looks inside
 };
 
@@ -41,13 +41,13 @@ struct Floor {
   Material material;
 };
 
-/// Somebody who walks up and down between two points at a constant speed, as an upright cylinder.
-/// Seen by the LiDAR and the camera, but no part of the physics: people keep out of the way.
+/// A person who walks up and down between two points at constant speed, as an upright cylinder.
+/// Visible to the LiDAR and the camera, but without collisions.
 struct Person {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< turning point [m]
   Eigen::Vector2d to = Eigen::Vector2d::UnitX();   ///< the other one [m]
   double speed = 1.0;                              ///< [m/s]
-  double start = 0.0;    ///< way done at time zero, in [0, twice the distance) [m]
+  double start = 0.0;    ///< distance walked at time zero, in [0, twice the distance) [m]
   double radius = 0.25;  ///< [m]
   double height = 1.75;  ///< [m]
   Material material;

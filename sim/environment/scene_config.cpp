@@ -8,51 +8,67 @@
 
 namespace aims {
 void describe(Fields& f, PillarConfig& c) {
-  f.choice("sides", c.sides, side_options(), {.meaning = "Walls that have pillars."});
+  f.choice("sides", c.sides, side_options(), {.meaning = "Walls with pillars, looking along +x."});
   f.number("spacing", c.spacing,
-           {.unit = "m", .range = at_least(0), .meaning = "Between centres; 0 for no pillars."});
-  f.number("size", c.size,
-           {.unit = "m", .range = in_range(0.02, 5.0), .meaning = "Along the wall."});
+           {.unit = "m",
+            .range = at_least(0),
+            .meaning = "Distance between the centres of two pillars on one wall; 0 for none."});
+  f.number(
+      "size", c.size,
+      {.unit = "m", .range = in_range(0.02, 5.0), .meaning = "Length of a pillar along its wall."});
   f.number("depth", c.depth,
-           {.unit = "m", .range = in_range(0.01, 1.0), .meaning = "Out of the wall."});
+           {.unit = "m",
+            .range = in_range(0.01, 1.0),
+            .meaning = "Distance by which a pillar protrudes from its wall."});
 }
 
 void describe(Fields& f, ClutterConfig& c) {
   f.number("density", c.density,
-           {.unit = "1/m", .range = in_range(0.0, 10.0), .meaning = "Objects per metre."});
-  f.number("lane_width", c.lane_width,
-           {.unit = "m", .range = in_range(0.8, 10.0), .meaning = "Middle that stays free."});
+           {.unit = "1/m",
+            .range = in_range(0.0, 10.0),
+            .meaning = "Objects along the walls per metre of corridor."});
+  f.number("free_width", c.free_width,
+           {.unit = "m",
+            .range = in_range(0.8, 10.0),
+            .meaning = "Width in the middle of the corridor without clutter."});
 }
 
 void describe(Fields& f, BumpConfig& c) {
-  f.number("height", c.height,
-           {.unit = "m",
-            .range = in_range(0.0, 0.02),
-            .meaning = "Between the floor's lowest and highest point; 0 for a flat floor."});
+  f.number(
+      "height", c.height,
+      {.unit = "m",
+       .range = in_range(0.0, 0.02),
+       .meaning = "Height between the lowest and the highest point of the floor; 0 for flat."});
   f.number("correlation_length", c.correlation_length,
-           {.unit = "m", .range = in_range(0.2, 5.0), .meaning = "Of the floor's heights."});
+           {.unit = "m",
+            .range = in_range(0.2, 5.0),
+            .meaning = "Correlation length of the floor's heights."});
 }
 
 void describe(Fields& f, CorridorConfig& c) {
   f.number("length", c.length,
            {.unit = "m",
             .range = in_range(1.0, 1000.0),
-            .meaning = "Between the first and the last point of the route.",
+            .meaning = "Length of the route, from its first point to its last.",
             .source = "paper, indoor long corridor: 78.60 m"});
   f.number("margin", c.margin,
            {.unit = "m",
             .range = in_range(1.0, 500.0),
-            .meaning = "Of corridor before the first and behind the last point."});
+            .meaning = "Length of corridor beyond either end of the route."});
   f.number("width", c.width,
-           {.unit = "m", .range = in_range(1.0, 20.0), .meaning = "Between the walls."});
+           {.unit = "m",
+            .range = in_range(1.0, 20.0),
+            .meaning = "Width of the corridor between its walls."});
   f.number("height", c.height,
-           {.unit = "m", .range = in_range(1.0, 20.0), .meaning = "From floor to ceiling."});
+           {.unit = "m",
+            .range = in_range(1.0, 20.0),
+            .meaning = "Height of the corridor from floor to ceiling."});
   f.choice("end_walls", c.end_walls,
            {{"none", EndWalls::kNone},
             {"start", EndWalls::kStart},
             {"end", EndWalls::kEnd},
             {"both", EndWalls::kBoth}},
-           {.meaning = "Ends closed by a wall; the others are open."});
+           {.meaning = "Ends of the corridor closed by a wall."});
   f.group("doors", c.doors);
   f.group("pillars", c.pillars);
   f.group("clutter", c.clutter);
@@ -65,14 +81,15 @@ void describe(Fields& f, SceneConfig& c) {
             {"garage", SceneKind::kGarage},
             {"junction", SceneKind::kJunction},
             {"tunnel", SceneKind::kTunnel}},
-           {.meaning = "Which generator builds the surroundings."});
+           {.meaning = "Type of environment to build."});
   f.integer("seed", c.seed,
             {.unit = "-",
              .range = at_least(0),
-             .meaning = "Of jitter, clutter and bumps; 0 for the seed of the run."});
-  f.number(
-      "floor_friction", c.floor_friction,
-      {.unit = "-", .range = in_range(0.05, 2.0), .meaning = "Sliding friction of the floor."});
+             .meaning = "Seed of door jitter, clutter and bumps; 0 uses the seed of the run."});
+  f.number("floor_friction", c.floor_friction,
+           {.unit = "-",
+            .range = in_range(0.05, 2.0),
+            .meaning = "Sliding friction coefficient of the floor."});
   f.group("bumps", c.bumps);
   f.group("reflectivity", c.reflectivity);
   f.group("corridor", c.corridor);
@@ -88,8 +105,10 @@ namespace {
 Result<void> validate_ramp(const SceneConfig& config) {
   const RampConfig& ramp = config.ramp;
   if (ramp.grade <= 0.0) return {};
-  if (config.bumps.height > 0.0) return failure("scene.ramp: a floor with a ramp has no bumps");
-  if (config.people.count > 0) return failure("scene.people: only on a level floor");
+  if (config.bumps.height > 0.0)
+    return failure("scene.ramp: a floor with a ramp cannot have bumps (scene.bumps)");
+  if (config.people.count > 0)
+    return failure("scene.people: people need a level floor (scene.ramp.grade: 0)");
   const double room = config.corridor.length + config.corridor.margin - ramp.start;
   if (ramp.length > room) {
     return failure(
@@ -99,20 +118,22 @@ Result<void> validate_ramp(const SceneConfig& config) {
   return {};
 }
 
-/// People who walk up and down the corridor, a metre short of its ends.
+/// People who walk up and down the corridor and turn 1 m before its ends.
 std::vector<Person> corridor_people(const SceneConfig& config, std::uint64_t seed) {
-  constexpr double kShort = 1.0;  ///< [m]
+  constexpr double kTurningDistance = 1.0;  ///< from the corridor's end [m]
   const CorridorConfig& corridor = config.corridor;
-  return people_in_lanes(config.people, kShort - corridor.margin,
-                         corridor.length + corridor.margin - kShort, seed);
+  return people_in_lanes(config.people, kTurningDistance - corridor.margin,
+                         corridor.length + corridor.margin - kTurningDistance, seed);
 }
 
 }  // namespace
 
 Result<void> validate(const SceneConfig& config) {
   if (config.kind != SceneKind::kCorridor) {
-    if (config.ramp.grade > 0.0) return failure("scene.ramp: only a corridor can have a ramp");
-    if (config.people.count > 0) return failure("scene.people: only a corridor can have people");
+    if (config.ramp.grade > 0.0)
+      return failure("scene.ramp: only a scene of kind corridor can have a ramp");
+    if (config.people.count > 0)
+      return failure("scene.people: only a scene of kind corridor can have people");
   }
   switch (config.kind) {
     case SceneKind::kCorridor: {

@@ -27,10 +27,10 @@ struct PillarConfig {
   double depth = 0.15;   ///< out of the wall [m]
 };
 
-/// Boxes and cylinders along the walls; seen, but not part of the physics.
+/// Boxes and cylinders along the walls: visible, but without collisions.
 struct ClutterConfig {
   double density = 0.0;     ///< objects per metre of corridor [1/m]
-  double lane_width = 1.3;  ///< middle of the corridor that stays free [m]
+  double free_width = 1.3;  ///< of the middle of the corridor, without clutter [m]
 };
 
 /// Smooth random unevenness of the floor.
@@ -43,7 +43,7 @@ struct BumpConfig {
 /// runs on the centre line from x = 0 to x = length.
 struct CorridorConfig {
   double length = 78.6;  ///< of the route [m]
-  double margin = 3.0;   ///< of corridor before the first and behind the last point [m]
+  double margin = 3.0;   ///< length of corridor beyond either end of the route [m]
   double width = 2.2;    ///< between the walls [m]
   double height = 2.6;   ///< from floor to ceiling [m]
   EndWalls end_walls = EndWalls::kBoth;
@@ -55,16 +55,16 @@ struct CorridorConfig {
 
 enum class SceneKind { kCorridor, kGarage, kJunction, kTunnel };
 
-/// What surrounds the robot.
+/// The environment of the robot.
 struct SceneConfig {
   SceneKind kind = SceneKind::kCorridor;
-  int seed = 0;                 ///< of jitter, clutter and bumps; 0: the seed of the run
+  int seed = 0;                 ///< of door jitter, clutter and bumps; 0: the seed of the run
   double floor_friction = 0.8;  ///< sliding friction under the feet [-], for the physics
   BumpConfig bumps;
   ReflectivityConfig reflectivity;
   CorridorConfig corridor;
-  RampConfig ramp;      ///< in the corridor
-  PeopleConfig people;  ///< in the corridor
+  RampConfig ramp;      ///< corridor only
+  PeopleConfig people;  ///< corridor only
   GarageConfig garage;
   JunctionConfig junction;
   TunnelConfig tunnel;
@@ -76,7 +76,7 @@ void describe(Fields& fields, BumpConfig& config);
 void describe(Fields& fields, CorridorConfig& config);
 void describe(Fields& fields, SceneConfig& config);
 
-/// Error for a combination that cannot be built, e.g. doors wider than their spacing.
+/// Error for a combination that cannot be built, for example doors wider than their spacing.
 Result<void> validate(const SceneConfig& config);
 
 /// The scene of a valid configuration. Same configuration and seed: the same scene.

@@ -42,9 +42,9 @@ class SceneWriter {
 
   void write() {
     if (render_) {
-      add_looks();
+      add_appearance();
     } else {
-      // Shapes that collide with nothing cost the physics half its speed.
+      // Geoms without collisions would halve the speed of the physics.
       set(child(root_, "compiler"), "discardvisual", "true");
     }
     add_floor();
@@ -107,7 +107,7 @@ class SceneWriter {
     set(field, "size", fmt::format("{} {} {} 0.1", half.x(), half.y(), std::max(top, 1e-6F)));
   }
 
-  void add_looks() {
+  void add_appearance() {
     add_materials();
     add_lights();
     pugi::xml_node visual = child(root_, "visual");
@@ -179,8 +179,8 @@ class SceneWriter {
       set(fill, "diffuse", "0.32 0.32 0.31");
       set(fill, "specular", "0 0 0");
     }
-    // The key light travels with the robot, so that its shadow is sharp everywhere. It is steep,
-    // so that the walls keep theirs to themselves.
+    // The key light follows the robot, for a sharp shadow everywhere. It is steep, so that walls
+    // cast short shadows.
     pugi::xml_node robot = world.child("body");
     pugi::xml_node key = (robot ? robot : world).append_child("light");
     set(key, "mode", robot ? "trackcom" : "fixed");

@@ -16,7 +16,7 @@ inline constexpr std::string_view kFloorGeomName = "floor";
 inline constexpr std::string_view kSolidGeomPrefix = "solid_";
 
 enum class MjcfPurpose {
-  kPhysics,  ///< colliding solids only, no looks
+  kPhysics,  ///< colliding solids only, no appearance
   kRender,   ///< visible solids, lights, textures; nothing collides
 };
 

@@ -11,9 +11,9 @@
 namespace aims {
 namespace {
 
-constexpr double kFacet = 0.25;    ///< longest facet that is seen, along the centre line [m]
+constexpr double kFacet = 0.25;    ///< longest visible facet, along the centre line [m]
 constexpr double kJamb = 0.1;      ///< of flat wall beside a door [m]
-constexpr int kSlabsPerSide = 20;  ///< they collide, and physics must stay fast
+constexpr int kSlabsPerSide = 20;  ///< each collides, which costs physics time
 
 /// Distance of a wall's circle from the arc's centre, less the radius of the centre line.
 double offset_of(const TunnelConfig& c, Side side) {
@@ -42,7 +42,7 @@ Chord chord_of(const TunnelConfig& c, Side side, const Span& along) {
 /// Slack at a facet's ends: outer facets diverge behind their faces, inner ones overlap anyway.
 double slack(Side side) { return side == Side::kRight ? kOverlap : 0.0; }
 
-/// A stretch of wall between doors, as equal facets.
+/// The wall between two doors, as equal facets.
 void add_facets(const TunnelConfig& c, Side which, const Span& along, const Materials& materials,
                 std::vector<Solid>& solids) {
   const int count = std::max(1, static_cast<int>(std::ceil(along.length() / kFacet)));
@@ -71,7 +71,7 @@ void add_door(const TunnelConfig& c, Side which, const Span& along, const Materi
                  materials, side);
 }
 
-/// The tunnel's extent, and a little more that ends inside the end walls.
+/// The tunnel along its centre line, between the faces of the end walls.
 Span extent(const TunnelConfig& c) { return {-c.margin, c.length + c.margin}; }
 
 void add_side(const TunnelConfig& c, Side which, std::uint64_t seed, const Materials& materials,
@@ -88,8 +88,8 @@ void add_side(const TunnelConfig& c, Side which, std::uint64_t seed, const Mater
     add_wall_slab({0.0, chord.length}, c.height, materials, side);
   }
   // The flat piece around a door spans the jambs at the wall's own radius.
-  const double stretch = c.radius / (c.radius + offset_of(c, which));
-  const double half = (0.5 * c.doors.width + kJamb) * stretch;
+  const double scale = c.radius / (c.radius + offset_of(c, which));
+  const double half = (0.5 * c.doors.width + kJamb) * scale;
   double begin = outer.begin;
   for (const Span& opening : door_openings(c.doors, along, which, seed, stream)) {
     const Span flat{opening.centre() - half, opening.centre() + half};
@@ -142,28 +142,34 @@ void add_ends_and_ceiling(const TunnelConfig& c, const Materials& materials,
 
 void describe(Fields& f, TunnelConfig& c) {
   f.number("radius", c.radius,
-           {.unit = "m", .range = in_range(5.0, 1e4), .meaning = "Of the centre line's arc."});
+           {.unit = "m", .range = in_range(5.0, 1e4), .meaning = "Radius of the centre line."});
   f.number("length", c.length,
-           {.unit = "m", .range = in_range(1.0, 500.0), .meaning = "Of the route, along the arc."});
+           {.unit = "m",
+            .range = in_range(1.0, 500.0),
+            .meaning = "Length of the route along the arc."});
   f.number("margin", c.margin,
            {.unit = "m",
             .range = in_range(1.0, 100.0),
-            .meaning = "Of tunnel before the first and behind the last point."});
+            .meaning = "Length of tunnel beyond either end of the route."});
   f.number("width", c.width,
-           {.unit = "m", .range = in_range(1.0, 6.0), .meaning = "Between the walls."});
+           {.unit = "m",
+            .range = in_range(1.0, 6.0),
+            .meaning = "Width of the tunnel between its walls."});
   f.number("height", c.height,
-           {.unit = "m", .range = in_range(1.0, 20.0), .meaning = "From floor to ceiling."});
+           {.unit = "m",
+            .range = in_range(1.0, 20.0),
+            .meaning = "Height of the tunnel from floor to ceiling."});
   f.group("doors", c.doors);
 }
 
 Result<void> validate(const TunnelConfig& config) {
-  const double longest = 2.0 * std::numbers::pi * config.radius - 2.0 * config.width - 2.0;
+  const double max_length = 2.0 * std::numbers::pi * config.radius - 2.0 * config.width - 2.0;
   const double total = config.length + 2.0 * config.margin;
-  if (total > longest) {
+  if (total > max_length) {
     return failure(fmt::format(
         "scene.tunnel.length: expected at most {:.1f} m with both margins (one turn of the arc), "
         "got {}",
-        longest, total));
+        max_length, total));
   }
   return validate_doors(config.doors, config.height, "scene.tunnel.doors");
 }

@@ -15,7 +15,7 @@ namespace aims {
 struct TunnelConfig {
   double radius = 20.0;  ///< R, of the centre line [m]
   double length = 25.0;  ///< of the route, along the arc [m]
-  double margin = 12.0;  ///< of tunnel before the first and behind the last point [m]
+  double margin = 12.0;  ///< length of tunnel beyond either end of the route [m]
   double width = 2.2;    ///< between the walls [m]
   double height = 2.6;   ///< from floor to ceiling [m]
   DoorConfig doors;      ///< positions along the centre line's arc
@@ -26,8 +26,8 @@ void describe(Fields& fields, TunnelConfig& config);
 /// Error for doors that do not fit or a tunnel that meets itself, naming the key.
 Result<void> validate(const TunnelConfig& config);
 
-/// The solids of a valid configuration: facets of a quarter metre are seen, slabs of two to three
-/// metres collide. Streams: "scene.tunnel.doors.left" and ".right".
+/// The solids of a valid configuration: facets of a quarter metre are visible, slabs of two to
+/// three metres collide. Streams: "scene.tunnel.doors.left" and ".right".
 std::vector<Solid> tunnel_solids(const TunnelConfig& config, const ReflectivityConfig& reflectivity,
                                  std::uint64_t seed);
 

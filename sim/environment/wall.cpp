@@ -10,14 +10,14 @@
 namespace aims {
 namespace {
 
-/// Centres of features `spacing` apart, the first half a spacing behind the wall's begin.
+/// Centres of features `spacing` apart, the first half a spacing from the start of the wall.
 std::vector<double> regular_centres(const Span& along, double spacing) {
   std::vector<double> centres;
   for (double x = along.begin + 0.5 * spacing; x < along.end; x += spacing) centres.push_back(x);
   return centres;
 }
 
-/// A stretch of wall without glass: plain, or with doors and a slab behind them.
+/// A wall without glass: plain, or with doors and a slab behind them.
 void add_solid_faces(const Wall& wall, const Materials& materials, SideBuilder& side) {
   const double top = wall.height + kOverlap;
   if (wall.openings.empty()) {
@@ -42,8 +42,8 @@ void add_solid_faces(const Wall& wall, const Materials& materials, SideBuilder& 
   side.box({begin, wall.outer.end}, 0.0, back, -kOverlap, top, materials.wall);
 }
 
-/// The part of a wall within a span, with the openings that lie in it and no glass.
-Wall stretch(const Wall& wall, const Span& span) {
+/// The part of a wall within a span, with its openings and without glass.
+Wall part_of(const Wall& wall, const Span& span) {
   Wall part = wall;
   part.outer = span;
   part.glass.clear();
@@ -63,8 +63,8 @@ void add_arm_wall(const CorridorArm& arm, Side which, const Span& outer, const M
     add_wall(whole, materials, side);
     return;
   }
-  add_wall(stretch(whole, {outer.begin, arm.left_gap->begin}), materials, side);
-  add_wall(stretch(whole, {arm.left_gap->end, outer.end}), materials, side);
+  add_wall(part_of(whole, {outer.begin, arm.left_gap->begin}), materials, side);
+  add_wall(part_of(whole, {arm.left_gap->end, outer.end}), materials, side);
 }
 
 }  // namespace
@@ -109,12 +109,12 @@ void add_wall_slab(const Span& outer, double height, const Materials& materials,
 void add_wall_faces(const Wall& wall, const Materials& materials, SideBuilder& side) {
   double begin = wall.outer.begin;
   for (const Span& pane : wall.glass) {
-    if (pane.begin > begin) add_solid_faces(stretch(wall, {begin, pane.begin}), materials, side);
+    if (pane.begin > begin) add_solid_faces(part_of(wall, {begin, pane.begin}), materials, side);
     side.box(pane, 0.0, kGlassThickness, -kOverlap, wall.height + kOverlap, materials.glass);
     begin = pane.end;
   }
   if (wall.outer.end > begin) {
-    add_solid_faces(stretch(wall, {begin, wall.outer.end}), materials, side);
+    add_solid_faces(part_of(wall, {begin, wall.outer.end}), materials, side);
   }
 }
 

@@ -27,7 +27,7 @@ struct Span {
   double length() const { return end - begin; }
 };
 
-/// What the parts of a building are made of.
+/// Materials of the parts of a building.
 struct Materials {
   Material wall, ceiling, door, pillar, clutter, glass;
 };
@@ -46,8 +46,8 @@ class SideBuilder {
         face_(face),
         solids_(solids) {}
 
-  /// A box along `x`, from `near` to `far` behind the face, between two heights; it is seen, but
-  /// no part of the physics.
+  /// A box along `x`, from `near` to `far` behind the face, between two heights; it is visible
+  /// but does not collide.
   Solid& box(const Span& x, double near, double far, double bottom, double top,
              const Material& material);
 
@@ -73,13 +73,13 @@ struct Wall {
   std::vector<Span> glass;        ///< in order, clear of the openings
 };
 
-/// How far a wall reaches behind its face [m].
+/// Thickness of a wall with its doors [m].
 double wall_depth(const Wall& wall);
 
-/// The colliding slab, which nobody sees, and the pieces that are seen.
+/// The invisible colliding slab and the visible pieces.
 void add_wall(const Wall& wall, const Materials& materials, SideBuilder& side);
 
-/// The pieces that are seen alone.
+/// The visible pieces alone.
 void add_wall_faces(const Wall& wall, const Materials& materials, SideBuilder& side);
 
 /// The colliding slab alone.
@@ -89,7 +89,7 @@ void add_wall_slab(const Span& outer, double height, const Materials& materials,
 Solid cross_box(const Pose& T_world_line, const Span& x, double half_width, double bottom,
                 double top, const Material& material);
 
-/// Half width [m] of what closes a corridor: across it and behind its walls.
+/// Half width [m] of end walls and ceiling, which cover the thickness of the walls.
 double outer_half_width(double width, double door_depth);
 
 /// Whether the feature number `index` along a wall is on that side.
@@ -105,7 +105,7 @@ std::vector<Opening> openings_at(const std::vector<Span>& spans, double top);
 /// Error for doors that do not fit; `key` names their group in the configuration.
 Result<void> validate_doors(const DoorConfig& doors, double wall_height, std::string_view key);
 
-/// A straight stretch of corridor along the x axis of its own frame.
+/// A straight corridor along the x axis of its own frame.
 struct CorridorArm {
   Pose T_world_arm;
   Span along;
@@ -119,8 +119,7 @@ struct CorridorArm {
   std::optional<Span> left_gap;  ///< where another corridor of that height begins
 };
 
-/// Walls, end walls and ceiling. An open end is flush with what it opens into: it has to stand in
-/// a wall at least as thick as `kWallThickness`.
+/// Walls, end walls and ceiling. An open end must lie in a wall at least `kWallThickness` thick.
 void add_arm(const CorridorArm& arm, const Materials& materials, std::vector<Solid>& solids);
 
 }  // namespace aims

@@ -10,13 +10,13 @@
 
 namespace aims {
 
-/// Deliveries on their way, in order of arrival; equal arrivals go by kind of sensor (IMU, leg
+/// Pending deliveries in order of arrival; equal arrivals go by kind of sensor (IMU, leg
 /// odometry, LiDAR), then by the order in which they were sent.
 class Arrivals {
  public:
   void add(Delivery delivery);
 
-  /// Moves what has arrived by `now` to the end of `out`.
+  /// Moves the deliveries that have arrived by `now` to the end of `out`.
   void take(Time now, std::vector<Delivery>& out);
 
  private:

@@ -11,7 +11,7 @@ std::string stream_name(std::string_view link, std::string_view fault) {
   return "link." + std::string(link) + "." + std::string(fault);
 }
 
-/// The measurement as a sensor reports it that stamps it late by `offset`.
+/// Adds `offset` to all stamps of a measurement.
 void shift_stamps(Measurement& measurement, Duration offset) {
   if (auto* scan = std::get_if<LidarScanPtr>(&measurement)) {
     auto shifted = std::make_shared<LidarScan>(**scan);
@@ -28,48 +28,63 @@ void shift_stamps(Measurement& measurement, Duration offset) {
 }  // namespace
 
 void describe(Fields& f, OutageConfig& c) {
-  f.number(
-      "start", c.start,
-      {.unit = "s", .range = at_least(0), .meaning = "Of the first outage, in the recording."});
-  f.number("length", c.length,
-           {.unit = "s", .range = at_least(0), .meaning = "Of each outage; 0: none."});
+  f.number("start", c.start,
+           {.unit = "s",
+            .range = at_least(0),
+            .meaning = "Start of the first outage, from the start of the recording."});
+  f.number("duration", c.duration,
+           {.unit = "s", .range = at_least(0), .meaning = "Duration of an outage; 0 for none."});
   f.number("period", c.period,
-           {.unit = "s", .range = at_least(0), .meaning = "From start to start; 0: one alone."});
+           {.unit = "s",
+            .range = at_least(0),
+            .meaning = "Time from the start of one outage to the next; 0 for a single outage."});
 }
 
 bool is_out(const OutageConfig& outage, Time sent) {
   const Duration since = sent - from_seconds(outage.start);
-  if (outage.length <= 0.0 || since < 0) return false;
+  if (outage.duration <= 0.0 || since < 0) return false;
   const Duration within = outage.period > 0.0 ? since % from_seconds(outage.period) : since;
-  return within < from_seconds(outage.length);
+  return within < from_seconds(outage.duration);
 }
 
 void describe(Fields& f, LinkConfig& c) {
   const Range probability = in_range(0.0, 1.0);
   f.number("loss", c.loss,
-           {.unit = "-", .range = probability, .meaning = "Packets lost independently."});
+           {.unit = "-",
+            .range = probability,
+            .meaning = "Probability that a packet is lost independently of the others."});
   f.number("burst_fraction", c.burst_fraction,
            {.unit = "-",
             .range = in_range(0.0, 0.5),
-            .meaning = "Share of packets lost in bursts.",
-            .source = "Gilbert-Elliott, all lost in the bad state"});
+            .meaning = "Fraction of the packets lost in bursts.",
+            .source = "Gilbert-Elliott model; every packet is lost in the bad state"});
   f.number("burst_length", c.burst_length,
-           {.unit = "packets", .range = at_least(1), .meaning = "Mean length of a burst."});
-  f.number("delay", c.delay, {.unit = "s", .range = at_least(0), .meaning = "Of every packet."});
+           {.unit = "packets",
+            .range = at_least(1),
+            .meaning = "Mean length of a burst of lost packets."});
+  f.number("delay", c.delay,
+           {.unit = "s", .range = at_least(0), .meaning = "Constant delay of every packet."});
   f.number("jitter", c.jitter,
-           {.unit = "s", .range = at_least(0), .meaning = "Largest further delay, uniform."});
+           {.unit = "s",
+            .range = at_least(0),
+            .meaning = "Largest additional random delay, uniformly distributed."});
   f.number("reorder_probability", c.reorder_probability,
-           {.unit = "-", .range = probability, .meaning = "Packets held back."});
+           {.unit = "-",
+            .range = probability,
+            .meaning = "Probability that a packet is held back, which reorders packets."});
   f.number("reorder_delay", c.reorder_delay,
-           {.unit = "s", .range = at_least(0), .meaning = "For which a packet is held back."});
-  f.number("duplicate_probability", c.duplicate_probability,
-           {.unit = "-", .range = probability, .meaning = "Packets that arrive twice."});
+           {.unit = "s", .range = at_least(0), .meaning = "Time for which a packet is held back."});
+  f.number(
+      "duplicate_probability", c.duplicate_probability,
+      {.unit = "-", .range = probability, .meaning = "Probability that a packet arrives twice."});
   f.number("stamp_jitter", c.stamp_jitter,
            {.unit = "s",
             .range = in_range(0.0, 1.0),
-            .meaning = "Largest error of a stamp, uniform, either way."});
+            .meaning = "Largest random error of a stamp, uniformly distributed around zero."});
   f.number("clock_offset", c.clock_offset,
-           {.unit = "s", .range = in_range(-10.0, 10.0), .meaning = "Added to the stamps."});
+           {.unit = "s",
+            .range = in_range(-10.0, 10.0),
+            .meaning = "Offset of the sensor's clock, added to its stamps."});
   f.group("outage", c.outage);
 }
 
@@ -86,7 +101,7 @@ Link::Link(const LinkConfig& config, std::uint64_t run_seed, std::string_view na
 bool Link::lost() {
   const bool lost_in_burst = in_burst_;
   const double leave = 1.0 / config_.burst_length;
-  // Balance of the two transitions at the wanted share of the bad state.
+  // Stationary distribution with the configured fraction in the bad state.
   const double enter = leave * config_.burst_fraction / (1.0 - config_.burst_fraction);
   in_burst_ = burst_.chance(in_burst_ ? 1.0 - leave : enter);
   return loss_.chance(config_.loss) || lost_in_burst;

@@ -8,14 +8,14 @@
 namespace aims {
 namespace {
 
-constexpr double kGravity = 9.81;                ///< [m/s^2]
-constexpr double kSwingStiffness = 80.0;         ///< [N m/rad]
-constexpr double kSwingDamping = 2.0;            ///< [N m s/rad]
-constexpr double kTouchdownDepth = 0.01;         ///< aim below the ground [m]
-constexpr double kTouchdownFeedback = 0.06;      ///< foot placement by velocity error [s]
-constexpr double kLatchProgress = 0.6;           ///< of the swing, from which contact ends it
-constexpr double kContactLoad = 15.0;            ///< [N]
-constexpr double kGroundFilter = 0.1;            ///< time constant [s]
+constexpr double kGravity = 9.81;            ///< [m/s^2]
+constexpr double kSwingStiffness = 80.0;     ///< [N m/rad]
+constexpr double kSwingDamping = 2.0;        ///< [N m s/rad]
+constexpr double kTouchdownDepth = 0.01;     ///< aim below the ground [m]
+constexpr double kTouchdownFeedback = 0.06;  ///< foot placement by velocity error [s]
+constexpr double kLatchProgress = 0.6;       ///< fraction of the swing after which contact ends it
+constexpr double kContactLoad = 15.0;        ///< [N]
+constexpr double kGroundFilter = 0.1;        ///< time constant [s]
 constexpr double kVelocityIntegralLimit = 0.25;  ///< [m/s]
 constexpr double kYawIntegralLimit = 0.4;        ///< [rad/s]
 
@@ -73,10 +73,10 @@ double GaitController::leg_phase(int leg) const {
 }
 
 double GaitController::swing_progress(int leg) const {
-  return (leg_phase(leg) - config_.duty) / (1.0 - config_.duty);
+  return (leg_phase(leg) - config_.duty_factor) / (1.0 - config_.duty_factor);
 }
 
-Eigen::Vector3d GaitController::wanted_velocity(const View& now) const {
+Eigen::Vector3d GaitController::desired_velocity(const View& now) const {
   const Eigen::Vector2d horizontal = now.R_world_heading * (target_.velocity + velocity_integral_);
   return {horizontal.x(), horizontal.y(), 0.0};
 }
@@ -92,8 +92,8 @@ void GaitController::begin_standing(const View& now) {
   latched_.fill(false);
 }
 
-/// Slews the command within the limits of acceleration.
-void GaitController::shape(const VelocityCommand& command, const View& now) {
+/// Limits the rate of change of the command.
+void GaitController::limit_command(const VelocityCommand& command, const View& now) {
   if (standing_) return;
   const Eigen::Vector2d change = command.velocity - target_.velocity;
   const double step = config_.acceleration * dt_;
@@ -149,7 +149,7 @@ void GaitController::schedule_feet(const RobotState& state, const View& now) {
 
 StanceProblem GaitController::stance_problem(const View& now) const {
   const Eigen::Vector3d up = now.R_world_base.col(2);
-  Eigen::Vector3d linear = config_.velocity_gain * (wanted_velocity(now) - now.velocity);
+  Eigen::Vector3d linear = config_.velocity_gain * (desired_velocity(now) - now.velocity);
   linear.z() = config_.height_gain * (ground_ + config_.body_height - now.position.z()) -
                config_.height_damping * now.velocity.z() + kGravity;
   Eigen::Vector3d angular = config_.attitude_gain * up.cross(Eigen::Vector3d::UnitZ()) -
@@ -168,17 +168,18 @@ StanceProblem GaitController::stance_problem(const View& now) const {
   return problem;
 }
 
-/// Where the foot should land: under the hip as it will be, ahead by half a stance.
+/// Target of the foot: under the predicted position of the hip, ahead by half a stance.
 Eigen::Vector3d GaitController::touchdown(int leg, const View& now) const {
-  const double time_left = (1.0 - swing_progress(leg)) * (1.0 - config_.duty) * config_.period;
-  const double stance_time = config_.duty * config_.period;
+  const double time_left =
+      (1.0 - swing_progress(leg)) * (1.0 - config_.duty_factor) * config_.period;
+  const double stance_time = config_.duty_factor * config_.period;
   Eigen::Vector3d under_hip = hip_in_base(leg);
   under_hip.y() += side_of(leg) * config_.stance_width;
   const double yaw_then = now.yaw + now.turning.z() * time_left;
   const Eigen::Vector3d hip = yaw_rotation(yaw_then) * under_hip;
   const Eigen::Vector3d hip_velocity =
       now.velocity + Eigen::Vector3d(0.0, 0.0, now.turning.z()).cross(hip);
-  const Eigen::Vector3d error = now.velocity - wanted_velocity(now);
+  const Eigen::Vector3d error = now.velocity - desired_velocity(now);
   Eigen::Vector3d foot = now.position + hip + now.velocity * time_left +
                          0.5 * stance_time * hip_velocity + kTouchdownFeedback * error;
   foot.z() = ground_ + kLegGeometry.foot_radius - kTouchdownDepth;
@@ -188,7 +189,7 @@ Eigen::Vector3d GaitController::touchdown(int leg, const View& now) const {
 Eigen::Vector3d GaitController::swing_torques(int leg, const RobotState& state,
                                               const View& now) const {
   const double s = std::clamp(swing_progress(leg), 0.0, 1.0);
-  const double swing_time = (1.0 - config_.duty) * config_.period;
+  const double swing_time = (1.0 - config_.duty_factor) * config_.period;
   const Eigen::Vector3d& from = liftoff_[leg];
   const Eigen::Vector3d to = touchdown(leg, now);
   Eigen::Vector3d goal = from + blend(s) * (to - from);
@@ -209,9 +210,9 @@ Eigen::Vector3d GaitController::swing_torques(int leg, const RobotState& state,
   const Eigen::Vector3d q = joints_of(state.q, leg);
   const Eigen::Matrix3d J = foot_jacobian(leg, q);
   const Eigen::Matrix3d damped = J.transpose() * J + 1e-4 * Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d wanted_rate = damped.inverse() * (J.transpose() * rate_in_base);
+  const Eigen::Vector3d desired_rate = damped.inverse() * (J.transpose() * rate_in_base);
   return kSwingStiffness * (leg_angles(leg, in_base) - q) +
-         kSwingDamping * (wanted_rate - joints_of(state.qd, leg));
+         kSwingDamping * (desired_rate - joints_of(state.qd, leg));
 }
 
 JointVector GaitController::torques(const RobotState& state, const VelocityCommand& command) {
@@ -228,7 +229,7 @@ JointVector GaitController::torques(const RobotState& state, const VelocityComma
   }
   ground_ += dt_ / kGroundFilter * (foot_height - ground_);
   advance_phase(state, command, now);
-  shape(command, now);
+  limit_command(command, now);
 
   const auto forces = stance_forces(stance_problem(now), config_.forces);
   JointVector torques;
@@ -245,33 +246,53 @@ void describe(Fields& f, GaitConfig& c) {
   f.number("period", c.period,
            {.unit = "s",
             .range = in_range(0.2, 1.0),
-            .meaning = "of a stride; a multiple of 20 ms would alias into a 50 Hz IMU"});
-  f.number("duty", c.duty,
-           {.unit = "-", .range = in_range(0.5, 0.9), .meaning = "part of a stride a foot stands"});
+            .meaning = "Period of a stride; a multiple of 20 ms aliases into a 50 Hz IMU."});
+  f.number("duty_factor", c.duty_factor,
+           {.unit = "-",
+            .range = in_range(0.5, 0.9),
+            .meaning = "Fraction of the stride that a foot is on the ground."});
   f.number("body_height", c.body_height,
-           {.unit = "m", .range = in_range(0.2, 0.36), .meaning = "of the trunk over the ground"});
+           {.unit = "m",
+            .range = in_range(0.2, 0.36),
+            .meaning = "Height of the trunk above the ground."});
   f.number("swing_height", c.swing_height,
-           {.unit = "m", .range = in_range(0.02, 0.15), .meaning = "of a foot in mid-swing"});
+           {.unit = "m",
+            .range = in_range(0.02, 0.15),
+            .meaning = "Height of a foot above the ground in mid-swing."});
   f.number("stance_width", c.stance_width,
-           {.unit = "m", .range = in_range(0.0, 0.15), .meaning = "of a foot beside its hip"});
+           {.unit = "m",
+            .range = in_range(0.0, 0.15),
+            .meaning = "Lateral distance of a standing foot from its hip."});
   f.number("velocity_gain", c.velocity_gain,
-           {.unit = "1/s", .range = at_least(0), .meaning = "horizontal velocity feedback"});
+           {.unit = "1/s",
+            .range = at_least(0),
+            .meaning = "Gain of the horizontal velocity feedback."});
   f.number("height_gain", c.height_gain,
-           {.unit = "1/s^2", .range = at_least(0), .meaning = "height feedback"});
-  f.number("height_damping", c.height_damping,
-           {.unit = "1/s", .range = at_least(0), .meaning = "vertical velocity feedback"});
-  f.number("attitude_gain", c.attitude_gain,
-           {.unit = "1/s^2", .range = at_least(0), .meaning = "roll and pitch feedback"});
+           {.unit = "1/s^2", .range = at_least(0), .meaning = "Gain of the height feedback."});
+  f.number(
+      "height_damping", c.height_damping,
+      {.unit = "1/s", .range = at_least(0), .meaning = "Gain of the vertical velocity feedback."});
+  f.number(
+      "attitude_gain", c.attitude_gain,
+      {.unit = "1/s^2", .range = at_least(0), .meaning = "Gain of the roll and pitch feedback."});
   f.number("attitude_damping", c.attitude_damping,
-           {.unit = "1/s", .range = at_least(0), .meaning = "angular rate feedback"});
+           {.unit = "1/s", .range = at_least(0), .meaning = "Gain of the angular rate feedback."});
   f.number("standing_gain", c.standing_gain,
-           {.unit = "1/s^2", .range = at_least(0), .meaning = "position feedback when standing"});
+           {.unit = "1/s^2",
+            .range = at_least(0),
+            .meaning = "Gain of the position and heading feedback while standing."});
   f.number("integral_gain", c.integral_gain,
-           {.unit = "1/s", .range = at_least(0), .meaning = "integral of velocity and yaw rate"});
+           {.unit = "1/s",
+            .range = at_least(0),
+            .meaning = "Gain of the integral feedback of velocity and yaw rate."});
   f.number("acceleration", c.acceleration,
-           {.unit = "m/s^2", .range = positive(), .meaning = "slew of the velocity command"});
+           {.unit = "m/s^2",
+            .range = positive(),
+            .meaning = "Largest rate of change of the velocity command."});
   f.number("yaw_acceleration", c.yaw_acceleration,
-           {.unit = "rad/s^2", .range = positive(), .meaning = "slew of the yaw-rate command"});
+           {.unit = "rad/s^2",
+            .range = positive(),
+            .meaning = "Largest rate of change of the yaw-rate command."});
   f.group("forces", c.forces);
 }
 

@@ -10,27 +10,27 @@
 
 namespace aims {
 
-/// Trot and the controller that carries the trunk.
+/// Trot gait and trunk controller.
 struct GaitConfig {
-  double period = 0.433;       ///< of a stride; no multiple of 20 ms, or a 50 Hz IMU aliases it [s]
-  double duty = 0.58;          ///< part of the period that a foot stands [-]
-  double body_height = 0.29;   ///< of the trunk's centre over the ground [m]
-  double swing_height = 0.07;  ///< of a foot in mid-swing [m]
-  double stance_width = 0.09;  ///< of a foot beside its hip [m]
-  double velocity_gain = 12.0;     ///< [1/s]
-  double height_gain = 120.0;      ///< [1/s^2]
-  double height_damping = 16.0;    ///< [1/s]
-  double attitude_gain = 150.0;    ///< roll and pitch [1/s^2]
+  double period = 0.433;         ///< of a stride; a multiple of 20 ms aliases into a 50 Hz IMU [s]
+  double duty_factor = 0.58;     ///< fraction of the period that a foot is on the ground [-]
+  double body_height = 0.29;     ///< of the trunk's centre over the ground [m]
+  double swing_height = 0.07;    ///< of a foot in mid-swing [m]
+  double stance_width = 0.09;    ///< of a foot beside its hip [m]
+  double velocity_gain = 12.0;   ///< [1/s]
+  double height_gain = 120.0;    ///< [1/s^2]
+  double height_damping = 16.0;  ///< [1/s]
+  double attitude_gain = 150.0;  ///< roll and pitch [1/s^2]
   double attitude_damping = 15.0;  ///< roll, pitch and yaw rates [1/s]
   double standing_gain = 60.0;     ///< position and heading while standing [1/s^2]
   double integral_gain = 0.8;      ///< of velocity and yaw rate [1/s]
-  double acceleration = 1.0;       ///< slew of the velocity command [m/s^2]
-  double yaw_acceleration = 3.0;   ///< slew of the yaw-rate command [rad/s^2]
+  double acceleration = 1.0;       ///< limit of the velocity command [m/s^2]
+  double yaw_acceleration = 3.0;   ///< limit of the yaw-rate command [rad/s^2]
   StanceForceConfig forces;
 };
 void describe(Fields& f, GaitConfig& c);
 
-/// What the robot is asked to do, in its own heading frame.
+/// Velocity command in the heading frame of the robot.
 struct VelocityCommand {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< forward, left [m/s]
   double yaw_rate = 0.0;                               ///< [rad/s]
@@ -48,8 +48,8 @@ class GaitController {
   bool standing() const { return standing_; }
 
  private:
-  struct View;  ///< what the controller needs of the state, in world axes
-  void shape(const VelocityCommand& command, const View& now);
+  struct View;  ///< the state in world axes
+  void limit_command(const VelocityCommand& command, const View& now);
   void integrate_errors(const View& now);
   void advance_phase(const RobotState& state, const VelocityCommand& command, const View& now);
   void schedule_feet(const RobotState& state, const View& now);
@@ -59,7 +59,7 @@ class GaitController {
   Eigen::Vector3d swing_torques(int leg, const RobotState& state, const View& now) const;
   double leg_phase(int leg) const;
   double swing_progress(int leg) const;
-  Eigen::Vector3d wanted_velocity(const View& now) const;
+  Eigen::Vector3d desired_velocity(const View& now) const;
 
   GaitConfig config_;
   BodyModel body_;
@@ -69,7 +69,7 @@ class GaitController {
   double phase_ = 0.0;      ///< of the stride, in [0, 1)
   double idle_time_ = 0.0;  ///< since the command became zero [s]
   double ground_ = 0.0;     ///< height under the feet [m]
-  VelocityCommand target_;  ///< slewed command
+  VelocityCommand target_;  ///< rate-limited command
   Eigen::Vector2d velocity_integral_ = Eigen::Vector2d::Zero();
   double yaw_rate_integral_ = 0.0;
   Eigen::Vector2d hold_position_ = Eigen::Vector2d::Zero();  ///< world [m]

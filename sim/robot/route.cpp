@@ -14,8 +14,9 @@ constexpr double kCreep = 0.1;          ///< slowest approach [m/s]
 constexpr double kTurnGain = 2.0;       ///< [1/s]
 constexpr double kSlowestTurn = 0.25;   ///< [rad/s]
 constexpr double kAligned = 0.05;       ///< heading error that ends a turn in place [rad]
-constexpr double kAmbiguousTurn = 2.6;  ///< error beyond which both ways round are alike [rad]
-constexpr double kRestSpeed = 0.03;     ///< [m/s]
+constexpr double kAmbiguousTurn =
+    2.6;                             ///< error beyond which either turning direction will do [rad]
+constexpr double kRestSpeed = 0.03;  ///< [m/s]
 constexpr Duration kRestTime = 300 * kMillisecond;
 
 double heading_of(const Eigen::Vector2d& direction) {
@@ -54,7 +55,7 @@ double nominal_duration(const RouteConfig& route) {
     const double turn = std::abs(wrap_angle(heading_of(step) - heading));
     heading = heading_of(step);
     duration += step.norm() / route.speed;
-    if (turn > route.turn_beyond) duration += turn / route.turn_rate + 1.0;
+    if (turn > route.turn_in_place_angle) duration += turn / route.turn_rate + 1.0;
     const bool last = i + 1 == route.points.size();
     if (!route.points[i].name.empty() && !last) duration += route.stand_at_points + 2.0;
   }
@@ -73,7 +74,7 @@ void RouteFollower::pass(Time now, std::size_t index) {
   if (!name.empty()) waypoint_times_.push_back({name, now});
 }
 
-/// Leaves a pause: for the next point, or for good.
+/// Ends a pause: the robot walks on, or the route is done.
 void RouteFollower::set_off() {
   if (at_last()) {
     stage_ = Stage::kDone;
@@ -83,7 +84,7 @@ void RouteFollower::set_off() {
   turns_left_ = next_ % 2 == 0;
 }
 
-/// The robot is at its next point: stops there, or walks on when it is a via point.
+/// The robot is at its next point: it stops there, or walks on at a point without a name.
 void RouteFollower::reach_point() {
   const bool last = next_ + 1 == route_.points.size();
   if (last || !route_.points[next_].name.empty()) {
@@ -106,14 +107,14 @@ void RouteFollower::settle(Time now, bool resting) {
 
 RouteFollower::Pursuit RouteFollower::pursue(const Pose& T_world_base) const {
   const Eigen::Vector2d from = point(next_ - 1);
-  const Eigen::Vector2d way = point(next_) - from;
-  const Eigen::Vector2d along = way.normalized();
+  const Eigen::Vector2d leg = point(next_) - from;
+  const Eigen::Vector2d along = leg.normalized();
   const Eigen::Vector2d here = T_world_base.translation.head<2>();
   const double travelled = (here - from).dot(along);
   const Eigen::Vector2d goal = from + (travelled + route_.lookahead) * along;
   return {.bearing = wrap_angle(heading_of(goal - here) - yaw_of(T_world_base.rotation)),
           .distance = (goal - here).norm(),
-          .left = way.norm() - travelled};
+          .left = leg.norm() - travelled};
 }
 
 VelocityCommand RouteFollower::turn(const Pose& T_world_base) {
@@ -136,7 +137,7 @@ VelocityCommand RouteFollower::walk(const Pose& T_world_base) {
     reach_point();
     return {};
   }
-  if (std::abs(pursuit.bearing) > route_.turn_beyond) {
+  if (std::abs(pursuit.bearing) > route_.turn_in_place_angle) {
     stage_ = Stage::kTurning;
     turns_left_ = pursuit.bearing > 0.0;
     return {};
@@ -176,28 +177,34 @@ VelocityCommand RouteFollower::command(Time now, const Pose& T_world_base, bool 
 }
 
 void describe(Fields& f, RoutePoint& c) {
-  f.text("name", c.name, {.meaning = "reference point to stand at; empty: passed without a stop"});
-  f.number("x", c.x, {.unit = "m", .meaning = "in the world frame"});
-  f.number("y", c.y, {.unit = "m", .meaning = "in the world frame"});
+  f.text("name", c.name,
+         {.meaning = "Name of the waypoint, at which the robot stops; empty: it does not stop."});
+  f.number("x", c.x, {.unit = "m", .meaning = "Position in the world frame."});
+  f.number("y", c.y, {.unit = "m", .meaning = "Position in the world frame."});
 }
 
 void describe(Fields& f, RouteConfig& c) {
-  f.list("points", c.points, "points of the route in order; the robot starts at the first");
-  f.number("speed", c.speed, {.unit = "m/s", .range = in_range(0.1, 1.0), .meaning = "of walking"});
+  f.list("points", c.points, "Points of the route in order; the robot starts at the first.");
+  f.number("speed", c.speed,
+           {.unit = "m/s", .range = in_range(0.1, 1.0), .meaning = "Walking speed."});
   f.number("turn_rate", c.turn_rate,
-           {.unit = "rad/s", .range = in_range(0.3, 1.5), .meaning = "of turning in place"});
+           {.unit = "rad/s",
+            .range = in_range(0.3, 1.5),
+            .meaning = "Largest yaw rate of a turn in place."});
   f.number("stand_before", c.stand_before,
-           {.unit = "s", .range = at_least(0), .meaning = "standing before the first step"});
+           {.unit = "s", .range = at_least(0), .meaning = "Standing time before the first step."});
   f.number("stand_at_points", c.stand_at_points,
-           {.unit = "s", .range = at_least(0), .meaning = "standing at each named point"});
+           {.unit = "s", .range = at_least(0), .meaning = "Standing time at each named point."});
   f.number("stand_after", c.stand_after,
-           {.unit = "s", .range = at_least(0), .meaning = "standing after the last step"});
+           {.unit = "s", .range = at_least(0), .meaning = "Standing time after the last step."});
   f.number("lookahead", c.lookahead,
-           {.unit = "m", .range = in_range(0.2, 3.0), .meaning = "of the pure pursuit"});
-  f.number("turn_beyond", c.turn_beyond,
+           {.unit = "m",
+            .range = in_range(0.2, 3.0),
+            .meaning = "Lookahead distance of the pure pursuit controller."});
+  f.number("turn_in_place_angle", c.turn_in_place_angle,
            {.unit = "rad",
             .range = in_range(0.2, 1.5),
-            .meaning = "heading error from which the robot turns in place"});
+            .meaning = "Heading error beyond which the robot turns in place."});
 }
 
 }  // namespace aims

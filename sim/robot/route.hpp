@@ -12,7 +12,7 @@
 
 namespace aims {
 
-/// Where the robot walks to; a point without a name is passed without stopping.
+/// A point of the route; the robot does not stop at a point without a name.
 struct RoutePoint {
   std::string name;
   double x = 0.0;  ///< [m]
@@ -20,16 +20,16 @@ struct RoutePoint {
 };
 void describe(Fields& f, RoutePoint& c);
 
-/// A walk from point to point, standing at each named one.
+/// A route from point to point with a stop at each named one.
 struct RouteConfig {
   std::vector<RoutePoint> points = {{"a", 0.0, 0.0}, {"b", 78.6, 0.0}, {"a", 0.0, 0.0}};
-  double speed = 0.7;            ///< [m/s]
-  double turn_rate = 0.9;        ///< in place [rad/s]
-  double stand_before = 5.0;     ///< at the start [s]
-  double stand_at_points = 1.0;  ///< at named points [s]
-  double stand_after = 2.0;      ///< at the end [s]
-  double lookahead = 0.6;        ///< of the pure pursuit [m]
-  double turn_beyond = 0.7;      ///< heading error from which the robot turns in place [rad]
+  double speed = 0.7;                ///< [m/s]
+  double turn_rate = 0.9;            ///< in place [rad/s]
+  double stand_before = 5.0;         ///< at the start [s]
+  double stand_at_points = 1.0;      ///< at named points [s]
+  double stand_after = 2.0;          ///< at the end [s]
+  double lookahead = 0.6;            ///< of the pure pursuit [m]
+  double turn_in_place_angle = 0.7;  ///< heading error beyond which the robot turns in place [rad]
 };
 void describe(Fields& f, RouteConfig& c);
 
@@ -47,10 +47,10 @@ class RouteFollower {
  public:
   explicit RouteFollower(RouteConfig route);
 
-  /// What to do now; `standing` and `speed` [m/s] say whether the robot has come to rest.
+  /// Velocity command; `standing` and `speed` [m/s] are the present state of the robot.
   VelocityCommand command(Time now, const Pose& T_world_base, bool standing, double speed);
 
-  /// When the robot stood at each named point, so far; the first when it sets off.
+  /// Times at which the robot stood at named points so far; at the first point: when it sets off.
   const std::vector<WaypointTime>& waypoint_times() const { return waypoint_times_; }
   bool done() const { return stage_ == Stage::kDone; }
 
@@ -81,7 +81,7 @@ class RouteFollower {
   Time pause_end_ = 0;
   Time resting_since_ = -1;
   bool started_ = false;
-  bool turns_left_ = false;  ///< way round of a turn of about 180 degrees
+  bool turns_left_ = false;  ///< direction of a turn of about 180 degrees
   std::vector<WaypointTime> waypoint_times_;
 };
 

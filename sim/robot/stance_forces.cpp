@@ -34,8 +34,8 @@ ForceToAcceleration force_to_acceleration(const StanceProblem& problem, int feet
   return B;
 }
 
-/// The force brought into the friction cone and the normal limits.
-Eigen::Vector3d admissible(Eigen::Vector3d f, const StanceForceConfig& config) {
+/// Projection of a force onto the friction cone and the normal force limits.
+Eigen::Vector3d project(Eigen::Vector3d f, const StanceForceConfig& config) {
   const double mu = config.friction;
   const double tangential = f.head<2>().norm();
   if (tangential > mu * f.z()) {
@@ -52,26 +52,26 @@ Eigen::Vector3d admissible(Eigen::Vector3d f, const StanceForceConfig& config) {
   return f;
 }
 
-Stack admissible_stack(const Stack& forces, const StanceForceConfig& config) {
+Stack project_stack(const Stack& forces, const StanceForceConfig& config) {
   Stack result(forces.size());
   for (Eigen::Index i = 0; i < forces.size(); i += 3) {
-    result.segment<3>(i) = admissible(forces.segment<3>(i), config);
+    result.segment<3>(i) = project(forces.segment<3>(i), config);
   }
   return result;
 }
 
 /// Alternating direction method of multipliers, started at the projected free minimum.
-Stack minimise(const SquareStack& H, const Stack& gradient, const StanceForceConfig& config) {
+Stack minimize(const SquareStack& H, const Stack& gradient, const StanceForceConfig& config) {
   const Eigen::Index size = H.rows();
   const SquareStack identity = SquareStack::Identity(size, size);
   const Stack free_minimum = H.llt().solve(gradient);
-  Stack feasible = admissible_stack(free_minimum, config);
+  Stack feasible = project_stack(free_minimum, config);
   if (feasible == free_minimum) return feasible;
   const SquareStack inverse = (H + kPenalty * identity).llt().solve(identity);
   Stack multiplier = Stack::Zero(size);
   for (int i = 0; i < config.iterations; ++i) {
     const Stack forces = inverse * (gradient + kPenalty * (feasible - multiplier));
-    feasible = admissible_stack(forces + multiplier, config);
+    feasible = project_stack(forces + multiplier, config);
     multiplier += forces - feasible;
   }
   return feasible;
@@ -81,15 +81,22 @@ Stack minimise(const SquareStack& H, const Stack& gradient, const StanceForceCon
 
 void describe(Fields& f, StanceForceConfig& c) {
   f.number("friction", c.friction,
-           {.unit = "-", .range = positive(), .meaning = "friction cone the controller keeps to"});
-  f.number("min_normal", c.min_normal,
-           {.unit = "N", .range = at_least(0), .meaning = "least normal force of a standing foot"});
+           {.unit = "-",
+            .range = positive(),
+            .meaning = "Friction coefficient of the cone that limits the contact forces."});
+  f.number(
+      "min_normal", c.min_normal,
+      {.unit = "N", .range = at_least(0), .meaning = "Smallest normal force of a standing foot."});
   f.number("max_normal", c.max_normal,
-           {.unit = "N", .range = positive(), .meaning = "largest normal force of a foot"});
+           {.unit = "N", .range = positive(), .meaning = "Largest normal force of a foot."});
   f.number("regularization", c.regularization,
-           {.unit = "1/kg^2", .range = positive(), .meaning = "weight of the forces' square"});
+           {.unit = "1/kg^2",
+            .range = positive(),
+            .meaning = "Weight of the squared forces against the acceleration error."});
   f.integer("iterations", c.iterations,
-            {.unit = "-", .range = at_least(1), .meaning = "iterations of the force distribution"});
+            {.unit = "-",
+             .range = at_least(1),
+             .meaning = "Iterations of the force distribution (ADMM)."});
 }
 
 std::array<Eigen::Vector3d, kLegCount> stance_forces(const StanceProblem& problem,
@@ -107,7 +114,7 @@ std::array<Eigen::Vector3d, kLegCount> stance_forces(const StanceProblem& proble
   H.diagonal().array() += config.regularization;
   const Stack gradient = weighted.transpose() * problem.acceleration;
 
-  const Stack solution = minimise(H, gradient, config);
+  const Stack solution = minimize(H, gradient, config);
   Eigen::Index row = 0;
   for (int leg = 0; leg < kLegCount; ++leg) {
     if (!problem.stands[leg]) continue;

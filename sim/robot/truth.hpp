@@ -22,18 +22,18 @@ struct TruthSample {
   std::array<double, kLegCount> slip_speed{};  ///< of each foot in contact over the ground [m/s]
 };
 
-/// Whole-robot configuration, for pictures.
+/// Configuration of the whole robot, for pictures.
 struct RobotSnapshot {
   Time stamp = 0;
   std::vector<double> qpos;  ///< MuJoCo generalized positions of the quadruped
 };
 
-/// What really happened. Returned apart from the measurements; no estimator ever sees it.
+/// The ground truth of a run, separate from the measurements: no estimator receives it.
 struct Truth {
   std::vector<TruthSample> samples;          ///< at the physics rate
   std::vector<RobotSnapshot> snapshots;      ///< at 10 Hz
   std::vector<WaypointTime> waypoint_times;  ///< of the route's named points, in order
-  std::vector<ScanInformation> scans;        ///< of the scans that did not get lost on their way
+  std::vector<ScanInformation> scans;        ///< of the scans that were delivered
   bool fell = false;
   bool touched_wall = false;
 };

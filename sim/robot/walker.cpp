@@ -9,8 +9,7 @@ namespace {
 /// Cosine of the tilt beyond which the robot has fallen.
 constexpr double kFallenCosine = 0.5;
 
-/// Standing before time zero, until the joints have found their rest: a recording starts with a
-/// robot that has been standing for a while.
+/// Standing time before time zero, so that the joints are at rest when the recording starts.
 constexpr Duration kSettling = 2 * kSecond;
 
 }  // namespace

@@ -8,14 +8,14 @@
 
 namespace aims {
 
-/// Where a robot is put, in the world's plane.
+/// Position and heading in the plane of the world.
 struct Placement {
   double x = 0.0;    ///< [m]
   double y = 0.0;    ///< [m]
   double yaw = 0.0;  ///< [rad]
 };
 
-/// A robot in a world that walks its route by itself: dynamics, gait and route follower.
+/// A robot that walks a route: dynamics, gait controller and route follower.
 class Walker {
  public:
   /// Places the robot at the route's first point, heading to the second, `offset` from there.

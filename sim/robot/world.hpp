@@ -15,7 +15,7 @@
 
 namespace aims {
 
-/// What a world is made of.
+/// Everything that defines a world.
 struct WorldSetup {
   std::string mjcf;            ///< the robot (see quadruped_mjcf) with the scene's solids around it
   std::vector<float> heights;  ///< of the height field in [0, 1], row by row; empty: flat floor
@@ -32,8 +32,8 @@ struct RobotState {
   JointVector q = JointVector::Zero();                         ///< joint angles [rad]
   JointVector qd = JointVector::Zero();                        ///< joint rates [rad/s]
   std::array<double, kLegCount> foot_load{};  ///< normal force on each foot in the last step [N]
-  bool trunk_on_floor = false;                ///< any part but feet and calves touches the floor
-  bool touches_wall = false;                  ///< any part touches a solid other than the floor
+  bool trunk_on_floor = false;  ///< a part other than feet and calves touches the floor
+  bool touches_wall = false;    ///< any part touches a solid other than the floor
 };
 
 /// Mass properties of the whole robot, standing with its legs in the nominal position.
@@ -60,13 +60,13 @@ class World {
   /// floor beneath it. Time restarts at zero.
   void place(double x, double y, double yaw);
 
-  /// One physics step under those joint torques [N m], limited to what the motors can give.
+  /// One physics step under those joint torques [N m], limited by the motors.
   void step(const JointVector& torques);
 
   /// Calls the present instant time zero.
   void restart_clock();
 
-  /// Pushes the trunk with a force in the world frame [N] during the following steps.
+  /// Applies a force in the world frame [N] to the trunk during the following steps.
   void push(const Eigen::Vector3d& force);
 
   const RobotState& state() const;

@@ -8,11 +8,11 @@
 
 namespace aims {
 
-/// The orientation that an IMU reports beside its samples: gyro integrated, roll and pitch drawn to
-/// the felt gravity, heading free to drift from zero. Made of the samples alone, never of truth.
+/// The orientation that an IMU reports with its samples: integrated gyro, roll and pitch corrected
+/// by the measured gravity, heading with drift from zero. It uses the samples alone, no truth.
 class AttitudeFilter {
  public:
-  /// Takes the next sample; yields the body's orientation in a level frame at its stamp.
+  /// Processes the next sample; returns the body's orientation in a level frame at its stamp.
   Eigen::Quaterniond update(const ImuSample& sample);
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kLeastCosine = 1e-3;  ///< of a return that grazes its surface [-]
+constexpr double kMinCosine = 1e-3;  ///< of a return at grazing incidence [-]
 
 }  // namespace
 
@@ -26,7 +26,7 @@ ScanInformation scan_information(Time stamp, const ScanTruth& scan, const Pose& 
   for (std::size_t i = 0; i < scan.normals.size(); ++i) {
     if (scan.surfaces[i] >= first_moving_surface) continue;
     ++result.returns;
-    const double weight = 1.0 / std::max<double>(scan.cosines[i], kLeastCosine);
+    const double weight = 1.0 / std::max<double>(scan.cosines[i], kMinCosine);
     const Eigen::Vector3d normal = weight * scan.normals[i].cast<double>();
     const Eigen::Vector3d arm = scan.points[i].cast<double>() - T_world_body.translation;
     const Eigen::Vector3d moment = arm.cross(normal);
@@ -35,7 +35,7 @@ ScanInformation scan_information(Time stamp, const ScanTruth& scan, const Pose& 
     translation.noalias() += normal * normal.transpose();
   }
   result.stamp = stamp;
-  result.range_sigma = std::max(range_sigma, kLeastRangeSigma);
+  result.range_sigma = std::max(range_sigma, kMinRangeSigma);
   const double scale = 1.0 / (result.range_sigma * result.range_sigma);
   const Eigen::Matrix3d R = T_world_body.R();
   Matrix6& J = result.information;

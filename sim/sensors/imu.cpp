@@ -32,20 +32,21 @@ void describe_errors(Fields& f, std::string_view prefix, InertialErrorConfig& c,
   f.number(name + "_noise_density", c.noise_density,
            {.unit = unit + "/sqrt(Hz)",
             .range = at_least(0),
-            .meaning = "white noise",
+            .meaning = "Density of the white noise.",
             .source = source});
-  f.number(name + "_bias_walk", c.bias_walk,
-           {.unit = unit + "/sqrt(s)", .range = at_least(0), .meaning = "random walk of the bias"});
+  f.number(
+      name + "_bias_walk", c.bias_walk,
+      {.unit = unit + "/sqrt(s)", .range = at_least(0), .meaning = "Random walk of the bias."});
   f.number(name + "_turn_on_bias", c.turn_on_bias,
            {.unit = unit,
             .range = at_least(0),
-            .meaning = "standard deviation per axis of the bias at the start of a run"});
+            .meaning = "Standard deviation per axis of the bias at the start of a run."});
   f.number(name + "_scale_error", c.scale_error,
            {.unit = "-",
             .range = in_range(0.0, 0.2),
-            .meaning = "standard deviation per axis of the scale error of a run"});
+            .meaning = "Standard deviation per axis of the scale error, constant in a run."});
   f.number(name + "_range", c.range,
-           {.unit = unit, .range = positive(), .meaning = "magnitude at which an axis saturates"});
+           {.unit = unit, .range = positive(), .meaning = "Magnitude at which an axis saturates."});
 }
 
 }  // namespace
@@ -105,10 +106,10 @@ void describe(Fields& f, ImuConfig& c) {
   f.number("rate", c.rate,
            {.unit = "Hz",
             .range = in_range(1.0, 2000.0),
-            .meaning = "samples per second",
+            .meaning = "Samples per second.",
             .source = "paper, section IV"});
   f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
-           {.unit = "-", .meaning = "mean over the sample interval, or its last instant"});
+           {.unit = "-", .meaning = "Mean over the sample interval, or the value at its end."});
   describe_errors(f, "gyro", c.gyro, "rad/s", "MEMS datasheets: 0.005-0.015 deg/s/sqrt(Hz)");
   describe_errors(f, "accelerometer", c.accelerometer, "m/s^2",
                   "MEMS datasheets: 60-250 ug/sqrt(Hz)");

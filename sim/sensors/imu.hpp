@@ -13,7 +13,7 @@
 
 namespace aims {
 
-/// Errors of one inertial triad, as a datasheet states them; unit: rad/s or m/s^2.
+/// Errors of one inertial triad, as in a datasheet; unit: rad/s or m/s^2.
 struct InertialErrorConfig {
   double noise_density = 0.0;  ///< white noise [unit/sqrt(Hz)]
   double bias_walk = 0.0;      ///< random walk of the bias [unit/sqrt(s)]
@@ -39,7 +39,7 @@ class Imu {
   /// `config` is valid. Random streams: "imu.gyro", "imu.accelerometer".
   Imu(const ImuConfig& config, Duration timestep, std::uint64_t run_seed);
 
-  /// Takes the true motion after each physics step, the first before any step; yields a sample at
+  /// Processes the true motion before the first and after each physics step; returns a sample at
   /// the end of each interval. An average of rates is the rotation over the interval divided by its
   /// length; an average of specific forces is the mean of the force in the turning body's axes, so
   /// integrating it at the interval's middle attitude reproduces the change of velocity.

@@ -10,7 +10,7 @@ namespace aims {
 namespace {
 
 constexpr double kLevellingRate = 1.0;  ///< of roll and pitch towards gravity [1/s]
-constexpr double kMovingSpeed = 0.1;    ///< below it the robot stands and no foot is pushed [m/s]
+constexpr double kMovingSpeed = 0.1;    ///< below it the robot stands and slip adds no error [m/s]
 
 JointVector joints_in(const std::array<double, kJointCount>& values) {
   return Eigen::Map<const JointVector>(values.data());
@@ -39,7 +39,7 @@ LegOdometry::LegOdometry(const LegOdometryConfig& config, Duration timestep, std
   velocity_scale_ = config_.velocity_scale * (1.0 + config_.velocity_scale_error * run.normal());
   gyro_scale_ = 1.0 + config_.gyro_scale_error * run.normal();
   gyro_bias_ = config_.gyro_bias * run.normal3();
-  for (double& offset : angle_offset_) offset = config_.angle_offset * run.normal();
+  for (double& offset : angle_offset_) offset = config_.joint_angle_offset * run.normal();
 }
 
 /// The odometry frame is the base's frame at the start, made level.
@@ -49,15 +49,15 @@ void LegOdometry::begin(const RobotState& truth) {
   started_ = true;
   for (int leg = 0; leg < kLegCount; ++leg) {
     loaded_[leg] = truth.foot_load[leg] > config_.contact_on;
-    loaded_time_[leg] = config_.debounce;
+    loaded_time_[leg] = config_.contact_debounce;
   }
 }
 
 void LegOdometry::measure_joints(const RobotState& truth, LegOdometrySample& sample) {
   for (int i = 0; i < kJointCount; ++i) {
     sample.joint_position[i] =
-        truth.q[i] + angle_offset_[i] + config_.angle_noise * encoder_.normal();
-    sample.joint_velocity[i] = truth.qd[i] + config_.angle_rate_noise * encoder_.normal();
+        truth.q[i] + angle_offset_[i] + config_.joint_angle_noise * encoder_.normal();
+    sample.joint_velocity[i] = truth.qd[i] + config_.joint_rate_noise * encoder_.normal();
   }
 }
 
@@ -66,7 +66,7 @@ void LegOdometry::detect_contacts(const RobotState& truth, LegOdometrySample& sa
     const double load = truth.foot_load[leg] + config_.load_noise * contact_.normal();
     loaded_[leg] = load > (loaded_[leg] ? config_.contact_off : config_.contact_on);
     loaded_time_[leg] = loaded_[leg] ? loaded_time_[leg] + interval_ : 0.0;
-    sample.contact[leg] = loaded_[leg] && loaded_time_[leg] > config_.debounce;
+    sample.contact[leg] = loaded_[leg] && loaded_time_[leg] > config_.contact_debounce;
   }
 }
 
@@ -79,9 +79,9 @@ void LegOdometry::measure_rotation(const RobotState& truth, LegOdometrySample& s
   last_rotation_ = now;
   T_odom_base_.rotation =
       (T_odom_base_.rotation * so3_exp(sample.angular_velocity * interval_)).normalized();
-  const Eigen::Vector3d up_felt = now.conjugate() * Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d up_believed = T_odom_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d correction = kLevellingRate * interval_ * up_felt.cross(up_believed);
+  const Eigen::Vector3d up_measured = now.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up_estimated = T_odom_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d correction = kLevellingRate * interval_ * up_measured.cross(up_estimated);
   T_odom_base_.rotation = (T_odom_base_.rotation * so3_exp(correction)).normalized();
 }
 
@@ -94,7 +94,7 @@ Eigen::Vector3d LegOdometry::foot_velocity(int leg, const LegOdometrySample& sam
   return velocity_from_rolling_foot(leg, motion, up);
 }
 
-/// Mean over the standing feet; without any, the last velocity goes on.
+/// Mean over the standing feet; without any, the last velocity.
 Eigen::Vector3d LegOdometry::body_velocity(const LegOdometrySample& sample) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int feet = 0;
@@ -107,7 +107,7 @@ Eigen::Vector3d LegOdometry::body_velocity(const LegOdometrySample& sample) {
   return velocity_scale_ * velocity_ + slip_error(velocity_);
 }
 
-/// A burst makes the feet run faster than the body: the speed reads too high for a while.
+/// Slip: the feet move faster than the body and the measured speed is too high.
 Eigen::Vector3d LegOdometry::slip_error(const Eigen::Vector3d& velocity) {
   const bool begins = slip_.chance(config_.slip_rate * interval_);
   const double size = std::abs(slip_.normal()) * config_.slip_speed;
@@ -144,53 +144,67 @@ void describe(Fields& f, LegOdometryConfig& c) {
   f.number("rate", c.rate,
            {.unit = "Hz",
             .range = in_range(1.0, 2000.0),
-            .meaning = "samples per second",
+            .meaning = "Samples per second.",
             .source = "paper, section IV"});
   f.choice("foot_model", c.foot_model,
            {{"point", FootModel::kPoint}, {"rolling", FootModel::kRolling}},
-           {.unit = "-", .meaning = "what the robot takes its round feet for"});
-  f.number("angle_noise", c.angle_noise,
-           {.unit = "rad", .range = at_least(0), .meaning = "of a joint encoder, per sample"});
-  f.number("angle_offset", c.angle_offset,
+           {.unit = "-",
+            .meaning = "Foot model of the robot's own kinematics; the true feet are spheres."});
+  f.number("joint_angle_noise", c.joint_angle_noise,
            {.unit = "rad",
             .range = at_least(0),
-            .meaning = "standard deviation of each joint's offset, per run"});
-  f.number("angle_rate_noise", c.angle_rate_noise,
-           {.unit = "rad/s", .range = at_least(0), .meaning = "of a joint's rate, per sample"});
-  f.number("contact_on", c.contact_on,
-           {.unit = "N", .range = at_least(0), .meaning = "load from which a foot stands"});
-  f.number("contact_off", c.contact_off,
-           {.unit = "N", .range = at_least(0), .meaning = "load below which it no longer does"});
+            .meaning = "Standard deviation of a joint angle, per sample."});
+  f.number("joint_angle_offset", c.joint_angle_offset,
+           {.unit = "rad",
+            .range = at_least(0),
+            .meaning = "Standard deviation of the offset of a joint angle, constant in a run."});
+  f.number("joint_rate_noise", c.joint_rate_noise,
+           {.unit = "rad/s",
+            .range = at_least(0),
+            .meaning = "Standard deviation of a joint rate, per sample."});
+  f.number(
+      "contact_on", c.contact_on,
+      {.unit = "N", .range = at_least(0), .meaning = "Foot load above which contact is detected."});
+  f.number(
+      "contact_off", c.contact_off,
+      {.unit = "N", .range = at_least(0), .meaning = "Foot load below which contact is lost."});
   f.number("load_noise", c.load_noise,
-           {.unit = "N", .range = at_least(0), .meaning = "of the load, per sample"});
-  f.number("debounce", c.debounce,
-           {.unit = "s", .range = at_least(0), .meaning = "from touchdown until a foot counts"});
+           {.unit = "N",
+            .range = at_least(0),
+            .meaning = "Standard deviation of the measured foot load, per sample."});
+  f.number("contact_debounce", c.contact_debounce,
+           {.unit = "s",
+            .range = at_least(0),
+            .meaning = "Time from touchdown until contact is reported."});
   f.number("gyro_noise_density", c.gyro_noise_density,
-           {.unit = "rad/s/sqrt(Hz)", .range = at_least(0), .meaning = "of its own gyro"});
+           {.unit = "rad/s/sqrt(Hz)",
+            .range = at_least(0),
+            .meaning = "Noise density of the gyro of the leg odometry."});
   f.number("gyro_bias", c.gyro_bias,
            {.unit = "rad/s",
             .range = at_least(0),
-            .meaning = "standard deviation per axis of its own gyro's bias, per run"});
+            .meaning = "Standard deviation per axis of the bias of that gyro, constant in a run."});
   f.number("gyro_scale_error", c.gyro_scale_error,
            {.unit = "-",
             .range = in_range(0.0, 0.2),
-            .meaning = "standard deviation of its own gyro's scale, per run"});
-  f.number("velocity_scale", c.velocity_scale,
-           {.unit = "-",
-            .range = in_range(0.2, 5.0),
-            .meaning = "of every run: a wrong leg length or wheel-like calibration"});
+            .meaning = "Standard deviation of the scale error of that gyro, constant in a run."});
+  f.number(
+      "velocity_scale", c.velocity_scale,
+      {.unit = "-",
+       .range = in_range(0.2, 5.0),
+       .meaning = "Ratio of reported to measured velocity in every run: a calibration error."});
   f.number("velocity_scale_error", c.velocity_scale_error,
            {.unit = "-",
             .range = in_range(0.0, 0.5),
-            .meaning = "standard deviation of the speed's scale, per run"});
+            .meaning = "Standard deviation of the velocity scale error, constant in a run."});
   f.number("slip_rate", c.slip_rate,
-           {.unit = "Hz", .range = at_least(0), .meaning = "injected slip bursts per second"});
+           {.unit = "Hz", .range = at_least(0), .meaning = "Injected slip bursts per second."});
   f.number("slip_speed", c.slip_speed,
            {.unit = "m/s",
             .range = at_least(0),
-            .meaning = "standard deviation of a burst's speed error"});
+            .meaning = "Standard deviation of the speed error during a burst."});
   f.number("slip_duration", c.slip_duration,
-           {.unit = "s", .range = at_least(0), .meaning = "of a burst"});
+           {.unit = "s", .range = at_least(0), .meaning = "Duration of a burst."});
 }
 
 }  // namespace aims

@@ -19,17 +19,17 @@ namespace aims {
 struct LegOdometryConfig {
   double rate = 200.0;  ///< samples per second [Hz]
   FootModel foot_model = FootModel::kPoint;
-  double angle_noise = 5e-4;           ///< of a joint encoder, per sample [rad]
-  double angle_offset = 5e-3;          ///< standard deviation of each joint's offset, per run [rad]
-  double angle_rate_noise = 0.05;      ///< of a joint's rate, per sample [rad/s]
-  double contact_on = 20.0;            ///< load above which a foot is judged to stand [N]
-  double contact_off = 10.0;           ///< load below which it no longer does [N]
+  double joint_angle_noise = 5e-4;     ///< per sample [rad]
+  double joint_angle_offset = 5e-3;    ///< standard deviation of the offset, per run [rad]
+  double joint_rate_noise = 0.05;      ///< per sample [rad/s]
+  double contact_on = 20.0;            ///< foot load above which contact is detected [N]
+  double contact_off = 10.0;           ///< foot load below which contact is lost [N]
   double load_noise = 2.0;             ///< of the measured load, per sample [N]
-  double debounce = 0.010;             ///< time from touchdown until a foot counts [s]
+  double contact_debounce = 0.010;     ///< from touchdown until contact is reported [s]
   double gyro_noise_density = 2e-4;    ///< [rad/s/sqrt(Hz)]
   double gyro_bias = 1.7e-3;           ///< standard deviation per axis, per run [rad/s]
   double gyro_scale_error = 5e-3;      ///< standard deviation per run [-]
-  double velocity_scale = 1.0;         ///< of every run: what it reports over what it felt [-]
+  double velocity_scale = 1.0;         ///< reported over measured velocity, in every run [-]
   double velocity_scale_error = 0.03;  ///< standard deviation of the speed's scale, per run [-]
   double slip_rate = 0.3;              ///< injected slip bursts per second [Hz]
   double slip_speed = 0.15;            ///< standard deviation of a burst's speed error [m/s]
@@ -40,15 +40,15 @@ void describe(Fields& f, LegOdometryConfig& c);
 /// Error when the rate does not divide the physics rate, or the contact thresholds cross.
 Result<void> validate(const LegOdometryConfig& config, Duration timestep);
 
-/// Turns the robot's true state into what its leg odometry reports. Heading comes from integrating
-/// its gyro alone; roll and pitch are kept by gravity, as its attitude filter would.
+/// Simulates the robot's leg odometry from its true state. Heading integrates the gyro alone; roll
+/// and pitch are corrected by gravity, as by an attitude filter.
 class LegOdometry {
  public:
   /// `config` is valid. Random streams: "leg.run", "leg.encoder", "leg.contact", "leg.gyro",
   /// "leg.slip".
   LegOdometry(const LegOdometryConfig& config, Duration timestep, std::uint64_t run_seed);
 
-  /// Takes the true state after each physics step, the first before any step; yields a report at
+  /// Processes the true state before the first and after each physics step; returns a sample at
   /// the end of each interval.
   std::optional<LegOdometrySample> sample(const RobotState& truth);
 

@@ -35,47 +35,46 @@ Eigen::Vector3d beam_direction(const LidarConfig& config, int ring, double time_
           std::sin(elevation)};
 }
 
-/// Whether a beam from the origin enters the box of the robot's body.
-bool meets_body(const LidarConfig& config, const Eigen::Vector3d& direction) {
-  if ((config.body_max.array() <= config.body_min.array()).any()) return false;
+/// Whether a beam from the origin enters the body mask.
+bool enters_body_mask(const LidarConfig& config, const Eigen::Vector3d& direction) {
+  if ((config.body_mask_max.array() <= config.body_mask_min.array()).any()) return false;
   double enter = 0.0;
   double leave = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = config.body_min[axis] / direction[axis];
-    const double high = config.body_max[axis] / direction[axis];
+    const double low = config.body_mask_min[axis] / direction[axis];
+    const double high = config.body_mask_max[axis] / direction[axis];
     enter = std::max(enter, std::min(low, high));
     leave = std::min(leave, std::max(low, high));
   }
   return enter <= leave;
 }
 
-/// Which rings still fire: the dead ones are drawn without replacement.
-std::vector<bool> living_rings(const LidarConfig& config, std::uint64_t run_seed) {
+/// The working rings: the dead ones are drawn without replacement.
+std::vector<bool> working_rings(const LidarConfig& config, std::uint64_t run_seed) {
   RandomStream random = rng(run_seed, "lidar.defects");
-  std::vector<bool> alive(static_cast<std::size_t>(config.rings), true);
-  const auto dead = std::lround(config.defects.dead_ring_share * config.rings);
+  std::vector<bool> works(static_cast<std::size_t>(config.rings), true);
+  const auto dead = std::lround(config.defects.dead_ring_fraction * config.rings);
   for (long lost = 0; lost < dead;) {
     const auto ring = static_cast<std::size_t>(random.uniform(0.0, config.rings));
-    if (ring >= alive.size() || !alive[ring]) continue;
-    alive[ring] = false;
+    if (ring >= works.size() || !works[ring]) continue;
+    works[ring] = false;
     ++lost;
   }
-  return alive;
+  return works;
 }
 
-/// The time of a firing as a sensor's float32 seconds hold it, so that a recording loses nothing
-/// [ns].
+/// The time offset of a firing [ns], rounded to float32 seconds as in a recording.
 std::int32_t sensor_time_offset(double offset_ns) {
   const auto seconds = static_cast<float>(offset_ns * 1e-9);
   return static_cast<std::int32_t>(std::llround(static_cast<double>(seconds) * 1e9));
 }
 
-/// Whether a direction lies in the covered sector.
-bool is_covered(const LidarDefectConfig& defects, const Eigen::Vector3d& direction) {
+/// Whether a direction lies in the blocked sector.
+bool is_blocked(const LidarDefectConfig& defects, const Eigen::Vector3d& direction) {
   const double azimuth = std::atan2(direction.y(), direction.x());
-  const double off = azimuth - defects.blind_center_deg * kRadiansPerDegree;
+  const double off = azimuth - defects.blocked_sector_center_deg * kRadiansPerDegree;
   return std::abs(std::remainder(off, 2.0 * std::numbers::pi)) <
-         0.5 * defects.blind_width_deg * kRadiansPerDegree;
+         0.5 * defects.blocked_sector_width_deg * kRadiansPerDegree;
 }
 
 /// Poses at rising times, found by walking along the trajectory.
@@ -110,7 +109,7 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
   for (const Material& material : caster.materials()) {
     reflectivity_.push_back(static_cast<float>(material.reflectivity));
   }
-  const std::vector<bool> alive = living_rings(config, run_seed);
+  const std::vector<bool> works = working_rings(config, run_seed);
   for (const Person& person : caster.people()) {
     reflectivity_.push_back(static_cast<float>(person.material.reflectivity));
   }
@@ -126,8 +125,9 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
         beams.y[lane] = static_cast<float>(direction.y());
         beams.z[lane] = static_cast<float>(direction.z());
         beams.time_offset_ns[lane] = sensor_time_offset(offset);
-        beams.open[lane] = alive[static_cast<std::size_t>(ring)] &&
-                           !is_covered(config.defects, direction) && !meets_body(config, direction);
+        beams.open[lane] = works[static_cast<std::size_t>(ring)] &&
+                           !is_blocked(config.defects, direction) &&
+                           !enters_body_mask(config, direction);
       }
     }
   }
@@ -154,7 +154,7 @@ LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* tr
     const int block = first / kRayPacketSize;
     aim(block, poses);
     receive(block, lanes, start);
-    report(block, lanes, scan, truth);
+    append_points(block, lanes, scan, truth);
   }
   return scan;
 }
@@ -199,7 +199,7 @@ void Lidar::aim(int block, const std::vector<Pose>& column_poses) {
 }
 
 void Lidar::receive(int block, int lanes, Time start) {
-  // Beyond the limit by more than the noise can bring back.
+  // Six sigma beyond the limit: noise cannot bring farther hits back into range.
   const auto reach = static_cast<float>(config_.range_max + 6.0 * config_.range_sigma);
   for (int ring = 0; ring < config_.rings; ++ring) {
     Returns& each = returns_[ring];
@@ -208,8 +208,8 @@ void Lidar::receive(int block, int lanes, Time start) {
       const Beams& beams = beams_[block * config_.rings + ring];
       std::array<Time, kRayPacketSize> stamps;
       for (int i = 0; i < kRayPacketSize; ++i) stamps[i] = start + beams.time_offset_ns[i];
-      meet_people(caster_->people(), each.rays, stamps, caster_->first_moving_surface(), reach,
-                  each.hits);
+      intersect_people(caster_->people(), each.rays, stamps, caster_->first_moving_surface(), reach,
+                       each.hits);
     }
     const RayPacket& rays = each.rays;
     const HitPacket& hits = each.hits;
@@ -228,7 +228,7 @@ bool Lidar::detected(float strength, float range) {
   return detection_.chance((1.0 - config_.miss_probability) * probability);
 }
 
-void Lidar::report(int block, int lanes, LidarScan& scan, ScanTruth* truth) {
+void Lidar::append_points(int block, int lanes, LidarScan& scan, ScanTruth* truth) {
   for (int lane = 0; lane < lanes; ++lane) {
     for (int ring = 0; ring < config_.rings; ++ring) {
       const Beams& beams = beams_[block * config_.rings + ring];

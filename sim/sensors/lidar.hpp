@@ -15,11 +15,11 @@
 
 namespace aims {
 
-/// Parts of a LiDAR that see nothing, for the whole run.
+/// Parts of a LiDAR that return nothing during the whole run.
 struct LidarDefectConfig {
-  double dead_ring_share = 0.0;   ///< of the rings, drawn per run [-]
-  double blind_center_deg = 0.0;  ///< middle of a covered sector, +x to +y [deg]
-  double blind_width_deg = 0.0;   ///< of that sector [deg]; 0: none
+  double dead_ring_fraction = 0.0;         ///< of the rings, drawn per run [-]
+  double blocked_sector_center_deg = 0.0;  ///< azimuth, from +x to +y [deg]
+  double blocked_sector_width_deg = 0.0;   ///< [deg]; 0: none
 };
 
 void describe(Fields& fields, LidarDefectConfig& config);
@@ -36,16 +36,16 @@ struct LidarConfig {
   double range_min = 0.3;            ///< nearer returns are dropped [m]
   double range_max = 100.0;          ///< farther returns are dropped [m]
   double range_sigma = 0.02;         ///< white noise of the range [m]
-  double miss_probability = 0.005;   ///< of a return lost for no reason [-]
+  double miss_probability = 0.005;   ///< of a return lost at random [-]
   /// Range at which half the returns of a facing target of 10 % reflectivity are detected [m].
   double range_at_10_percent = 50.0;
   double detection_steepness = 6.0;  ///< of the detection probability in the received power [-]
-  /// Box around trunk, head and hips in the LiDAR frame [m], with a margin as a driver's mask has
-  /// one: what a beam that enters it returns is masked. From the mast of `models/quadruped/quadruped.xml`
-  /// only the two lowest rings meet it, ahead; thighs and calves stay below all beams. An empty box
-  /// masks nothing.
-  Eigen::Vector3d body_min = Eigen::Vector3d(-0.10, -0.15, -0.32);
-  Eigen::Vector3d body_max = Eigen::Vector3d(0.42, 0.15, -0.085);
+  /// Body mask: a box around trunk, head and hips in the LiDAR frame [m], with a margin; beams that
+  /// enter it are dropped. From the mast of `models/quadruped/quadruped.xml`
+  /// only the two lowest rings enter it, ahead; thighs and calves stay below all beams. An empty
+  /// box masks nothing.
+  Eigen::Vector3d body_mask_min = Eigen::Vector3d(-0.10, -0.15, -0.32);
+  Eigen::Vector3d body_mask_max = Eigen::Vector3d(0.42, 0.15, -0.085);
   LidarDefectConfig defects;
 };
 
@@ -59,13 +59,13 @@ Result<void> validate(const LidarConfig& config);
 double detection_probability(const LidarConfig& config, double reflectivity, double cos_incidence,
                              double range);
 
-/// What the returns of a scan truly met, one entry per point of the scan.
+/// The true hits of a scan, one entry per point of the scan.
 struct ScanTruth {
   std::vector<Eigen::Vector3f> normals;  ///< of the surface, in the world, towards the sensor
-  /// Index into `RayCaster::materials`. From `RayCaster::first_moving_surface` on it was a person:
-  /// such a return says nothing about where the sensor is and should be left out of localizability.
+  /// Index into `RayCaster::materials`. From `RayCaster::first_moving_surface` on it is a
+  /// person, which is no part of the map.
   std::vector<int> surfaces;
-  std::vector<Eigen::Vector3f> points;  ///< where the beam met it, in the world, without noise [m]
+  std::vector<Eigen::Vector3f> points;  ///< hit in the world, without noise [m]
   std::vector<float> cosines;           ///< of the angle between beam and normal, in [0, 1]
 };
 
@@ -88,9 +88,9 @@ class Lidar {
   struct alignas(64) Beams {
     RayPacket::Lanes x, y, z;                                 ///< directions in the LiDAR frame
     std::array<std::int32_t, kRayPacketSize> time_offset_ns;  ///< after the scan's start
-    std::array<bool, kRayPacketSize> open;                    ///< not blocked by the robot's body
+    std::array<bool, kRayPacketSize> open;  ///< not blocked, dead or in the body mask
   };
-  /// One ring's firings of a block of columns and what came back.
+  /// One ring's firings of a block of columns and their hits.
   struct Returns {
     RayPacket rays;
     HitPacket hits;
@@ -99,7 +99,7 @@ class Lidar {
 
   void aim(int block, const std::vector<Pose>& column_poses);
   void receive(int block, int lanes, Time start);
-  void report(int block, int lanes, LidarScan& scan, ScanTruth* truth);
+  void append_points(int block, int lanes, LidarScan& scan, ScanTruth* truth);
   bool detected(float strength, float range);
 
   LidarConfig config_;

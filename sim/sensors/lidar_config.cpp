@@ -16,50 +16,73 @@ constexpr double kCertainPower = 8.0;
 }  // namespace
 
 void describe(Fields& f, LidarDefectConfig& c) {
-  f.number("dead_ring_share", c.dead_ring_share,
-           {.unit = "-", .range = in_range(0.0, 1.0), .meaning = "Rings that see nothing."});
-  f.number("blind_center_deg", c.blind_center_deg,
+  f.number("dead_ring_fraction", c.dead_ring_fraction,
+           {.unit = "-",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Fraction of the rings that return nothing."});
+  f.number("blocked_sector_center_deg", c.blocked_sector_center_deg,
            {.unit = "deg",
             .range = in_range(-360.0, 360.0),
-            .meaning = "Middle of a covered sector; 0 is ahead."});
-  f.number("blind_width_deg", c.blind_width_deg,
-           {.unit = "deg", .range = in_range(0.0, 360.0), .meaning = "Of the covered sector."});
+            .meaning = "Azimuth of the middle of the blocked sector; 0 is ahead."});
+  f.number("blocked_sector_width_deg", c.blocked_sector_width_deg,
+           {.unit = "deg",
+            .range = in_range(0.0, 360.0),
+            .meaning = "Width of the blocked sector; 0 for none."});
 }
 
 void describe(Fields& f, LidarConfig& c) {
-  f.integer("rings", c.rings, {.unit = "-", .range = in_range(1, 128), .meaning = "Lasers."});
-  f.integer("columns", c.columns,
-            {.unit = "-", .range = in_range(16, 8192), .meaning = "Firings of a ring per scan."});
+  f.integer("rings", c.rings,
+            {.unit = "-", .range = in_range(1, 128), .meaning = "Number of rings (lasers)."});
+  f.integer(
+      "columns", c.columns,
+      {.unit = "-", .range = in_range(16, 8192), .meaning = "Firings of each ring per scan."});
   f.number("rate", c.rate,
            {.unit = "Hz", .range = in_range(1.0, 100.0), .meaning = "Scans per second."});
   f.number("elevation_min_deg", c.elevation_min_deg,
-           {.unit = "deg", .range = in_range(-89.0, 89.0), .meaning = "Of ring 0."});
-  f.number("elevation_max_deg", c.elevation_max_deg,
-           {.unit = "deg", .range = in_range(-89.0, 89.0), .meaning = "Of the last ring."});
-  f.number("start_azimuth_deg", c.start_azimuth_deg,
-           {.unit = "deg", .range = in_range(-360.0, 360.0), .meaning = "Of the first firing."});
+           {.unit = "deg", .range = in_range(-89.0, 89.0), .meaning = "Elevation of ring 0."});
+  f.number(
+      "elevation_max_deg", c.elevation_max_deg,
+      {.unit = "deg", .range = in_range(-89.0, 89.0), .meaning = "Elevation of the last ring."});
+  f.number(
+      "start_azimuth_deg", c.start_azimuth_deg,
+      {.unit = "deg", .range = in_range(-360.0, 360.0), .meaning = "Azimuth of the first firing."});
   f.number("ring_interval_us", c.ring_interval_us,
-           {.unit = "us", .range = at_least(0), .meaning = "Between neighbouring rings."});
+           {.unit = "us",
+            .range = at_least(0),
+            .meaning = "Time between the firings of neighbouring rings."});
   f.number("range_min", c.range_min,
-           {.unit = "m", .range = at_least(0), .meaning = "Nearer returns are dropped."});
+           {.unit = "m",
+            .range = at_least(0),
+            .meaning = "Smallest measured range; nearer returns are dropped."});
   f.number("range_max", c.range_max,
-           {.unit = "m", .range = in_range(1.0, 500.0), .meaning = "Farther ones are dropped."});
+           {.unit = "m",
+            .range = in_range(1.0, 500.0),
+            .meaning = "Largest measured range; farther returns are dropped."});
   f.number("range_sigma", c.range_sigma,
-           {.unit = "m", .range = in_range(0.0, 1.0), .meaning = "White noise of the range."});
+           {.unit = "m",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Standard deviation of the white range noise."});
   f.number("miss_probability", c.miss_probability,
-           {.unit = "-", .range = in_half_open(0.0, 1.0), .meaning = "Returns lost at random."});
+           {.unit = "-",
+            .range = in_half_open(0.0, 1.0),
+            .meaning = "Probability that a return is lost at random."});
   f.number("range_at_10_percent", c.range_at_10_percent,
            {.unit = "m",
             .range = positive(),
-            .meaning = "Where half the returns of a facing target of 10 % are detected."});
+            .meaning = "Range at which half the returns of a perpendicular target of 10 % "
+                       "reflectivity are detected."});
   f.number("detection_steepness", c.detection_steepness,
            {.unit = "-",
             .range = in_range(4.0, 50.0),
-            .meaning = "Of the detection probability in the received power."});
-  f.vector("body_min", c.body_min,
-           {.unit = "m", .range = any(), .meaning = "Box of the robot's body, LiDAR frame."});
-  f.vector("body_max", c.body_max,
-           {.unit = "m", .range = any(), .meaning = "Box of the robot's body, LiDAR frame."});
+            .meaning = "Steepness of the detection probability over the received power."});
+  f.vector("body_mask_min", c.body_mask_min,
+           {.unit = "m",
+            .range = any(),
+            .meaning = "Lower corner of the body mask in the LiDAR frame."});
+  f.vector("body_mask_max", c.body_mask_max,
+           {.unit = "m",
+            .range = any(),
+            .meaning = "Upper corner of the body mask in the LiDAR frame."});
   f.group("defects", c.defects);
 }
 

@@ -9,7 +9,7 @@
 namespace aims {
 
 /// Physics steps per sample of a sensor with that rate [Hz]. Error, naming `key`, unless the
-/// period is a whole number of steps: a rounded period would quietly corrupt the sampling.
+/// period is a whole number of steps: a rounded period would corrupt the sampling.
 Result<int> steps_per_sample(std::string_view key, double rate, Duration timestep);
 
 }  // namespace aims

@@ -97,7 +97,7 @@ TEST(Simulation, SameSeedGivesTheSameBytesWhateverTheSpan) {
   EXPECT_NE(bytes_of<ImuSample>(once), bytes_of<ImuSample>(record(short_walk(), 8)));
 }
 
-TEST(Simulation, EachSeedStartsNearTheFirstPointInItsOwnWay) {
+TEST(Simulation, StartsNearTheFirstPointWithAnOffsetPerSeed) {
   SimulationConfig config = short_walk();
   config.max_duration = 0.05;
   const auto start = [&config](std::uint64_t seed) {
@@ -161,7 +161,7 @@ TEST(Simulation, EndsAtItsTimeLimit) {
   EXPECT_EQ(record(config, 1).truth.samples.back().stamp, 500 * kMillisecond);
 }
 
-TEST(Simulation, AColdStartIsTheSameWalkSeenFromLaterOn) {
+TEST(Simulation, ALaterRecordingStartShowsTheSameMotion) {
   SimulationConfig config = short_walk();
   const Recording whole = record(config, 1);
   config.recording_start = 2.5;  // the robot is on its way

@@ -139,7 +139,7 @@ TEST_F(Sweeps, OverTheSimulationMakeAWalkPerValue) {
   ASSERT_TRUE(table);
   EXPECT_NE(table->find("links.leg_odometry.loss"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "links.leg_odometry.loss.png"));
-  const Outcome other = sweep("--out other --over scoring.lost_error_offset=0.5:2:3");
+  const Outcome other = sweep("--out other --over scoring.max_error_offset=0.5:2:3");
   EXPECT_TRUE(holds(other, "3 units done, 0 of them failed; 0 found finished; 1 walks simulated"))
       << other.output;
 }

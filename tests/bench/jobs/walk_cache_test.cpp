@@ -151,7 +151,7 @@ TEST(WalkCache, IdDependsOnWhatDecidesTheWalkAndOnNothingElse) {
   EXPECT_NE(id, WalkCache::id_of(other, 1));
   Scenario same = short_walk("another name");
   same.estimator.degeneracy.eta += 1.0;
-  same.scoring.lost_error_offset += 1.0;
+  same.scoring.max_error_offset += 1.0;
   same.estimators = {"lio"};
   EXPECT_EQ(id, WalkCache::id_of(same, 1));
 }

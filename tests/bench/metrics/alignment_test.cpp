@@ -56,7 +56,7 @@ TEST(AlignSe3, NeverMirrors) {
   EXPECT_NEAR(alignment.T_truth_estimate.R().determinant(), 1.0, 1e-12);
 }
 
-TEST(AlignSe3, SaysThatAStraightWalkIsDegenerateAndTurnsAboutZOnly) {
+TEST(AlignSe3, OfAStraightPathIsDegenerateAndTurnsAboutZOnly) {
   std::vector<PosePair> pairs;
   for (int i = 0; i < 100; ++i) {
     const Pose truth = {Eigen::Quaterniond::Identity(), {i * 0.8, 0.01 * std::sin(i), 0.0}};
@@ -68,7 +68,7 @@ TEST(AlignSe3, SaysThatAStraightWalkIsDegenerateAndTurnsAboutZOnly) {
   EXPECT_LT(*ate_rmse(aligned(pairs, alignment)), 1e-12);
 }
 
-TEST(AlignSe3, SaysThatTwoPosesAreDegenerate) {
+TEST(AlignSe3, OfTwoPosesIsDegenerate) {
   auto pairs = cloud(Pose(), 0.0, 5);
   pairs.resize(2);
   EXPECT_TRUE(align_se3(pairs, 1e-6).degenerate);
@@ -89,7 +89,7 @@ TEST(AlignYaw, LeavesATiltAsError) {
   EXPECT_LT(*ate_rmse(aligned(pairs, align_se3(pairs, 1e-6))), 1e-12);
 }
 
-TEST(AlignStart, LaysTheFirstPoseOntoItsTruth) {
+TEST(AlignStart, MakesTheFirstPoseEqualToItsTruth) {
   const auto pairs = cloud({so3_exp({0.4, -1.1, 2.0}), {10.0, -7.0, 3.0}}, 0.5, 8);
   const auto moved = aligned(pairs, align_start(pairs));
   EXPECT_LT(distance(moved[0].estimate, moved[0].truth), 1e-12);

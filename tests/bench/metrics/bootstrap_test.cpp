@@ -27,7 +27,7 @@ std::vector<double> normal_values(std::uint64_t seed, std::size_t count) {
   return values;
 }
 
-TEST(Bootstrap, CoversTheKnownMeanAsOftenAsItSays) {
+TEST(Bootstrap, CoversTheKnownMeanAtTheStatedRate) {
   constexpr int kTrials = 400;
   int covered = 0;
   for (int trial = 0; trial < kTrials; ++trial) {

@@ -57,7 +57,7 @@ TEST(ChiSquare, QuantileAndProbabilityUndoEachOther) {
 TEST(Consistency, OfAConsistentFilterLiesInsideTheBoundsAtNineteenInstantsOfTwenty) {
   const Consistency result = consistency_of(synthetic_runs(50, 1.0));
   ASSERT_EQ(result.judged, kInstants);
-  EXPECT_NEAR(*result.inside_share, 0.95, 0.04);
+  EXPECT_NEAR(*result.inside_fraction, 0.95, 0.04);
   EXPECT_NEAR(*result.mean_nees, 1.0, 0.1);
   EXPECT_NEAR(*result.along.share, 0.9545, 0.015);
   EXPECT_TRUE(*result.mean_nees_interval.low < 1.0 && 1.0 < *result.mean_nees_interval.high);
@@ -65,8 +65,8 @@ TEST(Consistency, OfAConsistentFilterLiesInsideTheBoundsAtNineteenInstantsOfTwen
 
 TEST(Consistency, OfAFilterThatStatesHalfItsErrorLiesAboveTheBounds) {
   const Consistency result = consistency_of(synthetic_runs(50, 0.5));
-  EXPECT_LT(*result.inside_share, 0.05);
-  EXPECT_GT(*result.above_share, 0.95);
+  EXPECT_LT(*result.inside_fraction, 0.05);
+  EXPECT_GT(*result.above_fraction, 0.95);
   EXPECT_NEAR(*result.mean_nees, 4.0, 0.4);
   EXPECT_NEAR(*result.along.share, 0.6827, 0.03);
   EXPECT_LT(*result.end.covered.interval.high, 0.95);
@@ -74,10 +74,10 @@ TEST(Consistency, OfAFilterThatStatesHalfItsErrorLiesAboveTheBounds) {
 
 TEST(Consistency, OfAFilterThatStatesTwiceItsErrorLiesBelowTheBounds) {
   const Consistency result = consistency_of(synthetic_runs(50, 2.0));
-  EXPECT_LT(*result.inside_share, 0.05);
-  EXPECT_EQ(*result.above_share, 0.0);
+  EXPECT_LT(*result.inside_fraction, 0.05);
+  EXPECT_EQ(*result.above_fraction, 0.0);
   EXPECT_NEAR(*result.mean_nees, 0.25, 0.03);
-  EXPECT_GE(*result.end.covered.share, 0.98);
+  EXPECT_GE(*result.end.covered.fraction, 0.98);
 }
 
 TEST(Consistency, BoundsOfTheMeanAreChiSquareOverItsDegreesOfFreedom) {
@@ -103,7 +103,7 @@ TEST(Consistency, EfficiencyIsTheBoundOverTheErrorBothRootMeanSquare) {
 
 TEST(Consistency, CoverageCarriesTheWilsonInterval) {
   const Coverage coverage = coverage_of(48, 50, true);
-  EXPECT_DOUBLE_EQ(*coverage.share, 0.96);
+  EXPECT_DOUBLE_EQ(*coverage.fraction, 0.96);
   EXPECT_NEAR(*coverage.interval.low, 0.8654, 5e-4);
   EXPECT_NEAR(*coverage.interval.high, 0.9890, 5e-4);
   EXPECT_FALSE(coverage_of(0, 0, true).share);
@@ -127,9 +127,9 @@ TEST(Consistency, JudgesAnInstantByTheRunsThatStateACovarianceThere) {
 TEST(Consistency, OfNoRunsIsNoVerdict) {
   const Consistency result = consistency_of({});
   EXPECT_EQ(result.judged, 0);
-  EXPECT_FALSE(result.inside_share);
+  EXPECT_FALSE(result.inside_fraction);
   EXPECT_FALSE(result.mean_nees);
-  EXPECT_FALSE(result.end.covered.share);
+  EXPECT_FALSE(result.end.covered.fraction);
 }
 
 }  // namespace

@@ -51,13 +51,13 @@ double auc_by_pairs(const std::vector<LabelledRun>& runs) {
 double area_under(const std::vector<RocPoint>& curve) {
   double area = 0.0;
   for (std::size_t i = 1; i < curve.size(); ++i) {
-    area += 0.5 * (curve[i].detections + curve[i - 1].detections) *
-            (curve[i].false_alarms - curve[i - 1].false_alarms);
+    area += 0.5 * (curve[i].true_positive_rate + curve[i - 1].true_positive_rate) *
+            (curve[i].false_positive_rate - curve[i - 1].false_positive_rate);
   }
   return area;
 }
 
-TEST(Auc, IsTheShareOfPairsInOrderTiesCountingHalf) {
+TEST(Auc, IsTheFractionOfOrderedPairsWithTiesCountingHalf) {
   RandomStream random(1, "test.detector");
   for (int round = 0; round < 20; ++round) {
     std::vector<LabelledRun> runs;
@@ -98,15 +98,15 @@ TEST(Auc, HasNoValueUnlessBothClassesOccur) {
 TEST(Roc, RunsFromTheFirstCornerToTheLast) {
   const auto curve = roc_curve(std::vector<LabelledRun>{run_of("D.D.", {4, 3, 2, 1})});
   ASSERT_EQ(curve.size(), 5U);
-  EXPECT_EQ(curve.front().detections, 0.0);
-  EXPECT_EQ(curve[1].detections, 0.5);
-  EXPECT_EQ(curve[1].false_alarms, 0.0);
-  EXPECT_EQ(curve[2].false_alarms, 0.5);
-  EXPECT_EQ(curve.back().detections, 1.0);
-  EXPECT_EQ(curve.back().false_alarms, 1.0);
+  EXPECT_EQ(curve.front().true_positive_rate, 0.0);
+  EXPECT_EQ(curve[1].true_positive_rate, 0.5);
+  EXPECT_EQ(curve[1].false_positive_rate, 0.0);
+  EXPECT_EQ(curve[2].false_positive_rate, 0.5);
+  EXPECT_EQ(curve.back().true_positive_rate, 1.0);
+  EXPECT_EQ(curve.back().false_positive_rate, 1.0);
 }
 
-TEST(Roc, TheOperatingPointKeepsToTheFalseAlarmsAllowed) {
+TEST(Roc, TheOperatingPointKeepsTheFalsePositiveRate) {
   std::vector<double> scores;
   std::string truth;
   for (int i = 0; i < 100; ++i) {
@@ -118,12 +118,12 @@ TEST(Roc, TheOperatingPointKeepsToTheFalseAlarmsAllowed) {
   const auto curve = roc_curve(std::vector<LabelledRun>{run_of(truth, scores)});
   const RocPoint point = operating_point(curve, 0.05);
   EXPECT_EQ(point.threshold, 95.0);
-  EXPECT_EQ(point.false_alarms, 0.05);
-  EXPECT_EQ(point.detections, 0.5);
-  EXPECT_EQ(operating_point(curve, 0.0).detections, 0.0);
+  EXPECT_EQ(point.false_positive_rate, 0.05);
+  EXPECT_EQ(point.true_positive_rate, 0.5);
+  EXPECT_EQ(operating_point(curve, 0.0).true_positive_rate, 0.0);
 }
 
-TEST(DetectionDelay, CountsFromTheOnsetToTheFirstAlarmWithinTheSpell) {
+TEST(DetectionDelay, CountsFromTheOnsetToTheFirstAlarmInTheSameInterval) {
   //                               0123456789
   const LabelledRun run = run_of("..DDDD..DDD.", {0, 9, 0, 0, 9, 9, 0, 0, 0, 0, 0, 9});
   const DetectionDelays delays = detection_delays(run, 5.0, 0);
@@ -133,19 +133,19 @@ TEST(DetectionDelay, CountsFromTheOnsetToTheFirstAlarmWithinTheSpell) {
   EXPECT_EQ(delays.missed(), 1);
 }
 
-TEST(DetectionDelay, OfAnAlarmThatAlreadyRingsIsZero) {
+TEST(DetectionDelay, OfAnAlarmThatIsAlreadyActiveIsZero) {
   const DetectionDelays delays = detection_delays(run_of(".DD", {9, 9, 0}), 5.0, 0);
   ASSERT_EQ(delays.delays_s.size(), 1U);
   EXPECT_EQ(delays.delays_s[0], 0.0);
 }
 
-TEST(DetectionDelay, ASpellUnderWayAtTheStartHasNoOnset) {
+TEST(DetectionDelay, AnIntervalAtTheStartHasNoOnset) {
   EXPECT_EQ(detection_delays(run_of("DDD..", {0, 0, 9, 0, 0}), 5.0, 0).onsets, 0);
   EXPECT_EQ(detection_delays(run_of("DDDDD", {0, 0, 9, 0, 0}), 5.0, 0).onsets, 0);
   EXPECT_EQ(detection_delays({}, 5.0, 0).onsets, 0);
 }
 
-TEST(DetectionDelay, FlickeringTruthIsOneSpellAndABlinkIsNone) {
+TEST(DetectionDelay, FlickeringTruthIsOneIntervalAndAShortOneIsNone) {
   const Duration shortest = 300 * kMillisecond;
   const LabelledRun flicker =
       run_of("....D.DD.DDD....", {0, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0, 0, 0, 0, 0, 0});

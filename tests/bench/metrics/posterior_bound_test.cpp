@@ -56,7 +56,7 @@ TEST(PosteriorBound, OfAccelerometerNoiseAloneGrowsAsItsSecondIntegral) {
   ASSERT_EQ(bounds.size(), 2U);
   for (const auto& [bound, t] : {std::pair(bounds[0], 5.0), std::pair(bounds[1], 10.0)}) {
     const double expected = std::sqrt(1e-4 * t * t * t / 3.0 + 0.05 * 0.05 * t * t);
-    EXPECT_NEAR(bound.along, expected, 1e-3 * expected);
+    EXPECT_NEAR(bound.longitudinal, expected, 1e-3 * expected);
     EXPECT_NEAR(bound.lateral, expected, 1e-3 * expected);
   }
 }
@@ -67,22 +67,22 @@ TEST(PosteriorBound, OfAnUnknownBiasAndTiltIsTheirParabola) {
   p.initial.tilt_sigma = 0.004;
   const auto bounds = posterior_bounds(straight_motion(8, 0.0), scans_at({8.0}, kNothing), p);
   const double horizontal = 0.5 * 64.0 * std::hypot(0.03, 9.81 * 0.004);
-  EXPECT_NEAR(bounds[0].along, horizontal, 1e-3 * horizontal);
+  EXPECT_NEAR(bounds[0].longitudinal, horizontal, 1e-3 * horizontal);
   EXPECT_NEAR(bounds[0].vertical, 0.5 * 64.0 * 0.03, 1e-3);
 }
 
-TEST(PosteriorBound, OfAnUnknownLegScaleIsThatShareOfTheWay) {
+TEST(PosteriorBound, OfAnUnknownLegScaleIsThatFractionOfTheDistance) {
   BoundParameters p = certain();
   // An IMU that says nothing of speed, and legs without noise: what remains is their scale.
   p.accelerometer.noise_density = 0.1;
   p.legs = {true, 200.0, 1e-5, 0.03};
   const auto bounds = posterior_bounds(straight_motion(50, 0.7), scans_at({50.0}, kNothing), p);
-  EXPECT_NEAR(bounds[0].along, 0.03 * 35.0, 0.02);
+  EXPECT_NEAR(bounds[0].longitudinal, 0.03 * 35.0, 0.02);
   EXPECT_LT(bounds[0].lateral, 0.01);
   EXPECT_NEAR(bounds[0].leg_scale, 0.03, 1e-4);
 }
 
-TEST(PosteriorBound, OneScanThatSeesTheWayTeachesTheLegScale) {
+TEST(PosteriorBound, OneLongitudinallyInformativeScanDeterminesTheLegScale) {
   BoundParameters p = certain();
   p.accelerometer.noise_density = 0.1;
   p.legs = {true, 200.0, 1e-5, 0.03};
@@ -91,9 +91,9 @@ TEST(PosteriorBound, OneScanThatSeesTheWayTeachesTheLegScale) {
   auto scans = scans_at({10.0}, seen);
   scans.push_back({from_seconds(50.0), kNothing, 0, 0.02});
   const auto bounds = posterior_bounds(straight_motion(50, 0.7), scans, p);
-  EXPECT_NEAR(bounds[0].along, 1e-4, 2e-6);
+  EXPECT_NEAR(bounds[0].longitudinal, 1e-4, 2e-6);
   EXPECT_LT(bounds[1].leg_scale, 1e-3);
-  EXPECT_LT(bounds[1].along, 0.05) << "against 1.05 m without the scan";
+  EXPECT_LT(bounds[1].longitudinal, 0.05) << "against 1.05 m without the scan";
   p.lidar = false;
   EXPECT_GT(posterior_bounds(straight_motion(50, 0.7), scans, p)[1].along, 1.0);
 }
@@ -120,7 +120,7 @@ TEST(PosteriorBound, ReachesTheSteadyStateOfTheScalarRiccatiEquation) {
     P = F * P * F.transpose() + 0.25 * Q;
     const Eigen::Vector2d gain = P.col(0) / (P(0, 0) + sigma * sigma);
     P -= gain * P.row(0).eval();
-    EXPECT_NEAR(bound.along, std::sqrt(P(0, 0)), 1e-3 * std::sqrt(P(0, 0)));
+    EXPECT_NEAR(bound.longitudinal, std::sqrt(P(0, 0)), 1e-3 * std::sqrt(P(0, 0)));
   }
 }
 
@@ -178,7 +178,7 @@ TEST(PosteriorBound, IsTheSpreadOfTheOptimalFilterInALinearWorld) {
 
 /// Heading cannot be told from inside: what the IMU integrates and what the legs report turn
 /// together. A wrong sign in either model would make it observable.
-TEST(PosteriorBound, NeitherImuNorLegsTellTheHeadingOfAnAcceleratingWalk) {
+TEST(PosteriorBound, HeadingIsUnobservableFromImuAndLegs) {
   BoundParameters p = certain();
   p.initial.heading_sigma = 0.01;
   p.accelerometer.noise_density = 1e-4;
@@ -260,7 +260,7 @@ TEST(PosteriorBound, AScanInformsAlongTheBodysOwnAxes) {
   Eigen::Matrix<double, 6, 6> ahead = kNothing;
   ahead(3, 3) = 1e4;
   const PosteriorBound bound = posterior_bounds(motion, scans_at({1.0}, ahead), p)[0];
-  EXPECT_NEAR(bound.along, 0.01, 1e-5);
+  EXPECT_NEAR(bound.longitudinal, 0.01, 1e-5);
   EXPECT_NEAR(bound.lateral, 1.0, 1e-3);
   EXPECT_NEAR(bound_along(bound, {std::cos(0.7), std::sin(0.7), 0.0}), 0.01, 1e-5);
 }

@@ -15,7 +15,7 @@ std::vector<Eigen::Vector3d> line(int count, double step) {
   return positions;
 }
 
-TEST(PairsOverPath, ConsecutiveStretchesLeaveOutTheFirst) {
+TEST(PairsOverPath, ConsecutivePairsLeaveOutTheFirst) {
   const auto pairs = pairs_over_path(line(9, 0.5), {.delta = 1.0});
   const std::vector<std::pair<std::size_t, std::size_t>> expected = {{2, 4}, {4, 6}, {6, 8}};
   EXPECT_EQ(pairs, expected);

@@ -25,7 +25,7 @@ TEST(Segments, AreNamedByTheirPoints) {
   EXPECT_TRUE(segments_of({}).empty());
 }
 
-TEST(Segments, MayLeavePointsInBetweenOut) {
+TEST(Segments, MaySkipPointsInBetween) {
   const std::vector<WaypointTime> waypoint_times = {
       {"a", 0}, {"b", 1}, {"d", 2}, {"f", 3}, {"h", 4}, {"f", 5}, {"d", 6}, {"b", 7}, {"a", 8}};
   const std::vector<std::string> names = {"h-d", "a-d", "d-h", "d-a"};

@@ -19,72 +19,73 @@ SuccessVerdict verdict_of(const Trajectory& estimate) {
 
 TEST(Success, OfAPerfectWalk) {
   const SuccessVerdict verdict = verdict_of(test::perfect_walk());
-  EXPECT_EQ(verdict.reason, LostReason::kNone);
-  EXPECT_FALSE(verdict.lost_at);
+  EXPECT_EQ(verdict.reason, FailureReason::kNone);
+  EXPECT_FALSE(verdict.diverged_at);
 }
 
-TEST(Success, IsLostWhenTheErrorExceedsTheLimit) {
+TEST(Success, FailsWhenTheErrorExceedsTheLimit) {
   // A robot thought to stand still: the error x reaches 1 + 0.05 x at x = 1.0526.
   const auto verdict = verdict_of(test::estimated_walk([](double, Pose pose) {
     pose.translation.x() = 0.0;
     return pose;
   }));
-  EXPECT_EQ(verdict.reason, LostReason::kErrorLimit);
-  EXPECT_EQ(verdict.lost_at, from_seconds(1.1));
+  EXPECT_EQ(verdict.reason, FailureReason::kErrorLimit);
+  EXPECT_EQ(verdict.diverged_at, from_seconds(1.1));
 }
 
-TEST(Success, AllowsWhatStaysInTheLimit) {
+TEST(Success, AllowsErrorsWithinTheLimit) {
   const auto verdict = verdict_of(test::estimated_walk([](double, Pose pose) {
     pose.translation.x() *= 0.96;
     return pose;
   }));
-  EXPECT_EQ(verdict.reason, LostReason::kNone);
+  EXPECT_EQ(verdict.reason, FailureReason::kNone);
 }
 
-TEST(Success, IsLostAtThePoseThatIsNotFinite) {
+TEST(Success, FailsAtThePoseThatIsNotFinite) {
   Trajectory estimate = test::perfect_walk();
   estimate[100].pose.translation.x() = std::numeric_limits<double>::quiet_NaN();
   const auto verdict = verdict_of(estimate);
-  EXPECT_EQ(verdict.reason, LostReason::kInvalid);
-  EXPECT_EQ(verdict.lost_at, estimate[100].stamp);
+  EXPECT_EQ(verdict.reason, FailureReason::kInvalid);
+  EXPECT_EQ(verdict.diverged_at, estimate[100].stamp);
 }
 
-TEST(Success, IsLostWhereTheEstimateEnds) {
+TEST(Success, FailsWhereTheEstimateEnds) {
   Trajectory estimate = test::perfect_walk();
   estimate.resize(500);
   const auto verdict = verdict_of(estimate);
-  EXPECT_EQ(verdict.reason, LostReason::kEndsEarly);
-  EXPECT_EQ(verdict.lost_at, estimate.back().stamp);
+  EXPECT_EQ(verdict.reason, FailureReason::kEndsEarly);
+  EXPECT_EQ(verdict.diverged_at, estimate.back().stamp);
 }
 
-TEST(Success, IsLostWhereTheEstimatePauses) {
+TEST(Success, FailsWhereTheEstimateHasAGap) {
   Trajectory estimate = test::perfect_walk();
   estimate.erase(estimate.begin() + 101, estimate.begin() + 200);
   const auto verdict = verdict_of(estimate);
-  EXPECT_EQ(verdict.reason, LostReason::kGap);
-  EXPECT_EQ(verdict.lost_at, from_seconds(10.0));
+  EXPECT_EQ(verdict.reason, FailureReason::kGap);
+  EXPECT_EQ(verdict.diverged_at, from_seconds(10.0));
 }
 
 TEST(Success, AllowsTheTimeToInitializeButNoMore) {
   Trajectory estimate = test::perfect_walk();
   estimate.erase(estimate.begin(), estimate.begin() + 30);
-  EXPECT_EQ(verdict_of(estimate).reason, LostReason::kNone);
+  EXPECT_EQ(verdict_of(estimate).reason, FailureReason::kNone);
   estimate.erase(estimate.begin(), estimate.begin() + 5);
-  EXPECT_EQ(verdict_of(estimate).reason, LostReason::kStartsLate);
+  EXPECT_EQ(verdict_of(estimate).reason, FailureReason::kStartsLate);
 }
 
 TEST(Success, NeedsPoses) {
-  EXPECT_EQ(verdict_of({}).reason, LostReason::kNoOverlap);
-  EXPECT_EQ(verdict_of({{0, Pose()}}).reason, LostReason::kNoOverlap);
-  EXPECT_EQ(judge({}, {}, {}, SuccessLimits()).reason, LostReason::kNoOverlap);
+  EXPECT_EQ(verdict_of({}).reason, FailureReason::kNoOverlap);
+  EXPECT_EQ(verdict_of({{0, Pose()}}).reason, FailureReason::kNoOverlap);
+  EXPECT_EQ(judge({}, {}, {}, SuccessLimits()).reason, FailureReason::kNoOverlap);
 }
 
 TEST(Success, EveryReasonHasAName) {
-  for (const auto reason : {LostReason::kNoOverlap, LostReason::kInvalid, LostReason::kStartsLate,
-                            LostReason::kGap, LostReason::kEndsEarly, LostReason::kErrorLimit}) {
+  for (const auto reason :
+       {FailureReason::kNoOverlap, FailureReason::kInvalid, FailureReason::kStartsLate,
+        FailureReason::kGap, FailureReason::kEndsEarly, FailureReason::kErrorLimit}) {
     EXPECT_FALSE(name_of(reason).empty());
   }
-  EXPECT_EQ(name_of(LostReason::kNone), "");
+  EXPECT_EQ(name_of(FailureReason::kNone), "");
 }
 
 }  // namespace

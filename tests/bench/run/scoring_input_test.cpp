@@ -183,11 +183,11 @@ TEST_F(ScoringInputs, EstimatesOfOneNameAreNumbered) {
 
 TEST_F(ScoringInputs, OnlyTheScoringOfAConfigurationCounts) {
   ScoringRequest request = plain();
-  request.config = file("run.yaml", "lidar: {range_max: 30}\nscoring: {longest_gap: 7}\n");
+  request.config = file("run.yaml", "lidar: {range_max: 30}\nscoring: {max_gap: 7}\n");
   request.overrides = {"scoring.anchor=pose"};
   const auto input = read_scoring_input(request);
   ASSERT_TRUE(input) << input.error().message;
-  EXPECT_EQ(input->scoring.longest_gap, 7.0);
+  EXPECT_EQ(input->scoring.max_gap, 7.0);
   EXPECT_EQ(input->scoring.anchor, AlignmentKind::kStartPose);
   request.overrides = {"scoring.ancor=pose"};
   EXPECT_NE(message_of(request).find("did you mean 'scoring.anchor'?"), std::string::npos);

@@ -117,7 +117,7 @@ TEST(TrajectoryScoring, PoorDataIsCountedAndSaid) {
   const auto result = score_trajectories(input);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->estimates[0].scores.poses_invalid, 2);
-  EXPECT_EQ(result->estimates[0].scores.lost_reason, LostReason::kInvalid);
+  EXPECT_EQ(result->estimates[0].scores.failure_reason, FailureReason::kInvalid);
   EXPECT_TRUE(says(result->notes, "poor: 2 of 601 poses left out"));
 }
 

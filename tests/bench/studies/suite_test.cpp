@@ -200,7 +200,7 @@ TEST(UnitId, DependsOnWhatDecidesARunAndOnNothingElse) {
   same.estimator.degeneracy.eta += 1.0;
   EXPECT_NE(id, unit_id(same, 1, "aims"));
   same = scenario;
-  same.scoring.lost_error_offset += 1.0;
+  same.scoring.max_error_offset += 1.0;
   EXPECT_NE(id, unit_id(same, 1, "aims"));
 }
 

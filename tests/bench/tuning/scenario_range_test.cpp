@@ -63,7 +63,7 @@ TEST(RangeKey, ThatBothHaveNeedsAPrefix) {
 TEST(RangeKey, IsHeldAgainstTheScenario) {
   EXPECT_EQ(refusal_of("links.leg_odometry.loss=0:0.5:6"), "accepted");
   EXPECT_EQ(refusal_of("lidar.range_sigma=0:0.05:3"), "accepted");
-  EXPECT_EQ(refusal_of("scoring.lost_error_offset=0.5:2:3"), "accepted");
+  EXPECT_EQ(refusal_of("scoring.max_error_offset=0.5:2:3"), "accepted");
   EXPECT_EQ(refusal_of("route.points.1.x=0.5:2:3"), "accepted");
   EXPECT_TRUE(says(refusal_of("route.points.7.x=0.5:2:3"), "unknown key"));
   EXPECT_TRUE(
@@ -119,7 +119,7 @@ TEST(ScenarioRange, OfTheSimulationMakesAWalkPerValueThatItsUnitsShare) {
 }
 
 TEST(ScenarioRange, OfTheScoringKeepsTheWalk) {
-  const auto units = units_of(plan_over({"scoring.lost_error_offset=0.5:2:4"}));
+  const auto units = units_of(plan_over({"scoring.max_error_offset=0.5:2:4"}));
   EXPECT_EQ(units.size(), 4U * 2U * 2U);
   EXPECT_EQ(walks_of(units).size(), 2U) << "one per seed";
 }

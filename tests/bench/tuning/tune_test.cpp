@@ -145,7 +145,7 @@ TEST(TunePlan, RefusalSaysWhatWasExpected) {
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"degeneracy.et=0:6"}; }), "did you mean"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"links.lidar.loss=0:0.5"}; }),
                    "would make the task easier"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"scoring.lost_error_offset=0.1:5"}; }),
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"scoring.max_error_offset=0.1:5"}; }),
                    "is no key of the estimator"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.scenarios.clear(); }), "no scenario"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.scenarios = {"coridor"}; }), "corridor"));

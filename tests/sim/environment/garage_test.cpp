@@ -44,7 +44,7 @@ TEST(GarageScene, CorridorsHaveTheConfiguredCrossSectionAndDeadEnds) {
   EXPECT_NEAR(distance(caster, {45.3, -45.0, 1.0}, -kY), 3.0, 1e-4) << "end wall behind h";
 }
 
-TEST(GarageScene, CorridorsOpenIntoTheHallAtTheirMouths) {
+TEST(GarageScene, CorridorsOpenIntoTheHall) {
   const RayCaster caster(build_scene(smooth_garage(), 1));
   // Along both corridors the view is free to the gate and to the far wall of the hall.
   EXPECT_NEAR(distance(caster, {0.0, 0.0, 1.0}, kX), 57.25, 1e-3) << "through the mouth to a gate";
@@ -58,7 +58,7 @@ TEST(GarageScene, CorridorsOpenIntoTheHallAtTheirMouths) {
   EXPECT_NEAR(distance(caster, {45.0, 0.0, 1.0}, kZ), 2.2, 1e-4) << "the hall is higher";
 }
 
-TEST(GarageScene, TheWayUpRisesByAFifth) {
+TEST(GarageScene, TheUpwardRampRisesByAFifth) {
   const RayCaster caster(build_scene(smooth_garage(), 1));
   for (double x = 51.0; x < 56.5; x += 0.5) {
     EXPECT_NEAR(distance(caster, {x, -5.8, 2.0}, -kZ), 2.0 - 0.2 * (x - 50.6), 1e-4) << x;
@@ -135,7 +135,7 @@ TEST(GarageScene, ConfigurationsThatCannotBeBuiltNameTheKey) {
       names(error([](GarageConfig& c) { c.hall_height = 2.5; }), "scene.garage.hall_height"));
   EXPECT_TRUE(names(error([](GarageConfig& c) { c.height = 3.3; }), "scene.garage.hall_height"));
   EXPECT_TRUE(
-      names(error([](GarageConfig& c) { c.mouth_distance = 44.5; }), "scene.garage.approach"));
+      names(error([](GarageConfig& c) { c.opening_distance = 44.5; }), "scene.garage.approach"));
   EXPECT_TRUE(names(error([](GarageConfig& c) { c.exit = 8.0; }), "scene.garage.exit"));
   EXPECT_TRUE(
       names(error([](GarageConfig& c) { c.doors.spacing = 1.0; }), "scene.garage.doors.spacing"));

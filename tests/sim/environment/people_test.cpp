@@ -39,7 +39,7 @@ TEST(Person, WalksUpAndDownAtItsSpeed) {
   }
 }
 
-TEST(MeetPeople, AgreesWithMarchingAlongTheRay) {
+TEST(IntersectPeople, AgreesWithMarchingAlongTheRay) {
   constexpr std::uint64_t kSeed = 21;
   RandomStream random = rng(kSeed, "rays");
   PeopleConfig config;
@@ -69,7 +69,7 @@ TEST(MeetPeople, AgreesWithMarchingAlongTheRay) {
       hits.surface[lane] = -1;
       stamps[lane] = start + lane * 55'555;
     }
-    meet_people(people, rays, stamps, 100, 20.0F, hits);
+    intersect_people(people, rays, stamps, 100, 20.0F, hits);
     for (int lane = 0; lane < kRayPacketSize; ++lane) {
       const Vector3d direction(rays.direction_x[lane], rays.direction_y[lane],
                                rays.direction_z[lane]);
@@ -95,7 +95,7 @@ TEST(MeetPeople, AgreesWithMarchingAlongTheRay) {
   EXPECT_GT(met, 1500) << "most rays should meet the person";
 }
 
-TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
+TEST(IntersectPeople, PacketsAgreeWithSingleRays) {
   PeopleConfig config;
   config.count = 5;
   config.speed = 3.0;
@@ -114,7 +114,7 @@ TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
     HitPacket together;
     together.distance.fill(20.0F);
     together.surface.fill(-1);
-    meet_people(people, rays, stamps, 0, 20.0F, together);
+    intersect_people(people, rays, stamps, 0, 20.0F, together);
     for (int lane = 0; lane < kRayPacketSize; ++lane) {
       RayPacket alone;
       alone.origin_z.fill(0.5F);
@@ -125,7 +125,7 @@ TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
       HitPacket single;
       single.distance.fill(20.0F);
       single.surface.fill(-1);
-      meet_people(people, alone, stamp, 0, 20.0F, single);
+      intersect_people(people, alone, stamp, 0, 20.0F, single);
       ASSERT_EQ(together.surface[lane], single.surface[0]) << packet << " " << lane;
       ASSERT_EQ(together.distance[lane], single.distance[0]);
       met += single.surface[0] >= 0 ? 1 : 0;
@@ -134,14 +134,14 @@ TEST(MeetPeople, PacketsOfAnyOpeningMeetWhatTheirRaysMeetAlone) {
   EXPECT_GT(met, 200);
 }
 
-TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
+TEST(LidarOfPeople, HitsThemAtTheirPositionAtTheTimeOfFiring) {
   SceneConfig config = with_people(8);
   config.people.speed = 3.0;
   const Scene scene = build_scene(config, 2);
   const RayCaster caster(scene);
   LidarConfig lidar_config;
   lidar_config.range_sigma = 0.0;
-  lidar_config.body_min = lidar_config.body_max = Vector3d::Zero();
+  lidar_config.body_mask_min = lidar_config.body_mask_max = Vector3d::Zero();
   Lidar lidar(lidar_config, caster, 1);
   int met = 0;
   double stale = 0.0;
@@ -169,7 +169,7 @@ TEST(LidarOfPeople, MeetsThemWhereTheyAreAtTheFiringsOwnTime) {
   EXPECT_GT(stale, 0.1) << "the scan's start would have been the wrong time";
 }
 
-TEST(LidarOfPeople, PeopleWhoStandStillAreSeenLikeSolids) {
+TEST(LidarOfPeople, StandingPeopleLookLikeSolids) {
   SceneConfig config = with_people(6);
   config.people.speed = 0.0;
   const Scene scene = build_scene(config, 5);
@@ -217,11 +217,11 @@ TEST(PeopleScene, KeepToLanesBesideTheRobotAndComeFromTheSeed) {
 
 TEST(PeopleScene, LanesThroughWallsOrRobotAreRefused) {
   SceneConfig config = with_people(1);
-  config.people.lane = 0.9;
-  EXPECT_NE(validate(config).error().message.find("scene.people.lane"), std::string::npos);
-  config.people.lane = 0.5;
-  EXPECT_NE(validate(config).error().message.find("scene.people.lane"), std::string::npos);
-  config.people.lane = 0.75;
+  config.people.lane_offset = 0.9;
+  EXPECT_NE(validate(config).error().message.find("scene.people.lane_offset"), std::string::npos);
+  config.people.lane_offset = 0.5;
+  EXPECT_NE(validate(config).error().message.find("scene.people.lane_offset"), std::string::npos);
+  config.people.lane_offset = 0.75;
   EXPECT_TRUE(validate(config));
 }
 

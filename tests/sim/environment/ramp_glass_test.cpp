@@ -24,7 +24,7 @@ SceneConfig glass_corridor(double share) {
   SceneConfig config;
   config.corridor.length = 25.0;
   config.corridor.doors.sides = WallSides::kNone;
-  config.corridor.glass.share = share;
+  config.corridor.glass.fraction = share;
   return config;
 }
 
@@ -92,7 +92,7 @@ TEST(FloorHeight, IsThatOfTheTrianglesOnBumps) {
   }
 }
 
-TEST(GlassScene, ReturnsSteepBeamsAndLetsOthersThrough) {
+TEST(GlassScene, ReturnsBeamsNearNormalIncidenceOnly) {
   const RayCaster caster(build_scene(glass_corridor(1.0), 1));
   for (double degrees = 0.5; degrees < 60.0; degrees += 1.0) {
     for (const double side : {1.0, -1.0}) {
@@ -110,7 +110,7 @@ TEST(GlassScene, ReturnsSteepBeamsAndLetsOthersThrough) {
       << "from behind one pane through both";
 }
 
-TEST(GlassScene, PacketsMeetWhatSingleRaysMeet) {
+TEST(GlassScene, PacketsHitTheSameAsSingleRays) {
   const RayCaster caster(build_scene(glass_corridor(0.5), 1));
   RandomStream random = rng(11, "packets");
   for (int packet = 0; packet < 300; ++packet) {
@@ -134,7 +134,7 @@ TEST(GlassScene, PacketsMeetWhatSingleRaysMeet) {
   }
 }
 
-TEST(GlassScene, PanesCoverTheirShareAndLeaveDoorsAlone) {
+TEST(GlassScene, PanesCoverTheConfiguredFractionAndLeaveOutDoors) {
   for (const double share : {0.25, 0.5, 1.0}) {
     const Span along{-3.0, 28.0};
     double covered = 0.0;
@@ -156,15 +156,15 @@ TEST(GlassScene, NoRayLeaksOut) {
   SceneConfig config = glass_corridor(0.5);
   config.corridor.doors.sides = WallSides::kRight;
   testing::expect_no_leak(build_scene(config, 1), {{0.0, 0.0, 0.5}, {12.3, 0.5, 1.5}});
-  config.corridor.glass.share = 1.0;
+  config.corridor.glass.fraction = 1.0;
   testing::expect_no_leak(build_scene(config, 1), {{12.3, 0.5, 1.5}, {5.0, 1.6, 1.5}});
 }
 
 TEST(GlassScene, ASecondWallWithinTheFirstIsRefused) {
   SceneConfig config = glass_corridor(0.5);
-  config.corridor.glass.behind = 0.5;
+  config.corridor.glass.backing_distance = 0.5;
   config.corridor.doors.depth = 0.4;
-  EXPECT_NE(validate(config).error().message.find("scene.corridor.glass.behind"),
+  EXPECT_NE(validate(config).error().message.find("scene.corridor.glass.backing_distance"),
             std::string::npos);
 }
 

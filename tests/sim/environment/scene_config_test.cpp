@@ -90,9 +90,12 @@ TEST(CorridorScene, PlainOneIsSevenBoxesAtKnownPlaces) {
 TEST(CorridorScene, FeaturesThatAreOffChangeNothing) {
   SceneConfig config;
   const std::string plain = scene_mjcf(build_scene(config, 3), "", MjcfPurpose::kRender).value();
-  config.corridor.glass = {.share = 0.0, .pane = 5.0, .limit_deg = 30.0, .behind = 3.0};
+  config.corridor.glass = {.fraction = 0.0,
+                           .pane_length = 5.0,
+                           .max_incidence_deg = 30.0,
+                           .backing_distance = 3.0};
   config.ramp = {.start = 1.0, .length = 2.0, .grade = 0.0};
-  config.people = {.count = 0, .speed = 2.0, .lane = 5.0};
+  config.people = {.count = 0, .speed = 2.0, .lane_offset = 5.0};
   config.garage.cars = 1;
   config.tunnel.radius = 7.0;
   ASSERT_TRUE(validate(config));
@@ -187,10 +190,10 @@ TEST(CorridorScene, PillarsStandOutOfTheWallAndCollide) {
   EXPECT_TRUE(is_inside_solid(scene, {7.0, 1.0, 1.0}, 0.0));
 }
 
-TEST(CorridorScene, ClutterKeepsTheLaneFree) {
+TEST(CorridorScene, ClutterKeepsTheMiddleFree) {
   SceneConfig config = plain_corridor();
   config.corridor.clutter.density = 1.0;
-  config.corridor.clutter.lane_width = 1.3;
+  config.corridor.clutter.free_width = 1.3;
   const Scene scene = build_scene(config, 9);
   const auto is_clutter = [](const Solid& s) { return s.visible && !s.roof && !s.collides; };
   const auto objects = std::count_if(scene.solids.begin(), scene.solids.end(), is_clutter);
@@ -263,7 +266,7 @@ TEST(Scene, RepeatsWithItsSeedAndOnlyWithIt) {
   EXPECT_TRUE(same(build_scene(config, 1), build_scene(config, 2))) << "its own seed holds";
 }
 
-TEST(Scene, TellsFreePointsFromSolidOnes) {
+TEST(Scene, SeparatesFreePointsFromSolidOnes) {
   const Scene scene = build_scene(plain_corridor(), 1);
   EXPECT_FALSE(is_inside_solid(scene, {0.0, 0.0, 0.4}, 0.5));
   EXPECT_FALSE(is_inside_solid(scene, {40.0, 0.8, 0.4}, 0.29));
@@ -301,7 +304,7 @@ TEST(SceneConfig, RejectsWhatCannotBeBuilt) {
     c.pillars.spacing = 8.0;
     c.pillars.depth = 0.7;
   }));
-  EXPECT_TRUE(names("clutter.lane_width", [](CorridorConfig& c) { c.clutter = {1.0, 2.1}; }));
+  EXPECT_TRUE(names("clutter.free_width", [](CorridorConfig& c) { c.clutter = {1.0, 2.1}; }));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(Arrivals, ComeInOrderOfArrivalThenKindThenSending) {
   EXPECT_TRUE(std::holds_alternative<LidarScanPtr>(out[4].measurement));
 }
 
-TEST(Arrivals, KeepWhatIsStillOnItsWay) {
+TEST(Arrivals, KeepPendingPackets) {
   Arrivals arrivals;
   arrivals.add({30, imu_sample(5)});
   std::vector<Delivery> out;

@@ -62,7 +62,7 @@ TEST(Link, WithDefaultConfigurationChangesNothing) {
   }
 }
 
-TEST(Link, LosesTheConfiguredShareIndependently) {
+TEST(Link, LosesTheConfiguredFractionIndependently) {
   constexpr int kCount = 100'000;
   LinkConfig config;
   config.loss = 0.05;
@@ -74,7 +74,7 @@ TEST(Link, LosesTheConfiguredShareIndependently) {
   EXPECT_NEAR(mean_length, 1.0 / 0.95, 0.02);
 }
 
-TEST(Link, LosesBurstsOfTheConfiguredLengthAndShare) {
+TEST(Link, LosesBurstsOfTheConfiguredLengthAndFraction) {
   constexpr int kCount = 400'000;
   LinkConfig config;
   config.burst_fraction = 0.08;
@@ -138,7 +138,7 @@ TEST(Link, KeepsTheOrderUnlessPacketsAreHeldBack) {
   EXPECT_NEAR(overtaken, expected, 4.0 * std::sqrt(expected));
 }
 
-TEST(Link, DuplicatesTheConfiguredShareWithTheSameContent) {
+TEST(Link, DuplicatesTheConfiguredFractionWithTheSameContent) {
   LinkConfig config;
   config.duplicate_probability = 0.2;
   config.jitter = 0.003;
@@ -185,7 +185,7 @@ TEST(Link, ClockOffsetShiftsEveryStampAndNoArrival) {
 
 TEST(Link, LosesExactlyWhatIsSentInAnOutage) {
   LinkConfig config;
-  config.outage = {.start = 0.5, .length = 0.2, .period = 1.0};
+  config.outage = {.start = 0.5, .duration = 0.2, .period = 1.0};
   const auto present = arrived(send_samples(config, 600), 600);  // three seconds
   for (int i = 0; i < 600; ++i) {
     const int within = i % 200;
@@ -195,7 +195,7 @@ TEST(Link, LosesExactlyWhatIsSentInAnOutage) {
 
 TEST(Link, AnOutageWithoutAPeriodComesOnce) {
   LinkConfig config;
-  config.outage = {.start = 0.1, .length = 0.05, .period = 0.0};
+  config.outage = {.start = 0.1, .duration = 0.05, .period = 0.0};
   EXPECT_EQ(bursts(arrived(send_samples(config, 600), 600)), std::vector<int>{10});
 }
 
@@ -216,7 +216,7 @@ TEST(Link, StampJitterMovesStampsWithinItsBoundsAndNoArrival) {
   EXPECT_NEAR(sum / 20'000.0, 0.0, 4.0 * 0.002 / std::sqrt(3.0 * 20'000.0));
 }
 
-TEST(Link, OneFaultLeavesTheOthersAsTheyWere) {
+TEST(Link, OneFaultDoesNotAffectTheOthers) {
   constexpr int kCount = 5000;
   LinkConfig config;
   config.loss = 0.1;
@@ -226,7 +226,7 @@ TEST(Link, OneFaultLeavesTheOthersAsTheyWere) {
   config.reorder_probability = 0.3;
   config.duplicate_probability = 0.3;
   EXPECT_EQ(arrived(send_samples(config, kCount), kCount), present);
-  config.outage = {.start = 20.0, .length = 1.0, .period = 0.0};
+  config.outage = {.start = 20.0, .duration = 1.0, .period = 0.0};
   const auto with_outage = arrived(send_samples(config, kCount), kCount);
   EXPECT_TRUE(std::equal(present.begin(), present.begin() + 4000, with_outage.begin()));
   EXPECT_TRUE(std::equal(present.begin() + 4200, present.end(), with_outage.begin() + 4200));

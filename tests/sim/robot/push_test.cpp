@@ -20,31 +20,31 @@ PushConfig some_pushes() {
   return {.count = 8, .force = 30.0, .duration = 0.2, .start = 1.0, .end = 9.0};
 }
 
-/// Time [s] of the begin of each shove and how long it lasts [s], told by its force alone.
-std::vector<std::pair<double, double>> shoves_of(const Pushes& pushes, double force) {
-  std::vector<std::pair<double, double>> shoves;
+/// Time [s] of the begin of each push and how long it lasts [s], told by its force alone.
+std::vector<std::pair<double, double>> pushes_of(const Pushes& pushes, double force) {
+  std::vector<std::pair<double, double>> found;
   bool before = false;
   for (Time t = 0; t < 12 * kSecond; t += kStep) {
     const Eigen::Vector3d now = pushes.force_at(t);
     EXPECT_EQ(now.z(), 0.0);
     const bool pushed = !now.isZero();
     EXPECT_NEAR(now.norm(), pushed ? force : 0.0, 1e-9);
-    if (pushed && !before) shoves.emplace_back(to_seconds(t), 0.0);
-    if (pushed) shoves.back().second += to_seconds(kStep);
+    if (pushed && !before) found.emplace_back(to_seconds(t), 0.0);
+    if (pushed) found.back().second += to_seconds(kStep);
     before = pushed;
   }
-  return shoves;
+  return found;
 }
 
-TEST(Pushes, FallOneInEachPartOfTheTimeAndLastAsTheyShould) {
+TEST(Pushes, ComeOncePerPartOfTheIntervalWithTheConfiguredDuration) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto shoves = shoves_of(Pushes(some_pushes(), seed), 30.0);
-    ASSERT_EQ(shoves.size(), 8U) << "seed " << seed;
-    for (std::size_t i = 0; i < shoves.size(); ++i) {
+    const auto found = pushes_of(Pushes(some_pushes(), seed), 30.0);
+    ASSERT_EQ(found.size(), 8U) << "seed " << seed;
+    for (std::size_t i = 0; i < found.size(); ++i) {
       const double part = 1.0 + static_cast<double>(i);
-      EXPECT_GE(shoves[i].first, part);
-      EXPECT_LE(shoves[i].first + shoves[i].second, part + 1.0 + 1e-9);
-      EXPECT_NEAR(shoves[i].second, 0.2, 0.0026);
+      EXPECT_GE(found[i].first, part);
+      EXPECT_LE(found[i].first + found[i].second, part + 1.0 + 1e-9);
+      EXPECT_NEAR(found[i].second, 0.2, 0.0026);
     }
   }
 }
@@ -53,22 +53,22 @@ TEST(Pushes, ComeFromAllSidesAndDifferBetweenSeeds) {
   std::array<int, 4> quarters{};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Pushes pushes(some_pushes(), seed);
-    for (const auto& [start, length] : shoves_of(pushes, 30.0)) {
+    for (const auto& [start, length] : pushes_of(pushes, 30.0)) {
       const Eigen::Vector3d force = pushes.force_at(from_seconds(start));
       ++quarters[(force.x() > 0.0 ? 1 : 0) + (force.y() > 0.0 ? 2 : 0)];
     }
   }
   for (const int each : quarters) EXPECT_GT(each, 20);  // 40 of 160 are expected
-  EXPECT_EQ(shoves_of(Pushes(some_pushes(), 3), 30.0), shoves_of(Pushes(some_pushes(), 3), 30.0));
-  EXPECT_NE(shoves_of(Pushes(some_pushes(), 3), 30.0), shoves_of(Pushes(some_pushes(), 4), 30.0));
+  EXPECT_EQ(pushes_of(Pushes(some_pushes(), 3), 30.0), pushes_of(Pushes(some_pushes(), 3), 30.0));
+  EXPECT_NE(pushes_of(Pushes(some_pushes(), 3), 30.0), pushes_of(Pushes(some_pushes(), 4), 30.0));
 }
 
 TEST(Pushes, AreNoneByDefaultAndMustFitIntoTheirTime) {
-  EXPECT_TRUE(shoves_of(Pushes(PushConfig{}, 1), 0.0).empty());
+  EXPECT_TRUE(pushes_of(Pushes(PushConfig{}, 1), 0.0).empty());
   EXPECT_TRUE(validate(PushConfig{}));
   PushConfig tight = some_pushes();
   tight.duration = 1.0;
-  EXPECT_TRUE(validate(tight)) << "one shove after another";
+  EXPECT_TRUE(validate(tight)) << "one push after another";
   tight.count = 9;
   const auto refused = validate(tight);
   ASSERT_FALSE(refused);
@@ -135,7 +135,7 @@ TEST(Pushes, MakeAStandingRobotSwayAndItRecovers) {
 TEST(Pushes, ChangeNothingBeforeTheFirstAndNoOtherStream) {
   SimulationConfig config = standing_robot();
   const Motion without = simulate(config, 4);
-  config.push.force = 200.0;  // of no shove
+  config.push.force = 200.0;  // of no push
   const Motion off = simulate(config, 4);
   config.push = {.count = 1, .force = 40.0, .duration = 0.2, .start = 2.0, .end = 2.2};
   const Motion with = simulate(config, 4);
@@ -150,7 +150,7 @@ TEST(Pushes, ChangeNothingBeforeTheFirstAndNoOtherStream) {
   EXPECT_NE(with.truth.samples[850].velocity, without.truth.samples[850].velocity);
 }
 
-TEST(Pushes, FallBeforeTheRecordingToo) {
+TEST(Pushes, AlsoActBeforeTheRecording) {
   SimulationConfig config = standing_robot();
   config.push = {.count = 1, .force = 40.0, .duration = 0.2, .start = 2.0, .end = 2.2};
   const Motion whole = simulate(config, 1);

@@ -51,7 +51,7 @@ TEST(RampWalk, ARouteMayStartOnTheUpperFloor) {
   EXPECT_NEAR(simulation->truth().samples.front().T_world_body.translation.z(), 0.75 + 0.3, 0.05);
 }
 
-TEST(RampWalk, RoutePointsAreHeldAgainstWhatStandsOnTheUpperFloor) {
+TEST(RampWalk, RoutePointsAreCheckedAgainstSolidsOnTheUpperFloor) {
   SimulationConfig config;
   config.scene = ramp_scene(0.25);
   config.scene.corridor.clutter.density = 2.0;

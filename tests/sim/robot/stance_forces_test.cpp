@@ -42,14 +42,14 @@ TEST(StanceForces, CarryTheWeightWhenStandingStill) {
   EXPECT_LT((acceleration - problem.acceleration).norm(), 0.06);
 }
 
-TEST(StanceForces, GiveTheWantedAccelerationInsideTheCone) {
+TEST(StanceForces, GiveTheDesiredAccelerationInsideTheCone) {
   StanceProblem problem = standing_robot();
   problem.acceleration << 0.8, -0.4, 10.5, 1.0, -0.5, 0.8;
   const auto acceleration = resulting_acceleration(problem, stance_forces(problem, {}));
   EXPECT_LT((acceleration - problem.acceleration).norm(), 0.1);
 }
 
-TEST(StanceForces, RespectConesAndLimitsWhateverIsWanted) {
+TEST(StanceForces, RespectConesAndLimitsForAnyAcceleration) {
   RandomStream random(3, "test");
   const StanceForceConfig config;
   for (int trial = 0; trial < 300; ++trial) {

@@ -28,7 +28,7 @@ LidarConfig coarse_lidar() {
   config.range_sigma = kSigma;
   config.miss_probability = 0.0;
   config.range_at_10_percent = 1e4;
-  config.body_min = config.body_max = Vector3d::Zero();
+  config.body_mask_min = config.body_mask_max = Vector3d::Zero();
   return config;
 }
 
@@ -250,7 +250,7 @@ TEST(ScanInformation, LeavesTheSpreadAtThePriorAlongTheFreeAxisOfAnEndlessCorrid
   EXPECT_LT(along.dot(spread.information.bottomRightCorner<3, 3>() * along), 1e-3);
 }
 
-TEST(ScanInformation, BoundsTheSpreadWithinFifteenPercentWhereTheAxisIsWeaklySeen) {
+TEST(ScanInformation, BoundsTheSpreadWithinFifteenPercentAlongAWeaklyObservedAxis) {
   Scene scene = endless_corridor();
   scene.solids.push_back(box({10.0, 0.0, 1.5}, {0.05, 0.3, 2.0}));  // one pillar ahead
   LidarConfig config = coarse_lidar();
@@ -270,7 +270,7 @@ TEST(ScanInformation, BoundsTheSpreadWithinFifteenPercentWhereTheAxisIsWeaklySee
       << "bound " << bound;
 }
 
-TEST(ScanInformation, LeavesOutWhatMoves) {
+TEST(ScanInformation, LeavesOutMovingSurfaces) {
   ScanTruth scan;
   scan.points = {{5.0F, 0.0F, 0.0F}, {3.0F, 0.5F, 0.1F}};
   scan.normals = {{-1.0F, 0.0F, 0.0F}, {-0.8F, 0.6F, 0.0F}};
@@ -285,10 +285,10 @@ TEST(ScanInformation, LeavesOutWhatMoves) {
 TEST(ScanInformation, OfAScanWithoutReturnsIsZero) {
   const ScanInformation scan = scan_information(0, {}, Pose{}, 0.0);
   EXPECT_TRUE(scan.information.isZero());
-  EXPECT_EQ(scan.range_sigma, kLeastRangeSigma);
+  EXPECT_EQ(scan.range_sigma, kMinRangeSigma);
 }
 
-TEST(SimulatedTruth, HoldsTheInformationOfEveryScanThatDidNotGetLost) {
+TEST(SimulatedTruth, HoldsTheInformationOfEveryDeliveredScan) {
   SimulationConfig config;
   config.scene.corridor.length = 10.0;
   config.route.points = {{"a", 0.0, 0.0}, {"b", 2.0, 0.0}};

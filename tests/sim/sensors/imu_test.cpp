@@ -76,7 +76,7 @@ double dead_reckoning_error(const std::vector<ImuSample>& samples,
   return worst;
 }
 
-TEST(Imu, FeelsGravityUpwardsAtRest) {
+TEST(Imu, MeasuresGravityUpwardsAtRest) {
   const Eigen::Quaterniond tilted = so3_exp({0.1, -0.2, 0.5});
   const auto samples = measure(rest(0.1, tilted), perfect());
   ASSERT_EQ(samples.size(), 5U);

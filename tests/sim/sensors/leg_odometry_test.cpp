@@ -16,7 +16,7 @@ constexpr Duration kStep = 2'500'000;
 LegOdometryConfig perfect(FootModel model) {
   LegOdometryConfig config;
   config.foot_model = model;
-  config.angle_noise = config.angle_offset = config.angle_rate_noise = 0.0;
+  config.joint_angle_noise = config.joint_angle_offset = config.joint_rate_noise = 0.0;
   config.load_noise = 0.0;
   config.gyro_noise_density = config.gyro_bias = config.gyro_scale_error = 0.0;
   config.velocity_scale_error = 0.0;
@@ -53,7 +53,7 @@ double relative_error(const std::vector<LegOdometrySample>& samples) {
   return samples.back().T_odom_base.translation.head<2>().norm() / walked - 1.0;
 }
 
-TEST(LegOdometry, RollingFeetMeasureTheWayWithinOnePercent) {
+TEST(LegOdometry, RollingFeetMeasureTheDistanceWithinOnePercent) {
   EXPECT_LT(std::abs(relative_error(measure(perfect(FootModel::kRolling)))), 0.01);
 }
 
@@ -103,7 +103,7 @@ TEST(LegOdometry, HeadingDriftsWithItsOwnGyro) {
   EXPECT_GT(std::abs(drift - other), 0.005);
 }
 
-TEST(LegOdometry, SlipBurstsLengthenTheWay) {
+TEST(LegOdometry, SlipBurstsLengthenTheMeasuredDistance) {
   LegOdometryConfig config = perfect(FootModel::kRolling);
   config.slip_rate = 2.0;
   EXPECT_GT(relative_error(measure(config)), 0.01);

@@ -22,7 +22,7 @@ LidarConfig perfect() {
   config.range_sigma = 0.0;
   config.miss_probability = 0.0;
   config.range_at_10_percent = 1e4;
-  config.body_min = config.body_max = Vector3d::Zero();
+  config.body_mask_min = config.body_mask_max = Vector3d::Zero();
   return config;
 }
 
@@ -171,7 +171,7 @@ TEST(Lidar, DropsWhatIsTooNearOrTooFar) {
   }
 }
 
-TEST(Lidar, MissesTheConfiguredShareAtRandom) {
+TEST(Lidar, MissesTheConfiguredFractionAtRandom) {
   LidarConfig config = perfect();
   config.miss_probability = 0.05;
   const double points =
@@ -247,11 +247,11 @@ TEST(Lidar, StrengthIsReflectivityTimesCosineOfIncidence) {
   EXPECT_GT(checked, 10'000);
 }
 
-TEST(Lidar, BeamsThatMeetTheBodyBringNoReturn) {
+TEST(Lidar, BeamsInTheBodyMaskReturnNothing) {
   LidarConfig config = perfect();
   const std::size_t open = one_scan(plain_corridor(), config, still()).points.size();
-  config.body_min = LidarConfig().body_min;
-  config.body_max = LidarConfig().body_max;
+  config.body_mask_min = LidarConfig().body_mask_min;
+  config.body_mask_max = LidarConfig().body_mask_max;
   const LidarScan scan = one_scan(plain_corridor(), config, still());
   EXPECT_LT(scan.points.size(), open);
   EXPECT_GT(scan.points.size(), open * 9 / 10);
@@ -260,8 +260,8 @@ TEST(Lidar, BeamsThatMeetTheBodyBringNoReturn) {
     const Vector3d end = point.position.cast<double>();
     for (double along = 0.0; along < 1.5; along += 0.02) {
       const Vector3d p = along * end.normalized();
-      ASSERT_FALSE((p.array() > config.body_min.array() + 1e-3).all() &&
-                   (p.array() < config.body_max.array() - 1e-3).all());
+      ASSERT_FALSE((p.array() > config.body_mask_min.array() + 1e-3).all() &&
+                   (p.array() < config.body_mask_max.array() - 1e-3).all());
     }
   }
 }
@@ -320,11 +320,11 @@ TEST(LidarConfig, RejectsLimitsInTheWrongOrder) {
   EXPECT_FALSE(validate(config));
 }
 
-TEST(Lidar, DeadRingsAreTheStatedShareAndTheSameForTheWholeRun) {
+TEST(Lidar, DeadRingsAreTheConfiguredFractionAndConstantInARun) {
   const Scene scene = plain_corridor();
   const RayCaster caster(scene);
   LidarConfig config = perfect();
-  config.defects.dead_ring_share = 0.25;
+  config.defects.dead_ring_fraction = 0.25;
   Lidar lidar(config, caster, 3);
   const auto rings_of = [&](Time start) {
     std::set<int> rings;
@@ -335,15 +335,15 @@ TEST(Lidar, DeadRingsAreTheStatedShareAndTheSameForTheWholeRun) {
   const std::set<int> first = rings_of(0);
   EXPECT_EQ(first.size(), 12U);
   EXPECT_EQ(rings_of(kSecond), first);
-  config.defects.dead_ring_share = 1.0;
+  config.defects.dead_ring_fraction = 1.0;
   EXPECT_TRUE(one_scan(scene, config, still()).points.empty());
 }
 
-TEST(Lidar, ACoveredSectorReturnsNothingAndTheRestIsUntouched) {
+TEST(Lidar, ABlockedSectorReturnsNothingAndTheRestIsUnchanged) {
   LidarConfig config = perfect();
   const LidarScan whole = one_scan(plain_corridor(), config, still());
-  config.defects.blind_center_deg = 170.0;  // reaches over the seam at 180 degrees
-  config.defects.blind_width_deg = 60.0;
+  config.defects.blocked_sector_center_deg = 170.0;  // reaches over the seam at 180 degrees
+  config.defects.blocked_sector_width_deg = 60.0;
   const LidarScan rest = one_scan(plain_corridor(), config, still());
   std::vector<LidarPoint> kept;
   for (const LidarPoint& point : whole.points) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rays per second in the corridor: ray casting alone, and whole scans with the return model.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/environment/scene_config.hpp"
+#include "sim/sensors/lidar.hpp"
+
+namespace aims {
+namespace {
+
+constexpr int kRings = 16;
+constexpr int kColumns = 1800;
+
+SceneConfig corridor(double bump_height, double clutter_density) {
+  SceneConfig config;
+  config.bumps.height = bump_height;
+  config.corridor.clutter.density = clutter_density;
+  return config;
+}
+
+/// Packets of a scan from one point: 16 neighbouring azimuths of one ring each.
+std::vector<RayPacket> scan_packets() {
+  std::vector<RayPacket> packets;
+  for (int first = 0; first + kRayPacketSize <= kColumns; first += kRayPacketSize) {
+    for (int ring = 0; ring < kRings; ++ring) {
+      RayPacket& packet = packets.emplace_back();
+      const double elevation = (-15.0 + 2.0 * ring) * std::numbers::pi / 180.0;
+      for (int lane = 0; lane < kRayPacketSize; ++lane) {
+        const double azimuth = -2.0 * std::numbers::pi * (first + lane) / kColumns;
+        packet.origin_x[lane] = 40.0F;
+        packet.origin_y[lane] = 0.05F;
+        packet.origin_z[lane] = 0.45F;
+        packet.direction_x[lane] = static_cast<float>(std::cos(elevation) * std::cos(azimuth));
+        packet.direction_y[lane] = static_cast<float>(std::cos(elevation) * std::sin(azimuth));
+        packet.direction_z[lane] = static_cast<float>(std::sin(elevation));
+      }
+    }
+  }
+  return packets;
+}
+
+void cast_rays(benchmark::State& state, const SceneConfig& config) {
+  const RayCaster caster(build_scene(config, 1));
+  const std::vector<RayPacket> packets = scan_packets();
+  HitPacket hits;
+  for (auto _ : state) {
+    for (const RayPacket& packet : packets) {
+      caster.cast(packet, 100.0F, hits);
+      benchmark::DoNotOptimize(hits);
+    }
+  }
+  state.counters["rays/s"] =
+      benchmark::Counter(static_cast<double>(packets.size() * kRayPacketSize),
+                         benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["triangles"] = static_cast<double>(caster.triangle_count());
+}
+
+/// Poses of a walking robot at the physics rate.
+Trajectory walking_poses(double from_x) {
+  Trajectory poses;
+  for (int i = 0; i <= 44; ++i) {
+    const double t = 0.0025 * i;
+    const Eigen::Vector3d rotation(0.03 * std::sin(15.0 * t), 0.02 * std::cos(15.0 * t), 0.1 * t);
+    poses.push_back({from_seconds(t), {so3_exp(rotation), {from_x + 0.7 * t, 0.05, 0.45}}});
+  }
+  return poses;
+}
+
+void scan(benchmark::State& state, const SceneConfig& config) {
+  const RayCaster caster(build_scene(config, 1));
+  Lidar lidar(LidarConfig{}, caster, 1);
+  const Trajectory poses = walking_poses(40.0);
+  std::size_t points = 0;
+  for (auto _ : state) {
+    const LidarScan scan = lidar.scan(0, poses);
+    points = scan.points.size();
+    benchmark::DoNotOptimize(scan.points.data());
+  }
+  state.counters["rays/s"] =
+      benchmark::Counter(kRings * kColumns, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["points"] = static_cast<double>(points);
+}
+
+BENCHMARK_CAPTURE(cast_rays, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cast_rays, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cast_rays, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace aims
