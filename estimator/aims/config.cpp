@@ -52,13 +52,6 @@ void describe(Fields& f, InitializationConfig& c) {
 }
 
 void describe(Fields& f, LegConfig& c) {
-  f.choice(
-      "measurement", c.measurement,
-      {{"velocity", LegMeasurement::kVelocity}, {"displacement", LegMeasurement::kDisplacement}},
-      {"", any(),
-       "velocity at each packet's stamp, or displacement between scan ends with a cloned "
-       "pose; docs/decisions.md",
-       "paper: relative motion between consecutive states"});
   f.number("rate_hz", c.rate_hz, {"Hz", positive(), "nominal packet rate", "paper, III-A"});
   f.vector("velocity_sigma", c.velocity_sigma,
            {"m/s", positive(), "error of one sample along the base's axes, R_leg"});
@@ -96,9 +89,6 @@ void describe(Fields& f, LidarUpdateConfig& c) {
 }
 
 void describe(Fields& f, MapConfig& c) {
-  f.choice("planes", c.planes,
-           {{"neighbors", MapPlanes::kNeighbors}, {"voxels", MapPlanes::kVoxels}},
-           {"", any(), "planes through the five nearest map points, or of voxels"});
   f.number("voxel_size", c.voxel_size,
            {"m", in_range(0.05, 10.0), "edge of a voxel of the local map"});
   f.number("point_spacing", c.point_spacing,
@@ -122,10 +112,6 @@ void describe(Fields& f, MapConfig& c) {
   f.number("plane_min_ratio", c.plane_min_ratio,
            {"-", at_least(1),
             "least ratio of second to smallest principal variance; docs/decisions.md"});
-  f.number("plane_max_deviation", c.plane_max_deviation,
-           {"m", positive(), "the points of a voxel deviate by less from its plane"});
-  f.integer("max_plane_points", c.max_plane_points,
-            {"-", at_least(6), "points of a voxel after which its plane is frozen"});
   f.number("map_sigma", c.map_sigma,
            {"m", positive(), "least error of a map point across its plane"});
 }

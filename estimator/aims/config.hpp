@@ -39,15 +39,8 @@ struct InitializationConfig {
   double sigma_accelerometer_bias = 5e-2;  ///< [m/s^2]
 };
 
-/// What leg odometry is taken to measure.
-enum class LegMeasurement {
-  kVelocity,      ///< the base's velocity, at each packet's own stamp
-  kDisplacement,  ///< the base's way between two scan ends, against a cloned pose
-};
-
 /// Leg odometry.
 struct LegConfig {
-  LegMeasurement measurement = LegMeasurement::kVelocity;
   double rate_hz = 200.0;                         ///< nominal packet rate [Hz]
   Eigen::Vector3d velocity_sigma{0.1, 0.1, 0.1};  ///< of one sample, base axes [m/s]
   double correlation_time = 0.1;  ///< of that error: consecutive samples repeat it [s]
@@ -73,29 +66,20 @@ struct LidarUpdateConfig {
   int min_matches = 30;                ///< fewer planes make no update
 };
 
-/// Where the planes of the map come from.
-enum class MapPlanes {
-  kNeighbors,  ///< through the five map points nearest to a return
-  kVoxels,     ///< of the voxel that a return lies in
-};
-
 /// Local map and its planes.
 struct MapConfig {
-  MapPlanes planes = MapPlanes::kNeighbors;
   double voxel_size = 0.5;      ///< hashed voxel; bounds the neighbour search [m]
   double point_spacing = 0.15;  ///< returns closer than this to a map point merge into it [m]
   int max_points_per_voxel = 32;
-  int max_merges = 20;                ///< returns that a map point averages before it is frozen
-  int max_voxels = 100000;            ///< beyond it the farthest are dropped
-  double insertion_voxel = 0.1;       ///< one point is inserted per voxel of the raw scan [m]
-  int max_insertions = 12000;         ///< bound on points per scan
-  double neighbor_gate = 0.5;         ///< the five neighbours lie within it [m]
-  double plane_thickness = 0.06;      ///< the five neighbours lie this close to their plane [m]
-  double plane_min_spread = 0.065;    ///< second principal deviation of the neighbours [m]
-  double plane_min_ratio = 10.0;      ///< second over smallest principal variance [-]
-  double plane_max_deviation = 0.03;  ///< of the points of a voxel across their plane [m]
-  int max_plane_points = 100;         ///< points of a voxel, after which its plane is frozen
-  double map_sigma = 0.001;           ///< least error of a map point across its plane [m]
+  int max_merges = 20;              ///< returns that a map point averages before it is frozen
+  int max_voxels = 100000;          ///< beyond it the farthest are dropped
+  double insertion_voxel = 0.1;     ///< one point is inserted per voxel of the raw scan [m]
+  int max_insertions = 12000;       ///< bound on points per scan
+  double neighbor_gate = 0.5;       ///< the five neighbours lie within it [m]
+  double plane_thickness = 0.06;    ///< the five neighbours lie this close to their plane [m]
+  double plane_min_spread = 0.065;  ///< second principal deviation of the neighbours [m]
+  double plane_min_ratio = 10.0;    ///< second over smallest principal variance [-]
+  double map_sigma = 0.001;         ///< least error of a map point across its plane [m]
 };
 
 /// Reliability assessment and adaptive weights, eqs. (3)-(12).

@@ -18,12 +18,10 @@ DirectionalConfig without_parts() {
   none.leg_states.bias = false;
   none.leg_states.hold = false;
   none.leg_evidence.enabled = false;
-  none.disagreement.enabled = false;
   none.start.enabled = false;
   none.standstill.enabled = false;
   none.floor.enabled = false;
   none.robust.enabled = false;
-  none.selection.enabled = false;
   none.map_memory.enabled = true;
   return none;
 }
@@ -86,16 +84,6 @@ void describe(Fields& f, LegEvidenceConfig& c) {
            {"s", at_least(0), "an innovation that lasts longer is believed"});
 }
 
-void describe(Fields& f, DisagreementConfig& c) {
-  describe_switch(f, c, "take weight from scans or legs that lastingly disagree on the way");
-  f.number("window", c.window, {"s", in_range(0.1, 10.0), "over which both are compared"});
-  f.number("gate", c.gate, {"-", positive(), "deviations beyond which they disagree"});
-  f.number("lasting", c.lasting, {"s", at_least(0), "for so long, before it costs weight"});
-  f.number("lidar_sigma", c.lidar_sigma,
-           {"m", at_least(0), "of matching a scan, besides the noise of its returns"});
-  f.number("most", c.most, {"-", at_least(1), "growth of the variance of the one that is blamed"});
-}
-
 void describe(Fields& f, StartConfig& c) {
   describe_switch(f, c, "start from the longest quiet stretch of a stand that is disturbed");
   f.number("rate", c.rate, {"rad/s", positive(), "deviation from its mean that ends a stretch"});
@@ -156,11 +144,6 @@ void describe(Fields& f, RobustConfig& c) {
   f.number("least", c.least, {"m", positive(), "deviation that is taken at least"});
 }
 
-void describe(Fields& f, SelectionConfig& c) {
-  describe_switch(f, c, "thin the rows of a scan where they repeat each other");
-  f.integer("max_rows", c.max_rows, {"-", at_least(30), "rows kept of a scan"});
-}
-
 void describe(Fields& f, MapMemoryConfig& c) {
   describe_switch(f, c, "use the map of the way out again on the way back");
   f.integer("forget_after", c.forget_after,
@@ -171,12 +154,10 @@ void describe(Fields& f, DirectionalConfig& c) {
   f.group("spurious", c.spurious);
   f.group("leg_states", c.leg_states);
   f.group("leg_evidence", c.leg_evidence);
-  f.group("disagreement", c.disagreement);
   f.group("start", c.start);
   f.group("standstill", c.standstill);
   f.group("floor", c.floor);
   f.group("robust", c.robust);
-  f.group("selection", c.selection);
   f.group("map_memory", c.map_memory);
 }
 

@@ -58,16 +58,6 @@ struct LegEvidenceConfig {
   double longest_slip = 0.5;      ///< an innovation that lasts longer is believed [s]
 };
 
-/// Lasting disagreement of scans and legs on how far the body has moved.
-struct DisagreementConfig {
-  bool enabled = true;
-  double window = 0.7;        ///< over which both are compared [s]
-  double gate = 3.0;          ///< deviations beyond which they disagree [-]
-  double lasting = 0.5;       ///< for so long, before it costs one of them weight [s]
-  double lidar_sigma = 0.01;  ///< of matching a scan, besides the noise of its returns [m]
-  double most = 100.0;        ///< growth of the variance of the one that is blamed [-]
-};
-
 /// A start that may be shoved.
 struct StartConfig {
   bool enabled = true;
@@ -121,12 +111,6 @@ struct RobustConfig {
   double least = 0.015;  ///< deviation that is taken at least [m]
 };
 
-/// Choice of rows by what they inform (row_selection.hpp).
-struct SelectionConfig {
-  bool enabled = false;
-  int max_rows = 600;  ///< point-to-plane rows kept of a scan
-};
-
 /// Re-use of the map from earlier in the walk.
 struct MapMemoryConfig {
   bool enabled = true;     ///< false: voxels are forgotten when unseen for `forget_after`
@@ -138,12 +122,10 @@ struct DirectionalConfig {
   SpuriousConfig spurious;
   LegStatesConfig leg_states;
   LegEvidenceConfig leg_evidence;
-  DisagreementConfig disagreement;
   StartConfig start;
   StandstillConfig standstill;
   FloorConfig floor;
   RobustConfig robust;
-  SelectionConfig selection;
   MapMemoryConfig map_memory;
 };
 
@@ -153,12 +135,10 @@ DirectionalConfig without_parts();
 void describe(Fields& fields, SpuriousConfig& config);
 void describe(Fields& fields, LegStatesConfig& config);
 void describe(Fields& fields, LegEvidenceConfig& config);
-void describe(Fields& fields, DisagreementConfig& config);
 void describe(Fields& fields, StartConfig& config);
 void describe(Fields& fields, StandstillConfig& config);
 void describe(Fields& fields, FloorConfig& config);
 void describe(Fields& fields, RobustConfig& config);
-void describe(Fields& fields, SelectionConfig& config);
 void describe(Fields& fields, MapMemoryConfig& config);
 void describe(Fields& fields, DirectionalConfig& config);
 

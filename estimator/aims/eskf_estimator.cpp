@@ -3,7 +3,6 @@
 
 #include "estimator/filter/imu_propagation.hpp"
 #include "estimator/filter/initialization.hpp"
-#include "estimator/legs/leg_displacement_model.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
 #include "estimator/lidar/deskew.hpp"
@@ -34,9 +33,7 @@ EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& 
       map_(config_.map),
       floor_(config_.directional.floor),
       leg_evidence_(config_.directional.leg_evidence, config_.leg),
-      disagreement_(config_.directional.disagreement),
-      standstill_(config_.directional.standstill),
-      leg_integrator_(config_.leg) {}
+      standstill_(config_.directional.standstill) {}
 
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -73,7 +70,6 @@ bool EskfEstimator::start() {
   }
   time_ = initial->stamp;
   started_ = true;
-  renew_clone();
   return true;
 }
 
@@ -89,7 +85,7 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
     if (lost > 0) result_.counts["leg.lost"] += lost;
   }
   hold_lost_legs(sample.stamp);
-  take_leg(sample);
+  fuse_leg_velocity(sample);
   last_leg_ = sample;
   bridge_silence(sample.stamp);
 }
@@ -108,16 +104,8 @@ void EskfEstimator::hold_lost_legs(Time until) {
   const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
   while (last_leg_->stamp + period + period / 2 < until) {
     last_leg_->stamp += period;
-    take_leg(*last_leg_);
+    fuse_leg_velocity(*last_leg_);
     ++result_.counts["leg.held"];
-  }
-}
-
-void EskfEstimator::take_leg(const LegOdometrySample& sample) {
-  if (config_.leg.measurement == LegMeasurement::kDisplacement) {
-    leg_integrator_.add(sample);
-  } else {
-    fuse_leg_velocity(sample);
   }
 }
 
@@ -151,37 +139,6 @@ bool EskfEstimator::stands(const LegOdometrySample& sample) {
   return true;
 }
 
-/// Tells the comparison of ways the body's velocity by this sample, and lets its verdict grow the
-/// sample's noise.
-void EskfEstimator::compare_ways(const LegOdometrySample& sample, const Eigen::Vector3d& rate,
-                                 LinearMeasurement& measurement) {
-  const Eigen::Matrix3d R_body_base = rig_.T_body_base.R();
-  const StanceEvidence stance =
-      compare_feet(sample, R_body_base.transpose() * (rate - belief_.state.gyro_bias));
-  LegMotionTold told;
-  told.stamp = sample.stamp;
-  const Eigen::Matrix3d R = belief_.state.rotation * R_body_base;
-  told.velocity = belief_.state.velocity - R * measurement.residual;
-  told.noise = R * measurement.noise * R.transpose() / config_.leg.rate_hz;
-  told.firm = is_firm(stance, config_.directional.leg_evidence);
-  disagreement_.add(told);
-  measurement.noise *= disagreement_.leg_growth();
-}
-
-/// After a scan: do scans and legs agree on the way?
-void EskfEstimator::judge_ways() {
-  if (!lidar_update_.fix()) return;
-  const Eigen::Matrix3d R =
-      belief_.state.rotation.toRotationMatrix() * rig_.T_body_base.R();  // odometry from base
-  const Eigen::Matrix3d speed = stride_mean_.value().asDiagonal();
-  using E = ErrorState;
-  const Eigen::Matrix3d drift =
-      speed * block(belief_.covariance, E::kLegScale, E::kLegScale) * speed +
-      block(belief_.covariance, E::kLegBias, E::kLegBias);
-  disagreement_.judge(*lidar_update_.fix(), R * drift * R.transpose());
-  lidar_update_.discount(disagreement_.lidar_share());
-}
-
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   predict_to(sample.stamp);
   if (stands(sample)) return;
@@ -190,7 +147,6 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
   LinearMeasurement measurement =
       leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_noise(sample, rate));
-  if (config_.directional.disagreement.enabled) compare_ways(sample, rate, measurement);
   if (config_.directional.leg_evidence.enabled) {
     const auto inflation = leg_evidence_.inflation(measurement, belief_.covariance);
     if (!inflation) {
@@ -209,35 +165,6 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
              : kalman_update(belief_.state, prior_information, belief_.state, information));
 }
 
-void EskfEstimator::fuse_leg_displacement() {
-  if (!clone_) return;
-  const std::optional<LegDisplacement> measured = leg_integrator_.until(time_);
-  if (!measured) {
-    ++result_.counts["leg.uncovered"];
-    return;
-  }
-  // eq. (11): R_leg' = R_leg / gamma_leg.
-  const Eigen::Matrix3d noise =
-      leg_displacement_noise(config_.leg, *measured) / lidar_update_.gamma_leg();
-  const ErrorMatrix prior_information = inverse_spd(belief_.covariance);
-  const LinearMeasurement measurement =
-      marginalise_clone(leg_displacement_model(clone_->T_odom_body, belief_.state, rig_.T_body_base,
-                                               measured->translation, noise),
-                        *clone_, prior_information);
-  leg_innovation_ = measurement.residual.norm() / to_seconds(measured->duration);
-  ++leg_updates_;
-  accept(
-      kalman_update(belief_.state, prior_information, belief_.state, information_of(measurement)));
-}
-
-/// Between its birth after one scan and its use at the next, the state is only predicted, so that
-/// no update has to carry the clone along.
-void EskfEstimator::renew_clone() {
-  if (!member_.leg || config_.leg.measurement != LegMeasurement::kDisplacement) return;
-  clone_ = clone_pose(belief_);
-  leg_integrator_.begin(time_);
-}
-
 void EskfEstimator::correct(const LidarScanPtr& scan) {
   if (scan->end < time_) {
     ++result_.counts["lidar.before_start"];
@@ -245,7 +172,6 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   }
   hold_lost_legs(scan->end);
   predict_to(scan->end);
-  fuse_leg_displacement();
   ScanDiagnostics diagnostics;
   diagnostics.stamp = scan->end;
   diagnostics.leg_innovation = leg_innovation_;
@@ -256,9 +182,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   if (!map_.empty()) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
     if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
-    if (config_.directional.disagreement.enabled) judge_ways();
   }
-  renew_clone();
   extend_map();
   record_covariance(belief_, lidar_update_.map_anchor(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
@@ -270,11 +194,7 @@ void EskfEstimator::predict_to(Time stamp) {
   queue_.imu().segments(time_, stamp, segments_);
   for (const InertialSegment& segment : segments_) {
     const double dt = to_seconds(segment.end - segment.begin);
-    const NominalState before = belief_.state;
-    const bool sound = accept(propagate(belief_, segment, dt, config_.imu));
-    if (clone_ && sound) {
-      clone_ = propagate_clone(*clone_, propagation_jacobian(before, segment, dt));
-    }
+    accept(propagate(belief_, segment, dt, config_.imu));
     if (!segment.measured) ++result_.counts["imu.bridged"];
   }
   walk_leg_states(belief_, config_.directional.leg_states, to_seconds(stamp - time_));

@@ -5,13 +5,10 @@
 #include <vector>
 
 #include "estimator/aims/config.hpp"
-#include "estimator/degeneracy/disagreement.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/filter/measurement_queue.hpp"
-#include "estimator/filter/pose_clone.hpp"
 #include "estimator/ground/floor.hpp"
-#include "estimator/legs/leg_displacement.hpp"
 #include "estimator/legs/leg_evidence.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/standstill.hpp"
@@ -22,8 +19,7 @@
 namespace aims {
 
 /// The error-state Kalman filter of the family: the IMU predicts, leg odometry corrects at its own
-/// stamps (or, as displacement since the last scan, at the end of each scan), the LiDAR at the end
-/// of each scan.
+/// stamps, the LiDAR at the end of each scan.
 class EskfEstimator : public Estimator {
  public:
   EskfEstimator(const EstimatorConfig& config, const FamilyMember& member, const SensorRig& rig);
@@ -42,15 +38,9 @@ class EskfEstimator : public Estimator {
   void correct(const LegOdometrySample& sample);
   void correct(const LidarScanPtr& scan);
   void predict_to(Time stamp);
-  void take_leg(const LegOdometrySample& sample);
   void fuse_leg_velocity(const LegOdometrySample& sample);
   Eigen::Matrix3d leg_noise(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
-  void compare_ways(const LegOdometrySample& sample, const Eigen::Vector3d& rate,
-                    LinearMeasurement& measurement);
-  void judge_ways();
   bool stands(const LegOdometrySample& sample);
-  void fuse_leg_displacement();
-  void renew_clone();
   void hold_lost_legs(Time until);
   void bridge_silence(Time stamp);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
@@ -74,11 +64,8 @@ class EskfEstimator : public Estimator {
   Belief belief_;
   std::optional<LegOdometrySample> last_leg_;  ///< with the stamp moved on while held
   LegEvidence leg_evidence_;
-  Disagreement disagreement_;
   StandstillDetector standstill_;
   StrideMean stride_mean_;
-  LegIntegrator leg_integrator_;    ///< since the last scan; displacement mode
-  std::optional<PoseClone> clone_;  ///< at the last scan; displacement mode
   double leg_innovation_ = 0.0;
   int leg_updates_ = 0;
 

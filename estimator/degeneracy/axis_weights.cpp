@@ -115,10 +115,6 @@ void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::M
          R * chance.topLeftCorner<3, 3>() * R.transpose(), share);
 }
 
-void AxisWeigher::discount(const Eigen::Vector3d& share) {
-  position_.now.taken = position_.now.taken.cwiseProduct(share);
-}
-
 KeptOfScan AxisWeigher::kept(const Eigen::Matrix3d& R) const {
   KeptOfScan kept{Matrix6::Zero(), Matrix6::Zero()};
   kept.T.topLeftCorner<3, 3>() = R.transpose() * rotation_.now.shrink() * R;

@@ -79,9 +79,6 @@ class AxisWeigher {
   /// way; from there on what is beyond it is taken on trust for `SpuriousConfig::trusting_way`.
   void assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R, double way);
 
-  /// Takes of the last scan's position only `share` along each of its axes.
-  void discount(const Eigen::Vector3d& share);
-
   /// Of the last scan, in the error state's axes at attitude R.
   KeptOfScan kept(const Eigen::Matrix3d& R) const;
 

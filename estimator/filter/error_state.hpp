@@ -34,9 +34,7 @@ using Matrix6 = Eigen::Matrix<double, ErrorState::kPoseSize, ErrorState::kPoseSi
 using ErrorVector = Eigen::Matrix<double, ErrorState::kSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, ErrorState::kSize, ErrorState::kSize>;
 
-using Matrix3x6 = Eigen::Matrix<double, 3, ErrorState::kPoseSize>;
 using Matrix3xError = Eigen::Matrix<double, 3, ErrorState::kSize>;
-using Matrix6xError = Eigen::Matrix<double, ErrorState::kPoseSize, ErrorState::kSize>;
 
 /// The three columns of `matrix` that belong to `block`.
 template <class Matrix>
@@ -60,12 +58,6 @@ auto segment(Vector& vector, ErrorState::Block block) {
 template <class Matrix>
 auto pose_block(Matrix& matrix) {
   return matrix.template topLeftCorner<ErrorState::kPoseSize, ErrorState::kPoseSize>();
-}
-
-/// The rotation-and-position rows of a matrix over the error state.
-template <class Matrix>
-auto pose_rows(Matrix& matrix) {
-  return matrix.template topRows<ErrorState::kPoseSize>();
 }
 
 /// The rotation-and-position entries of an error vector.

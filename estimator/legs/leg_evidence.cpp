@@ -36,10 +36,6 @@ StanceEvidence compare_feet(const LegOdometrySample& sample,
   return evidence;
 }
 
-bool is_firm(const StanceEvidence& stance, const LegEvidenceConfig& config) {
-  return stance.standing >= 2 && stance.spread.maxCoeff() <= 3.0 * config.nominal_spread;
-}
-
 Eigen::Matrix3d evident_variance(const LegEvidenceConfig& config, const StanceEvidence& stance,
                                  const LegCircumstances& circumstances) {
   Eigen::Array3d variance = config.velocity_sigma.cwiseAbs2();

@@ -26,9 +26,6 @@ StanceEvidence compare_feet(const LegOdometrySample& sample,
                             const Eigen::Vector3d& angular_velocity,
                             const LegGeometry& geometry = kLegGeometry);
 
-/// Whether two feet or more stand, and agree to within three times their nominal spread.
-bool is_firm(const StanceEvidence& stance, const LegEvidenceConfig& config);
-
 /// What else tells how good a sample is.
 struct LegCircumstances {
   double yaw_rate = 0.0;  ///< of the base [rad/s]

@@ -2,7 +2,6 @@
 #include "estimator/lidar/lidar_update.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -54,26 +53,6 @@ void LidarUpdate::associate(const NominalState& state, std::span<const Eigen::Ve
     const Plane plane = map.plane_at(R * point + t);
     if (plane.valid) matches_.push_back({point.cast<double>(), plane});
   }
-  if (directional_.selection.enabled) thin(state);
-}
-
-/// Keeps the matches that inform, and lets the others stand for those like them.
-void LidarUpdate::thin(const NominalState& state) {
-  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
-  jacobians_.clear();
-  std::erase_if(matches_, [&](const Match& match) {
-    const PlaneRow row = plane_row(match.plane, match.p_body, R, state.position);
-    const bool refused = !(std::abs(row.residual) <= lidar_.residual_gate);
-    if (!refused) jacobians_.push_back(row.jacobian);
-    return refused;
-  });
-  select_rows(jacobians_, directional_.selection.max_rows, kept_);
-  thinned_.clear();
-  for (const KeptRow& row : kept_) {
-    thinned_.push_back(matches_[static_cast<std::size_t>(row.index)]);
-    thinned_.back().weight = row.weight;
-  }
-  matches_.swap(thinned_);
 }
 
 LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
@@ -84,7 +63,7 @@ LidarUpdate::Linearization LidarUpdate::linearize(const NominalState& state) {
     const PlaneRow row = plane_row(match.plane, match.p_body, R, state.position);
     if (!(std::abs(row.residual) <= lidar_.residual_gate)) continue;
     const double ratio = row.residual / robust_scale_;
-    const double weight = match.weight / (1.0 + ratio * ratio);  // Cauchy
+    const double weight = 1.0 / (1.0 + ratio * ratio);  // Cauchy
     const Vector6 weighted = weight * row.jacobian;
     sum.matrix.noalias() += weighted * row.jacobian.transpose();
     sum.vector.noalias() += weighted * row.residual;
@@ -120,7 +99,6 @@ void LidarUpdate::assess_axes(const Linearization& rows, const NominalState& sta
   const bool went = !last_position_ || way >= kLeastWay;
   if (went) last_position_ = state.position;
   axes_.assess(rows.matrix, rows.chance, state.rotation.toRotationMatrix(), went ? way : 0.0);
-  axes_.discount(share_);
   diagnostics.weak_weight = axes_.position().proven().minCoeff();
   diagnostics.weak_ratio = axes_.position().ratio.minCoeff();
 }
@@ -212,22 +190,8 @@ void LidarUpdate::rest_on(const VoxelMap& map, const Belief& predicted, const Be
   map_anchor_ = anchor_after_scan(map_anchor_, position(predicted), position(updated), anchored_);
 }
 
-LidarFix LidarUpdate::alone(const Linearization& rows, const NominalState& state,
-                            Time stamp) const {
-  constexpr double kNothing = 1e-6;  // keeps what no plane informs invertible
-  const Matrix6 covariance = (rows.matrix + kNothing * Matrix6::Identity()).inverse();
-  LidarFix fix;
-  fix.stamp = stamp;
-  fix.position = state.position - (covariance * rows.vector).tail<3>();
-  fix.covariance = covariance.bottomRightCorner<3, 3>();
-  fix.axes = axes_.position().axes;
-  fix.trusted = axes_.position().real;
-  return fix;
-}
-
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics) {
-  fix_.reset();
   const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
   Belief belief = trial(predicted, prior_information, points, map, diagnostics);
   const bool matched = diagnostics.points_used >= lidar_.min_matches;
@@ -240,7 +204,6 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     gamma_leg_ = member_.adaptive ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
     // eq. (9): R_lidar' = R_lidar / gamma_lidar, so the information of the trial's last
     // linearisation is multiplied by gamma_lidar.
-    if (member_.directional) fix_ = alone(rows, belief.state, diagnostics.stamp);
     belief = correct(predicted, prior_information, belief.state, rows, gamma_lidar_);
     if (member_.directional) rest_on(map, predicted, belief);
   }

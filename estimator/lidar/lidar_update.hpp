@@ -10,12 +10,10 @@
 #include "estimator/aims/config.hpp"
 #include "estimator/degeneracy/axis_weights.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
-#include "estimator/degeneracy/disagreement.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/lidar/map_anchor.hpp"
 #include "estimator/lidar/plane_model.hpp"
-#include "estimator/lidar/row_selection.hpp"
 #include "estimator/lidar/voxel_map.hpp"
 
 namespace aims {
@@ -40,13 +38,6 @@ class LidarUpdate {
   /// Whether the states of the legs are to be held: while the weakest axis is not trusted.
   bool holds_legs() const;
 
-  /// Where the last scan by itself puts the body; empty when it did not correct the belief, and for
-  /// other than the directional member.
-  const std::optional<LidarFix>& fix() const { return fix_; }
-
-  /// Keeps from now on only `share` of the weight along each axis of the position.
-  void discount(const Eigen::Vector3d& share) { share_ = share; }
-
   /// Covariance of the map that the position rests on, odometry axes [m^2]; anchor_after_scan.
   const Eigen::Matrix3d& map_anchor() const { return map_anchor_; }
 
@@ -57,7 +48,6 @@ class LidarUpdate {
   struct Match {
     Eigen::Vector3d p_body;
     Plane plane;
-    double weight = 1.0;  ///< rows like it that it stands for
   };
 
   /// The rows of all accepted matches at one pose.
@@ -70,7 +60,6 @@ class LidarUpdate {
 
   void associate(const NominalState& state, std::span<const Eigen::Vector3f> points,
                  const VoxelMap& map);
-  void thin(const NominalState& state);
   Linearization linearize(const NominalState& state);
   Information weighed(const Linearization& rows, double gamma, const NominalState& state) const;
   /// What a scan may correct: nothing along axes that it does not see, whatever the covariance
@@ -86,7 +75,6 @@ class LidarUpdate {
                ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const ErrorMatrix& prior_information,
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
-  LidarFix alone(const Linearization& rows, const NominalState& state, Time stamp) const;
   void rest_on(const VoxelMap& map, const Belief& predicted, const Belief& updated);
   bool moved(const NominalState& state, const NominalState& since, double rotation,
              double position) const;
@@ -100,13 +88,8 @@ class LidarUpdate {
   double gamma_lidar_ = 1.0;
   double gamma_leg_ = 1.0;
   Eigen::Matrix3d map_anchor_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d share_ = Eigen::Vector3d::Ones();
-  std::optional<LidarFix> fix_;
   std::optional<Eigen::Vector3d> last_position_;  ///< at the last scan that was judged
   std::vector<Match> matches_;
-  std::vector<Match> thinned_;
-  std::vector<Vector6> jacobians_;
-  std::vector<KeptRow> kept_;
   /// Residual at which the weight of a point is a half [m].
   double robust_scale_ = kNotRobust;
   std::vector<double> residuals_;

@@ -43,8 +43,7 @@ VoxelMap::VoxelMap(const MapConfig& config)
       spacing_(static_cast<float>(config.point_spacing)),
       max_points_per_voxel_(std::clamp(config.max_points_per_voxel, 1, kCapacity)),
       max_merges_(std::clamp(config.max_merges, 1, 255)),
-      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))),
-      planes_(config) {}
+      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {}
 
 void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
                       const Eigen::Matrix3f& anchor) {
@@ -55,11 +54,9 @@ void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vect
   voxels_.limit(max_voxels_, [&center](const Voxel& v) {
     return (Eigen::Vector3f(v.x[0], v.y[0], v.z[0]) - center).squaredNorm();
   });
-  if (config_.planes == MapPlanes::kVoxels) planes_.insert(points, center);
 }
 
 Plane VoxelMap::plane_at(const Eigen::Vector3f& query) const {
-  if (config_.planes == MapPlanes::kVoxels) return planes_.plane_at(query);
   Neighbors neighbors;
   nearest(query, neighbors);
   if (neighbors.count < Neighbors::kWanted) return {};
@@ -142,12 +139,9 @@ void VoxelMap::nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const
   }
 }
 
-void VoxelMap::forget_unseen(int insertions) {
-  voxels_.forget_unseen(insertions);
-  planes_.forget_unseen(insertions);
-}
+void VoxelMap::forget_unseen(int insertions) { voxels_.forget_unseen(insertions); }
 
-std::size_t VoxelMap::memory() const { return voxels_.memory() + planes_.memory(); }
+std::size_t VoxelMap::memory() const { return voxels_.memory(); }
 
 std::vector<Eigen::Vector3f> VoxelMap::points() const {
   std::vector<Eigen::Vector3f> all;

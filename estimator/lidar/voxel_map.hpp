@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "estimator/aims/config.hpp"
-#include "estimator/lidar/plane_voxels.hpp"
+#include "estimator/lidar/plane_model.hpp"
 #include "estimator/lidar/voxel_store.hpp"
 
 namespace aims {
@@ -42,7 +42,7 @@ class VoxelMap {
   /// The up to five nearest map points within the gate (at most one voxel edge): exact.
   void nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const;
 
-  /// The plane of the map at a query, as `MapConfig::planes` says; invalid when there is none.
+  /// The plane through the five map points nearest to `query`; invalid when there is none.
   Plane plane_at(const Eigen::Vector3f& query) const;
 
   /// Memory that the map holds [bytes].
@@ -81,7 +81,6 @@ class VoxelMap {
   int max_merges_;
   std::size_t max_voxels_;
   VoxelStore<Voxel> voxels_;
-  PlaneVoxels planes_;
 };
 
 }  // namespace aims

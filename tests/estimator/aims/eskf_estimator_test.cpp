@@ -64,51 +64,6 @@ TEST(Eskf, WalksTheCorridorWithinCentimetres) {
   }
 }
 
-/// The defaults, with the legs measured between scans.
-EstimatorConfig displacement_config() {
-  EstimatorConfig config;
-  config.leg.measurement = LegMeasurement::kDisplacement;
-  return config;
-}
-
-TEST(Eskf, WalksTheCorridorAsWellWithDisplacementsBetweenScans) {
-  KinematicWorld world(short_walk());
-  const auto deliveries = record(world);
-  for (const char* name : {"aims", "tfs", "tfs_clean"}) {
-    const EstimatorResult velocity = run(name, deliveries, world.rig());
-    const EstimatorResult report = run(name, deliveries, world.rig(), displacement_config());
-    ASSERT_EQ(report.trajectory.size(), velocity.trajectory.size()) << name;
-    EXPECT_LT(largest_error(report, world), 1.2 * largest_error(velocity, world) + 0.01) << name;
-    EXPECT_EQ(report.diagnostics.at(100).leg_updates, 1) << name;
-    EXPECT_EQ(report.counts.count("filter.refused"), 0U) << name;
-  }
-}
-
-TEST(Eskf, DisplacementsKeepTheScaleWhereTheLidarIsSilent) {
-  KinematicConfig world_config = short_walk();
-  KinematicWorld world(world_config);
-  const auto deliveries = record(world);
-  EstimatorConfig config = displacement_config();
-  config.lidar.min_matches = 1000000;  // no scan corrects: legs and IMU alone
-  const EstimatorResult with_legs = run("tfs_clean", deliveries, world.rig(), config);
-  const EstimatorResult without = run("lio", deliveries, world.rig(), config);
-  EXPECT_LT(largest_error(with_legs, world), 0.3);
-  EXPECT_GT(largest_error(without, world), 3.0 * largest_error(with_legs, world));
-}
-
-TEST(Eskf, ADisplacementWithTooFewPacketsIsLeftOut) {
-  KinematicConfig world_config = short_walk();
-  world_config.sensors.leg_loss = 0.7;
-  KinematicWorld world(world_config);
-  const auto deliveries = record(world);
-  const EstimatorResult clean = run("tfs_clean", deliveries, world.rig(), displacement_config());
-  const EstimatorResult held = run("tfs", deliveries, world.rig(), displacement_config());
-  EXPECT_GT(clean.counts.at("leg.uncovered"), 50);
-  // The loss goes unnoticed where the last packet is repeated.
-  EXPECT_LE(held.counts.contains("leg.uncovered") ? held.counts.at("leg.uncovered") : 0, 1);
-  EXPECT_LT(largest_error(clean, world), 0.1);
-}
-
 TEST(Eskf, LegOdometryAloneInheritsItsScale) {
   KinematicConfig config = short_walk();
   config.sensors.leg_noise = 0.0;
