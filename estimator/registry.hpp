@@ -11,16 +11,16 @@
 
 namespace aims {
 
-/// An estimator that can be asked for by name.
+/// An estimator that can be created by name.
 struct EstimatorEntry {
   std::string_view name;
   std::string_view description;  ///< one line
 };
 
-/// Every estimator, in the order of the design.
+/// All estimators, in the order of presentation.
 std::span<const EstimatorEntry> estimator_registry();
 
-/// The estimator `name`. Error for an unknown name, with a near match and the list.
+/// Creates the estimator `name`. Error for an unknown name, with a near match and the list.
 Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name,
                                                   const EstimatorConfig& config,
                                                   const SensorRig& rig);

@@ -8,8 +8,8 @@
 namespace aims {
 namespace {
 
-/// First-order covariance of the normal of `count` points about their two axes in the plane: their
-/// `variance` across it [m^2] over their spread.
+/// First-order covariance of the normal of `count` points: per axis in the plane, the `variance`
+/// across it [m^2] over the sum of squares along it.
 Eigen::Matrix3d normal_covariance(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& scatter,
                                   double count, double variance) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();

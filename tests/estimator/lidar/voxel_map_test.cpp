@@ -64,7 +64,7 @@ TEST(VoxelMap, NearestEqualsTheKdTreeWithinTheGate) {
   EXPECT_GT(compared, 5000);
 }
 
-TEST(VoxelMap, MergesReturnsOfOneSpot) {
+TEST(VoxelMap, MergesNearbyReturns) {
   MapConfig config;
   VoxelMap map(config);
   RandomStream random(5, "merge");
@@ -111,9 +111,9 @@ Points corridor_around(const Eigen::Vector3f& center, std::uint64_t seed) {
   return points;
 }
 
-// Thirty kilometres: neither voxels nor the memory that holds them grow once the map is full, and
-// the robot always finds planes where it is.
-TEST(VoxelMap, AWalkOfManyKilometresStaysWithinItsMemory) {
+// Thirty kilometres: neither the voxels nor their memory grow once the map is full, and
+// planes are found around the robot.
+TEST(VoxelMap, MemoryIsBoundedOverManyKilometres) {
   MapConfig config;
   config.max_voxels = 3000;
   VoxelMap map(config);
@@ -133,7 +133,7 @@ TEST(VoxelMap, AWalkOfManyKilometresStaysWithinItsMemory) {
   EXPECT_GT(found, 100);
 }
 
-TEST(VoxelMap, ForgetsWhatItDidNotSeeForLong) {
+TEST(VoxelMap, DropsVoxelsUnseenForLong) {
   VoxelMap map(MapConfig{});
   const Eigen::Vector3f here(0.25F, 0.25F, 0.25F);
   const Eigen::Vector3f there(20.25F, 0.25F, 0.25F);
@@ -151,7 +151,7 @@ TEST(VoxelMap, ForgetsWhatItDidNotSeeForLong) {
   EXPECT_EQ(neighbors.count, 0);
 }
 
-TEST(VoxelMap, IgnoresPointsThatAreNoNumbers) {
+TEST(VoxelMap, IgnoresNonFinitePoints) {
   VoxelMap map(MapConfig{});
   const float nan = std::numeric_limits<float>::quiet_NaN();
   map.insert(Points{{nan, 0.0F, 0.0F}, {0.0F, INFINITY, 0.0F}}, Eigen::Vector3f::Zero());

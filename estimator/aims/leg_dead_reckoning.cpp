@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/legs/leg_dead_reckoning.hpp"
+#include "estimator/aims/leg_dead_reckoning.hpp"
 
 namespace aims {
 namespace {
 
-/// Removes position and heading of `T_odom_body`: roll and pitch keep their meaning against
-/// gravity.
-Pose anchor_at(const Pose& T_odom_body) {
+/// The transform that removes position and heading of `T_odom_body`; roll and pitch stay relative
+/// to gravity.
+Pose start_transform(const Pose& T_odom_body) {
   return Pose{yaw_rotation(yaw_of(T_odom_body.rotation)), T_odom_body.translation}.inverse();
 }
 
 }  // namespace
 
 LegDeadReckoning::LegDeadReckoning(const EstimatorConfig& config, const SensorRig& rig)
-    : rig_(rig), queue_(config) {}
+    : rig_(rig), queue_(config.queue, config.imu, config.leg.max_speed) {}
 
 void LegDeadReckoning::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -38,7 +38,7 @@ void LegDeadReckoning::process_ready() {
 
 void LegDeadReckoning::process(const LegOdometrySample& sample) {
   const Pose T_odom_body = sample.T_odom_base * rig_.T_body_base.inverse();
-  if (!T_start_odom_) T_start_odom_ = anchor_at(T_odom_body);
+  if (!T_start_odom_) T_start_odom_ = start_transform(T_odom_body);
   const StampedPose now{sample.stamp, *T_start_odom_ * T_odom_body};
   for (Time stamp : waiting_) {
     const Pose pose =
@@ -48,9 +48,9 @@ void LegDeadReckoning::process(const LegOdometrySample& sample) {
     result_.trajectory.push_back({stamp, pose});
   }
   waiting_.clear();
-  const bool silent =
-      !result_.trajectory.empty() && now.stamp - result_.trajectory.back().stamp >= kLongestSilence;
-  if (silent) result_.trajectory.push_back(now);
+  const bool no_scan = !result_.trajectory.empty() &&
+                       now.stamp - result_.trajectory.back().stamp >= kMaxPoseInterval;
+  if (no_scan) result_.trajectory.push_back(now);
   last_ = now;
   queue_.imu().forget_before(sample.stamp);
 }

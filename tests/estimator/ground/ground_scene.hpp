@@ -13,21 +13,21 @@
 
 namespace aims::test {
 
-/// A corridor along x, 2.2 m wide, without ceiling, over a floor of any height.
-struct FloorScene {
+/// A corridor along x, 2.2 m wide, without ceiling, over ground of any height.
+struct GroundScene {
   std::function<double(double, double)> height = [](double, double) { return 0.0; };
   double noise = 0.02;  ///< of a range [m]
 };
 
-/// Height [m] of a floor that rises by `grade` from `start` over `length`.
+/// Height [m] of ground that rises by `grade` from `start` over `length`.
 inline double ramp_height(double x, double start, double length, double grade) {
   return grade * std::clamp(x - start, 0.0, length);
 }
 
 /// Returns of 16 rings from -15 to 15 degrees, in body axes, seen at T_world_body; the LiDAR sits
 /// 0.16 m above the body. Rays are followed in steps of 1 cm up to 8 m.
-inline std::vector<Eigen::Vector3f> scan_floor(const FloorScene& scene, const Pose& T_world_body,
-                                               RandomStream& random) {
+inline std::vector<Eigen::Vector3f> scan_ground(const GroundScene& scene, const Pose& T_world_body,
+                                                RandomStream& random) {
   constexpr int kColumns = 300;
   constexpr double kStep = 0.01;
   const Eigen::Vector3d lidar(-0.1, 0.0, 0.16);
@@ -43,7 +43,7 @@ inline std::vector<Eigen::Vector3f> scan_floor(const FloorScene& scene, const Po
       for (double range = 0.4; range < 8.0; range += kStep) {
         const Eigen::Vector3d p = origin + range * direction;
         if (std::abs(p.y()) < 1.1 && p.z() > scene.height(p.x(), p.y())) continue;
-        // Half a step back, on average the surface.
+        // Half a step back: the surface on average.
         const double measured = range - 0.5 * kStep + scene.noise * random.normal();
         points.push_back((lidar + measured * ray).cast<float>());
         break;

@@ -9,26 +9,26 @@
 
 namespace aims::testing {
 
-/// What a simulated walk delivered, and what was true of it.
-struct SimulatedWalk {
+/// The measurements of a simulated sequence and its truth.
+struct SimulatedSequence {
   std::vector<Delivery> deliveries;  ///< in order of arrival
   Truth truth;
   SensorRig rig;
 };
 
-/// Walks the whole route of a valid configuration.
-inline SimulatedWalk simulate(const SimulationConfig& config, std::uint64_t seed) {
+/// Simulates the whole route of a valid configuration.
+inline SimulatedSequence simulate(const SimulationConfig& config, std::uint64_t seed) {
   Simulation simulation = Simulation::create(config, seed).value();
-  SimulatedWalk walk;
-  while (simulation.advance(kSecond, walk.deliveries)) {
+  SimulatedSequence sequence;
+  while (simulation.advance(kSecond, sequence.deliveries)) {
   }
-  walk.truth = simulation.truth();
-  walk.rig = simulation.rig();
-  return walk;
+  sequence.truth = simulation.truth();
+  sequence.rig = simulation.rig();
+  return sequence;
 }
 
-/// A straight corridor from a to b, `length` [m] apart, seen by a LiDAR of `columns` firings.
-inline SimulationConfig straight_walk(double length, int columns) {
+/// A straight corridor from a to b, `length` [m] apart, with a LiDAR of `columns` firings per scan.
+inline SimulationConfig straight_sequence(double length, int columns) {
   SimulationConfig config;
   config.scene.corridor.length = length;
   config.route.points = {{"a", 0.0, 0.0}, {"b", length, 0.0}};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/ground/floor.hpp"
+#include "estimator/ground/ground_constraint.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/estimator/ground/floor_scene.hpp"
+#include "tests/estimator/ground/ground_scene.hpp"
 
 namespace aims {
 namespace {
@@ -13,10 +13,10 @@ using E = ErrorState;
 constexpr double kHeight = 0.32;
 constexpr double kGravity = 9.81;
 
-FloorPlane plane_at(const Pose& T_world_body, double floor_z = 0.0) {
-  FloorPlane plane;
+GroundPlane plane_at(const Pose& T_world_body, double ground_z = 0.0) {
+  GroundPlane plane;
   plane.normal = T_world_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  plane.height = T_world_body.translation.z() - floor_z;
+  plane.height = T_world_body.translation.z() - ground_z;
   plane.points = 300;
   return plane;
 }
@@ -36,12 +36,12 @@ Belief belief_at(const Pose& pose, double sigma_tilt = 5e-3, double sigma_z = 1e
   return belief;
 }
 
-TEST(Floor, JacobianMatchesFiniteDifferences) {
+TEST(GroundConstraint, JacobianMatchesFiniteDifferences) {
   const Pose truth{so3_exp({0.01, -0.02, 0.7}), {1.0, 2.0, kHeight}};
-  const FloorPlane plane = plane_at(truth);
+  const GroundPlane plane = plane_at(truth);
   Belief belief = belief_at({truth.rotation * so3_exp({0.003, 0.002, 0.0}), truth.translation});
   const auto residual_of = [&plane](const Belief& at) {
-    FloorConstraint fresh{FloorConfig{}};
+    GroundConstraint fresh{GroundConstraintConfig{}};
     Belief start = at;
     start.state.position.z() = kHeight;  // the reference
     (void)fresh.measure(start, plane);
@@ -65,16 +65,16 @@ TEST(Floor, JacobianMatchesFiniteDifferences) {
   }
 }
 
-TEST(Floor, TheFirstScanFindsTiltAndAccelerometerBias) {
+TEST(GroundConstraint, TheFirstScanEstimatesTiltAndAccelerometerBias) {
   const double error = 3e-3;
   const Pose truth{so3_exp({0.0, 0.016, 0.0}), {0.0, 0.0, kHeight}};
   Belief start = belief_at({truth.rotation * so3_exp({0.0, error, 0.0}), truth.translation});
-  start = join_tilt_and_bias(start, kGravity);
-  FloorConstraint floor{FloorConfig{}};
-  const auto measurement = floor.measure(start, plane_at(truth));
+  start = correlate_tilt_and_bias(start, kGravity);
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  const auto measurement = constraint.measure(start, plane_at(truth));
   ASSERT_TRUE(measurement.has_value());
-  EXPECT_EQ(floor.verdict(), FloorVerdict::kLevel);
-  const Belief found = fuse_floor(start, *measurement);
+  EXPECT_EQ(constraint.status(), GroundStatus::kLevel);
+  const Belief found = fuse_ground(start, *measurement);
   EXPECT_LT(so3_log(truth.rotation.conjugate() * found.state.rotation).head<2>().norm(), 5e-4);
   // The mean force that was turned upward: R_hat^T g up = R^T g up + b.
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
@@ -83,36 +83,36 @@ TEST(Floor, TheFirstScanFindsTiltAndAccelerometerBias) {
   EXPECT_LT((found.state.accelerometer_bias - bias).norm(), 0.1 * bias.norm());
 }
 
-TEST(Floor, AStartOnASlopeTrustsGravity) {
+TEST(GroundConstraint, AStartOnASlopeUsesGravity) {
   const Pose on_slope{so3_exp({0.0, -0.06, 0.0}), {0.0, 0.0, kHeight}};
-  FloorPlane floor_along_body;
-  floor_along_body.height = kHeight;
-  FloorConstraint floor{FloorConfig{}};
-  EXPECT_FALSE(floor.measure(belief_at(on_slope), floor_along_body).has_value());
-  EXPECT_EQ(floor.verdict(), FloorVerdict::kNotLevel);
-  EXPECT_FALSE(floor.measure(belief_at(on_slope, 0.05), floor_along_body).has_value())
-      << "however unsure the attitude";
+  GroundPlane plane_along_body;
+  plane_along_body.height = kHeight;
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  EXPECT_FALSE(constraint.measure(belief_at(on_slope), plane_along_body).has_value());
+  EXPECT_EQ(constraint.status(), GroundStatus::kNotLevel);
+  EXPECT_FALSE(constraint.measure(belief_at(on_slope, 0.05), plane_along_body).has_value())
+      << "however uncertain the attitude";
 }
 
-TEST(Floor, CountsOnceWhileTheRobotStands) {
+TEST(GroundConstraint, IsUsedOnceWhileTheRobotStands) {
   const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, kHeight}};
-  FloorConstraint floor{FloorConfig{}};
+  GroundConstraint constraint{GroundConstraintConfig{}};
   int used = 0;
   for (int i = 0; i < 50; ++i) {
-    used += static_cast<int>(floor.measure(belief_at(pose), plane_at(pose)).has_value());
+    used += static_cast<int>(constraint.measure(belief_at(pose), plane_at(pose)).has_value());
   }
   EXPECT_EQ(used, 1);
 }
 
-TEST(Floor, TenShortStepsTellAsMuchAsOneLong) {
+TEST(GroundConstraint, TenShortStepsGiveAsMuchInformationAsOneLong) {
   const auto information = [](int steps) {
-    FloorConstraint floor{FloorConfig{}};
+    GroundConstraint constraint{GroundConstraintConfig{}};
     Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, kHeight}};
-    (void)floor.measure(belief_at(pose), plane_at(pose));
+    (void)constraint.measure(belief_at(pose), plane_at(pose));
     double sum = 0.0;
     for (int i = 0; i < steps; ++i) {
       pose.translation.x() += 0.7 / steps;
-      const auto m = floor.measure(belief_at(pose), plane_at(pose));
+      const auto m = constraint.measure(belief_at(pose), plane_at(pose));
       sum += 1.0 / m.value().noise(2, 2);
     }
     return sum;
@@ -120,40 +120,41 @@ TEST(Floor, TenShortStepsTellAsMuchAsOneLong) {
   EXPECT_NEAR(information(10) / information(1), 1.0, 1e-6);
 }
 
-TEST(Floor, HeightDoesNotMoveThePoseAlongAnOpenAxisThatIsNotQuiteLevel) {
+TEST(GroundConstraint, HeightDoesNotMoveThePoseAlongAnAlmostHorizontalUnobservableAxis) {
   const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, kHeight}};
-  FloorConstraint floor{FloorConfig{}};
-  (void)floor.measure(belief_at(pose), plane_at(pose));
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  (void)constraint.measure(belief_at(pose), plane_at(pose));
   Belief belief = belief_at({pose.rotation, {1.0, 0.0, kHeight + 0.01}}, 1e-3, 1e-3);
-  const Eigen::Vector3d open(1.0, 0.0, 5e-3);
-  block(belief.covariance, E::kPosition, E::kPosition) += 0.25 * 0.25 * open * open.transpose();
+  const Eigen::Vector3d unobservable(1.0, 0.0, 5e-3);
+  block(belief.covariance, E::kPosition, E::kPosition) +=
+      0.25 * 0.25 * unobservable * unobservable.transpose();
   const Pose truth{pose.rotation, {1.0, 0.0, kHeight}};
-  const auto measurement = floor.measure(belief, plane_at(truth));
+  const auto measurement = constraint.measure(belief, plane_at(truth));
   ASSERT_TRUE(measurement.has_value());
-  const Belief fused = fuse_floor(belief, *measurement);
+  const Belief fused = fuse_ground(belief, *measurement);
   EXPECT_EQ(fused.state.position.x(), belief.state.position.x());
   EXPECT_LT(fused.state.position.z(), belief.state.position.z());
   EXPECT_NEAR(fused.covariance(3, 3), belief.covariance(3, 3), 1e-12);
   EXPECT_LT(fused.covariance(5, 5), belief.covariance(5, 5));
 }
 
-TEST(Floor, WhatIsCorrectedFollowsTheKalmanUpdate) {
-  // Without an open axis nothing is held back, and both updates are the same.
+TEST(GroundConstraint, EqualsTheKalmanUpdateWithoutAnUnobservableAxis) {
+  // Without an unobservable axis the consider states need no correction.
   const Pose truth{so3_exp({0.0, 0.016, 0.0}), {0.0, 0.0, kHeight}};
   Belief start = belief_at({truth.rotation * so3_exp({1e-3, 2e-3, 0.0}), truth.translation});
-  start = join_tilt_and_bias(start, kGravity);
-  FloorConstraint floor{FloorConfig{}};
-  const LinearMeasurement m = floor.measure(start, plane_at(truth)).value();
-  const Belief ours = fuse_floor(start, m);
+  start = correlate_tilt_and_bias(start, kGravity);
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  const LinearMeasurement m = constraint.measure(start, plane_at(truth)).value();
+  const Belief constrained = fuse_ground(start, m);
   const Belief full =
       kalman_update(start.state, inverse_spd(start.covariance), start.state, information_of(m));
-  EXPECT_LT(boxminus(ours.state, full.state).norm(), 1e-8);
-  EXPECT_LT((ours.covariance - full.covariance).norm(), 1e-8);
+  EXPECT_LT(boxminus(constrained.state, full.state).norm(), 1e-8);
+  EXPECT_LT((constrained.covariance - full.covariance).norm(), 1e-8);
 }
 
-/// Walks along x over `scene` with a filter that predicts the true motion and doubts it.
-struct Walk {
-  explicit Walk(const test::FloorScene& over) : scene(over) {
+/// Moves along x over `scene`; the filter predicts the true motion with growing covariance.
+struct Sequence {
+  explicit Sequence(const test::GroundScene& over) : scene(over) {
     truth.translation.z() = scene.height(0.0, 0.0) + kHeight;
     belief = belief_at(truth, 1e-3);
   }
@@ -168,8 +169,9 @@ struct Walk {
     truth = next;
     block(belief.covariance, E::kRotation, E::kRotation) += Eigen::Matrix3d::Identity() * 1e-7;
     block(belief.covariance, E::kPosition, E::kPosition) += Eigen::Matrix3d::Identity() * 1e-6;
-    const auto seen = fit_floor(test::scan_floor(scene, truth, random), FloorConfig{});
-    if (const auto m = floor.measure(belief, seen)) belief = fuse_floor(belief, *m);
+    const auto plane =
+        fit_ground(test::scan_ground(scene, truth, random), GroundConstraintConfig{});
+    if (const auto m = constraint.measure(belief, plane)) belief = fuse_ground(belief, *m);
   }
 
   double z_error() const { return belief.state.position.z() - truth.translation.z(); }
@@ -177,42 +179,42 @@ struct Walk {
     return so3_log(truth.rotation.conjugate() * belief.state.rotation).head<2>().norm();
   }
 
-  test::FloorScene scene;
+  test::GroundScene scene;
   Pose truth;
   Belief belief;
-  FloorConstraint floor{FloorConfig{}};
+  GroundConstraint constraint{GroundConstraintConfig{}};
   RandomStream random{1, "floor_walk"};
 };
 
-TEST(Floor, ARampIsNeitherFlattenedNorItsClimbLost) {
-  test::FloorScene scene;
+TEST(GroundConstraint, ARampKeepsItsSlopeAndItsClimb) {
+  test::GroundScene scene;
   scene.height = [](double x, double) { return test::ramp_height(x, 6.0, 8.0, 0.06); };
-  Walk walk(scene);
+  Sequence sequence(scene);
   double worst_z = 0.0;
   double worst_tilt = 0.0;
-  while (walk.truth.translation.x() < 22.0) {
-    walk.step(0.25);
-    worst_z = std::max(worst_z, std::abs(walk.z_error()));
-    worst_tilt = std::max(worst_tilt, walk.tilt_error());
+  while (sequence.truth.translation.x() < 22.0) {
+    sequence.step(0.25);
+    worst_z = std::max(worst_z, std::abs(sequence.z_error()));
+    worst_tilt = std::max(worst_tilt, sequence.tilt_error());
   }
   EXPECT_LT(worst_z, 0.02);
   EXPECT_LT(worst_tilt, 4e-3);
-  EXPECT_EQ(walk.floor.levels(), 2);
-  EXPECT_EQ(walk.floor.verdict(), FloorVerdict::kLevel);
-  while (walk.truth.translation.x() > 0.0) walk.step(-0.25);
-  EXPECT_EQ(walk.floor.levels(), 2) << "the first height is known again";
-  EXPECT_LT(std::abs(walk.z_error()), 0.02);
+  EXPECT_EQ(sequence.constraint.levels(), 2);
+  EXPECT_EQ(sequence.constraint.status(), GroundStatus::kLevel);
+  while (sequence.truth.translation.x() > 0.0) sequence.step(-0.25);
+  EXPECT_EQ(sequence.constraint.levels(), 2) << "the first level is found again";
+  EXPECT_LT(std::abs(sequence.z_error()), 0.02);
 }
 
-TEST(Floor, ALevelFloorHoldsTiltAndHeightAgainstDrift) {
-  Walk walk({});
-  walk.belief.state.rotation = walk.belief.state.rotation * so3_exp({0.002, -0.003, 0.0});
-  while (walk.truth.translation.x() < 15.0) {
-    walk.step(0.25);
-    walk.belief.state.position.z() += 1e-3;  // what a climbing map adds
+TEST(GroundConstraint, LevelGroundKeepsTiltAndHeightAgainstDrift) {
+  Sequence sequence({});
+  sequence.belief.state.rotation = sequence.belief.state.rotation * so3_exp({0.002, -0.003, 0.0});
+  while (sequence.truth.translation.x() < 15.0) {
+    sequence.step(0.25);
+    sequence.belief.state.position.z() += 1e-3;  // drift of a climbing map
   }
-  EXPECT_LT(std::abs(walk.z_error()), 0.02);
-  EXPECT_LT(walk.tilt_error(), 1e-3);
+  EXPECT_LT(std::abs(sequence.z_error()), 0.02);
+  EXPECT_LT(sequence.tilt_error(), 1e-3);
 }
 
 }  // namespace

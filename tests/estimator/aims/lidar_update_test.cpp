@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/lidar/lidar_update.hpp"
+#include "estimator/aims/lidar_update.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,20 +42,20 @@ class Corridor {
   RandomStream& random_;
 };
 
-EstimatorConfig config_with(bool hold) {
+EstimatorConfig config_with(bool gate_learning) {
   EstimatorConfig config;
-  config.directional.leg_states.hold = hold;
-  // These walls have no edges: the errors of normals are what the fits tell, all of it.
-  config.directional.spurious.chance_share = 1.0;
+  config.directional.leg_states.gate_learning = gate_learning;
+  // These walls have no edges: the residuals of the plane fits do not overstate the noise.
+  config.directional.noise_information.scale = 1.0;
   return config;
 }
 
-/// The directional LiDAR update after a walk of 6 m along a corridor whose map is known.
-struct Walk {
-  explicit Walk(bool pillars, bool hold = true)
+/// The directional LiDAR update after 6 m along a corridor with a known map.
+struct Sequence {
+  explicit Sequence(bool pillars, bool gate_learning = true)
       : corridor(pillars, random),
         map(MapConfig{}),
-        update(config_with(hold), {.adaptive = false, .directional = true}) {
+        update(config_with(gate_learning), {.adaptive = false, .directional = true}) {
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 30000; ++i) {
       points.push_back(corridor.point(-kHalfLength, kHalfLength).cast<float>());
@@ -88,40 +88,41 @@ struct Walk {
   Eigen::Vector3d truth = Eigen::Vector3d::Zero();
 };
 
-/// A prediction that is wrong by 5 cm along every axis, of a filter that knows that the errors of
-/// its position and of the scale of its legs are one.
-Belief tied_prediction(const Eigen::Vector3d& truth) {
+/// A prediction with an error of 5 cm along every axis, and fully correlated errors of position and
+/// leg scale.
+Belief correlated_prediction(const Eigen::Vector3d& truth) {
   Belief belief;
   belief.state.position = truth + Eigen::Vector3d::Constant(0.05);
-  ErrorVector tie = ErrorVector::Zero();
-  segment(tie, E::kPosition).setConstant(0.1);
-  segment(tie, E::kLegScale).setConstant(0.1);
-  belief.covariance = tie * tie.transpose() + 1e-4 * ErrorMatrix::Identity();
+  ErrorVector common = ErrorVector::Zero();
+  segment(common, E::kPosition).setConstant(0.1);
+  segment(common, E::kLegScale).setConstant(0.1);
+  belief.covariance = common * common.transpose() + 1e-4 * ErrorMatrix::Identity();
   return belief;
 }
 
-TEST(LidarUpdate, HoldsTheLegsAlongPlainWallsAlone) {
-  EXPECT_TRUE(Walk(false).update.holds_legs());
-  EXPECT_FALSE(Walk(false, false).update.holds_legs()) << "not asked to";
-  EXPECT_FALSE(Walk(true).update.holds_legs()) << "pillars tell the way";
+TEST(LidarUpdate, ConsidersTheLegStatesBetweenPlainWallsOnly) {
+  EXPECT_TRUE(Sequence(false).update.considers_legs());
+  EXPECT_FALSE(Sequence(false, false).update.considers_legs()) << "gating is off";
+  EXPECT_FALSE(Sequence(true).update.considers_legs())
+      << "pillars constrain the longitudinal direction";
 }
 
-TEST(LidarUpdate, PlainWallsCorrectAcrossThemAlone) {
-  Walk walk(false);
-  const Belief predicted = tied_prediction(walk.truth);
-  const Belief updated = walk.fuse(predicted);
-  EXPECT_LT((updated.state.position - walk.truth).tail<2>().norm(), 0.015);
+TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
+  Sequence sequence(false);
+  const Belief predicted = correlated_prediction(sequence.truth);
+  const Belief updated = sequence.fuse(predicted);
+  EXPECT_LT((updated.state.position - sequence.truth).tail<2>().norm(), 0.015);
   EXPECT_NEAR(updated.state.position.x(), predicted.state.position.x(), 0.005);
   EXPECT_LT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 1e-9);
   const int x = E::kPosition.offset;
   EXPECT_GT(updated.covariance(x, x), 0.8 * predicted.covariance(x, x));
 }
 
-TEST(LidarUpdate, PillarsCorrectAlongTheWayAndTheLegs) {
-  Walk walk(true);
-  const Belief predicted = tied_prediction(walk.truth);
-  const Belief updated = walk.fuse(predicted);
-  EXPECT_LT((updated.state.position - walk.truth).norm(), 0.02);
+TEST(LidarUpdate, PillarsCorrectTheLongitudinalDirectionAndTheLegs) {
+  Sequence sequence(true);
+  const Belief predicted = correlated_prediction(sequence.truth);
+  const Belief updated = sequence.fuse(predicted);
+  EXPECT_LT((updated.state.position - sequence.truth).norm(), 0.02);
   EXPECT_GT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 0.03);
 }
 

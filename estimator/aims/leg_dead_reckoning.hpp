@@ -10,8 +10,8 @@
 
 namespace aims {
 
-/// Leg odometry alone, as the robot reports it: its poses carried to the body frame, moved so that
-/// the first has zero position and yaw, and read at the end of each scan.
+/// Leg odometry alone, as the robot reports it: its poses in the body frame, transformed so that
+/// the first has zero position and yaw, and interpolated at the end of each scan.
 class LegDeadReckoning : public Estimator {
  public:
   LegDeadReckoning(const EstimatorConfig& config, const SensorRig& rig);
@@ -31,7 +31,7 @@ class LegDeadReckoning : public Estimator {
   EstimatorResult result_;
   std::optional<Pose> T_start_odom_;
   std::optional<StampedPose> last_;  ///< T_start_body
-  std::vector<Time> waiting_;        ///< scan ends that the next sample will bracket
+  std::vector<Time> waiting_;        ///< scan ends after the last sample
 };
 
 }  // namespace aims

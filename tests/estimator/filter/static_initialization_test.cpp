@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/filter/initialization.hpp"
+#include "estimator/filter/static_initialization.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,13 +34,13 @@ TEST(Initialization, FindsTiltAndGyroBias) {
   EXPECT_EQ(initial->belief.state.position.norm(), 0.0);
 }
 
-TEST(Initialization, WaitsForTheWholeStand) {
+TEST(Initialization, WaitsForTheFullDuration) {
   const auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 30);
   EXPECT_FALSE(initialize(samples, InitializationConfig{}, kGravity).has_value());
   EXPECT_FALSE(initialize({}, InitializationConfig{}, kGravity).has_value());
 }
 
-TEST(Initialization, MotionEndsTheStand) {
+TEST(Initialization, MotionEndsTheStandingStart) {
   auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 80);
   samples.push_back({81 * 20 * kMillisecond, {0.0, 0.0, 1.0}, {0.0, 0.0, kGravity}});
   const auto initial = initialize(samples, InitializationConfig{}, kGravity);
@@ -49,7 +49,7 @@ TEST(Initialization, MotionEndsTheStand) {
   EXPECT_EQ(initial->belief.state.gyro_bias.norm(), 0.0);
 }
 
-TEST(Initialization, AMovingStartLevelsByTheMeanForceAndLeavesTheVelocityOpen) {
+TEST(Initialization, AMovingStartTakesTiltFromTheMeanForceAndLeavesTheVelocityUnknown) {
   const Eigen::Quaterniond tilt = so3_exp({0.0, 0.06, 0.0});
   std::deque<ImuSample> samples;
   for (int i = 0; i < 60; ++i) {  // footfalls at 5 Hz and a swaying trunk
@@ -80,12 +80,12 @@ TEST(Initialization, MovingStartIsUncertain) {
   EXPECT_FALSE(initial->stood_still);
 }
 
-std::optional<InitialBelief> quietly(const std::deque<ImuSample>& samples) {
-  return initialize_quietly(samples, InitializationConfig{}, StartConfig{}, kGravity);
+std::optional<InitialBelief> run_static(const std::deque<ImuSample>& samples) {
+  return initialize_static(samples, InitializationConfig{}, StaticInitializationConfig{}, kGravity);
 }
 
 /// The samples with a force [m/s^2] from the side added in [begin, end) [s].
-std::deque<ImuSample> shoved(std::deque<ImuSample> samples, double begin, double end,
+std::deque<ImuSample> pushed(std::deque<ImuSample> samples, double begin, double end,
                              double force) {
   for (ImuSample& sample : samples) {
     const double t = to_seconds(sample.stamp);
@@ -94,71 +94,71 @@ std::deque<ImuSample> shoved(std::deque<ImuSample> samples, double begin, double
   return samples;
 }
 
-TEST(QuietInitialization, EqualsThePlainOneOfAnUndisturbedStandOnSlopes) {
+TEST(StaticInitialization, EqualsTheFixedIntervalForAnUndisturbedStartOnSlopes) {
   for (const double slope_deg : {0.0, 5.0, 10.0, 15.0}) {
     const double slope = slope_deg * M_PI / 180.0;
     for (const Eigen::Vector3d& axis :
          {Eigen::Vector3d(Eigen::Vector3d::UnitX()), Eigen::Vector3d(Eigen::Vector3d::UnitY())}) {
       const auto samples = standing(so3_exp(slope * axis), {0.01, 0.0, -0.01}, 110);
       const auto plain = initialize(samples, InitializationConfig{}, kGravity);
-      const auto quiet = quietly(samples);
-      ASSERT_TRUE(plain && quiet);
-      EXPECT_TRUE(quiet->stood_still);
-      EXPECT_EQ(quiet->stamp, samples.back().stamp);
-      EXPECT_LT(quiet->belief.state.rotation.angularDistance(so3_exp(slope * axis)), 1e-6);
+      const auto found = run_static(samples);
+      ASSERT_TRUE(plain && found);
+      EXPECT_TRUE(found->stood_still);
+      EXPECT_EQ(found->stamp, samples.back().stamp);
+      EXPECT_LT(found->belief.state.rotation.angularDistance(so3_exp(slope * axis)), 1e-6);
       EXPECT_LT(plain->belief.state.rotation.angularDistance(so3_exp(slope * axis)), 1e-6);
     }
   }
 }
 
-TEST(QuietInitialization, AShoveFromTheSideIsNoTilt) {
+TEST(StaticInitialization, ALateralPushIsNotTakenAsTilt) {
   const auto level = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
-  const auto samples = shoved(level, 1.2, 1.6, 2.0);  // changes the force's size by 2 % only
+  const auto samples = pushed(level, 1.2, 1.6, 2.0);  // changes the magnitude by 2 % only
   const auto plain = initialize(samples, InitializationConfig{}, kGravity);
-  const auto quiet = quietly(samples);
-  ASSERT_TRUE(plain && quiet);
+  const auto found = run_static(samples);
+  ASSERT_TRUE(plain && found);
   EXPECT_GT(plain->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 0.04);
-  EXPECT_LT(quiet->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
-  EXPECT_LT(quiet->stamp, from_seconds(1.21)) << "the shove is propagated, not averaged";
+  EXPECT_LT(found->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
+  EXPECT_LT(found->stamp, from_seconds(1.21)) << "the push is propagated, not averaged";
 }
 
-TEST(QuietInitialization, AShortRestTellsTheTiltButNoBias) {
-  // Between two shoves the body sways back for 0.4 s, slowly and evenly.
+TEST(StaticInitialization, AShortIntervalGivesTheTiltButNoGyroBias) {
+  // Between two pushes the body sways back for 0.4 s, slowly and evenly.
   const Eigen::Quaterniond tilt = so3_exp(Eigen::Vector3d(0.02, 0.0, 0.0));
   auto samples = standing(tilt, {0.04, 0.0, 0.0}, 56);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double t = to_seconds(samples[i].stamp);
     if (t < 0.7 || t > 1.1) samples[i].specific_force.y() += i % 2 == 0 ? 2.0 : -2.0;
   }
-  const auto quiet = quietly(samples);
-  ASSERT_TRUE(quiet);
-  EXPECT_TRUE(quiet->stood_still);
-  EXPECT_LT(quiet->belief.state.rotation.angularDistance(tilt), 1e-6);
-  EXPECT_EQ(quiet->belief.state.gyro_bias.norm(), 0.0);
-  const ErrorVector variance = quiet->belief.covariance.diagonal();
+  const auto found = run_static(samples);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->stood_still);
+  EXPECT_LT(found->belief.state.rotation.angularDistance(tilt), 1e-6);
+  EXPECT_EQ(found->belief.state.gyro_bias.norm(), 0.0);
+  const ErrorVector variance = found->belief.covariance.diagonal();
   EXPECT_NEAR(std::sqrt(segment(variance, ErrorState::kGyroBias).minCoeff()),
               10.0 * InitializationConfig{}.sigma_gyro_bias, 1e-12);
 }
 
-TEST(QuietInitialization, AShoveBeforeTheStandIsLeftOut) {
+TEST(StaticInitialization, APushBeforeTheIntervalIsLeftOut) {
   const auto level = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
-  const auto samples = shoved(level, 0.0, 0.55, 2.0);
-  const auto quiet = quietly(samples);
-  ASSERT_TRUE(quiet);
-  EXPECT_TRUE(quiet->stood_still);
-  EXPECT_EQ(quiet->stamp, samples.back().stamp);
-  EXPECT_LT(quiet->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
+  const auto samples = pushed(level, 0.0, 0.55, 2.0);
+  const auto found = run_static(samples);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->stood_still);
+  EXPECT_EQ(found->stamp, samples.back().stamp);
+  EXPECT_LT(found->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
 }
 
-TEST(QuietInitialization, WithoutAQuietStretchTheStartIsAMovingOne) {
+TEST(StaticInitialization, WithoutAStaticIntervalTheStartIsMoving) {
   auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].specific_force.y() += i % 2 == 0 ? 2.0 : -2.0;
   }
-  const auto quiet = quietly(samples);
-  ASSERT_TRUE(quiet);
-  EXPECT_FALSE(quiet->stood_still);
-  const ErrorVector variance = quiet->belief.covariance.diagonal();
+  const auto found = run_static(samples);
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->stood_still);
+  const ErrorVector variance = found->belief.covariance.diagonal();
   EXPECT_GE(std::sqrt(segment(variance, ErrorState::kVelocity).minCoeff()), 0.7);
 }
 

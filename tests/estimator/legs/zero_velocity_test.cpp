@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/legs/standstill.hpp"
+#include "estimator/legs/zero_velocity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,21 +15,21 @@ constexpr Duration kImuPeriod = 20 * kMillisecond;
 constexpr Duration kLegPeriod = 5 * kMillisecond;
 const Eigen::Vector3d kBias(0.01, -0.02, 0.005);
 
-/// A robot at rest, up to what `disturb` does to its sensors.
+/// A robot at rest; the functions modify the samples at a time [s].
 struct Rig {
   std::function<void(double, ImuSample&)> imu = [](double, ImuSample&) {};
   std::function<void(double, LegOdometrySample&)> legs = [](double, LegOdometrySample&) {};
 };
 
 struct Outcome {
-  int standing = 0;      ///< samples judged so
-  int measurements = 0;  ///< due
+  int standing = 0;      ///< samples detected as standing
+  int measurements = 0;  ///< due measurements
   double first = -1.0;   ///< time of the first such sample [s]
 };
 
 Outcome observe(const Rig& rig, double seconds = 3.0) {
   RandomStream random(7, "standstill.test");
-  StandstillDetector detector{StandstillConfig{}};
+  ZeroVelocityDetector detector{ZeroVelocityConfig{}};
   std::deque<ImuSample> imu;
   Outcome outcome;
   for (Time t = 0; t < from_seconds(seconds); t += kLegPeriod) {
@@ -46,24 +46,24 @@ Outcome observe(const Rig& rig, double seconds = 3.0) {
     for (double& rate : legs.joint_velocity) rate = 0.05 * random.normal();
     legs.linear_velocity = 0.01 * random.normal3();
     rig.legs(to_seconds(t), legs);
-    const bool standing = detector.observe(legs, imu, kBias);
+    const bool standing = detector.update(legs, imu, kBias);
     outcome.standing += standing;
-    outcome.measurements += detector.due().has_value();
+    outcome.measurements += detector.due_measurement().has_value();
     if (standing && outcome.first < 0.0) outcome.first = to_seconds(t);
   }
   return outcome;
 }
 
-TEST(Standstill, StandsAfterAWindowAndMeasuresOncePerWindow) {
+TEST(ZeroVelocity, DetectsAfterOneWindowAndMeasuresOncePerWindow) {
   const Outcome outcome = observe({});
-  EXPECT_GE(outcome.first, StandstillConfig{}.window);
+  EXPECT_GE(outcome.first, ZeroVelocityConfig{}.window);
   EXPECT_LT(outcome.first, 1.0);
   EXPECT_GT(outcome.standing, 400);
   EXPECT_GE(outcome.measurements, 6);
   EXPECT_LE(outcome.measurements, 10);
 }
 
-TEST(Standstill, ARecordingWithoutJointsStandsByItsSpeed) {
+TEST(ZeroVelocity, WithoutJointsUsesTheLegSpeed) {
   Rig rig;
   rig.legs = [](double, LegOdometrySample& legs) {
     legs.contact.fill(false);
@@ -75,10 +75,10 @@ TEST(Standstill, ARecordingWithoutJointsStandsByItsSpeed) {
     legs(0.0, sample);
     sample.linear_velocity.x() += 0.05;
   };
-  EXPECT_EQ(observe(rig).standing, 0) << "a slow walk";
+  EXPECT_EQ(observe(rig).standing, 0) << "slow walking";
 }
 
-TEST(Standstill, ASlowWalkLiftsFeet) {
+TEST(ZeroVelocity, LiftedFeetAreNotStanding) {
   Rig rig;
   rig.legs = [](double t, LegOdometrySample& legs) {
     legs.contact[0] = std::fmod(t, 0.5) > 0.2;
@@ -87,17 +87,17 @@ TEST(Standstill, ASlowWalkLiftsFeet) {
   EXPECT_EQ(observe(rig).standing, 0);
 }
 
-TEST(Standstill, AShoveIsNoStand) {
+TEST(ZeroVelocity, APushIsNotStanding) {
   Rig rig;
   rig.imu = [](double t, ImuSample& sample) {
     if (t > 1.5) sample.specific_force.y() += 1.0 * std::sin(8.0 * t);
   };
-  const Outcome shoved = observe(rig);
-  EXPECT_GT(shoved.standing, 100);
-  EXPECT_LT(shoved.standing, 260);
+  const Outcome pushed = observe(rig);
+  EXPECT_GT(pushed.standing, 100);
+  EXPECT_LT(pushed.standing, 260);
 }
 
-TEST(Standstill, TurningAndSlidingAreNoStand) {
+TEST(ZeroVelocity, TurningAndSlidingAreNotStanding) {
   Rig turning;
   turning.imu = [](double, ImuSample& sample) { sample.angular_velocity.z() += 0.1; };
   EXPECT_EQ(observe(turning).standing, 0);
@@ -106,16 +106,16 @@ TEST(Standstill, TurningAndSlidingAreNoStand) {
   EXPECT_EQ(observe(sliding).standing, 0);
 }
 
-TEST(Standstill, NoStandWithoutInertialSamples) {
-  StandstillDetector detector{StandstillConfig{}};
+TEST(ZeroVelocity, NotDetectedWithoutImuSamples) {
+  ZeroVelocityDetector detector{ZeroVelocityConfig{}};
   LegOdometrySample legs;
   for (Time t = 0; t < kSecond; t += kLegPeriod) {
     legs.stamp = t;
-    EXPECT_FALSE(detector.observe(legs, {}, Eigen::Vector3d::Zero()));
+    EXPECT_FALSE(detector.update(legs, {}, Eigen::Vector3d::Zero()));
   }
 }
 
-TEST(Standstill, JacobiansMatchFiniteDifferences) {
+TEST(ZeroVelocity, JacobiansMatchFiniteDifferences) {
   NominalState state;
   state.rotation = so3_exp({0.2, -0.3, 1.0});
   state.velocity = {0.4, -0.2, 0.1};
@@ -127,12 +127,13 @@ TEST(Standstill, JacobiansMatchFiniteDifferences) {
     const NominalState up = boxplus(state, delta);
     const NominalState down = boxplus(state, -delta);
     const Eigen::Vector3d velocity =
-        (zero_velocity(up, 1.0).residual - zero_velocity(down, 1.0).residual) / (2.0 * kStep);
-    const Eigen::Vector3d bias =
-        (resting_gyro(up, rate, 1.0).residual - resting_gyro(down, rate, 1.0).residual) /
+        (zero_velocity_model(up, 1.0).residual - zero_velocity_model(down, 1.0).residual) /
         (2.0 * kStep);
-    EXPECT_LT((velocity - zero_velocity(state, 1.0).jacobian.col(i)).norm(), 1e-8) << i;
-    EXPECT_LT((bias - resting_gyro(state, rate, 1.0).jacobian.col(i)).norm(), 1e-8) << i;
+    const Eigen::Vector3d bias =
+        (zero_rate_model(up, rate, 1.0).residual - zero_rate_model(down, rate, 1.0).residual) /
+        (2.0 * kStep);
+    EXPECT_LT((velocity - zero_velocity_model(state, 1.0).jacobian.col(i)).norm(), 1e-8) << i;
+    EXPECT_LT((bias - zero_rate_model(state, rate, 1.0).jacobian.col(i)).norm(), 1e-8) << i;
   }
 }
 
