@@ -34,7 +34,7 @@ constexpr std::array kEntries = {
 constexpr std::array<Factory, kEntries.size()> kFactories = {
     eskf<EstimatorVariant{.adaptive = true}>,
     eskf<EstimatorVariant{.adaptive = false, .directional = true}>,
-    eskf<EstimatorVariant{.hold_lost = true, .adaptive = false}>,
+    eskf<EstimatorVariant{.repeat_lost = true, .adaptive = false}>,
     eskf<EstimatorVariant{.adaptive = false}>,
     eskf<EstimatorVariant{.leg = false, .adaptive = false}>,
     dead_reckoning};

@@ -46,7 +46,7 @@ void describe(Fields& fields, EstimatorConfig& config);
 /// What distinguishes the variants of the filter.
 struct EstimatorVariant {
   bool leg = true;           ///< fuse leg odometry
-  bool hold_lost = false;    ///< repeat the last leg sample while packets are missing
+  bool repeat_lost = false;  ///< repeat the last leg sample while packets are missing
   bool adaptive = true;      ///< false: gamma = 1; the index is computed but not used
   bool directional = false;  ///< use `EstimatorConfig::directional`
 };

@@ -100,7 +100,7 @@ void EskfEstimator::report_pose_without_scan(Time stamp) {
 
 /// Zero-order hold of lost leg packets, for the variant that does not notice the loss.
 void EskfEstimator::repeat_lost_legs(Time until) {
-  if (!variant_.hold_lost || !last_leg_) return;
+  if (!variant_.repeat_lost || !last_leg_) return;
   const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
   while (last_leg_->stamp + period + period / 2 < until) {
     last_leg_->stamp += period;

@@ -11,7 +11,7 @@ void describe(Fields& f, LegConfig& c) {
            {"m/s", positive(), "error of one sample along the base axes, R_leg"});
   f.number("correlation_time", c.correlation_time,
            {"s", in_range(0.0, 60.0),
-            "correlation time of that error; multiplies R_leg by the samples that share it"});
+            "correlation time of that error; multiplies R_leg by the number of correlated samples"});
   f.number("scale_sigma", c.scale_sigma,
            {"-", at_least(0), "error proportional to the speed, R_leg"});
   f.number("max_speed", c.max_speed, {"m/s", positive(), "faster samples are rejected"});
