@@ -11,7 +11,7 @@
 
 namespace aims {
 
-/// What one LiDAR update saw and did; quantities of the paper carry its symbols.
+/// Diagnostics of one LiDAR update; quantities of the paper have its symbols.
 struct ScanDiagnostics {
   Time stamp = 0;       ///< end of the scan
   int points_in = 0;    ///< finite points in range
@@ -32,20 +32,22 @@ struct ScanDiagnostics {
   Eigen::Vector3d innovation_position = Eigen::Vector3d::Zero();  ///< y_k, eq. (5) [m]
   double smallest_eigenvalue = 0.0;  ///< of the translation information [1/m^2]
   double condition_number = 0.0;     ///< of the translation information
-  double weak_weight = 1.0;     ///< of the weakest axis, once the information of chance is removed
-  double weak_ratio = 0.0;      ///< least ratio of information to what chance gives
-  double leg_innovation = 0.0;  ///< norm of the last leg innovation, over its interval [m/s]
-  int leg_updates = 0;          ///< since the last scan
-  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< after it, body axes [m^2]
-  Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();  ///< after it, body axes [rad^2]
+  double weak_weight = 1.0;          ///< significant fraction of the information, weakest axis
+  double weak_ratio = 0.0;           ///< smallest ratio of information to noise-induced information
+  double leg_innovation = 0.0;       ///< norm of the last leg innovation [m/s]
+  int leg_updates = 0;               ///< since the last scan
+  Eigen::Matrix3d position_covariance =
+      Eigen::Matrix3d::Zero();  ///< after the update, body axes [m^2]
+  Eigen::Matrix3d rotation_covariance =
+      Eigen::Matrix3d::Zero();  ///< after the update, body axes [rad^2]
 };
 
-/// While no scan comes, a pose is reported at least this often.
-inline constexpr Duration kLongestSilence = 250 * kMillisecond;
+/// Longest time between reported poses while scans are missing.
+inline constexpr Duration kMaxPoseInterval = 250 * kMillisecond;
 
-/// What an estimator has found so far.
+/// Estimate so far.
 struct EstimatorResult {
-  /// T_odom_body at each scan end, or after `kLongestSilence`; starts at identity
+  /// T_odom_body at each scan end, or after `kMaxPoseInterval`; starts at identity
   Trajectory trajectory;
   std::vector<ScanDiagnostics> diagnostics;  ///< one per scan (empty for `leg`)
   std::map<std::string, int> counts;         ///< e.g. late, duplicate, non-finite measurements
@@ -56,10 +58,10 @@ class Estimator {
  public:
   virtual ~Estimator() = default;
 
-  /// Takes one measurement, in order of arrival.
+  /// Processes one measurement; call in order of arrival.
   virtual void consume(const Delivery& delivery) = 0;
 
-  /// Processes what is still held back for reordering; call once, after the last delivery.
+  /// Processes the measurements still held for reordering; call once, after the last delivery.
   virtual void finish() = 0;
 
   virtual const EstimatorResult& result() const = 0;

@@ -12,7 +12,7 @@
 namespace aims {
 namespace {
 
-bool fits_label(char c) {
+bool allowed_in_label(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
 }
 
@@ -27,7 +27,7 @@ bool is_registered(std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The text split at each '+' that begins a setting; one inside a number ("1e+3") begins none.
+/// The text split at each '+' before a setting; a '+' inside a number ("1e+3") does not split.
 std::vector<std::string> pieces_of(std::string_view text) {
   std::vector<std::string> pieces;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -49,11 +49,11 @@ std::string made_label(const EstimatorSpec& spec) {
   std::string label = spec.name;
   for (const auto& [key, value] : spec.settings) label += "-" + key + "-" + value;
   std::replace_if(
-      label.begin(), label.end(), [](char c) { return !fits_label(c); }, '_');
+      label.begin(), label.end(), [](char c) { return !allowed_in_label(c); }, '_');
   return label;
 }
 
-/// The parts as they stand in the text; nothing is checked.
+/// The parts of the text, unchecked.
 EstimatorSpec split(std::string_view text) {
   const std::vector<std::string> pieces = pieces_of(text);
   EstimatorSpec spec;
@@ -61,8 +61,8 @@ EstimatorSpec split(std::string_view text) {
   spec.name = equals == std::string::npos ? pieces.front() : pieces.front().substr(equals + 1);
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     const std::size_t at = pieces[i].find('=');
-    const bool whole = at != std::string::npos;
-    spec.settings.emplace_back(pieces[i].substr(0, at), whole ? pieces[i].substr(at + 1) : "");
+    const bool has_value = at != std::string::npos;
+    spec.settings.emplace_back(pieces[i].substr(0, at), has_value ? pieces[i].substr(at + 1) : "");
   }
   spec.label = equals == std::string::npos ? made_label(spec) : pieces.front().substr(0, equals);
   return spec;
@@ -78,14 +78,16 @@ Result<void> check_name(const EstimatorSpec& spec) {
 }
 
 Result<void> check_label(const EstimatorSpec& spec, std::string_view text) {
-  if (spec.label.empty() || !std::all_of(spec.label.begin(), spec.label.end(), fits_label)) {
-    return failure(fmt::format("'{}': the label '{}' is not made of letters, digits, - and _ alone",
-                               text, spec.label));
+  if (spec.label.empty() || !std::all_of(spec.label.begin(), spec.label.end(), allowed_in_label)) {
+    return failure(
+        fmt::format("'{}': the label '{}' has characters other than letters, digits, - and _", text,
+                    spec.label));
   }
   const bool itself = spec.label == spec.name && spec.settings.empty();
   if (itself || !is_registered(spec.label)) return {};
   return failure(
-      fmt::format("'{}': the label '{}' is an estimator's name; give another", text, spec.label));
+      fmt::format("'{}': the label '{}' is the name of another estimator; choose another label",
+                  text, spec.label));
 }
 
 }  // namespace
@@ -137,7 +139,7 @@ Result<void> check_estimator_specs(std::span<const std::string> specs) {
     const auto spec = parse_estimator_spec(text);
     if (!spec) return tl::unexpected(spec.error());
     if (labels.insert(spec->label).second) continue;
-    return failure(fmt::format("'{}': a second estimator '{}'", text, spec->label));
+    return failure(fmt::format("'{}': the label '{}' is used twice", text, spec->label));
   }
   return {};
 }

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "estimator/aims/eskf_estimator.hpp"
-#include "estimator/legs/leg_dead_reckoning.hpp"
+#include "estimator/aims/leg_dead_reckoning.hpp"
 
 namespace aims {
 namespace {
 
 using Factory = std::unique_ptr<Estimator> (*)(const EstimatorConfig&, const SensorRig&);
 
-template <FamilyMember member>
+template <EstimatorVariant variant>
 std::unique_ptr<Estimator> eskf(const EstimatorConfig& config, const SensorRig& rig) {
-  return std::make_unique<EskfEstimator>(config, member, rig);
+  return std::make_unique<EskfEstimator>(config, variant, rig);
 }
 
 std::unique_ptr<Estimator> dead_reckoning(const EstimatorConfig& config, const SensorRig& rig) {
@@ -25,18 +25,19 @@ std::unique_ptr<Estimator> dead_reckoning(const EstimatorConfig& config, const S
 
 constexpr std::array kEntries = {
     EstimatorEntry{"aims", "LiDAR, IMU and legs, weighted by the degeneracy index of the paper"},
-    EstimatorEntry{"aims_d", "beyond the paper: weights along axes, leg scale, level floor"},
-    EstimatorEntry{"tfs", "fixed weights, lost leg packets unnoticed: the paper's ablation"},
+    EstimatorEntry{"aims_d", "beyond the paper: weights per axis, leg scale, ground constraint"},
+    EstimatorEntry{"tfs",
+                   "fixed weights, zero-order hold of lost leg packets: the paper's ablation"},
     EstimatorEntry{"tfs_clean", "fixed weights, lost leg packets skipped"},
     EstimatorEntry{"lio", "LiDAR and IMU only, fixed weights", false},
     EstimatorEntry{"leg", "leg odometry alone, as the robot reports it"},
 };
 constexpr std::array<Factory, kEntries.size()> kFactories = {
-    eskf<FamilyMember{.adaptive = true}>,
-    eskf<FamilyMember{.adaptive = false, .directional = true}>,
-    eskf<FamilyMember{.hold_lost = true, .adaptive = false}>,
-    eskf<FamilyMember{.adaptive = false}>,
-    eskf<FamilyMember{.leg = false, .adaptive = false}>,
+    eskf<EstimatorVariant{.adaptive = true}>,
+    eskf<EstimatorVariant{.adaptive = false, .directional = true}>,
+    eskf<EstimatorVariant{.repeat_lost = true, .adaptive = false}>,
+    eskf<EstimatorVariant{.adaptive = false}>,
+    eskf<EstimatorVariant{.leg = false, .adaptive = false}>,
     dead_reckoning};
 
 std::string unknown_estimator_message(std::string_view name) {

@@ -63,7 +63,7 @@ void add_consistency_command(CLI::App& app, const fs::path& scenario_folder, int
       "Examples:\n"
       "  aims consistency severity_3 severity_8 --seeds 1-50 --estimators aims_d,lio\n"
       "  aims consistency severity_9 --estimators aims_d,learning=aims_d+"
-      "directional.leg_states.hold=false\n"
+      "directional.leg_states.gate_learning=false\n"
       "Seeds 1-10 when absent. The same command again continues.\n"
       "Exit codes: as of aims; 2 also when a scenario could not run.");
   command->callback([selection, &exit_code] { exit_code = consistency_command(*selection); });

@@ -13,7 +13,8 @@ namespace {
 
 bool is_flag(const Parameter& parameter) { return parameter.expected == "true or false"; }
 
-/// "floor" of "directional.floor.enabled", "leg_states_scale" of "directional.leg_states.scale".
+/// "ground_constraint" of "directional.ground_constraint.enabled", "leg_states_scale" of
+/// "directional.leg_states.scale".
 std::string part_of(const std::string& key, const std::string& group) {
   constexpr std::string_view kEnabled = ".enabled";
   std::string part = key.substr(group.size() + 1);

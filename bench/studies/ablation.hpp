@@ -64,7 +64,7 @@ struct AblationCase {
 /// One variant over all scenarios.
 struct AblationWorth {
   std::string label;
-  std::string changes;  ///< its settings, e.g. "directional.floor.enabled=false"
+  std::string changes;  ///< its settings, e.g. "directional.ground_constraint.enabled=false"
   /// Geometric means over scenarios of the ratios; none without any.
   std::array<std::optional<double>, kAblationScores.size()> ratios;
   std::optional<double> worst_ratio;  ///< of the ATE, over scenarios

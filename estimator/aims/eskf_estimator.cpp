@@ -2,41 +2,38 @@
 #include "estimator/aims/eskf_estimator.hpp"
 
 #include "estimator/filter/imu_propagation.hpp"
-#include "estimator/filter/initialization.hpp"
-#include "estimator/legs/leg_displacement_model.hpp"
-#include "estimator/legs/leg_states.hpp"
+#include "estimator/filter/static_initialization.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
 #include "estimator/lidar/deskew.hpp"
 
 namespace aims {
 namespace {
 
-/// What the filter says of its pose error, in body axes; `anchor` is the covariance of the map.
-void record_covariance(const Belief& belief, const Eigen::Matrix3d& anchor,
+/// The stated pose covariance in body axes: that of the filter plus that of the map.
+void record_covariance(const Belief& belief, const Eigen::Matrix3d& map_covariance,
                        ScanDiagnostics& diagnostics) {
   using E = ErrorState;
   const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
-  const Eigen::Matrix3d position = block(belief.covariance, E::kPosition, E::kPosition) + anchor;
+  const Eigen::Matrix3d position =
+      block(belief.covariance, E::kPosition, E::kPosition) + map_covariance;
   diagnostics.position_covariance = R.transpose() * position * R;
   diagnostics.rotation_covariance = block(belief.covariance, E::kRotation, E::kRotation);
 }
 
 }  // namespace
 
-EskfEstimator::EskfEstimator(const EstimatorConfig& config, const FamilyMember& member,
+EskfEstimator::EskfEstimator(const EstimatorConfig& config, const EstimatorVariant& variant,
                              const SensorRig& rig)
-    : config_(config_of(member, config)),
-      member_(member),
+    : config_(config_for(variant, config)),
+      variant_(variant),
       rig_(rig),
-      queue_(config_),
+      queue_(config_.queue, config_.imu, config_.leg.max_speed),
       selection_(config_.lidar),
-      lidar_update_(config_, member),
+      lidar_update_(config_, variant),
       map_(config_.map),
-      floor_(config_.directional.floor),
-      leg_evidence_(config_.directional.leg_evidence, config_.leg),
-      disagreement_(config_.directional.disagreement),
-      standstill_(config_.directional.standstill),
-      leg_integrator_(config_.leg) {}
+      ground_(config_.directional.ground_constraint),
+      leg_noise_(config_.directional.leg_noise, config_.leg),
+      zero_velocity_(config_.directional.zero_velocity) {}
 
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -59,26 +56,24 @@ void EskfEstimator::process_ready() {
 
 bool EskfEstimator::start() {
   const auto& samples = queue_.imu().samples();
-  const StartConfig& quiet = config_.directional.start;
+  const StaticInitializationConfig& limits = config_.directional.static_initialization;
   const auto initial =
-      quiet.enabled
-          ? initialize_quietly(samples, config_.initialization, quiet, config_.imu.gravity)
+      limits.enabled
+          ? initialize_static(samples, config_.initialization, limits, config_.imu.gravity)
           : initialize(samples, config_.initialization, config_.imu.gravity);
   if (!initial) return false;
-  if (!initial->stood_still) ++result_.counts["start.moving"];
-  belief_ = initial->belief;
-  belief_ = open_leg_states(belief_, config_.directional.leg_states);
-  if (config_.directional.floor.enabled) {
-    belief_ = join_tilt_and_bias(belief_, config_.imu.gravity);
+  if (!initial->stood_still) ++result_.counts["initialization.moving"];
+  belief_ = open_leg_states(initial->belief, config_.directional.leg_states);
+  if (config_.directional.ground_constraint.enabled) {
+    belief_ = correlate_tilt_and_bias(belief_, config_.imu.gravity);
   }
   time_ = initial->stamp;
   started_ = true;
-  renew_clone();
   return true;
 }
 
 void EskfEstimator::correct(const LegOdometrySample& sample) {
-  if (!member_.leg) return bridge_silence(sample.stamp);
+  if (!variant_.leg) return report_pose_without_scan(sample.stamp);
   if (sample.stamp < time_) {
     ++result_.counts["leg.before_start"];
     return;
@@ -88,113 +83,77 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
     const auto lost = static_cast<int>((sample.stamp - last_leg_->stamp - period / 2) / period);
     if (lost > 0) result_.counts["leg.lost"] += lost;
   }
-  hold_lost_legs(sample.stamp);
-  take_leg(sample);
+  repeat_lost_legs(sample.stamp);
+  fuse_leg_velocity(sample);
   last_leg_ = sample;
-  bridge_silence(sample.stamp);
+  report_pose_without_scan(sample.stamp);
 }
 
-/// Without scans the pose goes on by what there is; the legs' packets serve as its clock.
-void EskfEstimator::bridge_silence(Time stamp) {
+/// Appends a predicted pose after `kMaxPoseInterval` without a scan; leg packets are the clock.
+void EskfEstimator::report_pose_without_scan(Time stamp) {
   if (result_.trajectory.empty()) return;
-  if (stamp - result_.trajectory.back().stamp < kLongestSilence) return;
+  if (stamp - result_.trajectory.back().stamp < kMaxPoseInterval) return;
   predict_to(stamp);
   result_.trajectory.push_back({stamp, belief_.state.T_odom_body()});
   ++result_.counts["pose.without_scan"];
 }
 
-void EskfEstimator::hold_lost_legs(Time until) {
-  if (!member_.hold_lost || !last_leg_) return;
+/// Zero-order hold of lost leg packets, for the variant that does not notice the loss.
+void EskfEstimator::repeat_lost_legs(Time until) {
+  if (!variant_.repeat_lost || !last_leg_) return;
   const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
   while (last_leg_->stamp + period + period / 2 < until) {
     last_leg_->stamp += period;
-    take_leg(*last_leg_);
+    fuse_leg_velocity(*last_leg_);
     ++result_.counts["leg.held"];
   }
 }
 
-void EskfEstimator::take_leg(const LegOdometrySample& sample) {
-  if (config_.leg.measurement == LegMeasurement::kDisplacement) {
-    leg_integrator_.add(sample);
-  } else {
-    fuse_leg_velocity(sample);
-  }
-}
-
 /// Covariance of one sample; `rate` is the gyro's reading in body axes [rad/s].
-Eigen::Matrix3d EskfEstimator::leg_noise(const LegOdometrySample& sample,
-                                         const Eigen::Vector3d& rate) {
-  if (config_.directional.leg_evidence.enabled) {
+Eigen::Matrix3d EskfEstimator::leg_covariance(const LegOdometrySample& sample,
+                                              const Eigen::Vector3d& rate) {
+  if (config_.directional.leg_noise.enabled) {
     const Eigen::Matrix3d R_base_body = rig_.T_body_base.R().transpose();
-    return leg_evidence_.noise(sample, R_base_body * (rate - belief_.state.gyro_bias));
+    return leg_noise_.noise(sample, R_base_body * (rate - belief_.state.gyro_bias));
   }
   // eq. (11): R_leg' = R_leg / gamma_leg.
   return leg_velocity_noise(config_.leg, sample.linear_velocity) / lidar_update_.gamma_leg();
 }
 
-/// Whether the robot stands still; then that it does is what its legs have to say. The states of
-/// the legs are left alone: they are those of a walk.
-bool EskfEstimator::stands(const LegOdometrySample& sample) {
-  const StandstillConfig& config = config_.directional.standstill;
+/// While the robot stands, zero velocity and zero rate replace the leg velocity; true then. The leg
+/// states are not corrected, since they describe walking.
+bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
+  const ZeroVelocityConfig& config = config_.directional.zero_velocity;
   if (!config.enabled) return false;
-  if (!standstill_.observe(sample, queue_.imu().samples(), belief_.state.gyro_bias)) return false;
-  const std::optional<ImuRest> rest = standstill_.due();
-  if (!rest) return true;
-  ++result_.counts["standstill.used"];
-  Information information = information_of(zero_velocity(belief_.state, config.sigma_velocity));
-  const Information bias =
-      information_of(resting_gyro(belief_.state, rest->rate, config.sigma_rate));
-  information.matrix += bias.matrix;
-  information.vector += bias.vector;
+  const bool standing =
+      zero_velocity_.update(sample, queue_.imu().samples(), belief_.state.gyro_bias);
+  if (!standing) return false;
+  const std::optional<ImuStatistics> statistics = zero_velocity_.due_measurement();
+  if (!statistics) return true;
+  ++result_.counts["zero_velocity.used"];
+  Information information =
+      information_of(zero_velocity_model(belief_.state, config.sigma_velocity));
+  const Information rate =
+      information_of(zero_rate_model(belief_.state, statistics->rate, config.sigma_rate));
+  information.matrix += rate.matrix;
+  information.vector += rate.vector;
   accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state, information,
-                       hold_legs(correct_all())));
+                       consider_legs(correct_all())));
   return true;
-}
-
-/// Tells the comparison of ways the body's velocity by this sample, and lets its verdict grow the
-/// sample's noise.
-void EskfEstimator::compare_ways(const LegOdometrySample& sample, const Eigen::Vector3d& rate,
-                                 LinearMeasurement& measurement) {
-  const Eigen::Matrix3d R_body_base = rig_.T_body_base.R();
-  const StanceEvidence stance =
-      compare_feet(sample, R_body_base.transpose() * (rate - belief_.state.gyro_bias));
-  LegMotionTold told;
-  told.stamp = sample.stamp;
-  const Eigen::Matrix3d R = belief_.state.rotation * R_body_base;
-  told.velocity = belief_.state.velocity - R * measurement.residual;
-  told.noise = R * measurement.noise * R.transpose() / config_.leg.rate_hz;
-  told.firm = is_firm(stance, config_.directional.leg_evidence);
-  disagreement_.add(told);
-  measurement.noise *= disagreement_.leg_growth();
-}
-
-/// After a scan: do scans and legs agree on the way?
-void EskfEstimator::judge_ways() {
-  if (!lidar_update_.fix()) return;
-  const Eigen::Matrix3d R =
-      belief_.state.rotation.toRotationMatrix() * rig_.T_body_base.R();  // odometry from base
-  const Eigen::Matrix3d speed = stride_mean_.value().asDiagonal();
-  using E = ErrorState;
-  const Eigen::Matrix3d drift =
-      speed * block(belief_.covariance, E::kLegScale, E::kLegScale) * speed +
-      block(belief_.covariance, E::kLegBias, E::kLegBias);
-  disagreement_.judge(*lidar_update_.fix(), R * drift * R.transpose());
-  lidar_update_.discount(disagreement_.lidar_share());
 }
 
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   predict_to(sample.stamp);
-  if (stands(sample)) return;
+  if (fuse_zero_velocity(sample)) return;
   const Eigen::Vector3d rate =
       queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
   const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
   LinearMeasurement measurement =
-      leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_noise(sample, rate));
-  if (config_.directional.disagreement.enabled) compare_ways(sample, rate, measurement);
-  if (config_.directional.leg_evidence.enabled) {
-    const auto inflation = leg_evidence_.inflation(measurement, belief_.covariance);
+      leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_covariance(sample, rate));
+  if (config_.directional.leg_noise.enabled) {
+    const auto inflation = leg_noise_.inflation(measurement, belief_.covariance);
     if (!inflation) {
-      ++result_.counts["leg.refused"];
+      ++result_.counts["leg.rejected"];
       return;
     }
     measurement.noise *= *inflation;
@@ -203,39 +162,10 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   ++leg_updates_;
   const ErrorMatrix prior_information = inverse_spd(belief_.covariance);
   const Information information = information_of(measurement);
-  accept(lidar_update_.holds_legs()
+  accept(lidar_update_.considers_legs()
              ? kalman_update(belief_.state, prior_information, belief_.state, information,
-                             hold_position(hold_legs(correct_all())))
+                             consider_position(consider_legs(correct_all())))
              : kalman_update(belief_.state, prior_information, belief_.state, information));
-}
-
-void EskfEstimator::fuse_leg_displacement() {
-  if (!clone_) return;
-  const std::optional<LegDisplacement> measured = leg_integrator_.until(time_);
-  if (!measured) {
-    ++result_.counts["leg.uncovered"];
-    return;
-  }
-  // eq. (11): R_leg' = R_leg / gamma_leg.
-  const Eigen::Matrix3d noise =
-      leg_displacement_noise(config_.leg, *measured) / lidar_update_.gamma_leg();
-  const ErrorMatrix prior_information = inverse_spd(belief_.covariance);
-  const LinearMeasurement measurement =
-      marginalise_clone(leg_displacement_model(clone_->T_odom_body, belief_.state, rig_.T_body_base,
-                                               measured->translation, noise),
-                        *clone_, prior_information);
-  leg_innovation_ = measurement.residual.norm() / to_seconds(measured->duration);
-  ++leg_updates_;
-  accept(
-      kalman_update(belief_.state, prior_information, belief_.state, information_of(measurement)));
-}
-
-/// Between its birth after one scan and its use at the next, the state is only predicted, so that
-/// no update has to carry the clone along.
-void EskfEstimator::renew_clone() {
-  if (!member_.leg || config_.leg.measurement != LegMeasurement::kDisplacement) return;
-  clone_ = clone_pose(belief_);
-  leg_integrator_.begin(time_);
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {
@@ -243,24 +173,21 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
     ++result_.counts["lidar.before_start"];
     return;
   }
-  hold_lost_legs(scan->end);
+  repeat_lost_legs(scan->end);
   predict_to(scan->end);
-  fuse_leg_displacement();
   ScanDiagnostics diagnostics;
   diagnostics.stamp = scan->end;
   diagnostics.leg_innovation = leg_innovation_;
   diagnostics.leg_updates = leg_updates_;
   leg_updates_ = 0;
   prepare_points(*scan, diagnostics);
-  if (config_.directional.floor.enabled) fuse_floor();
+  if (config_.directional.ground_constraint.enabled) fuse_ground_constraint();
   if (!map_.empty()) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
     if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
-    if (config_.directional.disagreement.enabled) judge_ways();
   }
-  renew_clone();
   extend_map();
-  record_covariance(belief_, lidar_update_.map_anchor(), diagnostics);
+  record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   result_.diagnostics.push_back(diagnostics);
 }
@@ -270,11 +197,7 @@ void EskfEstimator::predict_to(Time stamp) {
   queue_.imu().segments(time_, stamp, segments_);
   for (const InertialSegment& segment : segments_) {
     const double dt = to_seconds(segment.end - segment.begin);
-    const NominalState before = belief_.state;
-    const bool sound = accept(propagate(belief_, segment, dt, config_.imu));
-    if (clone_ && sound) {
-      clone_ = propagate_clone(*clone_, propagation_jacobian(before, segment, dt));
-    }
+    accept(propagate(belief_, segment, dt, config_.imu));
     if (!segment.measured) ++result_.counts["imu.bridged"];
   }
   walk_leg_states(belief_, config_.directional.leg_states, to_seconds(stamp - time_));
@@ -292,16 +215,15 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
   deskew(scan, indices_, motion, insert_points_);
 }
 
-/// The floor of this scan, as long as it is level.
-void EskfEstimator::fuse_floor() {
-  const auto seen = fit_floor(insert_points_, config_.directional.floor);
-  const auto measurement = floor_.measure(belief_, seen);
-  if (floor_.verdict() == FloorVerdict::kUnseen) ++result_.counts["floor.unseen"];
-  if (floor_.verdict() == FloorVerdict::kNotLevel) ++result_.counts["floor.not_level"];
-  if (floor_.verdict() == FloorVerdict::kWaiting) ++result_.counts["floor.waiting"];
+void EskfEstimator::fuse_ground_constraint() {
+  const auto plane = fit_ground(insert_points_, config_.directional.ground_constraint);
+  const auto measurement = ground_.measure(belief_, plane);
+  if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];
+  if (ground_.status() == GroundStatus::kNotLevel) ++result_.counts["ground.not_level"];
+  if (ground_.status() == GroundStatus::kSettling) ++result_.counts["ground.settling"];
   if (!measurement) return;
-  ++result_.counts["floor.used"];
-  accept(aims::fuse_floor(belief_, *measurement));
+  ++result_.counts["ground.used"];
+  accept(fuse_ground(belief_, *measurement));
 }
 
 void EskfEstimator::extend_map() {
@@ -310,20 +232,19 @@ void EskfEstimator::extend_map() {
   for (Eigen::Vector3f& point : insert_points_) point = R * point + t;
   const Eigen::Matrix3d position =
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
-  map_.insert(insert_points_, t, (position + lidar_update_.map_anchor()).cast<float>());
+  map_.insert(insert_points_, t, (position + lidar_update_.map_covariance()).cast<float>());
   const MapMemoryConfig& memory = config_.directional.map_memory;
   if (!memory.enabled) map_.forget_unseen(memory.forget_after);
 }
 
-bool EskfEstimator::accept(const Belief& updated) {
-  const bool sound = is_finite(updated.state) && updated.covariance.allFinite() &&
+void EskfEstimator::accept(const Belief& updated) {
+  const bool valid = is_finite(updated.state) && updated.covariance.allFinite() &&
                      (updated.covariance.diagonal().array() > 0.0).all();
-  if (sound) {
+  if (valid) {
     belief_ = updated;
   } else {
-    ++result_.counts["filter.refused"];
+    ++result_.counts["filter.rejected"];
   }
-  return sound;
 }
 
 }  // namespace aims

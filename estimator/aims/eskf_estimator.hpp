@@ -5,28 +5,25 @@
 #include <vector>
 
 #include "estimator/aims/config.hpp"
-#include "estimator/degeneracy/disagreement.hpp"
+#include "estimator/aims/lidar_update.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/filter/measurement_queue.hpp"
-#include "estimator/filter/pose_clone.hpp"
-#include "estimator/ground/floor.hpp"
-#include "estimator/legs/leg_displacement.hpp"
-#include "estimator/legs/leg_evidence.hpp"
+#include "estimator/ground/ground_constraint.hpp"
+#include "estimator/legs/leg_noise.hpp"
 #include "estimator/legs/leg_states.hpp"
-#include "estimator/legs/standstill.hpp"
-#include "estimator/lidar/lidar_update.hpp"
+#include "estimator/legs/zero_velocity.hpp"
 #include "estimator/lidar/scan_selection.hpp"
 #include "estimator/lidar/voxel_map.hpp"
 
 namespace aims {
 
-/// The error-state Kalman filter of the family: the IMU predicts, leg odometry corrects at its own
-/// stamps (or, as displacement since the last scan, at the end of each scan), the LiDAR at the end
-/// of each scan.
+/// The error-state Kalman filter of all variants: the IMU predicts, leg odometry corrects at its
+/// own stamps, the LiDAR at the end of each scan.
 class EskfEstimator : public Estimator {
  public:
-  EskfEstimator(const EstimatorConfig& config, const FamilyMember& member, const SensorRig& rig);
+  EskfEstimator(const EstimatorConfig& config, const EstimatorVariant& variant,
+                const SensorRig& rig);
 
   void consume(const Delivery& delivery) override;
   void finish() override;
@@ -42,43 +39,34 @@ class EskfEstimator : public Estimator {
   void correct(const LegOdometrySample& sample);
   void correct(const LidarScanPtr& scan);
   void predict_to(Time stamp);
-  void take_leg(const LegOdometrySample& sample);
+  void report_pose_without_scan(Time stamp);
+  void repeat_lost_legs(Time until);
   void fuse_leg_velocity(const LegOdometrySample& sample);
-  Eigen::Matrix3d leg_noise(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
-  void compare_ways(const LegOdometrySample& sample, const Eigen::Vector3d& rate,
-                    LinearMeasurement& measurement);
-  void judge_ways();
-  bool stands(const LegOdometrySample& sample);
-  void fuse_leg_displacement();
-  void renew_clone();
-  void hold_lost_legs(Time until);
-  void bridge_silence(Time stamp);
+  Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
+  bool fuse_zero_velocity(const LegOdometrySample& sample);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
+  void fuse_ground_constraint();
   void extend_map();
-  void fuse_floor();
-  /// Takes the belief `updated`, unless it is unsound: then it is counted, and false returned.
-  bool accept(const Belief& updated);
+  /// Takes the belief `updated`, unless it is not finite: then it is counted and rejected.
+  void accept(const Belief& updated);
 
   EstimatorConfig config_;
-  FamilyMember member_;
+  EstimatorVariant variant_;
   SensorRig rig_;
   MeasurementQueue queue_;
   ScanSelection selection_;
   LidarUpdate lidar_update_;
   VoxelMap map_;
-  FloorConstraint floor_;
+  GroundConstraint ground_;
+  LegNoiseModel leg_noise_;
+  ZeroVelocityDetector zero_velocity_;
   EstimatorResult result_;
 
   bool started_ = false;
   Time time_ = 0;  ///< of the belief
   Belief belief_;
-  std::optional<LegOdometrySample> last_leg_;  ///< with the stamp moved on while held
-  LegEvidence leg_evidence_;
-  Disagreement disagreement_;
-  StandstillDetector standstill_;
+  std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
   StrideMean stride_mean_;
-  LegIntegrator leg_integrator_;    ///< since the last scan; displacement mode
-  std::optional<PoseClone> clone_;  ///< at the last scan; displacement mode
   double leg_innovation_ = 0.0;
   int leg_updates_ = 0;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/degeneracy/axis_weights.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,79 +9,48 @@
 namespace aims {
 namespace {
 
-/// Keeps a block without any information invertible; far below one return's.
-constexpr double kNothing = 1e-9;
-
-Eigen::Matrix3d inverse(const Eigen::Matrix3d& information) {
-  return (information + kNothing * Eigen::Matrix3d::Identity()).inverse();
-}
+/// Keeps a block without information invertible; far below the information of one return.
+constexpr double kRegularization = 1e-9;
 
 }  // namespace
 
-Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
-                                 const Eigen::Matrix3d& other) {
-  const Eigen::Matrix3d rest = block - cross * inverse(other) * cross.transpose();
-  return 0.5 * (rest + rest.transpose());
+Eigen::Matrix3d AxisWeights::matrix_scale() const {
+  return axes * acceptance.cwiseProduct(fraction).cwiseSqrt().asDiagonal() * axes.transpose();
 }
 
-Matrix6 chance_information(const Eigen::Matrix3d& normal_covariance, const Eigen::Vector3d& p_body,
-                           const Eigen::Matrix3d& R) {
-  const Eigen::Matrix3d turning = hat(p_body) * R.transpose();
-  const Eigen::Matrix3d cross = turning * normal_covariance;
-  Matrix6 sum;
-  sum.topLeftCorner<3, 3>().noalias() = cross * turning.transpose();
-  sum.topRightCorner<3, 3>() = cross;
-  sum.bottomLeftCorner<3, 3>() = cross.transpose();
-  sum.bottomRightCorner<3, 3>() = normal_covariance;
-  return sum;
+Eigen::Matrix3d AxisWeights::vector_scale() const {
+  return axes * acceptance.cwiseProduct(gain).asDiagonal() * axes.transpose();
 }
 
-double significant_ratio(const SpuriousConfig& config, double way) {
-  return config.significant * (1.0 + config.start_excess * std::exp(-way / config.start_way));
-}
-
-double reality(double ratio, double significant, const SpuriousConfig& config) {
-  if (!(ratio > 0.0)) return 0.0;
-  const double deviations = std::log(ratio / significant) / config.spread;
-  return 0.5 * std::erfc(-deviations / std::sqrt(2.0));
-}
-
-Eigen::Matrix3d BlockWeights::shrink() const {
-  return axes * taken.cwiseProduct(share).cwiseSqrt().asDiagonal() * axes.transpose();
-}
-
-Eigen::Matrix3d BlockWeights::pull() const {
-  return axes * taken.cwiseProduct(whole).asDiagonal() * axes.transpose();
-}
-
-BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
-                         const Eigen::Matrix3d& axes, double significant,
-                         const SpuriousConfig& config) {
-  BlockWeights block;
-  block.axes = axes;
-  const Eigen::Matrix3d covariance = inverse(information);
+AxisWeights weigh_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& noise,
+                       const Eigen::Matrix3d& axes, double threshold,
+                       const NoiseInformationConfig& config) {
+  AxisWeights weights;
+  weights.axes = axes;
+  const Eigen::Matrix3d covariance =
+      (information + kRegularization * Eigen::Matrix3d::Identity()).inverse();
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = axes.col(i);
-    const double known = 1.0 / axis.dot(covariance * axis);
-    const double by_chance = config.chance_share * axis.dot(chance * axis);
-    const double ratio = std::max(known, 0.0) / std::max(by_chance, kNothing);
-    block.ratio(i) = ratio;
-    block.real(i) = reality(ratio, significant, config);
-    block.share(i) = ratio > 1.0 ? (ratio - 1.0) / ratio : 0.0;
-    block.whole(i) = std::min(config.amplification * block.share(i), 1.0);
+    const double along = 1.0 / axis.dot(covariance * axis);
+    const double from_noise = config.scale * axis.dot(noise * axis);
+    const double ratio = std::max(along, 0.0) / std::max(from_noise, kRegularization);
+    weights.ratio(i) = ratio;
+    weights.probability(i) = acceptance_probability(ratio, threshold, config);
+    weights.fraction(i) = ratio > 1.0 ? (ratio - 1.0) / ratio : 0.0;
+    weights.gain(i) = std::min(config.max_step_amplification * weights.fraction(i), 1.0);
   }
-  block.taken = block.real;
-  return block;
+  weights.acceptance = weights.probability;
+  return weights;
 }
 
-Eigen::Matrix3d steady_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& axes,
-                            double tolerance) {
+Eigen::Matrix3d persistent_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& axes,
+                                double tolerance) {
   const Eigen::Matrix3d split = axes.transpose() * information * axes;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < i; ++j) {
-      // A rotation by the angle a moves a * (difference of the variances) off the diagonal.
-      const double greater = std::max(split(i, i), split(j, j));
-      if (std::abs(split(i, j)) > tolerance * greater) {
+      // A rotation by a small angle a makes the off-diagonal entry a (lambda_i - lambda_j).
+      const double larger = std::max(split(i, i), split(j, j));
+      if (std::abs(split(i, j)) > tolerance * larger) {
         return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors();
       }
     }
@@ -91,41 +59,38 @@ Eigen::Matrix3d steady_axes(const Eigen::Matrix3d& information, const Eigen::Mat
 }
 
 void AxisWeigher::assess(Block& block, const Eigen::Matrix3d& information,
-                         const Eigen::Matrix3d& chance, double share) {
-  // Chance starts as it is, information from nothing.
-  if (block.smoothed_chance.isZero(0.0)) block.smoothed_chance = chance;
-  block.smoothed += share * (information - block.smoothed);
-  block.smoothed_chance += share * (chance - block.smoothed_chance);
-  const Eigen::Matrix3d axes = steady_axes(block.smoothed, block.now.axes, config_.axis_tolerance);
-  block.now = weigh_block(block.smoothed, block.smoothed_chance, axes,
-                          significant_ratio(config_, way_), config_);
-  if (way_ < config_.trusting_way) block.now.taken.setOnes();
+                         const Eigen::Matrix3d& noise, double gain) {
+  // The noise starts at its first value, the information at zero.
+  if (block.noise.isZero(0.0)) block.noise = noise;
+  block.information += gain * (information - block.information);
+  block.noise += gain * (noise - block.noise);
+  const Eigen::Matrix3d axes =
+      persistent_axes(block.information, block.weights.axes, config_.axis_tolerance);
+  block.weights = weigh_axes(block.information, block.noise, axes,
+                             significance_threshold(config_, distance_), config_);
+  if (distance_ < config_.bootstrap_distance) block.weights.acceptance.setOnes();
 }
 
-void AxisWeigher::assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R,
-                         double way) {
-  way_ += way;
-  const double share = 1.0 - std::exp(-way / config_.stretch);
-  const Eigen::Matrix3d turning = A.topLeftCorner<3, 3>();
-  const Eigen::Matrix3d moving = A.bottomRightCorner<3, 3>();
+void AxisWeigher::assess(const Matrix6& A, const Matrix6& noise, const Eigen::Matrix3d& R,
+                         double distance) {
+  distance_ += distance;
+  const double gain = 1.0 - std::exp(-distance / config_.averaging_distance);
+  const Eigen::Matrix3d A_rotation = A.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d A_position = A.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d cross = A.bottomLeftCorner<3, 3>();
-  assess(position_, schur_complement(moving, cross, turning), chance.bottomRightCorner<3, 3>(),
-         share);
-  assess(rotation_, R * schur_complement(turning, cross.transpose(), moving) * R.transpose(),
-         R * chance.topLeftCorner<3, 3>() * R.transpose(), share);
+  assess(position_, schur_complement(A_position, cross, A_rotation),
+         noise.bottomRightCorner<3, 3>(), gain);
+  assess(rotation_, R * schur_complement(A_rotation, cross.transpose(), A_position) * R.transpose(),
+         R * noise.topLeftCorner<3, 3>() * R.transpose(), gain);
 }
 
-void AxisWeigher::discount(const Eigen::Vector3d& share) {
-  position_.now.taken = position_.now.taken.cwiseProduct(share);
-}
-
-KeptOfScan AxisWeigher::kept(const Eigen::Matrix3d& R) const {
-  KeptOfScan kept{Matrix6::Zero(), Matrix6::Zero()};
-  kept.T.topLeftCorner<3, 3>() = R.transpose() * rotation_.now.shrink() * R;
-  kept.T.bottomRightCorner<3, 3>() = position_.now.shrink();
-  kept.P.topLeftCorner<3, 3>() = R.transpose() * rotation_.now.pull() * R;
-  kept.P.bottomRightCorner<3, 3>() = position_.now.pull();
-  return kept;
+ScanScale AxisWeigher::scale(const Eigen::Matrix3d& R) const {
+  ScanScale scale{Matrix6::Zero(), Matrix6::Zero()};
+  scale.T.topLeftCorner<3, 3>() = R.transpose() * rotation_.weights.matrix_scale() * R;
+  scale.T.bottomRightCorner<3, 3>() = position_.weights.matrix_scale();
+  scale.P.topLeftCorner<3, 3>() = R.transpose() * rotation_.weights.vector_scale() * R;
+  scale.P.bottomRightCorner<3, 3>() = position_.weights.vector_scale();
+  return scale;
 }
 
 }  // namespace aims

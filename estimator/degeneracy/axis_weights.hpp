@@ -1,105 +1,81 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "estimator/aims/directional_config.hpp"
+#include "estimator/degeneracy/noise_information.hpp"
 #include "estimator/filter/error_state.hpp"
 
 namespace aims {
 
-/// What the errors of one plane's normal add to A = H^T R^-1 H on average: M C M^T, with M =
-/// [hat(p) R^T; I] the derivative of the row in the normal, C the normal's covariance (odometry
-/// axes) and p in body axes [m].
-Matrix6 chance_information(const Eigen::Matrix3d& normal_covariance, const Eigen::Vector3d& p_body,
-                           const Eigen::Matrix3d& R);
-
-/// Information of a block when the other one, with information `other`, is unknown too: the Schur
-/// complement of `other`; `cross` is their common block, 3x3 each.
-Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
-                                 const Eigen::Matrix3d& other);
-
-/// Ratio to chance at which information is as likely real as not, `way` [m] after the start.
-double significant_ratio(const SpuriousConfig& config, double way);
-
-/// Probability that information of `ratio` times what chance gives is more than chance, which is
-/// itself known but for a factor (log-normal); one half at the ratio `significant`.
-double reality(double ratio, double significant, const SpuriousConfig& config);
-
 /// Three orthogonal axes of position or rotation, and how much of the information along each is
-/// kept.
+/// used.
 ///
-/// The information along an axis is that of what is there and of chance, A = A_real + A_chance. A
-/// shift of the body by s turns up in the vector as b = A_real s: noise in the normals, which is
-/// new from place to place, adds to A and nothing to the mean of b. So A is brought down to A_real
-/// and b is left whole, that a scan corrects the whole shift; then both count as far as they are
-/// taken.
-struct BlockWeights {
+/// The information along an axis is the sum of a real and a noise-induced part, A = A_real +
+/// A_noise. A shift s of the body appears in the vector as b = A_real s: the errors of the normals
+/// are independent from place to place, add to A and have zero mean in b. So A is reduced to A_real
+/// and b is kept, and a scan corrects the full shift. Both are multiplied by the acceptance.
+struct AxisWeights {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< one unit axis per column, odometry frame
-  Eigen::Vector3d ratio = Eigen::Vector3d::Zero();     ///< of information to chance
-  Eigen::Vector3d real = Eigen::Vector3d::Ones();      ///< probability of more than chance
-  Eigen::Vector3d taken = Eigen::Vector3d::Ones();     ///< for real: `real`, or 1 on trust
-  Eigen::Vector3d share = Eigen::Vector3d::Ones();     ///< of the information beyond chance, [0, 1]
-  Eigen::Vector3d whole = Eigen::Vector3d::Ones();     ///< part of the vector that counts if taken
+  Eigen::Vector3d ratio = Eigen::Vector3d::Zero();     ///< of information to noise
+  Eigen::Vector3d probability = Eigen::Vector3d::Ones();  ///< that the information exceeds noise
+  /// Acceptance: the probability, or 1 within the bootstrap distance.
+  Eigen::Vector3d acceptance = Eigen::Vector3d::Ones();
+  Eigen::Vector3d fraction = Eigen::Vector3d::Ones();  ///< of the information beyond noise, [0, 1]
+  Eigen::Vector3d gain = Eigen::Vector3d::Ones();      ///< factor on the vector before acceptance
 
-  /// What is known to be real of the information, in [0, 1].
-  Eigen::Vector3d proven() const { return real.cwiseProduct(share); }
-  /// U diag(sqrt(taken share)) U^T on both sides of the information, odometry frame.
-  Eigen::Matrix3d shrink() const;
-  /// U diag(taken whole) U^T before the vector, odometry frame.
-  Eigen::Matrix3d pull() const;
+  /// Significant fraction of the information per axis, in [0, 1].
+  Eigen::Vector3d significant() const { return probability.cwiseProduct(fraction); }
+  /// U diag(sqrt(acceptance fraction)) U^T, applied to both sides of the information.
+  Eigen::Matrix3d matrix_scale() const;
+  /// U diag(acceptance gain) U^T, applied to the vector.
+  Eigen::Matrix3d vector_scale() const;
 };
 
-/// What is kept of a scan: T A T and P b.
-struct KeptOfScan {
+/// Scaling of a scan's information: the matrix becomes T A T, the vector P b.
+struct ScanScale {
   Matrix6 T;
   Matrix6 P;
 };
 
-/// The weights of one block whose information, with the other block unknown, is `information`,
-/// while `chance` is what normals of noise would give: the share (ratio - 1) / ratio along each
-/// axis (cf. Hatleskog and Alexis 2024), taken as far as it is real.
-BlockWeights weigh_block(const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
-                         const Eigen::Matrix3d& axes, double significant,
-                         const SpuriousConfig& config);
+/// The weights of one block of information `information` (the other block unknown), with the
+/// noise-induced information `noise`. The fraction is (ratio - 1) / ratio per axis, cf. Hatleskog
+/// and Alexis 2024.
+AxisWeights weigh_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& noise,
+                       const Eigen::Matrix3d& axes, double threshold,
+                       const NoiseInformationConfig& config);
 
-/// The axes along which `information` splits: `axes` again while they still split it to within
-/// `tolerance` [rad], its eigenvectors otherwise. Axes that wobble with the noise would let strong
-/// information leak into the weak axis, a little in every scan.
-Eigen::Matrix3d steady_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& axes,
-                            double tolerance);
+/// The principal axes of `information`: `axes` while they diagonalize it to within `tolerance`
+/// [rad], otherwise its eigenvectors. Axes that follow the noise of each scan would let strong
+/// information leak into the weak axis.
+Eigen::Matrix3d persistent_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& axes,
+                                double tolerance);
 
-/// Removes from the information of scans what noisy normals give by chance, axis by axis, in
-/// position and in rotation.
+/// Removes the noise-induced information of scans, axis by axis, in position and rotation.
 class AxisWeigher {
  public:
-  explicit AxisWeigher(const SpuriousConfig& config) : config_(config) {}
+  explicit AxisWeigher(const NoiseInformationConfig& config) : config_(config) {}
 
-  /// Takes the information A of a scan and what `chance` adds to it (6x6, at the attitude R), `way`
-  /// [m] after the scan before. It is judged over a stretch of way: what a robot sees again and
-  /// again while it stands is one draw of chance. Nothing is beyond chance before there is some
-  /// way; from there on what is beyond it is taken on trust for `SpuriousConfig::trusting_way`.
-  void assess(const Matrix6& A, const Matrix6& chance, const Eigen::Matrix3d& R, double way);
+  /// Adds the information A of a scan and its noise-induced part (6x6, at attitude R), `distance`
+  /// [m] after the previous scan. Both are averaged over distance, since a standing robot sees the
+  /// same noise in every scan. Without distance no information exceeds noise.
+  void assess(const Matrix6& A, const Matrix6& noise, const Eigen::Matrix3d& R, double distance);
 
-  /// Takes of the last scan's position only `share` along each of its axes.
-  void discount(const Eigen::Vector3d& share);
+  /// Scaling of the last scan, error-state axes at attitude R.
+  ScanScale scale(const Eigen::Matrix3d& R) const;
 
-  /// Of the last scan, in the error state's axes at attitude R.
-  KeptOfScan kept(const Eigen::Matrix3d& R) const;
-
-  const BlockWeights& position() const { return position_.now; }
-  const BlockWeights& rotation() const { return rotation_.now; }
+  const AxisWeights& position() const { return position_.weights; }
 
  private:
   struct Block {
-    Eigen::Matrix3d smoothed = Eigen::Matrix3d::Zero();  ///< information, odometry frame
-    Eigen::Matrix3d smoothed_chance = Eigen::Matrix3d::Zero();
-    BlockWeights now;
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< averaged, odometry frame
+    Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();        ///< averaged, odometry frame
+    AxisWeights weights;
   };
 
-  void assess(Block& block, const Eigen::Matrix3d& information, const Eigen::Matrix3d& chance,
-              double share);
+  void assess(Block& block, const Eigen::Matrix3d& information, const Eigen::Matrix3d& noise,
+              double gain);
 
-  SpuriousConfig config_;
-  double way_ = 0.0;  ///< since the start [m]
+  NoiseInformationConfig config_;
+  double distance_ = 0.0;  ///< since the start [m]
   Block position_;
   Block rotation_;
 };

@@ -7,6 +7,20 @@
 
 namespace aims {
 
+void describe(Fields& f, DegeneracyConfig& c) {
+  f.flag("prior_residuals", c.prior_residuals,
+         {"", any(), "O_lidar from the residuals before the trial update", "eq. (4)"});
+  f.number("sigma_0", c.sigma_0, {"m", positive(), "nominal residual dispersion", "eq. (4)"});
+  f.number("kappa", c.kappa,
+           {"-", positive(), "saturation of C_IL; chi-square of 6 dof at 95 %", "eq. (7)"});
+  f.number("w1", c.w1, {"-", in_range(0.0, 1.0), "weight of 1 - O_lidar; w2 = 1 - w1", "eq. (7)"});
+  f.number("eta", c.eta, {"-", at_least(0), "LiDAR sensitivity to degeneration", "eq. (8)"});
+  f.number("gamma_min", c.gamma_min,
+           {"-", in_range(0.01, 1.0), "smallest reliability of the legs", "eq. (10)"});
+  f.number("alpha", c.alpha,
+           {"-", in_half_open(0.0, 1.0), "smoothing of D_k per scan", "eq. (12)"});
+}
+
 ResidualStatistics residual_statistics(std::span<const double> residuals) {
   ResidualStatistics statistics;
   if (residuals.empty()) return statistics;

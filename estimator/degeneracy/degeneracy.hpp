@@ -3,10 +3,23 @@
 
 #include <span>
 
-#include "estimator/aims/config.hpp"
+#include "core/config.hpp"
 #include "estimator/filter/error_state.hpp"
 
 namespace aims {
+
+/// Reliability assessment and adaptive weights, eqs. (3)-(12).
+struct DegeneracyConfig {
+  bool prior_residuals = false;  ///< O_lidar from the residuals before the trial update
+  double sigma_0 = 0.008;        ///< nominal residual dispersion, eq. (4) [m]
+  double kappa = 12.6;           ///< saturation of C_IL, eq. (7) [-]
+  double w1 = 0.5;               ///< weight of 1 - O_lidar, eq. (7); w2 = 1 - w1 [-]
+  double eta = 3.0;              ///< LiDAR sensitivity, eq. (8) [-]
+  double gamma_min = 0.3;        ///< smallest leg reliability, eq. (10) [-]
+  double alpha = 0.9;            ///< smoothing of D_k per scan, eq. (12) [-]
+};
+
+void describe(Fields& fields, DegeneracyConfig& config);
 
 /// Mean and variance of residuals, eq. (3).
 struct ResidualStatistics {
@@ -14,16 +27,16 @@ struct ResidualStatistics {
   double variance = 0.0;  ///< [m^2]
 };
 
-/// Eq. (3); zeros for no residuals.
+/// Eq. (3); zeros without residuals.
 ResidualStatistics residual_statistics(std::span<const double> residuals);
 
-/// O_lidar, eq. (4), in [0, 1): small where residuals hardly vary.
+/// O_lidar, eq. (4), in [0, 1): small where the residuals vary little.
 double effective_observability(double residual_variance, double sigma_0);
 
 /// C_IL = y^T P^-1 y, eq. (6), over the pose block (6-D).
 double consistency(const Vector6& innovation, const Matrix6& predicted_covariance);
 
-/// C_IL, eq. (6), over the whole error state (15-D), given the inverse of the covariance.
+/// C_IL, eq. (6), over the full error state, given the inverse of the covariance.
 double consistency_full(const ErrorVector& innovation, const ErrorMatrix& predicted_information);
 
 /// D_k, eq. (7), in [0, 1]: 0 = healthy, 1 = degenerate.
@@ -35,12 +48,12 @@ double lidar_reliability(double D, const DegeneracyConfig& config);
 /// gamma_leg, eq. (10), in [gamma_min, 1]; R_leg' = R_leg / gamma_leg, eq. (11).
 double leg_reliability(double D, const DegeneracyConfig& config);
 
-/// The smoothed index, eq. (12). The first D_k starts it.
+/// The smoothed index, eq. (12); it starts at the first D_k.
 class SeverityFilter {
  public:
   explicit SeverityFilter(double alpha) : alpha_(alpha) {}
 
-  /// Takes D_k and returns the smoothed index.
+  /// Adds D_k and returns the smoothed index.
   double update(double D);
 
   double value() const { return value_; }

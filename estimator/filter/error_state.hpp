@@ -8,10 +8,10 @@
 
 namespace aims {
 
-/// Layout of the 21-D error state, the only place that knows it: the 15-D of the paper's eq. (1)
-/// and two slow states of the leg odometry, which stay at zero in the members that do not learn
-/// them. Right perturbation: R = R_hat Exp(d_rotation); every other block adds. Position and
-/// velocity errors are in odometry axes, bias errors in body axes, those of the legs in the base's.
+/// Layout of the 21-D error state, defined here alone: the 15-D of the paper's eq. (1), and scale
+/// and bias of the leg odometry, which stay at zero in the variants that do not estimate them.
+/// Right perturbation: R = R_hat Exp(d_rotation); every other block adds. Position and velocity
+/// errors are in odometry axes, bias errors in body axes, leg errors in base axes.
 struct ErrorState {
   /// Three consecutive entries of the error state.
   struct Block {
@@ -25,7 +25,7 @@ struct ErrorState {
   static constexpr Block kLegScale{15};           ///< [-]
   static constexpr Block kLegBias{18};            ///< [m/s]
   static constexpr int kPoseSize = 6;             ///< rotation and position come first
-  static constexpr int kMotionSize = 15;          ///< all but the states of the legs
+  static constexpr int kMotionSize = 15;          ///< without the leg states
   static constexpr int kSize = 21;
 };
 
@@ -34,9 +34,7 @@ using Matrix6 = Eigen::Matrix<double, ErrorState::kPoseSize, ErrorState::kPoseSi
 using ErrorVector = Eigen::Matrix<double, ErrorState::kSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, ErrorState::kSize, ErrorState::kSize>;
 
-using Matrix3x6 = Eigen::Matrix<double, 3, ErrorState::kPoseSize>;
 using Matrix3xError = Eigen::Matrix<double, 3, ErrorState::kSize>;
-using Matrix6xError = Eigen::Matrix<double, ErrorState::kPoseSize, ErrorState::kSize>;
 
 /// The three columns of `matrix` that belong to `block`.
 template <class Matrix>
@@ -62,43 +60,37 @@ auto pose_block(Matrix& matrix) {
   return matrix.template topLeftCorner<ErrorState::kPoseSize, ErrorState::kPoseSize>();
 }
 
-/// The rotation-and-position rows of a matrix over the error state.
-template <class Matrix>
-auto pose_rows(Matrix& matrix) {
-  return matrix.template topRows<ErrorState::kPoseSize>();
-}
-
 /// The rotation-and-position entries of an error vector.
 template <class Vector>
 auto pose_segment(Vector& vector) {
   return vector.template head<ErrorState::kPoseSize>();
 }
 
-/// State of the filter, eq. (1): x = [R, p, v, b_g, b_a], and what the legs report too much.
+/// State of the filter, eq. (1): x = [R, p, v, b_g, b_a], and scale and bias of the leg odometry.
 struct NominalState {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< R_odom_body
   Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< p_odom_body [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< in odometry axes [m/s]
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();           ///< [rad/s]
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();  ///< [m/s^2]
-  /// Legs report (1 + scale) v + bias of the base's velocity v, axis by axis.
+  /// Leg odometry reports (1 + scale) v + bias for the base velocity v, per axis.
   Eigen::Vector3d leg_scale = Eigen::Vector3d::Zero();  ///< [-]
   Eigen::Vector3d leg_bias = Eigen::Vector3d::Zero();   ///< [m/s]
 
   Pose T_odom_body() const { return {rotation, position}; }
 };
 
-/// The state moved by the error `delta`: state [+] delta.
+/// state [+] delta.
 NominalState boxplus(const NominalState& state, const ErrorVector& delta);
 
-/// The error that moves `origin` to `state`: state [-] origin.
+/// state [-] origin: the error delta with origin [+] delta = state.
 ErrorVector boxminus(const NominalState& state, const NominalState& origin);
 
-/// Jacobian of ((state [+] d) [-] origin) in d at d = 0, where delta = state [-] origin.
+/// Jacobian of ((state [+] d) [-] origin) with respect to d at d = 0; delta = state [-] origin.
 ErrorMatrix boxminus_jacobian(const ErrorVector& delta);
 
-/// Jacobian that carries the error about a state to the error about state [+] delta:
-/// the covariance reset of the right perturbation.
+/// Jacobian from the error about a state to the error about state [+] delta: the covariance reset
+/// of the right perturbation.
 ErrorMatrix reset_jacobian(const ErrorVector& delta);
 
 /// True when every entry of the state is a finite number.

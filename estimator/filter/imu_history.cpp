@@ -6,7 +6,7 @@
 namespace aims {
 namespace {
 
-/// Samples averaged to bridge a long gap: two trot periods at 50 Hz.
+/// Samples averaged over a long gap: two trot periods at 50 Hz.
 constexpr std::size_t kBridgeSamples = 40;
 
 bool before(const ImuSample& a, Time stamp) { return a.stamp < stamp; }
@@ -67,7 +67,7 @@ void ImuHistory::segments(Time begin, Time end, std::vector<InertialSegment>& se
   auto index = static_cast<std::size_t>(at - samples_.begin());
   while (begin < end) {
     InertialSegment next = index < samples_.size() ? measured_segment(index) : bridge(index);
-    if (next.measured && next.begin > begin) {  // the samples before this one are missing
+    if (next.measured && next.begin > begin) {  // samples are missing before this one
       const Time until = std::min(next.begin, end);
       next = bridge(index);
       next.end = until;

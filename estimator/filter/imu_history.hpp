@@ -6,31 +6,29 @@
 #include <vector>
 
 #include "core/measurements.hpp"
-#include "estimator/aims/config.hpp"
 #include "estimator/filter/imu_propagation.hpp"
 
 namespace aims {
 
-/// Recent inertial samples in order of stamp, and what they say about any span of time.
+/// Recent inertial samples in order of stamp; cuts any time span into segments.
 class ImuHistory {
  public:
   explicit ImuHistory(const ImuPropagationConfig& config);
 
-  /// Takes a sample at its place; false when one with that stamp is there already.
+  /// Inserts a sample in order of stamp; false when its stamp is already present.
   bool insert(const ImuSample& sample);
 
-  /// Replaces `segments` by consecutive segments that cover (begin, end]. Where samples are missing
-  /// they bridge: by the mean of both neighbours over a short gap, by the recent mean over a long
-  /// one.
+  /// Replaces `segments` by consecutive segments that cover (begin, end]. Missing samples are
+  /// replaced by the mean of both neighbours over a short gap, by the recent mean over a long one.
   void segments(Time begin, Time end, std::vector<InertialSegment>& segments) const;
 
-  /// The angular velocity that holds at `stamp` [rad/s]; empty where no sample covers it.
+  /// The angular velocity at `stamp` [rad/s]; empty where no sample covers it.
   std::optional<Eigen::Vector3d> angular_velocity_at(Time stamp) const;
 
   /// Stamp of the newest sample; empty before the first.
   std::optional<Time> newest() const;
 
-  /// Forgets samples that end before `stamp`, but for the last of them.
+  /// Removes samples that end before `stamp`; enough recent ones stay to bridge a gap.
   void forget_before(Time stamp);
 
   const std::deque<ImuSample>& samples() const { return samples_; }

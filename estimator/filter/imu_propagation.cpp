@@ -2,16 +2,42 @@
 #include "estimator/filter/imu_propagation.hpp"
 
 namespace aims {
+
+void describe(Fields& f, ImuPropagationConfig& c) {
+  f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
+           {"", any(), "a sample is the mean over its interval, or the value at its stamp",
+            "design: 20 ms averages"});
+  f.number("rate_hz", c.rate_hz, {"Hz", positive(), "nominal sample rate", "paper, III-A"});
+  f.number("gravity", c.gravity, {"m/s^2", positive(), "magnitude of gravity"});
+  f.number("gyro_noise", c.gyro_noise,
+           {"rad/s/sqrt(Hz)", positive(), "white noise of the gyro, vibration included"});
+  f.number("accelerometer_noise", c.accelerometer_noise,
+           {"m/s^2/sqrt(Hz)", positive(), "white noise of the specific force, vibration included"});
+  f.number("gyro_bias_walk", c.gyro_bias_walk,
+           {"rad/s^2/sqrt(Hz)", positive(), "random walk of the gyro bias"});
+  f.number("accelerometer_bias_walk", c.accelerometer_bias_walk,
+           {"m/s^3/sqrt(Hz)", positive(), "random walk of the accelerometer bias"});
+  f.number("bridge_gyro_noise", c.bridge_gyro_noise,
+           {"rad/s/sqrt(Hz)", positive(), "gyro noise while samples are missing"});
+  f.number("bridge_accelerometer_noise", c.bridge_accelerometer_noise,
+           {"m/s^2/sqrt(Hz)", positive(), "specific-force noise while samples are missing"});
+  f.number("max_rate", c.max_rate, {"rad/s", positive(), "samples above this rate are rejected"});
+  f.number("max_force", c.max_force,
+           {"m/s^2", positive(), "samples above this specific force are rejected"});
+}
+
 namespace {
 
+/// Change of the state over one segment, relative to its attitude at the start.
 struct Increment {
   Eigen::Vector3d angle;     ///< rotation vector of the step [rad]
   Eigen::Vector3d force;     ///< specific force without bias [m/s^2]
-  Eigen::Vector3d velocity;  ///< gained from the force, axes at the step's start [m/s]
-  Eigen::Vector3d position;  ///< gained from the force, axes at the step's start [m]
+  Eigen::Vector3d velocity;  ///< change due to the force, body axes at the start [m/s]
+  Eigen::Vector3d position;  ///< change due to the force, body axes at the start [m]
 };
 
-/// Second integral of Exp(phi t) over t in [0, 1]; series, since an IMU step turns by little.
+/// Second integral of Exp(phi t) over t in [0, 1], as a series: one IMU step turns by a small
+/// angle.
 Eigen::Matrix3d double_integral(const Eigen::Vector3d& phi) {
   const Eigen::Matrix3d S = hat(phi);
   return 0.5 * Eigen::Matrix3d::Identity() + S / 6.0 + S * S / 24.0;

@@ -1,36 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/config.hpp"
+#include "core/measurements.hpp"
 #include "core/time.hpp"
-#include "estimator/aims/config.hpp"
 #include "estimator/filter/error_state.hpp"
 #include "estimator/filter/kalman_update.hpp"
 
 namespace aims {
 
-/// A span of time over which angular rate and specific force (body axes, bias included) are
-/// constant.
+/// Inertial prediction (sim has an ImuConfig of its own).
+struct ImuPropagationConfig {
+  ImuSampling sampling = ImuSampling::kMean;
+  double rate_hz = 50.0;                    ///< nominal sample rate [Hz]
+  double gravity = 9.81;                    ///< [m/s^2]
+  double gyro_noise = 2e-3;                 ///< white noise density [rad/s/sqrt(Hz)]
+  double accelerometer_noise = 5e-2;        ///< white noise density [m/s^2/sqrt(Hz)]
+  double gyro_bias_walk = 2e-5;             ///< [rad/s^2/sqrt(Hz)]
+  double accelerometer_bias_walk = 2e-4;    ///< [m/s^3/sqrt(Hz)]
+  double bridge_gyro_noise = 0.3;           ///< density while samples are missing [rad/s/sqrt(Hz)]
+  double bridge_accelerometer_noise = 2.0;  ///< while samples are missing [m/s^2/sqrt(Hz)]
+  double max_rate = 40.0;                   ///< faster samples are rejected [rad/s]
+  double max_force = 300.0;                 ///< samples with a greater force are rejected [m/s^2]
+};
+
+void describe(Fields& fields, ImuPropagationConfig& config);
+
+/// A time span over which angular rate and specific force (body axes, bias included) are constant.
 struct InertialSegment {
   Time begin = 0;
   Time end = 0;
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< [m/s^2]
-  bool measured = true;  ///< false: bridges missing samples, with the noise of a guess
+  bool measured = true;  ///< false: replaces missing samples, with the noise of `bridge_...`
 };
 
 /// The nominal state `dt` [s] later (earlier when negative): exact for constant rate and force.
 NominalState propagate_state(const NominalState& state, const InertialSegment& segment, double dt,
                              double gravity);
 
-/// Jacobian F of the error after `dt` in the error before it.
+/// Jacobian F of the error after `dt` [s] with respect to the error before it.
 ErrorMatrix propagation_jacobian(const NominalState& state, const InertialSegment& segment,
                                  double dt);
 
-/// Covariance that `dt` [s] of inertial noise and bias walk add; isotropic, so that it
-/// is the same in body and odometry axes.
+/// Covariance Q that `dt` [s] of inertial noise and bias random walk add. It is isotropic, so body
+/// and odometry axes give the same.
 ErrorMatrix propagation_noise(const ImuPropagationConfig& config, bool measured, double dt);
 
-/// The belief `dt` [s] later.
+/// The belief `dt` [s] later: P <- F P F^T + Q.
 Belief propagate(const Belief& belief, const InertialSegment& segment, double dt,
                  const ImuPropagationConfig& config);
 

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 namespace aims {
+
 Information information_of(const LinearMeasurement& measurement) {
   const Eigen::Matrix<double, 3, ErrorState::kSize> weighted =
       measurement.noise.inverse() * measurement.jacobian;
@@ -37,17 +38,17 @@ Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_informa
 
 Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
                      const NominalState& linearization, const Information& measurements,
-                     const ErrorMatrix& mask) {
+                     const ErrorMatrix& gain_mask) {
   const ErrorVector offset = boxminus(linearization, prior);
   const ErrorMatrix J = boxminus_jacobian(offset);
   const ErrorMatrix weighted = J.transpose() * prior_information;
   const ErrorMatrix information = weighted * J;
   const ErrorMatrix full = inverse_spd(information + measurements.matrix);
   const ErrorVector step = -full * (weighted * offset + measurements.vector);
-  // The mask acts on the whole way from the prior, of which `offset` is already gone.
-  const ErrorVector delta = mask * (offset + step) - offset;
-  // Joseph's form with K H = C A and K R K^T = C A C.
-  const ErrorMatrix gain = mask * full;
+  // The mask applies to the total correction from the prior; `offset` of it is already applied.
+  const ErrorVector delta = gain_mask * (offset + step) - offset;
+  // Joseph's form with K H = C A and K R K^T = C A C^T, C = gain.
+  const ErrorMatrix gain = gain_mask * full;
   const ErrorMatrix kept = ErrorMatrix::Identity() - gain * measurements.matrix;
   const ErrorMatrix covariance = kept * inverse_spd(information) * kept.transpose() +
                                  gain * measurements.matrix * gain.transpose();
@@ -56,20 +57,20 @@ Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_informa
           G * (0.5 * (covariance + covariance.transpose())) * G.transpose()};
 }
 
-ErrorMatrix hold_legs(ErrorMatrix mask) {
-  mask.bottomRows<ErrorState::kSize - ErrorState::kMotionSize>().setZero();
-  return mask;
+ErrorMatrix consider_legs(ErrorMatrix gain_mask) {
+  gain_mask.bottomRows<ErrorState::kSize - ErrorState::kMotionSize>().setZero();
+  return gain_mask;
 }
 
-ErrorMatrix hold_position(ErrorMatrix mask) {
-  mask.middleRows<3>(ErrorState::kPosition.offset).setZero();
-  return mask;
+ErrorMatrix consider_position(ErrorMatrix gain_mask) {
+  gain_mask.middleRows<3>(ErrorState::kPosition.offset).setZero();
+  return gain_mask;
 }
 
-ErrorMatrix hold_motion(ErrorMatrix mask, const Eigen::Matrix3d& kept) {
-  block(mask, ErrorState::kPosition, ErrorState::kPosition) = kept;
-  block(mask, ErrorState::kVelocity, ErrorState::kVelocity) = kept;
-  return mask;
+ErrorMatrix limit_motion(ErrorMatrix gain_mask, const Eigen::Matrix3d& factor) {
+  block(gain_mask, ErrorState::kPosition, ErrorState::kPosition) = factor;
+  block(gain_mask, ErrorState::kVelocity, ErrorState::kVelocity) = factor;
+  return gain_mask;
 }
 
 }  // namespace aims

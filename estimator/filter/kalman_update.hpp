@@ -7,25 +7,24 @@
 
 namespace aims {
 
-/// A linearised measurement of three rows: residual(x [+] d) ~ residual + jacobian d, which is zero
-/// up to `noise` at the truth.
+/// A linearized measurement of three rows: residual(x [+] d) ~ residual + jacobian d, zero at the
+/// truth up to `noise`.
 struct LinearMeasurement {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Matrix3xError jacobian = Matrix3xError::Zero();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
 };
 
-/// What measurements of any number of rows say about the error state: A = H^T R^-1 H, b = H^T R^-1
-/// r.
+/// Measurements of any number of rows in information form: A = H^T R^-1 H, b = H^T R^-1 r.
 struct Information {
   ErrorMatrix matrix = ErrorMatrix::Zero();
   ErrorVector vector = ErrorVector::Zero();
 };
 
-/// The information in one three-row measurement.
+/// The information of one three-row measurement.
 Information information_of(const LinearMeasurement& measurement);
 
-/// The information of rows that see the pose alone: 6x6 matrix and 6-vector.
+/// The information of rows that depend on the pose alone: 6x6 matrix and 6-vector.
 Information pose_information(const Matrix6& matrix, const Vector6& vector);
 
 /// Gaussian belief: nominal state and covariance of its error.
@@ -37,29 +36,30 @@ struct Belief {
 /// Inverse of a covariance (symmetric, positive definite).
 ErrorMatrix inverse_spd(const ErrorMatrix& matrix);
 
-/// The one Kalman update, in information form: the belief after fusing `measurements`, linearised
-/// at `linearization`, with the prior whose state is `prior` and inverse covariance
-/// `prior_information`. With linearization == prior it is the plain update; elsewhere it is one
-/// step of the iterated update. The covariance belongs to the error about the returned state.
+/// The Kalman update in information form: the belief after fusing `measurements`, linearized at
+/// `linearization`, with the prior mean `prior` and inverse prior covariance `prior_information`.
+/// With linearization == prior it is the standard update, otherwise one step of the iterated
+/// update. The covariance is that of the error about the returned state.
 Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
                      const NominalState& linearization, const Information& measurements);
 
-/// The same with the gain K replaced by `mask` K: what the mask takes away is considered as
-/// uncertain, but not corrected (Schmidt-Kalman update). The covariance is that of this gain.
+/// The same with the gain K replaced by `gain_mask` K (Schmidt-Kalman update): masked directions
+/// keep their value and their uncertainty. The covariance is Joseph's form for this gain.
 Belief kalman_update(const NominalState& prior, const ErrorMatrix& prior_information,
                      const NominalState& linearization, const Information& measurements,
-                     const ErrorMatrix& mask);
+                     const ErrorMatrix& gain_mask);
 
-/// The mask that corrects everything.
+/// The gain mask that corrects every state.
 inline ErrorMatrix correct_all() { return ErrorMatrix::Identity(); }
 
-/// `mask` without the states of the legs.
-ErrorMatrix hold_legs(ErrorMatrix mask);
+/// `gain_mask` with the leg states as consider states: not corrected.
+ErrorMatrix consider_legs(ErrorMatrix gain_mask);
 
-/// `mask` without the position.
-ErrorMatrix hold_position(ErrorMatrix mask);
+/// `gain_mask` with the position as a consider state: not corrected.
+ErrorMatrix consider_position(ErrorMatrix gain_mask);
 
-/// `mask` with correction of position and velocity only as `kept` (3x3, odometry axes) allows.
-ErrorMatrix hold_motion(ErrorMatrix mask, const Eigen::Matrix3d& kept);
+/// `gain_mask` with the correction of position and velocity multiplied by `factor` (3x3, odometry
+/// axes).
+ErrorMatrix limit_motion(ErrorMatrix gain_mask, const Eigen::Matrix3d& factor);
 
 }  // namespace aims

@@ -7,11 +7,13 @@
 namespace aims {
 namespace {
 
+constexpr double kMaxWait = 60.0;  ///< bound on configured waiting times [s]
+
 constexpr int kLegKind = 0;
 constexpr int kLidarKind = 1;
 
-/// A longer scan is no scan.
-constexpr Duration kLongestScan = kSecond;
+/// Longer scans are out of range.
+constexpr Duration kMaxScanDuration = kSecond;
 
 bool is_finite(const Pose& pose) {
   return pose.rotation.coeffs().allFinite() && pose.translation.allFinite();
@@ -19,8 +21,19 @@ bool is_finite(const Pose& pose) {
 
 }  // namespace
 
-MeasurementQueue::MeasurementQueue(const EstimatorConfig& config)
-    : config_(config), imu_(config.imu) {}
+void describe(Fields& f, QueueConfig& c) {
+  f.number("lag", c.lag,
+           {"s", in_range(0.0, kMaxWait), "measurements wait this long for earlier ones"});
+  f.number("imu_wait", c.imu_wait,
+           {"s", in_range(0.0, kMaxWait), "corrections wait this long for the IMU"});
+  f.number("max_ahead", c.max_ahead,
+           {"s", positive(), "a stamp further ahead of its arrival is rejected"});
+  f.integer("max_held", c.max_held, {"-", at_least(100), "bound on measurements held back"});
+}
+
+MeasurementQueue::MeasurementQueue(const QueueConfig& config, const ImuPropagationConfig& imu,
+                                   double max_leg_speed)
+    : config_(config), imu_config_(imu), max_leg_speed_(max_leg_speed), imu_(imu) {}
 
 void MeasurementQueue::push(const Delivery& delivery) {
   now_ = now_ ? std::max(*now_, delivery.arrival) : delivery.arrival;
@@ -28,7 +41,7 @@ void MeasurementQueue::push(const Delivery& delivery) {
 }
 
 bool MeasurementQueue::plausible_stamp(Time stamp, const std::string& name) {
-  if (stamp <= *now_ + from_seconds(config_.queue.max_ahead)) return true;
+  if (stamp <= *now_ + from_seconds(config_.max_ahead)) return true;
   count(name + ".ahead");
   return false;
 }
@@ -37,14 +50,14 @@ void MeasurementQueue::accept(const ImuSample& sample) {
   if (!sample.angular_velocity.allFinite() || !sample.specific_force.allFinite()) {
     return count("imu.non_finite");
   }
-  if (sample.angular_velocity.norm() > config_.imu.max_rate ||
-      sample.specific_force.norm() > config_.imu.max_force) {
+  if (sample.angular_velocity.norm() > imu_config_.max_rate ||
+      sample.specific_force.norm() > imu_config_.max_force) {
     return count("imu.out_of_range");
   }
   if (!plausible_stamp(sample.stamp, "imu")) return;
   if (last_popped_ && sample.stamp <= last_popped_->first) return count("imu.late");
   if (!imu_.insert(sample)) return count("imu.duplicate");
-  if (imu_.samples().size() > static_cast<std::size_t>(config_.queue.max_held)) {
+  if (imu_.samples().size() > static_cast<std::size_t>(config_.max_held)) {
     imu_.forget_before(imu_.samples()[1].stamp + 1);
   }
 }
@@ -54,12 +67,12 @@ void MeasurementQueue::accept(const LegOdometrySample& sample) {
       !is_finite(sample.T_odom_base)) {
     return count("leg.non_finite");
   }
-  if (sample.linear_velocity.norm() > config_.leg.max_speed) return count("leg.out_of_range");
+  if (sample.linear_velocity.norm() > max_leg_speed_) return count("leg.out_of_range");
   if (plausible_stamp(sample.stamp, "leg")) hold({sample.stamp, kLegKind}, "leg", sample);
 }
 
 void MeasurementQueue::accept(const LidarScanPtr& scan) {
-  if (!scan || scan->end < scan->stamp || scan->end - scan->stamp > kLongestScan) {
+  if (!scan || scan->end < scan->stamp || scan->end - scan->stamp > kMaxScanDuration) {
     return count("lidar.out_of_range");
   }
   if (plausible_stamp(scan->end, "lidar")) hold({scan->end, kLidarKind}, "lidar", scan);
@@ -70,7 +83,7 @@ void MeasurementQueue::hold(const Key& key, const std::string& name, Correction 
     return count(name + (key == *last_popped_ ? ".duplicate" : ".late"));
   }
   if (!held_.try_emplace(key, std::move(correction)).second) return count(name + ".duplicate");
-  if (held_.size() > static_cast<std::size_t>(config_.queue.max_held)) {
+  if (held_.size() > static_cast<std::size_t>(config_.max_held)) {
     held_.erase(held_.begin());
     count("queue.overflow");
   }
@@ -78,9 +91,9 @@ void MeasurementQueue::hold(const Key& key, const std::string& name, Correction 
 
 bool MeasurementQueue::ready(Time stamp) const {
   if (closed_) return true;
-  if (*now_ < stamp + from_seconds(config_.queue.lag)) return false;
+  if (*now_ < stamp + from_seconds(config_.lag)) return false;
   const std::optional<Time> newest = imu_.newest();
-  return (newest && *newest >= stamp) || *now_ >= stamp + from_seconds(config_.queue.imu_wait);
+  return (newest && *newest >= stamp) || *now_ >= stamp + from_seconds(config_.imu_wait);
 }
 
 std::optional<Correction> MeasurementQueue::pop() {

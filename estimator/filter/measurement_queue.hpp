@@ -7,28 +7,40 @@
 #include <utility>
 #include <variant>
 
+#include "core/config.hpp"
 #include "core/measurements.hpp"
-#include "estimator/aims/config.hpp"
 #include "estimator/filter/imu_history.hpp"
 
 namespace aims {
 
+/// Order and completeness of the measurements.
+struct QueueConfig {
+  double lag = 0.05;       ///< measurements wait this long for earlier ones [s]
+  double imu_wait = 0.3;   ///< corrections wait this long for the IMU to cover them [s]
+  double max_ahead = 5.0;  ///< a stamp further ahead of its arrival is rejected [s]
+  int max_held = 5000;     ///< bound on measurements held back
+};
+
+void describe(Fields& fields, QueueConfig& config);
+
 /// A measurement that corrects the predicted state.
 using Correction = std::variant<LegOdometrySample, LidarScanPtr>;
 
-/// Puts what arrives into order of stamp within a fixed lag. Late, duplicate, non-finite and
-/// out-of-range measurements are dropped and counted, e.g. "leg.late".
+/// Sorts measurements by stamp within a fixed lag. Late, duplicate, non-finite and out-of-range
+/// measurements are dropped and counted, e.g. "leg.late".
 class MeasurementQueue {
  public:
-  explicit MeasurementQueue(const EstimatorConfig& config);
+  /// Leg samples faster than `max_leg_speed` [m/s] are out of range.
+  MeasurementQueue(const QueueConfig& config, const ImuPropagationConfig& imu,
+                   double max_leg_speed);
 
   void push(const Delivery& delivery);
 
-  /// The next correction in order of stamp, once the lag has passed and the IMU covers it (or has
-  /// been waited for in vain).
+  /// The next correction in order of stamp, once the lag has passed and the IMU covers it or
+  /// `imu_wait` has passed.
   std::optional<Correction> pop();
 
-  /// Nothing more will come: what is held is ready.
+  /// The stream has ended: everything held becomes ready.
   void close() { closed_ = true; }
 
   ImuHistory& imu() { return imu_; }
@@ -46,7 +58,9 @@ class MeasurementQueue {
   bool plausible_stamp(Time stamp, const std::string& name);
   void count(const std::string& what) { ++counts_[what]; }
 
-  EstimatorConfig config_;
+  QueueConfig config_;
+  ImuPropagationConfig imu_config_;
+  double max_leg_speed_;
   ImuHistory imu_;
   std::map<Key, Correction> held_;
   std::optional<Key> last_popped_;

@@ -3,26 +3,37 @@
 
 #include <optional>
 
+#include "core/config.hpp"
 #include "core/measurements.hpp"
-#include "estimator/aims/directional_config.hpp"
 #include "estimator/filter/kalman_update.hpp"
 
 namespace aims {
 
-/// The belief with the states of the legs (scale and bias) open, as far as they are switched on.
+/// Scale and bias of the leg odometry as filter states.
+struct LegStatesConfig {
+  bool scale = true;             ///< estimate a scale per axis
+  bool bias = true;              ///< estimate a bias per axis
+  bool gate_learning = true;     ///< correct them only while the LiDAR constrains every axis
+  double scale_sigma = 0.12;     ///< initial [-]
+  double scale_walk = 1e-3;      ///< [1/sqrt(s)]
+  double bias_sigma = 0.01;      ///< initial [m/s]
+  double bias_walk = 1e-4;       ///< [m/s/sqrt(s)]
+  double min_axis_weight = 0.3;  ///< of the weakest LiDAR axis, for learning [-]
+};
+
+void describe(Fields& fields, LegStatesConfig& config);
+
+/// The belief with the initial variances of the enabled leg states.
 Belief open_leg_states(Belief belief, const LegStatesConfig& config);
 
-/// The belief after the states of the legs have walked for `dt` [s].
+/// Adds the random walk of the enabled leg states over `dt` [s].
 void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt);
 
-/// Mean of the velocity that the legs report over about a stride: a first-order low pass.
+/// First-order low pass of the velocity from leg odometry, with the time constant of a stride.
 class StrideMean {
  public:
-  /// Takes a sample and returns the mean, base axes [m/s].
+  /// Adds a sample and returns the mean, base axes [m/s].
   const Eigen::Vector3d& update(const LegOdometrySample& sample);
-
-  /// The mean so far, base axes [m/s].
-  const Eigen::Vector3d& value() const { return mean_; }
 
  private:
   std::optional<Time> stamp_;

@@ -5,6 +5,18 @@
 
 namespace aims {
 
+void describe(Fields& f, LegConfig& c) {
+  f.number("rate_hz", c.rate_hz, {"Hz", positive(), "nominal packet rate", "paper, III-A"});
+  f.vector("velocity_sigma", c.velocity_sigma,
+           {"m/s", positive(), "error of one sample along the base axes, R_leg"});
+  f.number("correlation_time", c.correlation_time,
+           {"s", in_range(0.0, 60.0),
+            "correlation time of that error; multiplies R_leg by the number of correlated samples"});
+  f.number("scale_sigma", c.scale_sigma,
+           {"-", at_least(0), "error proportional to the speed, R_leg"});
+  f.number("max_speed", c.max_speed, {"m/s", positive(), "faster samples are rejected"});
+}
+
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
                                      const Eigen::Vector3d& angular_velocity,
                                      const LegVelocity& legs, const Eigen::Matrix3d& noise) {

@@ -6,7 +6,7 @@
 namespace aims {
 namespace {
 
-/// Spacing of the knots: between them poses are taken as linear.
+/// Spacing of the knots; points are interpolated linearly between them.
 constexpr Duration kStep = kMillisecond;
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace aims {
 
-/// How the LiDAR moved through a scan, relative to the body at the scan's end.
+/// Motion of the LiDAR during a scan, relative to the body at the scan's end.
 class ScanMotion {
  public:
   /// Propagates `end_state`, the state at the last segment's end, backward through `segments`
@@ -19,8 +19,8 @@ class ScanMotion {
   ScanMotion(const NominalState& end_state, std::span<const InertialSegment> segments,
              const Pose& T_body_lidar, double gravity);
 
-  /// A point fired at `time` from LiDAR coordinates of that instant to body coordinates of the
-  /// scan's end; times outside the segments take the nearest end.
+  /// Transforms a point fired at `time` from LiDAR coordinates at that time to body coordinates at
+  /// the scan's end. Times outside the segments are clamped.
   Eigen::Vector3f deskew(const Eigen::Vector3f& point, Time time) const;
 
  private:

@@ -8,8 +8,8 @@
 namespace aims {
 namespace {
 
-/// First-order covariance of the normal of `count` points about their two axes in the plane: their
-/// `variance` across it [m^2] over their spread.
+/// First-order covariance of the normal of `count` points: per axis in the plane, the `variance`
+/// across it [m^2] over the sum of squares along it.
 Eigen::Matrix3d normal_covariance(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& scatter,
                                   double count, double variance) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -21,38 +21,42 @@ Eigen::Matrix3d normal_covariance(const Eigen::SelfAdjointEigenSolver<Eigen::Mat
   return sum;
 }
 
-}  // namespace
-
-Plane plane_of_moments(const PointMoments& moments, double min_spread, const MapConfig& config) {
+/// The least-squares plane of points with this mean and scatter [m^2]; valid when they spread in
+/// two directions, and by the map's ratio more than across the plane.
+Plane plane_of(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter, double count,
+               const MapConfig& config) {
   Plane plane;
-  plane.point = moments.mean;
+  plane.point = mean;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(moments.scatter);
+  solver.computeDirect(scatter);
   plane.normal = solver.eigenvectors().col(0);
-  plane.thickness = std::sqrt(std::max(solver.eigenvalues()(0), 0.0));
+  const double across = solver.eigenvalues()(0);
   const double second = solver.eigenvalues()(1);
   if (!plane.normal.allFinite()) return plane;
-  if (second < min_spread * min_spread) return plane;
-  if (second < config.plane_min_ratio * solver.eigenvalues()(0)) return plane;
-  const double left = solver.eigenvalues()(0) * moments.count / std::max(moments.count - 3.0, 1.0);
+  if (second < config.plane_min_spread * config.plane_min_spread) return plane;
+  if (second < config.plane_min_ratio * across) return plane;
+  const double variance = across * count / std::max(count - 3.0, 1.0);
   plane.normal_covariance =
-      normal_covariance(solver, moments.count, std::max(left, config.map_sigma * config.map_sigma));
+      normal_covariance(solver, count, std::max(variance, config.map_sigma * config.map_sigma));
   plane.valid = true;
   return plane;
 }
 
+}  // namespace
+
 Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config) {
   if (points.size() < 3) return {};
-  PointMoments moments;
-  moments.count = static_cast<double>(points.size());
-  for (const Eigen::Vector3f& p : points) moments.mean += p.cast<double>();
-  moments.mean /= moments.count;
+  const auto count = static_cast<double>(points.size());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : points) mean += p.cast<double>();
+  mean /= count;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d d = p.cast<double>() - moments.mean;
-    moments.scatter.noalias() += d * d.transpose();
+    const Eigen::Vector3d d = p.cast<double>() - mean;
+    scatter.noalias() += d * d.transpose();
   }
-  moments.scatter /= moments.count;
-  Plane plane = plane_of_moments(moments, config.plane_min_spread, config);
+  scatter /= count;
+  Plane plane = plane_of(mean, scatter, count, config);
   if (!plane.valid) return plane;
   for (const Eigen::Vector3f& p : points) {
     const double distance = plane.normal.dot(p.cast<double>() - plane.point);

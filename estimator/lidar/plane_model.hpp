@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "estimator/aims/config.hpp"
 #include "estimator/filter/error_state.hpp"
+#include "estimator/lidar/lidar_config.hpp"
 
 namespace aims {
 
@@ -13,25 +13,13 @@ namespace aims {
 struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< n_i, unit
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< q_i, mean of the map points [m]
-  double thickness = 0.0;                             ///< deviation of the map points across it [m]
   bool valid = false;  ///< the points lie on it, and span it in two directions
-  /// Of the normal, odometry axes, by what the fit leaves of its points; zero across the normal.
+  /// Of the normal, odometry axes, from the residuals of the fit; zero along the normal.
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
 };
 
-/// Mean and scatter of points.
-struct PointMoments {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();     ///< [m]
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  ///< covariance of the points [m^2]
-  double count = 0.0;
-};
-
-/// The least-squares plane of points with these moments; valid when they spread in two directions
-/// by `min_spread` [m] and by the map's ratio more than across it.
-Plane plane_of_moments(const PointMoments& moments, double min_spread, const MapConfig& config);
-
-/// The least-squares plane of `points`, judged by the map's thickness, spread and ratio: five
-/// points of one scan line do not define a plane.
+/// The least-squares plane of `points`; valid when they satisfy the thickness, spread and ratio of
+/// the configuration, which five points of one scan line do not.
 Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config);
 
 /// One row of the point-to-plane model.

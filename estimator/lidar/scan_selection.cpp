@@ -4,11 +4,11 @@
 namespace aims {
 namespace {
 
-/// Candidates between the request for a table entry and its use: the table exceeds the caches.
+/// Candidates between the prefetch of a table entry and its use: the table exceeds the caches.
 constexpr std::size_t kAhead = 16;
 
-/// Well-mixed bits of an index (splitmix64 finalizer): the draw among the returns of a voxel.
-std::uint64_t lot(std::int32_t index) {
+/// Hash of an index (splitmix64 finalizer): chooses among the returns of a voxel.
+std::uint64_t hash_of(std::int32_t index) {
   std::uint64_t bits = static_cast<std::uint64_t>(index) + 0x9e3779b97f4a7c15ULL;
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
   bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
@@ -35,23 +35,23 @@ void ScanSelection::list_candidates(const LidarScan& scan, double voxel) {
 
 void ScanSelection::select(const LidarScan& scan, double voxel, int limit, std::vector<int>& kept) {
   kept.clear();
-  taken_.clear();
+  occupied_.clear();
   list_candidates(scan, voxel);
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    if (i + kAhead < candidates_.size()) taken_.prefetch(candidates_[i + kAhead].key);
+    if (i + kAhead < candidates_.size()) occupied_.prefetch(candidates_[i + kAhead].key);
     const auto next = static_cast<std::int32_t>(kept.size());
-    const std::int32_t slot = taken_.find_or_insert(candidates_[i].key, next);
+    const std::int32_t slot = occupied_.find_or_insert(candidates_[i].key, next);
     if (slot == next) {
       kept.push_back(candidates_[i].index);
-    } else if (lot(candidates_[i].index) < lot(kept[slot])) {
+    } else if (hash_of(candidates_[i].index) < hash_of(kept[slot])) {
       kept[slot] = candidates_[i].index;
     }
   }
   const std::size_t count = kept.size();
-  const auto most = static_cast<std::size_t>(limit);
-  if (count <= most) return;
-  for (std::size_t i = 0; i < most; ++i) kept[i] = kept[i * count / most];
-  kept.resize(most);
+  const auto max_count = static_cast<std::size_t>(limit);
+  if (count <= max_count) return;
+  for (std::size_t i = 0; i < max_count; ++i) kept[i] = kept[i * count / max_count];
+  kept.resize(max_count);
 }
 
 }  // namespace aims

@@ -5,21 +5,21 @@
 #include <vector>
 
 #include "core/measurements.hpp"
-#include "estimator/aims/config.hpp"
+#include "estimator/lidar/lidar_config.hpp"
 #include "estimator/lidar/voxel_hash.hpp"
 
 namespace aims {
 
-/// Picks points of a raw scan evenly in space: one return of each voxel of the sensor frame, drawn
-/// by a hash of its index. Far walls keep nearly every return, near ones a few.
-/// The draw must not follow the firing order: the first return in a voxel is more often one that
-/// range noise pushed into it, outwards on one side of the robot and inwards on the other, and the
-/// map then turns with the sense in which the LiDAR spins.
+/// Selects points of a raw scan evenly in space: one return per voxel of the sensor frame, chosen
+/// by a hash of its index. Far walls keep nearly every return, near ones a few. The choice must not
+/// follow the firing order: the first return in a voxel is more often one with range noise into it,
+/// outward on one side of the robot and inward on the other, and the map then rotates with the
+/// direction in which the LiDAR spins.
 class ScanSelection {
  public:
   explicit ScanSelection(const LidarUpdateConfig& config) : config_(config) {}
 
-  /// Replaces `kept` by indices into `scan`, evenly thinned when there are more than `limit`.
+  /// Replaces `kept` by indices into `scan`, thinned evenly to at most `limit`.
   void select(const LidarScan& scan, double voxel, int limit, std::vector<int>& kept);
 
   /// True when the point is finite and in range.
@@ -35,7 +35,7 @@ class ScanSelection {
 
   LidarUpdateConfig config_;
   std::vector<Candidate> candidates_;
-  VoxelHash taken_{8192};
+  VoxelHash occupied_{8192};
 };
 
 }  // namespace aims

@@ -54,7 +54,7 @@ class VoxelHash {
     }
   }
 
-  /// Asks for the memory of `key`, which will be wanted soon.
+  /// Prefetches the memory of `key`.
   void prefetch(std::uint64_t key) const { __builtin_prefetch(&slots_[slot(key)]); }
 
   /// The value of `key`; when it is new, `value` is stored first.
@@ -97,8 +97,8 @@ class VoxelHash {
     std::uint32_t generation = 0;
   };
 
-  /// Every bit of the key must reach the bits that are kept: voxels of a wall differ in one or two
-  /// coordinates only (finalizer of splitmix64).
+  /// Mixes all bits of the key into the low bits (finalizer of splitmix64): the voxels of a wall
+  /// differ in one or two coordinates only.
   std::size_t slot(std::uint64_t key) const {
     key = (key ^ (key >> 30U)) * 0xbf58476d1ce4e5b9ULL;
     key = (key ^ (key >> 27U)) * 0x94d049bb133111ebULL;

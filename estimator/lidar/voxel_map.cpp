@@ -7,8 +7,8 @@
 namespace aims {
 namespace {
 
-/// Offsets of the 27 voxels around one: itself first, then by faces, edges and corners, so that
-/// the best neighbours are found early and the rest are pruned.
+/// Offsets of the 27 voxels around one: itself first, then faces, edges and corners, so that near
+/// neighbours are found early and the rest is pruned.
 std::array<std::array<int, 3>, 27> neighborhood() {
   std::array<std::array<int, 3>, 27> offsets{};
   int i = 0;
@@ -43,38 +43,35 @@ VoxelMap::VoxelMap(const MapConfig& config)
       spacing_(static_cast<float>(config.point_spacing)),
       max_points_per_voxel_(std::clamp(config.max_points_per_voxel, 1, kCapacity)),
       max_merges_(std::clamp(config.max_merges, 1, 255)),
-      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))),
-      planes_(config) {}
+      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {}
 
 void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
-                      const Eigen::Matrix3f& anchor) {
+                      const Eigen::Matrix3f& covariance) {
   voxels_.begin_insertion();
   for (const Eigen::Vector3f& point : points) {
-    if (point.allFinite()) insert(point, anchor);
+    if (point.allFinite()) insert(point, covariance);
   }
   voxels_.limit(max_voxels_, [&center](const Voxel& v) {
     return (Eigen::Vector3f(v.x[0], v.y[0], v.z[0]) - center).squaredNorm();
   });
-  if (config_.planes == MapPlanes::kVoxels) planes_.insert(points, center);
 }
 
 Plane VoxelMap::plane_at(const Eigen::Vector3f& query) const {
-  if (config_.planes == MapPlanes::kVoxels) return planes_.plane_at(query);
   Neighbors neighbors;
   nearest(query, neighbors);
   if (neighbors.count < Neighbors::kWanted) return {};
   return fit_plane(neighbors.points, config_);
 }
 
-void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor) {
+void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& covariance) {
   Voxel& voxel = voxels_.touch(voxel_key(voxel_of(point, inverse_size_)));
-  if (voxel.count == 0) voxel.anchor = anchor;
+  if (voxel.count == 0) voxel.covariance = covariance;
   int closest = -1;
-  float least = spacing_ * spacing_;
+  float nearest = spacing_ * spacing_;
   for (int i = 0; i < voxel.count; ++i) {
     const Eigen::Vector3f d(voxel.x[i] - point.x(), voxel.y[i] - point.y(), voxel.z[i] - point.z());
-    if (d.squaredNorm() < least) {
-      least = d.squaredNorm();
+    if (d.squaredNorm() < nearest) {
+      nearest = d.squaredNorm();
       closest = i;
     }
   }
@@ -93,10 +90,10 @@ void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& ancho
   }
 }
 
-Eigen::Matrix3f VoxelMap::anchor_at(const Eigen::Vector3f& point) const {
+Eigen::Matrix3f VoxelMap::covariance_at(const Eigen::Vector3f& point) const {
   const Voxel* voxel = voxels_.find(voxel_key(voxel_of(point, inverse_size_)));
   if (voxel == nullptr) return Eigen::Matrix3f::Zero();
-  return voxel->anchor;
+  return voxel->covariance;
 }
 
 void VoxelMap::search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
@@ -142,12 +139,9 @@ void VoxelMap::nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const
   }
 }
 
-void VoxelMap::forget_unseen(int insertions) {
-  voxels_.forget_unseen(insertions);
-  planes_.forget_unseen(insertions);
-}
+void VoxelMap::forget_unseen(int insertions) { voxels_.forget_unseen(insertions); }
 
-std::size_t VoxelMap::memory() const { return voxels_.memory() + planes_.memory(); }
+std::size_t VoxelMap::memory() const { return voxels_.memory(); }
 
 std::vector<Eigen::Vector3f> VoxelMap::points() const {
   std::vector<Eigen::Vector3f> all;

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "estimator/aims/config.hpp"
-#include "estimator/lidar/plane_voxels.hpp"
+#include "estimator/lidar/lidar_config.hpp"
+#include "estimator/lidar/plane_model.hpp"
 #include "estimator/lidar/voxel_store.hpp"
 
 namespace aims {
@@ -22,27 +22,27 @@ struct Neighbors {
 };
 
 /// Local map: points in hashed cubic voxels. A return close to a map point merges into it (running
-/// mean), so that noise averages out; memory is bounded per voxel and in all.
+/// mean), which averages noise; memory is bounded per voxel and in total.
 class VoxelMap {
  public:
   explicit VoxelMap(const MapConfig& config);
 
   /// Adds points in the odometry frame; non-finite ones are ignored. When there are too many
-  /// voxels afterwards, those farthest from `center` are dropped. Voxels that are new remember the
-  /// covariance `anchor` of the position from which they were first seen [m^2].
+  /// voxels afterwards, those farthest from `center` are dropped. New voxels store `covariance`,
+  /// that of the position from which they are mapped [m^2].
   void insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
-              const Eigen::Matrix3f& anchor = Eigen::Matrix3f::Zero());
+              const Eigen::Matrix3f& covariance = Eigen::Matrix3f::Zero());
 
-  /// Forgets the voxels that none of the last `insertions` calls of `insert` put a point in.
+  /// Drops the voxels that got no point in the last `insertions` calls of `insert`.
   void forget_unseen(int insertions);
 
-  /// The covariance that the voxel around `point` remembers; zero where there is none [m^2].
-  Eigen::Matrix3f anchor_at(const Eigen::Vector3f& point) const;
+  /// The covariance stored in the voxel around `point`; zero where there is none [m^2].
+  Eigen::Matrix3f covariance_at(const Eigen::Vector3f& point) const;
 
-  /// The up to five nearest map points within the gate (at most one voxel edge): exact.
+  /// The nearest map points, up to five, within the gate (at most one voxel edge); exact.
   void nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const;
 
-  /// The plane of the map at a query, as `MapConfig::planes` says; invalid when there is none.
+  /// The plane through the five map points nearest to `query`; invalid when there is none.
   Plane plane_at(const Eigen::Vector3f& query) const;
 
   /// Memory that the map holds [bytes].
@@ -65,10 +65,10 @@ class VoxelMap {
     std::uint64_t key = 0;
     int count = 0;
     std::uint32_t seen = 0;  ///< the last insertion that put a point in it
-    Eigen::Matrix3f anchor = Eigen::Matrix3f::Zero();
+    Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
   };
 
-  void insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& anchor);
+  void insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& covariance);
   static void search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
                      Neighbors& neighbors);
 
@@ -81,7 +81,6 @@ class VoxelMap {
   int max_merges_;
   std::size_t max_voxels_;
   VoxelStore<Voxel> voxels_;
-  PlaneVoxels planes_;
 };
 
 }  // namespace aims

@@ -9,15 +9,15 @@
 
 namespace aims {
 
-/// Voxels in the order in which they came, found by their keys. `Voxel` has the members `key` and
-/// `seen`, the last insertion that touched it.
+/// Voxels in order of creation, found by their keys. `Voxel` has the members `key` and `seen`, the
+/// last insertion that touched it.
 template <class Voxel>
 class VoxelStore {
  public:
-  /// What is touched from now on belongs to the next insertion.
+  /// Starts the next insertion.
   void begin_insertion() { ++insertions_; }
 
-  /// The voxel of `key`, made when there is none; this insertion has seen it.
+  /// The voxel of `key`, created if missing; marked as seen by this insertion.
   Voxel& touch(std::uint64_t key) {
     const auto next = static_cast<std::int32_t>(voxels_.size());
     const std::int32_t at = index_.find_or_insert(key, next);
@@ -32,19 +32,19 @@ class VoxelStore {
     return at == VoxelHash::kNone ? nullptr : &voxels_[at];
   }
 
-  /// When there are more than `most` voxels, drops those of the greatest `squared_distance`; a
-  /// tenth of `most` is freed at once, so that dropping stays rare.
+  /// With more than `max_count` voxels, drops those with the largest `squared_distance`, a tenth of
+  /// `max_count` at once, so that dropping stays rare.
   template <class Distance>
-  void limit(std::size_t most, const Distance& squared_distance) {
-    if (voxels_.size() <= most) return;
+  void limit(std::size_t max_count, const Distance& squared_distance) {
+    if (voxels_.size() <= max_count) return;
     std::vector<decltype(squared_distance(voxels_.front()))> distances(voxels_.size());
     std::transform(voxels_.begin(), voxels_.end(), distances.begin(), squared_distance);
-    const auto last = distances.begin() + static_cast<std::ptrdiff_t>(most - most / 10);
+    const auto last = distances.begin() + static_cast<std::ptrdiff_t>(max_count - max_count / 10);
     std::nth_element(distances.begin(), last, distances.end());
-    drop_if([&, least = *last](const Voxel& v) { return squared_distance(v) >= least; });
+    drop_if([&, farthest = *last](const Voxel& v) { return squared_distance(v) >= farthest; });
   }
 
-  /// Drops the voxels that none of the last `insertions` saw.
+  /// Drops the voxels not touched by the last `insertions`.
   void forget_unseen(int insertions) {
     const auto age = static_cast<std::uint32_t>(std::max(insertions, 0));
     drop_if([&](const Voxel& v) { return insertions_ - v.seen >= age; });

@@ -25,7 +25,7 @@ void expect_contains(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << text << " lacks " << part;
 }
 
-TEST(EstimatorSpec, ABareNameIsItsOwnLabel) {
+TEST(EstimatorSpec, AnEstimatorNameIsItsOwnLabel) {
   const EstimatorSpec spec = parsed("aims_d");
   EXPECT_EQ(spec.label, "aims_d");
   EXPECT_EQ(spec.name, "aims_d");
@@ -34,15 +34,15 @@ TEST(EstimatorSpec, ABareNameIsItsOwnLabel) {
 
 TEST(EstimatorSpec, HoldsLabelNameAndSettingsInOrder) {
   const EstimatorSpec spec =
-      parsed("no_floor=aims_d+directional.floor.enabled=false+leg.scale_sigma=0.1");
-  EXPECT_EQ(spec.label, "no_floor");
+      parsed("no_ground=aims_d+directional.ground_constraint.enabled=false+leg.scale_sigma=0.1");
+  EXPECT_EQ(spec.label, "no_ground");
   EXPECT_EQ(spec.name, "aims_d");
   ASSERT_EQ(spec.settings.size(), 2U);
   EXPECT_EQ(spec.settings[0],
-            std::pair(std::string("directional.floor.enabled"), std::string("false")));
+            std::pair(std::string("directional.ground_constraint.enabled"), std::string("false")));
   const auto config = config_with(spec, EstimatorConfig{});
   ASSERT_TRUE(config);
-  EXPECT_FALSE(config->directional.floor.enabled);
+  EXPECT_FALSE(config->directional.ground_constraint.enabled);
   EXPECT_EQ(config->leg.scale_sigma, 0.1);
 }
 
@@ -63,28 +63,28 @@ TEST(EstimatorSpec, APlusInsideANumberStartsNoSetting) {
   EXPECT_EQ(config->degeneracy.eta, 5.0);
 }
 
-TEST(EstimatorSpec, AMadeLabelServesAsAFileName) {
+TEST(EstimatorSpec, AGeneratedLabelIsAValidFileName) {
   const std::string label = parsed("aims+leg.velocity_sigma=[0.1,0.2,0.3]").label;
   EXPECT_EQ(label.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-"), std::string::npos)
       << label;
 }
 
-TEST(EstimatorSpec, RefusesWhatItCannotReadWithANearMatch) {
+TEST(EstimatorSpec, RejectsMalformedSpecsWithANearMatch) {
   expect_contains(error_of("amis"), "did you mean 'aims'");
-  expect_contains(error_of("x=aims_d+directional.flor.enabled=false"),
-                  "did you mean 'directional.floor.enabled'");
+  expect_contains(error_of("x=aims_d+directional.ground_constrain.enabled=false"),
+                  "did you mean 'directional.ground_constraint.enabled'");
   expect_contains(error_of("x=aims+leg.scale_sigma=wide"), "leg.scale_sigma");
-  expect_contains(error_of("aims+floor"), "key=value");
+  expect_contains(error_of("aims+ground"), "key=value");
   expect_contains(error_of("../x=aims"), "label");
   expect_contains(error_of("=aims"), "label");
 }
 
-TEST(EstimatorSpec, NoLabelMayBeAnotherEstimatorsName) {
-  expect_contains(error_of("lio=aims"), "estimator's name");
-  expect_contains(error_of("aims=aims+degeneracy.eta=5"), "estimator's name");
+TEST(EstimatorSpec, ALabelMustNotBeAnotherEstimatorsName) {
+  expect_contains(error_of("lio=aims"), "name of another estimator");
+  expect_contains(error_of("aims=aims+degeneracy.eta=5"), "name of another estimator");
 }
 
-TEST(EstimatorSpec, TwoOfOneLabelAreRefused) {
+TEST(EstimatorSpec, RepeatedLabelsAreRejected) {
   const std::vector<std::string> twice = {"aims", "x=aims_d", "x=lio"};
   EXPECT_FALSE(check_estimator_specs(twice));
   const std::vector<std::string> once = {"aims", "x=aims_d", "y=lio"};
@@ -106,12 +106,13 @@ TEST(EstimatorSpec, CommasInsideBracketsSurviveTheCommandLine) {
 TEST(EstimatorSpec, TheUnitIdDependsOnTheSettingsAndNotOnTheLabel) {
   const Scenario scenario;
   const std::string plain = unit_id(scenario, 1, "aims_d");
-  EXPECT_EQ(unit_id(scenario, 1, "whole=aims_d"), plain);
-  EXPECT_EQ(unit_id(scenario, 1, "x=aims_d+directional.floor.enabled=true"), plain);
-  const std::string without = unit_id(scenario, 1, "x=aims_d+directional.floor.enabled=false");
+  EXPECT_EQ(unit_id(scenario, 1, "full=aims_d"), plain);
+  EXPECT_EQ(unit_id(scenario, 1, "x=aims_d+directional.ground_constraint.enabled=true"), plain);
+  const std::string without =
+      unit_id(scenario, 1, "x=aims_d+directional.ground_constraint.enabled=false");
   EXPECT_NE(without, plain);
-  EXPECT_EQ(unit_id(scenario, 1, "y=aims_d+directional.floor.enabled=false"), without);
-  EXPECT_NE(unit_id(scenario, 1, "y=aims+directional.floor.enabled=false"), without);
+  EXPECT_EQ(unit_id(scenario, 1, "y=aims_d+directional.ground_constraint.enabled=false"), without);
+  EXPECT_NE(unit_id(scenario, 1, "y=aims+directional.ground_constraint.enabled=false"), without);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace aims {
 namespace {
 
-TEST(Registry, MakesEveryEstimatorItLists) {
+TEST(Registry, CreatesEveryListedEstimator) {
   for (const EstimatorEntry& entry : estimator_registry()) {
     const auto made = make_estimator(entry.name, EstimatorConfig{}, SensorRig{});
     ASSERT_TRUE(made.has_value()) << entry.name;

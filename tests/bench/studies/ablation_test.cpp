@@ -40,23 +40,24 @@ TEST(AblationSpecs, AreTheWholeAndItselfWithEachFlagTurnedOver) {
   ASSERT_TRUE(specs) << specs.error().message;
   EXPECT_EQ(specs->size(), 1U + flags_below("directional"));
   EXPECT_EQ(specs->front(), "aims_d");
-  EXPECT_TRUE(contains(*specs, "no_floor=aims_d+directional.floor.enabled=false"));
+  EXPECT_TRUE(
+      contains(*specs, "no_ground_constraint=aims_d+directional.ground_constraint.enabled=false"));
   EXPECT_TRUE(contains(*specs, "no_leg_states_scale=aims_d+directional.leg_states.scale=false"));
   EXPECT_TRUE(check_estimator_specs(*specs));
 }
 
 TEST(AblationSpecs, TurnOnWhatTheScenarioOrTheSpecTurnsOff) {
   EstimatorConfig base;
-  base.directional.floor.enabled = false;
+  base.directional.ground_constraint.enabled = false;
   const auto specs =
-      ablation_specs("mine=aims_d+directional.standstill.enabled=false", {"directional"}, base);
+      ablation_specs("mine=aims_d+directional.zero_velocity.enabled=false", {"directional"}, base);
   ASSERT_TRUE(specs) << specs.error().message;
   EXPECT_TRUE(contains(*specs,
-                       "with_floor=aims_d+directional.standstill.enabled=false+"
-                       "directional.floor.enabled=true"));
+                       "with_ground_constraint=aims_d+directional.zero_velocity.enabled=false+"
+                       "directional.ground_constraint.enabled=true"));
   EXPECT_TRUE(contains(*specs,
-                       "with_standstill=aims_d+directional.standstill.enabled=false+"
-                       "directional.standstill.enabled=true"));
+                       "with_zero_velocity=aims_d+directional.zero_velocity.enabled=false+"
+                       "directional.zero_velocity.enabled=true"));
 }
 
 TEST(AblationSpecs, AGroupWithoutFlagsIsRefused) {
@@ -78,10 +79,12 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
   for (const auto& [name, factor] : {std::pair("a", 2.0), std::pair("b", 8.0)}) {
     SuiteCase each;
     each.scenario.name = name;
-    each.scenario.estimators = {"aims_d", "no_floor=aims_d+directional.floor.enabled=false"};
+    each.scenario.estimators = {
+        "aims_d", "no_ground_constraint=aims_d+directional.ground_constraint.enabled=false"};
     for (const std::uint64_t seed : {1, 2, 3}) {
       const double ate = 0.1 * static_cast<double>(seed);
-      each.runs.push_back(record_with(seed, {{"aims_d", ate}, {"no_floor", factor * ate}}));
+      each.runs.push_back(
+          record_with(seed, {{"aims_d", ate}, {"no_ground_constraint", factor * ate}}));
     }
     suite.cases.push_back(std::move(each));
   }
@@ -91,7 +94,7 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
   EXPECT_NEAR(*ablation.worth[1].ratios[2], 4.0, 1e-12);
   EXPECT_NEAR(*ablation.worth[1].worst_ratio, 8.0, 1e-12);
   EXPECT_EQ(ablation.worth[1].worst_scenario, "b");
-  EXPECT_EQ(ablation.worth[1].changes, "aims_d+directional.floor.enabled=false");
+  EXPECT_EQ(ablation.worth[1].changes, "aims_d+directional.ground_constraint.enabled=false");
   EXPECT_NEAR(*ablation.cases[0].rows[1].cells[2].median, 0.4, 1e-12);
   EXPECT_NEAR(*ablation.cases[0].rows[1].cells[2].ratio, 2.0, 1e-12);
   EXPECT_FALSE(ablation.worth[1].ratios[0]) << "no run has M_list";
@@ -100,14 +103,14 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
 TEST(Ablation, RunsAllVariantsOnOneStreamAndContinues) {
   const TemporaryFolder folder;
   AblationOptions options;
-  options.groups = {"directional.floor"};
+  options.groups = {"directional.ground_constraint"};
   options.others = {"lio"};
   options.suite = options_for(folder.path() / "out", 2);
   const auto first = run_ablation(one_walk(), options, keep_going);
   ASSERT_TRUE(first) << first.error().message;
   EXPECT_EQ(first->suite.runs_done, 2U) << "a seed is simulated once for all variants";
   ASSERT_EQ(first->cases.at(0).rows.size(), 3U);
-  EXPECT_EQ(first->cases[0].rows[1].label, "no_floor");
+  EXPECT_EQ(first->cases[0].rows[1].label, "no_ground_constraint");
   for (const char* name : {"ablation.md", "ablation.csv", "ablation.json", "suite.json"}) {
     EXPECT_TRUE(fs::exists(folder.path() / "out" / name)) << name;
   }

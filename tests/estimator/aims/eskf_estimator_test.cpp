@@ -16,8 +16,8 @@ namespace {
 using test::KinematicConfig;
 using test::KinematicWorld;
 
-/// A short walk with a coarse LiDAR, quick to simulate.
-KinematicConfig short_walk() {
+/// A short sequence with a coarse LiDAR, quick to simulate.
+KinematicConfig short_sequence() {
   KinematicConfig config;
   config.walk.distance = 2.5;
   config.corridor.end = 20.0;
@@ -39,12 +39,12 @@ EstimatorResult run(std::string_view name, const std::vector<Delivery>& deliveri
   return (*estimator)->result();
 }
 
-/// Largest distance [m] between the estimate, anchored at its first pose, and the truth.
-double largest_error(const EstimatorResult& report, const KinematicWorld& world) {
-  const StampedPose& first = report.trajectory.front();
+/// Largest distance [m] between the estimate, aligned at its first pose, and the truth.
+double largest_error(const EstimatorResult& result, const KinematicWorld& world) {
+  const StampedPose& first = result.trajectory.front();
   const Pose T_world_odom = world.T_world_body(first.stamp) * first.pose.inverse();
   double largest = 0.0;
-  for (const StampedPose& each : report.trajectory) {
+  for (const StampedPose& each : result.trajectory) {
     const Pose error = world.T_world_body(each.stamp).inverse() * T_world_odom * each.pose;
     if (!error.translation.allFinite()) return std::numeric_limits<double>::infinity();
     largest = std::max(largest, error.translation.norm());
@@ -52,83 +52,38 @@ double largest_error(const EstimatorResult& report, const KinematicWorld& world)
   return largest;
 }
 
-TEST(Eskf, WalksTheCorridorWithinCentimetres) {
-  KinematicWorld world(short_walk());
+TEST(Eskf, TracksTheCorridorWithinCentimetres) {
+  KinematicWorld world(short_sequence());
   const auto deliveries = record(world);
   for (const char* name : {"aims", "tfs", "tfs_clean", "lio"}) {
-    const EstimatorResult report = run(name, deliveries, world.rig());
-    ASSERT_GT(report.trajectory.size(), 150U) << name;
-    EXPECT_EQ(report.trajectory.size(), report.diagnostics.size());
-    EXPECT_LT(report.trajectory.front().pose.translation.norm(), 0.01);
-    EXPECT_LT(largest_error(report, world), 0.05) << name;
+    const EstimatorResult result = run(name, deliveries, world.rig());
+    ASSERT_GT(result.trajectory.size(), 150U) << name;
+    EXPECT_EQ(result.trajectory.size(), result.diagnostics.size());
+    EXPECT_LT(result.trajectory.front().pose.translation.norm(), 0.01);
+    EXPECT_LT(largest_error(result, world), 0.05) << name;
   }
 }
 
-/// The defaults, with the legs measured between scans.
-EstimatorConfig displacement_config() {
-  EstimatorConfig config;
-  config.leg.measurement = LegMeasurement::kDisplacement;
-  return config;
-}
-
-TEST(Eskf, WalksTheCorridorAsWellWithDisplacementsBetweenScans) {
-  KinematicWorld world(short_walk());
-  const auto deliveries = record(world);
-  for (const char* name : {"aims", "tfs", "tfs_clean"}) {
-    const EstimatorResult velocity = run(name, deliveries, world.rig());
-    const EstimatorResult report = run(name, deliveries, world.rig(), displacement_config());
-    ASSERT_EQ(report.trajectory.size(), velocity.trajectory.size()) << name;
-    EXPECT_LT(largest_error(report, world), 1.2 * largest_error(velocity, world) + 0.01) << name;
-    EXPECT_EQ(report.diagnostics.at(100).leg_updates, 1) << name;
-    EXPECT_EQ(report.counts.count("filter.refused"), 0U) << name;
-  }
-}
-
-TEST(Eskf, DisplacementsKeepTheScaleWhereTheLidarIsSilent) {
-  KinematicConfig world_config = short_walk();
-  KinematicWorld world(world_config);
-  const auto deliveries = record(world);
-  EstimatorConfig config = displacement_config();
-  config.lidar.min_matches = 1000000;  // no scan corrects: legs and IMU alone
-  const EstimatorResult with_legs = run("tfs_clean", deliveries, world.rig(), config);
-  const EstimatorResult without = run("lio", deliveries, world.rig(), config);
-  EXPECT_LT(largest_error(with_legs, world), 0.3);
-  EXPECT_GT(largest_error(without, world), 3.0 * largest_error(with_legs, world));
-}
-
-TEST(Eskf, ADisplacementWithTooFewPacketsIsLeftOut) {
-  KinematicConfig world_config = short_walk();
-  world_config.sensors.leg_loss = 0.7;
-  KinematicWorld world(world_config);
-  const auto deliveries = record(world);
-  const EstimatorResult clean = run("tfs_clean", deliveries, world.rig(), displacement_config());
-  const EstimatorResult held = run("tfs", deliveries, world.rig(), displacement_config());
-  EXPECT_GT(clean.counts.at("leg.uncovered"), 50);
-  // The loss goes unnoticed where the last packet is repeated.
-  EXPECT_LE(held.counts.contains("leg.uncovered") ? held.counts.at("leg.uncovered") : 0, 1);
-  EXPECT_LT(largest_error(clean, world), 0.1);
-}
-
-TEST(Eskf, LegOdometryAloneInheritsItsScale) {
-  KinematicConfig config = short_walk();
+TEST(Eskf, LegOdometryAloneKeepsItsScaleError) {
+  KinematicConfig config = short_sequence();
   config.sensors.leg_noise = 0.0;
   config.sensors.leg_slow_noise = 0.0;
   config.sensors.gyro_bias = 0.0;
   KinematicWorld world(config);
-  const EstimatorResult report = run("leg", record(world), world.rig());
-  ASSERT_GT(report.trajectory.size(), 150U);
-  EXPECT_LT(report.trajectory.front().pose.translation.norm(), 0.001);
+  const EstimatorResult result = run("leg", record(world), world.rig());
+  ASSERT_GT(result.trajectory.size(), 150U);
+  EXPECT_LT(result.trajectory.front().pose.translation.norm(), 0.001);
   double farthest = 0.0;
-  for (const auto& each : report.trajectory) {
+  for (const auto& each : result.trajectory) {
     farthest = std::max(farthest, each.pose.translation.x());
   }
   EXPECT_NEAR(farthest, 2.5 * (1.0 - 0.045), 0.03);
 }
 
-TEST(Eskf, FillsTheDiagnostics) {
-  KinematicWorld world(short_walk());
-  const EstimatorResult report = run("aims", record(world), world.rig());
-  const ScanDiagnostics& d = report.diagnostics.at(100);
+TEST(Eskf, FillsDiagnostics) {
+  KinematicWorld world(short_sequence());
+  const EstimatorResult result = run("aims", record(world), world.rig());
+  const ScanDiagnostics& d = result.diagnostics.at(100);
   EXPECT_GT(d.points_in, 1000);
   EXPECT_GT(d.points_used, 100);
   EXPECT_GE(d.iterations, 1);
@@ -144,13 +99,13 @@ TEST(Eskf, FillsTheDiagnostics) {
   EXPECT_LE(d.O_lidar, 1.0);
 }
 
-TEST(Eskf, WeighsEachScanByTheSmoothedIndexOfThatScan) {
-  KinematicWorld world(short_walk());
-  const EstimatorResult report = run("aims", record(world), world.rig());
+TEST(Eskf, WeightsEachScanByItsOwnSmoothedIndex) {
+  KinematicWorld world(short_sequence());
+  const EstimatorResult result = run("aims", record(world), world.rig());
   const DegeneracyConfig config;
-  double smoothed = report.diagnostics.at(1).D_smoothed;  // the first scan only starts the map
-  for (std::size_t i = 1; i < report.diagnostics.size(); ++i) {
-    const ScanDiagnostics& scan = report.diagnostics[i];
+  double smoothed = result.diagnostics.at(1).D_smoothed;  // the first scan starts the map
+  for (std::size_t i = 1; i < result.diagnostics.size(); ++i) {
+    const ScanDiagnostics& scan = result.diagnostics[i];
     if (i > 1) smoothed = config.alpha * smoothed + (1.0 - config.alpha) * scan.D;
     EXPECT_NEAR(scan.D_smoothed, smoothed, 1e-12) << i;
     EXPECT_NEAR(scan.gamma_lidar, std::exp(-config.eta * scan.D_smoothed), 1e-12) << i;
@@ -160,8 +115,8 @@ TEST(Eskf, WeighsEachScanByTheSmoothedIndexOfThatScan) {
   }
 }
 
-TEST(Eskf, SameDataGivesTheSameBytes) {
-  KinematicWorld world(short_walk());
+TEST(Eskf, SameDataGivesSameBytes) {
+  KinematicWorld world(short_sequence());
   const auto deliveries = record(world);
   const EstimatorResult a = run("aims", deliveries, world.rig());
   const EstimatorResult b = run("aims", deliveries, world.rig());
@@ -172,8 +127,8 @@ TEST(Eskf, SameDataGivesTheSameBytes) {
   }
 }
 
-TEST(Eskf, OrderOfArrivalWithinTheLagDoesNotMatter) {
-  KinematicWorld world(short_walk());
+TEST(Eskf, IgnoresOrderOfArrivalWithinTheLag) {
+  KinematicWorld world(short_sequence());
   auto deliveries = record(world);
   const EstimatorResult in_order = run("aims", deliveries, world.rig());
   for (std::size_t i = 0; i + 4 < deliveries.size(); i += 5) {
@@ -185,8 +140,8 @@ TEST(Eskf, OrderOfArrivalWithinTheLagDoesNotMatter) {
             shuffled.trajectory.back().pose.translation);
 }
 
-TEST(Eskf, OnlyTfsHoldsLostLegPackets) {
-  KinematicConfig config = short_walk();
+TEST(Eskf, OnlyTfsRepeatsLostLegPackets) {
+  KinematicConfig config = short_sequence();
   config.sensors.leg_loss = 0.3;
   KinematicWorld world(config);
   const auto deliveries = record(world);
@@ -199,46 +154,46 @@ TEST(Eskf, OnlyTfsHoldsLostLegPackets) {
 }
 
 TEST(Eskf, MapMemoryIsBounded) {
-  KinematicWorld world(short_walk());
+  KinematicWorld world(short_sequence());
   EstimatorConfig config;
   config.map.max_voxels = 300;
-  EskfEstimator estimator(config, FamilyMember{}, world.rig());
+  EskfEstimator estimator(config, EstimatorVariant{}, world.rig());
   for (const Delivery& delivery : record(world)) {
     estimator.consume(delivery);
     ASSERT_LE(estimator.map_points().size(), 300U * 32U);
   }
 }
 
-/// The short walk with `spoil` applied to each delivery; false drops it.
-EstimatorResult run_spoiled(const std::function<bool(Delivery&)>& spoil, double& error) {
-  KinematicWorld world(short_walk());
+/// The short sequence with `modify` applied to each delivery; false drops it.
+EstimatorResult run_modified(const std::function<bool(Delivery&)>& modify, double& error) {
+  KinematicWorld world(short_sequence());
   std::vector<Delivery> kept;
   for (Delivery& delivery : record(world)) {
-    if (spoil(delivery)) kept.push_back(delivery);
+    if (modify(delivery)) kept.push_back(delivery);
   }
-  EstimatorResult report = run("aims", kept, world.rig());
-  error = report.trajectory.empty() ? 0.0 : largest_error(report, world);
-  return report;
+  EstimatorResult result = run("aims", kept, world.rig());
+  error = result.trajectory.empty() ? 0.0 : largest_error(result, world);
+  return result;
 }
 
 bool within(const Delivery& d, double begin, double end) {
   return d.arrival > from_seconds(begin) && d.arrival <= from_seconds(end);
 }
 
-TEST(Eskf, SurvivesAnImuThatIsSilentForThreeSeconds) {
+TEST(Eskf, SurvivesThreeSecondsWithoutImu) {
   double error = 0.0;
-  const auto report = run_spoiled(
+  const auto result = run_modified(
       [](const Delivery& d) {
         return !(std::holds_alternative<ImuSample>(d.measurement) && within(d, 4.0, 7.0));
       },
       error);
-  EXPECT_GT(report.counts.at("imu.bridged"), 0);
+  EXPECT_GT(result.counts.at("imu.bridged"), 0);
   EXPECT_LT(error, 0.3);
 }
 
-TEST(Eskf, SurvivesALidarThatIsSilentForTwoSeconds) {
+TEST(Eskf, SurvivesTwoSecondsWithoutLidar) {
   double error = 0.0;
-  run_spoiled(
+  run_modified(
       [](const Delivery& d) {
         return !(std::holds_alternative<LidarScanPtr>(d.measurement) && within(d, 4.0, 6.0));
       },
@@ -255,8 +210,8 @@ Duration longest_gap(const Trajectory& trajectory) {
   return longest;
 }
 
-TEST(Eskf, GoesOnReportingWhileTheLidarIsSilent) {
-  KinematicWorld world(short_walk());
+TEST(Eskf, ReportsPosesWithoutLidar) {
+  KinematicWorld world(short_sequence());
   std::vector<Delivery> kept;
   for (const Delivery& d : record(world)) {
     if (!std::holds_alternative<LidarScanPtr>(d.measurement) || !within(d, 4.0, 7.0)) {
@@ -264,33 +219,33 @@ TEST(Eskf, GoesOnReportingWhileTheLidarIsSilent) {
     }
   }
   for (const char* name : {"aims", "lio", "leg"}) {
-    const EstimatorResult report = run(name, kept, world.rig());
-    EXPECT_LE(longest_gap(report.trajectory), kLongestSilence + 10 * kMillisecond) << name;
-    if (report.diagnostics.empty()) continue;
-    const auto bridged = report.trajectory.size() - report.diagnostics.size();
+    const EstimatorResult result = run(name, kept, world.rig());
+    EXPECT_LE(longest_gap(result.trajectory), kLongestSilence + 10 * kMillisecond) << name;
+    if (result.diagnostics.empty()) continue;
+    const auto bridged = result.trajectory.size() - result.diagnostics.size();
     EXPECT_NEAR(static_cast<double>(bridged), 12.0, 1.0) << name;
   }
 }
 
 TEST(Eskf, WorksWithoutLegs) {
   double error = 0.0;
-  run_spoiled(
+  run_modified(
       [](const Delivery& d) { return !std::holds_alternative<LegOdometrySample>(d.measurement); },
       error);
   EXPECT_LT(error, 0.05);
 }
 
-TEST(Eskf, WithoutAnImuThereIsNoTrajectoryAndNoTrouble) {
+TEST(Eskf, WithoutImuTheTrajectoryIsEmpty) {
   double error = 0.0;
-  const auto report = run_spoiled(
+  const auto result = run_modified(
       [](const Delivery& d) { return !std::holds_alternative<ImuSample>(d.measurement); }, error);
-  EXPECT_TRUE(report.trajectory.empty());
+  EXPECT_TRUE(result.trajectory.empty());
 }
 
 TEST(Eskf, SurvivesEmptyAndBrokenScans) {
   double error = 0.0;
   int count = 0;
-  const auto report = run_spoiled(
+  const auto result = run_modified(
       [&count](Delivery& d) {
         const auto* scan = std::get_if<LidarScanPtr>(&d.measurement);
         if (scan == nullptr || ++count % 3 != 0) return true;
@@ -305,7 +260,7 @@ TEST(Eskf, SurvivesEmptyAndBrokenScans) {
         return true;
       },
       error);
-  EXPECT_GT(report.counts.at("lidar.no_update"), 10);
+  EXPECT_GT(result.counts.at("lidar.no_update"), 10);
   EXPECT_LT(error, 0.1);
 }
 

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kNormalSigma = 0.03;  // [rad]
 
-/// Information of a scan in a corridor along x and what its noisy normals give of it by chance.
+/// Information of a scan in a corridor along x, and its expected noise-induced part.
 struct CorridorScan {
   Matrix6 information = Matrix6::Zero();
-  Matrix6 chance = Matrix6::Zero();
+  Matrix6 noise = Matrix6::Zero();
 };
 
 /// 600 returns of two walls, floor and ceiling, and `facing` of a face across the corridor, with
@@ -32,87 +32,86 @@ CorridorScan scan_corridor(RandomStream& random, int facing, const Eigen::Matrix
     const Plane plane{(truth + kNormalSigma * tangent * random.normal3()).normalized(), p};
     const Vector6 row = plane_row(plane, R.transpose() * p, R, Eigen::Vector3d::Zero()).jacobian;
     scan.information += row * row.transpose();
-    scan.chance += chance_information(kNormalSigma * kNormalSigma * tangent, R.transpose() * p, R);
+    scan.noise += noise_information(kNormalSigma * kNormalSigma * tangent, R.transpose() * p, R);
   }
   return scan;
 }
 
-SpuriousConfig exact_chance() {
-  SpuriousConfig config;
-  config.chance_share = 1.0;
-  config.trusting_way = 0.0;
+NoiseInformationConfig exact_noise() {
+  NoiseInformationConfig config;
+  config.scale = 1.0;
+  config.bootstrap_distance = 0.0;
   return config;
 }
 
 /// Weight of position along x after 60 scans, 10 cm apart.
 double weight_along(const Eigen::Matrix3d& R, int facing) {
   RandomStream random(4, "axes");
-  AxisWeigher weigher(exact_chance());
+  AxisWeigher weigher(exact_noise());
   for (int k = 0; k < 60; ++k) {
     const CorridorScan scan = scan_corridor(random, facing, R);
-    weigher.assess(scan.information, scan.chance, R, 0.1);
+    weigher.assess(scan.information, scan.noise, R, 0.1);
   }
-  const Matrix6 T = weigher.kept(R).T;
+  const Matrix6 T = weigher.scale(R).T;
   const double kept = T(3, 3);
   EXPECT_GT(T(4, 4), 0.99);
   EXPECT_GT(T(5, 5), 0.99);
   return kept * kept;
 }
 
-TEST(AxisWeights, ChanceIsWhatNoisyNormalsGive) {
+TEST(AxisWeights, NoiseInformationIsThatOfNoisyNormals) {
   RandomStream random(1, "axes");
   const Eigen::Matrix3d R = so3_exp({0.1, -0.2, 0.7}).toRotationMatrix();
-  double seen = 0.0;
+  double measured = 0.0;
   double expected = 0.0;
   for (int k = 0; k < 20; ++k) {
     const CorridorScan scan = scan_corridor(random, 0, R);
-    seen += scan.information(3, 3);
-    expected += scan.chance(3, 3);
+    measured += scan.information(3, 3);
+    expected += scan.noise(3, 3);
   }
-  EXPECT_NEAR(seen / expected, 1.0, 0.05);
+  EXPECT_NEAR(measured / expected, 1.0, 0.05);
 }
 
-TEST(AxisWeights, PlainWallsTellNothingAlongThem) {
+TEST(AxisWeights, PlainWallsGiveNoInformationAlongThem) {
   EXPECT_LT(weight_along(Eigen::Matrix3d::Identity(), 0), 0.01);
   EXPECT_LT(weight_along(so3_exp({0.05, 0.02, 2.0}).toRotationMatrix(), 0), 0.01)
       << "whichever way the robot faces";
 }
 
-TEST(AxisWeights, AFewReturnsOfAFaceAreReal) {
+TEST(AxisWeights, AFewReturnsOfAFaceAreSignificant) {
   EXPECT_GT(weight_along(Eigen::Matrix3d::Identity(), 30), 0.9);
 }
 
-TEST(AxisWeights, NothingIsTrustedBeforeThereIsWay) {
+TEST(AxisWeights, NothingIsSignificantBeforeTheRobotMoves) {
   RandomStream random(2, "axes");
-  AxisWeigher weigher(exact_chance());
+  AxisWeigher weigher(exact_noise());
   const CorridorScan scan = scan_corridor(random, 30, Eigen::Matrix3d::Identity());
   for (int k = 0; k < 50; ++k) {
-    weigher.assess(scan.information, scan.chance, Eigen::Matrix3d::Identity(), 0.0);
+    weigher.assess(scan.information, scan.noise, Eigen::Matrix3d::Identity(), 0.0);
   }
-  EXPECT_EQ(weigher.position().proven().maxCoeff(), 0.0);
-  EXPECT_EQ(weigher.kept(Eigen::Matrix3d::Identity()).T.norm(), 0.0);
+  EXPECT_EQ(weigher.position().significant().maxCoeff(), 0.0);
+  EXPECT_EQ(weigher.scale(Eigen::Matrix3d::Identity()).T.norm(), 0.0);
 }
 
-// The start: what little is beyond chance counts before it is significant, and no longer than that.
-TEST(AxisWeights, AtTheStartWhatIsBeyondChanceIsTakenOnTrust) {
+// At the start, information beyond noise is used before it is significant.
+TEST(AxisWeights, InformationBeyondNoiseIsAcceptedWithinTheBootstrapDistance) {
   RandomStream random(5, "axes");
-  SpuriousConfig config = exact_chance();
-  config.significant = 1e3;
-  config.trusting_way = 4.0;
+  NoiseInformationConfig config = exact_noise();
+  config.significance_ratio = 1e3;
+  config.bootstrap_distance = 4.0;
   AxisWeigher weigher(config);
   const CorridorScan scan = scan_corridor(random, 30, Eigen::Matrix3d::Identity());
-  for (double way = 0.1; way < 3.9; way += 0.1) {
-    weigher.assess(scan.information, scan.chance, Eigen::Matrix3d::Identity(), 0.1);
+  for (double distance = 0.1; distance < 3.9; distance += 0.1) {
+    weigher.assess(scan.information, scan.noise, Eigen::Matrix3d::Identity(), 0.1);
   }
-  EXPECT_GT(weigher.kept(Eigen::Matrix3d::Identity()).T(3, 3), 0.9);
-  EXPECT_LT(weigher.position().proven().minCoeff(), 1e-3) << "taken, not proven";
-  weigher.assess(scan.information, scan.chance, Eigen::Matrix3d::Identity(), 0.5);
-  EXPECT_LT(weigher.kept(Eigen::Matrix3d::Identity()).T(3, 3), 1e-3);
+  EXPECT_GT(weigher.scale(Eigen::Matrix3d::Identity()).T(3, 3), 0.9);
+  EXPECT_LT(weigher.position().significant().minCoeff(), 1e-3) << "accepted, not significant";
+  weigher.assess(scan.information, scan.noise, Eigen::Matrix3d::Identity(), 0.5);
+  EXPECT_LT(weigher.scale(Eigen::Matrix3d::Identity()).T(3, 3), 1e-3);
 }
 
-/// Adds the rows of returns next to planes of a map that noise has tilted, seen from a body that is
-/// believed `shift` too far along x: along the walls new returns take the place of the old ones,
-/// the face alone is seen shifted.
+/// Adds the rows of returns near planes of a noisy map, for a pose estimate with the error `shift`
+/// along x: returns on the walls slide along them, only those on the face are displaced.
 void add_shifted_scan(RandomStream& random, int facing, double shift, CorridorScan& sum,
                       Vector6& vector) {
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
@@ -126,74 +125,77 @@ void add_shifted_scan(RandomStream& random, int facing, double shift, CorridorSc
     if (i >= 600) p.x() += shift;
     const PlaneRow row = plane_row(plane, p, I, Eigen::Vector3d::Zero());
     sum.information += row.jacobian * row.jacobian.transpose();
-    sum.chance += chance_information(kNormalSigma * kNormalSigma * tangent, p, I);
+    sum.noise += noise_information(kNormalSigma * kNormalSigma * tangent, p, I);
     vector += row.residual * row.jacobian;
   }
 }
 
-TEST(AxisWeights, AScanCorrectsTheWholeShiftAlthoughChanceSwellsItsInformation) {
+TEST(AxisWeights, AScanCorrectsTheFullShiftDespiteNoiseInformation) {
   RandomStream random(6, "axes");
   constexpr double kShift = 0.05;  // [m]
   CorridorScan sum;
   Vector6 vector = Vector6::Zero();
   for (int k = 0; k < 400; ++k) add_shifted_scan(random, 1, kShift, sum, vector);
-  AxisWeigher weigher(exact_chance());
+  AxisWeigher weigher(exact_noise());
   for (int k = 0; k < 100; ++k)
-    weigher.assess(sum.information, sum.chance, Eigen::Matrix3d::Identity(), 1.0);
-  const KeptOfScan kept = weigher.kept(Eigen::Matrix3d::Identity());
-  const Vector6 found = (kept.T * sum.information * kept.T).ldlt().solve(kept.P * vector);
+    weigher.assess(sum.information, sum.noise, Eigen::Matrix3d::Identity(), 1.0);
+  const ScanScale scale = weigher.scale(Eigen::Matrix3d::Identity());
+  const Vector6 found = (scale.T * sum.information * scale.T).ldlt().solve(scale.P * vector);
   EXPECT_NEAR(found(3), kShift, 0.1 * kShift);
-  EXPECT_LT(sum.information.ldlt().solve(vector)(3), 0.8 * kShift) << "chance holds it back";
+  EXPECT_LT(sum.information.ldlt().solve(vector)(3), 0.8 * kShift)
+      << "noise information shortens the step";
 }
 
-// Over a thousand scans the information that is kept adds up; along the corridor it must not,
-// although the axes that each scan's own noise suggests wobble.
-TEST(AxisWeights, NothingLeaksIntoTheWeakAxisOverManyScans) {
+// The remaining information adds up over a thousand scans; along the corridor it must not, although
+// the principal axes of single scans vary with their noise.
+TEST(AxisWeights, NoInformationLeaksIntoTheWeakAxisOverManyScans) {
   RandomStream random(3, "axes");
-  AxisWeigher weigher(exact_chance());
+  AxisWeigher weigher(exact_noise());
   const Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Matrix6 kept = Matrix6::Zero();
-  double by_chance = 0.0;
+  double from_noise = 0.0;
   for (int k = 0; k < 1000; ++k) {
     const CorridorScan scan = scan_corridor(random, 0, R);
-    weigher.assess(scan.information, scan.chance, R, 0.1);
+    weigher.assess(scan.information, scan.noise, R, 0.1);
     if (k < 50) continue;
-    const Matrix6 T = weigher.kept(R).T;
+    const Matrix6 T = weigher.scale(R).T;
     kept += T * scan.information * T;
-    by_chance += scan.chance(3, 3);
+    from_noise += scan.noise(3, 3);
   }
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(kept);
-  EXPECT_LT(solver.eigenvalues()(0), 1e-3 * by_chance);
+  EXPECT_LT(solver.eigenvalues()(0), 1e-3 * from_noise);
 }
 
-// At the start information grows from nothing while the shift is there whole: lengthened without
-// bound, the first step threw a robot in a curved tunnel by a metre.
-TEST(AxisWeights, AStepIsLengthenedNoFurtherThanSaid) {
-  SpuriousConfig config = exact_chance();
-  const Eigen::Matrix3d chance = Eigen::Matrix3d::Identity();
+// At the start the averaged information grows from zero while the shift has its full size: without
+// a bound, the first step in a curved tunnel was a metre too long.
+TEST(AxisWeights, StepAmplificationIsBounded) {
+  NoiseInformationConfig config = exact_noise();
+  const Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();
   for (const double ratio : {1.01, 1.2, 1.6, 5.0}) {
-    const BlockWeights block = weigh_block(ratio * chance, chance, chance, 1.0, config);
-    const double information = block.shrink()(0, 0) * block.shrink()(0, 0);
-    const double lengthened = block.pull()(0, 0) / information;
-    EXPECT_NEAR(lengthened, std::min(ratio / (ratio - 1.0), config.amplification), 1e-6) << ratio;
+    const AxisWeights weights = weigh_axes(ratio * noise, noise, noise, 1.0, config);
+    const double information = weights.matrix_scale()(0, 0) * weights.matrix_scale()(0, 0);
+    const double amplification = weights.vector_scale()(0, 0) / information;
+    EXPECT_NEAR(amplification, std::min(ratio / (ratio - 1.0), config.max_step_amplification), 1e-6)
+        << ratio;
   }
 }
 
-TEST(AxisWeights, AxesStayWhileTheySplitTheInformation) {
+TEST(AxisWeights, AxesPersistWhileTheyDiagonalizeTheInformation) {
   const Eigen::Matrix3d information = Eigen::Vector3d(1.0, 100.0, 100.0).asDiagonal();
   const Eigen::Matrix3d near = so3_exp({0.0, 0.0, 0.01}).toRotationMatrix();
   const Eigen::Matrix3d far = so3_exp({0.0, 0.0, 0.1}).toRotationMatrix();
-  EXPECT_EQ(steady_axes(information, near, 0.02), near);
-  const Eigen::Matrix3d found = steady_axes(information, far, 0.02);
+  EXPECT_EQ(persistent_axes(information, near, 0.02), near);
+  const Eigen::Matrix3d found = persistent_axes(information, far, 0.02);
   EXPECT_NEAR(std::abs(found(0, 0)), 1.0, 1e-9) << "the weakest axis is x again";
 }
 
-TEST(AxisWeights, RealityRisesThroughAHalfAtTheSignificantRatio) {
-  const SpuriousConfig config;
-  EXPECT_DOUBLE_EQ(reality(config.significant, config.significant, config), 0.5);
-  EXPECT_LT(reality(1.0, config.significant, config), 1e-6);
-  EXPECT_GT(reality(3.0, config.significant, config), 0.999);
-  EXPECT_EQ(reality(0.0, config.significant, config), 0.0);
+TEST(AxisWeights, AcceptanceProbabilityIsOneHalfAtTheThreshold) {
+  const NoiseInformationConfig config;
+  EXPECT_DOUBLE_EQ(
+      acceptance_probability(config.significance_ratio, config.significance_ratio, config), 0.5);
+  EXPECT_LT(acceptance_probability(1.0, config.significance_ratio, config), 1e-6);
+  EXPECT_GT(acceptance_probability(3.0, config.significance_ratio, config), 0.999);
+  EXPECT_EQ(acceptance_probability(0.0, config.significance_ratio, config), 0.0);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(Degeneracy, WeightsStayInTheirRanges) {
   EXPECT_DOUBLE_EQ(leg_reliability(0.5, config), 0.65);
 }
 
-TEST(Degeneracy, SmoothingStartsAtTheFirstIndexAndForgets) {
+TEST(Degeneracy, SmoothingStartsAtTheFirstIndexAndConverges) {
   SeverityFilter filter(0.9);
   EXPECT_DOUBLE_EQ(filter.update(0.4), 0.4);
   EXPECT_DOUBLE_EQ(filter.update(1.0), 0.9 * 0.4 + 0.1);

@@ -48,7 +48,7 @@ TEST(ImuHistory, CutsSegmentsAtTheSpan) {
   EXPECT_EQ(segments[1].end, 2 * kPeriod + 5);
 }
 
-TEST(ImuHistory, OneLostSampleIsBridgedByItsNeighbours) {
+TEST(ImuHistory, ALostSampleIsReplacedByTheMeanOfItsNeighbours) {
   const auto segments = segments_of(history_of({1, 2, 4, 5}), 2 * kPeriod, 4 * kPeriod);
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_FALSE(segments[0].measured);
@@ -64,7 +64,7 @@ TEST(ImuHistory, CoversASpanWithoutAnySample) {
   EXPECT_EQ(segments[0].end, kSecond);
 }
 
-TEST(ImuHistory, CoversWhatLiesBeyondTheNewestSample) {
+TEST(ImuHistory, CoversTimeAfterTheNewestSample) {
   const auto segments = segments_of(history_of({1, 2}), kPeriod, 10 * kPeriod);
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_TRUE(segments[0].measured);
@@ -72,7 +72,7 @@ TEST(ImuHistory, CoversWhatLiesBeyondTheNewestSample) {
   EXPECT_EQ(segments[1].end, 10 * kPeriod);
 }
 
-TEST(ImuHistory, SortsLateSamplesAndRefusesDuplicates) {
+TEST(ImuHistory, SortsLateSamplesAndRejectsDuplicates) {
   ImuHistory history = history_of({1, 3});
   EXPECT_TRUE(history.insert(sample(2 * kPeriod, 2)));
   EXPECT_FALSE(history.insert(sample(2 * kPeriod, 9)));

@@ -50,7 +50,7 @@ TEST(KalmanUpdate, EqualsTheGainForm) {
   EXPECT_LT((updated.covariance - G * joseph * G.transpose()).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-TEST(KalmanUpdate, NothingMeasuredChangesNothing) {
+TEST(KalmanUpdate, NoInformationChangesNothing) {
   RandomStream random(2, "kalman");
   const ErrorMatrix P = some_covariance(random);
   const NominalState state = test::some_state();
@@ -76,7 +76,7 @@ TEST(KalmanUpdate, IterationConvergesToTheSameStateFromElsewhere) {
   EXPECT_LT(boxminus(iterate(elsewhere), iterate(prior)).norm(), 1e-5);
 }
 
-TEST(KalmanUpdate, AMaskThatKeepsAllIsThePlainUpdate) {
+TEST(KalmanUpdate, AFullMaskIsTheStandardUpdate) {
   RandomStream random(5, "mask");
   const Belief prior{test::some_state(), some_covariance(random)};
   const NominalState at = boxplus(prior.state, 0.01 * normal_error(random));
@@ -88,14 +88,14 @@ TEST(KalmanUpdate, AMaskThatKeepsAllIsThePlainUpdate) {
   EXPECT_LT((plain.covariance - masked.covariance).norm(), 1e-9 * plain.covariance.norm());
 }
 
-TEST(KalmanUpdate, WhatAMaskHoldsStaysAndStaysAsUncertain) {
+TEST(KalmanUpdate, MaskedDirectionsKeepTheirValueAndUncertainty) {
   RandomStream random(6, "mask");
   const Belief prior{test::some_state(), some_covariance(random)};
   const Eigen::Matrix3d across =
       Eigen::Matrix3d::Identity() - Eigen::Vector3d::UnitX() * Eigen::Vector3d::UnitX().transpose();
   const Belief updated = kalman_update(prior.state, inverse_spd(prior.covariance), prior.state,
                                        information_of(some_measurement(prior.state)),
-                                       hold_motion(hold_legs(correct_all()), across));
+                                       limit_motion(consider_legs(correct_all()), across));
   EXPECT_NEAR(updated.state.position.x(), prior.state.position.x(), 1e-12);
   EXPECT_NEAR(updated.state.velocity.x(), prior.state.velocity.x(), 1e-12);
   EXPECT_LT((updated.state.leg_scale - prior.state.leg_scale).norm(), 1e-12);
@@ -110,7 +110,7 @@ TEST(KalmanUpdate, CovarianceOfAMaskedGainIsJosephsForm) {
   const LinearMeasurement m = some_measurement(prior.state);
   const ErrorMatrix& P = prior.covariance;
   const Eigen::Matrix3d S = m.jacobian * P * m.jacobian.transpose() + m.noise;
-  const ErrorMatrix mask = hold_legs(correct_all());
+  const ErrorMatrix mask = consider_legs(correct_all());
   const Eigen::Matrix<double, ErrorState::kSize, 3> K =
       mask * P * m.jacobian.transpose() * S.inverse();
   const ErrorMatrix kept = ErrorMatrix::Identity() - K * m.jacobian;

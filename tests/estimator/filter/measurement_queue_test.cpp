@@ -8,6 +8,12 @@
 namespace aims {
 namespace {
 
+constexpr double kMaxLegSpeed = 5.0;  // [m/s]
+
+MeasurementQueue make_queue(const QueueConfig& config = {}) {
+  return {config, ImuPropagationConfig{}, kMaxLegSpeed};
+}
+
 Delivery imu(int ms, int arrival_ms) {
   return {arrival_ms * kMillisecond,
           ImuSample{ms * kMillisecond, Eigen::Vector3d::Zero(), {0.0, 0.0, 9.81}}};
@@ -39,7 +45,7 @@ std::vector<Time> drain(MeasurementQueue& queue) {
 }
 
 TEST(MeasurementQueue, SortsByStampWithinTheLag) {
-  MeasurementQueue queue{EstimatorConfig{}};
+  MeasurementQueue queue = make_queue();
   for (const Delivery& d : {leg(10, 30), leg(5, 31), lidar(0, 12), imu(40, 60), leg(7, 61)}) {
     queue.push(d);
   }
@@ -47,8 +53,8 @@ TEST(MeasurementQueue, SortsByStampWithinTheLag) {
   EXPECT_EQ(drain(queue), (std::vector<Time>{5, 7, 10, 12}));
 }
 
-TEST(MeasurementQueue, HoldsWhatTheImuDoesNotCoverYet) {
-  MeasurementQueue queue{EstimatorConfig{}};
+TEST(MeasurementQueue, HoldsCorrectionsThatTheImuDoesNotCoverYet) {
+  MeasurementQueue queue = make_queue();
   queue.push(imu(20));
   queue.push(leg(25));
   queue.push(leg(100));
@@ -57,10 +63,8 @@ TEST(MeasurementQueue, HoldsWhatTheImuDoesNotCoverYet) {
   EXPECT_EQ(drain(queue), std::vector<Time>{25});
 }
 
-TEST(MeasurementQueue, StopsWaitingForAnImuThatIsSilent) {
-  EstimatorConfig config;
-  config.queue.imu_wait = 0.3;
-  MeasurementQueue queue{config};
+TEST(MeasurementQueue, StopsWaitingForAMissingImu) {
+  MeasurementQueue queue = make_queue({.imu_wait = 0.3});
   queue.push(leg(10));
   queue.push(leg(200));
   EXPECT_TRUE(drain(queue).empty());
@@ -69,7 +73,7 @@ TEST(MeasurementQueue, StopsWaitingForAnImuThatIsSilent) {
 }
 
 TEST(MeasurementQueue, CountsLateAndDuplicate) {
-  MeasurementQueue queue{EstimatorConfig{}};
+  MeasurementQueue queue = make_queue();
   for (const Delivery& d : {leg(10), leg(10), imu(20), imu(20), imu(200)}) queue.push(d);
   EXPECT_EQ(drain(queue), std::vector<Time>{10});
   queue.push(leg(10, 201));
@@ -82,9 +86,9 @@ TEST(MeasurementQueue, CountsLateAndDuplicate) {
   EXPECT_EQ(queue.counts().at("imu.late"), 1);
 }
 
-TEST(MeasurementQueue, RefusesWhatIsNoMeasurement) {
+TEST(MeasurementQueue, RejectsImplausibleMeasurements) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  MeasurementQueue queue{EstimatorConfig{}};
+  MeasurementQueue queue = make_queue();
   LegOdometrySample broken = leg_sample(10);
   broken.linear_velocity.x() = nan;
   LegOdometrySample fast = leg_sample(15);
@@ -107,9 +111,7 @@ TEST(MeasurementQueue, RefusesWhatIsNoMeasurement) {
 }
 
 TEST(MeasurementQueue, MemoryIsBounded) {
-  EstimatorConfig config;
-  config.queue.max_held = 100;
-  MeasurementQueue queue{config};
+  MeasurementQueue queue = make_queue({.max_held = 100});
   for (int i = 0; i < 1000; ++i) {
     queue.push(leg(i, 0));
     queue.push(imu(i, 0));

@@ -10,47 +10,47 @@ namespace {
 
 using E = ErrorState;
 
-Belief known_legs() {
+Belief fixed_legs() {
   Belief belief;
   belief.covariance = 1e-16 * ErrorMatrix::Identity();
   return belief;
 }
 
-TEST(LegStates, OpenAsFarAsTheyAreSwitchedOn) {
+TEST(LegStates, OnlyEnabledStatesGetVariance) {
   LegStatesConfig config;
   config.scale_sigma = 0.1;
   config.bias = false;
-  const Belief belief = open_leg_states(known_legs(), config);
+  const Belief belief = open_leg_states(fixed_legs(), config);
   EXPECT_NEAR(block(belief.covariance, E::kLegScale, E::kLegScale)(1, 1), 0.01, 1e-12);
   EXPECT_LT(block(belief.covariance, E::kLegBias, E::kLegBias)(1, 1), 1e-15);
 }
 
-TEST(LegStates, WalkWithTime) {
+TEST(LegStates, VarianceGrowsWithTime) {
   LegStatesConfig config;
   config.scale_walk = 1e-3;
   config.bias_walk = 2e-3;
-  Belief belief = known_legs();
+  Belief belief = fixed_legs();
   for (int i = 0; i < 100; ++i) walk_leg_states(belief, config, 0.05);
   EXPECT_NEAR(block(belief.covariance, E::kLegScale, E::kLegScale)(0, 0), 5e-6, 1e-12);
   EXPECT_NEAR(block(belief.covariance, E::kLegBias, E::kLegBias)(2, 2), 2e-5, 1e-12);
 }
 
-TEST(LegStates, TheMeanOverAStrideKeepsTheWayAndDropsTheSwing) {
+TEST(LegStates, StrideMeanKeepsTheMeanAndDampsTheOscillation) {
   StrideMean mean;
-  double least = 1e9;
-  double most = -1e9;
+  double lowest = 1e9;
+  double highest = -1e9;
   for (int i = 0; i < 2000; ++i) {
     LegOdometrySample sample;
     sample.stamp = i * 5 * kMillisecond;
     sample.linear_velocity.x() = 0.7 + 0.1 * std::sin(2.0 * M_PI * 4.0 * i * 0.005);
     const double now = mean.update(sample).x();
     if (i > 1000) {
-      least = std::min(least, now);
-      most = std::max(most, now);
+      lowest = std::min(lowest, now);
+      highest = std::max(highest, now);
     }
   }
-  EXPECT_NEAR(0.5 * (least + most), 0.7, 2e-3);
-  EXPECT_LT(most - least, 0.1 * 0.2) << "a tenth of the swing";
+  EXPECT_NEAR(0.5 * (lowest + highest), 0.7, 2e-3);
+  EXPECT_LT(highest - lowest, 0.1 * 0.2) << "a tenth of the oscillation";
 }
 
 }  // namespace

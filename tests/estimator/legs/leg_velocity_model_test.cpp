@@ -22,7 +22,7 @@ TEST(LegVelocity, JacobianMatchesFiniteDifferences) {
   EXPECT_LT((m.jacobian - numeric).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-TEST(LegVelocity, ResidualVanishesForThePointOnTheRigidBody) {
+TEST(LegVelocity, ResidualIsZeroForARigidBody) {
   const NominalState state = test::some_state();
   const Eigen::Vector3d rate = kRate - state.gyro_bias;
   const Eigen::Vector3d of_base_in_odom =
@@ -36,7 +36,7 @@ TEST(LegVelocity, ResidualVanishesForThePointOnTheRigidBody) {
   EXPECT_LT(m.residual.norm(), 1e-12);
 }
 
-TEST(LegVelocity, NoiseCountsTheSamplesThatRepeatAnError) {
+TEST(LegVelocity, NoiseGrowsByTheCorrelatedSamples) {
   LegConfig config;
   config.velocity_sigma = {0.1, 0.2, 0.3};
   config.scale_sigma = 0.0;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kGravity = 9.81;
 const Pose kT_body_lidar{so3_exp({0.0, 0.1, 0.2}), {-0.15, 0.02, 0.15}};
 
-TEST(Deskew, RestoresAStaticPointSeenFromAMovingSensor) {
+TEST(Deskew, RestoresAStaticPointFromAMovingSensor) {
   // Truth: constant rate and force in body axes, for which propagation is exact.
   const std::vector<InertialSegment> segments = {
       {0, 40 * kMillisecond, {0.8, -0.5, 1.0}, {2.0, -1.0, 12.0}, true},
@@ -34,7 +34,7 @@ TEST(Deskew, RestoresAStaticPointSeenFromAMovingSensor) {
   }
 }
 
-TEST(Deskew, TakesTheNearestEndOutsideTheScan) {
+TEST(Deskew, ClampsTimesOutsideTheScan) {
   const std::vector<InertialSegment> segments = {
       {0, 100 * kMillisecond, {0.0, 0.0, 1.0}, {0.0, 0.0, kGravity}, true}};
   const ScanMotion motion(NominalState{}, segments, Pose{}, kGravity);

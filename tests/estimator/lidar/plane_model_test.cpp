@@ -52,16 +52,16 @@ TEST(PlaneModel, FitsExactPlanes) {
   }
 }
 
-// Over many fits to the same spots with fresh noise, the squared error of the normal along any
-// tangent is what its covariance says.
-TEST(PlaneModel, CovarianceOfTheNormalIsThatOfManyFits) {
+// Over many fits with independent noise, the mean squared error of the normal along any tangent
+// equals its covariance.
+TEST(PlaneModel, NormalCovarianceMatchesManyFits) {
   RandomStream random(3, "plane");
   MapConfig config;
   config.plane_min_ratio = 1.0;
   config.plane_thickness = 1.0;
   const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.4, 0.8).normalized();
   Eigen::Matrix3d measured = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d told = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d stated = Eigen::Matrix3d::Zero();
   constexpr int kFits = 4000;
   constexpr double kMapSigma = 0.01;
   for (int i = 0; i < kFits; ++i) {
@@ -71,26 +71,26 @@ TEST(PlaneModel, CovarianceOfTheNormalIsThatOfManyFits) {
     const Eigen::Vector3d error =
         plane.normal * std::copysign(1.0, plane.normal.dot(normal)) - normal;
     measured += error * error.transpose() / kFits;
-    told += plane.normal_covariance / kFits;
+    stated += plane.normal_covariance / kFits;
   }
   for (const Eigen::Vector3d& axis :
        {normal.unitOrthogonal(), normal.cross(normal.unitOrthogonal())}) {
-    const double ratio = axis.dot(told * axis) / axis.dot(measured * axis);
+    const double ratio = axis.dot(stated * axis) / axis.dot(measured * axis);
     EXPECT_GT(ratio, 0.85);
     EXPECT_LT(ratio, 1.2);
   }
 }
 
-TEST(PlaneModel, RefusesOneScanLine) {
+TEST(PlaneModel, RejectsOneScanLine) {
   std::vector<Eigen::Vector3f> line;
   for (int i = 0; i < 5; ++i)
     line.emplace_back(0.1F * static_cast<float>(i), 1.0F, 0.001F * (i % 2));
   EXPECT_FALSE(fit_plane(line, MapConfig{}).valid);
 }
 
-// One ring crosses from a wall to the floor: its five points lie in the cone of the beams, so that
-// the plane through them says nothing of either surface.
-TEST(PlaneModel, RefusesOneScanLineBentAroundACorner) {
+// One ring crosses from a wall to the ground: its five points lie in the cone of the beams, and the
+// plane through them is neither surface.
+TEST(PlaneModel, RejectsOneScanLineBentAroundACorner) {
   const std::vector<Eigen::Vector3f> bent = {{1.0F, 1.1F, -0.10F},
                                              {1.1F, 1.1F, -0.15F},
                                              {1.2F, 1.1F, -0.20F},
@@ -99,14 +99,14 @@ TEST(PlaneModel, RefusesOneScanLineBentAroundACorner) {
   EXPECT_FALSE(fit_plane(bent, MapConfig{}).valid);
 }
 
-TEST(PlaneModel, RefusesPointsOffThePlane) {
+TEST(PlaneModel, RejectsPointsOffThePlane) {
   RandomStream random(1, "plane");
   auto points = spread_on_plane(Eigen::Vector3d::UnitZ(), 0.0, random);
   points[4].z() += 0.3F;
   EXPECT_FALSE(fit_plane(points, MapConfig{}).valid);
 }
 
-TEST(PlaneModel, RefusesIdenticalPoints) {
+TEST(PlaneModel, RejectsIdenticalPoints) {
   const std::vector<Eigen::Vector3f> points(5, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
   EXPECT_FALSE(fit_plane(points, MapConfig{}).valid);
 }

@@ -39,9 +39,9 @@ TEST(ScanSelection, KeepsOneReturnOfEachVoxel) {
   EXPECT_EQ(represented, occupied);
 }
 
-// Returns of a straight wall seen under a grazing angle, in the order of a spinning LiDAR, with
-// noise along the beams: whatever the sense of rotation, the kept ones are not on one side of it.
-TEST(ScanSelection, DoesNotFavourNoiseByTheFiringOrder) {
+// Returns of a straight wall at a grazing angle, in the order of a spinning LiDAR, with noise along
+// the beams: for either direction of rotation the selected ones have no bias.
+TEST(ScanSelection, DoesNotBiasNoiseByTheFiringOrder) {
   RandomStream random(2, "scan_selection");
   for (const bool reversed : {false, true}) {
     double sum = 0.0;
@@ -75,7 +75,7 @@ TEST(ScanSelection, ThinsEvenlyBeyondTheLimit) {
   EXPECT_GT(kept.back(), 4900);
 }
 
-TEST(ScanSelection, IgnoresWhatIsNoReturn) {
+TEST(ScanSelection, IgnoresInvalidReturns) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   LidarScan scan;
   scan.points.push_back({{nan, 1.0F, 1.0F}, 0.0F, 0, 0});

@@ -19,7 +19,7 @@ std::vector<std::uint64_t> keys_of_a_box(int nx, int ny, int nz) {
   return keys;
 }
 
-TEST(VoxelHash, FindsWhatWasInserted) {
+TEST(VoxelHash, FindsInsertedKeys) {
   VoxelHash hash(4);
   const auto keys = keys_of_a_box(20, 20, 20);
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -31,9 +31,9 @@ TEST(VoxelHash, FindsWhatWasInserted) {
   EXPECT_EQ(hash.find(keys[0]), VoxelHash::kNone);
 }
 
-// Walls, floors and beams of voxels, whose keys differ in one or two coordinates only, are found
-// about as fast as keys of chance: at half load, linear probing looks at 1.5 slots on average.
-TEST(VoxelHash, VoxelsOfWallsDoNotCrowd) {
+// Lines and walls of voxels, whose keys differ in one or two coordinates only, need about as many
+// probes as random keys: at half load, linear probing takes 1.5 on average.
+TEST(VoxelHash, VoxelsOfWallsDoNotCluster) {
   for (const auto& [nx, ny, nz] : {std::array{8000, 1, 1},
                                    {1, 8000, 1},
                                    {1, 1, 8000},

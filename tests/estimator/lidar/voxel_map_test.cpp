@@ -64,7 +64,7 @@ TEST(VoxelMap, NearestEqualsTheKdTreeWithinTheGate) {
   EXPECT_GT(compared, 5000);
 }
 
-TEST(VoxelMap, MergesReturnsOfOneSpot) {
+TEST(VoxelMap, MergesNearbyReturns) {
   MapConfig config;
   VoxelMap map(config);
   RandomStream random(5, "merge");
@@ -111,32 +111,29 @@ Points corridor_around(const Eigen::Vector3f& center, std::uint64_t seed) {
   return points;
 }
 
-// Thirty kilometres: neither voxels nor the memory that holds them grow once the map is full, and
-// the robot always finds planes where it is. Both ways of finding planes.
-TEST(VoxelMap, AWalkOfManyKilometresStaysWithinItsMemory) {
-  for (const MapPlanes planes : {MapPlanes::kNeighbors, MapPlanes::kVoxels}) {
-    MapConfig config;
-    config.planes = planes;
-    config.max_voxels = 3000;
-    VoxelMap map(config);
-    std::size_t memory = 0;
-    for (int i = 0; i < 6000; ++i) {
-      const Eigen::Vector3f center(5.0F * static_cast<float>(i), 0.0F, 0.0F);
-      map.insert(corridor_around(center, static_cast<std::uint64_t>(i)), center);
-      ASSERT_LE(map.voxel_count(), 3000U);
-      if (i == 1000) memory = map.memory();
-      if (i > 1000) {
-        ASSERT_EQ(map.memory(), memory) << "at " << center.x() << " m";
-      }
+// Thirty kilometres: neither the voxels nor their memory grow once the map is full, and
+// planes are found around the robot.
+TEST(VoxelMap, MemoryIsBoundedOverManyKilometres) {
+  MapConfig config;
+  config.max_voxels = 3000;
+  VoxelMap map(config);
+  std::size_t memory = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Eigen::Vector3f center(5.0F * static_cast<float>(i), 0.0F, 0.0F);
+    map.insert(corridor_around(center, static_cast<std::uint64_t>(i)), center);
+    ASSERT_LE(map.voxel_count(), 3000U);
+    if (i == 1000) memory = map.memory();
+    if (i > 1000) {
+      ASSERT_EQ(map.memory(), memory) << "at " << center.x() << " m";
     }
-    const Eigen::Vector3f end(5.0F * 5999.0F, 0.0F, 0.0F);
-    int found = 0;
-    for (const Eigen::Vector3f& p : corridor_around(end, 7)) found += map.plane_at(p).valid;
-    EXPECT_GT(found, 100);
   }
+  const Eigen::Vector3f end(5.0F * 5999.0F, 0.0F, 0.0F);
+  int found = 0;
+  for (const Eigen::Vector3f& p : corridor_around(end, 7)) found += map.plane_at(p).valid;
+  EXPECT_GT(found, 100);
 }
 
-TEST(VoxelMap, ForgetsWhatItDidNotSeeForLong) {
+TEST(VoxelMap, DropsVoxelsUnseenForLong) {
   VoxelMap map(MapConfig{});
   const Eigen::Vector3f here(0.25F, 0.25F, 0.25F);
   const Eigen::Vector3f there(20.25F, 0.25F, 0.25F);
@@ -154,7 +151,7 @@ TEST(VoxelMap, ForgetsWhatItDidNotSeeForLong) {
   EXPECT_EQ(neighbors.count, 0);
 }
 
-TEST(VoxelMap, IgnoresPointsThatAreNoNumbers) {
+TEST(VoxelMap, IgnoresNonFinitePoints) {
   VoxelMap map(MapConfig{});
   const float nan = std::numeric_limits<float>::quiet_NaN();
   map.insert(Points{{nan, 0.0F, 0.0F}, {0.0F, INFINITY, 0.0F}}, Eigen::Vector3f::Zero());

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/aims/leg_dead_reckoning.hpp"
+
+namespace aims {
+namespace {
+
+/// The transform that removes position and heading of `T_odom_body`; roll and pitch stay relative
+/// to gravity.
+Pose start_transform(const Pose& T_odom_body) {
+  return Pose{yaw_rotation(yaw_of(T_odom_body.rotation)), T_odom_body.translation}.inverse();
+}
+
+}  // namespace
+
+LegDeadReckoning::LegDeadReckoning(const EstimatorConfig& config, const SensorRig& rig)
+    : rig_(rig), queue_(config.queue, config.imu, config.leg.max_speed) {}
+
+void LegDeadReckoning::consume(const Delivery& delivery) {
+  queue_.push(delivery);
+  process_ready();
+}
+
+void LegDeadReckoning::finish() {
+  queue_.close();
+  process_ready();
+  for (Time stamp : waiting_) {
+    if (last_) result_.trajectory.push_back({stamp, last_->pose});
+  }
+  waiting_.clear();
+}
+
+void LegDeadReckoning::process_ready() {
+  while (const std::optional<Correction> next = queue_.pop()) {
+    std::visit([this](const auto& each) { process(each); }, *next);
+  }
+  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
+}
+
+void LegDeadReckoning::process(const LegOdometrySample& sample) {
+  const Pose T_odom_body = sample.T_odom_base * rig_.T_body_base.inverse();
+  if (!T_start_odom_) T_start_odom_ = start_transform(T_odom_body);
+  const StampedPose now{sample.stamp, *T_start_odom_ * T_odom_body};
+  for (Time stamp : waiting_) {
+    const Pose pose =
+        last_ ? interpolate(last_->pose, now.pose,
+                            to_seconds(stamp - last_->stamp) / to_seconds(now.stamp - last_->stamp))
+              : now.pose;
+    result_.trajectory.push_back({stamp, pose});
+  }
+  waiting_.clear();
+  const bool no_scan = !result_.trajectory.empty() &&
+                       now.stamp - result_.trajectory.back().stamp >= kMaxPoseInterval;
+  if (no_scan) result_.trajectory.push_back(now);
+  last_ = now;
+  queue_.imu().forget_before(sample.stamp);
+}
+
+void LegDeadReckoning::process(const LidarScanPtr& scan) { waiting_.push_back(scan->end); }
+
+}  // namespace aims

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "estimator/aims/config.hpp"
+#include "estimator/estimator.hpp"
+#include "estimator/filter/measurement_queue.hpp"
+
+namespace aims {
+
+/// Leg odometry alone, as the robot reports it: its poses in the body frame, transformed so that
+/// the first has zero position and yaw, and interpolated at the end of each scan.
+class LegDeadReckoning : public Estimator {
+ public:
+  LegDeadReckoning(const EstimatorConfig& config, const SensorRig& rig);
+
+  void consume(const Delivery& delivery) override;
+  void finish() override;
+  const EstimatorResult& result() const override { return result_; }
+  std::vector<Eigen::Vector3f> map_points() const override { return {}; }
+
+ private:
+  void process_ready();
+  void process(const LegOdometrySample& sample);
+  void process(const LidarScanPtr& scan);
+
+  SensorRig rig_;
+  MeasurementQueue queue_;
+  EstimatorResult result_;
+  std::optional<Pose> T_start_odom_;
+  std::optional<StampedPose> last_;  ///< T_start_body
+  std::vector<Time> waiting_;        ///< scan ends after the last sample
+};
+
+}  // namespace aims

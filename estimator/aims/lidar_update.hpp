@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "estimator/aims/config.hpp"
+#include "estimator/degeneracy/axis_weights.hpp"
+#include "estimator/degeneracy/degeneracy.hpp"
+#include "estimator/estimator.hpp"
+#include "estimator/filter/kalman_update.hpp"
+#include "estimator/lidar/scan_matcher.hpp"
+#include "estimator/lidar/voxel_map.hpp"
+
+namespace aims {
+
+/// The LiDAR correction: an iterated trial update with the nominal noise, the degeneracy index from
+/// its residuals and innovation, and the final update with the noise scaled by the index. The
+/// directional variant scales the information along the axes of the pose instead.
+class LidarUpdate {
+ public:
+  /// `config` is that of the variant (`config_for`).
+  LidarUpdate(const EstimatorConfig& config, const EstimatorVariant& variant);
+
+  /// The belief after fusing `points` (body axes at the time of the belief) with `map`. Fills the
+  /// index, weights and statistics of `diagnostics`. With too few planes the belief and the index
+  /// are unchanged.
+  Belief update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
+                const VoxelMap& map, ScanDiagnostics& diagnostics);
+
+  /// gamma_leg after the last scan, eq. (10); 1 before the first.
+  double gamma_leg() const { return gamma_leg_; }
+
+  /// Whether the leg states are consider states: while the weight of the weakest position axis is
+  /// below `LegStatesConfig::min_axis_weight`.
+  bool considers_legs() const;
+
+  /// Covariance of the map at the robot, odometry axes [m^2]; see map_covariance_after_scan().
+  const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
+
+ private:
+  Information scaled(const ScanInformation& scan, double gamma, const NominalState& state) const;
+  ErrorMatrix gain_mask() const;
+  Belief correct(const Belief& predicted, const ErrorMatrix& prior_information,
+                 const NominalState& linearization, const ScanInformation& scan,
+                 double gamma) const;
+  void assess_axes(const ScanInformation& scan, const NominalState& state,
+                   ScanDiagnostics& diagnostics);
+  Belief trial(const Belief& predicted, const ErrorMatrix& prior_information,
+               std::span<const Eigen::Vector3f> points, const VoxelMap& map,
+               ScanDiagnostics& diagnostics);
+  void assess(const Belief& predicted, const ErrorMatrix& prior_information,
+              const NominalState& trial_state, ScanDiagnostics& diagnostics);
+  void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);
+
+  LidarUpdateConfig lidar_;
+  DegeneracyConfig degeneracy_;
+  NoiseInformationConfig noise_information_;
+  LegStatesConfig leg_states_;
+  EstimatorVariant variant_;
+  ScanMatcher matcher_;
+  AxisWeigher axes_;
+  SeverityFilter severity_;
+  double gamma_lidar_ = 1.0;
+  double gamma_leg_ = 1.0;
+  Eigen::Matrix3d map_covariance_ = Eigen::Matrix3d::Zero();
+  std::optional<Eigen::Vector3d> last_position_;  ///< at the last scan after a shift
+};
+
+}  // namespace aims

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/filter/static_initialization.hpp"
+
+#include <cmath>
+
+namespace aims {
+namespace {
+
+constexpr double kMaxDuration = 60.0;  ///< bound on configured durations [s]
+
+/// Fewer standing samples than this give no biases.
+constexpr int kMinSamples = 5;
+
+/// Variance of a state that is fixed; above zero so that the covariance stays invertible.
+constexpr double kFixedVariance = 1e-16;
+
+/// Error of the mean specific force of a standing start [m/s^2].
+constexpr double kMeanForceError = 5e-3;
+
+/// Averages over an interval without motion.
+struct StaticInterval {
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();   ///< mean [rad/s]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< mean [m/s^2]
+  Time end = 0;                                     ///< of the last sample averaged
+  int count = 0;
+  bool moved = false;  ///< motion ended it
+};
+
+/// Whether the sample is consistent with a robot that stands still.
+bool is_still(const ImuSample& sample, const InitializationConfig& config, double gravity) {
+  return sample.angular_velocity.norm() <= config.max_rate &&
+         std::abs(sample.specific_force.norm() - gravity) <= config.max_force_deviation;
+}
+
+/// Means from `settling_time` [s] after the first sample to the end of the standing start or the
+/// first motion.
+StaticInterval average_start(const std::deque<ImuSample>& samples, double settling_time,
+                             const InitializationConfig& config, double gravity) {
+  StaticInterval interval;
+  const Time first = samples.front().stamp;
+  for (const ImuSample& sample : samples) {
+    if (sample.stamp - first > from_seconds(config.duration)) break;
+    if (sample.stamp - first < from_seconds(settling_time)) continue;
+    interval.moved = !is_still(sample, config, gravity);
+    if (interval.moved) break;
+    interval.rate += sample.angular_velocity;
+    interval.force += sample.specific_force;
+    interval.end = sample.stamp;
+    ++interval.count;
+  }
+  if (interval.count > 0) {
+    interval.rate /= interval.count;
+    interval.force /= interval.count;
+  }
+  return interval;
+}
+
+/// The interval from sample `begin` on in which each sample stays close to the mean of those before
+/// it and none shows motion.
+StaticInterval static_interval_from(const std::deque<ImuSample>& samples, std::size_t begin,
+                                    const InitializationConfig& config,
+                                    const StaticInitializationConfig& limits, double gravity) {
+  StaticInterval interval;
+  for (std::size_t i = begin; i < samples.size(); ++i) {
+    const ImuSample& sample = samples[i];
+    const double rate_deviation = (sample.angular_velocity - interval.rate).norm();
+    const double force_deviation = (sample.specific_force - interval.force).norm();
+    const bool close = interval.count == 0 || (rate_deviation <= limits.max_rate_deviation &&
+                                               force_deviation <= limits.max_force_deviation);
+    interval.moved = !close || !is_still(sample, config, gravity);
+    if (interval.moved) break;
+    ++interval.count;
+    interval.rate += (sample.angular_velocity - interval.rate) / interval.count;
+    interval.force += (sample.specific_force - interval.force) / interval.count;
+    interval.end = sample.stamp;
+  }
+  return interval;
+}
+
+/// An interval and where it begins.
+struct LongestInterval {
+  StaticInterval interval;
+  std::size_t begin = 0;
+  double duration = -1.0;  ///< [s]
+};
+
+/// The longest static interval; of equally long ones the last, since the robot settles with time.
+LongestInterval longest_static_interval(const std::deque<ImuSample>& samples,
+                                        const InitializationConfig& config,
+                                        const StaticInitializationConfig& limits, double gravity) {
+  LongestInterval longest;
+  for (std::size_t begin = 0; begin < samples.size(); ++begin) {
+    const Time from = samples[begin].stamp;
+    if (samples.back().stamp - from < from_seconds(longest.duration)) break;
+    const StaticInterval found = static_interval_from(samples, begin, config, limits, gravity);
+    if (found.count == 0 || to_seconds(found.end - from) < longest.duration) continue;
+    longest = {found, begin, to_seconds(found.end - from)};
+  }
+  return longest;
+}
+
+/// Mean specific force of all samples [m/s^2]; the accelerations of a gait average out.
+Eigen::Vector3d mean_force(const std::deque<ImuSample>& samples) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const ImuSample& sample : samples) sum += sample.specific_force;
+  return sum / static_cast<double>(samples.size());
+}
+
+/// Attitude with yaw 0 in which the mean specific force points upward.
+Eigen::Quaterniond level(const Eigen::Vector3d& force) {
+  const Eigen::Quaterniond tilt =
+      Eigen::Quaterniond::FromTwoVectors(force.normalized(), Eigen::Vector3d::UnitZ());
+  return (yaw_rotation(-yaw_of(tilt)) * tilt).normalized();
+}
+
+/// Unmeasured states get ten times the configured deviation, an unmeasured velocity its own.
+ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_still,
+                               bool gyro_bias_measured) {
+  using E = ErrorState;
+  const auto variance = [](double sigma, bool measured) {
+    return Eigen::Matrix3d((measured ? 1.0 : 100.0) * sigma * sigma * Eigen::Matrix3d::Identity());
+  };
+  ErrorMatrix P = ErrorMatrix::Zero();
+  block(P, E::kRotation, E::kRotation) = variance(config.sigma_tilt, stood_still);
+  block(P, E::kRotation, E::kRotation)(2, 2) = config.sigma_yaw * config.sigma_yaw;
+  block(P, E::kPosition, E::kPosition) =
+      Eigen::Matrix3d::Identity() * (config.sigma_position * config.sigma_position);
+  const double velocity = stood_still ? config.sigma_velocity : config.sigma_velocity_moving;
+  block(P, E::kVelocity, E::kVelocity) = Eigen::Matrix3d::Identity() * (velocity * velocity);
+  block(P, E::kGyroBias, E::kGyroBias) = variance(config.sigma_gyro_bias, gyro_bias_measured);
+  block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
+      variance(config.sigma_accelerometer_bias, stood_still);
+  // Variants that estimate the leg states raise these with `open_leg_states`.
+  block(P, E::kLegScale, E::kLegScale) = Eigen::Matrix3d::Identity() * kFixedVariance;
+  block(P, E::kLegBias, E::kLegBias) = Eigen::Matrix3d::Identity() * kFixedVariance;
+  return P;
+}
+
+/// The belief at the end of `interval`, or at the newest sample when it is too short for a tilt.
+/// The mean rate is the gyro bias only with `gyro_bias_measured`: otherwise the body may sway.
+InitialBelief begin_with(const std::deque<ImuSample>& samples, const StaticInterval& interval,
+                         bool enough, bool gyro_bias_measured, const InitializationConfig& config) {
+  InitialBelief initial;
+  initial.stamp = enough ? interval.end : samples.back().stamp;
+  initial.stood_still = enough;
+  initial.belief.state.rotation = level(enough ? interval.force : mean_force(samples));
+  if (gyro_bias_measured) initial.belief.state.gyro_bias = interval.rate;
+  initial.belief.covariance = initial_covariance(config, enough, gyro_bias_measured);
+  return initial;
+}
+
+}  // namespace
+
+void describe(Fields& f, InitializationConfig& c) {
+  f.number("duration", c.duration,
+           {"s", in_range(0.1, kMaxDuration), "standing time at the start"});
+  f.number("settling_time", c.settling_time,
+           {"s", in_range(0.0, kMaxDuration), "initial part of it that is not averaged"});
+  f.number("max_rate", c.max_rate,
+           {"rad/s", positive(), "angular rate above which the robot moves"});
+  f.number("max_force_deviation", c.max_force_deviation,
+           {"m/s^2", positive(), "deviation of the specific force from gravity that means motion"});
+  f.number("sigma_tilt", c.sigma_tilt, {"rad", positive(), "initial roll and pitch"});
+  f.number("sigma_yaw", c.sigma_yaw, {"rad", positive(), "initial yaw, defined by the frame"});
+  f.number("sigma_position", c.sigma_position,
+           {"m", positive(), "initial position, defined by the frame"});
+  f.number("sigma_velocity", c.sigma_velocity, {"m/s", positive(), "initial velocity"});
+  f.number("sigma_velocity_moving", c.sigma_velocity_moving,
+           {"m/s", positive(), "initial velocity after a start in motion"});
+  f.number("sigma_gyro_bias", c.sigma_gyro_bias,
+           {"rad/s", positive(), "gyro bias after averaging"});
+  f.number("sigma_accelerometer_bias", c.sigma_accelerometer_bias,
+           {"m/s^2", positive(), "accelerometer bias, inseparable from tilt while standing"});
+}
+
+void describe(Fields& f, StaticInitializationConfig& c) {
+  f.flag("enabled", c.enabled,
+         {"", any(), "initialize from the longest undisturbed interval of the start"});
+  f.number("max_rate_deviation", c.max_rate_deviation,
+           {"rad/s", positive(), "deviation from the mean rate that ends an interval"});
+  f.number("max_force_deviation", c.max_force_deviation,
+           {"m/s^2", positive(), "deviation from the mean specific force that ends an interval"});
+  f.number("min_duration", c.min_duration,
+           {"s", at_least(0.05), "shortest interval that gives the tilt"});
+  f.number("min_duration_gyro_bias", c.min_duration_gyro_bias,
+           {"s", at_least(0.05), "shortest interval that gives the gyro bias"});
+}
+
+std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
+                                        const InitializationConfig& config, double gravity) {
+  if (samples.empty()) return std::nullopt;
+  StaticInterval start = average_start(samples, config.settling_time, config, gravity);
+  const Duration span = samples.back().stamp - samples.front().stamp;
+  if (span < from_seconds(config.duration) && !start.moved) return std::nullopt;
+  if (start.count < kMinSamples) start = average_start(samples, 0.0, config, gravity);
+  const bool enough = start.count >= kMinSamples;
+  return begin_with(samples, start, enough, enough, config);
+}
+
+std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samples,
+                                               const InitializationConfig& config,
+                                               const StaticInitializationConfig& limits,
+                                               double gravity) {
+  if (samples.empty()) return std::nullopt;
+  const Duration span = samples.back().stamp - samples.front().stamp;
+  if (span < from_seconds(config.settling_time)) return std::nullopt;
+  auto [best, begin, duration] = longest_static_interval(samples, config, limits, gravity);
+  if (best.count > 0) {
+    // Only the end of a long interval is averaged: before it the robot settles.
+    const Time averaged = best.end - from_seconds(config.duration - config.settling_time);
+    while (samples[begin].stamp < averaged) ++begin;
+    best = static_interval_from(samples, begin, config, limits, gravity);
+  }
+  const bool still_standing = best.count > 0 && !best.moved;
+  if (span < from_seconds(config.duration) && still_standing) return std::nullopt;
+  const bool enough = best.count >= kMinSamples && duration >= limits.min_duration;
+  const bool gyro_bias_measured = enough && duration >= limits.min_duration_gyro_bias;
+  return begin_with(samples, best, enough, gyro_bias_measured, config);
+}
+
+Belief correlate_tilt_and_bias(Belief belief, double gravity) {
+  using E = ErrorState;
+  ErrorMatrix& P = belief.covariance;
+  const Eigen::Vector3d up = belief.state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  // The mean force is R^T g + b and was turned upward: b = -g (up x d_rotation), to first order.
+  const Eigen::Matrix3d J = -gravity * hat(up);
+  const Eigen::Matrix3d rotation = block(P, E::kRotation, E::kRotation);
+  const double vertical = up.dot(block(P, E::kAccelerometerBias, E::kAccelerometerBias) * up);
+  block(P, E::kAccelerometerBias, E::kRotation) = J * rotation;
+  block(P, E::kRotation, E::kAccelerometerBias) = rotation * J.transpose();
+  block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
+      J * rotation * J.transpose() + vertical * up * up.transpose() +
+      kMeanForceError * kMeanForceError * Eigen::Matrix3d::Identity();
+  return belief;
+}
+
+}  // namespace aims

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/ground/ground_plane.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace aims {
+namespace {
+
+/// Height of the histogram bins [m].
+constexpr double kBin = 0.06;
+/// A lower bin with this fraction of the fullest one is taken as the ground [-].
+constexpr double kLowerBinFraction = 0.5;
+/// Bands about the plane before the last: wide, since the body may be tilted against the ground.
+constexpr std::array<double, 2> kWideBands{0.20, 0.10};
+/// Fraction of the candidate points that must be inliers; otherwise there are several planes [-].
+constexpr double kMinInlierFraction = 0.7;
+/// Parts of the ground: four sectors, each near and far.
+constexpr int kParts = 8;
+/// Parts with fewer points are not checked for a bend.
+constexpr std::size_t kMinPointsOfPart = 12;
+/// Points this far from the plane can belong to ground that bends away from it [m].
+constexpr double kBendReach = 0.12;
+
+/// Least-squares plane z = a + b x + c y.
+struct HeightFit {
+  Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the coefficients, of unit sigma
+  int points = 0;
+  double square_sum = 0.0;  ///< of the inlier residuals [m^2]
+
+  double height_over(const Eigen::Vector3d& p) const {
+    return p.z() - coefficients(0) - coefficients(1) * p.x() - coefficients(2) * p.y();
+  }
+};
+
+/// Highest point per column of a square grid: columns with something on the ground hold walls,
+/// furniture and legs.
+class Columns {
+ public:
+  Columns(std::span<const Eigen::Vector3f> points, const GroundConstraintConfig& config)
+      : radius_(config.radius),
+        cells_(static_cast<int>(std::ceil(2.0 * config.radius / kCell))),
+        tops_(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_), -kHigh) {
+    for (const Eigen::Vector3f& point : points) {
+      const double z = point.z();
+      if (!(point.head<2>().norm() < radius_) || !(z < kHigh)) continue;
+      double& top = tops_[at(point.cast<double>())];
+      top = std::max(top, z);
+    }
+  }
+
+  /// Whether nothing stands above the point, which is one of those given at construction.
+  bool is_free(const Eigen::Vector3d& p) const { return tops_[at(p)] - p.z() < kStanding; }
+
+ private:
+  static constexpr double kCell = 0.25;      ///< [m]
+  static constexpr double kHigh = 0.8;       ///< ceilings are above it [m]
+  static constexpr double kStanding = 0.12;  ///< more than this above a point stands on it [m]
+
+  std::size_t at(const Eigen::Vector3d& p) const {
+    const auto cell = [this](double x) {
+      return std::clamp(static_cast<int>((x + radius_) / kCell), 0, cells_ - 1);
+    };
+    return static_cast<std::size_t>(cell(p.x()) * cells_ + cell(p.y()));
+  }
+
+  double radius_;
+  int cells_;
+  std::vector<double> tops_;  ///< [m]
+};
+
+/// Candidate ground points: near enough, below the body, and with nothing on them.
+std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points,
+                                   const GroundConstraintConfig& config) {
+  const Columns columns(points, config);
+  std::vector<Eigen::Vector3d> kept;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3d p = point.cast<double>();
+    const double away = p.head<2>().norm();
+    const double tilted = config.max_slope * away;
+    if (!(away < config.radius) || p.z() > tilted - config.min_height ||
+        p.z() < -tilted - config.max_height) {
+      continue;
+    }
+    if (columns.is_free(p)) kept.push_back(p);
+  }
+  return kept;
+}
+
+/// The lowest well-filled height [m] of the points within half the radius.
+std::optional<double> lowest_mode(const std::vector<Eigen::Vector3d>& points,
+                                  const GroundConstraintConfig& config) {
+  const auto bins = static_cast<std::size_t>((config.max_height - config.min_height) / kBin) + 1;
+  std::vector<int> counts(bins, 0);
+  for (const Eigen::Vector3d& p : points) {
+    const double down = -p.z() - config.min_height;
+    if (down < 0.0 || p.head<2>().norm() > 0.5 * config.radius) continue;
+    ++counts[std::min(bins - 1, static_cast<std::size_t>(down / kBin))];
+  }
+  const int most = *std::max_element(counts.begin(), counts.end());
+  if (most == 0) return std::nullopt;
+  std::size_t at = bins - 1;
+  while (counts[at] < kLowerBinFraction * most) --at;
+  return -(config.min_height + (static_cast<double>(at) + 0.5) * kBin);
+}
+
+/// Least squares over the points within `band` of `from`.
+HeightFit refit(const std::vector<Eigen::Vector3d>& points, const HeightFit& from, double band) {
+  HeightFit fit;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) {
+    if (std::abs(from.height_over(p)) > band) continue;
+    const Eigen::Vector3d row(1.0, p.x(), p.y());
+    fit.information += row * row.transpose();
+    sum += row * p.z();
+    ++fit.points;
+  }
+  const Eigen::Matrix3d regular = fit.information + 1e-9 * Eigen::Matrix3d::Identity();
+  fit.coefficients = regular.ldlt().solve(sum);
+  for (const Eigen::Vector3d& p : points) {
+    if (std::abs(from.height_over(p)) <= band)
+      fit.square_sum += fit.height_over(p) * fit.height_over(p);
+  }
+  return fit;
+}
+
+/// Smallest deviation [m] of the inliers over all horizontal directions.
+double spread(const HeightFit& fit) {
+  const double n = fit.points;
+  const Eigen::Vector2d mean = fit.information.block<2, 1>(1, 0) / n;
+  const Eigen::Matrix2d scatter = fit.information.block<2, 2>(1, 1) / n - mean * mean.transpose();
+  const double half_trace = 0.5 * scatter.trace();
+  const double root = std::sqrt(std::max(half_trace * half_trace - scatter.determinant(), 0.0));
+  return std::sqrt(std::max(half_trace - root, 0.0));
+}
+
+/// Largest median height of a part over the plane [m].
+double bend_of(const std::vector<Eigen::Vector3d>& points, const HeightFit& fit, double radius) {
+  std::array<std::vector<double>, kParts> parts;
+  for (const Eigen::Vector3d& p : points) {
+    const double height = fit.height_over(p);
+    if (std::abs(height) > kBendReach) continue;
+    const bool along = std::abs(p.x()) > std::abs(p.y());
+    const bool positive = along ? p.x() > 0.0 : p.y() > 0.0;
+    const bool far = p.head<2>().norm() > 0.5 * radius;
+    const int part =
+        4 * static_cast<int>(far) + 2 * static_cast<int>(along) + static_cast<int>(positive);
+    parts[static_cast<std::size_t>(part)].push_back(height);
+  }
+  double largest = 0.0;
+  for (std::vector<double>& part : parts) {
+    if (part.size() < kMinPointsOfPart) continue;
+    const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
+    std::nth_element(part.begin(), middle, part.end());
+    largest = std::max(largest, std::abs(*middle));
+  }
+  return largest;
+}
+
+GroundPlane plane_of(const HeightFit& fit) {
+  GroundPlane plane;
+  const Eigen::Vector3d up(-fit.coefficients(1), -fit.coefficients(2), 1.0);
+  const double scale = 1.0 / up.norm();
+  plane.normal = scale * up;
+  plane.height = -scale * fit.coefficients(0);
+  plane.points = fit.points;
+  plane.residual = std::sqrt(fit.square_sum / fit.points);
+  const Eigen::Matrix3d covariance = plane.residual * plane.residual * fit.information.inverse();
+  // To first order in the slopes of a plane that is about level.
+  const Eigen::Matrix3d across =
+      Eigen::Matrix3d::Identity() - plane.normal * plane.normal.transpose();
+  plane.normal_covariance.topLeftCorner<2, 2>() = covariance.bottomRightCorner<2, 2>();
+  plane.normal_covariance = across * plane.normal_covariance * across;
+  return plane;
+}
+
+}  // namespace
+
+void describe(Fields& f, GroundConstraintConfig& c) {
+  f.flag("enabled", c.enabled, {"", any(), "constrain height and tilt by level ground"});
+  f.number("radius", c.radius, {"m", positive(), "horizontal radius of the points used"});
+  f.number("min_height", c.min_height, {"m", positive(), "smallest height above the ground"});
+  f.number("max_height", c.max_height, {"m", positive(), "largest height above the ground"});
+  f.number("max_slope", c.max_slope,
+           {"-", positive(), "slope of the ground in body axes, for candidate points"});
+  f.number("band", c.band, {"m", positive(), "inliers are this close to the plane"});
+  f.integer("min_points", c.min_points, {"-", at_least(3), "inliers of a ground plane"});
+  f.number("min_spread", c.min_spread,
+           {"m", positive(), "smallest deviation of the inliers along any direction"});
+  f.number("max_residual", c.max_residual,
+           {"m", positive(), "root mean square distance of the inliers from the plane"});
+  f.number("max_bend", c.max_bend,
+           {"m", positive(), "ground with a part further from the plane is not level"});
+  f.number("min_tilt_gate", c.min_tilt_gate,
+           {"rad", positive(), "ground tilted by less is level; lower bound of the 3-sigma gate"});
+  f.number("max_tilt_gate", c.max_tilt_gate,
+           {"rad", positive(), "ground tilted by more is not level; upper bound of the gate"});
+  f.number("max_step", c.max_step,
+           {"m", positive(), "larger change of height starts another level"});
+  f.number("settling_distance", c.settling_distance,
+           {"m", at_least(0), "distance on level ground before it is used again"});
+  f.number("spacing", c.spacing, {"m", at_least(0), "distance between measurements"});
+  f.number("correlation_length", c.correlation_length,
+           {"m", positive(), "correlation length of the unevenness"});
+  f.number("sigma_tilt", c.sigma_tilt, {"rad", positive(), "unevenness of level ground"});
+  f.number("sigma_height", c.sigma_height, {"m", positive(), "unevenness of level ground"});
+}
+
+std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points,
+                                      const GroundConstraintConfig& config) {
+  const std::vector<Eigen::Vector3d> candidates = below(points, config);
+  if (candidates.size() < static_cast<std::size_t>(config.min_points)) return std::nullopt;
+  const std::optional<double> mode = lowest_mode(candidates, config);
+  if (!mode) return std::nullopt;
+  HeightFit fit;
+  fit.coefficients(0) = *mode;
+  for (const double band : kWideBands) fit = refit(candidates, fit, band);
+  // The last band is applied twice, so that the plane fits its own inliers.
+  for (int i = 0; i < 2; ++i) fit = refit(candidates, fit, config.band);
+  if (fit.points < config.min_points || spread(fit) < config.min_spread) return std::nullopt;
+  if (fit.points < kMinInlierFraction * static_cast<double>(candidates.size())) return std::nullopt;
+  GroundPlane plane = plane_of(fit);
+  if (!plane.normal.allFinite() || !(plane.residual <= config.max_residual)) return std::nullopt;
+  if (plane.height < config.min_height || plane.height > config.max_height) return std::nullopt;
+  plane.bend = bend_of(candidates, fit, config.radius);
+  return plane;
+}
+
+}  // namespace aims

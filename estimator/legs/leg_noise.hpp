@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "core/config.hpp"
+#include "core/leg_kinematics.hpp"
+#include "core/measurements.hpp"
+#include "estimator/filter/kalman_update.hpp"
+#include "estimator/legs/leg_velocity_model.hpp"
+
+namespace aims {
+
+/// Noise of each leg sample from its stance feet, the yaw rate, lost packets and its innovation.
+struct LegNoiseConfig {
+  bool enabled = true;
+  /// Of one sample with consistent stance feet, base axes [m/s]; the scale is a separate state.
+  Eigen::Vector3d velocity_sigma{0.07, 0.07, 0.07};
+  double correlation_time = 0.1;       ///< of that error, which consecutive samples share [s]
+  double nominal_spread = 0.03;        ///< of the velocities from feet that do not slip [m/s]
+  double one_foot_sigma = 0.05;        ///< added with a single stance foot [m/s]
+  double no_foot_sigma = 0.5;          ///< added without a stance foot; bounds the gap term [m/s]
+  double yaw_lever = 0.03;             ///< added per yaw rate [m]
+  double gap_growth = 0.1;             ///< added per time without packets [m/s^2]
+  double gate = 16.3;                  ///< chi-square, 3 dof, 99.9 %: above it the noise grows [-]
+  double max_variance_growth = 100.0;  ///< more, and the sample is rejected [-]
+  double max_slip_duration = 0.5;      ///< a longer innovation is not a slip [s]
+};
+
+void describe(Fields& fields, LegNoiseConfig& config);
+
+/// Base velocities implied by the single stance feet of one sample.
+struct StanceFeet {
+  bool measured = false;  ///< the sample has joint angles and rates
+  int count = 0;          ///< feet in contact
+  /// Standard deviation among the base velocities from each foot alone, base axes [m/s]; zero with
+  /// fewer than two feet.
+  Eigen::Vector3d spread = Eigen::Vector3d::Zero();
+};
+
+/// Compares the stance feet of `sample` with each other, not with the reported velocity: wrong leg
+/// lengths change all feet alike. `angular_velocity` is that of the base, base axes [rad/s].
+StanceFeet compare_stance_feet(const LegOdometrySample& sample,
+                               const Eigen::Vector3d& angular_velocity,
+                               const LegGeometry& geometry = kLegGeometry);
+
+/// Further inputs of the leg noise model.
+struct LegConditions {
+  double yaw_rate = 0.0;  ///< of the base [rad/s]
+  double gap = 0.0;       ///< time without packets before this one, beyond the period [s]
+};
+
+/// Covariance of the velocity of one sample [m^2/s^2], base axes: the nominal one plus a term for
+/// the spread of the feet, missing feet, the yaw rate and the gap.
+Eigen::Matrix3d sample_covariance(const LegNoiseConfig& config, const StanceFeet& feet,
+                                  const LegConditions& conditions);
+
+/// Factor on the covariance of a sample whose innovation has the squared Mahalanobis distance
+/// `distance` (3 dof): 1 within the gate, distance / gate beyond it, empty for a rejected sample.
+std::optional<double> gate_inflation(const LegNoiseConfig& config, double distance);
+
+/// Leg noise model over a sequence of samples.
+class LegNoiseModel {
+ public:
+  LegNoiseModel(const LegNoiseConfig& config, const LegConfig& leg);
+
+  /// Covariance of `sample` for the update [m^2/s^2], including the correlation of consecutive
+  /// samples. `angular_velocity` is that of the base, base axes [rad/s].
+  Eigen::Matrix3d noise(const LegOdometrySample& sample, const Eigen::Vector3d& angular_velocity);
+
+  /// Factor on the noise of `measurement`, of the sample last given to noise(), under the state
+  /// covariance `covariance`; empty for a rejected sample. A large innovation that lasts longer
+  /// than `max_slip_duration` is accepted.
+  std::optional<double> inflation(const LinearMeasurement& measurement,
+                                  const ErrorMatrix& covariance);
+
+ private:
+  LegNoiseConfig config_;
+  double period_;              ///< of the packets [s]
+  double correlated_samples_;  ///< that share one error
+  std::optional<Time> last_;
+  std::optional<Time> outside_since_;  ///< first of the consecutive samples outside the gate
+};
+
+}  // namespace aims

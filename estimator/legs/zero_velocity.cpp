@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/legs/zero_velocity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/leg_kinematics.hpp"
+
+namespace aims {
+namespace {
+
+/// Longest gap between packets that the smoothing bridges.
+constexpr Duration kMaxGap = 100 * kMillisecond;
+
+}  // namespace
+
+void describe(Fields& f, ZeroVelocityConfig& c) {
+  f.flag("enabled", c.enabled, {"", any(), "zero-velocity update while the robot stands still"});
+  f.number("window", c.window,
+           {"s", in_range(0.05, 0.9), "of the detection; one measurement per window"});
+  f.number("max_rate", c.max_rate,
+           {"rad/s", positive(), "largest mean rate, and deviation from it, while standing"});
+  f.number("max_force_deviation", c.max_force_deviation,
+           {"m/s^2", positive(), "largest deviation of the specific force from its mean"});
+  f.number("max_leg_speed", c.max_leg_speed,
+           {"m/s", positive(), "largest speed from leg odometry while standing"});
+  f.number("max_joint_rate", c.max_joint_rate,
+           {"rad/s", positive(), "largest root mean square rate of the joints while standing"});
+  f.number("leg_smoothing", c.leg_smoothing,
+           {"s", positive(), "time constant of leg speed and joint rate"});
+  f.number("hysteresis", c.hysteresis,
+           {"-", at_least(1), "factor on the limits once the robot stands"});
+  f.number("sigma_velocity", c.sigma_velocity, {"m/s", positive(), "of the zero velocity"});
+  f.number("sigma_rate", c.sigma_rate, {"rad/s", positive(), "of the zero mean rate"});
+}
+
+std::optional<ImuStatistics> imu_statistics(const std::deque<ImuSample>& samples, Time end,
+                                            Duration window) {
+  ImuStatistics statistics;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  int count = 0;
+  auto first = samples.end();
+  for (; first != samples.begin() && std::prev(first)->stamp > end - window; --first) {
+    const ImuSample& sample = *std::prev(first);
+    if (sample.stamp > end) continue;
+    statistics.rate += sample.angular_velocity;
+    force += sample.specific_force;
+    ++count;
+  }
+  if (count < 3 || first == samples.begin()) return std::nullopt;
+  statistics.rate /= count;
+  force /= count;
+  for (auto each = first; each != samples.end() && each->stamp <= end; ++each) {
+    statistics.rate_deviation =
+        std::max(statistics.rate_deviation, (each->angular_velocity - statistics.rate).norm());
+    statistics.force_deviation =
+        std::max(statistics.force_deviation, (each->specific_force - force).norm());
+  }
+  return statistics;
+}
+
+LinearMeasurement zero_velocity_model(const NominalState& state, double sigma) {
+  using E = ErrorState;
+  const Eigen::Matrix3d R_body_odom = state.rotation.conjugate().toRotationMatrix();
+  LinearMeasurement m;
+  m.residual = R_body_odom * state.velocity;
+  columns(m.jacobian, E::kRotation) = hat(m.residual);
+  columns(m.jacobian, E::kVelocity) = R_body_odom;
+  m.noise = sigma * sigma * Eigen::Matrix3d::Identity();
+  return m;
+}
+
+LinearMeasurement zero_rate_model(const NominalState& state, const Eigen::Vector3d& rate,
+                                  double sigma) {
+  LinearMeasurement m;
+  m.residual = state.gyro_bias - rate;
+  columns(m.jacobian, ErrorState::kGyroBias).setIdentity();
+  m.noise = sigma * sigma * Eigen::Matrix3d::Identity();
+  return m;
+}
+
+/// All feet are in contact, and the smoothed speeds of joints and base are small.
+bool ZeroVelocityDetector::legs_still(const LegOdometrySample& legs, double factor) {
+  const bool gap = !last_ || legs.stamp - *last_ > kMaxGap;
+  const double dt = gap ? 1.0 : to_seconds(legs.stamp - *last_) / config_.leg_smoothing;
+  const double gain = std::clamp(dt, 0.0, 1.0);
+  last_ = legs.stamp;
+  const Eigen::Map<const JointVector> position(legs.joint_position.data());
+  const Eigen::Map<const JointVector> rate(legs.joint_velocity.data());
+  smoothed_velocity_ += gain * (legs.linear_velocity - smoothed_velocity_);
+  smoothed_joint_square_ += gain * (rate.squaredNorm() / kJointCount - smoothed_joint_square_);
+  const bool has_joints = !position.isZero(0.0);  // some recordings have no joints and contacts
+  const bool all_stand =
+      std::all_of(legs.contact.begin(), legs.contact.end(), [](bool stands) { return stands; });
+  return !gap && (!has_joints || all_stand) &&
+         smoothed_velocity_.norm() <= factor * config_.max_leg_speed &&
+         std::sqrt(smoothed_joint_square_) <= factor * config_.max_joint_rate;
+}
+
+bool ZeroVelocityDetector::update(const LegOdometrySample& legs, const std::deque<ImuSample>& imu,
+                                  const Eigen::Vector3d& gyro_bias) {
+  const double factor = standing_ ? config_.hysteresis : 1.0;
+  statistics_ = imu_statistics(imu, legs.stamp, from_seconds(config_.window));
+  const bool imu_still = statistics_ && statistics_->rate_deviation <= factor * config_.max_rate &&
+                         statistics_->force_deviation <= factor * config_.max_force_deviation &&
+                         (statistics_->rate - gyro_bias).norm() <= factor * config_.max_rate;
+  if (!legs_still(legs, factor) || !imu_still) {
+    still_since_.reset();
+    standing_ = false;
+    return false;
+  }
+  if (!still_since_) still_since_ = legs.stamp;
+  standing_ = standing_ || legs.stamp - *still_since_ >= from_seconds(config_.window);
+  return standing_;
+}
+
+std::optional<ImuStatistics> ZeroVelocityDetector::due_measurement() {
+  if (!standing_ || !last_) return std::nullopt;
+  if (last_measured_ && *last_ - *last_measured_ < from_seconds(config_.window)) {
+    return std::nullopt;
+  }
+  last_measured_ = last_;
+  return statistics_;
+}
+
+}  // namespace aims

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/config.hpp"
+
+namespace aims {
+
+/// Point selection, matching and the iterated update (sim has a LidarConfig of its own).
+struct LidarUpdateConfig {
+  double min_range = 0.3;         ///< [m]
+  double max_range = 120.0;       ///< [m]
+  double selection_voxel = 0.25;  ///< one point is kept per voxel of the raw scan [m]
+  int max_points = 4000;          ///< per update
+  /// Of a point-to-plane residual, R_lidar [m]. Far above the 2 cm of a return: neighbouring
+  /// residuals share the errors of map and normals but are fused as independent.
+  double point_sigma = 0.15;
+  double residual_gate = 0.2;          ///< larger residuals are rejected [m]
+  int max_iterations = 4;              ///< of the trial update
+  double convergence_rotation = 1e-4;  ///< [rad]
+  double convergence_position = 1e-3;  ///< [m]
+  double rematch_rotation = 2e-3;      ///< larger pose changes search the planes again [rad]
+  double rematch_position = 1e-2;      ///< larger pose changes search the planes again [m]
+  int min_matches = 30;                ///< planes needed for an update
+};
+
+void describe(Fields& fields, LidarUpdateConfig& config);
+
+/// Robust weight of each residual: a Cauchy kernel.
+struct RobustKernelConfig {
+  bool enabled = true;
+  double scale = 3.0;        ///< deviations of the residuals at which a weight is one half [-]
+  double min_sigma = 0.015;  ///< lower bound on that deviation [m]
+};
+
+void describe(Fields& fields, RobustKernelConfig& config);
+
+/// Local map and its planes.
+struct MapConfig {
+  double voxel_size = 0.5;      ///< hashed voxel; bounds the neighbour search [m]
+  double point_spacing = 0.15;  ///< returns closer than this to a map point merge into it [m]
+  int max_points_per_voxel = 32;
+  int max_merges = 20;              ///< returns averaged by a map point
+  int max_voxels = 100000;          ///< beyond it the farthest are dropped
+  double insertion_voxel = 0.1;     ///< one point is inserted per voxel of the raw scan [m]
+  int max_insertions = 12000;       ///< points per scan
+  double neighbor_gate = 0.5;       ///< largest distance of the five neighbours [m]
+  double plane_thickness = 0.06;    ///< largest distance of the five neighbours from the plane [m]
+  double plane_min_spread = 0.065;  ///< second principal deviation of the neighbours [m]
+  double plane_min_ratio = 10.0;    ///< second over smallest principal variance [-]
+  double map_sigma = 0.001;         ///< smallest error of a map point across its plane [m]
+};
+
+void describe(Fields& fields, MapConfig& config);
+
+/// How long the map is kept.
+struct MapMemoryConfig {
+  bool enabled = true;     ///< false: voxels unseen for `forget_after` scans are dropped
+  int forget_after = 150;  ///< scans
+};
+
+void describe(Fields& fields, MapMemoryConfig& config);
+
+}  // namespace aims

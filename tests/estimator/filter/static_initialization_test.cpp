@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/filter/static_initialization.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace aims {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+std::deque<ImuSample> standing(const Eigen::Quaterniond& R_world_body, const Eigen::Vector3d& bias,
+                               int count) {
+  std::deque<ImuSample> samples;
+  for (int i = 0; i < count; ++i) {
+    samples.push_back({(i + 1) * 20 * kMillisecond, bias,
+                       R_world_body.conjugate() * Eigen::Vector3d(0.0, 0.0, kGravity)});
+  }
+  return samples;
+}
+
+TEST(Initialization, FindsTiltAndGyroBias) {
+  const Eigen::Vector3d bias(0.01, -0.02, 0.03);
+  const Eigen::Quaterniond tilt =
+      so3_exp({0.0, 0.05, 0.0}) * so3_exp({-0.08, 0.0, 0.0});  // pitch, then roll: no yaw
+  const auto initial = initialize(standing(tilt, bias, 110), InitializationConfig{}, kGravity);
+  ASSERT_TRUE(initial.has_value());
+  EXPECT_TRUE(initial->stood_still);
+  EXPECT_EQ(initial->stamp, 2020 * kMillisecond);
+  EXPECT_LT(initial->belief.state.rotation.angularDistance(tilt), 1e-9);
+  EXPECT_LT((initial->belief.state.gyro_bias - bias).norm(), 1e-12);
+  EXPECT_NEAR(yaw_of(initial->belief.state.rotation), 0.0, 1e-12);
+  EXPECT_EQ(initial->belief.state.position.norm(), 0.0);
+}
+
+TEST(Initialization, WaitsForTheFullDuration) {
+  const auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 30);
+  EXPECT_FALSE(initialize(samples, InitializationConfig{}, kGravity).has_value());
+  EXPECT_FALSE(initialize({}, InitializationConfig{}, kGravity).has_value());
+}
+
+TEST(Initialization, MotionEndsTheStandingStart) {
+  auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 80);
+  samples.push_back({81 * 20 * kMillisecond, {0.0, 0.0, 1.0}, {0.0, 0.0, kGravity}});
+  const auto initial = initialize(samples, InitializationConfig{}, kGravity);
+  ASSERT_TRUE(initial.has_value());
+  EXPECT_TRUE(initial->stood_still);
+  EXPECT_EQ(initial->belief.state.gyro_bias.norm(), 0.0);
+}
+
+TEST(Initialization, AMovingStartTakesTiltFromTheMeanForceAndLeavesTheVelocityUnknown) {
+  const Eigen::Quaterniond tilt = so3_exp({0.0, 0.06, 0.0});
+  std::deque<ImuSample> samples;
+  for (int i = 0; i < 60; ++i) {  // footfalls at 5 Hz and a swaying trunk
+    const double phase = 2.0 * M_PI * i / 10.0;
+    const Eigen::Vector3d footfall(1.5 * std::sin(phase), 0.5 * std::cos(phase),
+                                   6.0 * std::cos(phase));
+    samples.push_back({i * 20 * kMillisecond,
+                       {0.0, 0.4 * std::cos(phase), 0.0},
+                       tilt.conjugate() * Eigen::Vector3d(0.0, 0.0, kGravity) + footfall});
+  }
+  const auto initial = initialize(samples, InitializationConfig{}, kGravity);
+  ASSERT_TRUE(initial.has_value());
+  EXPECT_FALSE(initial->stood_still);
+  EXPECT_EQ(initial->stamp, samples.back().stamp);
+  EXPECT_LT(initial->belief.state.rotation.angularDistance(tilt), 1e-2);
+  const ErrorVector variance = initial->belief.covariance.diagonal();
+  EXPECT_GE(std::sqrt(segment(variance, ErrorState::kVelocity).minCoeff()), 0.7)
+      << "the robot may be in full stride";
+}
+
+TEST(Initialization, MovingStartIsUncertain) {
+  std::deque<ImuSample> samples;
+  for (int i = 0; i < 60; ++i) {
+    samples.push_back({i * 20 * kMillisecond, {0.0, 0.0, 1.0}, {0.0, 0.0, kGravity}});
+  }
+  const auto initial = initialize(samples, InitializationConfig{}, kGravity);
+  ASSERT_TRUE(initial.has_value());
+  EXPECT_FALSE(initial->stood_still);
+}
+
+std::optional<InitialBelief> run_static(const std::deque<ImuSample>& samples) {
+  return initialize_static(samples, InitializationConfig{}, StaticInitializationConfig{}, kGravity);
+}
+
+/// The samples with a force [m/s^2] from the side added in [begin, end) [s].
+std::deque<ImuSample> pushed(std::deque<ImuSample> samples, double begin, double end,
+                             double force) {
+  for (ImuSample& sample : samples) {
+    const double t = to_seconds(sample.stamp);
+    if (t >= begin && t < end) sample.specific_force.y() += force;
+  }
+  return samples;
+}
+
+TEST(StaticInitialization, EqualsTheFixedIntervalForAnUndisturbedStartOnSlopes) {
+  for (const double slope_deg : {0.0, 5.0, 10.0, 15.0}) {
+    const double slope = slope_deg * M_PI / 180.0;
+    for (const Eigen::Vector3d& axis :
+         {Eigen::Vector3d(Eigen::Vector3d::UnitX()), Eigen::Vector3d(Eigen::Vector3d::UnitY())}) {
+      const auto samples = standing(so3_exp(slope * axis), {0.01, 0.0, -0.01}, 110);
+      const auto plain = initialize(samples, InitializationConfig{}, kGravity);
+      const auto found = run_static(samples);
+      ASSERT_TRUE(plain && found);
+      EXPECT_TRUE(found->stood_still);
+      EXPECT_EQ(found->stamp, samples.back().stamp);
+      EXPECT_LT(found->belief.state.rotation.angularDistance(so3_exp(slope * axis)), 1e-6);
+      EXPECT_LT(plain->belief.state.rotation.angularDistance(so3_exp(slope * axis)), 1e-6);
+    }
+  }
+}
+
+TEST(StaticInitialization, ALateralPushIsNotTakenAsTilt) {
+  const auto level = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
+  const auto samples = pushed(level, 1.2, 1.6, 2.0);  // changes the magnitude by 2 % only
+  const auto plain = initialize(samples, InitializationConfig{}, kGravity);
+  const auto found = run_static(samples);
+  ASSERT_TRUE(plain && found);
+  EXPECT_GT(plain->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 0.04);
+  EXPECT_LT(found->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
+  EXPECT_LT(found->stamp, from_seconds(1.21)) << "the push is propagated, not averaged";
+}
+
+TEST(StaticInitialization, AShortIntervalGivesTheTiltButNoGyroBias) {
+  // Between two pushes the body sways back for 0.4 s, slowly and evenly.
+  const Eigen::Quaterniond tilt = so3_exp(Eigen::Vector3d(0.02, 0.0, 0.0));
+  auto samples = standing(tilt, {0.04, 0.0, 0.0}, 56);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double t = to_seconds(samples[i].stamp);
+    if (t < 0.7 || t > 1.1) samples[i].specific_force.y() += i % 2 == 0 ? 2.0 : -2.0;
+  }
+  const auto found = run_static(samples);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->stood_still);
+  EXPECT_LT(found->belief.state.rotation.angularDistance(tilt), 1e-6);
+  EXPECT_EQ(found->belief.state.gyro_bias.norm(), 0.0);
+  const ErrorVector variance = found->belief.covariance.diagonal();
+  EXPECT_NEAR(std::sqrt(segment(variance, ErrorState::kGyroBias).minCoeff()),
+              10.0 * InitializationConfig{}.sigma_gyro_bias, 1e-12);
+}
+
+TEST(StaticInitialization, APushBeforeTheIntervalIsLeftOut) {
+  const auto level = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
+  const auto samples = pushed(level, 0.0, 0.55, 2.0);
+  const auto found = run_static(samples);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->stood_still);
+  EXPECT_EQ(found->stamp, samples.back().stamp);
+  EXPECT_LT(found->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
+}
+
+TEST(StaticInitialization, WithoutAStaticIntervalTheStartIsMoving) {
+  auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].specific_force.y() += i % 2 == 0 ? 2.0 : -2.0;
+  }
+  const auto found = run_static(samples);
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->stood_still);
+  const ErrorVector variance = found->belief.covariance.diagonal();
+  EXPECT_GE(std::sqrt(segment(variance, ErrorState::kVelocity).minCoeff()), 0.7);
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/ground/ground_constraint.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/estimator/ground/ground_scene.hpp"
+
+namespace aims {
+namespace {
+
+using E = ErrorState;
+
+constexpr double kHeight = 0.32;
+constexpr double kGravity = 9.81;
+
+GroundPlane plane_at(const Pose& T_world_body, double ground_z = 0.0) {
+  GroundPlane plane;
+  plane.normal = T_world_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  plane.height = T_world_body.translation.z() - ground_z;
+  plane.points = 300;
+  return plane;
+}
+
+/// A belief at the pose with the deviations of a standing start.
+Belief belief_at(const Pose& pose, double sigma_tilt = 5e-3, double sigma_z = 1e-4) {
+  Belief belief;
+  belief.state.rotation = pose.rotation;
+  belief.state.position = pose.translation;
+  belief.covariance = ErrorMatrix::Identity() * 1e-4;
+  block(belief.covariance, E::kRotation, E::kRotation) =
+      Eigen::Matrix3d::Identity() * sigma_tilt * sigma_tilt;
+  block(belief.covariance, E::kPosition, E::kPosition) =
+      Eigen::Matrix3d::Identity() * sigma_z * sigma_z;
+  block(belief.covariance, E::kAccelerometerBias, E::kAccelerometerBias) =
+      Eigen::Matrix3d::Identity() * 0.05 * 0.05;
+  return belief;
+}
+
+TEST(GroundConstraint, JacobianMatchesFiniteDifferences) {
+  const Pose truth{so3_exp({0.01, -0.02, 0.7}), {1.0, 2.0, kHeight}};
+  const GroundPlane plane = plane_at(truth);
+  Belief belief = belief_at({truth.rotation * so3_exp({0.003, 0.002, 0.0}), truth.translation});
+  const auto residual_of = [&plane](const Belief& at) {
+    GroundConstraint fresh{GroundConstraintConfig{}};
+    Belief start = at;
+    start.state.position.z() = kHeight;  // the reference
+    (void)fresh.measure(start, plane);
+    Belief later = at;
+    later.state.position.x() += 1.0;
+    return fresh.measure(later, plane).value();
+  };
+  const LinearMeasurement m = residual_of(belief);
+  for (int i = 0; i < E::kPoseSize; ++i) {
+    constexpr double kStep = 1e-6;
+    ErrorVector delta = ErrorVector::Zero();
+    delta(i) = kStep;
+    Belief moved = belief;
+    moved.state = boxplus(belief.state, delta);
+    const Eigen::Vector3d slope = (residual_of(moved).residual - m.residual) / kStep;
+    // The height's row leaves out what a tilt of a few milliradians does to it.
+    EXPECT_LT((slope.head<2>() - m.jacobian.col(i).head<2>()).norm(), 1e-5) << i;
+    if (i >= 3) {
+      EXPECT_NEAR(slope.z(), m.jacobian(2, i), 1e-6) << i;
+    }
+  }
+}
+
+TEST(GroundConstraint, TheFirstScanEstimatesTiltAndAccelerometerBias) {
+  const double error = 3e-3;
+  const Pose truth{so3_exp({0.0, 0.016, 0.0}), {0.0, 0.0, kHeight}};
+  Belief start = belief_at({truth.rotation * so3_exp({0.0, error, 0.0}), truth.translation});
+  start = correlate_tilt_and_bias(start, kGravity);
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  const auto measurement = constraint.measure(start, plane_at(truth));
+  ASSERT_TRUE(measurement.has_value());
+  EXPECT_EQ(constraint.status(), GroundStatus::kLevel);
+  const Belief found = fuse_ground(start, *measurement);
+  EXPECT_LT(so3_log(truth.rotation.conjugate() * found.state.rotation).head<2>().norm(), 5e-4);
+  // The mean force that was turned upward: R_hat^T g up = R^T g up + b.
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d bias =
+      kGravity * (start.state.rotation.conjugate() * up - truth.rotation.conjugate() * up);
+  EXPECT_LT((found.state.accelerometer_bias - bias).norm(), 0.1 * bias.norm());
+}
+
+TEST(GroundConstraint, AStartOnASlopeUsesGravity) {
+  const Pose on_slope{so3_exp({0.0, -0.06, 0.0}), {0.0, 0.0, kHeight}};
+  GroundPlane plane_along_body;
+  plane_along_body.height = kHeight;
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  EXPECT_FALSE(constraint.measure(belief_at(on_slope), plane_along_body).has_value());
+  EXPECT_EQ(constraint.status(), GroundStatus::kNotLevel);
+  EXPECT_FALSE(constraint.measure(belief_at(on_slope, 0.05), plane_along_body).has_value())
+      << "however uncertain the attitude";
+}
+
+TEST(GroundConstraint, IsUsedOnceWhileTheRobotStands) {
+  const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, kHeight}};
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  int used = 0;
+  for (int i = 0; i < 50; ++i) {
+    used += static_cast<int>(constraint.measure(belief_at(pose), plane_at(pose)).has_value());
+  }
+  EXPECT_EQ(used, 1);
+}
+
+TEST(GroundConstraint, TenShortStepsGiveAsMuchInformationAsOneLong) {
+  const auto information = [](int steps) {
+    GroundConstraint constraint{GroundConstraintConfig{}};
+    Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, kHeight}};
+    (void)constraint.measure(belief_at(pose), plane_at(pose));
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      pose.translation.x() += 0.7 / steps;
+      const auto m = constraint.measure(belief_at(pose), plane_at(pose));
+      sum += 1.0 / m.value().noise(2, 2);
+    }
+    return sum;
+  };
+  EXPECT_NEAR(information(10) / information(1), 1.0, 1e-6);
+}
+
+TEST(GroundConstraint, HeightDoesNotMoveThePoseAlongAnAlmostHorizontalUnobservableAxis) {
+  const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, kHeight}};
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  (void)constraint.measure(belief_at(pose), plane_at(pose));
+  Belief belief = belief_at({pose.rotation, {1.0, 0.0, kHeight + 0.01}}, 1e-3, 1e-3);
+  const Eigen::Vector3d unobservable(1.0, 0.0, 5e-3);
+  block(belief.covariance, E::kPosition, E::kPosition) +=
+      0.25 * 0.25 * unobservable * unobservable.transpose();
+  const Pose truth{pose.rotation, {1.0, 0.0, kHeight}};
+  const auto measurement = constraint.measure(belief, plane_at(truth));
+  ASSERT_TRUE(measurement.has_value());
+  const Belief fused = fuse_ground(belief, *measurement);
+  EXPECT_EQ(fused.state.position.x(), belief.state.position.x());
+  EXPECT_LT(fused.state.position.z(), belief.state.position.z());
+  EXPECT_NEAR(fused.covariance(3, 3), belief.covariance(3, 3), 1e-12);
+  EXPECT_LT(fused.covariance(5, 5), belief.covariance(5, 5));
+}
+
+TEST(GroundConstraint, EqualsTheKalmanUpdateWithoutAnUnobservableAxis) {
+  // Without an unobservable axis the consider states need no correction.
+  const Pose truth{so3_exp({0.0, 0.016, 0.0}), {0.0, 0.0, kHeight}};
+  Belief start = belief_at({truth.rotation * so3_exp({1e-3, 2e-3, 0.0}), truth.translation});
+  start = correlate_tilt_and_bias(start, kGravity);
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  const LinearMeasurement m = constraint.measure(start, plane_at(truth)).value();
+  const Belief constrained = fuse_ground(start, m);
+  const Belief full =
+      kalman_update(start.state, inverse_spd(start.covariance), start.state, information_of(m));
+  EXPECT_LT(boxminus(constrained.state, full.state).norm(), 1e-8);
+  EXPECT_LT((constrained.covariance - full.covariance).norm(), 1e-8);
+}
+
+/// Moves along x over `scene`; the filter predicts the true motion with growing covariance.
+struct Sequence {
+  explicit Sequence(const test::GroundScene& over) : scene(over) {
+    truth.translation.z() = scene.height(0.0, 0.0) + kHeight;
+    belief = belief_at(truth, 1e-3);
+  }
+
+  void step(double dx) {
+    const double x = truth.translation.x() + dx;
+    const double slope = (scene.height(x + 0.2, 0.0) - scene.height(x - 0.2, 0.0)) / 0.4;
+    const Pose next{so3_exp({0.0, -std::atan(slope), 0.0}),
+                    {x, 0.0, scene.height(x, 0.0) + kHeight}};
+    belief.state.rotation = belief.state.rotation * (truth.rotation.conjugate() * next.rotation);
+    belief.state.position += next.translation - truth.translation;
+    truth = next;
+    block(belief.covariance, E::kRotation, E::kRotation) += Eigen::Matrix3d::Identity() * 1e-7;
+    block(belief.covariance, E::kPosition, E::kPosition) += Eigen::Matrix3d::Identity() * 1e-6;
+    const auto plane =
+        fit_ground(test::scan_ground(scene, truth, random), GroundConstraintConfig{});
+    if (const auto m = constraint.measure(belief, plane)) belief = fuse_ground(belief, *m);
+  }
+
+  double z_error() const { return belief.state.position.z() - truth.translation.z(); }
+  double tilt_error() const {
+    return so3_log(truth.rotation.conjugate() * belief.state.rotation).head<2>().norm();
+  }
+
+  test::GroundScene scene;
+  Pose truth;
+  Belief belief;
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  RandomStream random{1, "floor_walk"};
+};
+
+TEST(GroundConstraint, ARampKeepsItsSlopeAndItsClimb) {
+  test::GroundScene scene;
+  scene.height = [](double x, double) { return test::ramp_height(x, 6.0, 8.0, 0.06); };
+  Sequence sequence(scene);
+  double worst_z = 0.0;
+  double worst_tilt = 0.0;
+  while (sequence.truth.translation.x() < 22.0) {
+    sequence.step(0.25);
+    worst_z = std::max(worst_z, std::abs(sequence.z_error()));
+    worst_tilt = std::max(worst_tilt, sequence.tilt_error());
+  }
+  EXPECT_LT(worst_z, 0.02);
+  EXPECT_LT(worst_tilt, 4e-3);
+  EXPECT_EQ(sequence.constraint.levels(), 2);
+  EXPECT_EQ(sequence.constraint.status(), GroundStatus::kLevel);
+  while (sequence.truth.translation.x() > 0.0) sequence.step(-0.25);
+  EXPECT_EQ(sequence.constraint.levels(), 2) << "the first level is found again";
+  EXPECT_LT(std::abs(sequence.z_error()), 0.02);
+}
+
+TEST(GroundConstraint, LevelGroundKeepsTiltAndHeightAgainstDrift) {
+  Sequence sequence({});
+  sequence.belief.state.rotation = sequence.belief.state.rotation * so3_exp({0.002, -0.003, 0.0});
+  while (sequence.truth.translation.x() < 15.0) {
+    sequence.step(0.25);
+    sequence.belief.state.position.z() += 1e-3;  // drift of a climbing map
+  }
+  EXPECT_LT(std::abs(sequence.z_error()), 0.02);
+  EXPECT_LT(sequence.tilt_error(), 1e-3);
+}
+
+}  // namespace
+}  // namespace aims
