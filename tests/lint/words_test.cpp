@@ -2,6 +2,7 @@
 // Holds documents against private_words.txt, and their links against the source tree.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <regex>
@@ -115,6 +116,43 @@ TEST(Documents, NamedFilesExist) {
   }
 }
 
+TEST(Documents, NamedScenariosExist) {
+  std::set<std::string> names{"sigma_0"};  // symbols of the same form
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(AIMS_SOURCE_DIR) / "scenarios")) {
+    names.insert(entry.path().stem().string());
+  }
+  const std::regex numbered(R"(\b([a-z]+(?:_[a-z]+)*_[0-9]+(?:_[0-9]+)?)\b)");
+  for (const Line& span : matches_in_documents(std::regex("`([^`]*)`"))) {
+    const auto end = std::sregex_iterator();
+    for (auto match = std::sregex_iterator(span.text.begin(), span.text.end(), numbered);
+         match != end; ++match) {
+      EXPECT_TRUE(names.contains((*match)[1]))
+          << place(span) << ": no scenario " << (*match)[1];
+    }
+  }
+}
+
+TEST(Sources, NameDocumentsThatExist) {
+  const std::regex name(R"(\b(docs/[\w-]+\.md)\b)");
+  for (const char* folder : {"core", "estimator", "sim", "recordings", "bench", "render", "ros",
+                             "scenarios", "scripts", "tests"}) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(AIMS_SOURCE_DIR) / folder)) {
+      const std::set<std::string> kinds{".hpp", ".cpp", ".yaml", ".sh", ".txt", ".ts", ".py"};
+      const fs::path file = fs::relative(entry.path(), AIMS_SOURCE_DIR);
+      if (!kinds.contains(file.extension().string())) continue;
+      if (file.string().find("node_modules") != std::string::npos) continue;
+      for (const Line& line : read_lines(file)) {
+        std::smatch match;
+        if (!std::regex_search(line.text, match, name)) continue;
+        EXPECT_TRUE(fs::exists(fs::path(AIMS_SOURCE_DIR) / match[1].str()))
+            << place(line) << ": " << match[1] << " does not exist";
+      }
+    }
+  }
+}
+
 TEST(Documents, LinesOfProseFitTheWidth) {
   for (const fs::path& document : documents()) {
     bool code = false;
@@ -124,7 +162,10 @@ TEST(Documents, LinesOfProseFitTheWidth) {
       const bool link = line.text.find("](") != std::string::npos;
       const bool command = line.text.find("`aims ") != std::string::npos;
       if (code || table || link || command) continue;
-      EXPECT_LE(line.text.size(), 160u) << place(line);
+      const auto letters = std::count_if(line.text.begin(), line.text.end(), [](char byte) {
+        return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;  // UTF-8: first bytes alone
+      });
+      EXPECT_LE(letters, 120) << place(line);
     }
   }
 }
