@@ -73,7 +73,7 @@ Result<FilmOptions> options_of(const RenderArguments& arguments) {
   FilmOptions options = arguments.film;
   if (!options.still && options.video.empty() && !options.svg && !options.pdf) {
     options.still = true;
-    options.video = "walk.png";
+    options.video = "walk.webp";
   }
   for (const auto& [text, size] : {std::pair{&arguments.size, &options.video_size},
                                    {&arguments.still_size, &options.still_size}}) {
@@ -156,8 +156,8 @@ int render_command(const RenderArguments& arguments, const fs::path& folder) {
 void add_what(CLI::App& command, RenderArguments& arguments) {
   command.add_flag("--still", arguments.film.still, "still.png, for papers and pages");
   command.add_option("--video", arguments.film.video,
-                     "Looped video of that name: .png or .apng (animated\n"
-                     "PNG), .mp4 or .webm (by ffmpeg, on PATH)");
+                     "Looped video of that name: .webp (animated), .mp4 or\n"
+                     ".webm (by ffmpeg, on PATH)");
   command.add_flag("--svg", arguments.film.svg, "Trajectories and maps as SVG");
   command.add_flag("--pdf", arguments.film.pdf, "Trajectories and maps as PDF");
 }
@@ -201,7 +201,7 @@ void add_render_command(CLI::App& app, const fs::path& scenario_folder, int& exi
   command->add_flag("--overwrite", arguments->film.overwrite, "Replace pictures that exist");
   command->add_flag("--quiet", arguments->quiet, "No progress");
   command->footer(
-      "Without --still, --video, --svg or --pdf it draws the still and walk.png. Still and video\n"
+      "Without --still, --video, --svg or --pdf it draws the still and walk.webp. Still and video\n"
       "are simulated, also from the folder of a run (its config.yaml); --svg and --pdf of such a\n"
       "folder are drawn from its files.\n"
       "Examples:\n"

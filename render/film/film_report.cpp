@@ -9,9 +9,9 @@
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/output_folder.hpp"
-#include "render/film/apng.hpp"
 #include "render/film/ffmpeg.hpp"
 #include "render/film/vector_pictures.hpp"
+#include "render/film/webp.hpp"
 #include "render/plots/canvas.hpp"
 
 namespace aims {
@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kMostFrames = 2000;
 constexpr double kStillShare = 0.75;  ///< of the way, where the still is taken
 
-enum class VideoKind { kApng, kFfmpeg };
+enum class VideoKind { kWebp, kFfmpeg };
 
 Result<VideoKind> kind_of(const std::string& video) {
   const fs::path file = video;
@@ -34,10 +34,10 @@ Result<VideoKind> kind_of(const std::string& video) {
                     video));
   }
   const std::string ending = file.extension().string();
-  if (ending == ".png" || ending == ".apng") return VideoKind::kApng;
+  if (ending == ".webp") return VideoKind::kWebp;
   if (ending == ".mp4" || ending == ".webm") return VideoKind::kFfmpeg;
   return failure(
-      fmt::format("--video {}: expected a file name ending in .png, .apng, .mp4 or .webm", video));
+      fmt::format("--video {}: expected a file name ending in .webp, .mp4 or .webm", video));
 }
 
 Result<void> write_still(const FilmedWalk& walk, const FilmOptions& options, const fs::path& file,
@@ -97,7 +97,7 @@ Result<void> write_video(const FilmedWalk& walk, const FilmOptions& options, con
   if (*kind_of(options.video) == VideoKind::kFfmpeg) {
     return write_with_ffmpeg(*find_ffmpeg(), file, movie);
   }
-  const auto bytes = apng_bytes(movie);
+  const auto bytes = webp_bytes(movie);
   if (!bytes) return tl::unexpected(bytes.error());
   return write_file_atomically(file, *bytes);
 }
@@ -167,7 +167,7 @@ Result<void> check(const FilmOptions& options) {
     return failure(fmt::format("--seconds {:g} at --fps {:g} make {:g} frames; expected 2 to {}",
                                options.seconds, options.frame_rate, frames, kMostFrames));
   }
-  if (*kind == VideoKind::kApng) return {};
+  if (*kind == VideoKind::kWebp) return {};
   if (options.video_size.width % 2 != 0 || options.video_size.height % 2 != 0) {
     return failure(fmt::format("--size {}x{}: expected even numbers for {}",
                                options.video_size.width, options.video_size.height,
@@ -176,7 +176,7 @@ Result<void> check(const FilmOptions& options) {
   if (!find_ffmpeg()) {
     return failure(
         fmt::format("--video {}: needs the program ffmpeg on PATH; a video that ends in "
-                    ".png needs none",
+                    ".webp needs none",
                     options.video));
   }
   return {};

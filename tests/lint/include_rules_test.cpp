@@ -71,7 +71,8 @@ const std::vector<Confinement> kConfined = {
     {"yaml-cpp/", {"core"}, false},
     {"SQLiteCpp/", {"bench/jobs"}, false},
     {"pagmo/", {"bench/tuning"}, false},
-    {"zlib.h", {"render/film", "render/page"}, false},
+    {"zlib.h", {"render/page"}, false},
+    {"webp/", {"render/film"}, false},
     {"CLI/", {"bench/cli", "ros"}, true},
     {"ros/ros.h", {"ros"}, false},
 };

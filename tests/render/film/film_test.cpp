@@ -116,16 +116,16 @@ TEST(FilmOptions, WhatCannotBeMetIsRefused) {
   };
   FilmOptions options;
   EXPECT_EQ(message(options), "");
-  options.video = "walk.png";
+  options.video = "walk.webp";
   EXPECT_EQ(message(options), "");
   options.video = "walk.gif";
-  EXPECT_NE(message(options).find(".png, .apng, .mp4 or .webm"), std::string::npos);
-  options.video = "there/walk.png";
+  EXPECT_NE(message(options).find(".webp, .mp4 or .webm"), std::string::npos);
+  options.video = "there/walk.webp";
   EXPECT_NE(message(options).find("without a folder"), std::string::npos);
   options.video = "walk.mp4";
   options.video_size = {641, 400};
   EXPECT_NE(message(options).find("even"), std::string::npos);
-  options.video = "walk.png";
+  options.video = "walk.webp";
   options.seconds = 600.0;
   EXPECT_NE(message(options).find("frames"), std::string::npos);
 }
