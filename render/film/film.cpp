@@ -105,7 +105,7 @@ std::vector<GrownPoint> cut_map(const std::vector<GrownPoint>& map) {
 }  // namespace
 
 struct Film::Impl {
-  const FilmedWalk& walk;
+  const FilmedSequence& sequence;
   FilmConfig config;
   std::vector<GrownPoint> map;    ///< without what is above the cut
   std::vector<ViewPoint> points;  ///< of the same
@@ -114,7 +114,7 @@ struct Film::Impl {
   double azimuth_deg = 0.0;
   std::optional<SceneView> view;
 
-  Impl(const FilmedWalk& filmed, const FilmConfig& how) : walk(filmed), config(how) {}
+  Impl(const FilmedSequence& filmed, const FilmConfig& how) : sequence(filmed), config(how) {}
 
   Result<void> show_scene(Time stamp);
   void color_points();
@@ -126,10 +126,10 @@ struct Film::Impl {
 
 /// Makes the model anew where people have walked on since.
 Result<void> Film::Impl::show_scene(Time stamp) {
-  if (view && walk.scene.people.empty()) return {};
+  if (view && sequence.scene.people.empty()) return {};
   view.reset();  // before the next one makes its own context the current one
-  Scene scene = bare(walk.scene);
-  scene.people = walk.scene.people;
+  Scene scene = bare(sequence.scene);
+  scene.people = sequence.scene.people;
   const MjcfOptions options{.image_width = config.width, .image_height = config.height};
   const auto mjcf =
       scene_mjcf(scene_at(scene, stamp), quadruped_mjcf(), MjcfPurpose::kRender, options);
@@ -156,7 +156,7 @@ void Film::Impl::color_points() {
         {point.position.x(), point.position.y(), point.position.z(), static_cast<float>(share)});
   }
   std::vector<Eigen::Vector2d> way;
-  for (const StampedPose& each : walk.truth) way.emplace_back(each.pose.translation.head<2>());
+  for (const StampedPose& each : sequence.truth) way.emplace_back(each.pose.translation.head<2>());
   plan.emplace(std::move(flat), way, config.width, config.height);
 }
 
@@ -170,7 +170,7 @@ Camera Film::Impl::camera(Time stamp) const {
   result.distance = (top ? 13.0 : 8.5) * (config.still ? 0.55 : 1.0);
   const double azimuth = result.azimuth_deg * std::numbers::pi / 180.0;
   const Eigen::Vector3d ahead(std::cos(azimuth), std::sin(azimuth), 0.0);
-  result.target = smooth_position(walk.truth, stamp) - 0.08 * result.distance * ahead;
+  result.target = smooth_position(sequence.truth, stamp) - 0.08 * result.distance * ahead;
   return result;
 }
 
@@ -182,9 +182,9 @@ ViewOverlay Film::Impl::overlay(Time stamp) const {
   result.least_diameter = 1.2F * unit;
   result.lines = edges;
   for (ViewLine& edge : result.lines) edge.width = unit;
-  result.lines.push_back({line_until(walk.truth, stamp), kTruth, 2.0F * unit});
+  result.lines.push_back({line_until(sequence.truth, stamp), kTruth, 2.0F * unit});
   result.lines.push_back(
-      {line_until(walk.estimates.front().trajectory, stamp), kEstimate, 2.0F * unit});
+      {line_until(sequence.estimates.front().trajectory, stamp), kEstimate, 2.0F * unit});
   result.haze = {static_cast<float>(kGround.red), static_cast<float>(kGround.green),
                  static_cast<float>(kGround.blue)};
   const double distance = camera(stamp).distance;
@@ -206,11 +206,11 @@ void Film::Impl::label(Canvas& canvas, Time stamp) const {
   canvas.fill(Rect{0.0, 0.0, static_cast<double>(config.width), 52.0 * unit},
               {0.05, 0.06, 0.08, 0.72});
   const Color light{0.94, 0.95, 0.97};
-  const NamedTrajectory& shown = walk.estimates.front();
-  canvas.text({left, 20.0 * unit}, walk.scenario,
+  const NamedTrajectory& shown = sequence.estimates.front();
+  canvas.text({left, 20.0 * unit}, sequence.scenario,
               {.size = 15.0 * unit, .color = light, .bold = true});
   std::string state = fmt::format("t = {:.0f} s", to_seconds(stamp));
-  const auto truth = pose_at(walk.truth, stamp);
+  const auto truth = pose_at(sequence.truth, stamp);
   const auto estimate = pose_at(shown.trajectory, stamp);
   if (truth && estimate) {
     state += fmt::format(",  error {:.2f} m", (truth->translation - estimate->translation).norm());
@@ -232,16 +232,16 @@ Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 Film::~Film() = default;
 
-Result<Film> Film::create(const FilmedWalk& walk, const FilmConfig& config) {
-  if (walk.snapshots.empty() || walk.truth.empty() || walk.estimates.empty()) {
+Result<Film> Film::create(const FilmedSequence& sequence, const FilmConfig& config) {
+  if (sequence.snapshots.empty() || sequence.truth.empty() || sequence.estimates.empty()) {
     return failure("no snapshot of the robot to draw");
   }
-  auto impl = std::make_unique<Impl>(walk, config);
-  impl->map = cut_map(walk.map);
+  auto impl = std::make_unique<Impl>(sequence, config);
+  impl->map = cut_map(sequence.map);
   impl->color_points();
-  impl->edges = cut_edges(walk.scene);
-  impl->azimuth_deg = way_out_deg(walk.truth);
-  if (auto shown = impl->show_scene(walk.snapshots.front().stamp); !shown) {
+  impl->edges = cut_edges(sequence.scene);
+  impl->azimuth_deg = way_out_deg(sequence.truth);
+  if (auto shown = impl->show_scene(sequence.snapshots.front().stamp); !shown) {
     return tl::unexpected(shown.error());
   }
   return Film(std::move(impl));
@@ -250,7 +250,7 @@ Result<Film> Film::create(const FilmedWalk& walk, const FilmConfig& config) {
 std::size_t Film::points_shown(Time stamp) const { return impl_->count(stamp); }
 
 Result<Image> Film::picture(Time wanted) {
-  const std::vector<RobotSnapshot>& shots = impl_->walk.snapshots;
+  const std::vector<RobotSnapshot>& shots = impl_->sequence.snapshots;
   const auto nearest =
       std::min_element(shots.begin(), shots.end(), [&](const auto& a, const auto& b) {
         return std::abs(a.stamp - wanted) < std::abs(b.stamp - wanted);
@@ -261,26 +261,26 @@ Result<Image> Film::picture(Time wanted) {
   if (!picture) return picture;
   Canvas canvas = Canvas::over(*picture);
   impl_->plan->draw(canvas, impl_->count(stamp), {nearest->qpos[0], nearest->qpos[1]},
-                    heading_at(impl_->walk.truth, stamp));
+                    heading_at(impl_->sequence.truth, stamp));
   impl_->label(canvas, stamp);
   return canvas.pixels();
 }
 
-FilmSpan walking_span(const FilmedWalk& walk) {
-  if (walk.truth.empty()) return {};
+FilmSpan walking_span(const FilmedSequence& sequence) {
+  if (sequence.truth.empty()) return {};
   const auto away = [](const StampedPose& a, const StampedPose& b) {
     return (a.pose.translation - b.pose.translation).head<2>().norm() > 0.2;
   };
-  FilmSpan span{walk.truth.front().stamp, walk.truth.back().stamp};
-  for (const StampedPose& each : walk.truth) {
-    if (away(each, walk.truth.front())) break;
+  FilmSpan span{sequence.truth.front().stamp, sequence.truth.back().stamp};
+  for (const StampedPose& each : sequence.truth) {
+    if (away(each, sequence.truth.front())) break;
     span.begin = each.stamp;
   }
-  for (auto each = walk.truth.rbegin(); each != walk.truth.rend(); ++each) {
-    if (away(*each, walk.truth.back())) break;
+  for (auto each = sequence.truth.rbegin(); each != sequence.truth.rend(); ++each) {
+    if (away(*each, sequence.truth.back())) break;
     span.end = each->stamp;
   }
-  if (span.end <= span.begin) span = {walk.truth.front().stamp, walk.truth.back().stamp};
+  if (span.end <= span.begin) span = {sequence.truth.front().stamp, sequence.truth.back().stamp};
   return span;
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/error.hpp"
-#include "render/film/filmed_walk.hpp"
+#include "render/film/filmed_sequence.hpp"
 #include "render/film/movie.hpp"
 #include "render/plots/image.hpp"
 
@@ -30,7 +30,7 @@ struct FilmConfig {
 class Film {
  public:
   /// Keeps a reference to `walk`. Error without snapshots or when there is no OpenGL context.
-  static Result<Film> create(const FilmedWalk& walk, const FilmConfig& config);
+  static Result<Film> create(const FilmedSequence& sequence, const FilmConfig& config);
   Film(Film&&) noexcept;
   Film& operator=(Film&&) noexcept;
   ~Film();
@@ -52,7 +52,7 @@ struct FilmSpan {
   Time begin = 0;
   Time end = 0;
 };
-FilmSpan walking_span(const FilmedWalk& walk);
+FilmSpan walking_span(const FilmedSequence& sequence);
 
 /// The whole walk in `seconds`, `frame_rate` pictures each; `film` must outlive the movie.
 Movie movie_of(Film& film, const FilmSpan& span, const FilmConfig& config, double seconds,

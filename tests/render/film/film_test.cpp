@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "render/film/film.hpp"
-#include "render/film/film_report.hpp"
+#include "render/film/film_files.hpp"
 #include "render/film/map_growth.hpp"
 
 namespace aims {
@@ -78,19 +78,19 @@ TEST(MapGrowth, LeavesOutWhatIsFarAndWhatIsNone) {
 }
 
 TEST(Film, SpansTheWalkWithoutTheStanding) {
-  FilmedWalk walk;
+  FilmedSequence sequence;
   for (int i = 0; i <= 100; ++i) {
     StampedPose sample{i * 100 * kMillisecond, {}};
     sample.pose.translation.x() = std::clamp(0.1 * (i - 30), 0.0, 4.0);
-    walk.truth.push_back(sample);
+    sequence.truth.push_back(sample);
   }
-  const FilmSpan span = walking_span(walk);
+  const FilmSpan span = walking_span(sequence);
   EXPECT_NEAR(to_seconds(span.begin), 3.2, 0.2);
   EXPECT_NEAR(to_seconds(span.end), 6.8, 0.2);
 }
 
 TEST(Film, SaysWhyThereIsNone) {
-  const FilmedWalk nothing;
+  const FilmedSequence nothing;
   const auto film = Film::create(nothing, {});
   ASSERT_FALSE(film);
   EXPECT_NE(film.error().message.find("no snapshot"), std::string::npos);

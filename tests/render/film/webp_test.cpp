@@ -81,9 +81,7 @@ TEST(Webp, EqualFramesBecomeOneLongerFrame) {
   EXPECT_EQ(sum_ms, 9 * 125 + 1500);
 }
 
-TEST(Webp, SameMovieGivesTheSameBytes) {
-  EXPECT_EQ(*webp_bytes(moving()), *webp_bytes(moving()));
-}
+TEST(Webp, SameMovieGivesTheSameBytes) { EXPECT_EQ(*webp_bytes(moving()), *webp_bytes(moving())); }
 
 TEST(Webp, RefusesAMovieThatCannotBeEncoded) {
   Movie other = moving();

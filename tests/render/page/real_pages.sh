@@ -19,9 +19,9 @@ route:
   points: [{name: a, x: 0, y: 0}, {name: b, x: 3, y: 0}, {name: a, x: 0, y: 0}]
 YAML
 "$aims" run "$out/walk.yaml" --estimators aims_d,lio,leg --quiet --jobs 2 --out "$out/run" >"$out/run.log"
-if ! [ -s "$out/run/report.html" ]; then
-  grep -q "built without the report page" "$out/run.log" || { cat "$out/run.log" >&2; exit 1; }
-  echo "skipped: the program was built without the report page (npm)"
+if ! [ -s "$out/run/page.html" ]; then
+  grep -q "built without the page" "$out/run.log" || { cat "$out/run.log" >&2; exit 1; }
+  echo "skipped: the program was built without the page (npm)"
   exit 77
 fi
 cp -r "$out/run" "$out/hostile"
@@ -32,4 +32,4 @@ cp "$out/run/scores.json" "$out/bare"
 "$aims" report "$out/hostile" "$out/bare"
 # The same folder gives the same page.
 "$aims" report "$out/run" --out "$out/again.html"
-cmp "$out/run/report.html" "$out/again.html"
+cmp "$out/run/page.html" "$out/again.html"

@@ -135,13 +135,13 @@ TEST(SuitePage, LinksToTheRunsThatHaveAPageFromWhereItLies) {
   const TemporaryFolder folder;
   const fs::path suite = folder.path() / "suite";
   write_walk_suite(suite);
-  put(suite / "runs/walk/seed-3/report.html", "");
+  put(suite / "runs/walk/seed-3/page.html", "");
   const auto own = suite_page(suite, {});
   const auto other = suite_page(suite, laid_into(folder.path() / "elsewhere"));
   ASSERT_TRUE(own && other);
   EXPECT_TRUE(own->json["runs"][0]["href"].is_null());
-  EXPECT_EQ(own->json["runs"][2]["href"], "runs/walk/seed-3/report.html");
-  EXPECT_EQ(other->json["runs"][2]["href"], "../suite/runs/walk/seed-3/report.html");
+  EXPECT_EQ(own->json["runs"][2]["href"], "runs/walk/seed-3/page.html");
+  EXPECT_EQ(other->json["runs"][2]["href"], "../suite/runs/walk/seed-3/page.html");
 }
 
 TEST(SuitePage, LinksCarryNothingThatMeansSomethingElse) {
@@ -245,12 +245,12 @@ TEST(SuitePage, HostileNamesArriveAsTheyAre) {
   const TemporaryFolder folder;
   const std::string name = "a\nb\"<script>";
   write_suite_json(folder.path(), Json::array({scenario(name, {1}), scenario(kHostile, {1})}));
-  put(write_record(folder.path(), name, record(1, 0.1)) / "report.html", "");
+  put(write_record(folder.path(), name, record(1, 0.1)) / "page.html", "");
   const auto page = suite_page(folder.path(), {});
   ASSERT_TRUE(page) << page.error().message;
   const auto read = decoded(payload_text(*page));
   EXPECT_EQ(read.json["runs"][0]["scenario"], name);
-  EXPECT_EQ(read.json["runs"][0]["href"], "runs/a%0Ab%22%3Cscript%3E/seed-1/report.html");
+  EXPECT_EQ(read.json["runs"][0]["href"], "runs/a%0Ab%22%3Cscript%3E/seed-1/page.html");
   EXPECT_EQ(read.json["suite"]["scenarios"][1]["name"], kHostile);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a page of a run must do, in a real browser. Screenshots go to AIMS_REPORT_ARTIFACTS.
+// What a page of a run must do, in a real browser. Screenshots go to AIMS_PAGE_ARTIFACTS.
 import assert from "node:assert/strict";
 import { mkdir, readFile } from "node:fs/promises";
 import os from "node:os";
@@ -8,7 +8,7 @@ import { launch, open, settle } from "./browser.mjs";
 import { payloadOf } from "./pack.mjs";
 
 export const kArtifacts =
-  process.env.AIMS_REPORT_ARTIFACTS ?? path.join(os.tmpdir(), "aims-report-artifacts");
+  process.env.AIMS_PAGE_ARTIFACTS ?? path.join(os.tmpdir(), "aims-page-artifacts");
 
 /** Index of the value nearest to `value`. */
 function nearest(list, value) {

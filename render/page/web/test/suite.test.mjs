@@ -54,7 +54,7 @@ test("a cell opens its runs, and runs link to their pages", { skip }, async () =
   await cell(page, "severity_3", "b").locator("button").click();
   const told = page.locator(".cell-details");
   assert.match(await told.innerText(), /✕ lost at 12.5 s: error_limit/);
-  assert.equal(await told.locator("a").first().getAttribute("href"), "runs/severity_3/seed-1/report.html");
+  assert.equal(await told.locator("a").first().getAttribute("href"), "runs/severity_3/seed-1/page.html");
   assert.equal(await page.locator('#matrix tr[data-row="alone"] .runs-links a').count(), 1);
 });
 

@@ -38,7 +38,7 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
   }));
   const levels = (name) => scenarios.slice(0, 3).map((each, i) => point(i + 1, each.estimators[name]));
   const runs = scenarios.flatMap((each) => each.seeds.map((seed) => ({
-    scenario: each.name, seed, href: seed === 1 ? `runs/${encodeURIComponent(each.name)}/seed-1/report.html` : null,
+    scenario: each.name, seed, href: seed === 1 ? `runs/${encodeURIComponent(each.name)}/seed-1/page.html` : null,
     estimators: {
       [first]: { success: true, lost_at_s: null, lost_reason: "", ate_m: 0.01 * seed, m_end_m: 0.02 },
       b: { success: each !== scenarios[2], lost_at_s: each === scenarios[2] ? 12.5 : null, lost_reason: "error_limit", ate_m: 0.5 },

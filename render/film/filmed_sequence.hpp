@@ -17,7 +17,7 @@
 namespace aims {
 
 /// What pictures of a walk need, everything in the world frame.
-struct FilmedWalk {
+struct FilmedSequence {
   std::string scenario;
   std::uint64_t seed = 0;
   bool complete = true;  ///< false when the observer ended it early
@@ -31,7 +31,7 @@ struct FilmedWalk {
 
 /// Simulates the scenario and runs its estimators; the first of them lays the map. Error when the
 /// scenario cannot be simulated.
-Result<FilmedWalk> film_walk(const Scenario& scenario, const RunOptions& options,
-                             const Observer& observer);
+Result<FilmedSequence> film_sequence(const Scenario& scenario, const RunOptions& options,
+                                     const Observer& observer);
 
 }  // namespace aims

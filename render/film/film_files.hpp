@@ -51,7 +51,7 @@ using FrameObserver = std::function<bool(int done, int frames)>;
 
 /// Draws what `options` ask for and writes it, with render.json, which says of what it is. Returns
 /// the files in order. Error when something cannot be drawn or written; then nothing is left.
-Result<std::vector<std::filesystem::path>> write_film(const FilmedWalk& walk,
+Result<std::vector<std::filesystem::path>> write_film(const FilmedSequence& sequence,
                                                       const FilmOptions& options,
                                                       const FrameObserver& observer);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/film/film_report.hpp"
+#include "render/film/film_files.hpp"
 
 #include <fmt/format.h>
 
@@ -40,21 +40,22 @@ Result<VideoKind> kind_of(const std::string& video) {
       fmt::format("--video {}: expected a file name ending in .webp, .mp4 or .webm", video));
 }
 
-Result<void> write_still(const FilmedWalk& walk, const FilmOptions& options, const fs::path& file,
-                         Json& record) {
+Result<void> write_still(const FilmedSequence& sequence, const FilmOptions& options,
+                         const fs::path& file, Json& record) {
   const FilmConfig config{.width = options.still_size.width,
                           .height = options.still_size.height,
                           .view = options.view,
                           .still = true};
-  auto film = Film::create(walk, config);
+  auto film = Film::create(sequence, config);
   if (!film) return tl::unexpected(film.error());
-  const FilmSpan span = walking_span(walk);
+  const FilmSpan span = walking_span(sequence);
   const double at = options.at_s.value_or(to_seconds(span.begin) +
                                           kStillShare * to_seconds(span.end - span.begin));
-  if (at < to_seconds(walk.truth.front().stamp) || at > to_seconds(walk.truth.back().stamp)) {
+  if (at < to_seconds(sequence.truth.front().stamp) ||
+      at > to_seconds(sequence.truth.back().stamp)) {
     return failure(fmt::format("--at {:g}: expected {:.1f} to {:.1f} s, when the walk was", at,
-                               to_seconds(walk.truth.front().stamp),
-                               to_seconds(walk.truth.back().stamp)));
+                               to_seconds(sequence.truth.front().stamp),
+                               to_seconds(sequence.truth.back().stamp)));
   }
   const auto picture = film->picture(from_seconds(at));
   if (!picture) return tl::unexpected(picture.error());
@@ -78,13 +79,13 @@ Movie observed(const Movie& movie, const FrameObserver& observer) {
   return result;
 }
 
-Result<void> write_video(const FilmedWalk& walk, const FilmOptions& options, const fs::path& file,
-                         const FrameObserver& observer, Json& record) {
+Result<void> write_video(const FilmedSequence& sequence, const FilmOptions& options,
+                         const fs::path& file, const FrameObserver& observer, Json& record) {
   const FilmConfig config{
       .width = options.video_size.width, .height = options.video_size.height, .view = options.view};
-  auto film = Film::create(walk, config);
+  auto film = Film::create(sequence, config);
   if (!film) return tl::unexpected(film.error());
-  const FilmSpan span = walking_span(walk);
+  const FilmSpan span = walking_span(sequence);
   const Movie movie =
       observed(movie_of(*film, span, config, options.seconds, options.frame_rate), observer);
   record["video"] = {{"file", file.filename().string()},
@@ -102,34 +103,35 @@ Result<void> write_video(const FilmedWalk& walk, const FilmOptions& options, con
   return write_file_atomically(file, *bytes);
 }
 
-Json record_of(const FilmedWalk& walk) {
+Json record_of(const FilmedSequence& sequence) {
   Json record;
   record["schema"] = "aims.render/1";
-  record["scenario"] = walk.scenario;
-  record["seed"] = walk.seed;
-  record["complete"] = walk.complete;
-  record["map_of"] = walk.estimates.empty() ? Json() : Json(walk.estimates.front().name);
+  record["scenario"] = sequence.scenario;
+  record["seed"] = sequence.seed;
+  record["complete"] = sequence.complete;
+  record["map_of"] = sequence.estimates.empty() ? Json() : Json(sequence.estimates.front().name);
   return record;
 }
 
-Result<std::vector<std::string>> write_all(const FilmedWalk& walk, const FilmOptions& options,
+Result<std::vector<std::string>> write_all(const FilmedSequence& sequence,
+                                           const FilmOptions& options,
                                            const FrameObserver& observer, const fs::path& folder) {
   std::vector<std::string> files;
-  Json record = record_of(walk);
+  Json record = record_of(sequence);
   Result<void> written;
   if (options.still) {
     files.emplace_back("still.png");
-    written = write_still(walk, options, folder / files.back(), record);
+    written = write_still(sequence, options, folder / files.back(), record);
   }
   if (written && !options.video.empty()) {
     files.push_back(options.video);
-    written = write_video(walk, options, folder / files.back(), observer, record);
+    written = write_video(sequence, options, folder / files.back(), observer, record);
   }
   if (!written) return tl::unexpected(written.error());
   std::vector<std::string> endings;
   if (options.svg) endings.emplace_back(".svg");
   if (options.pdf) endings.emplace_back(".pdf");
-  const auto vectors = write_vector_pictures(walk, endings, folder);
+  const auto vectors = write_vector_pictures(sequence, endings, folder);
   if (!vectors) return tl::unexpected(vectors.error());
   files.insert(files.end(), vectors->begin(), vectors->end());
   record["files"] = files;
@@ -182,11 +184,11 @@ Result<void> check(const FilmOptions& options) {
   return {};
 }
 
-Result<std::vector<fs::path>> write_film(const FilmedWalk& walk, const FilmOptions& options,
+Result<std::vector<fs::path>> write_film(const FilmedSequence& sequence, const FilmOptions& options,
                                          const FrameObserver& observer) {
   auto folder = OutputFolder::create(options.out, options.overwrite);
   if (!folder) return tl::unexpected(folder.error());
-  const auto files = write_all(walk, options, observer, folder->path());
+  const auto files = write_all(sequence, options, observer, folder->path());
   if (!files) return tl::unexpected(files.error());
   if (auto committed = folder->commit(); !committed) return tl::unexpected(committed.error());
   std::vector<fs::path> result;
