@@ -70,16 +70,16 @@ std::vector<ViewLine> cut_edges(const Scene& scene) {
   return edges;
 }
 
-/// Heading [deg] from the start to the farthest point of the way.
-double way_out_deg(const Trajectory& truth) {
+/// Heading [deg] from the start to the farthest point of the trajectory.
+double outbound_deg(const Trajectory& truth) {
   const Eigen::Vector3d start = truth.front().pose.translation;
   const auto farthest =
       std::max_element(truth.begin(), truth.end(), [&](const auto& a, const auto& b) {
         return (a.pose.translation - start).squaredNorm() <
                (b.pose.translation - start).squaredNorm();
       });
-  const Eigen::Vector3d way = farthest->pose.translation - start;
-  return std::atan2(way.y(), way.x()) * 180.0 / std::numbers::pi;
+  const Eigen::Vector3d out = farthest->pose.translation - start;
+  return std::atan2(out.y(), out.x()) * 180.0 / std::numbers::pi;
 }
 
 std::vector<Eigen::Vector3f> line_until(const Trajectory& trajectory, Time stamp) {
@@ -124,7 +124,7 @@ struct Film::Impl {
   void label(Canvas& canvas, Time stamp) const;
 };
 
-/// Makes the model anew where people have walked on since.
+/// Rebuilds the model where people have moved since.
 Result<void> Film::Impl::show_scene(Time stamp) {
   if (view && sequence.scene.people.empty()) return {};
   view.reset();  // before the next one makes its own context the current one
@@ -148,19 +148,19 @@ void Film::Impl::color_points() {
   const auto table = height_table();
   std::vector<RasterPoint> flat;
   for (const GrownPoint& point : map) {
-    const double share = (point.position.z() - heights.min) / (heights.max - heights.min);
-    const auto entry = static_cast<std::size_t>(255.0 * std::clamp(share, 0.0, 1.0));
+    const double fraction = (point.position.z() - heights.min) / (heights.max - heights.min);
+    const auto entry = static_cast<std::size_t>(255.0 * std::clamp(fraction, 0.0, 1.0));
     const auto& color = table[entry];
     points.push_back({point.position, {color[0], color[1], color[2], 255}});
     flat.push_back(
-        {point.position.x(), point.position.y(), point.position.z(), static_cast<float>(share)});
+        {point.position.x(), point.position.y(), point.position.z(), static_cast<float>(fraction)});
   }
-  std::vector<Eigen::Vector2d> way;
-  for (const StampedPose& each : sequence.truth) way.emplace_back(each.pose.translation.head<2>());
-  plan.emplace(std::move(flat), way, config.width, config.height);
+  std::vector<Eigen::Vector2d> path;
+  for (const StampedPose& each : sequence.truth) path.emplace_back(each.pose.translation.head<2>());
+  plan.emplace(std::move(flat), path, config.width, config.height);
 }
 
-/// The robot stands above the middle, since the plan lies below it; the camera looks along the way
+/// The robot stands above the middle, since the plan lies below it; the camera looks outbound
 /// from a little aside, and steeply enough to see over the near wall.
 Camera Film::Impl::camera(Time stamp) const {
   Camera result;
@@ -217,8 +217,9 @@ void Film::Impl::label(Canvas& canvas, Time stamp) const {
   }
   canvas.text({left, 39.0 * unit}, state, {.size = 12.0 * unit, .color = light});
   double x = config.width - left;
-  for (const auto& [name, color] : {std::pair{"way and map of " + shown.name, color_of(kEstimate)},
-                                    {std::string("true way"), color_of(kTruth)}}) {
+  for (const auto& [name, color] :
+       {std::pair{"trajectory and map of " + shown.name, color_of(kEstimate)},
+        {std::string("true trajectory"), color_of(kTruth)}}) {
     const TextStyle style{.size = 12.0 * unit, .color = light, .horizontal = Align::kEnd};
     canvas.text({x, 20.0 * unit}, name, style);
     x -= canvas.text_width(name, style) + 6.0 * unit;
@@ -240,7 +241,7 @@ Result<Film> Film::create(const FilmedSequence& sequence, const FilmConfig& conf
   impl->map = cut_map(sequence.map);
   impl->color_points();
   impl->edges = cut_edges(sequence.scene);
-  impl->azimuth_deg = way_out_deg(sequence.truth);
+  impl->azimuth_deg = outbound_deg(sequence.truth);
   if (auto shown = impl->show_scene(sequence.snapshots.front().stamp); !shown) {
     return tl::unexpected(shown.error());
   }
@@ -264,40 +265,6 @@ Result<Image> Film::picture(Time wanted) {
                     heading_at(impl_->sequence.truth, stamp));
   impl_->label(canvas, stamp);
   return canvas.pixels();
-}
-
-FilmSpan walking_span(const FilmedSequence& sequence) {
-  if (sequence.truth.empty()) return {};
-  const auto away = [](const StampedPose& a, const StampedPose& b) {
-    return (a.pose.translation - b.pose.translation).head<2>().norm() > 0.2;
-  };
-  FilmSpan span{sequence.truth.front().stamp, sequence.truth.back().stamp};
-  for (const StampedPose& each : sequence.truth) {
-    if (away(each, sequence.truth.front())) break;
-    span.begin = each.stamp;
-  }
-  for (auto each = sequence.truth.rbegin(); each != sequence.truth.rend(); ++each) {
-    if (away(*each, sequence.truth.back())) break;
-    span.end = each->stamp;
-  }
-  if (span.end <= span.begin) span = {sequence.truth.front().stamp, sequence.truth.back().stamp};
-  return span;
-}
-
-Movie movie_of(Film& film, const FilmSpan& span, const FilmConfig& config, double seconds,
-               double frame_rate) {
-  Movie movie;
-  movie.width = config.width;
-  movie.height = config.height;
-  movie.frame_rate = frame_rate;
-  movie.frames = std::max(2, static_cast<int>(std::lround(seconds * frame_rate)));
-  const int last = movie.frames - 1;
-  movie.draw = [&film, span, last](int frame) {
-    const double share = static_cast<double>(frame) / last;
-    return film.picture(span.begin +
-                        std::llround(share * static_cast<double>(span.end - span.begin)));
-  };
-  return movie;
 }
 
 }  // namespace aims

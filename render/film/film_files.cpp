@@ -10,6 +10,7 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/output_folder.hpp"
 #include "render/film/ffmpeg.hpp"
+#include "render/film/film_movie.hpp"
 #include "render/film/vector_pictures.hpp"
 #include "render/film/webp.hpp"
 #include "render/plots/canvas.hpp"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostFrames = 2000;
-constexpr double kStillShare = 0.75;  ///< of the way, where the still is taken
+constexpr double kStillFraction = 0.75;  ///< of the time in motion, when the still is taken
 
 enum class VideoKind { kWebp, kFfmpeg };
 
@@ -29,8 +30,8 @@ Result<VideoKind> kind_of(const std::string& video) {
   const fs::path file = video;
   if (file.has_parent_path()) {
     return failure(
-        fmt::format("--video {}: expected a file name without a folder; --out says "
-                    "where it goes",
+        fmt::format("--video {}: expected a file name without a folder; --out gives "
+                    "the folder",
                     video));
   }
   const std::string ending = file.extension().string();
@@ -48,14 +49,14 @@ Result<void> write_still(const FilmedSequence& sequence, const FilmOptions& opti
                           .still = true};
   auto film = Film::create(sequence, config);
   if (!film) return tl::unexpected(film.error());
-  const FilmSpan span = walking_span(sequence);
+  const FilmSpan span = motion_span(sequence);
   const double at = options.at_s.value_or(to_seconds(span.begin) +
-                                          kStillShare * to_seconds(span.end - span.begin));
+                                          kStillFraction * to_seconds(span.end - span.begin));
   if (at < to_seconds(sequence.truth.front().stamp) ||
       at > to_seconds(sequence.truth.back().stamp)) {
-    return failure(fmt::format("--at {:g}: expected {:.1f} to {:.1f} s, when the walk was", at,
-                               to_seconds(sequence.truth.front().stamp),
-                               to_seconds(sequence.truth.back().stamp)));
+    return failure(fmt::format(
+        "--at {:g}: expected {:.1f} to {:.1f} s, the time span of the sequence", at,
+        to_seconds(sequence.truth.front().stamp), to_seconds(sequence.truth.back().stamp)));
   }
   const auto picture = film->picture(from_seconds(at));
   if (!picture) return tl::unexpected(picture.error());
@@ -69,7 +70,7 @@ Result<void> write_still(const FilmedSequence& sequence, const FilmOptions& opti
   return canvas->finish();
 }
 
-/// The movie, whose drawing tells the observer and ends when that has enough.
+/// The movie with an observer that is called before each frame and may end it.
 Movie observed(const Movie& movie, const FrameObserver& observer) {
   Movie result = movie;
   result.draw = [draw = movie.draw, frames = movie.frames, observer](int frame) -> Result<Image> {
@@ -85,7 +86,7 @@ Result<void> write_video(const FilmedSequence& sequence, const FilmOptions& opti
       .width = options.video_size.width, .height = options.video_size.height, .view = options.view};
   auto film = Film::create(sequence, config);
   if (!film) return tl::unexpected(film.error());
-  const FilmSpan span = walking_span(sequence);
+  const FilmSpan span = motion_span(sequence);
   const Movie movie =
       observed(movie_of(*film, span, config, options.seconds, options.frame_rate), observer);
   record["video"] = {{"file", file.filename().string()},
@@ -148,8 +149,8 @@ Result<PictureSize> parse_picture_size(const std::string& text) {
   const auto width = std::from_chars(text.data(), end, size.width);
   const bool crossed = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
   const auto height = crossed ? std::from_chars(width.ptr + 1, end, size.height) : width;
-  const bool whole = crossed && height.ec == std::errc() && height.ptr == end;
-  if (whole && size.width >= 160 && size.width <= 7680 && size.height >= 120 &&
+  const bool complete = crossed && height.ec == std::errc() && height.ptr == end;
+  if (complete && size.width >= 160 && size.width <= 7680 && size.height >= 120 &&
       size.height <= 4320) {
     return size;
   }

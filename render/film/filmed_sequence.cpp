@@ -44,7 +44,7 @@ Result<FilmedSequence> film_sequence(const Scenario& scenario, const RunOptions&
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
   auto estimators = make_estimators(scenario.estimators, scenario.estimator, simulation->rig());
   if (!estimators) return tl::unexpected(estimators.error());
-  if (estimators->empty()) return failure("estimators: expected at least one to lay the map");
+  if (estimators->empty()) return failure("estimators: expected at least one to make the map");
   const auto result = [&]() -> const EstimatorResult& {
     return estimators->front().estimator().result();
   };

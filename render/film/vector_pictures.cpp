@@ -22,7 +22,7 @@ TrajectoryPlot trajectories_of(const FilmedSequence& sequence) {
 MapPicture map_of(const FilmedSequence& sequence) {
   MapPicture map;
   map.title = fmt::format("{}: map of {}", sequence.scenario, sequence.estimates.front().name);
-  map.frame = "laid onto the truth at the start";
+  map.frame = "aligned with the truth at the start";
   for (const GrownPoint& point : sequence.map) map.points.push_back(point.position);
   map.trajectory = sequence.estimates.front().trajectory;
   return map;

@@ -5,6 +5,7 @@
 
 #include "render/film/film.hpp"
 #include "render/film/film_files.hpp"
+#include "render/film/film_movie.hpp"
 #include "render/film/map_growth.hpp"
 
 namespace aims {
@@ -84,7 +85,7 @@ TEST(Film, SpansTheWalkWithoutTheStanding) {
     sample.pose.translation.x() = std::clamp(0.1 * (i - 30), 0.0, 4.0);
     sequence.truth.push_back(sample);
   }
-  const FilmSpan span = walking_span(sequence);
+  const FilmSpan span = motion_span(sequence);
   EXPECT_NEAR(to_seconds(span.begin), 3.2, 0.2);
   EXPECT_NEAR(to_seconds(span.end), 6.8, 0.2);
 }

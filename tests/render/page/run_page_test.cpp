@@ -72,7 +72,7 @@ TEST_F(RunPage, LaysEstimatesOntoTheTruthAndSplitsTheirErrorAlongItsHeading) {
   EXPECT_FLOAT_EQ(p[0], 1.0F);
   EXPECT_FLOAT_EQ(p[1], 0.2F);
   EXPECT_FLOAT_EQ(p[2], 0.3F);
-  const auto along = page.f32(ahead["series"]["error_along"]);
+  const auto along = page.f32(ahead["series"]["error_longitudinal"]);
   const auto lateral = page.f32(ahead["series"]["error_lateral"]);
   ASSERT_EQ(along.size(), 50U);
   for (std::size_t i = 0; i < along.size(); ++i) {
