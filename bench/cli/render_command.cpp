@@ -15,8 +15,8 @@
 #include "bench/cli/progress_display.hpp"
 #include "bench/run/seeds.hpp"
 #include "estimator/estimator_spec.hpp"
-#include "render/film/film_report.hpp"
-#include "render/film/stored_walk.hpp"
+#include "render/film/film_files.hpp"
+#include "render/film/stored_sequence.hpp"
 
 namespace aims {
 namespace {
@@ -44,8 +44,8 @@ const std::map<std::string, FilmView> kViews = {{"follow", FilmView::kFollow},
 /// Of a scenario that names no estimator that is asked for, its own first choice.
 Result<Scenario> scenario_of(const RenderArguments& arguments, const fs::path& folder) {
   const fs::path source = arguments.source;
-  auto file = holds_walk(source) ? Result<fs::path>(source / "config.yaml")
-                                 : find_scenario(arguments.source, folder);
+  auto file = holds_sequence(source) ? Result<fs::path>(source / "config.yaml")
+                                     : find_scenario(arguments.source, folder);
   if (!file) return tl::unexpected(file.error());
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.estimators.empty()) {
@@ -73,7 +73,7 @@ Result<FilmOptions> options_of(const RenderArguments& arguments) {
   FilmOptions options = arguments.film;
   if (!options.still && options.video.empty() && !options.svg && !options.pdf) {
     options.still = true;
-    options.video = "walk.png";
+    options.video = "walk.webp";
   }
   for (const auto& [text, size] : {std::pair{&arguments.size, &options.video_size},
                                    {&arguments.still_size, &options.still_size}}) {
@@ -92,9 +92,9 @@ Result<FilmOptions> options_of(const RenderArguments& arguments) {
 }
 
 /// From files when they suffice; else simulated.
-Result<FilmedWalk> walk_of(const RenderArguments& arguments, const FilmOptions& options,
-                           const fs::path& folder) {
-  if (!options.needs_simulation() && holds_walk(arguments.source)) {
+Result<FilmedSequence> sequence_of(const RenderArguments& arguments, const FilmOptions& options,
+                                   const fs::path& folder) {
+  if (!options.needs_simulation() && holds_sequence(arguments.source)) {
     if (!arguments.overrides.empty() || !arguments.seed.empty()) {
       return failure("--seed, --set: expected a scenario, since " + arguments.source +
                      " is a walk that was walked");
@@ -102,20 +102,20 @@ Result<FilmedWalk> walk_of(const RenderArguments& arguments, const FilmOptions& 
     if (arguments.estimators.size() > 1) {
       return failure("--estimators: of a finished run expected one, whose map is drawn");
     }
-    return stored_walk(arguments.source,
-                       arguments.estimators.empty() ? "" : arguments.estimators.front());
+    return stored_sequence(arguments.source,
+                           arguments.estimators.empty() ? "" : arguments.estimators.front());
   }
   const auto scenario = scenario_of(arguments, folder);
   if (!scenario) return tl::unexpected(scenario.error());
   const auto seed = seed_of(arguments, *scenario);
   if (!seed) return tl::unexpected(seed.error());
   ProgressDisplay display(scenario->name, arguments.quiet);
-  auto walk = film_walk(*scenario, {*seed, arguments.jobs}, [&](const Progress& progress) {
+  auto sequence = film_sequence(*scenario, {*seed, arguments.jobs}, [&](const Progress& progress) {
     display.show(*seed, progress);
     return !interrupted();
   });
   display.close();
-  return walk;
+  return sequence;
 }
 
 /// Says how far a video is, where somebody looks at it.
@@ -135,18 +135,19 @@ int render_command(const RenderArguments& arguments, const fs::path& folder) {
                       ": exists already; give another --out, or --overwrite to replace it"});
   }
   watch_interrupt();
-  const auto walk = walk_of(arguments, *options, folder);
-  if (!walk) return bad_input("render", walk.error());
+  const auto sequence = sequence_of(arguments, *options, folder);
+  if (!sequence) return bad_input("render", sequence.error());
   if (interrupted()) return kInterrupted;
   if (options->out.empty()) {
-    options->out = fs::path("out") / fmt::format("{}-seed-{}-render", walk->scenario, walk->seed);
+    options->out =
+        fs::path("out") / fmt::format("{}-seed-{}-render", sequence->scenario, sequence->seed);
   }
-  const auto files = write_film(*walk, *options, [&](int done, int frames) {
+  const auto files = write_film(*sequence, *options, [&](int done, int frames) {
     return show_frame(arguments.quiet, done, frames);
   });
   if (interrupted()) return kInterrupted;
   if (!files) return bad_input("render", files.error());
-  if (walk->map.empty()) {
+  if (sequence->map.empty()) {
     fmt::print("no map: {} keeps none for it\n", arguments.source);
   }
   for (const fs::path& file : *files) fmt::print("{}\n", file.string());
@@ -156,8 +157,8 @@ int render_command(const RenderArguments& arguments, const fs::path& folder) {
 void add_what(CLI::App& command, RenderArguments& arguments) {
   command.add_flag("--still", arguments.film.still, "still.png, for papers and pages");
   command.add_option("--video", arguments.film.video,
-                     "Looped video of that name: .png or .apng (animated\n"
-                     "PNG), .mp4 or .webm (by ffmpeg, on PATH)");
+                     "Looped video of that name: .webp (animated), .mp4 or\n"
+                     ".webm (by ffmpeg, on PATH)");
   command.add_flag("--svg", arguments.film.svg, "Trajectories and maps as SVG");
   command.add_flag("--pdf", arguments.film.pdf, "Trajectories and maps as PDF");
 }
@@ -201,7 +202,7 @@ void add_render_command(CLI::App& app, const fs::path& scenario_folder, int& exi
   command->add_flag("--overwrite", arguments->film.overwrite, "Replace pictures that exist");
   command->add_flag("--quiet", arguments->quiet, "No progress");
   command->footer(
-      "Without --still, --video, --svg or --pdf it draws the still and walk.png. Still and video\n"
+      "Without --still, --video, --svg or --pdf it draws the still and walk.webp. Still and video\n"
       "are simulated, also from the folder of a run (its config.yaml); --svg and --pdf of such a\n"
       "folder are drawn from its files.\n"
       "Examples:\n"

@@ -9,7 +9,7 @@
 #include "bench/cli/exit_code.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/report_command.hpp"
-#include "render/page/report.hpp"
+#include "render/page/page.hpp"
 
 namespace aims {
 namespace {
@@ -23,7 +23,7 @@ struct ReportArguments {
   std::string detectors;
 };
 
-void print_reports(const Reports& reports) {
+void print_reports(const WrittenPages& reports) {
   for (const std::string& warning : reports.warnings) fmt::print("warning: {}\n", warning);
   const std::size_t most = 5;
   const std::size_t left_out = reports.pages.size() > most ? reports.pages.size() - most : 0;
@@ -39,7 +39,7 @@ int write_one(const ReportArguments& arguments, const PageOptions& options) {
     return bad_input(
         "report", {fmt::format("--out: expected one folder, found {}", arguments.folders.size())});
   }
-  auto written = write_report(arguments.folders.front(), arguments.out, options);
+  auto written = write_page(arguments.folders.front(), arguments.out, options);
   if (!written) return bad_input("report", written.error());
   fmt::print("report: {}\n", arguments.out);
   return kOk;
@@ -49,7 +49,7 @@ int report_command(const ReportArguments& arguments) {
   const PageOptions options = {arguments.against, arguments.detectors, {}};
   if (!arguments.out.empty()) return write_one(arguments, options);
   for (const std::string& folder : arguments.folders) {
-    const auto reports = write_reports(folder, options);
+    const auto reports = write_pages(folder, options);
     if (!reports) return bad_input("report", reports.error());
     print_reports(*reports);
   }
@@ -59,7 +59,7 @@ int report_command(const ReportArguments& arguments) {
 }  // namespace
 
 void show_reports(const fs::path& folder) {
-  const auto reports = write_reports(folder);
+  const auto reports = write_pages(folder);
   if (reports) {
     print_reports(*reports);
   } else {
@@ -74,13 +74,13 @@ void add_report_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("folders", arguments->folders, "Folders of run, suite, estimate, score, sweep")
       ->required();
-  command->add_option("--out", arguments->out, "File to write, of one folder (FOLDER/report.html)");
+  command->add_option("--out", arguments->out, "File to write, of one folder (FOLDER/page.html)");
   command->add_option("--against", arguments->against,
                       "Second folder of results that a suite is held against");
   command->add_option("--detectors", arguments->detectors,
                       "Folder of `aims detectors` whose curves a suite's page shows");
   command->footer(
-      "Each folder gets its report.html; of several seeds each gets one, of a suite also the runs\n"
+      "Each folder gets its page.html; of several seeds each gets one, of a suite also the runs\n"
       "that kept trajectories. The page needs no network and opens from the disk. Examples:\n"
       "  aims report out/corridor-seed-1\n"
       "  aims report out/severity --against out/severity_before --out compare.html");

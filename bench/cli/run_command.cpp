@@ -135,7 +135,7 @@ void add_run_command(CLI::App& app, const fs::path& scenario_folder, int& exit_c
   command->add_flag("--overwrite", arguments->overwrite, "Replace results that exist");
   command->add_flag("--quiet", arguments->quiet, "No progress, the table alone");
   command->add_flag("--no-pictures", arguments->no_pictures, "Draw nothing");
-  command->add_flag("--no-report", arguments->no_report, "Write no page (report.html)");
+  command->add_flag("--no-report", arguments->no_report, "Write no page (page.html)");
   command->footer(
       "Examples:\n"
       "  aims run scenarios/paper/corridor.yaml\n"

@@ -103,7 +103,7 @@ void add_suite_command(CLI::App& app, const fs::path& scenario_folder, int& exit
       ->delimiter(',');
   command->add_flag("--trajectories", arguments->trajectories,
                     "Keep trajectories and diagnostics of each run");
-  command->add_flag("--no-report", arguments->no_report, "Write no pages (report.html)");
+  command->add_flag("--no-report", arguments->no_report, "Write no pages (page.html)");
   command->footer(
       "Examples:\n"
       "  aims suite --tags severity --seeds 1-10 --out out/severity\n"

@@ -79,7 +79,7 @@ std::vector<std::string> arguments_of(const fs::path& ffmpeg, const fs::path& fi
   return arguments;
 }
 
-/// A started ffmpeg: frames go to `input`, what it complains of comes from `complaints`.
+/// A started ffmpeg: frames go to `input`, its error messages come from `complaints`.
 struct Encoder {
   pid_t process = -1;
   Descriptor input;
@@ -136,7 +136,8 @@ Result<void> send_frames(const Encoder& encoder, const Movie& movie) {
     if (!picture) return tl::unexpected(picture.error());
     const int times = frame + 1 == movie.frames ? stays : 1;
     for (int i = 0; i < times; ++i) {
-      if (!send_all(encoder.input.number(), picture->rgb)) return {};  // its exit code says why
+      if (!send_all(encoder.input.number(), picture->rgb))
+        return {};  // its exit code reports the failure
     }
   }
   return {};

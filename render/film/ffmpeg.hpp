@@ -13,8 +13,8 @@ namespace aims {
 std::optional<std::filesystem::path> find_ffmpeg();
 
 /// Writes the movie as H.264 in .mp4 or VP9 in .webm by handing its frames to ffmpeg; the file
-/// appears whole or not at all. Width and height must be even. Error with what ffmpeg said when it
-/// fails, and for another ending.
+/// appears complete or not at all. Width and height must be even. Error with ffmpeg's message when
+/// it fails, and for another ending.
 Result<void> write_with_ffmpeg(const std::filesystem::path& ffmpeg,
                                const std::filesystem::path& file, const Movie& movie);
 

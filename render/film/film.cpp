@@ -70,16 +70,16 @@ std::vector<ViewLine> cut_edges(const Scene& scene) {
   return edges;
 }
 
-/// Heading [deg] from the start to the farthest point of the way.
-double way_out_deg(const Trajectory& truth) {
+/// Heading [deg] from the start to the farthest point of the trajectory.
+double outbound_deg(const Trajectory& truth) {
   const Eigen::Vector3d start = truth.front().pose.translation;
   const auto farthest =
       std::max_element(truth.begin(), truth.end(), [&](const auto& a, const auto& b) {
         return (a.pose.translation - start).squaredNorm() <
                (b.pose.translation - start).squaredNorm();
       });
-  const Eigen::Vector3d way = farthest->pose.translation - start;
-  return std::atan2(way.y(), way.x()) * 180.0 / std::numbers::pi;
+  const Eigen::Vector3d out = farthest->pose.translation - start;
+  return std::atan2(out.y(), out.x()) * 180.0 / std::numbers::pi;
 }
 
 std::vector<Eigen::Vector3f> line_until(const Trajectory& trajectory, Time stamp) {
@@ -105,7 +105,7 @@ std::vector<GrownPoint> cut_map(const std::vector<GrownPoint>& map) {
 }  // namespace
 
 struct Film::Impl {
-  const FilmedWalk& walk;
+  const FilmedSequence& sequence;
   FilmConfig config;
   std::vector<GrownPoint> map;    ///< without what is above the cut
   std::vector<ViewPoint> points;  ///< of the same
@@ -114,7 +114,7 @@ struct Film::Impl {
   double azimuth_deg = 0.0;
   std::optional<SceneView> view;
 
-  Impl(const FilmedWalk& filmed, const FilmConfig& how) : walk(filmed), config(how) {}
+  Impl(const FilmedSequence& filmed, const FilmConfig& how) : sequence(filmed), config(how) {}
 
   Result<void> show_scene(Time stamp);
   void color_points();
@@ -124,12 +124,12 @@ struct Film::Impl {
   void label(Canvas& canvas, Time stamp) const;
 };
 
-/// Makes the model anew where people have walked on since.
+/// Rebuilds the model where people have moved since.
 Result<void> Film::Impl::show_scene(Time stamp) {
-  if (view && walk.scene.people.empty()) return {};
+  if (view && sequence.scene.people.empty()) return {};
   view.reset();  // before the next one makes its own context the current one
-  Scene scene = bare(walk.scene);
-  scene.people = walk.scene.people;
+  Scene scene = bare(sequence.scene);
+  scene.people = sequence.scene.people;
   const MjcfOptions options{.image_width = config.width, .image_height = config.height};
   const auto mjcf =
       scene_mjcf(scene_at(scene, stamp), quadruped_mjcf(), MjcfPurpose::kRender, options);
@@ -148,19 +148,19 @@ void Film::Impl::color_points() {
   const auto table = height_table();
   std::vector<RasterPoint> flat;
   for (const GrownPoint& point : map) {
-    const double share = (point.position.z() - heights.min) / (heights.max - heights.min);
-    const auto entry = static_cast<std::size_t>(255.0 * std::clamp(share, 0.0, 1.0));
+    const double fraction = (point.position.z() - heights.min) / (heights.max - heights.min);
+    const auto entry = static_cast<std::size_t>(255.0 * std::clamp(fraction, 0.0, 1.0));
     const auto& color = table[entry];
     points.push_back({point.position, {color[0], color[1], color[2], 255}});
     flat.push_back(
-        {point.position.x(), point.position.y(), point.position.z(), static_cast<float>(share)});
+        {point.position.x(), point.position.y(), point.position.z(), static_cast<float>(fraction)});
   }
-  std::vector<Eigen::Vector2d> way;
-  for (const StampedPose& each : walk.truth) way.emplace_back(each.pose.translation.head<2>());
-  plan.emplace(std::move(flat), way, config.width, config.height);
+  std::vector<Eigen::Vector2d> path;
+  for (const StampedPose& each : sequence.truth) path.emplace_back(each.pose.translation.head<2>());
+  plan.emplace(std::move(flat), path, config.width, config.height);
 }
 
-/// The robot stands above the middle, since the plan lies below it; the camera looks along the way
+/// The robot stands above the middle, since the plan lies below it; the camera looks outbound
 /// from a little aside, and steeply enough to see over the near wall.
 Camera Film::Impl::camera(Time stamp) const {
   Camera result;
@@ -170,7 +170,7 @@ Camera Film::Impl::camera(Time stamp) const {
   result.distance = (top ? 13.0 : 8.5) * (config.still ? 0.55 : 1.0);
   const double azimuth = result.azimuth_deg * std::numbers::pi / 180.0;
   const Eigen::Vector3d ahead(std::cos(azimuth), std::sin(azimuth), 0.0);
-  result.target = smooth_position(walk.truth, stamp) - 0.08 * result.distance * ahead;
+  result.target = smooth_position(sequence.truth, stamp) - 0.08 * result.distance * ahead;
   return result;
 }
 
@@ -182,9 +182,9 @@ ViewOverlay Film::Impl::overlay(Time stamp) const {
   result.least_diameter = 1.2F * unit;
   result.lines = edges;
   for (ViewLine& edge : result.lines) edge.width = unit;
-  result.lines.push_back({line_until(walk.truth, stamp), kTruth, 2.0F * unit});
+  result.lines.push_back({line_until(sequence.truth, stamp), kTruth, 2.0F * unit});
   result.lines.push_back(
-      {line_until(walk.estimates.front().trajectory, stamp), kEstimate, 2.0F * unit});
+      {line_until(sequence.estimates.front().trajectory, stamp), kEstimate, 2.0F * unit});
   result.haze = {static_cast<float>(kGround.red), static_cast<float>(kGround.green),
                  static_cast<float>(kGround.blue)};
   const double distance = camera(stamp).distance;
@@ -206,19 +206,20 @@ void Film::Impl::label(Canvas& canvas, Time stamp) const {
   canvas.fill(Rect{0.0, 0.0, static_cast<double>(config.width), 52.0 * unit},
               {0.05, 0.06, 0.08, 0.72});
   const Color light{0.94, 0.95, 0.97};
-  const NamedTrajectory& shown = walk.estimates.front();
-  canvas.text({left, 20.0 * unit}, walk.scenario,
+  const NamedTrajectory& shown = sequence.estimates.front();
+  canvas.text({left, 20.0 * unit}, sequence.scenario,
               {.size = 15.0 * unit, .color = light, .bold = true});
   std::string state = fmt::format("t = {:.0f} s", to_seconds(stamp));
-  const auto truth = pose_at(walk.truth, stamp);
+  const auto truth = pose_at(sequence.truth, stamp);
   const auto estimate = pose_at(shown.trajectory, stamp);
   if (truth && estimate) {
     state += fmt::format(",  error {:.2f} m", (truth->translation - estimate->translation).norm());
   }
   canvas.text({left, 39.0 * unit}, state, {.size = 12.0 * unit, .color = light});
   double x = config.width - left;
-  for (const auto& [name, color] : {std::pair{"way and map of " + shown.name, color_of(kEstimate)},
-                                    {std::string("true way"), color_of(kTruth)}}) {
+  for (const auto& [name, color] :
+       {std::pair{"trajectory and map of " + shown.name, color_of(kEstimate)},
+        {std::string("true trajectory"), color_of(kTruth)}}) {
     const TextStyle style{.size = 12.0 * unit, .color = light, .horizontal = Align::kEnd};
     canvas.text({x, 20.0 * unit}, name, style);
     x -= canvas.text_width(name, style) + 6.0 * unit;
@@ -232,16 +233,16 @@ Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 Film::~Film() = default;
 
-Result<Film> Film::create(const FilmedWalk& walk, const FilmConfig& config) {
-  if (walk.snapshots.empty() || walk.truth.empty() || walk.estimates.empty()) {
+Result<Film> Film::create(const FilmedSequence& sequence, const FilmConfig& config) {
+  if (sequence.snapshots.empty() || sequence.truth.empty() || sequence.estimates.empty()) {
     return failure("no snapshot of the robot to draw");
   }
-  auto impl = std::make_unique<Impl>(walk, config);
-  impl->map = cut_map(walk.map);
+  auto impl = std::make_unique<Impl>(sequence, config);
+  impl->map = cut_map(sequence.map);
   impl->color_points();
-  impl->edges = cut_edges(walk.scene);
-  impl->azimuth_deg = way_out_deg(walk.truth);
-  if (auto shown = impl->show_scene(walk.snapshots.front().stamp); !shown) {
+  impl->edges = cut_edges(sequence.scene);
+  impl->azimuth_deg = outbound_deg(sequence.truth);
+  if (auto shown = impl->show_scene(sequence.snapshots.front().stamp); !shown) {
     return tl::unexpected(shown.error());
   }
   return Film(std::move(impl));
@@ -250,7 +251,7 @@ Result<Film> Film::create(const FilmedWalk& walk, const FilmConfig& config) {
 std::size_t Film::points_shown(Time stamp) const { return impl_->count(stamp); }
 
 Result<Image> Film::picture(Time wanted) {
-  const std::vector<RobotSnapshot>& shots = impl_->walk.snapshots;
+  const std::vector<RobotSnapshot>& shots = impl_->sequence.snapshots;
   const auto nearest =
       std::min_element(shots.begin(), shots.end(), [&](const auto& a, const auto& b) {
         return std::abs(a.stamp - wanted) < std::abs(b.stamp - wanted);
@@ -261,43 +262,9 @@ Result<Image> Film::picture(Time wanted) {
   if (!picture) return picture;
   Canvas canvas = Canvas::over(*picture);
   impl_->plan->draw(canvas, impl_->count(stamp), {nearest->qpos[0], nearest->qpos[1]},
-                    heading_at(impl_->walk.truth, stamp));
+                    heading_at(impl_->sequence.truth, stamp));
   impl_->label(canvas, stamp);
   return canvas.pixels();
-}
-
-FilmSpan walking_span(const FilmedWalk& walk) {
-  if (walk.truth.empty()) return {};
-  const auto away = [](const StampedPose& a, const StampedPose& b) {
-    return (a.pose.translation - b.pose.translation).head<2>().norm() > 0.2;
-  };
-  FilmSpan span{walk.truth.front().stamp, walk.truth.back().stamp};
-  for (const StampedPose& each : walk.truth) {
-    if (away(each, walk.truth.front())) break;
-    span.begin = each.stamp;
-  }
-  for (auto each = walk.truth.rbegin(); each != walk.truth.rend(); ++each) {
-    if (away(*each, walk.truth.back())) break;
-    span.end = each->stamp;
-  }
-  if (span.end <= span.begin) span = {walk.truth.front().stamp, walk.truth.back().stamp};
-  return span;
-}
-
-Movie movie_of(Film& film, const FilmSpan& span, const FilmConfig& config, double seconds,
-               double frame_rate) {
-  Movie movie;
-  movie.width = config.width;
-  movie.height = config.height;
-  movie.frame_rate = frame_rate;
-  movie.frames = std::max(2, static_cast<int>(std::lround(seconds * frame_rate)));
-  const int last = movie.frames - 1;
-  movie.draw = [&film, span, last](int frame) {
-    const double share = static_cast<double>(frame) / last;
-    return film.picture(span.begin +
-                        std::llround(share * static_cast<double>(span.end - span.begin)));
-  };
-  return movie;
 }
 
 }  // namespace aims

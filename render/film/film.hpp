@@ -4,19 +4,18 @@
 #include <memory>
 
 #include "core/error.hpp"
-#include "render/film/filmed_walk.hpp"
-#include "render/film/movie.hpp"
+#include "render/film/filmed_sequence.hpp"
 #include "render/plots/image.hpp"
 
 namespace aims {
 
 /// Where the camera is.
 enum class FilmView {
-  kFollow,  ///< behind and above the robot, looking along the way out
+  kFollow,  ///< behind and above the robot, looking in the outbound direction
   kTop,     ///< straight above it
 };
 
-/// How pictures of a walk look.
+/// How pictures of a sequence look.
 struct FilmConfig {
   int width = 640;   ///< [px]
   int height = 400;  ///< [px]
@@ -24,13 +23,13 @@ struct FilmConfig {
   bool still = false;  ///< nearer and finer than the pictures of a video
 };
 
-/// Draws a walk at any instant: the robot where it truly is, the map as far as it had grown, the
-/// way so far by truth and by estimate, and a plan of the whole with both below. One at a time per
+/// Draws a sequence at any instant: the robot at its true pose, the map built so far, the true and
+/// the estimated trajectory so far, and a plan of everything below. One at a time per
 /// thread.
 class Film {
  public:
-  /// Keeps a reference to `walk`. Error without snapshots or when there is no OpenGL context.
-  static Result<Film> create(const FilmedWalk& walk, const FilmConfig& config);
+  /// Keeps a reference to `sequence`. Error without snapshots or when there is no OpenGL context.
+  static Result<Film> create(const FilmedSequence& sequence, const FilmConfig& config);
   Film(Film&&) noexcept;
   Film& operator=(Film&&) noexcept;
   ~Film();
@@ -46,16 +45,5 @@ class Film {
   explicit Film(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
-
-/// When the film begins and ends: from the first step to the last.
-struct FilmSpan {
-  Time begin = 0;
-  Time end = 0;
-};
-FilmSpan walking_span(const FilmedWalk& walk);
-
-/// The whole walk in `seconds`, `frame_rate` pictures each; `film` must outlive the movie.
-Movie movie_of(Film& film, const FilmSpan& span, const FilmConfig& config, double seconds,
-               double frame_rate);
 
 }  // namespace aims

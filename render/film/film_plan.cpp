@@ -9,12 +9,12 @@
 namespace aims {
 namespace {
 
-constexpr double kMargin = 2.0;  ///< around the way [m]
+constexpr double kMargin = 2.0;  ///< around the trajectory [m]
 constexpr std::array<std::uint8_t, 3> kGround = {13, 15, 20};
 
-RasterWindow window_around(std::span<const Eigen::Vector2d> way) {
+RasterWindow window_around(std::span<const Eigen::Vector2d> path) {
   RasterWindow window{1e9, -1e9, 1e9, -1e9};
-  for (const Eigen::Vector2d& point : way) {
+  for (const Eigen::Vector2d& point : path) {
     window.u_min = std::min(window.u_min, point.x() - kMargin);
     window.u_max = std::max(window.u_max, point.x() + kMargin);
     window.v_min = std::min(window.v_min, point.y() - kMargin);
@@ -34,9 +34,9 @@ double round_length(double length) {
 
 }  // namespace
 
-FilmPlan::FilmPlan(std::vector<RasterPoint> points, std::span<const Eigen::Vector2d> way, int width,
-                   int height)
-    : points_(std::move(points)), window_(window_around(way)), unit_(height / 400.0) {
+FilmPlan::FilmPlan(std::vector<RasterPoint> points, std::span<const Eigen::Vector2d> path,
+                   int width, int height)
+    : points_(std::move(points)), window_(window_around(path)), unit_(height / 400.0) {
   const double edge = 14.0 * unit_;
   const double length = window_.u_max - window_.u_min;
   const double across = window_.v_max - window_.v_min;
@@ -72,9 +72,13 @@ void FilmPlan::draw(Canvas& canvas, std::size_t count, const Eigen::Vector2d& ro
   const double pixels = bar / (window_.u_max - window_.u_min) * area_.width;
   const double y = area_.y - 7.0 * unit_;
   const Color light{0.85, 0.87, 0.90};
+  const std::string label = fmt::format("{:g} m", bar);
+  const TextStyle style{.size = 11.0 * unit_, .color = light, .horizontal = Align::kEnd};
+  const double left = area_.right() - pixels - 12.0 * unit_ - canvas.text_width(label, style);
+  canvas.fill(Rect{left, y - 7.0 * unit_, area_.right() - left, 13.0 * unit_},
+              {0.05, 0.06, 0.08, 0.72});  // the map behind it may be as bright as the letters
   canvas.line({{area_.right() - pixels, y}, {area_.right(), y}}, {light, 1.5 * unit_});
-  canvas.text({area_.right() - pixels - 6.0 * unit_, y}, fmt::format("{:g} m", bar),
-              {.size = 11.0 * unit_, .color = light, .horizontal = Align::kEnd});
+  canvas.text({area_.right() - pixels - 6.0 * unit_, y}, label, style);
 }
 
 }  // namespace aims

@@ -10,12 +10,12 @@
 
 namespace aims {
 
-/// A small plan of the whole walk in a corner of a film's pictures, on which the map grows.
+/// A small plan of the whole sequence in a corner of a film's pictures, on which the map grows.
 class FilmPlan {
  public:
-  /// For pictures of that size [px]; the plan shows where `points` and `way` are. Points of
+  /// For pictures of that size [px]; the plan shows where `path` is. Points of
   /// `height` in [0, 1] as colour; in order of time.
-  FilmPlan(std::vector<RasterPoint> points, std::span<const Eigen::Vector2d> way, int width,
+  FilmPlan(std::vector<RasterPoint> points, std::span<const Eigen::Vector2d> path, int width,
            int height);
 
   /// Where it is drawn [px].

@@ -6,7 +6,7 @@
 namespace aims {
 namespace {
 
-/// The pose of a moving sensor, looked up anew when it has moved on for this long.
+/// The pose of a moving sensor, looked up again after this time.
 constexpr Duration kSamePose = 2 * kMillisecond;
 
 }  // namespace
@@ -21,12 +21,12 @@ void MapGrowth::add(const LidarScanPtr& scan) {
 void MapGrowth::settle(const Trajectory& trajectory) {
   while (!waiting_.empty() && !trajectory.empty() &&
          waiting_.front()->end <= trajectory.back().stamp) {
-    lay_down(*waiting_.front(), trajectory);
+    insert(*waiting_.front(), trajectory);
     waiting_.pop_front();
   }
 }
 
-void MapGrowth::lay_down(const LidarScan& scan, const Trajectory& trajectory) {
+void MapGrowth::insert(const LidarScan& scan, const Trajectory& trajectory) {
   std::optional<Pose> T_odom_lidar;
   Time looked_up = scan.stamp - kSecond;
   for (const LidarPoint& point : scan.points) {
@@ -39,7 +39,7 @@ void MapGrowth::lay_down(const LidarScan& scan, const Trajectory& trajectory) {
     if (!T_odom_lidar || !point.position.allFinite()) continue;
     if (point.position.norm() > config_.reach) continue;
     const Eigen::Vector3f position = (*T_odom_lidar * point.position.cast<double>()).cast<float>();
-    if (!position.allFinite() || position.norm() > 1e4F) continue;  // of a lost estimator
+    if (!position.allFinite() || position.norm() > 1e4F) continue;  // of an estimator that diverged
     const auto fresh = static_cast<std::int32_t>(points_.size());
     const std::uint64_t cube = voxel_key(voxel_of(position, 1.0F / config_.spacing));
     if (cubes_.find_or_insert(cube, fresh) != fresh) continue;

@@ -11,7 +11,7 @@
 
 namespace aims {
 
-/// A point of a map, and when the first return from there came.
+/// A point of a map, and the time of its first return.
 struct GrownPoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m]
   Time seen = 0;
@@ -19,28 +19,28 @@ struct GrownPoint {
 
 /// How scans become the map that a film shows.
 struct MapGrowthConfig {
-  float spacing = 0.04F;  ///< edge of the cubes that hold one point each [m]
+  float spacing = 0.04F;  ///< edge of a voxel [m]
   float reach = 15.0F;    ///< longest range of a return that is kept [m]
-  int every_scan = 2;     ///< every n-th scan is laid down
+  int every_scan = 2;     ///< every n-th scan is inserted
 };
 
-/// The map that a trajectory makes: scans are laid down along it, each return by the pose at its
-/// own firing time, and of each small cube the first return stays. Unlike an estimator's own map it
-/// tells when each point came, and it holds nothing but what the trajectory says.
+/// The map of a trajectory: each return of a scan is placed by the pose at its own firing time, and
+/// each voxel keeps its first return. Unlike an estimator's own map it holds the time of each
+/// point, and depends on the trajectory alone.
 class MapGrowth {
  public:
   explicit MapGrowth(const Pose& T_body_lidar, const MapGrowthConfig& config = {});
 
-  /// Takes a scan, which waits until the trajectory covers it.
+  /// Queues a scan until the trajectory covers it.
   void add(const LidarScanPtr& scan);
-  /// Lays down the scans that `trajectory` (T_odom_body) covers by now.
+  /// Inserts the scans that `trajectory` (T_odom_body) covers by now.
   void settle(const Trajectory& trajectory);
 
-  /// In the odometry frame, in the order in which they came.
+  /// In the odometry frame, in order of time.
   const std::vector<GrownPoint>& points() const { return points_; }
 
  private:
-  void lay_down(const LidarScan& scan, const Trajectory& trajectory);
+  void insert(const LidarScan& scan, const Trajectory& trajectory);
 
   Pose T_body_lidar_;
   MapGrowthConfig config_;

@@ -8,36 +8,36 @@
 namespace aims {
 namespace {
 
-TrajectoryPlot trajectories_of(const FilmedWalk& walk) {
+TrajectoryPlot trajectories_of(const FilmedSequence& sequence) {
   TrajectoryPlot plot;
-  plot.title = walk.scenario + ": estimated trajectories";
-  plot.subtitle = fmt::format("seed {}", walk.seed);
-  plot.scene = walk.scene;
-  plot.truth = walk.truth;
-  plot.estimates = walk.estimates;
-  plot.waypoint_times = walk.waypoint_times;
+  plot.title = sequence.scenario + ": estimated trajectories";
+  plot.subtitle = fmt::format("seed {}", sequence.seed);
+  plot.scene = sequence.scene;
+  plot.truth = sequence.truth;
+  plot.estimates = sequence.estimates;
+  plot.waypoint_times = sequence.waypoint_times;
   return plot;
 }
 
-MapPicture map_of(const FilmedWalk& walk) {
+MapPicture map_of(const FilmedSequence& sequence) {
   MapPicture map;
-  map.title = fmt::format("{}: map of {}", walk.scenario, walk.estimates.front().name);
-  map.frame = "laid onto the truth at the start";
-  for (const GrownPoint& point : walk.map) map.points.push_back(point.position);
-  map.trajectory = walk.estimates.front().trajectory;
+  map.title = fmt::format("{}: map of {}", sequence.scenario, sequence.estimates.front().name);
+  map.frame = "aligned with the truth at the start";
+  for (const GrownPoint& point : sequence.map) map.points.push_back(point.position);
+  map.trajectory = sequence.estimates.front().trajectory;
   return map;
 }
 
 }  // namespace
 
-Result<std::vector<std::string>> write_vector_pictures(const FilmedWalk& walk,
+Result<std::vector<std::string>> write_vector_pictures(const FilmedSequence& sequence,
                                                        const std::vector<std::string>& endings,
                                                        const std::filesystem::path& folder) {
   std::vector<std::string> files;
-  const TrajectoryPlot trajectories = trajectories_of(walk);
-  const bool mapped = !walk.map.empty() && !walk.estimates.empty();
-  const MapPicture map = mapped ? map_of(walk) : MapPicture{};
-  const std::string name = mapped ? walk.estimates.front().name : std::string();
+  const TrajectoryPlot trajectories = trajectories_of(sequence);
+  const bool mapped = !sequence.map.empty() && !sequence.estimates.empty();
+  const MapPicture map = mapped ? map_of(sequence) : MapPicture{};
+  const std::string name = mapped ? sequence.estimates.front().name : std::string();
   for (const std::string& ending : endings) {
     files.push_back("trajectories" + ending);
     auto written = write_trajectory_plot(folder / files.back(), trajectories);

@@ -15,22 +15,22 @@ constexpr std::string_view kDetectorsSchema = "aims.detectors/1";
 constexpr std::size_t kMostPooled = 400;
 constexpr std::size_t kMostOfScenario = 60;
 
-float share_of(const Json& point, std::size_t i) {
-  const bool is_share = point.is_array() && point.size() == 2 && point[i].is_number();
-  return is_share ? point[i].get<float>() : std::numeric_limits<float>::quiet_NaN();
+float rate_of(const Json& point, std::size_t i) {
+  const bool is_rate = point.is_array() && point.size() == 2 && point[i].is_number();
+  return is_rate ? point[i].get<float>() : std::numeric_limits<float>::quiet_NaN();
 }
 
-/// Both shares of at most `most` points, by turns.
+/// Both rates of at most `most` points, alternating.
 std::vector<float> thinned(const Json& curve, std::size_t most) {
-  std::vector<float> shares;
-  if (!curve.is_array() || curve.empty()) return shares;
+  std::vector<float> rates;
+  if (!curve.is_array() || curve.empty()) return rates;
   const std::size_t count = std::min(most, curve.size());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = count == 1 ? 0 : i * (curve.size() - 1) / (count - 1);
-    shares.push_back(share_of(curve[at], 0));
-    shares.push_back(share_of(curve[at], 1));
+    rates.push_back(rate_of(curve[at], 0));
+    rates.push_back(rate_of(curve[at], 1));
   }
-  return shares;
+  return rates;
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace aims {
 
-/// What the folder of `aims detectors` holds, for a page: detectors.json with each score's curve
-/// as an array of the page (share of false alarms, share of detections, by turns). Pooled curves
+/// Results of a detector study for a page: detectors.json with each score's curve
+/// as an array of the page (false-alarm rate and detection rate, alternating). Pooled curves
 /// keep at most 400 points, those of one scenario 60, evenly chosen with both ends. Error when the
 /// file is no detectors.json.
 Result<Json> detector_curves(const std::filesystem::path& file, PageData& page);

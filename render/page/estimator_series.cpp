@@ -17,7 +17,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// Stamps of one scan in two files differ by their rounding alone.
 constexpr Duration kSameScan = kMillisecond;
 
-/// What diagnostics.csv calls the series of a page.
+/// Series of a page and their columns in diagnostics.csv.
 const ColumnNames kColumns = {{"D", "D"},
                               {"D_smoothed", "D_smoothed"},
                               {"O_lidar", "O_lidar"},
@@ -83,10 +83,10 @@ Eigen::Matrix3d covariance_at(const Numbers& values, std::size_t i) {
   return matrix;
 }
 
-/// Adds three columns, "NAME_along", "NAME_lateral" and "NAME_vertical".
+/// Adds three columns, "NAME_longitudinal", "NAME_lateral" and "NAME_vertical".
 void add_axes(const std::string& name, const std::array<Numbers, 3>& values, PageData& page,
               Json& json) {
-  json[name + "_along"] = column(values[0], page);
+  json[name + "_longitudinal"] = column(values[0], page);
   json[name + "_lateral"] = column(values[1], page);
   json[name + "_vertical"] = column(values[2], page);
 }
@@ -119,7 +119,7 @@ void add_errors(const Trajectory& poses, const Trajectory& truth, const Numbers&
   add_axes("sigma", sigmas, page, json);
 }
 
-/// Adds what the diagnostics say at the poses; the covariances go to `covariances`.
+/// Adds the diagnostics at the poses; the covariances go to `covariances`.
 Result<void> add_diagnostics(const CsvColumns& table, const Trajectory& poses, PageData& page,
                              Json& json, Numbers& covariances) {
   const auto rows = rows_of(poses, table);

@@ -35,17 +35,18 @@ Result<Json> read_json_of(const fs::path& file, std::string_view schema) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
   Json json = Json::parse(*text, nullptr, false);
-  if (json.is_discarded()) return failure(fmt::format("{}: is not whole JSON", file.string()));
+  if (json.is_discarded())
+    return failure(fmt::format("{}: is incomplete or not JSON", file.string()));
   if (text_in(json, "schema") == schema) return json;
   return failure(fmt::format("{}: expected a document of schema {}", file.string(), schema));
 }
 
 std::string folder_name(const fs::path& folder) {
   std::error_code ignored;
-  fs::path whole = fs::weakly_canonical(folder, ignored);
-  if (ignored) whole = folder;
-  if (!whole.has_filename()) whole = whole.parent_path();
-  return whole.filename().string();
+  fs::path full = fs::weakly_canonical(folder, ignored);
+  if (ignored) full = folder;
+  if (!full.has_filename()) full = full.parent_path();
+  return full.filename().string();
 }
 
 }  // namespace aims

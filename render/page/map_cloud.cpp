@@ -68,12 +68,12 @@ PageData::Json map_json(std::span<const Vector3f> points, const Pose& T_world_od
   for (const Vector3f& point : cloud) {
     for (int axis = 0; axis < 3; ++axis) {
       const float size = max[axis] - min[axis];
-      const float share = size > 0.0F ? (point[axis] - min[axis]) / size : 0.0F;
-      places.push_back(static_cast<std::uint16_t>(std::lround(kSteps * share)));
+      const float fraction = size > 0.0F ? (point[axis] - min[axis]) / size : 0.0F;
+      places.push_back(static_cast<std::uint16_t>(std::lround(kSteps * fraction)));
     }
     if (surface == nullptr) continue;
-    const float share = (*surface)(point, kLargestMapError) / kLargestMapError;
-    errors.push_back(static_cast<std::uint8_t>(std::lround(255.0F * share)));
+    const float fraction = (*surface)(point, kLargestMapError) / kLargestMapError;
+    errors.push_back(static_cast<std::uint8_t>(std::lround(255.0F * fraction)));
   }
   return {{"n", cloud.size()},
           {"points", points.size()},

@@ -9,7 +9,7 @@
 
 namespace aims {
 
-/// Version of the layout of a page's data; see docs/report.md.
+/// Version of the layout of a page's data; see web/src/contract.ts.
 inline constexpr std::string_view kPageSchema = "aims.page/1";
 
 /// What a page shows: a JSON document, and the arrays that it refers to as one block of bytes.

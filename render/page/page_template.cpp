@@ -40,8 +40,8 @@ std::string html_escaped(std::string_view text) {
 Result<std::string> filled_template(std::string_view html, const PageData& page) {
   if (html.empty()) {
     return failure(
-        "this program was built without the report page: build it again where npm is found and "
-        "reaches its registry (CMake option AIMS_REPORT)");
+        "this program was built without the page: build it again where npm is found and "
+        "reaches its registry (CMake option AIMS_PAGE)");
   }
   const std::size_t title = html.find(kTitleMark);
   const std::size_t data = html.find(kDataMark);

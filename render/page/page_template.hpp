@@ -9,8 +9,8 @@
 
 namespace aims {
 
-/// The page that report/web is built into, with the marks `__AIMS_TITLE__` and `__AIMS_DATA__` once
-/// each; empty when this program was built without it (CMake option AIMS_REPORT).
+/// The page that render/page/web is built into, with the marks `__AIMS_TITLE__` and `__AIMS_DATA__`
+/// once each; empty when this program was built without it (CMake option AIMS_PAGE).
 std::string_view page_template();
 
 /// Text that is safe inside an HTML element.

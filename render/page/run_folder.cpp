@@ -135,8 +135,7 @@ Result<void> read_records(RunFolder& run) {
   if (!text) return tl::unexpected(text.error());
   run.estimate = Json::parse(*text, nullptr, false);
   if (run.estimate.is_object()) return {};
-  return failure(
-      fmt::format("{}: expected a JSON object, found none that is whole", file.string()));
+  return failure(fmt::format("{}: expected a complete JSON object", file.string()));
 }
 
 /// Takes a configuration that was read, or the note why it was not.

@@ -10,6 +10,7 @@
 
 #include "bench/run/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
+#include "render/page/json_access.hpp"
 #include "render/page/map_cloud.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_series.hpp"
@@ -25,9 +26,9 @@ namespace fs = std::filesystem;
 /// Pictures of a run's folder that its page shows, and what they are.
 constexpr std::array<std::pair<const char*, const char*>, 4> kPictures = {
     {{"robot_start", "The robot at the start"},
-     {"robot_middle", "The robot on its way"},
+     {"robot_middle", "The robot outbound"},
      {"robot_turn", "The robot at the turn"},
-     {"trajectories", "Trajectories over the plan; height and error along the way"}}};
+     {"trajectories", "Trajectories over the plan; height and error over the distance travelled"}}};
 /// Pictures beyond this size are left out [bytes].
 constexpr std::uintmax_t kLargestPicture = 256 * 1024;
 
@@ -38,12 +39,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// Member of a JSON document, null when there is none.
-Json member(const Json& document, const char* key) {
-  return document.is_object() && document.contains(key) ? document[key] : Json();
-}
-
-/// What repeats the run, called in its folder; null for scores of foreign trajectories.
+/// The command that repeats the run, called in its folder; null for scores of foreign trajectories.
 Json command_json(const RunFolder& run) {
   if (run.config_yaml.empty()) return {};
   if (run.estimate.is_object()) {
@@ -87,10 +83,10 @@ Json changes_json(const RunFolder& run) {
   return list;
 }
 
-Json lost_at_json(const RunFolder& run, const std::string& name, double start) {
-  const Json scores = member(member(run.scores, "estimators"), name.c_str());
-  const Json lost_at = member(scores, "lost_at_s");
-  return lost_at.is_number() ? Json(lost_at.get<double>() - start) : Json();
+Json diverged_at_json(const RunFolder& run, const std::string& name, double start) {
+  const Json scores = member(member(run.scores, "estimators"), name);
+  const Json diverged_at = member(scores, "lost_at_s");
+  return diverged_at.is_number() ? Json(diverged_at.get<double>() - start) : Json();
 }
 
 Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surface, double start,
@@ -101,7 +97,7 @@ Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surfac
     if (!series) return series;
     list.push_back(
         {{"name", each.name},
-         {"lost_at", lost_at_json(run, each.name, start)},
+         {"diverged_at", diverged_at_json(run, each.name, start)},
          {"colour_index", list.size()},
          {"series", std::move(*series)},
          {"map", map_json(each.map, start_anchor(each.trajectory, run.truth, run.scoring), surface,

@@ -8,7 +8,7 @@
 
 namespace aims {
 
-/// The page of one run, estimate or score: kind "run" of docs/report.md. The same folder gives the
+/// The page of one run, estimate or score: kind "run". The same folder gives the
 /// same page, wherever it lies. Errors as of `read_run_folder`.
 Result<PageData> run_page(const std::filesystem::path& folder);
 

@@ -27,8 +27,8 @@ Trajectory thinned_evenly(const Trajectory& trajectory) {
   return kept;
 }
 
-/// Stretches of rows whose flag is set, each from the row before it to its last row.
-Json stretches(const Numbers& flags, const Numbers& t) {
+/// Intervals of rows whose flag is set, each from the row before it to its last row.
+Json intervals(const Numbers& flags, const Numbers& t) {
   Json list = Json::array();
   for (std::size_t i = 0; i < flags.size(); ++i) {
     if (flags[i] != 1.0) continue;
@@ -123,7 +123,7 @@ Result<Json> localizability_json(const RunFolder& run, double start, PageData& p
                             {"lambda_min", "lambda_min"},
                             {"crb_sigma", "crb_sigma_m"},
                             {"bound_weak_axis", "bound_weak_axis_m"},
-                            {"bound_along", "bound_along_m"},
+                            {"bound_longitudinal", "bound_along_m"},
                             {"bound_lateral", "bound_lateral_m"},
                             {"bound_vertical", "bound_vertical_m"}},
                            *stamps, page);
@@ -134,7 +134,7 @@ Result<Json> localizability_json(const RunFolder& run, double start, PageData& p
   for (const DegeneracyLevel& level : kDegeneracyLevels) {
     const auto flags = table.numbers("degenerate_" + std::string(level.name));
     if (!flags) return tl::unexpected(flags.error());
-    (*json)["degenerate"][std::string(level.name)] = stretches(*flags, *stamps);
+    (*json)["degenerate"][std::string(level.name)] = intervals(*flags, *stamps);
   }
   return json;
 }

@@ -8,7 +8,8 @@
 namespace aims {
 
 /// Stamp [s] that a run's page counts from: 0 for a clock that starts with the run; for one that
-/// counts from an epoch the whole second before the first pose, since 32 bits could not tell scans.
+/// counts from an epoch the full second before the first pose, since 32 bits could not separate
+/// scans.
 double page_start(const RunFolder& run);
 
 /// Truth at about 10 Hz: t, p, q (x y z w); null when there is none.
@@ -17,10 +18,10 @@ PageData::Json truth_json(const RunFolder& run, double start, PageData& page);
 /// The reference points with stamp and true place.
 PageData::Json waypoint_times_json(const RunFolder& run, double start);
 
-/// What localizability.csv says, with stretches that are degenerate at each level; null without it.
+/// localizability.csv, with the degenerate intervals at each level; null without it.
 Result<PageData::Json> localizability_json(const RunFolder& run, double start, PageData& page);
 
-/// What legs.csv says; null without it.
+/// legs.csv; null without it.
 Result<PageData::Json> legs_json(const RunFolder& run, double start, PageData& page);
 
 /// Trajectory, diagnostics and errors of an estimator over the stamps of its poses. Errors and

@@ -75,10 +75,10 @@ void add_floor(const Floor& floor, SceneGeometry& geometry) {
   const int columns = shown_cells(floor, floor.columns);
   const int rows = shown_cells(floor, floor.rows);
   const auto at = [&](int column, int row) {
-    const Eigen::Vector2d share(static_cast<double>(column) / columns,
-                                static_cast<double>(row) / rows);
+    const Eigen::Vector2d fraction(static_cast<double>(column) / columns,
+                                   static_cast<double>(row) / rows);
     const Eigen::Vector2d place =
-        floor.min_corner + share.cwiseProduct(floor.max_corner - floor.min_corner);
+        floor.min_corner + fraction.cwiseProduct(floor.max_corner - floor.min_corner);
     return Vector3d(place.x(), place.y(), floor_height(floor, place.x(), place.y()));
   };
   for (int row = 0; row < rows; ++row) {

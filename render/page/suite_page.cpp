@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRunPage = "report.html";
+constexpr const char* kRunPage = "page.html";
 
 /// Error for a suite.json whose scenarios cannot be gone through.
 Result<void> check_scenarios(const Json& suite, const fs::path& file) {

@@ -7,10 +7,10 @@
 
 namespace aims {
 
-/// What `aims merge` and `aims tune` say of one estimator in one objective, as a page holds it:
-/// best point with its intervals, sensitivity, the curve along every parameter over all scenarios
-/// and of every family, and the map over every pair of parameters. Parts that the points do not
-/// tell are null and say why. Curves and maps are arrays of `page`.
+/// Results of `aims merge` and `aims tune` for one estimator and one objective, as a page holds
+/// them: best point with its intervals, sensitivity, the curve along every parameter over all
+/// scenarios and of every family, and the map over every pair of parameters. Parts that the points
+/// do not yield are null and give the reason. Curves and maps are arrays of `page`.
 Json analysis_json(const ResponseTable& table, const Objective& objective, PageData& page);
 
 }  // namespace aims

@@ -27,15 +27,15 @@ namespace fs = std::filesystem;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostNumbers = 400'000;  ///< scores of all rows
 
-/// A unit with its place among points and walks.
+/// A job with its place among points and sequences.
 struct Row {
   std::size_t point = 0;
-  std::size_t walk = 0;
+  std::size_t sequence = 0;
   bool held_out = false;
   UnitResult result;
 };
 
-/// The units of one estimator.
+/// The jobs of one estimator.
 struct EstimatorRows {
   EstimatorSpec estimator;
   std::vector<std::vector<double>> points;           ///< an empty one: the untuned values
@@ -43,10 +43,10 @@ struct EstimatorRows {
   std::vector<Row> rows;
 };
 
-/// All units by estimator, with the walks that they share.
+/// All jobs by estimator, with the sequences that they use.
 struct Collected {
   std::vector<EstimatorRows> estimators;
-  std::vector<ResponseCase> walks;
+  std::vector<ResponseCase> sequences;
 };
 
 /// Index of what `same` recognizes; `value` is added when nothing is.
@@ -71,8 +71,8 @@ void collect(const MergedSweep& units, const VariedParameters& varied, bool held
     Row row;
     row.point = own.index.emplace(placed->values, own.points.size()).first->second;
     if (row.point == own.points.size()) own.points.push_back(placed->values);
-    row.walk = index_in(
-        all.walks,
+    row.sequence = index_in(
+        all.sequences,
         [&](const auto& each) {
           return each.scenario == placed->on.scenario && each.seed == placed->on.seed;
         },
@@ -149,20 +149,20 @@ Json points_json(const EstimatorRows& own, const std::vector<double>& defaults,
 }
 
 Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores, PageData& page) {
-  std::vector<double> point, walk, values;
-  std::vector<std::uint8_t> outcome, lost, held_out;
+  std::vector<double> point, sequence, values;
+  std::vector<std::uint8_t> outcome, diverged, held_out;
   for (const Row& row : own.rows) {
     point.push_back(static_cast<double>(row.point));
-    walk.push_back(static_cast<double>(row.walk));
+    sequence.push_back(static_cast<double>(row.sequence));
     outcome.push_back(static_cast<std::uint8_t>(row.result.outcome));
-    lost.push_back(run_score(row.result, "success").lost ? 1 : 0);
+    diverged.push_back(run_score(row.result, "success").lost ? 1 : 0);
     held_out.push_back(row.held_out ? 1 : 0);
     for (const std::string& key : scores) {
       values.push_back(score_in(row.result, key).value_or(kNone));
     }
   }
-  return {{"point", page.f32(point)},      {"walk", page.f32(walk)},
-          {"outcome", page.u8(outcome)},   {"lost", page.u8(lost)},
+  return {{"point", page.f32(point)},      {"sequence", page.f32(sequence)},
+          {"outcome", page.u8(outcome)},   {"diverged", page.u8(diverged)},
           {"held_out", page.u8(held_out)}, {"scores", page.f32(values)}};
 }
 
@@ -180,7 +180,7 @@ std::vector<Objective> analysed(const TuningSource& source) {
   return objectives;
 }
 
-/// The table as the tuning has it: the untuned values are its first point (and one unit with it),
+/// The table as the tuning has it: the untuned values are its first point (and one job with it),
 /// the others stand in the order of the search where that is known.
 ResponseTable in_tuning_order(const ResponseTable& table, const TuningSource& source) {
   ResponseTable ordered = table;
@@ -206,7 +206,7 @@ ResponseTable in_tuning_order(const ResponseTable& table, const TuningSource& so
   return sorted;
 }
 
-/// Per objective what the complete points of that estimator tell.
+/// The analysis of each objective, over the complete points of that estimator.
 Result<Json> analyses_json(const TuningSource& source, const std::string& estimator,
                            PageData& page) {
   Json analyses = Json::array();
@@ -225,9 +225,9 @@ Result<Json> analyses_json(const TuningSource& source, const std::string& estima
   return analyses;
 }
 
-Json walks_json(const std::vector<ResponseCase>& walks) {
+Json sequences_json(const std::vector<ResponseCase>& sequences) {
   Json json = Json::array();
-  for (const ResponseCase& each : walks) {
+  for (const ResponseCase& each : sequences) {
     json.push_back({{"scenario", each.scenario}, {"family", each.family}, {"seed", each.seed}});
   }
   return json;
@@ -279,10 +279,10 @@ Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*option
                {"title", page.title},
                {"source", source->tuned ? "tune" : "sweep"},
                {"plan", source->plan},
-               {"units", counts_json(source->units)},
-               {"held_out_units", counts_json(source->held_out)},
+               {"jobs", counts_json(source->units)},
+               {"held_out_jobs", counts_json(source->held_out)},
                {"scores", scores},
-               {"walks", walks_json(all.walks)},
+               {"sequences", sequences_json(all.sequences)},
                {"estimators", std::move(*estimators)},
                {"notes", source->notes}};
   return page;

@@ -10,8 +10,8 @@
 
 namespace aims {
 
-/// The page of the folder of `aims sweep` or `aims tune`, finished or not: every unit with its
-/// parameters and scores, and per estimator and score what `aims merge` says of the best values,
+/// The page of the folder of `aims sweep` or `aims tune`, finished or not: every job with its
+/// parameters and scores, and per estimator and score the best values of `aims merge`,
 /// of which parameter matters, and of the curves and maps. Error when the folder is of neither.
 Result<PageData> tuning_page(const std::filesystem::path& folder, const PageOptions& options);
 

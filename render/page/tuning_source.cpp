@@ -31,18 +31,18 @@ std::set<std::string> names_of(const std::vector<std::string>& scenarios) {
   return names;
 }
 
-/// Which walks a plan tunes on, as far as the plan alone tells: tags name no scenarios.
-class TunedWalks {
+/// Sequences that a plan tunes on; a plan with tags does not name its scenarios.
+class TunedSequences {
  public:
-  static Result<TunedWalks> of(const TunePlan& plan) {
+  static Result<TunedSequences> of(const TunePlan& plan) {
     const auto seeds = parse_seeds(plan.seeds);
     if (!seeds) return tl::unexpected(seeds.error());
-    TunedWalks walks;
-    walks.seeds_.insert(seeds->begin(), seeds->end());
-    walks.scenarios_ = names_of(plan.scenarios);
-    walks.others_ = names_of(plan.held_out.scenarios);
-    walks.by_tags_ = !plan.tags.empty();
-    return walks;
+    TunedSequences sequences;
+    sequences.seeds_.insert(seeds->begin(), seeds->end());
+    sequences.scenarios_ = names_of(plan.scenarios);
+    sequences.others_ = names_of(plan.held_out.scenarios);
+    sequences.by_tags_ = !plan.tags.empty();
+    return sequences;
   }
 
   bool contain(const std::string& scenario, std::uint64_t seed) const {
@@ -57,7 +57,7 @@ class TunedWalks {
   bool by_tags_ = false;
 };
 
-/// The tuning's plan in the words of a sweep, which the analysis of points understands.
+/// The tuning's plan as that of a sweep, which the analysis of points reads.
 std::string as_sweep(const TunePlan& plan) {
   SweepPlan sweep;
   sweep.scenarios = plan.scenarios;
@@ -109,8 +109,8 @@ Result<TuningSource> read_tune(const fs::path& folder) {
   source.tuned = true;
   const auto plan = load_tune_plan(folder / kTunePlan);
   if (!plan) return tl::unexpected(plan.error());
-  const auto walks = TunedWalks::of(*plan);
-  if (!walks) return failure((folder / kTunePlan).string() + ": " + walks.error().message);
+  const auto sequences = TunedSequences::of(*plan);
+  if (!sequences) return failure((folder / kTunePlan).string() + ": " + sequences.error().message);
   source.plan = plan_text(*plan);
   source.objectives = plan->objectives;
   source.units.plans = {as_sweep(*plan)};
@@ -124,10 +124,10 @@ Result<TuningSource> read_tune(const fs::path& folder) {
       ++broken;
       continue;
     }
-    const bool tuned = walks->contain(unit->listed.scenario, unit->file["seed"]);
+    const bool tuned = sequences->contain(unit->listed.scenario, unit->file["seed"]);
     (tuned ? source.units : source.held_out).units.push_back(std::move(*unit));
   }
-  if (broken > 0) source.notes.push_back(fmt::format("{} files of units cannot be read", broken));
+  if (broken > 0) source.notes.push_back(fmt::format("{} job files cannot be read", broken));
   return source;
 }
 

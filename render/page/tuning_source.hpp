@@ -23,7 +23,7 @@ struct TunedPoint {
 struct TuningSource {
   bool tuned = false;  ///< by an optimizer; else a design
   std::string plan;    ///< text of the plan
-  MergedSweep units;   ///< of a tuning: on the walks that are tuned on
+  MergedSweep units;   ///< of a tuning: on the sequences that it uses
   MergedSweep held_out;
   std::vector<Objective> objectives;                 ///< a sweep's: the default one
   std::map<std::vector<double>, TunedPoint> points;  ///< of a finished tuning, by their values
@@ -33,7 +33,7 @@ struct TuningSource {
 /// Whether the folder is that of a sweep (plan.yaml, units.csv) or of a tuning (tune.yaml).
 bool holds_tuning(const std::filesystem::path& folder);
 
-/// Reads the folder; units that are being written meanwhile are left out. Error when it holds
+/// Reads the folder; jobs that are being written meanwhile are left out. Error when it holds
 /// neither, or its plan cannot be read.
 Result<TuningSource> read_tuning(const std::filesystem::path& folder);
 

@@ -43,7 +43,7 @@ void set_font(cairo_t* cr, const TextStyle& style) {
   cairo_set_font_size(cr, style.size);
 }
 
-double share(Align align) {
+double fraction_of(Align align) {
   return align == Align::kStart ? 0.0 : (align == Align::kCenter ? 0.5 : 1.0);
 }
 
@@ -200,7 +200,8 @@ void Canvas::text(const Eigen::Vector2d& at, const std::string& text, const Text
   cairo_translate(cr, at.x(), at.y());
   if (style.upwards) cairo_rotate(cr, -std::numbers::pi / 2.0);
   set_color(cr, style.color);
-  cairo_move_to(cr, -share(style.horizontal) * width, (1.0 - share(style.vertical)) * cap_height);
+  cairo_move_to(cr, -fraction_of(style.horizontal) * width,
+                (1.0 - fraction_of(style.vertical)) * cap_height);
   cairo_show_text(cr, text.c_str());
   cairo_new_path(cr);
   cairo_restore(cr);

@@ -44,7 +44,7 @@ struct TextStyle {
 };
 
 /// Surface for lines, areas, pixels and text that becomes a PNG, SVG or PDF file, by the ending
-/// of its name. The file appears, whole, with `finish`; without it nothing is left behind.
+/// of its name. The file appears complete with `finish`; without it nothing is left behind.
 class Canvas {
  public:
   /// Error for an unknown ending or a path that cannot be written.

@@ -3,21 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "render/plots/palette.hpp"
 
 namespace aims {
 namespace {
 
-constexpr double kSide = 400.0;        ///< of a panel [px]
-constexpr double kPanelPitch = 490.0;  ///< from panel to panel [px]
-constexpr double kLeft = 84.0;         ///< of the first panel [px]
-constexpr double kTop = 104.0;         ///< of the panels [px]
-constexpr double kBelow = 64.0;        ///< [px]
-constexpr double kBar = 18.0;          ///< width of the scale [px]
-constexpr double kRight = 110.0;       ///< for the scale and its label [px]
-constexpr double kMargin = 28.0;       ///< right of the subtitle [px]
 constexpr Color kNothing{0.85, 0.85, 0.85};
 
 /// Borders of the cells around sorted centres, halfway to the neighbours on the axis' scale.
@@ -47,32 +39,25 @@ std::vector<double> sorted_values(const std::vector<FieldCell>& cells, double Fi
   return values;
 }
 
-bool is_shown(const FieldCell& cell, bool logarithmic) {
-  return cell.value && std::isfinite(*cell.value) && (!logarithmic || *cell.value > 0.0);
+/// The cell's value where the scale can show it.
+std::optional<double> shown_value(const FieldCell& cell, bool logarithmic) {
+  return cell.value && is_shown(*cell.value, logarithmic) ? cell.value : std::nullopt;
 }
 
 /// The scale that all panels share.
 Axis value_axis(const FieldPlot& plot) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  Extent extent;
   for (const FieldPanel& panel : plot.panels) {
     for (const FieldCell& cell : panel.cells) {
-      if (!is_shown(cell, plot.logarithmic_value)) continue;
-      low = std::min(low, *cell.value);
-      high = std::max(high, *cell.value);
+      if (const auto value = shown_value(cell, plot.logarithmic_value)) extent.include(*value);
     }
   }
-  if (!(low < high)) {
-    const double at = low <= high ? low : 1.0;
-    low = plot.logarithmic_value ? 0.9 * at : at - 0.5;
-    high = plot.logarithmic_value ? 1.1 * at : at + 0.5;
+  if (extent.empty()) extent = {1.0, 1.0};
+  if (!(extent.min < extent.max)) {
+    extent =
+        plot.logarithmic_value ? Extent{0.9 * extent.min, 1.1 * extent.max} : extent.widened(0.5);
   }
-  return {plot.value_label, low, high, plot.logarithmic_value};
-}
-
-double fraction(const Axis& axis, double value) {
-  if (axis.logarithmic) return std::log(value / axis.min) / std::log(axis.max / axis.min);
-  return (value - axis.min) / (axis.max - axis.min);
+  return {plot.value_label, extent.min, extent.max, plot.logarithmic_value};
 }
 
 void draw_cells(Canvas& canvas, const Rect& area, const Panel& frame, const FieldPanel& source,
@@ -92,8 +77,8 @@ void draw_cells(Canvas& canvas, const Rect& area, const Panel& frame, const Fiel
     // Half a pixel more on each side closes the seams between neighbours.
     const Rect rect{low.x() - 0.5, high.y() - 0.5, high.x() - low.x() + 1.0,
                     low.y() - high.y() + 1.0};
-    const bool shown = is_shown(cell, plot.logarithmic_value);
-    canvas.fill(rect, shown ? height_color(fraction(scale, *cell.value)) : kNothing);
+    const auto value = shown_value(cell, plot.logarithmic_value);
+    canvas.fill(rect, value ? height_color(fraction_of(scale, *value)) : kNothing);
   }
   canvas.unclip();
 }
@@ -112,25 +97,19 @@ Panel frame_of(const FieldPlot& plot, const FieldPanel& source) {
 }  // namespace
 
 Result<void> write_field_plot(const std::filesystem::path& path, const FieldPlot& plot) {
-  const auto panels = static_cast<double>(std::max<std::size_t>(1, plot.panels.size()));
-  const double width = std::max(kLeft + panels * kPanelPitch + kRight - 60.0, 700.0);
-  const Heading heading(plot.title, plot.subtitle, width - kLeft - kMargin);
-  const double top = kTop + heading.extra_height();
-  auto canvas =
-      Canvas::create(path, static_cast<int>(width), static_cast<int>(top + kSide + kBelow));
-  if (!canvas) return tl::unexpected(canvas.error());
-  heading.draw(*canvas, kLeft);
+  const PanelRow row{.title = plot.title,
+                     .subtitle = plot.subtitle,
+                     .panels = plot.panels.size(),
+                     .right = 110.0,
+                     .min_width = 700.0};
   const Axis scale = value_axis(plot);
-  double x = kLeft;
-  for (const FieldPanel& panel : plot.panels) {
-    const Rect area{x, top, kSide, kSide};
-    const Panel frame = frame_of(plot, panel);
-    draw_cells(*canvas, area, frame, panel, plot, scale);
-    draw_panel(*canvas, area, frame);
-    x += kPanelPitch;
-  }
-  draw_color_bar(*canvas, {x - kPanelPitch + kSide + 24.0, top, kBar, kSide}, scale);
-  return canvas->finish();
+  return write_panel_row(path, row, [&](Canvas& canvas, std::size_t i, const Rect& area) {
+    const Panel frame = frame_of(plot, plot.panels[i]);
+    draw_cells(canvas, area, frame, plot.panels[i], plot, scale);
+    draw_panel(canvas, area, frame);
+    if (i + 1 < plot.panels.size()) return;
+    draw_color_bar(canvas, {area.right() + 24.0, area.y, 18.0, area.height}, scale);
+  });
 }
 
 }  // namespace aims

@@ -14,26 +14,18 @@ namespace {
 constexpr double kDot = 4.0;            ///< radius [px]
 constexpr double kPanelHeight = 260.0;  ///< [px]
 
-/// Smallest and largest of the values that the axis can show, or of nothing: max < min.
-struct Extent {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
+void include(Extent& extent, const std::optional<double>& value, bool logarithmic) {
+  if (value && is_shown(*value, logarithmic)) extent.include(*value);
+}
 
-  void add(const std::optional<double>& value, bool logarithmic) {
-    if (!value || !std::isfinite(*value) || (logarithmic && *value <= 0.0)) return;
-    min = std::min(min, *value);
-    max = std::max(max, *value);
-  }
-};
-
-/// The axis around the extent, with a margin [share of the span].
+/// The axis around the extent, with a margin [fraction of the span].
 Axis axis_of(const std::string& label, Extent extent, bool logarithmic, double margin) {
-  if (extent.max < extent.min) extent = logarithmic ? Extent{0.1, 1.0} : Extent{0.0, 1.0};
+  if (extent.empty()) extent = logarithmic ? Extent{0.1, 1.0} : Extent{0.0, 1.0};
   if (logarithmic) {
     const double factor = std::max(std::pow(extent.max / extent.min, margin), 1.2);
     return {label, extent.min / factor, extent.max * factor, true};
   }
-  const double span = extent.max - extent.min;
+  const double span = extent.span();
   const double room = span > 0.0 ? margin * span : std::max(0.5, 0.1 * std::abs(extent.max));
   return {label, extent.min - room, extent.max + room, false};
 }
@@ -43,7 +35,7 @@ Axis level_axis(const LevelPlot& plot) {
   for (const LevelPanel& panel : plot.panels) {
     for (const LevelCurve& curve : panel.curves) {
       for (const LevelPoint& point : curve.points) {
-        extent.add(point.level, plot.logarithmic_levels);
+        include(extent, point.level, plot.logarithmic_levels);
       }
     }
   }
@@ -51,12 +43,12 @@ Axis level_axis(const LevelPlot& plot) {
 }
 
 Axis value_axis(const LevelPanel& panel) {
-  if (panel.share) return {panel.label, -0.05, 1.05, false};
+  if (panel.rate) return {panel.label, -0.05, 1.05, false};
   Extent extent;
   for (const LevelCurve& curve : panel.curves) {
     for (const LevelPoint& point : curve.points) {
       for (const auto& value : {point.value, point.low, point.high}) {
-        extent.add(value, panel.logarithmic);
+        include(extent, value, panel.logarithmic);
       }
     }
   }

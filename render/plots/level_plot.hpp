@@ -10,7 +10,7 @@
 
 namespace aims {
 
-/// A value at a level, and the interval that it is known to; no value leaves a gap.
+/// A value at a level with its interval; no value leaves a gap.
 struct LevelPoint {
   double level = 0.0;
   std::optional<double> value;
@@ -29,7 +29,7 @@ struct LevelPanel {
   std::string label;  ///< of the value axis, with its unit in square brackets
   std::vector<LevelCurve> curves;
   bool logarithmic = false;
-  bool share = false;  ///< the axis spans 0 to 1
+  bool rate = false;  ///< the axis spans 0 to 1
 };
 
 /// Scores over what varies in a family of scenarios.

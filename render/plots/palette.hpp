@@ -28,7 +28,7 @@ Color height_color(double fraction);
 std::array<std::array<std::uint8_t, 3>, 256> height_table();
 
 /// Colour i (cyclic) of the palette of Okabe and Ito, made for colour-blind readers; without the
-/// black, which stands for the truth, and the yellow, which white paper swallows.
+/// black, which is the truth's, and the yellow, which is too faint on white.
 Color series_color(std::size_t index);
 
 }  // namespace aims

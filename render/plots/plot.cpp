@@ -23,12 +23,6 @@ const Color kGrid{0.88, 0.88, 0.88};
 const Color kFrame{0.25, 0.25, 0.25};
 const Color kArea{0.80, 0.80, 0.80};
 
-double fraction_of(const Axis& axis, double value) {
-  if (!axis.logarithmic) return (value - axis.min) / (axis.max - axis.min);
-  if (!(value > 0.0)) return -std::numeric_limits<double>::infinity();
-  return std::log(value / axis.min) / std::log(axis.max / axis.min);
-}
-
 std::vector<Tick> ticks_of(const Axis& axis, double pixels, double spacing) {
   if (axis.logarithmic) return logarithmic_ticks(axis.min, axis.max);
   return linear_ticks(axis.min, axis.max, std::max(2, static_cast<int>(pixels / spacing)));
@@ -108,6 +102,16 @@ std::string without_separator(std::string line) {
 }
 
 }  // namespace
+
+bool is_shown(double value, bool logarithmic) {
+  return std::isfinite(value) && (!logarithmic || value > 0.0);
+}
+
+double fraction_of(const Axis& axis, double value) {
+  if (!axis.logarithmic) return (value - axis.min) / (axis.max - axis.min);
+  if (!(value > 0.0)) return -std::numeric_limits<double>::infinity();
+  return std::log(value / axis.min) / std::log(axis.max / axis.min);
+}
 
 std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style) {
   Canvas ruler = Canvas::over(Image(1, 1));
@@ -240,6 +244,26 @@ Result<void> write_figure(const std::filesystem::path& path, const Figure& figur
   for (const Panel& panel : figure.panels) {
     draw_panel(*canvas, {kLeftMargin, y + kPanelTop, width, panel.height}, panel);
     y += kPanelTop + panel.height + kPanelBottom;
+  }
+  return canvas->finish();
+}
+
+Result<void> write_panel_row(
+    const std::filesystem::path& path, const PanelRow& row,
+    const std::function<void(Canvas& canvas, std::size_t i, const Rect& area)>& draw) {
+  constexpr double kSide = 400.0;
+  constexpr double kTop = 104.0;
+  constexpr double kGap = 60.0;  // of the last panel's pitch beyond its side
+  const auto panels = static_cast<double>(std::max<std::size_t>(1, row.panels));
+  const double width = std::max(kLeftMargin + panels * row.pitch + row.right - kGap, row.min_width);
+  const Heading heading(row.title, row.subtitle, width - kLeftMargin - kRightMargin);
+  const double top = kTop + heading.extra_height();
+  auto canvas =
+      Canvas::create(path, static_cast<int>(width), static_cast<int>(top + kSide + row.below));
+  if (!canvas) return tl::unexpected(canvas.error());
+  heading.draw(*canvas, kLeftMargin);
+  for (std::size_t i = 0; i < row.panels; ++i) {
+    draw(*canvas, i, {kLeftMargin + static_cast<double>(i) * row.pitch, top, kSide, kSide});
   }
   return canvas->finish();
 }

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,24 @@ struct Axis {
   double max = 1.0;
   bool logarithmic = false;
 };
+
+/// Smallest and largest of some values; empty until one is included.
+struct Extent {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  void include(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  bool empty() const { return max < min; }
+  double span() const { return max - min; }
+  bool contains(double value) const { return value >= min && value <= max; }
+  Extent widened(double margin) const { return {min - margin, max + margin}; }
+};
+
+/// Whether an axis can show the value.
+bool is_shown(double value, bool logarithmic);
 
 /// A line through data points; a non-finite point interrupts it.
 struct Series {
@@ -67,7 +88,7 @@ struct Figure {
   int width = 1800;  ///< [px]; the height follows from the panels
 };
 
-/// The text in lines of at most that width [px], broken at spaces; a longer word stays whole.
+/// The text in lines of at most that width [px], broken at spaces; a longer word is not broken.
 std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style);
 
 /// A picture's title, and its subtitle in as many lines as the width takes.
@@ -80,6 +101,9 @@ struct Heading {
   /// `left` is where the text begins [px]; the title stands `title_y` from the top.
   void draw(Canvas& canvas, double left, double title_y = 22.0) const;
 };
+
+/// Place of a value on an axis: 0 at its lower end, 1 at its upper.
+double fraction_of(const Axis& axis, double value);
 
 /// Pixel position of a data point when `axis` spans `area`; y of the canvas grows downwards.
 Eigen::Vector2d to_pixels(const Panel& panel, const Rect& area, const Eigen::Vector2d& point);
@@ -100,5 +124,21 @@ Result<void> write_figure(const std::filesystem::path& path, const Figure& figur
 
 /// Widest drawing area [px] of the panels of a figure of that width.
 double panel_width(int figure_width);
+
+/// Square panels side by side under a common title.
+struct PanelRow {
+  std::string title;
+  std::string subtitle;
+  std::size_t panels = 1;
+  double pitch = 490.0;    ///< from panel to panel [px]
+  double below = 64.0;     ///< for what stands under the panels [px]
+  double right = 0.0;      ///< for what stands right of them [px]
+  double min_width = 0.0;  ///< of the picture [px]
+};
+
+/// Writes a row of panels to a .png, .svg or .pdf file; `draw` draws panel i into its area.
+Result<void> write_panel_row(
+    const std::filesystem::path& path, const PanelRow& row,
+    const std::function<void(Canvas& canvas, std::size_t i, const Rect& area)>& draw);
 
 }  // namespace aims

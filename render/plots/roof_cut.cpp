@@ -15,7 +15,7 @@ std::vector<bool> under_roof(std::span<const Eigen::Vector3f> points, double sec
     const auto row = static_cast<std::int64_t>(std::floor(p.y() / kCell));
     return (column << 32) + row;
   };
-  std::unordered_map<std::int64_t, float> floor;  // looked up only, never walked through
+  std::unordered_map<std::int64_t, float> floor;  // looked up only, never iterated
   for (const Eigen::Vector3f& point : points) {
     const auto [entry, fresh] = floor.try_emplace(cell_of(point), point.z());
     if (!fresh) entry->second = std::min(entry->second, point.z());

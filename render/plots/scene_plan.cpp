@@ -15,10 +15,10 @@ std::vector<Eigen::Vector3d> surface_points(const Solid& solid) {
   const int around = solid.shape == Shape::kBox ? 4 : 24;
   for (int i = 0; i < around; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.5) / around;
-    const double stretch = solid.shape == Shape::kBox ? std::numbers::sqrt2 : 1.0;
+    const double reach = solid.shape == Shape::kBox ? std::numbers::sqrt2 : 1.0;
     for (const double side : {-1.0, 1.0}) {
-      points.push_back(solid.T_world_solid * Eigen::Vector3d(stretch * h.x() * std::cos(angle),
-                                                             stretch * h.y() * std::sin(angle),
+      points.push_back(solid.T_world_solid * Eigen::Vector3d(reach * h.x() * std::cos(angle),
+                                                             reach * h.y() * std::sin(angle),
                                                              side * h.z()));
     }
   }

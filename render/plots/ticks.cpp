@@ -15,6 +15,15 @@ std::string label_of(double value, int decimals) {
   return value < 0.0 && !zero ? "\u2212" + digits : digits;
 }
 
+/// Of factor times a power of ten: "0.02", or "2e−7" where zeros are many.
+std::string power_label(double factor, int decade) {
+  constexpr int kMostZeros = 5;
+  if (std::abs(decade) <= kMostZeros) {
+    return label_of(factor * std::pow(10.0, decade), std::max(0, -decade));
+  }
+  return fmt::format("{:g}e{}{}", factor, decade < 0 ? "\u2212" : "", std::abs(decade));
+}
+
 /// Smallest of 1, 2, 5 times a power of ten that is at least `rough`.
 double nice_step(double rough) {
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));
@@ -47,13 +56,15 @@ std::vector<Tick> logarithmic_ticks(double min, double max) {
   if (!(min > 0.0) || !std::isfinite(max) || max <= min) return {};
   const int first = static_cast<int>(std::floor(std::log10(min)));
   const int last = static_cast<int>(std::ceil(std::log10(max)));
+  constexpr int kMostDecades = 8;
+  const int step = (last - first) / kMostDecades + 1;
   const auto collect = [&](std::initializer_list<double> factors) {
     std::vector<Tick> ticks;
-    for (int decade = first; decade <= last; ++decade) {
+    for (int decade = first; decade <= last; decade += step) {
       for (const double factor : factors) {
         const double value = factor * std::pow(10.0, decade);
         if (value < min * (1.0 - 1e-9) || value > max * (1.0 + 1e-9)) continue;
-        ticks.push_back({value, label_of(value, std::max(0, -decade))});
+        ticks.push_back({value, power_label(factor, decade)});
       }
     }
     return ticks;

@@ -6,7 +6,7 @@
 
 namespace aims {
 
-/// Where an axis carries a mark, and what it says there.
+/// A tick of an axis and its label.
 struct Tick {
   double value = 0.0;
   std::string label;

@@ -16,7 +16,9 @@ std::vector<double> sorted_values(const TimePanel& panel) {
   std::vector<double> values;
   for (const TimeSeries& series : panel.series) {
     for (const Eigen::Vector2d& point : series.points) {
-      if (point.allFinite() && (!panel.logarithmic || point.y() > 0.0)) values.push_back(point.y());
+      if (std::isfinite(point.x()) && is_shown(point.y(), panel.logarithmic)) {
+        values.push_back(point.y());
+      }
     }
   }
   std::sort(values.begin(), values.end());

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "render/plots/plot.hpp"
 #include "render/plots/scene_plan.hpp"
@@ -17,20 +16,7 @@ namespace {
 constexpr int kWidth = 1800;
 constexpr double kFollow = 2.0;  ///< the axes follow estimates up to this far from the truth [m]
 
-struct Interval {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-
-  void include(double value) {
-    min = std::min(min, value);
-    max = std::max(max, value);
-  }
-  Interval widened(double margin) const { return {min - margin, max + margin}; }
-  double span() const { return max - min; }
-  bool contains(double value) const { return value >= min && value <= max; }
-};
-
-/// An estimate held against the truth at its stamps.
+/// An estimate compared with the truth at its stamps.
 struct Comparison {
   std::vector<double> distance;           ///< travelled by the truth [m]
   std::vector<Eigen::Vector3d> position;  ///< estimated [m]
@@ -88,20 +74,11 @@ Stroke stroke_of(std::size_t index) {
 
 const Stroke kTruthStroke{{0.0, 0.0, 0.0}, 3.5};
 
-/// The lines of one panel: what `x` and `y` make of the truth and of each estimate.
-struct Lines {
-  std::vector<Series> series;
-
-  void add(std::vector<Eigen::Vector2d> points, const Stroke& stroke) {
-    series.push_back({"", std::move(points), stroke});
-  }
-};
-
 struct Study {
   std::vector<double> truth_distance;
   std::vector<Comparison> estimates;
-  Interval x, y, z;  ///< of the axes [m]
-  Interval error;    ///< [m]
+  Extent x, y, z;  ///< of the axes [m]
+  Extent error;    ///< [m]
 };
 
 /// Ranges of the axes: those of the truth and of estimates while they are near it.
@@ -136,19 +113,19 @@ bool leaves(const Study& study, const Comparison& comparison) {
       });
 }
 
-/// Chooses the panel's height for equal scales, or says by how much y is stretched.
-void set_plan_scale(Panel& panel, const std::string& label, Interval x, Interval y) {
+/// Chooses the panel's height for equal scales, or labels by how much y is enlarged.
+void set_plan_scale(Panel& panel, const std::string& label, Extent x, Extent y) {
   const double width = panel_width(kWidth);
   const double equal = width * y.span() / x.span();
   panel.height = std::clamp(equal, 260.0, 800.0);
-  const double stretch = panel.height / equal;
-  if (stretch < 1.0) {
-    x = x.widened(0.5 * x.span() * (1.0 / stretch - 1.0));
+  const double enlargement = panel.height / equal;
+  if (enlargement < 1.0) {
+    x = x.widened(0.5 * x.span() * (1.0 / enlargement - 1.0));
   }
   panel.x = {label, x.min, x.max};
-  const bool stretched = stretch > 1.01;
-  panel.y = {stretched ? fmt::format("y, scale ×{:.1f} [m]", stretch) : "y [m]", y.min, y.max};
-  panel.title = stretched ? fmt::format("Plan, lateral scale stretched ×{:.1f}", stretch) : "Plan";
+  const bool enlarged = enlargement > 1.01;
+  panel.y = {enlarged ? fmt::format("y, scale ×{:.1f} [m]", enlargement) : "y [m]", y.min, y.max};
+  panel.title = enlarged ? fmt::format("Plan, y scale ×{:.1f}", enlargement) : "Plan";
 }
 
 Panel plan_panel(const TrajectoryPlot& plot, const Study& study) {
@@ -156,17 +133,15 @@ Panel plan_panel(const TrajectoryPlot& plot, const Study& study) {
   const bool has_walls = !plot.scene.solids.empty();
   set_plan_scale(panel, has_walls ? "x, along the corridor [m]" : "x [m]", study.x, study.y);
   panel.areas = scene_plan(plot.scene);
-  Lines lines;
   const auto add = [&](const Trajectory& trajectory, const Stroke& stroke) {
     std::vector<Eigen::Vector2d> points;
     for (const StampedPose& sample : trajectory)
       points.emplace_back(sample.pose.translation.head<2>());
-    lines.add(std::move(points), stroke);
+    panel.series.push_back({"", std::move(points), stroke});
   };
   add(plot.truth, kTruthStroke);
   for (std::size_t i = plot.estimates.size(); i-- > 0;)  // the first lies on top
     add(plot.estimates[i].trajectory, stroke_of(i));
-  panel.series = std::move(lines.series);
   for (const WaypointTime& waypoint_time : plot.waypoint_times) {
     const auto pose = pose_at(plot.truth, waypoint_time.stamp);
     const auto same = [&](const Mark& mark) { return mark.label == waypoint_time.point; };
@@ -188,47 +163,43 @@ std::vector<Event> events_of(const TrajectoryPlot& plot, const Study& study) {
   return events;
 }
 
-Axis distance_axis(const Study& study) {
+/// A panel over the distance travelled, with a line per estimate; the first lies on top.
+template <class Value>
+Panel distance_panel(const TrajectoryPlot& plot, const Study& study, std::string title,
+                     const Value& value) {
   const double end = std::max(1.0, study.truth_distance.back());
-  return {"distance travelled [m]", -0.01 * end, 1.01 * end};
-}
-
-Panel height_panel(const TrajectoryPlot& plot, const Study& study) {
-  Panel panel{.title = "Height along the way", .x = distance_axis(study)};
-  panel.y = {"z [m]", study.z.min, study.z.max};
+  Panel panel{.title = std::move(title), .x = {"distance travelled [m]", -0.01 * end, 1.01 * end}};
   panel.height = 230.0;
   panel.events = events_of(plot, study);
-  Lines lines;
-  std::vector<Eigen::Vector2d> points;
-  for (std::size_t i = 0; i < plot.truth.size(); ++i)
-    points.emplace_back(study.truth_distance[i], plot.truth[i].pose.translation.z());
-  lines.add(std::move(points), kTruthStroke);
   for (std::size_t k = study.estimates.size(); k-- > 0;) {
     const Comparison& comparison = study.estimates[k];
     std::vector<Eigen::Vector2d> line;
     for (std::size_t i = 0; i < comparison.error.size(); ++i)
-      line.emplace_back(comparison.distance[i], comparison.position[i].z());
-    lines.add(std::move(line), stroke_of(k));
+      line.emplace_back(comparison.distance[i], value(comparison, i));
+    panel.series.push_back({"", std::move(line), stroke_of(k)});
   }
-  panel.series = std::move(lines.series);
+  return panel;
+}
+
+Panel height_panel(const TrajectoryPlot& plot, const Study& study) {
+  Panel panel = distance_panel(
+      plot, study, "Height",
+      [](const Comparison& comparison, std::size_t i) { return comparison.position[i].z(); });
+  panel.y = {"z [m]", study.z.min, study.z.max};
+  std::vector<Eigen::Vector2d> truth;
+  for (std::size_t i = 0; i < plot.truth.size(); ++i)
+    truth.emplace_back(study.truth_distance[i], plot.truth[i].pose.translation.z());
+  panel.series.insert(panel.series.begin(), {"", std::move(truth), kTruthStroke});
   return panel;
 }
 
 Panel error_panel(const TrajectoryPlot& plot, const Study& study) {
-  Panel panel{.title = "Distance from the truth (logarithmic)", .x = distance_axis(study)};
+  Panel panel = distance_panel(plot, study, "Position error (logarithmic)",
+                               [](const Comparison& comparison, std::size_t i) {
+                                 return std::max(1e-4, comparison.error[i]);
+                               });
   const double largest = std::isfinite(study.error.max) ? study.error.max : 1.0;
   panel.y = {"error [m]", 0.01, std::clamp(1.3 * largest, 0.1, 1e4), true};
-  panel.height = 230.0;
-  panel.events = events_of(plot, study);
-  Lines lines;
-  for (std::size_t k = study.estimates.size(); k-- > 0;) {
-    const Comparison& comparison = study.estimates[k];
-    std::vector<Eigen::Vector2d> line;
-    for (std::size_t i = 0; i < comparison.error.size(); ++i)
-      line.emplace_back(comparison.distance[i], std::max(1e-4, comparison.error[i]));
-    lines.add(std::move(line), stroke_of(k));
-  }
-  panel.series = std::move(lines.series);
   return panel;
 }
 
@@ -245,7 +216,7 @@ Result<void> write_trajectory_plot(const std::filesystem::path& path, const Traj
     if (comparison.error.empty())
       name += " (no poses)";
     else if (leaves(result, comparison))
-      name += " (leaves the picture)";
+      name += " (leaves the axes)";
     figure.legend.push_back({name, stroke_of(i)});
   }
   figure.panels = {plan_panel(plot, result), height_panel(plot, result), error_panel(plot, result)};

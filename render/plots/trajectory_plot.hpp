@@ -27,8 +27,8 @@ struct TrajectoryPlot {
   std::vector<WaypointTime> waypoint_times;
 };
 
-/// Writes three panels: the plan with all trajectories, height along the way, and distance from
-/// the truth along the way (logarithmic). The axes follow the truth and what stays near it: a
+/// Writes three panels: the plan with all trajectories, height, and position error (logarithmic)
+/// over the distance travelled. The axes follow the truth and what stays near it: a
 /// trajectory that leaves them is cut and named so in the legend. Error without a truth or when
 /// the file (.png, .svg, .pdf) cannot be written.
 Result<void> write_trajectory_plot(const std::filesystem::path& path, const TrajectoryPlot& plot);

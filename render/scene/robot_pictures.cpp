@@ -49,24 +49,24 @@ Result<void> write_with_caption(const std::filesystem::path& path, const Image& 
                                 const std::string& text) {
   auto canvas = Canvas::create(path, picture.width, picture.height);
   if (!canvas) return tl::unexpected(canvas.error());
-  const Rect whole{0.0, 0.0, static_cast<double>(picture.width),
-                   static_cast<double>(picture.height)};
-  canvas->image(picture, whole);
+  const Rect full{0.0, 0.0, static_cast<double>(picture.width),
+                  static_cast<double>(picture.height)};
+  canvas->image(picture, full);
   const double bar = 38.0;
-  canvas->fill(Rect{0.0, whole.height - bar, whole.width, bar}, {0.05, 0.06, 0.08, 0.72});
-  canvas->text({18.0, whole.height - bar / 2.0}, text, {.size = 17.0, .color = {0.97, 0.97, 0.97}});
+  canvas->fill(Rect{0.0, full.height - bar, full.width, bar}, {0.05, 0.06, 0.08, 0.72});
+  canvas->text({18.0, full.height - bar / 2.0}, text, {.size = 17.0, .color = {0.97, 0.97, 0.97}});
   return canvas->finish();
 }
 
-/// Headings [rad] of the three views: near the start the robot is met face to face, in the middle
-/// it is followed, and at the turn it is seen against the way it came.
+/// Headings [rad] of the three views: near the start from the front, in the middle from behind, at
+/// the turn towards the start.
 std::array<double, 3> view_headings(const std::vector<RobotSnapshot>& snapshots,
                                     const std::vector<std::size_t>& notable) {
   const auto& first = snapshots[notable.front()].qpos;
   const auto& middle = snapshots[notable[notable.size() / 2]].qpos;
   const auto& last = snapshots[notable.back()].qpos;
-  const Eigen::Vector3d way = position_of(snapshots.front().qpos) - position_of(last);
-  return {heading_of(first) + std::numbers::pi, heading_of(middle), std::atan2(way.y(), way.x())};
+  const Eigen::Vector3d back = position_of(snapshots.front().qpos) - position_of(last);
+  return {heading_of(first) + std::numbers::pi, heading_of(middle), std::atan2(back.y(), back.x())};
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ Result<std::vector<std::filesystem::path>> write_robot_pictures(
     const char* where;
   };
   constexpr std::array<Shot, 3> kShots = {{{"robot_start.png", "near the start"},
-                                           {"robot_middle.png", "on the way out"},
+                                           {"robot_middle.png", "outbound"},
                                            {"robot_turn.png", "at the turn"}}};
   const std::vector<std::size_t> notable = notable_snapshots(snapshots);
   if (notable.empty()) return failure("no snapshot of the robot to draw");
@@ -143,7 +143,7 @@ Result<std::vector<std::filesystem::path>> write_robot_pictures(
   std::vector<std::filesystem::path> files;
   for (std::size_t i = 0; i < notable.size(); ++i) {
     const RobotSnapshot& snapshot = snapshots[notable[i]];
-    if (!view || !scene.people.empty()) {  // people have walked on
+    if (!view || !scene.people.empty()) {  // people have moved
       if (auto ok = show(snapshot.stamp); !ok) return tl::unexpected(ok.error());
     }
     const Camera camera = robot_camera(scene, snapshot.qpos, headings[i]);

@@ -14,11 +14,11 @@
 
 namespace aims {
 
-/// Camera that looks at the robot roughly along `heading` [rad] (0: along +x), or the other way,
-/// from at most 25 degrees beside it: the first of a fixed list of view points that no solid hides.
+/// Camera that looks at the robot roughly along `heading` [rad] (0: along +x), or opposite to it,
+/// turned by at most 25 degrees: the first of a fixed list of view points that no solid hides.
 Camera robot_camera(const Scene& scene, const std::vector<double>& qpos, double heading);
 
-/// Snapshots near the start, in the middle of the way out, and at the turn (the farthest point
+/// Snapshots near the start, in the middle of the outbound leg, and at the turn (the farthest point
 /// from the start, while the heading changes), in that order; fewer when there are not so many.
 std::vector<std::size_t> notable_snapshots(const std::vector<RobotSnapshot>& snapshots);
 

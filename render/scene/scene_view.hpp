@@ -31,13 +31,13 @@ struct ViewConfig {
   int samples = 4;   ///< per pixel; 0: edges are not smoothed
   bool shadows = true;
   std::optional<Color> sky =
-      std::nullopt;  ///< one colour for what has no end; none: as the document says
+      std::nullopt;  ///< one colour for the background; none: that of the document
 };
 
 /// A MuJoCo model ready to be drawn in any configuration. Stays in the thread that made it.
 class SceneView {
  public:
-  /// `mjcf`: the whole document; `height_field`: elevations in [0, 1] of its first height field,
+  /// `mjcf`: the complete document; `height_field`: elevations in [0, 1] of its first height field,
   /// may be empty. Error when MuJoCo rejects the document or there is no OpenGL context.
   static Result<SceneView> create(const std::string& mjcf, const std::vector<float>& height_field,
                                   const ViewConfig& config = {});

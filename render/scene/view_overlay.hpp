@@ -22,7 +22,7 @@ struct ViewLine {
   float width = 1.5F;                                     ///< [px]
 };
 
-/// What a picture shows besides the model. What stands before it hides it.
+/// What a picture shows besides the model, hidden by what is nearer.
 struct ViewOverlay {
   std::span<const ViewPoint> points;
   float point_diameter = 0.05F;  ///< [m]

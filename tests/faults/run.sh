@@ -40,7 +40,7 @@ copy_sources() {
 }
 
 configure() {
-  cmake -S "$sources" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DAIMS_BENCH=OFF -DAIMS_REPORT=OFF \
+  cmake -S "$sources" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DAIMS_BENCH=OFF -DAIMS_PAGE=OFF \
     $(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache) >"$out/configure.log"
 }
 

@@ -60,11 +60,13 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
     {"bench/studies", {"core/", "estimator/", "sim/", "recordings/", "bench/", "render/"}},
     {"bench/tuning", {"core/", "estimator/", "sim/", "recordings/", "bench/", "render/"}},
     {"bench/cli", {"core/", "bench/", "render/"}},
-    {"render/plots", {"core/", "render/plots/", "sim/environment/scene"}},
-    {"render/scene", {"core/", "render/plots/", "render/scene/", "sim/environment/", "sim/robot/"}},
-    {"render/film", {"core/", "estimator/", "bench/", "render/", "sim/"}},
+    {"render/plots", {"core/", "render/plots/", "sim/environment/scene.hpp"}},
+    {"render/scene",
+     {"core/", "render/plots/", "render/scene/", "sim/environment/", "sim/robot/truth.hpp"}},
+    {"render/film",
+     {"core/", "estimator/", "bench/", "render/film/", "render/plots/", "render/scene/", "sim/"}},
     {"render/results", {"core/", "estimator/", "bench/", "render/", "sim/"}},
-    {"render/page", {"core/", "bench/", "render/", "sim/environment/"}},
+    {"render/page", {"core/", "bench/", "render/page/", "sim/environment/"}},
     {"ros", {"core/", "estimator/", "recordings/", "ros/"}},
 };
 
@@ -82,7 +84,8 @@ const std::vector<Confinement> kConfined = {
     {"yaml-cpp/", {"core"}, false},
     {"SQLiteCpp/", {"bench/jobs"}, false},
     {"pagmo/", {"bench/tuning"}, false},
-    {"zlib.h", {"render/film", "render/page"}, false},
+    {"zlib.h", {"render/page"}, false},
+    {"webp/", {"render/film"}, false},
     {"CLI/", {"bench/cli", "ros"}, true},
     {"ros/ros.h", {"ros"}, false},
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Builds the page: `npm run build -- --out DIR` writes DIR/page.js, DIR/page.css and DIR/page.html.
-// page.html has both inlined and two marks left, each exactly once, for `aims report` to replace:
+// page.html has both inlined and two marks left, each exactly once, for `aims page` to replace:
 // __AIMS_TITLE__ (escaped for HTML) and __AIMS_DATA__ (base64). Same sources, same bytes.
 // --modules DIR: the node_modules to build with, where they do not lie beside this file.
 import { createHash } from "node:crypto";
@@ -33,7 +33,7 @@ const result = await build({
   target: "es2022",
   charset: "ascii",
   legalComments: "none",
-  banner: { js: "/* aims report; three.js (MIT), uPlot (MIT) */" },
+  banner: { js: "/* aims page; three.js (MIT), uPlot (MIT) */" },
   logLevel: "warning",
 });
 

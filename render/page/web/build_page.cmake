@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Script: cmake -DWEB=report/web -DOUT=... -DNPM=... -DNODE=... -DREQUIRED=AUTO|ON -P build_page.cmake
+# Script: cmake -DWEB=render/page/web -DOUT=... -DNPM=... -DNODE=... -DREQUIRED=AUTO|ON -P build_page.cmake
 #   -- modules   installs what package-lock.json names into OUT/node_modules, writes OUT/modules.stamp
 #   -- page      bundles WEB into OUT/page.html, writes its inputs to OUT/page.d
 # Where that does not work, as without the registry, the page is an empty file: the build goes on,
-# and `aims report` says so. With REQUIRED=ON it is an error instead.
+# and `aims page` says so. With REQUIRED=ON it is an error instead.
 math(EXPR last "${CMAKE_ARGC} - 1")
 set(part ${CMAKE_ARGV${last}})
 
@@ -11,7 +11,7 @@ function(give_up what log)
   if(REQUIRED STREQUAL "ON")
     message(FATAL_ERROR "${what}:\n${log}")
   endif()
-  message(WARNING "${what}: `aims report` will write no pages. Once npm works, remove ${OUT} and build again.\n${log}")
+  message(WARNING "${what}: `aims page` will write no pages. Once npm works, remove ${OUT} and build again.\n${log}")
 endfunction()
 
 if(part STREQUAL "modules")
@@ -43,5 +43,5 @@ execute_process(COMMAND ${NODE} ${WEB}/build.mjs --modules ${OUT}/node_modules -
   RESULT_VARIABLE code OUTPUT_VARIABLE log ERROR_VARIABLE log)
 if(NOT code EQUAL 0)
   # Installed but not bundled is a mistake in the sources, whatever is required.
-  message(FATAL_ERROR "bundling the report page failed:\n${log}")
+  message(FATAL_ERROR "bundling the page failed:\n${log}")
 endif()

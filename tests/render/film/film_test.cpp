@@ -4,7 +4,8 @@
 #include <memory>
 
 #include "render/film/film.hpp"
-#include "render/film/film_report.hpp"
+#include "render/film/film_files.hpp"
+#include "render/film/film_movie.hpp"
 #include "render/film/map_growth.hpp"
 
 namespace aims {
@@ -78,19 +79,19 @@ TEST(MapGrowth, LeavesOutWhatIsFarAndWhatIsNone) {
 }
 
 TEST(Film, SpansTheWalkWithoutTheStanding) {
-  FilmedWalk walk;
+  FilmedSequence sequence;
   for (int i = 0; i <= 100; ++i) {
     StampedPose sample{i * 100 * kMillisecond, {}};
     sample.pose.translation.x() = std::clamp(0.1 * (i - 30), 0.0, 4.0);
-    walk.truth.push_back(sample);
+    sequence.truth.push_back(sample);
   }
-  const FilmSpan span = walking_span(walk);
+  const FilmSpan span = motion_span(sequence);
   EXPECT_NEAR(to_seconds(span.begin), 3.2, 0.2);
   EXPECT_NEAR(to_seconds(span.end), 6.8, 0.2);
 }
 
 TEST(Film, SaysWhyThereIsNone) {
-  const FilmedWalk nothing;
+  const FilmedSequence nothing;
   const auto film = Film::create(nothing, {});
   ASSERT_FALSE(film);
   EXPECT_NE(film.error().message.find("no snapshot"), std::string::npos);
@@ -116,16 +117,16 @@ TEST(FilmOptions, WhatCannotBeMetIsRefused) {
   };
   FilmOptions options;
   EXPECT_EQ(message(options), "");
-  options.video = "walk.png";
+  options.video = "walk.webp";
   EXPECT_EQ(message(options), "");
   options.video = "walk.gif";
-  EXPECT_NE(message(options).find(".png, .apng, .mp4 or .webm"), std::string::npos);
-  options.video = "there/walk.png";
+  EXPECT_NE(message(options).find(".webp, .mp4 or .webm"), std::string::npos);
+  options.video = "there/walk.webp";
   EXPECT_NE(message(options).find("without a folder"), std::string::npos);
   options.video = "walk.mp4";
   options.video_size = {641, 400};
   EXPECT_NE(message(options).find("even"), std::string::npos);
-  options.video = "walk.png";
+  options.video = "walk.webp";
   options.seconds = 600.0;
   EXPECT_NE(message(options).find("frames"), std::string::npos);
 }

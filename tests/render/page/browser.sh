@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Opens pages in headless Chromium: tests/render/page/browser.sh NODE WEB MODULES
-# WEB: report/web; MODULES: its node_modules. The tests read AIMS_REPORT_PAGES and others, see
+# WEB: render/page/web; MODULES: its node_modules. The tests read AIMS_PAGES and others, see
 # tests/render/page/CMakeLists.txt. Exit code 77: skipped.
 set -euo pipefail
 node=$1 web=$2 modules=$3
@@ -13,4 +13,4 @@ if ! [ -d "$modules/playwright-core" ]; then
   echo "skipped: $modules holds no playwright-core (npm did not work when this was built)"
   exit 77
 fi
-AIMS_REPORT_MODULES=$modules "$node" --test "$web"/test/*.test.mjs
+AIMS_PAGE_MODULES=$modules "$node" --test "$web"/test/*.test.mjs

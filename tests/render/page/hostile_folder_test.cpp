@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "render/page/page.hpp"
 #include "render/page/page_template.hpp"
-#include "render/page/report.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_page.hpp"
 #include "tests/render/page/decoded_page.hpp"
@@ -142,10 +142,10 @@ TEST_F(HostileFolder, ConfigurationOfAnotherVersionLeavesOutTheScene) {
 }
 
 TEST_F(HostileFolder, FolderWithoutResultsIsRefusedWithWhatWasExpected) {
-  const auto reports = write_reports(folder_.path());
-  ASSERT_FALSE(reports);
-  const std::string expected = page_template().empty() ? "AIMS_REPORT" : "scores.json";
-  EXPECT_NE(reports.error().message.find(expected), std::string::npos) << reports.error().message;
+  const auto written = write_pages(folder_.path());
+  ASSERT_FALSE(written);
+  const std::string expected = page_template().empty() ? "AIMS_PAGE" : "scores.json";
+  EXPECT_NE(written.error().message.find(expected), std::string::npos) << written.error().message;
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(PageTemplate, RefusesOneThatLacksAMarkAndSaysWhenThereIsNone) {
   EXPECT_NE(lacking.error().message.find("__AIMS_DATA__"), std::string::npos);
   const auto none = filled_template("", {});
   ASSERT_FALSE(none);
-  EXPECT_NE(none.error().message.find("AIMS_REPORT"), std::string::npos);
+  EXPECT_NE(none.error().message.find("AIMS_PAGE"), std::string::npos);
 }
 
 TEST(PageTemplate, ThatIsEmbeddedHasEachMarkOnceAndLoadsNothing) {

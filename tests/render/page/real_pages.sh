@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Makes pages of real results for the browser tests.
 #
-#   tests/render/page/real_pages.sh AIMS OUT     AIMS: the program; OUT: a folder for results, made anew
+#   tests/render/page/real_pages.sh AIMS OUT     AIMS: the program; OUT: a folder for results, made afresh
 #
-# OUT/run is a short walk; OUT/hostile the same under a name that is HTML; OUT/bare has scores alone.
+# OUT/run is a short run; OUT/hostile the same under a name that is HTML; OUT/bare has scores alone.
 set -euo pipefail
 aims=$1 out=$2
 rm -rf "$out"
 mkdir -p "$out"
-cat >"$out/walk.yaml" <<'YAML'
+cat >"$out/run.yaml" <<'YAML'
 name: short_walk
 description: "Stand, walk three metres, turn, walk back"
 scene: {corridor: {length: 10, pillars: {spacing: 3}}}
@@ -18,10 +18,10 @@ route:
   stand_before: 2.5
   points: [{name: a, x: 0, y: 0}, {name: b, x: 3, y: 0}, {name: a, x: 0, y: 0}]
 YAML
-"$aims" run "$out/walk.yaml" --estimators aims_d,lio,leg --quiet --jobs 2 --out "$out/run" >"$out/run.log"
-if ! [ -s "$out/run/report.html" ]; then
-  grep -q "built without the report page" "$out/run.log" || { cat "$out/run.log" >&2; exit 1; }
-  echo "skipped: the program was built without the report page (npm)"
+"$aims" run "$out/run.yaml" --estimators aims_d,lio,leg --quiet --jobs 2 --out "$out/run" >"$out/run.log"
+if ! [ -s "$out/run/page.html" ]; then
+  grep -q "built without the page" "$out/run.log" || { cat "$out/run.log" >&2; exit 1; }
+  echo "skipped: the program was built without the page (npm)"
   exit 77
 fi
 cp -r "$out/run" "$out/hostile"
@@ -32,4 +32,4 @@ cp "$out/run/scores.json" "$out/bare"
 "$aims" report "$out/hostile" "$out/bare"
 # The same folder gives the same page.
 "$aims" report "$out/run" --out "$out/again.html"
-cmp "$out/run/report.html" "$out/again.html"
+cmp "$out/run/page.html" "$out/again.html"

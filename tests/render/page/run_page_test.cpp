@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "render/page/map_cloud.hpp"
+#include "render/page/page.hpp"
 #include "render/page/page_template.hpp"
-#include "render/page/report.hpp"
 #include "render/page/series.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
@@ -72,7 +72,7 @@ TEST_F(RunPage, LaysEstimatesOntoTheTruthAndSplitsTheirErrorAlongItsHeading) {
   EXPECT_FLOAT_EQ(p[0], 1.0F);
   EXPECT_FLOAT_EQ(p[1], 0.2F);
   EXPECT_FLOAT_EQ(p[2], 0.3F);
-  const auto along = page.f32(ahead["series"]["error_along"]);
+  const auto along = page.f32(ahead["series"]["error_longitudinal"]);
   const auto lateral = page.f32(ahead["series"]["error_lateral"]);
   ASSERT_EQ(along.size(), 50U);
   for (std::size_t i = 0; i < along.size(); ++i) {
@@ -148,15 +148,15 @@ TEST_F(RunPage, OfAWalkAlongTheCorridorStaysUnderFiveMegabytes) {
 
 TEST_F(RunPage, IsWrittenIntoTheFolderUnlessBuiltWithout) {
   testing::write_run(folder_.path() / "run", {});
-  const auto reports = write_reports(folder_.path() / "run");
+  const auto written = write_pages(folder_.path() / "run");
   if (page_template().empty()) {
-    ASSERT_FALSE(reports);
-    EXPECT_NE(reports.error().message.find("AIMS_REPORT"), std::string::npos);
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().message.find("AIMS_PAGE"), std::string::npos);
     GTEST_SKIP() << "built without the page: npm was not found or not reachable";
   }
-  ASSERT_TRUE(reports) << reports.error().message;
-  ASSERT_EQ(reports->pages.size(), 1U);
-  const DecodedPage page = testing::decoded_html(testing::content(reports->pages[0]));
+  ASSERT_TRUE(written) << written.error().message;
+  ASSERT_EQ(written->pages.size(), 1U);
+  const DecodedPage page = testing::decoded_html(testing::content(written->pages[0]));
   EXPECT_EQ(page.json["scores"]["estimators"]["exact"]["ate_m"], 0.125);
 }
 

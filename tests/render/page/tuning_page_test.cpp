@@ -108,7 +108,7 @@ std::string message_of(const fs::path& folder) {
   return page ? "" : page.error().message;
 }
 
-bool says(const std::string& text, const std::string& part) {
+bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -123,10 +123,10 @@ TEST(TuningPage, EveryUnitIsARowWithItsValuesAndScores) {
   write_grid(units, true);
   const DecodedPage page = page_of(folder.path());
   EXPECT_EQ(page.json["source"], "sweep");
-  EXPECT_EQ(page.json["units"]["done"], 26);
+  EXPECT_EQ(page.json["jobs"]["done"], 26);
   const auto& own = page.json["estimators"][0];
   const auto point = page.f32(own["rows"]["point"]);
-  const auto walk = page.f32(own["rows"]["walk"]);
+  const auto walk = page.f32(own["rows"]["sequence"]);
   const auto scores = page.f32(own["rows"]["scores"]);
   const auto values = page.f32(own["points"]["values"]);
   const std::size_t width = page.json["scores"].size();
@@ -136,7 +136,7 @@ TEST(TuningPage, EveryUnitIsARowWithItsValuesAndScores) {
   ASSERT_EQ(scores.size(), 26U * width);
   for (std::size_t row = 0; row < 26; ++row) {
     const auto at = 2 * static_cast<std::size_t>(point[row]);
-    const int seed = page.json["walks"][static_cast<std::size_t>(walk[row])]["seed"];
+    const int seed = page.json["sequences"][static_cast<std::size_t>(walk[row])]["seed"];
     EXPECT_NEAR(scores[row * width + ate], ate_of(values[at], values[at + 1], seed), 1e-6) << row;
     EXPECT_NEAR(scores[row * width + end], 2.0 * scores[row * width + ate], 1e-6);
   }
@@ -210,7 +210,7 @@ TEST(TuningPage, ASweepUnderWayIsAPageOfWhatIsThere) {
   units.list(unit("walk", 2, {2.0, 1.0}, 0.0));
   units.write_list();
   const DecodedPage page = page_of(folder.path());
-  EXPECT_EQ(page.json["units"]["missing"], 1);
+  EXPECT_EQ(page.json["jobs"]["missing"], 1);
   const auto& own = page.json["estimators"][0];
   EXPECT_EQ(page.f32(own["rows"]["point"]).size(), 3U);
   const auto& analysis = own["analyses"][0];
@@ -235,7 +235,7 @@ TEST(TuningPage, UnitsThatFailedAreLostRowsWithoutScores) {
   units.write_list();
   const DecodedPage page = page_of(folder.path());
   const auto& rows = page.json["estimators"][0]["rows"];
-  EXPECT_EQ(page.array<std::uint8_t>(rows["lost"]), (std::vector<std::uint8_t>{1, 1}));
+  EXPECT_EQ(page.array<std::uint8_t>(rows["diverged"]), (std::vector<std::uint8_t>{1, 1}));
   const auto scores = page.f32(rows["scores"]);
   const std::size_t ate = column_of(page, "ate_m");
   EXPECT_TRUE(std::isnan(scores[ate]));
@@ -262,8 +262,8 @@ TEST(TuningPage, ATuningKeepsWhatWasHeldOutApart) {
   put(folder.path() / "units/broken.json", "{");
   const DecodedPage page = page_of(folder.path());
   EXPECT_EQ(page.json["source"], "tune");
-  EXPECT_EQ(page.json["units"]["done"], 4);
-  EXPECT_EQ(page.json["held_out_units"]["done"], 2);
+  EXPECT_EQ(page.json["jobs"]["done"], 4);
+  EXPECT_EQ(page.json["held_out_jobs"]["done"], 2);
   EXPECT_EQ(page.json["notes"].size(), 1U);
   const auto& own = page.json["estimators"][0];
   EXPECT_TRUE(own["points"]["generation"].is_null());
@@ -294,18 +294,18 @@ TEST(TuningPage, HostileScenariosArriveAsTheyAre) {
   const std::string name = "</script><script>alert(1)</script>";
   units.add(unit(name, 1, {0.0, 1.0}, 0.3));
   units.write_list();
-  EXPECT_EQ(page_of(folder.path()).json["walks"][0]["scenario"], name);
+  EXPECT_EQ(page_of(folder.path()).json["sequences"][0]["scenario"], name);
 }
 
 TEST(TuningPage, AFolderOfNeitherOrWithoutRangesSaysSo) {
   const TemporaryFolder folder;
   EXPECT_FALSE(holds_tuning(folder.path()));
-  EXPECT_TRUE(says(message_of(folder.path()), "plan.yaml"));
+  EXPECT_TRUE(contains(message_of(folder.path()), "plan.yaml"));
   put(folder.path() / "tune.yaml", "scenarios: [walk]\n");
   EXPECT_TRUE(holds_tuning(folder.path()));
-  EXPECT_TRUE(says(message_of(folder.path()), "varies nothing"));
+  EXPECT_TRUE(contains(message_of(folder.path()), "varies nothing"));
   put(folder.path() / "tune.yaml", "scenarioss: [walk]\n");
-  EXPECT_TRUE(says(message_of(folder.path()), "scenarios"));
+  EXPECT_TRUE(contains(message_of(folder.path()), "scenarios"));
 }
 
 }  // namespace

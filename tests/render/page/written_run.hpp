@@ -16,7 +16,7 @@ struct WrittenRun {
 
 /// Estimators of a made-up run: "exact" walks along +x with the truth, "ahead" 10 % too far.
 inline constexpr const char* kMadeUpEstimators[] = {"exact", "ahead"};
-/// Way [m] that the robot truly walks between two scans, along the world's x axis from (1, 0.2).
+/// Distance [m] that the robot truly walks between two scans, along the world's x axis from (1, 0.2).
 inline constexpr double kStep = 0.05;
 
 /// Writes a folder as `aims run` does, of a robot that walks straight along a corridor, with the

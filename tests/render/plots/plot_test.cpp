@@ -63,6 +63,12 @@ TEST(Ticks, OfALogarithmicAxisStandAtPowersOfTen) {
             (std::vector<std::string>{"2", "5", "10", "20", "50"}));
 }
 
+TEST(Ticks, OfManyDecadesAreFewAndShort) {
+  EXPECT_EQ(labels(logarithmic_ticks(1e-10, 100.0)),
+            (std::vector<std::string>{"1e\u221210", "1e\u22128", "1e\u22126", "0.0001", "0.01", "1",
+                                      "100"}));
+}
+
 TEST(Ticks, OfALogarithmicAxisOfLessThanADecadeAreSeveral) {
   EXPECT_EQ(labels(logarithmic_ticks(0.9, 1.32)),
             (std::vector<std::string>{"0.9", "1.0", "1.1", "1.2", "1.3"}));
@@ -81,7 +87,7 @@ TEST(Ticks, OfALogarithmicAxisOfLessThanADecadeAreSeveral) {
 TEST(Wrapped, LinesFitAndHaveAllWordsInOrder) {
   const TextStyle style{.size = 13.0};
   const std::string text =
-      "mean of ate_m over that of the defaults, a lost run counts 10; measured";
+      "mean of ate_m over that of the defaults, a diverged run counts 10; measured";
   Canvas ruler = Canvas::over(Image(1, 1));
   for (const double width : {90.0, 200.0, 300.0, 2000.0}) {
     std::string joined;
@@ -162,7 +168,7 @@ TEST(ScenePlan, SeesThroughLintelsAndRoofs) {
   EXPECT_NEAR(area, 4.0 * 0.2, 1e-9);
 }
 
-/// Straight way of 20 m in 20 s, `drift` [m] aside at its end.
+/// Straight path of 20 m in 20 s, `drift` [m] aside at its end.
 Trajectory straight(double drift) {
   Trajectory trajectory;
   for (int i = 0; i <= 200; ++i) {

@@ -81,7 +81,7 @@ TEST(SceneView, RefusesWhatItCannotDraw) {
   EXPECT_FALSE(view->draw(broken, {}));
 }
 
-/// A way along +x, a turn on the spot, and the way back.
+/// Along +x, a turn on the spot, and back.
 std::vector<RobotSnapshot> there_and_back() {
   std::vector<RobotSnapshot> snapshots;
   const auto add = [&](double x, double yaw) {

@@ -49,7 +49,7 @@ export interface Poses {
 }
 
 /** First and last stamp [s]. */
-export type Stretch = [number, number];
+export type TimeInterval = [number, number];
 
 export interface Localizability {
   t: Numbers;
@@ -58,15 +58,15 @@ export interface Localizability {
   crb_sigma: Numbers | null;
   /** Unit vectors, xyz each, world; the sign means nothing. */
   weak_axis: Numbers | null;
-  bound_along: Numbers | null;
+  bound_longitudinal: Numbers | null;
   bound_lateral: Numbers | null;
   bound_vertical: Numbers | null;
-  degenerate: { n10?: Stretch[] | null; n100?: Stretch[] | null; n1000?: Stretch[] | null };
+  degenerate: { n10?: TimeInterval[] | null; n100?: TimeInterval[] | null; n1000?: TimeInterval[] | null };
 }
 
 export interface Legs {
   t: Numbers;
-  /** Share of the samples that were lost, in [0, 1]. */
+  /** Fraction of samples lost, in [0, 1]. */
   loss: Numbers | null;
   /** True speed of the stance foot that slips most [m/s]. */
   slip: Numbers | null;
@@ -94,7 +94,7 @@ export interface CloudMap {
 
 export interface Estimator {
   name: string;
-  lost_at: Maybe;
+  diverged_at: Maybe;
   colour_index: number;
   series: EstimatorSeries | null;
   map: CloudMap | null;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** Payload: base64 of zlib of (u32 length of JSON, JSON, padding to 8, blob); docs/report.md. */
+/** Payload: base64 of zlib of (u32 length of JSON, JSON, padding to 8, blob). */
 import type { PagePayload } from "./contract";
 
 const kArrays = { f32: Float32Array, u16: Uint16Array, u8: Uint8Array } as const;

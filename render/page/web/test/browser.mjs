@@ -6,7 +6,7 @@ import path from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-const modules = process.env.AIMS_REPORT_MODULES ?? path.join(here, "../node_modules");
+const modules = process.env.AIMS_PAGE_MODULES ?? path.join(here, "../node_modules");
 const { chromium } = createRequire(path.join(path.resolve(modules), "any.js"))("playwright-core");
 
 export const kChromium = process.env.AIMS_CHROMIUM ?? "/usr/bin/chromium";

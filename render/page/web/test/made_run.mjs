@@ -13,15 +13,15 @@ export function generator(seed) {
 
 const kLength = 78.6;
 
-/** Where the robot is: out along x, a turn, back; `share` of the walk in [0, 1]. */
-function poseAt(share) {
-  const out = Math.min(share, 0.49) / 0.49;
-  const back = Math.max(share - 0.51, 0) / 0.49;
-  const yaw = Math.PI * Math.min(Math.max((share - 0.49) / 0.02, 0), 1);
+/** Where the robot is: out along x, a turn, back; `fraction` of the run in [0, 1]. */
+function poseAt(fraction) {
+  const out = Math.min(fraction, 0.49) / 0.49;
+  const back = Math.max(fraction - 0.51, 0) / 0.49;
+  const yaw = Math.PI * Math.min(Math.max((fraction - 0.49) / 0.02, 0), 1);
   return {
-    x: kLength * (share < 0.5 ? out : 1 - back),
-    y: 0.05 * Math.sin(40 * share),
-    z: 0.42 + 0.004 * Math.sin(900 * share),
+    x: kLength * (fraction < 0.5 ? out : 1 - back),
+    y: 0.05 * Math.sin(40 * fraction),
+    z: 0.42 + 0.004 * Math.sin(900 * fraction),
     yaw,
   };
 }
@@ -74,8 +74,8 @@ function map(count, drift, random) {
   return { n: count, min, max, p, error };
 }
 
-/** Columns of an estimator that drifts by so much [m] and stops when it is lost. */
-function estimator(name, index, drift, count, end, random, lostAt, points) {
+/** Columns of an estimator that drifts by so much [m] and stops when it diverges. */
+function estimator(name, index, drift, count, end, random, divergedAt, points) {
   const series = {
     t: new Float32Array(count),
     p: new Float32Array(3 * count),
@@ -93,10 +93,10 @@ function estimator(name, index, drift, count, end, random, lostAt, points) {
     "innovation",
     "innovation_rotation",
     "weak_weight",
-    "error_along",
+    "error_longitudinal",
     "error_lateral",
     "error_vertical",
-    "sigma_along",
+    "sigma_longitudinal",
     "sigma_lateral",
     "sigma_vertical",
     "time_ms",
@@ -104,35 +104,35 @@ function estimator(name, index, drift, count, end, random, lostAt, points) {
   for (const column of names) series[column] = new Float32Array(count);
   let smooth = 0;
   for (let i = 0; i < count; ++i) {
-    const share = count > 1 ? i / (count - 1) : 0.3;
-    const t = count > 1 ? 2 + (end - 2) * share : 2;
-    const inside = share > 0.1 && share < 0.9 && Math.abs(share - 0.5) > 0.03;
-    const pose = poseAt(share);
-    const grown = drift * share ** 1.5;
+    const fraction = count > 1 ? i / (count - 1) : 0.3;
+    const t = count > 1 ? 2 + (end - 2) * fraction : 2;
+    const inside = fraction > 0.1 && fraction < 0.9 && Math.abs(fraction - 0.5) > 0.03;
+    const pose = poseAt(fraction);
+    const grown = drift * fraction ** 1.5;
     const noise = () => random() - 0.5;
     const D = Math.min(1, Math.max(0, (inside ? 0.62 : 0.12) + 0.2 * noise()));
     smooth = i === 0 ? D : 0.9 * smooth + 0.1 * D;
     const error = {
-      along: grown + 0.01 * noise(),
+      longitudinal: grown + 0.01 * noise(),
       lateral: 0.1 * grown + 0.004 * noise(),
-      vertical: 0.4 * grown * Math.sin(6 * share) + 0.004 * noise(),
+      vertical: 0.4 * grown * Math.sin(6 * fraction) + 0.004 * noise(),
     };
     const sigma = {
-      along: 0.01 + 0.06 * share,
-      lateral: 0.004 + 0.01 * share,
-      vertical: 0.004 + 0.02 * share,
+      longitudinal: 0.01 + 0.06 * fraction,
+      lateral: 0.004 + 0.01 * fraction,
+      vertical: 0.004 + 0.02 * fraction,
     };
     series.t[i] = t;
     series.p.set(
-      [pose.x + error.along * Math.cos(pose.yaw), pose.y + error.lateral, pose.z + error.vertical],
+      [pose.x + error.longitudinal * Math.cos(pose.yaw), pose.y + error.lateral, pose.z + error.vertical],
       3 * i,
     );
     series.q.set([0, 0, Math.sin(pose.yaw / 2), Math.cos(pose.yaw / 2)], 4 * i);
     series.position_covariance.set(
-      [sigma.along ** 2, 0, 0, sigma.lateral ** 2, 0, sigma.vertical ** 2],
+      [sigma.longitudinal ** 2, 0, 0, sigma.lateral ** 2, 0, sigma.vertical ** 2],
       6 * i,
     );
-    for (const axis of ["along", "lateral", "vertical"]) {
+    for (const axis of ["longitudinal", "lateral", "vertical"]) {
       series[`error_${axis}`][i] = error[axis];
       series[`sigma_${axis}`][i] = sigma[axis];
     }
@@ -142,7 +142,7 @@ function estimator(name, index, drift, count, end, random, lostAt, points) {
       O_lidar: 1 - 0.8 * D,
       C_IL: 10 ** (2 * noise() + (inside ? 1 : 0)),
       gamma_lidar: Math.exp(-3 * smooth),
-      gamma_leg: share > 0.6 && share < 0.65 ? 0.1 : 0.95,
+      gamma_leg: fraction > 0.6 && fraction < 0.65 ? 0.1 : 0.95,
       lambda_min: (inside ? 3e3 : 4e4) * (1 + 0.4 * noise()),
       innovation: 0.01 * random() * (inside ? 2 : 1),
       innovation_rotation: 0.002 * random(),
@@ -154,7 +154,7 @@ function estimator(name, index, drift, count, end, random, lostAt, points) {
   }
   return {
     name,
-    lost_at: lostAt,
+    diverged_at: divergedAt,
     colour_index: index,
     series,
     map: points > 0 ? map(points, drift, random) : null,
@@ -164,9 +164,9 @@ function estimator(name, index, drift, count, end, random, lostAt, points) {
 function scoresOf(item, random) {
   const value = () => 0.3 * random();
   return {
-    success: item.lost_at === null,
-    lost_at_s: item.lost_at,
-    m_list_percent: { "a-b": value(), "b-a": item.lost_at === null ? value() : null, all: value() },
+    success: item.diverged_at === null,
+    lost_at_s: item.diverged_at,
+    m_list_percent: { "a-b": value(), "b-a": item.diverged_at === null ? value() : null, all: value() },
     m_end_m: value(),
     ate_m: value(),
     ate_se3_m: value(),
@@ -185,7 +185,7 @@ function scoresOf(item, random) {
   };
 }
 
-/** A walk along a corridor; options: names, count of samples, points per map. */
+/** A run along a corridor; options: names, count of samples, points per map. */
 export function run({
   names = ["aims_d", "aims", "lio", "tfs"],
   count = 2380,
@@ -220,10 +220,10 @@ export function run({
     weak_axis: new Float32Array(3 * samples),
   };
   for (let i = 0; i < samples; ++i) {
-    const share = samples > 1 ? i / (samples - 1) : 0.3;
-    const pose = poseAt(share);
-    const inside = share > 0.1 && share < 0.9 && Math.abs(share - 0.5) > 0.03;
-    truth.t[i] = local.t[i] = samples > 1 ? 2 + (seconds - 2) * share : 2;
+    const fraction = samples > 1 ? i / (samples - 1) : 0.3;
+    const pose = poseAt(fraction);
+    const inside = fraction > 0.1 && fraction < 0.9 && Math.abs(fraction - 0.5) > 0.03;
+    truth.t[i] = local.t[i] = samples > 1 ? 2 + (seconds - 2) * fraction : 2;
     truth.p.set([pose.x, pose.y, pose.z], 3 * i);
     truth.q.set([0, 0, Math.sin(pose.yaw / 2), Math.cos(pose.yaw / 2)], 4 * i);
     local.equivalent_returns[i] = (inside ? 40 : 900) * (0.7 + 0.6 * random());
@@ -280,7 +280,7 @@ export function run({
     localizability: {
       ...local,
       crb_sigma: null,
-      bound_along: null,
+      bound_longitudinal: null,
       bound_lateral: null,
       bound_vertical: null,
       degenerate: {

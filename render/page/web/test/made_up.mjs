@@ -7,13 +7,13 @@ import path from "node:path";
 import { hasChromium, launch, open } from "./browser.mjs";
 import { fillTemplate } from "./pack.mjs";
 
-const kTemplate = process.env.AIMS_REPORT_PAGE ?? "";
-const kArtifacts = process.env.AIMS_REPORT_ARTIFACTS ?? "";
+const kTemplate = process.env.AIMS_PAGE_TEMPLATE ?? "";
+const kArtifacts = process.env.AIMS_PAGE_ARTIFACTS ?? "";
 
 /** Why pages cannot be opened here; false when they can. */
 export function whySkipped() {
   if (!hasChromium()) return "no Chromium";
-  return existsSync(kTemplate) ? false : "AIMS_REPORT_PAGE names no built page";
+  return existsSync(kTemplate) ? false : "AIMS_PAGE_TEMPLATE names no built page";
 }
 
 /** A browser and a folder for a file of tests. */

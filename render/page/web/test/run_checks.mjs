@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a page of a run must do, in a real browser. Screenshots go to AIMS_REPORT_ARTIFACTS.
+// What a page of a run must do, in a real browser. Screenshots go to AIMS_PAGE_ARTIFACTS.
 import assert from "node:assert/strict";
 import { mkdir, readFile } from "node:fs/promises";
 import os from "node:os";
@@ -8,7 +8,7 @@ import { launch, open, settle } from "./browser.mjs";
 import { payloadOf } from "./pack.mjs";
 
 export const kArtifacts =
-  process.env.AIMS_REPORT_ARTIFACTS ?? path.join(os.tmpdir(), "aims-report-artifacts");
+  process.env.AIMS_PAGE_ARTIFACTS ?? path.join(os.tmpdir(), "aims-page-artifacts");
 
 /** Index of the value nearest to `value`. */
 function nearest(list, value) {
@@ -54,7 +54,7 @@ function canvasColors(page) {
   });
 }
 
-/** Share of a strip's pixels that something was drawn on. */
+/** Fraction of a strip's pixels that something was drawn on. */
 function stripInk(page, panel) {
   return page.evaluate((id) => {
     const canvas = document.querySelector(`[data-panel="${id}"] canvas`);
@@ -111,13 +111,13 @@ async function assertTablesEqual(page, scores) {
     near(cells["max m"], own.max_error_m, `${name} max`);
     near(cells["max z m"], own.max_error_z_m, `${name} max z`);
     near(cells["RPE 10 m m"], own.rpe_10m?.translation_m, `${name} RPE`);
-    near(cells["along m"], own.drift_m?.rmse?.along, `${name} drift along`);
+    near(cells["longitudinal m"], own.drift_m?.rmse?.along, `${name} longitudinal drift`);
     near(cells["heading rad"], own.drift_m?.rmse?.heading_rad, `${name} drift heading`);
     near(cells["p99 ms"], own.time_per_scan_ms?.p99, `${name} time`);
   }
 }
 
-/** Bold is the least M_end among those that were not lost. */
+/** Bold is the least M_end among those that did not diverge. */
 async function assertBestIsBold(page, scores) {
   const eligible = Object.entries(scores.estimators).filter(
     ([, own]) => own.success === true && Number.isFinite(own.m_end_m),
@@ -163,7 +163,7 @@ async function assertCursorAgrees(page, payload, chosen) {
   for (const [panel, name, key] of [
     ["index", "D", "D"],
     ["weights", "γ lidar", "gamma_lidar"],
-    ["error_along", payload.estimators[chosen].name, "error_along"],
+    ["error_longitudinal", payload.estimators[chosen].name, "error_longitudinal"],
   ]) {
     if (!series[key] || !series[key].some(Number.isFinite)) continue;
     const value = Number(await shown(page, panel, name));
@@ -217,7 +217,7 @@ async function assertZoomLinks(page) {
     page.evaluate(() =>
       [...document.querySelectorAll(".panel canvas")].map((canvas) => canvas.toDataURL()),
     );
-  const whole = await shot();
+  const full = await shot();
   const strip = page.locator("[data-plot]").first();
   const box = await strip.boundingBox();
   await page.keyboard.down("Shift");
@@ -228,7 +228,7 @@ async function assertZoomLinks(page) {
   await page.keyboard.up("Shift");
   await settle(page);
   const zoomed = await shot();
-  zoomed.forEach((picture, i) => assert.notEqual(picture, whole[i], `strip ${i} zoomed`));
+  zoomed.forEach((picture, i) => assert.notEqual(picture, full[i], `strip ${i} zoomed`));
   await page.keyboard.press("0");
   await settle(page);
 }

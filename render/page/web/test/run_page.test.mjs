@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page of a run in a real browser. What is tested, by the environment:
-//   AIMS_REPORT_PAGE       the built template: pages are made up with it (test/fixtures.mjs)
-//   AIMS_REPORT_PAGES      folder with run/report.html, run/scores.json and others, of real runs
-//   AIMS_REPORT_MODULES    node_modules with playwright-core
-//   AIMS_REPORT_ARTIFACTS  where screenshots and made-up pages are kept
+//   AIMS_PAGE_TEMPLATE       the built template: pages are made up with it (test/fixtures.mjs)
+//   AIMS_PAGES      folder with run/page.html, run/scores.json and others, of real runs
+//   AIMS_PAGE_MODULES    node_modules with playwright-core
+//   AIMS_PAGE_ARTIFACTS  where screenshots and made-up pages are kept
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { readFile, writeFile } from "node:fs/promises";
@@ -13,13 +13,13 @@ import { hasChromium, kChromium, launch, open, settle } from "./browser.mjs";
 import { kCases, writeFixtures } from "./fixtures.mjs";
 import { assertHolds, assertRunPage, cursorOf, kArtifacts } from "./run_checks.mjs";
 
-const template = process.env.AIMS_REPORT_PAGE;
-const pages = process.env.AIMS_REPORT_PAGES;
+const template = process.env.AIMS_PAGE_TEMPLATE;
+const pages = process.env.AIMS_PAGES;
 const skip = hasChromium() ? false : `no ${kChromium}`;
 
 describe(
   "made-up runs",
-  { skip: skip || (template ? false : "AIMS_REPORT_PAGE is not set") },
+  { skip: skip || (template ? false : "AIMS_PAGE_TEMPLATE is not set") },
   () => {
     let browser;
     let files;
@@ -74,13 +74,13 @@ describe(
   },
 );
 
-describe("real runs", { skip: skip || (pages ? false : "AIMS_REPORT_PAGES is not set") }, () => {
+describe("real runs", { skip: skip || (pages ? false : "AIMS_PAGES is not set") }, () => {
   let browser;
   before(async () => {
     browser = await launch();
   });
   after(() => browser?.close());
-  const file = (name) => path.join(pages ?? "", name, "report.html");
+  const file = (name) => path.join(pages ?? "", name, "page.html");
   test("the page of a run agrees with its scores.json", async () => {
     const scores = JSON.parse(await readFile(path.join(pages, "run", "scores.json"), "utf8"));
     await assertRunPage(browser, file("run"), "run", scores);

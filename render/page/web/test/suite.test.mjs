@@ -25,18 +25,18 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
       assert.equal(shown === null ? null : Number(shown), median);
     }
   }
-  await page.locator("#matrix").getByLabel("of the runs").selectOption("worst");
+  await page.locator("#matrix").getByLabel("Statistic").selectOption("worst");
   assert.equal(Number(await cell(page, "severity_2", "a").getAttribute("data-value")), data.suite.scenarios[1].estimators.a.scores.ate_m.worst);
   await page.locator("#matrix").getByLabel("Score").selectOption("m_list_percent.all");
   assert.equal(Number(await cell(page, "alone", "a").getAttribute("data-value")), data.suite.scenarios[3].estimators.a.scores["m_list_percent.all"].worst);
   assert.deepEqual(troubles, []);
 });
 
-test("a lost run is told in words, not by colour alone", { skip }, async () => {
+test("a diverged run is stated in words, not by colour alone", { skip }, async () => {
   const { page } = await pages.show(suite());
-  assert.match(await cell(page, "severity_3", "b").innerText(), /✕ 3 of 3 lost/);
-  assert.doesNotMatch(await cell(page, "severity_3", "a").innerText(), /lost/);
-  await page.getByLabel("only with lost runs").check();
+  assert.match(await cell(page, "severity_3", "b").innerText(), /✕ 3 of 3 diverged/);
+  assert.doesNotMatch(await cell(page, "severity_3", "a").innerText(), /diverged/);
+  await page.getByLabel("only with diverged runs").check();
   assert.equal(await page.locator("#matrix tbody tr").count(), 1);
 });
 
@@ -52,13 +52,13 @@ test("rows sort by an estimator, those without a value last", { skip }, async ()
 test("a cell opens its runs, and runs link to their pages", { skip }, async () => {
   const { page } = await pages.show(suite());
   await cell(page, "severity_3", "b").locator("button").click();
-  const told = page.locator(".cell-details");
-  assert.match(await told.innerText(), /✕ lost at 12.5 s: error_limit/);
-  assert.equal(await told.locator("a").first().getAttribute("href"), "runs/severity_3/seed-1/report.html");
+  const shown = page.locator(".cell-details");
+  assert.match(await shown.innerText(), /✕ diverged at 12.5 s: error_limit/);
+  assert.equal(await shown.locator("a").first().getAttribute("href"), "runs/severity_3/seed-1/page.html");
   assert.equal(await page.locator('#matrix tr[data-row="alone"] .runs-links a').count(), 1);
 });
 
-test("arrow keys walk the matrix and Enter opens a cell", { skip }, async () => {
+test("arrow keys move in the matrix and Enter opens a cell", { skip }, async () => {
   const { page } = await pages.show(suite());
   await cell(page, "severity_1", "a").locator("button").focus();
   for (const key of ["ArrowDown", "ArrowRight", "Enter"]) await page.keyboard.press(key);
@@ -72,7 +72,7 @@ test("the severity has a line per estimator, with intervals, over level and trut
   assert.equal(await chart.locator("g.series").count(), 2);
   const bars = await chart.locator('g[data-series="a"] .bars').getAttribute("d");
   assert.equal(bars.match(/V/g).length, 3);
-  assert.equal(await chart.locator("path.lost").count(), 1);
+  assert.equal(await chart.locator("path.cross").count(), 1);
   await chart.locator("svg[role=img]").focus();
   await page.keyboard.press("ArrowRight");
   assert.match(await chart.locator(".readout").innerText(), /^a: ATE \[m\] 0\.0123 \[0\.00984, 0\.0160\] at severity \[step\] 1/);
@@ -92,7 +92,7 @@ test("ROC curves come with the areas under them", { skip }, async () => {
   assert.deepEqual(troubles, []);
 });
 
-test("before and after shows what is beyond noise first", { skip }, async () => {
+test("before and after shows significant changes first", { skip }, async () => {
   const { page } = await pages.show({ ...suite(), compare: comparison() });
   const rows = page.locator("#compare tbody tr");
   assert.equal(await rows.count(), 2);

@@ -28,7 +28,7 @@ function point(level, each) {
     m_list_high_percent: null, success_rate: each.success_rate, runs: each.runs };
 }
 
-/** Three levels of a severity and one scenario of no family; `b` is lost at the last level. */
+/** Three levels of a severity and one scenario of no family; `b` diverges at the last level. */
 export function suite({ first = "a", names = ["severity_1", "severity_2", "severity_3", "alone"] } = {}) {
   const scenarios = names.map((name, i) => ({
     name, tags: i < 3 ? ["severity"] : ["other"], family: i < 3 ? "severity" : "", level: i < 3 ? i + 1 : null, level_unit: i < 3 ? "step" : "",
@@ -38,7 +38,7 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
   }));
   const levels = (name) => scenarios.slice(0, 3).map((each, i) => point(i + 1, each.estimators[name]));
   const runs = scenarios.flatMap((each) => each.seeds.map((seed) => ({
-    scenario: each.name, seed, href: seed === 1 ? `runs/${encodeURIComponent(each.name)}/seed-1/report.html` : null,
+    scenario: each.name, seed, href: seed === 1 ? `runs/${encodeURIComponent(each.name)}/seed-1/page.html` : null,
     estimators: {
       [first]: { success: true, lost_at_s: null, lost_reason: "", ate_m: 0.01 * seed, m_end_m: 0.02 },
       b: { success: each !== scenarios[2], lost_at_s: each === scenarios[2] ? 12.5 : null, lost_reason: "error_limit", ate_m: 0.5 },
@@ -84,16 +84,16 @@ export function tuning({ parameter = "degeneracy.eta", scenarios = ["corridor", 
     { name: parameter, unit: "-", meaning: "sensitivity", low: 0, high: 6, log: false, default: 3 },
     { name: "degeneracy.kappa", unit: "-", meaning: "", low: 1, high: 100, log: true, default: 12.6 },
   ];
-  const walks = scenarios.flatMap((scenario) => [1, 2].map((seed) => ({ scenario, family: scenario, seed })));
+  const sequences = scenarios.flatMap((scenario) => [1, 2].map((seed) => ({ scenario, family: scenario, seed })));
   const grid = [0, 2, 4, 6].flatMap((x) => [1, 10, 100].map((y) => [x, y]));
   const points = [[3, 12.6], ...grid];
   const value = ([x, y]) => 1 - 0.1 * x + 0.05 * Math.log10(y);
-  const rows = points.flatMap((each, k) => walks.map((_, w) => ({ k, w, lost: k === 1 && w === 0, score: k === 1 && w === 0 ? NaN : value(each) * (1 + w) })));
+  const rows = points.flatMap((each, k) => sequences.map((_, w) => ({ k, w, diverged: k === 1 && w === 0, score: k === 1 && w === 0 ? NaN : value(each) * (1 + w) })));
   const column = (pick) => rows.map(pick);
   const slice = (first, rest, members) => ({ first, ...rest, family: "", measured: true, x: Float32Array.from(members, (each) => each[first]),
     value: Float32Array.from(members, value), low: Float32Array.from(members, (each) => 0.9 * value(each)), high: Float32Array.from(members, (each) => 1.1 * value(each)) });
   const analysis = {
-    score: "ate_m", objective: "median of ate_m, a lost run counts 10", relative: false, points: 12, seeds: 2, incomplete: 0,
+    score: "ate_m", objective: "median of ate_m, a diverged run counts 10", relative: false, points: 12, seeds: 2, incomplete: 0,
     best: { values: [6, 1], between: [[4, 6], [1, 10]], objective: 0.4, objective_interval: [0.38, 0.44], defaults: 0.755, gain: 0.47,
       gain_interval: [0.4, 0.5], distance: [0.5, -0.55] },
     sensitivity: { points: 12, logarithmic: true, trustworthy: true, terms: 4, error: 0.05, explained: 0.97, first: [0.88, 0.02], total: [0.95, 0.04],
@@ -103,14 +103,14 @@ export function tuning({ parameter = "degeneracy.eta", scenarios = ["corridor", 
   };
   return {
     schema: "aims.page/1", kind: "tuning", title: "Sweep made up", source: "sweep", plan: `over: ["${parameter}=0:6:4"]\n`,
-    units: { total: 60, done: rows.length - 1, failed: 1, crashed: 0, timed_out: 0, missing: 60 - rows.length, others: 0 },
-    held_out_units: { total: 0, done: 0 }, scores: ["ate_m", "m_end_m"], walks, notes: [],
+    jobs: { total: 60, done: rows.length - 1, failed: 1, crashed: 0, timed_out: 0, missing: 60 - rows.length, others: 0 },
+    held_out_jobs: { total: 0, done: 0 }, scores: ["ate_m", "m_end_m"], sequences, notes: [],
     estimators: [{
       name: "aims", parameters,
       points: { values: Float32Array.from(points.flat()), untuned: Uint8Array.from(points, (_, k) => (k === 0 ? 1 : 0)), generation: null },
       rows: {
-        point: Float32Array.from(column((row) => row.k)), walk: Float32Array.from(column((row) => row.w)), outcome: Uint8Array.from(column((row) => (row.lost ? 1 : 0))),
-        lost: Uint8Array.from(column((row) => (row.lost ? 1 : 0))), held_out: new Uint8Array(rows.length),
+        point: Float32Array.from(column((row) => row.k)), sequence: Float32Array.from(column((row) => row.w)), outcome: Uint8Array.from(column((row) => (row.diverged ? 1 : 0))),
+        diverged: Uint8Array.from(column((row) => (row.diverged ? 1 : 0))), held_out: new Uint8Array(rows.length),
         scores: Float32Array.from(rows.flatMap((row) => [row.score, row.score / 2])),
       },
       analyses: [analysis],

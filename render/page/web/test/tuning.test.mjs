@@ -9,7 +9,7 @@ let pages;
 before(async () => { if (!skip) pages = await stage(); });
 after(async () => { await pages?.close(); });
 
-test("best values and shares are those of the analysis", { skip }, async () => {
+test("best values and indices are those of the analysis", { skip }, async () => {
   const data = tuning();
   const { page, troubles, ready } = await pages.show(data);
   assert.equal(ready, "true");
@@ -17,10 +17,10 @@ test("best values and shares are those of the analysis", { skip }, async () => {
   assert.equal(Number(await page.locator("[data-best]").getAttribute("data-best")), best.objective);
   const eta = page.locator('#best tr[data-row="degeneracy.eta"]');
   assert.match(await eta.innerText(), /6\.00\s*4\.00 to 6\.00/);
-  const rows = page.locator("#sensitivity .share-row");
+  const rows = page.locator("#sensitivity .sobol-row");
   assert.equal(Number(await rows.nth(0).getAttribute("data-total")), sensitivity.total[0]);
-  assert.match(await rows.nth(0).innerText(), /95\.0 % \[90\.0, 98\.0\], alone 88\.0 %/);
-  assert.match(await rows.nth(1).innerText(), /does not matter/);
+  assert.match(await rows.nth(0).innerText(), /95\.0 % \[90\.0, 98\.0\], first order 88\.0 %/);
+  assert.match(await rows.nth(1).innerText(), /negligible/);
   assert.deepEqual(troubles, []);
 });
 
@@ -31,9 +31,9 @@ test("each parameter has a curve with intervals, or every point by scenario", { 
   assert.equal((await charts.nth(0).locator(".bars").getAttribute("d")).match(/V/g).length, 4);
   await page.locator("#curves").getByLabel("Show").selectOption("cloud");
   assert.equal(await charts.nth(0).locator("g.series").count(), 2);
-  assert.equal(await charts.nth(0).locator("path.lost").count(), 1);
+  assert.equal(await charts.nth(0).locator("path.cross").count(), 1);
   await page.getByLabel("Score").selectOption("m_end_m");
-  assert.match(await page.locator("#best").innerText(), /of m_end_m the points alone/);
+  assert.match(await page.locator("#best").innerText(), /for m_end_m only the points/);
   assert.equal(await charts.nth(0).locator("g.series").count(), 2);
   assert.deepEqual(troubles, []);
 });
@@ -43,7 +43,7 @@ test("the map has a cell per pair of values and can be turned", { skip }, async 
   const cells = page.locator("#map rect.cell");
   assert.equal(await cells.count(), 12);
   assert.match(await page.locator("#map .axis-label").first().textContent(), /eta/);
-  await page.locator("#map").getByLabel("Across").selectOption("1");
+  await page.locator("#map").getByLabel("x axis").selectOption("1");
   assert.equal(await cells.count(), 12);
   assert.match(await page.locator("#map .axis-label").first().textContent(), /kappa/);
   await page.locator("#map svg[role=img]").focus();
@@ -51,7 +51,7 @@ test("the map has a cell per pair of values and can be turned", { skip }, async 
   assert.match(await page.locator("#map .readout").innerText(), /objective 1\.00 at degeneracy\.kappa 1\.00, degeneracy\.eta 0/);
 });
 
-test("the points sort, the least score first and in bold, lost ones never best", { skip }, async () => {
+test("the points sort, the least score first and in bold, diverged ones never best", { skip }, async () => {
   const { page } = await pages.show(tuning());
   const rows = page.locator("#points tbody tr");
   assert.equal(await rows.count(), 13);
@@ -71,8 +71,8 @@ test("hostile names, nothing done and one scenario give a page", { skip }, async
   assert.equal(await hostile.page.evaluate(() => window.broken), undefined);
   assert.equal(await hostile.page.locator("img").count(), 0);
   assert.equal(await overflows(hostile.page), false);
-  const none = await pages.show({ ...tuning(), estimators: [], walks: [] });
-  assert.match(await none.page.locator("body").innerText(), /No unit is done yet/);
+  const none = await pages.show({ ...tuning(), estimators: [], sequences: [] });
+  assert.match(await none.page.locator("body").innerText(), /No job is done yet/);
   const bare = tuning();
   Object.assign(bare.estimators[0].analyses[0], { best: null, why_no_best: "none of 0 points", sensitivity: null, curves: [], maps: [] });
   bare.estimators[0].rows.scores.fill(NaN);

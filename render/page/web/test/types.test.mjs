@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The type checker, with the node_modules of AIMS_REPORT_MODULES.
+// The type checker, with the node_modules of AIMS_PAGE_MODULES.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
@@ -10,7 +10,7 @@ import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 
 const web = path.join(path.dirname(fileURLToPath(import.meta.url)), "..");
-const modules = path.resolve(process.env.AIMS_REPORT_MODULES ?? path.join(web, "node_modules"));
+const modules = path.resolve(process.env.AIMS_PAGE_MODULES ?? path.join(web, "node_modules"));
 const compiler = path.join(modules, "typescript/bin/tsc");
 
 test(

@@ -80,3 +80,15 @@ function tickLabel(value: number): string {
   if (text.includes("e")) return formatNumber(value, 1);
   return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
 }
+
+/** From values to [0, 1], logarithmic where all are above zero; its ends, and a note of the law. */
+export function unitScale(values: number[]): {
+  low: number; high: number; law: string; at: (value: number) => number;
+} {
+  const low = Math.min(...values);
+  const high = Math.max(...values);
+  if (!(high > low)) return { low, high, law: "", at: () => 0 };
+  if (low > 0)
+    return { low, high, law: ", logarithmic", at: (value) => Math.log(value / low) / Math.log(high / low) };
+  return { low, high, law: "", at: (value) => (value - low) / (high - low) };
+}

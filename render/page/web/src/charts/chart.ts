@@ -7,7 +7,7 @@ import "./charts.css";
 import { h } from "../dom";
 import { formatNumber, isNumber } from "../format";
 import { axis, extent, type Frame } from "./axis";
-import { dashOf, markPath, seriesPaint, svg } from "./svg";
+import { dashOf, drawToFit, markPath, seriesPaint, svg } from "./svg";
 
 export interface Mark {
   x: number;
@@ -15,10 +15,10 @@ export interface Mark {
   /** 95 % interval; NaN: none. */
   low?: number;
   high?: number;
-  /** Said besides the numbers when the mark is read. */
+  /** Shown after the numbers when the mark is read. */
   note?: string;
-  /** Drawn as a cross: lost; without a value at the upper edge. */
-  lost?: boolean;
+  /** Drawn as a cross; without a value at the upper edge. */
+  cross?: boolean;
 }
 
 export interface Line {
@@ -44,7 +44,7 @@ export interface ChartOptions {
   xEnds?: [number, number];
   yEnds?: [number, number];
   height?: number;
-  /** The line of chance from (0, 0) to (1, 1). */
+  /** The diagonal from (0, 0) to (1, 1): a random guess. */
   diagonal?: boolean;
   /** Lines side by side where they share their x: most pixels between neighbours. */
   dodge?: number;
@@ -166,11 +166,11 @@ function drawLine(frame: Frame, line: Line, aside: number, places: Place[]): SVG
   let path = "";
   let pen = "M";
   let marks = "";
-  let lost = "";
+  let crosses = "";
   for (const mark of line.marks) {
     const x = px(frame, mark.x) + aside;
     const known = Number.isFinite(py(frame, mark.y));
-    if (!Number.isFinite(x) || (!known && !mark.lost)) {
+    if (!Number.isFinite(x) || (!known && !mark.cross)) {
       pen = "M";
       continue;
     }
@@ -178,8 +178,8 @@ function drawLine(frame: Frame, line: Line, aside: number, places: Place[]): SVG
     places.push({ line, mark, px: x, py: y });
     if (known) path += `${pen}${x.toFixed(1)},${y.toFixed(1)}`;
     pen = known ? "L" : "M";
-    if (mark.lost) {
-      lost += `M${(x - 4).toFixed(1)},${(y - 4).toFixed(1)}l8,8m0,-8l-8,8`;
+    if (mark.cross) {
+      crosses += `M${(x - 4).toFixed(1)},${(y - 4).toFixed(1)}l8,8m0,-8l-8,8`;
     } else {
       marks += markPath(line.index, x, y, line.scatter ? kRadius - 1 : kRadius);
     }
@@ -188,7 +188,7 @@ function drawLine(frame: Frame, line: Line, aside: number, places: Place[]): SVG
   else group.append(svg("path", { class: "bars", d: bars(frame, line, aside) }));
   if (!line.scatter) group.append(svg("path", { class: "line", d: path, "stroke-dasharray": dashOf(line.index) }));
   if (!line.plain) group.append(svg("path", { class: "marks", d: marks }));
-  if (lost) group.append(svg("path", { class: "lost", d: lost }));
+  if (crosses) group.append(svg("path", { class: "cross", d: crosses }));
   return group;
 }
 
@@ -255,13 +255,7 @@ export function chart(lines: Line[], options: ChartOptions): HTMLElement {
     stage.replaceChildren(drawing);
     read(null);
   };
-  let width = 0;
-  new ResizeObserver(() => {
-    if (stage.clientWidth === width) return;
-    width = stage.clientWidth;
-    draw();
-  }).observe(stage);
-  draw();
+  drawToFit(stage, draw);
   return h("figure", { class: "chart" }, stage, says, legend(lines, off, draw));
 }
 

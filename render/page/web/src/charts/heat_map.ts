@@ -2,9 +2,9 @@
 /** Values over two quantities as coloured cells; read with the pointer or the arrow keys. */
 import "./charts.css";
 import { h } from "../dom";
-import { formatNumber, isNumber } from "../format";
-import { axis, type Frame } from "./axis";
-import { svg } from "./svg";
+import { formatNumber } from "../format";
+import { axis, unitScale, type Frame } from "./axis";
+import { drawToFit, svg } from "./svg";
 
 export interface HeatCell {
   x: number;
@@ -31,7 +31,7 @@ export interface HeatOptions {
   marks: HeatMark[];
 }
 
-/** Middle of each cell to its edges: half-way between neighbours, in the logarithm where asked. */
+/** Middle of each cell to its edges: half-way between neighbours, logarithmic where asked. */
 function edgesOf(values: number[], log: boolean): number[] {
   const to = log ? Math.log : (value: number) => value;
   const back = log ? Math.exp : (value: number) => value;
@@ -47,7 +47,7 @@ function distinct(values: number[]): number[] {
   return [...new Set(values)].sort((a, b) => a - b);
 }
 
-const kPaint = "color-mix(in oklab, var(--heat-deep) var(--share), var(--card))";
+const kPaint = "color-mix(in oklab, var(--heat-deep) var(--shade), var(--card))";
 
 function ticks(frame: Frame, options: HeatOptions): SVGElement[] {
   const bottom = frame.top + frame.height;
@@ -77,24 +77,13 @@ function drawMarks(frame: Frame, marks: HeatMark[]): SVGElement[] {
   });
 }
 
-/** From values to [0, 1], in the logarithm where all are above zero; and its ends. */
-function scaleOf(cells: HeatCell[]): { low: number; high: number; at: (value: number) => number } {
-  const values = cells.map((cell) => cell.value).filter(Number.isFinite);
-  const low = Math.min(...values);
-  const high = Math.max(...values);
-  const at = !(high > low) ? () => 0
-    : low > 0 ? (value: number) => Math.log(value / low) / Math.log(high / low)
-      : (value: number) => (value - low) / (high - low);
-  return { low, high, at };
-}
-
 /** The map with its scale. */
 export function heatMap(cells: HeatCell[], options: HeatOptions): HTMLElement {
   const xs = distinct(cells.map((cell) => cell.x));
   const ys = distinct(cells.map((cell) => cell.y));
   const xEdges = edgesOf(xs, options.xLog);
   const yEdges = edgesOf(ys, options.yLog);
-  const scale = scaleOf(cells);
+  const scale = unitScale(cells.map((cell) => cell.value).filter(Number.isFinite));
   const byPlace = new Map(cells.map((cell) => [`${cell.x} ${cell.y}`, cell.value]));
   const says = h("p", { class: "readout", "aria-live": "polite" });
   const stage = h("div", { class: "stage" });
@@ -123,15 +112,15 @@ export function heatMap(cells: HeatCell[], options: HeatOptions): HTMLElement {
       const [x0, x1] = spanX(i);
       const [y0, y1] = spanY(k);
       const known = Number.isFinite(value);
-      const share = known ? Math.round(100 * scale.at(value)) : 0;
+      const shade = known ? Math.round(100 * scale.at(value)) : 0;
       drawing.append(svg("rect", {
         class: "cell", x: x0, y: y0, width: Math.max(0, x1 - x0 + 0.5), height: Math.max(0, y1 - y0 + 0.5),
-        style: known ? `--share: ${share}%; fill: ${kPaint}` : "fill: none",
+        style: known ? `--shade: ${shade}%; fill: ${kPaint}` : "fill: none",
       }));
       if (numbers) {
         drawing.append(svg("text", {
           x: (x0 + x1) / 2, y: (y0 + y1) / 2 + (marked(x0, x1, y0, y1) ? 24 : 4), "text-anchor": "middle",
-          style: `fill: ${share > 55 ? "var(--card)" : "var(--ink)"}`,
+          style: `fill: ${shade > 55 ? "var(--card)" : "var(--ink)"}`,
         }, known ? formatNumber(value) : "none"));
       }
     }));
@@ -168,16 +157,9 @@ export function heatMap(cells: HeatCell[], options: HeatOptions): HTMLElement {
     });
     stage.replaceChildren(drawing);
   };
-  let width = 0;
-  new ResizeObserver(() => {
-    if (stage.clientWidth === width) return;
-    width = stage.clientWidth;
-    draw();
-  }).observe(stage);
-  draw();
-  const law = isNumber(scale.low) && scale.low > 0 && scale.high > scale.low ? ", in the logarithm" : "";
+  drawToFit(stage, draw);
   return h("figure", { class: "heat-map" }, stage, says,
     h("div", { class: "scale" }, formatNumber(scale.low), h("span", { class: "scale-bar deep" }),
-      `${formatNumber(scale.high)}${law}`,
+      `${formatNumber(scale.high)}${scale.law}`,
       ...options.marks.map((mark) => h("span", {}, `${mark.ring ? "◯" : "✕"} ${mark.name}`))));
 }

@@ -24,7 +24,7 @@ export function seriesPaint(index: number): string {
   return `var(--series-${((index % kColors) + kColors) % kColors})`;
 }
 
-/** Dash pattern of a series; with the mark it tells series apart without colour. */
+/** Dash pattern of a series; with the mark it distinguishes series without colour. */
 export function dashOf(index: number): string {
   return kDashes[(index + Math.floor(index / kColors)) % kDashes.length] ?? "";
 }
@@ -46,4 +46,15 @@ export function markPath(index: number, x: number, y: number, r: number): string
     default:
       return `M${p(-1.1, -0.4)}L${p(1.1, -0.4)}L${p(1.1, 0.4)}L${p(-1.1, 0.4)}Z`;
   }
+}
+
+/** Draws now, and again whenever the width of `stage` changes. */
+export function drawToFit(stage: HTMLElement, draw: () => void): void {
+  let width = 0;
+  new ResizeObserver(() => {
+    if (stage.clientWidth === width) return;
+    width = stage.clientWidth;
+    draw();
+  }).observe(stage);
+  draw();
 }

@@ -16,7 +16,7 @@ export class CameraRig {
   private preset: Preset = "orbit";
   private follows = false;
   /** Heights are drawn so many times larger. */
-  stretch = 1;
+  heightScale = 1;
 
   /** Calls `changed` when the reader moves the camera; `bounds` is what the presets show [m]. */
   constructor(
@@ -63,7 +63,7 @@ export class CameraRig {
   /** Goes with the robot if it follows. */
   track(world: Vector3): void {
     if (!this.follows) return;
-    const target = new Vector3(world.x, world.y, world.z * this.stretch);
+    const target = new Vector3(world.x, world.y, world.z * this.heightScale);
     const step = target.clone().sub(this.controls.target);
     this.controls.target.copy(target);
     this.controls.object.position.add(step);
@@ -86,8 +86,8 @@ export class CameraRig {
   show(preset: Preset, target: Vector3 | null): void {
     this.preset = preset;
     const box = new Box3(this.bounds.min.clone(), this.bounds.max.clone());
-    box.min.z *= this.stretch;
-    box.max.z *= this.stretch;
+    box.min.z *= this.heightScale;
+    box.max.z *= this.heightScale;
     const center = box.getCenter(new Vector3());
     this.controls.target.copy(center);
     if (preset === "orbit") this.showOrbit(box, center);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** How to repeat the run, and in what it differs from the defaults. */
+/** How to repeat the run, and its differences from the defaults. */
 import type { ConfigChange, Json, RunPayload } from "../contract";
 import { h, section } from "../dom";
 import { kNone } from "../format";
@@ -54,7 +54,7 @@ export function configSection(data: RunPayload): HTMLElement {
             { title: "Default", value: (row) => textOf(row.default) },
             { title: "Unit", value: (row) => row.unit ?? "" },
           ],
-          { caption: "What differs from the defaults", rowName: (row) => row.key },
+          { caption: "Differences from the defaults", rowName: (row) => row.key },
         );
   return section(
     "config",

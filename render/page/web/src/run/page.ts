@@ -61,8 +61,8 @@ function chooser(data: RunPayload, store: Store): HTMLElement | null {
       }),
       swatch,
       h("bdi", {}, item.name),
-      isNumber(item.lost_at)
-        ? h("span", { class: "lost" }, ` lost at ${formatFixed(item.lost_at, 0)} s`)
+      isNumber(item.diverged_at)
+        ? h("span", { class: "diverged" }, ` diverged at ${formatFixed(item.diverged_at, 0)} s`)
         : null,
     );
   });
@@ -106,13 +106,13 @@ function keyboard(store: Store): void {
   });
 }
 
-/** The chosen one at first: the first that was not lost, else the first. */
+/** The chosen one at first: the first that did not diverge, else the first. */
 function firstChoice(data: RunPayload): number {
-  const whole = data.estimators.findIndex((item) => !isNumber(item.lost_at));
-  return whole >= 0 ? whole : data.estimators.length - 1 < 0 ? -1 : 0;
+  const intact = data.estimators.findIndex((item) => !isNumber(item.diverged_at));
+  return intact >= 0 ? intact : data.estimators.length - 1 < 0 ? -1 : 0;
 }
 
-/** Level shaded at first: below 100 returns, or whichever the run has stretches of. */
+/** Level shaded at first: below 100 returns, or whichever level the run reaches. */
 function firstLevel(data: RunPayload): Level {
   const degenerate = data.localizability?.degenerate;
   return (

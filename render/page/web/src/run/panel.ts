@@ -5,7 +5,7 @@ import { h } from "../dom";
 import { formatNumber } from "../format";
 import { color } from "../theme";
 import { axisText, decades, linearRange, logRange } from "./panel_axes";
-import { drawLevels, drawMarks, drawStretches, type Backdrop } from "./panel_paint";
+import { drawLevels, drawMarks, drawIntervals, type Backdrop } from "./panel_paint";
 import { align, valueAt, type Track } from "./series";
 
 export interface Curve {
@@ -186,7 +186,7 @@ export class Panel {
         ? [{ series: [last, last + 1], fill: withAlpha(spec.band.color, 0.14) }]
         : [],
       hooks: {
-        drawClear: [(plot) => drawStretches(plot, this.backdrop.shaded)],
+        drawClear: [(plot) => drawIntervals(plot, this.backdrop.shaded)],
         draw: [
           (plot) => drawLevels(plot, spec.levels ?? []),
           (plot) => drawMarks(plot, this.backdrop.marks, this.named),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** What a strip shows behind and over its curves. */
 import type uPlot from "uplot";
-import type { Stretch } from "../contract";
+import type { TimeInterval } from "../contract";
 import { color } from "../theme";
 
 export interface Mark {
@@ -10,14 +10,14 @@ export interface Mark {
   color: string;
 }
 
-/** What all strips show: shaded stretches [s], and instants with a dashed line. */
+/** What all strips show: shaded intervals [s], and instants with a dashed line. */
 export interface Backdrop {
-  shaded: Stretch[];
+  shaded: TimeInterval[];
   marks: Mark[];
 }
 
-/** Degenerate stretches, behind the curves. */
-export function drawStretches(plot: uPlot, shaded: Stretch[]): void {
+/** Degenerate intervals, behind the curves. */
+export function drawIntervals(plot: uPlot, shaded: TimeInterval[]): void {
   const { ctx, bbox } = plot;
   ctx.save();
   ctx.beginPath();

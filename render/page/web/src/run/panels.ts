@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** Which strips the timeline has, for the chosen estimator. */
-import type { Estimator, RunPayload, Stretch } from "../contract";
+import type { Estimator, RunPayload, TimeInterval } from "../contract";
 import { isNumber } from "../format";
 import { color, seriesColor } from "../theme";
 import type { Curve, PanelSpec } from "./panel";
@@ -58,7 +58,7 @@ function truthPanels(data: RunPayload, chosenLevel: Level): PanelSpec[] {
       title: "Localizability, truth",
       unit: "equivalent returns",
       log: true,
-      hint: "By the truth: returns of a facing surface that would tell as much of the weak axis",
+      hint: "Returns of a facing surface that would constrain the weak axis as strongly as this scan, from the truth",
       curves: [{ label: "truth", track: returns, color: color("--truth") }],
       levels: kLevels.filter(({ level }) => level === chosenLevel).map(({ returns: n }) => n),
     });
@@ -105,7 +105,7 @@ function indexPanels(estimator: Estimator | undefined): PanelSpec[] {
       id: "eigenvalue",
       title: "Smallest eigenvalue",
       log: true,
-      hint: "Of the scan's information, as the estimator sees it",
+      hint: "Of the scan's information matrix, from the estimator's diagnostics",
       curves: parts(estimator, [["lambda_min", "λ min", blue]]),
     },
   ];
@@ -122,18 +122,18 @@ function legPanel(data: RunPayload): PanelSpec {
   return {
     id: "legs",
     title: "Legs, truth",
-    hint: "Share of samples lost per 0.1 s; true speed of the standing foot that slips most",
+    hint: "Fraction of samples lost per 0.1 s; true speed of the stance foot that slips most",
     curves,
   };
 }
 
 function errorPanels(data: RunPayload, state: Readonly<State>): PanelSpec[] {
   const chosen = data.estimators[state.chosen];
-  return ["along", "lateral", "vertical"].map((axis) => {
+  return ["longitudinal", "lateral", "vertical"].map((axis) => {
     const sigma = column(chosen, `sigma_${axis}`);
     return {
       id: `error_${axis}`,
-      title: `Error ${axis}`,
+      title: `${axis[0]!.toUpperCase()}${axis.slice(1)} error`,
       unit: "m",
       hint: "Estimate minus truth, anchored at the start; band: three stated standard deviations",
       curves: everyone(data, state.chosen, `error_${axis}`, state.errorScale === "all"),
@@ -172,16 +172,16 @@ export function panelSpecs(data: RunPayload, state: Readonly<State>): PanelSpec[
   return panels.filter((panel) => panel.curves.length > 0);
 }
 
-/** Degenerate stretches at the chosen level, reference points, where the chosen one was lost. */
+/** Degenerate intervals at the chosen level, waypoints, and when the chosen estimator diverged. */
 export function backdrop(data: RunPayload, state: Readonly<State>): Backdrop {
-  const stretches = data.localizability?.degenerate?.[state.level];
-  const shaded = Array.isArray(stretches)
-    ? stretches.filter((pair): pair is Stretch => isNumber(pair?.[0]) && isNumber(pair?.[1]))
+  const intervals = data.localizability?.degenerate?.[state.level];
+  const shaded = Array.isArray(intervals)
+    ? intervals.filter((pair): pair is TimeInterval => isNumber(pair?.[0]) && isNumber(pair?.[1]))
     : [];
   const marks: Mark[] = (data.waypoint_times ?? [])
     .filter((waypoint_time) => isNumber(waypoint_time.t))
     .map((waypoint_time) => ({ t: waypoint_time.t!, text: waypoint_time.name, color: color("--ink-soft") }));
-  const lost = data.estimators[state.chosen]?.lost_at;
-  if (isNumber(lost)) marks.push({ t: lost, text: "lost", color: color("--bad") });
+  const divergedAt = data.estimators[state.chosen]?.diverged_at;
+  if (isNumber(divergedAt)) marks.push({ t: divergedAt, text: "diverged", color: color("--bad") });
   return { shaded, marks };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** Things of the 3D view: scene, cloud, ways, robot, axis, ellipsoid. World axes, z up, metres. */
+/** Things of the 3D view: scene, cloud, trajectories, robot, axis, ellipsoid. World axes, z up, metres. */
 import {
   BoxGeometry,
   BufferAttribute,
@@ -78,8 +78,8 @@ export function heightRange(map: CloudMap): [number, number] {
   heights.sort();
   const low = map.min[2] ?? 0;
   const scale = ((map.max[2] ?? 0) - low) / 65535;
-  const pick = (share: number) =>
-    low + scale * (heights[Math.min(map.n - 1, Math.floor(share * map.n))] ?? 0);
+  const pick = (fraction: number) =>
+    low + scale * (heights[Math.min(map.n - 1, Math.floor(fraction * map.n))] ?? 0);
   return [pick(0.02), pick(0.98)];
 }
 
@@ -100,11 +100,11 @@ export function cloud(map: CloudMap, coloring: "height" | "error", dark: boolean
   const [low, high] = heightRange(map);
   const colors = new Uint8Array(3 * map.n);
   for (let i = 0; i < map.n; ++i) {
-    const share =
+    const fraction =
       coloring === "error"
         ? (map.error?.[i] ?? 0) / 255
         : (positions[3 * i + 2]! - low) / (high - low || 1);
-    const index = 3 * Math.round(255 * Math.min(Math.max(share, 0), 1));
+    const index = 3 * Math.round(255 * Math.min(Math.max(fraction, 0), 1));
     colors.set(table.subarray(index, index + 3), 3 * i);
   }
   const points = geometry(positions).setAttribute("color", new BufferAttribute(colors, 3, true));
@@ -115,7 +115,7 @@ export function cloud(map: CloudMap, coloring: "height" | "error", dark: boolean
 }
 
 /** A trajectory, so many pixels wide, broken where a pose has no value; null without any. */
-export function way(
+export function trajectoryLine(
   positions: Numbers,
   ink: ColorRepresentation,
   width: number,

@@ -17,7 +17,7 @@ const numberAt = (object: unknown, ...path: string[]): CellValue => {
   return isNumber(value) ? value : null;
 };
 
-/** Estimators in the payload's order, then those that only scores.json knows. */
+/** Estimators in the payload's order, then those that only scores.json holds. */
 function rows(data: RunPayload): Row[] {
   const scores = own<object>(data.scores, "estimators") ?? {};
   const known = data.estimators.map((item: Estimator): Row => ({
@@ -42,7 +42,7 @@ function nameCell(row: Row): Child {
 const nameColumn: Column<Row> = { title: "Method", value: (row) => row.name, show: nameCell };
 const success = (row: Row) => at(row.scores, "success") === true;
 
-/** Column of a score that is better the smaller it is; a lost estimator is not best. */
+/** Column of a score that is better the smaller it is; an estimator that diverged is never best. */
 function score(title: string, unit: string, path: string[], hint?: string): Column<Row> {
   return {
     title,
@@ -75,17 +75,17 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   ];
   return sortableTable(list, columns, {
     caption:
-      "As the paper’s tables I and II; – has no value, bold is best of those not lost. " +
-      "One walk, one seed: there are no intervals; several seeds give them.",
+      "As tables I and II of the paper. –: no value. Bold: best of the estimators that did not diverge. " +
+      "One sequence has no intervals; a suite over several seeds has them.",
     rowName: (row) => row.name,
   });
 }
 
 function outcome(row: Row): string {
   if (row.scores === undefined) return kNone;
-  const lost = at(row.scores, "lost_at_s");
-  if (isNumber(lost)) return `lost at ${formatFixed(lost, 1)} s`;
-  return success(row) ? "whole way" : "failed";
+  const divergedAt = at(row.scores, "lost_at_s");
+  if (isNumber(divergedAt)) return `diverged at ${formatFixed(divergedAt, 1)} s`;
+  return success(row) ? "success" : "failed";
 }
 
 function errorTable(list: Row[]): HTMLElement {
@@ -97,16 +97,16 @@ function errorTable(list: Row[]): HTMLElement {
       score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
       score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
       score("max z", "m", ["max_error_z_m"], "Largest height error"),
-      score("RPE 1 m", "m", ["rpe_1m", "translation_m"], "Relative pose error per metre walked"),
+      score("RPE 1 m", "m", ["rpe_1m", "translation_m"], "Relative pose error over 1 m travelled"),
       score(
         "RPE 10 m",
         "m",
         ["rpe_10m", "translation_m"],
-        "Relative pose error per ten metres walked",
+        "Relative pose error over 10 m travelled",
       ),
-      score("along", "m", ["drift_m", "rmse", "along"], "RMSE along the way"),
-      score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE lateral to the way"),
-      score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE above the way"),
+      score("longitudinal", "m", ["drift_m", "rmse", "along"], "RMSE along the true heading"),
+      score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE across the true heading"),
+      score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE of the height"),
       score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
       score("time", "ms", ["time_per_scan_ms", "mean"], "From one scan to the next"),
       score(
@@ -127,9 +127,9 @@ function weakTable(list: Row[]): HTMLElement | null {
   if (levels.length === 0) return null;
   const words: Record<string, string> = {
     all: "all scans",
-    n1000: "below 1000",
-    n100: "below 100",
-    n10: "below 10 returns",
+    n1000: "< 1000 returns",
+    n100: "< 100 returns",
+    n10: "< 10 returns",
   };
   interface Cell extends Row {
     level: string;
@@ -152,16 +152,16 @@ function weakTable(list: Row[]): HTMLElement | null {
     {
       title: "efficiency",
       value: get("efficiency"),
-      hint: "Bound over error: 1 is as good as can be",
+      hint: "Bound divided by error; 1 is optimal",
     },
     {
       title: "NEES",
       value: get("nees"),
-      hint: "Error² over the stated variance: 1 is consistent, above it overconfident",
+      hint: "Error² divided by the stated variance; 1 is consistent, above 1 overconfident",
     },
   ];
   return sortableTable(cells, columns, {
-    caption: "Along each sweep’s weakest axis, over all sweeps and over degenerate ones",
+    caption: "Error along the weakest axis of each scan, for all scans and for degenerate scans",
     rowName: (row) => `${row.name} ${row.level}`,
   });
 }
@@ -172,7 +172,7 @@ function gateTable(data: RunPayload): HTMLElement | null {
   const text = (row: unknown, key: string) => String(own(row, key) ?? "");
   const limit = (row: unknown, key: string) =>
     isNumber(own(row, key)) ? formatNumber(own(row, key)) : kNone;
-  const held = (row: unknown) => own(row, "holds") ?? own(row, "passed") ?? own(row, "ok");
+  const met = (row: unknown) => own(row, "holds");
   return sortableTable<unknown>(
     gates,
     [
@@ -182,19 +182,19 @@ function gateTable(data: RunPayload): HTMLElement | null {
       { title: "at most", value: (row) => numberAt(row, "max"), show: (row) => limit(row, "max") },
       { title: "value", value: (row) => numberAt(row, "value") },
       {
-        title: "holds",
-        value: (row) => (held(row) === true ? "yes" : held(row) === false ? "no" : kNone),
+        title: "met",
+        value: (row) => (met(row) === true ? "yes" : met(row) === false ? "no" : kNone),
       },
     ],
-    { caption: "What the scenario expects" },
+    { caption: "Expectations of the scenario" },
   );
 }
 
-/** What the truth says of the walk, whoever estimates. */
+/** Localizability from the simulated truth; the same for every estimator. */
 function truthLine(data: RunPayload): HTMLElement | null {
   const truth = own<unknown>(data.scores, "localizability");
   if (truth === undefined || truth === null) return null;
-  const share = (level: string) => {
+  const fraction = (level: string) => {
     const value = at(truth, "degenerate_share", level);
     return isNumber(value) ? `${formatFixed(100 * value, 0)} %` : kNone;
   };
@@ -202,10 +202,10 @@ function truthLine(data: RunPayload): HTMLElement | null {
   return h(
     "p",
     { class: "soft" },
-    `By the truth: ${formatNumber(at(truth, "median_equivalent_returns"))} equivalent returns ` +
-      `along the weakest axis (median); below 10 in ${share("n10")} of the scans, ` +
-      `below 100 in ${share("n100")}, below 1000 in ${share("n1000")}. Bound at the end, 1σ: ` +
-      `along ${bound("along")} m, lateral ${bound("lateral")} m, vertical ${bound("vertical")} m.`,
+    `From the truth: ${formatNumber(at(truth, "median_equivalent_returns"))} equivalent returns ` +
+      `along the weakest axis (median); fewer than 10 in ${fraction("n10")} of the scans, ` +
+      `fewer than 100 in ${fraction("n100")}, fewer than 1000 in ${fraction("n1000")}. Bound at the end, 1σ: ` +
+      `longitudinal ${bound("along")} m, lateral ${bound("lateral")} m, vertical ${bound("vertical")} m.`,
   );
 }
 

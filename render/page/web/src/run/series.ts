@@ -94,7 +94,7 @@ export function align(tracks: Track[], positiveOnly = false): Aligned {
   return [keys.map((value) => value / 1000), ...columns];
 }
 
-/** Where the cursor may stand [s]: sweeps, else samples of an estimator or the truth; ascending. */
+/** Where the cursor may stand [s]: scans, else samples of an estimator or the truth; ascending. */
 export function cursorTimes(data: RunPayload): number[] {
   const estimators = data.estimators.map((item) => item.series?.t);
   const longest = estimators.sort((a, b) => (b?.length ?? 0) - (a?.length ?? 0))[0];

@@ -13,7 +13,7 @@ export interface State {
   to: number;
   /** Index of the chosen estimator, -1 without any. */
   chosen: number;
-  /** Level at which degenerate stretches are shaded. */
+  /** Level at which degenerate intervals are shaded. */
   level: Level;
   coloring: Coloring;
   errorScale: ErrorScale;

@@ -61,12 +61,12 @@ function controls(store: Store): HTMLElement {
       { class: "buttons" },
       button("−", "Zoom out (−)", () => store.zoomBy(2, middle())),
       button("+", "Zoom in (+)", () => store.zoomBy(0.5, middle())),
-      button("All", "Show the whole run (0)", () => store.zoomAll()),
+      button("All", "Show the full run (0)", () => store.zoomAll()),
     ),
   );
 }
 
-/** Lets a button move the cursor on its own, eight times as fast as the robot walked. */
+/** Lets a button move the cursor on its own, at eight times real time. */
 function player(store: Store, button: HTMLElement): void {
   let position: number | null = null;
   let before = 0;
@@ -101,7 +101,7 @@ function choices(data: RunPayload, store: Store): HTMLElement {
       h(
         "option",
         { value: name, selected: name === store.state.level },
-        `below ${returns} returns`,
+        `below ${returns} equivalent returns`,
       ),
     ),
   );
@@ -114,7 +114,7 @@ function choices(data: RunPayload, store: Store): HTMLElement {
     h(
       "option",
       { value: "chosen", selected: store.state.errorScale === "chosen" },
-      "the chosen one",
+      "the chosen estimator",
     ),
     h("option", { value: "all", selected: store.state.errorScale === "all" }, "all"),
   );

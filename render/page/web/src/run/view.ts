@@ -78,9 +78,9 @@ function controls(data: RunPayload, store: Store, view: View3D): HTMLElement {
     h("option", { value: "height" }, "height"),
     h("option", { value: "error" }, "error"),
   );
-  const stretch = h(
+  const heightScale = h(
     "select",
-    { "data-control": "stretch", onchange: () => view.setStretch(Number(stretch.value)) },
+    { "data-control": "height-scale", onchange: () => view.setHeightScale(Number(heightScale.value)) },
     ...[1, 5, 20].map((factor) => h("option", { value: factor }, `${factor}×`)),
   );
   const maps = data.estimators.some((item) => item.map && item.map.n > 0);
@@ -89,8 +89,8 @@ function controls(data: RunPayload, store: Store, view: View3D): HTMLElement {
     { class: "view-controls" },
     presets(view),
     follow,
-    maps ? h("label", {}, "map by ", coloring) : null,
-    h("label", {}, "height ", stretch),
+    maps ? h("label", {}, "map colour ", coloring) : null,
+    h("label", {}, "height scale ", heightScale),
   );
 }
 
@@ -139,7 +139,7 @@ function legend(data: RunPayload, state: Readonly<State>, scale: number): HTMLEl
   );
 }
 
-/** Where the robot is at the cursor, in words. */
+/** True and estimated position at the cursor. */
 function readout(data: RunPayload, state: Readonly<State>): HTMLElement {
   const chosen = data.estimators[state.chosen];
   const truthIndex = indexAt(data.truth?.t, state.cursor);
@@ -149,7 +149,7 @@ function readout(data: RunPayload, state: Readonly<State>): HTMLElement {
   const returns = track(data.localizability?.t, data.localizability?.equivalent_returns);
   const place = (point: number[] | null) =>
     point ? point.map((value) => formatFixed(value, 2)).join(", ") : "–";
-  const apart =
+  const error =
     truth && estimate ? Math.hypot(...truth.map((value, i) => value - estimate[i]!)) : NaN;
   const item = (name: string, key: string, text: string) =>
     h(
@@ -163,7 +163,7 @@ function readout(data: RunPayload, state: Readonly<State>): HTMLElement {
     { class: "readout" },
     item("truth", "truth", `${place(truth)} m`),
     chosen ? item("estimate", "estimate", `${place(estimate)} m`) : null,
-    chosen ? item("apart", "apart", `${formatNumber(apart)} m`) : null,
+    chosen ? item("error", "error", `${formatNumber(error)} m`) : null,
     returns
       ? item("equivalent returns", "returns", formatNumber(valueAt(returns, state.cursor)))
       : null,

@@ -24,7 +24,7 @@ import {
   extend,
   robot,
   sceneParts,
-  way,
+  trajectoryLine,
   type Bounds,
 } from "./parts3d";
 import { indexAt, quaternionAt, vectorAt } from "./series";
@@ -55,7 +55,7 @@ function dispose(object: Object3D): void {
   object.removeFromParent();
 }
 
-/** What the presets show: truth and scene; estimates only without these, for lost ones run far. */
+/** What the presets show: truth and scene; estimates only without these, since diverged ones run far. */
 function extent(data: RunPayload): Bounds {
   const bounds: Bounds = {
     min: new Vector3(Infinity, Infinity, Infinity),
@@ -127,7 +127,7 @@ export class View3D {
     this.stage.background = new Color(color("--scene"));
     if (this.data.scene) this.world.add(sceneParts(this.data.scene, color("--wire")));
     this.addCloud();
-    this.addWays();
+    this.addTrajectories();
     const ink = seriesColor(this.data.estimators[this.state.chosen]?.colour_index ?? 0);
     this.moving = {
       truth: robot(color("--truth")),
@@ -152,7 +152,7 @@ export class View3D {
   }
 
   /** The chosen one and the truth are thick, and drawn last. */
-  private addWays(): void {
+  private addTrajectories(): void {
     const { estimators, truth } = this.data;
     const add = (
       positions: Float32Array | null | undefined,
@@ -160,7 +160,7 @@ export class View3D {
       width: number,
       opacity: number,
     ) => {
-      const line = positions ? way(positions, ink, width, opacity) : null;
+      const line = positions ? trajectoryLine(positions, ink, width, opacity) : null;
       if (line) this.world.add(line);
     };
     estimators.forEach((item, index) => {
@@ -234,9 +234,9 @@ export class View3D {
   }
 
   /** Draws heights so many times larger. */
-  setStretch(stretch: number): void {
-    this.rig.stretch = stretch;
-    this.world.scale.z = stretch;
+  setHeightScale(scale: number): void {
+    this.rig.heightScale = scale;
+    this.world.scale.z = scale;
     this.rig.show(this.preset, this.target());
     this.draw();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** The suite against other results: before, after, and whether the change is beyond noise. */
+/** The suite against other results: before, after, and whether the change is significant. */
 import { choice, notes } from "../charts/controls";
 import { h, section } from "../dom";
 import { formatNumber, isNumber } from "../format";
@@ -7,7 +7,7 @@ import { sortableTable } from "../table";
 import { titleOf, type Comparison, type ScoreChange, type SuitePayload } from "./model";
 
 const kVerdicts: Record<string, string> = {
-  better: "▲ better", worse: "▼ worse", "one seed": "? one seed", none: "= nothing beyond noise",
+  better: "▲ better", worse: "▼ worse", "one seed": "? one seed", none: "= no significant change",
 };
 const kRank = ["worse", "better", "one seed", "none"];
 
@@ -42,33 +42,33 @@ function changeTable(data: SuitePayload, rows: ScoreChange[], caption: string): 
     {
       title: "verdict", value: (row) => kRank.indexOf(row.verdict),
       show: (row) => h("span", { class: `verdict-${row.verdict === "better" || row.verdict === "worse" ? row.verdict : "none"}` },
-        row.verdict === "none" && row.seeds === 1 ? "= too small to matter" : verdictText(row.verdict)),
+        row.verdict === "none" && row.seeds === 1 ? "= below the relevant change" : verdictText(row.verdict)),
     },
     {
-      title: "by chance", hint: "probability of better or worse if only chance gave the differences their signs",
+      title: "false alarm", hint: "probability of such a verdict when the signs of the paired differences are random",
       value: (row) => row.false_alarm,
     },
   ], { caption, rowName: (row) => `${row.scenario}/${row.estimator}/${row.score}` });
 }
 
-function only(title: string, units: string[]): HTMLElement | null {
-  if (units.length === 0) return null;
-  return h("details", {}, h("summary", {}, `${title}: ${units.length}`), notes(units));
+function only(title: string, names: string[]): HTMLElement | null {
+  if (names.length === 0) return null;
+  return h("details", {}, h("summary", {}, `${title}: ${names.length}`), notes(names));
 }
 
 /** The section; none without other results. */
 export function compareSection(data: SuitePayload): HTMLElement | null {
   const compare: Comparison | null = data.compare;
   if (!compare) return null;
-  const spoken = (row: ScoreChange) => row.verdict === "better" || row.verdict === "worse";
-  let verdict = compare.changes.some(spoken) ? "spoken"
+  const decided = (row: ScoreChange) => row.verdict === "better" || row.verdict === "worse";
+  let verdict = compare.changes.some(decided) ? "decided"
     : compare.changes.some((row) => row.verdict === "one seed") ? "one seed" : "all";
   let score = "";
   const place = h("div", {});
   const scores = [...new Set(compare.changes.map((row) => row.score))];
   const draw = () => {
     const rows = compare.changes.filter((row) =>
-      (verdict === "all" || (verdict === "spoken" ? spoken(row) : row.verdict === verdict)) &&
+      (verdict === "all" || (verdict === "decided" ? decided(row) : row.verdict === verdict)) &&
       (!score || row.score === score));
     place.replaceChildren(rows.length > 0
       ? changeTable(data, rows, `${rows.length} of ${compare.changes.length} comparisons`)
@@ -80,7 +80,7 @@ export function compareSection(data: SuitePayload): HTMLElement | null {
     compare.summary ? h("p", {}, compare.summary) : null,
     h("div", { class: "toolbar" },
       choice("Verdict", [
-        { value: "spoken", label: "better or worse" },
+        { value: "decided", label: "better or worse" },
         ...kRank.map((each) => ({ value: each, label: verdictText(each) })), { value: "all", label: "all" },
       ], verdict, (value) => { verdict = value; draw(); }),
       choice("Score", [{ value: "", label: "all" },

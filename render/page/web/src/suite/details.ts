@@ -24,11 +24,11 @@ function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string
       title: "outcome", value: (run) => String(outcome(run, estimator)["success"]),
       show: (run) => {
         const found = outcome(run, estimator);
-        if (found["success"] === true) return "localized";
-        if (found["success"] !== false) return "not known";
+        if (found["success"] === true) return "success";
+        if (found["success"] !== false) return "unknown";
         const at = numberAt(found, "lost_at_s");
         const why = typeof found["lost_reason"] === "string" ? found["lost_reason"] : "";
-        return `✕ lost${at === null ? "" : ` at ${at.toFixed(1)} s`}${why ? `: ${why}` : ""}`;
+        return `✕ diverged${at === null ? "" : ` at ${at.toFixed(1)} s`}${why ? `: ${why}` : ""}`;
       },
     },
     ...data.headline.map((score): Column<Run> => ({

@@ -17,10 +17,10 @@ interface Quantity {
 const kQuantities: Quantity[] = [
   { value: "ate_m", low: "ate_low_m", high: "ate_high_m", label: "ATE [m]" },
   { value: "m_list_percent", low: "m_list_low_percent", high: "m_list_high_percent", label: "M_list [%]" },
-  { value: "success_rate", low: null, high: null, label: "share of runs localized" },
+  { value: "success_rate", low: null, high: null, label: "success rate" },
 ];
 
-/** Place of each point: its level, or what the truth says its walls tell. */
+/** Place of each point: its level, or the equivalent returns of its truth. */
 function places(family: Family, overTruth: boolean, count: number): (number | null)[] {
   const returns = family.median_equivalent_returns ?? [];
   return Array.from({ length: count }, (_, i) => {
@@ -41,8 +41,8 @@ function lineOf(family: Family, name: string, index: number, quantity: Quantity,
       x, y: isNumber(y) ? y : NaN,
       low: quantity.low ? point[quantity.low] ?? NaN : NaN,
       high: quantity.high ? point[quantity.high] ?? NaN : NaN,
-      lost: quantity.low !== null && rate < 0.5,
-      note: `${Math.round(rate * point.runs)} of ${point.runs} runs localized` +
+      cross: quantity.low !== null && rate < 0.5,
+      note: `${Math.round(rate * point.runs)} of ${point.runs} runs succeeded` +
         `${overTruth ? `, level ${point.level}` : ""}`,
     }];
   });
@@ -65,7 +65,7 @@ function table(family: Family, names: string[], quantity: Quantity): HTMLElement
   }
   const columns: Column<TableRow>[] = [
     { title: "level", unit: family.level_unit, value: (row) => row.level, show: (row) => String(row.level) },
-    { title: "equivalent returns", value: (row) => row.returns, hint: "along the weak axis, median of the sweeps, by the truth" },
+    { title: "equivalent returns", value: (row) => row.returns, hint: "along the weak axis, median over scans, from the truth" },
     ...names.map((name): Column<TableRow> => ({
       title: name, value: (row) => row.of.get(name)?.[quantity.value],
       interval: (row) => {
@@ -80,13 +80,13 @@ function table(family: Family, names: string[], quantity: Quantity): HTMLElement
 }
 
 function breaksText(family: Family, names: string[]): string {
-  const told = names.map((name) => {
+  const levels = names.map((name) => {
     const breaks = own<{ breaks_at: number[] }>(family.estimators, name)?.breaks_at;
     if (!breaks) return null;
-    return `${name} ${breaks.length > 0 ? `at ${breaks.join(" and ")}` : "nowhere"}`;
+    return `${name} ${breaks.length > 0 ? breaks.join(" and ") : "none"}`;
   }).filter((each) => each !== null);
-  return `Breaks: ${told.join(", ")}. An estimator breaks at the first level, going away from the mildest ` +
-    `(${family.mildest_level}), where it is lost in more than half of the runs or its median ATE is over twice that there.`;
+  return `Breakdown levels: ${levels.join(", ")}. The breakdown level is the first one, counted from the mildest ` +
+    `(${family.mildest_level}), at which more than half of the runs diverge or the median ATE is over twice that of the mildest.`;
 }
 
 /** The section; none without a family. */
@@ -115,7 +115,7 @@ export function familySection(data: SuitePayload): HTMLElement | null {
           quantity = kQuantities.find((each) => each.value === value) ?? quantity;
           draw();
         }),
-        known ? choice("Over", [{ value: "level", label: "level" }, { value: "truth", label: "equivalent returns" }],
+        known ? choice("x axis", [{ value: "level", label: "level" }, { value: "truth", label: "equivalent returns" }],
           overTruth ? "truth" : "level", (value) => {
             overTruth = value === "truth";
             draw();
@@ -127,9 +127,9 @@ export function familySection(data: SuitePayload): HTMLElement | null {
         ...(quantity.low === null ? { yEnds: [-0.03, 1.05] as [number, number] } : {}),
         verticals: overTruth ? [] : [{ x: family.mildest_level, label: "mildest" }],
       }),
-      h("p", { class: "soft" }, `Median over seeds with its 95 % interval; ✕: lost in more than half of the runs. ${breaksText(family, names)}`),
+      h("p", { class: "soft" }, `Median over seeds with its 95 % interval; ✕: more than half of the runs diverged. ${breaksText(family, names)}`),
       h("details", {}, h("summary", {}, "Numbers"), table(family, names, quantity)));
   };
   draw();
-  return section("families", families.length === 1 ? `Over the ${family.name}` : "Over the levels of a family", place);
+  return section("families", families.length === 1 ? `By ${family.name}` : "By level of a scenario family", place);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** The matrix scenario × estimator: value, colour, success, and the way to the runs. */
+/** The matrix scenario × estimator: value, colour, success, and links to the runs. */
+import { unitScale } from "../charts/axis";
 import { choice, tick, type Choice } from "../charts/controls";
 import { h, section } from "../dom";
 import { formatNumber, isNumber, kNone } from "../format";
@@ -15,7 +16,7 @@ interface View {
   shade: "matrix" | "row";
   group: string;
   text: string;
-  lostOnly: boolean;
+  divergedOnly: boolean;
   /** Estimator that rows are ordered by; null: as the suite has them. */
   sortBy: string | null;
   descending: boolean;
@@ -45,11 +46,11 @@ function groupChoices(data: SuitePayload): Choice[] {
   ];
 }
 
-function lostAny(scenario: SuiteScenario): boolean {
+function anyDiverged(scenario: SuiteScenario): boolean {
   return Object.values(scenario.estimators).some((each) => each.successes < each.runs);
 }
 
-/** Members of a family together, where its first one stands, by their level. */
+/** Scenarios of a family together, in the place of its first one, by level. */
 function inOrder(scenarios: SuiteScenario[]): SuiteScenario[] {
   const group = (each: SuiteScenario) => (each.family ? `family:${each.family}` : `scenario:${each.name}`);
   const groups = [...new Set(scenarios.map(group))];
@@ -63,7 +64,7 @@ function rowsOf(data: SuitePayload, view: View): SuiteScenario[] {
   const rows = inOrder(data.suite.scenarios).filter((each) =>
     (!view.group || view.group === `family:${each.family}` ||
       (each.tags ?? []).some((tag) => view.group === `tag:${tag}`)) &&
-    each.name.toLowerCase().includes(wanted) && (!view.lostOnly || lostAny(each)));
+    each.name.toLowerCase().includes(wanted) && (!view.divergedOnly || anyDiverged(each)));
   const { sortBy } = view;
   if (sortBy === null) return rows;
   const key = (each: SuiteScenario) => valueOf(each, sortBy, view.score, view.statistic);
@@ -75,15 +76,6 @@ function rowsOf(data: SuitePayload, view: View): SuiteScenario[] {
   });
 }
 
-/** From values to [0, 1], in the logarithm where all are above zero. */
-function shadeOf(values: number[]): (value: number) => number {
-  const low = Math.min(...values);
-  const high = Math.max(...values);
-  if (!(high > low)) return () => 0;
-  if (low > 0) return (value) => Math.log(value / low) / Math.log(high / low);
-  return (value) => (value - low) / (high - low);
-}
-
 function numbers(rows: SuiteScenario[], estimators: string[], view: View): number[] {
   return rows.flatMap((row) => estimators.map((each) => valueOf(row, each, view.score, view.statistic)))
     .filter(isNumber);
@@ -93,7 +85,7 @@ function levelText(row: SuiteScenario): string | null {
   return row.family && isNumber(row.level) ? `${row.family} ${row.level} ${row.level_unit ?? ""}` : null;
 }
 
-/** Which text is best in a row: the least, of the success rate the greatest. */
+/** Text of the best value of a row: the smallest, for the success rate the largest. */
 function bestOf(row: SuiteScenario, estimators: string[], view: View): string | null {
   const values = numbers([row], estimators, view);
   if (values.length < 2 || view.score.includes("signed")) return null;
@@ -119,22 +111,22 @@ function cell({ row, view, shade, best, open }: Cells, estimator: string): HTMLE
   const summary = summaryOf(row, estimator);
   if (!summary) return h("td", { class: "matrix-cell none" }, h("span", { class: "soft" }, "not run"));
   const value = valueOf(row, estimator, view.score, view.statistic);
-  const lost = summary.runs - summary.successes;
+  const diverged = summary.runs - summary.successes;
   const text = formatNumber(value);
-  const of = lost > 0 ? `✕ ${lost} of ${summary.runs} lost` : `${summary.runs} of ${summary.runs}`;
+  const of = diverged > 0 ? `✕ ${diverged} of ${summary.runs} diverged` : `${summary.runs} of ${summary.runs}`;
   const interval = intervalText(row, estimator, view);
   const amount = isNumber(value) ? Math.round(100 * shade(value)) : 0;
   const button = h("button", {
     type: "button", class: "cell", tabindex: -1,
     "aria-label": `${row.name}, ${estimator}: ${text === kNone ? "no value" : text}` +
-      `${interval ? `, ${interval}` : ""}; ${lost > 0 ? `${lost} of ${summary.runs} lost` : "none lost"}`,
+      `${interval ? `, ${interval}` : ""}; ${diverged > 0 ? `${diverged} of ${summary.runs} diverged` : "none diverged"}`,
     onclick: () => open(row, estimator),
   }, h("span", { class: "value" }, text),
     interval ? h("span", { class: "interval" }, interval) : null,
-    lost > 0 || summary.runs > 1 ? h("span", { class: "runs" }, of) : null);
+    diverged > 0 || summary.runs > 1 ? h("span", { class: "runs" }, of) : null);
   return h("td", {
-    class: ["matrix-cell", lost > 0 ? "lost" : "", text === best ? "best" : ""].join(" ").trim(),
-    style: `--share: ${view.score === kSuccessRate ? 100 - amount : amount}%`,
+    class: ["matrix-cell", diverged > 0 ? "diverged" : "", text === best ? "best" : ""].join(" ").trim(),
+    style: `--shade: ${view.score === kSuccessRate ? 100 - amount : amount}%`,
     "data-value": isNumber(value) ? value : null, "data-estimator": estimator,
   }, button);
 }
@@ -163,7 +155,7 @@ function head(data: SuitePayload, estimators: string[], view: View, changed: () 
 }
 
 /** One tab stop for all cells; arrow keys go between them. */
-function walkByArrows(table: HTMLElement): void {
+function moveByArrows(table: HTMLElement): void {
   const rows = () => [...table.querySelectorAll<HTMLElement>("tbody tr")]
     .map((row) => [...row.querySelectorAll<HTMLElement>("button.cell")]);
   rows()[0]?.[0]?.setAttribute("tabindex", "0");
@@ -187,10 +179,8 @@ function walkByArrows(table: HTMLElement): void {
 
 function scaleBar(values: number[], view: View, unit: string): HTMLElement | null {
   if (view.shade === "row" || values.length === 0) return null;
-  const low = Math.min(...values);
-  const high = Math.max(...values);
+  const { low, high, law } = unitScale(values);
   const [from, to] = view.score === kSuccessRate ? [high, low] : [low, high];
-  const law = low > 0 && high > low ? ", in the logarithm" : "";
   return h("div", { class: "scale" }, `${formatNumber(from)} ${unit}`, h("span", { class: "scale-bar heat" }),
     `${formatNumber(to)} ${unit}${law}`);
 }
@@ -199,26 +189,26 @@ function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: ()
   const estimators = estimatorsOf(data);
   const rows = rowsOf(data, view);
   const { title, unit } = titleOf(data.headline, view.score);
-  if (rows.length === 0) return h("p", { class: "nothing" }, "No scenario is left by this choice.");
+  if (rows.length === 0) return h("p", { class: "nothing" }, "No scenario matches this choice.");
   const all = numbers(rows, estimators, view);
-  const byMatrix = shadeOf(all);
+  const byMatrix = unitScale(all).at;
   const anyLink = data.runs.some((run) => run.href);
   const body = rows.map((row) => {
-    const shade = view.shade === "row" ? shadeOf(numbers([row], estimators, view)) : byMatrix;
+    const shade = view.shade === "row" ? unitScale(numbers([row], estimators, view)).at : byMatrix;
     const cells: Cells = { row, view, shade, best: bestOf(row, estimators, view), open };
     return h("tr", { "data-row": row.name }, h("th", { scope: "row", title: levelText(row) }, row.name),
       ...estimators.map((each) => cell(cells, each)), anyLink ? links(data, row) : null);
   });
   const what = view.score === kSuccessRate ? title : `${view.statistic} of ${title}${unit ? ` [${unit}]` : ""}`;
-  const caption = `${what}${view.score === kSuccessRate ? "" : " over seeds, with its 95 % interval where known"}; ` +
-    `${rows.length} scenarios`;
+  const caption = `${what}${view.score === kSuccessRate ? "" : " over seeds, with 95 % interval where available"}; ` +
+    `${rows.length} scenario${rows.length === 1 ? "" : "s"}`;
   const table = h("table", { class: "matrix", "aria-label": caption },
     head(data, estimators, view, changed), h("tbody", {}, ...body));
-  walkByArrows(table);
+  moveByArrows(table);
   return h("div", {}, h("p", { class: "soft" }, caption), h("div", { class: "table-frame matrix-frame" }, table), scaleBar(all, view, unit));
 }
 
-/** The section with the matrix, its choices and what is told of the chosen cell. */
+/** The section with the matrix, its choices and the details of the chosen cell. */
 export function matrixSection(data: SuitePayload): HTMLElement {
   if (data.suite.scenarios.length === 0) {
     return section("matrix", "Scenarios and estimators",
@@ -227,14 +217,14 @@ export function matrixSection(data: SuitePayload): HTMLElement {
   const scores = scoreChoices(data);
   const first = scores.find((each) => each.value === "ate_m") ?? scores[0]!;
   const view: View = {
-    score: first.value, statistic: "median", shade: "matrix", group: "", text: "", lostOnly: false,
+    score: first.value, statistic: "median", shade: "matrix", group: "", text: "", divergedOnly: false,
     sortBy: null, descending: false,
   };
   const place = h("div", {});
-  const told = h("div", { class: "cell-details", "aria-live": "polite" });
+  const shown = h("div", { class: "cell-details", "aria-live": "polite" });
   const open: Cells["open"] = (scenario, estimator) => {
-    told.replaceChildren(details(data, scenario, estimator, () => told.replaceChildren()));
-    told.scrollIntoView({ block: "nearest" });
+    shown.replaceChildren(details(data, scenario, estimator, () => shown.replaceChildren()));
+    shown.scrollIntoView({ block: "nearest" });
   };
   const draw = () => place.replaceChildren(matrix(data, view, open, draw));
   const change = <Key extends keyof View>(key: Key) => (value: View[Key]) => {
@@ -247,12 +237,12 @@ export function matrixSection(data: SuitePayload): HTMLElement {
   return section("matrix", "Scenarios and estimators",
     h("div", { class: "toolbar" },
       choice("Score", scores, first.value, change("score")),
-      choice("of the runs", [{ value: "median", label: "median" }, { value: "worst", label: "worst" }], "median",
+      choice("Statistic", [{ value: "median", label: "median" }, { value: "worst", label: "worst" }], "median",
         (value) => change("statistic")(value === "worst" ? "worst" : "median")),
       choice("Colour", [{ value: "matrix", label: "over all" }, { value: "row", label: "row by row" }], "matrix",
         (value) => change("shade")(value === "row" ? "row" : "matrix")),
       choice("Scenarios", groupChoices(data), "", change("group")), search,
-      tick("only with lost runs", false, change("lostOnly"))),
-    place, told,
-    h("p", { class: "soft" }, "Bold: the best of its row. ✕ and hatching: runs that were lost before the end; the value is over the runs that have one."));
+      tick("only with diverged runs", false, change("divergedOnly"))),
+    place, shown,
+    h("p", { class: "soft" }, "Bold: best of the row. ✕ and hatching: runs diverged; the value is over the runs that have one."));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** The suite page's data, and questions that its parts share. */
+/** The suite page's data, and functions on it. */
 import type { Maybe, PagePayload } from "../contract";
 import { own } from "../dom";
 import { isNumber } from "../format";
@@ -82,7 +82,7 @@ export interface RocScore {
   onsets: number;
   missed: number;
   median_delay_s: Maybe;
-  /** Share of false alarms and of detections, by turns. */
+  /** False-alarm and detection rate, alternating. */
   curve: Float32Array;
 }
 
@@ -142,7 +142,7 @@ export interface SuitePayload extends PagePayload {
   notes?: string[];
 }
 
-/** Share of runs that stayed localized; not a score of scores.json, but shown like one. */
+/** Fraction of successful runs; no score of scores.json, but shown like one. */
 export const kSuccessRate = "success rate";
 
 /** Every estimator of the suite, in the order in which they appear. */
@@ -169,7 +169,7 @@ export function scoreKeysOf(data: SuitePayload): string[] {
 export function titleOf(headline: Headline[], key: string): { title: string; unit: string } {
   const found = headline.find((each) => each.key === key);
   if (found) return { title: found.title, unit: found.unit };
-  if (key === kSuccessRate) return { title: "success", unit: "share of runs" };
+  if (key === kSuccessRate) return { title: "success", unit: "fraction of runs" };
   const end = key.slice(key.lastIndexOf("_") + 1);
   const unit = key.startsWith("m_list_percent") || key.startsWith("m_list_signed_percent") ? "%"
     : key.includes("_rad") ? "rad" : end === "s" ? "s" : key.includes("_m") || end === "m" ? "m" : "";

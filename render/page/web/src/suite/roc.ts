@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** How well each index of an estimator's diagnostics tells degenerate scans from sound ones. */
+/** How well each index of an estimator's diagnostics separates degenerate scans from the others. */
 import { chart, type Line, type Mark } from "../charts/chart";
 import { choice } from "../charts/controls";
 import { h, section } from "../dom";
@@ -22,11 +22,11 @@ function rocTable(scores: RocScore[], roc: Detectors, caption: string): HTMLElem
   return sortableTable(scores, [
     { title: "index", value: (score) => score.index },
     {
-      title: "AUC", hint: "area under the curve; 0.5 is chance", best: "high", value: (score) => score.auc,
+      title: "AUC", hint: "area under the curve; 0.5 is a random guess", best: "high", value: (score) => score.auc,
       interval: (score) => isNumber(score.auc_low) && isNumber(score.auc_high) ? [score.auc_low, score.auc_high] : null,
     },
     {
-      title: "detected", hint: `share of degenerate scans where at most ${100 * roc.false_alarms} % of the sound ones alarm`,
+      title: "detected", hint: `fraction of degenerate scans detected at a false-alarm rate of at most ${100 * roc.false_alarms} %`,
       best: "high", value: (score) => score.detections,
     },
     { title: "delay", unit: "s", hint: "median time from onset to alarm", best: "low", value: (score) => score.median_delay_s },
@@ -34,7 +34,7 @@ function rocTable(scores: RocScore[], roc: Detectors, caption: string): HTMLElem
   ], { caption, rowName: (score) => score.index });
 }
 
-/** The section; none without a study of detectors. */
+/** The section; none without a detector study. */
 export function rocSection(data: SuitePayload): HTMLElement | null {
   const roc = data.roc;
   if (!roc || roc.scores.length === 0) return null;
@@ -61,15 +61,15 @@ export function rocSection(data: SuitePayload): HTMLElement | null {
         lines.length > 0
           ? chart(lines, {
               label: `ROC curves of ${lines.length} indices, ${what}; the table has the areas under them`,
-              xLabel: "share of sound scans with an alarm", yLabel: "share of degenerate scans found",
+              xLabel: "false-alarm rate", yLabel: "detection rate",
               xEnds: [0, 1], yEnds: [0, 1.01], diagonal: true, height: 380,
               verticals: [{ x: roc.false_alarms, label: `${100 * roc.false_alarms} %` }],
             })
-          : h("p", { class: "nothing" }, "By the truth these scans are all alike at this level: no curve."),
+          : h("p", { class: "nothing" }, "At this level all scans are degenerate or none is: no curve."),
         rocTable(scores, roc, `${set === kPooled ? "All runs" : set}; ${what}: ` +
           `${scores[0]?.degenerate ?? 0} of ${scores[0]?.scans ?? 0} scans`)));
   };
   draw();
   return section("roc", `Indices of ${roc.estimator} as detectors`, place,
-    h("p", { class: "soft" }, `Intervals: bootstrap over ${roc.runs.length} runs. Dashed: chance.`));
+    h("p", { class: "soft" }, `Intervals: bootstrap over ${roc.runs.length} runs. Dashed: random guess.`));
 }

@@ -27,21 +27,21 @@ function gateSection(data: SuitePayload): HTMLElement | null {
     { title: "scenario", value: (row) => row.scenario },
     { title: "estimator", value: (row) => row.estimator },
     { title: "score", value: (row) => row.score },
-    { title: "of the runs", value: (row) => row.statistic },
+    { title: "statistic", value: (row) => row.statistic },
     { title: "expected", value: limit },
     { title: "value", value: (row) => row.value },
-    { title: "holds", value: (row) => row.holds, show: (row) => (row.holds ? "yes" : "✕ no") },
+    { title: "met", value: (row) => row.holds, show: (row) => (row.holds ? "yes" : "✕ no") },
   ], { caption });
   return section("expectations", "Expectations",
-    h("p", {}, `${gates.length - failed.length} of ${gates.length} hold.`),
-    failed.length > 0 ? table(failed, "Those that do not hold") : null,
+    h("p", {}, `${gates.length - failed.length} of ${gates.length} are met.`),
+    failed.length > 0 ? table(failed, "Not met") : null,
     h("details", {}, h("summary", {}, "All"), table(gates, "All expectations")));
 }
 
 function failureSection(data: SuitePayload): HTMLElement | null {
   const failures = data.suite.failures ?? [];
   if (failures.length === 0) return null;
-  return section("failures", "Could not run", notes(failures.map((each) =>
+  return section("failures", "Failed to run", notes(failures.map((each) =>
     `${each.scenario ?? ""}${each.seed === null || each.seed === undefined ? "" : `, seed ${each.seed}`}: ${each.message ?? ""}`)));
 }
 
@@ -60,6 +60,6 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
     h("nav", { class: "contents", "aria-label": "Contents" }, ...sections.map((each) =>
       h("a", { href: `#${each.id}` }, each.querySelector("h2")?.textContent ?? each.id))),
     ...sections);
-  const told = notes(data.notes);
-  if (told) root.append(section("notes", "Notes", told));
+  const noted = notes(data.notes);
+  if (noted) root.append(section("notes", "Notes", noted));
 }

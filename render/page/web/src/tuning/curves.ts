@@ -24,8 +24,8 @@ function cloudLines(data: TuningPayload, own: TunedEstimator, score: string, par
   return scenariosOf(data).map((scenario, index) => ({
     name: scenario, index, scatter: true,
     marks: pointsOf(data, own, score, { scenario, heldOut: false }).map((point) => ({
-      x: point.values[parameter]!, y: point.score, lost: point.lost > 0,
-      note: point.untuned ? "untuned" : point.lost > 0 ? `${point.lost} of ${point.walks} lost` : "",
+      x: point.values[parameter]!, y: point.score, cross: point.diverged > 0,
+      note: point.untuned ? "defaults" : point.diverged > 0 ? `${point.diverged} of ${point.sequences} diverged` : "",
     })),
   })).filter((line) => line.marks.length > 0);
 }
@@ -40,7 +40,7 @@ export function curves(
 ): HTMLElement {
   const figures = own.parameters.map((parameter, i) => {
     const lines = cloud ? cloudLines(data, own, score, i) : analysis ? sliceLines(analysis, i) : [];
-    const yLabel = cloud || !analysis ? score : analysis.relative ? `${score}, objective` : `${score}, objective`;
+    const yLabel = cloud || !analysis ? score : `${score}, objective`;
     const verticals = [{ x: parameter.default, label: `default ${formatNumber(parameter.default)}` }];
     const body = lines.some((line) => line.marks.some((mark) => Number.isFinite(mark.y)))
       ? chart(lines, {
@@ -48,7 +48,7 @@ export function curves(
           xLog: parameter.log, yLog: allPositive(lines), xEnds: parameterEnds(parameter), verticals,
         })
       : h("p", { class: "nothing" }, cloud ? "No point has this score."
-          : "Neither the points nor a polynomial through them tell this curve; look at all points instead.");
+          : "No curve: too few points, and no polynomial fits them. Choose “every point” instead.");
     return h("div", { "data-parameter": parameter.name }, parameterHead(parameter), body);
   });
   return h("div", { class: "figures" }, ...figures);

@@ -35,11 +35,11 @@ export function map(own: TunedEstimator, analysis: Analysis, pair: Pair, changed
   const choose = (nextX: number, nextY: number) => changed(nextX === nextY
     ? { first: nextX, second: nextX === x ? x : y === nextX ? x : y } : { first: nextX, second: nextY });
   const bar = h("div", { class: "toolbar" },
-    choice("Across", names, String(x), (value) => choose(Number(value), Number(value) === y ? x : y)),
-    choice("Up", names, String(y), (value) => choose(Number(value) === x ? y : x, Number(value))));
+    choice("x axis", names, String(x), (value) => choose(Number(value), Number(value) === y ? x : y)),
+    choice("y axis", names, String(y), (value) => choose(Number(value) === x ? y : x, Number(value))));
   if (!slice || !slice.y || x === y) {
     return h("div", {}, bar, h("p", { class: "nothing" },
-      "Neither a grid of points nor a polynomial through them tells this map."));
+      "No map: too few points, and no polynomial fits them."));
   }
   const [xs, ys] = turned ? [slice.y, slice.x] : [slice.x, slice.y];
   const cells = Array.from(slice.value, (value, i) => ({ x: xs[i]!, y: ys[i]!, value }));

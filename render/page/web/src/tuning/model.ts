@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** The tuning page's data, and questions that its parts share. */
+/** The tuning page's data, and functions on it. */
 import type { Maybe, Numbers, PagePayload } from "../contract";
 import { isNumber } from "../format";
 
@@ -71,7 +71,7 @@ export interface Analysis {
   maps: Slice[];
 }
 
-export interface Walk {
+export interface Sequence {
   scenario: string;
   family: string;
   seed: number;
@@ -81,8 +81,8 @@ export interface TunedEstimator {
   name: string;
   parameters: Parameter[];
   points: { values: Numbers; untuned: Uint8Array; generation: Numbers | null };
-  /** A unit each: point, walk, outcome (0 done, 1 failed, 2 crashed, 3 timed out), scores by turns. */
-  rows: { point: Numbers; walk: Numbers; outcome: Uint8Array; lost: Uint8Array; held_out: Uint8Array; scores: Numbers };
+  /** A job each: point, sequence, outcome (0 done, 1 failed, 2 crashed, 3 timed out), scores, job by job. */
+  rows: { point: Numbers; sequence: Numbers; outcome: Uint8Array; diverged: Uint8Array; held_out: Uint8Array; scores: Numbers };
   analyses: Analysis[];
 }
 
@@ -90,24 +90,24 @@ export interface TuningPayload extends PagePayload {
   kind: "tuning";
   source: "sweep" | "tune";
   plan: string;
-  units: Record<string, number>;
-  held_out_units: Record<string, number>;
+  jobs: Record<string, number>;
+  held_out_jobs: Record<string, number>;
   scores: string[];
-  walks: Walk[];
+  sequences: Sequence[];
   estimators: TunedEstimator[];
   notes?: string[];
 }
 
-/** A point of the design with its scores over the walks that are asked for. */
+/** A point of the design with its scores over the chosen sequences. */
 export interface Point {
   index: number;
   untuned: boolean;
   values: number[];
   generation: number;
-  /** Median over the walks; NaN for none. */
+  /** Median over the sequences; NaN for none. */
   score: number;
-  walks: number;
-  lost: number;
+  sequences: number;
+  diverged: number;
 }
 
 function median(values: number[]): number {
@@ -117,38 +117,38 @@ function median(values: number[]): number {
   return known.length % 2 === 1 ? known[middle]! : (known[middle - 1]! + known[middle]!) / 2;
 }
 
-/** Which walks of the data are asked for. */
-export interface WalkChoice {
+/** Which sequences of the data are chosen. */
+export interface SequenceChoice {
   /** null: all. */
   scenario: string | null;
   heldOut: boolean;
 }
 
-/** The estimator's points that were run on any of the walks, with the median of that score. */
-export function pointsOf(data: TuningPayload, own: TunedEstimator, score: string, choice: WalkChoice): Point[] {
+/** The estimator's points that were run on any of these sequences, with the median of that score. */
+export function pointsOf(data: TuningPayload, own: TunedEstimator, score: string, choice: SequenceChoice): Point[] {
   const count = own.parameters.length;
   const column = data.scores.indexOf(score);
   const width = data.scores.length;
   const values = new Map<number, number[]>();
-  const lost = new Map<number, number>();
+  const diverged = new Map<number, number>();
   own.rows.point.forEach((point, row) => {
-    const walk = data.walks[own.rows.walk[row]!];
+    const sequence = data.sequences[own.rows.sequence[row]!];
     if ((own.rows.held_out[row] === 1) !== choice.heldOut) return;
-    if (choice.scenario !== null && walk?.scenario !== choice.scenario) return;
+    if (choice.scenario !== null && sequence?.scenario !== choice.scenario) return;
     if (!values.has(point)) values.set(point, []);
     values.get(point)!.push(column < 0 ? NaN : own.rows.scores[row * width + column]!);
-    lost.set(point, (lost.get(point) ?? 0) + own.rows.lost[row]!);
+    diverged.set(point, (diverged.get(point) ?? 0) + own.rows.diverged[row]!);
   });
   return [...values].map(([index, scores]) => ({
     index, untuned: own.points.untuned[index] === 1,
     values: Array.from(own.points.values.subarray(index * count, (index + 1) * count)),
     generation: own.points.generation?.[index] ?? NaN,
-    score: median(scores), walks: scores.length, lost: lost.get(index) ?? 0,
+    score: median(scores), sequences: scores.length, diverged: diverged.get(index) ?? 0,
   }));
 }
 
 export function scenariosOf(data: TuningPayload): string[] {
-  return [...new Set(data.walks.map((walk) => walk.scenario))];
+  return [...new Set(data.sequences.map((each) => each.scenario))];
 }
 
 export function axisLabel(parameter: Parameter): string {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** What the analysis says in numbers: best values, sensitivity, and every point. */
+/** The analysis in numbers: best values, sensitivity, and every point. */
 import { h } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type Column } from "../table";
 import {
-  axisLabel, ends, pointsOf, type Analysis, type Point, type TunedEstimator, type TuningPayload, type WalkChoice,
+  axisLabel, ends, pointsOf, type Analysis, type Point, type TunedEstimator, type TuningPayload, type SequenceChoice,
 } from "./model";
 
-export function percent(share: unknown): string {
-  return isNumber(share) ? `${formatNumber(100 * share, 3)} %` : kNone;
+export function percent(fraction: unknown): string {
+  return isNumber(fraction) ? `${formatNumber(100 * fraction, 3)} %` : kNone;
 }
 
 function bracket(interval: [number, number] | null, scale = 1, unit = ""): string {
@@ -20,20 +20,20 @@ export function outcome(analysis: Analysis): HTMLElement {
   const { best } = analysis;
   if (!best) return h("p", {}, `No best point: ${analysis.why_no_best ?? "no point is complete yet"}.`);
   const gain = isNumber(best.gain)
-    ? ` The untuned values have ${formatNumber(best.defaults)}; the gain is ${percent(best.gain)}` +
+    ? ` The defaults have ${formatNumber(best.defaults)}; the gain is ${percent(best.gain)}` +
       `${bracket(ends(best.gain_interval), 100, " %")}.`
-    : " The untuned values were not run on all walks, so that there is nothing to hold it against.";
-  const sure = analysis.seeds < 2 ? "One seed tells nothing of the spread: there are no intervals."
-    : `Intervals: 95 % bootstraps over ${analysis.seeds} seeds${analysis.seeds < 10 ? ", too narrow for so few" : ""}.`;
+    : " The defaults were not run on every sequence, so that no gain is given.";
+  const sure = analysis.seeds < 2 ? "One seed: no intervals."
+    : `Intervals: 95 % bootstraps over ${analysis.seeds} seeds${analysis.seeds < 10 ? ", too narrow for so few seeds" : ""}.`;
   return h("div", {},
     h("p", {}, `Objective: ${analysis.objective}. The best of ${analysis.points} points has `,
       h("b", { "data-best": best.objective }, formatNumber(best.objective)),
       `${bracket(ends(best.objective_interval))}.${gain}`),
     h("p", { class: "soft" }, sure +
-      (analysis.incomplete > 0 ? ` ${analysis.incomplete} points are left out here: not all of their walks are done.` : "")));
+      (analysis.incomplete > 0 ? ` ${analysis.incomplete} points are left out: some of their jobs are not done.` : "")));
 }
 
-/** A row per parameter: default, best with where it may lie. */
+/** A row per parameter: default, best value with its interval. */
 export function bestTable(own: TunedEstimator, analysis: Analysis): HTMLElement | null {
   const { best } = analysis;
   if (!best) return null;
@@ -44,70 +44,70 @@ export function bestTable(own: TunedEstimator, analysis: Analysis): HTMLElement 
     { title: "default", value: ({ parameter }) => parameter.default },
     { title: "best", value: ({ i }) => best.values[i], interval: ({ i }) => ends(best.between[i]) },
     {
-      title: "moved", unit: "of range", hint: "best minus default, in widths of the range", value: ({ i }) => best.distance[i],
+      title: "change", unit: "of range", hint: "best minus default, in widths of the range", value: ({ i }) => best.distance[i],
       show: ({ i }) => `${(best.distance[i] ?? 0) > 0 ? "+" : ""}${formatNumber(best.distance[i], 2)}`,
     },
-  ], { caption: "Best values, with where the best lies when seeds are drawn again", rowName: ({ parameter }) => parameter.name });
+  ], { caption: "Best values; interval: best values when seeds are resampled", rowName: ({ parameter }) => parameter.name });
 }
 
-/** Share of the objective's variance by each parameter: bars with their interval, and the numbers. */
+/** Sobol indices of each parameter: bars with their interval, and the numbers. */
 export function sensitivity(own: TunedEstimator, analysis: Analysis): HTMLElement {
   const found = analysis.sensitivity;
   if (!found) {
     return h("p", { class: "nothing" },
-      `Which parameter matters is not known: ${analysis.why_no_sensitivity ?? "no point is complete yet"}.`);
+      `No sensitivity: ${analysis.why_no_sensitivity ?? "no point is complete yet"}.`);
   }
   const error = found.logarithmic ? percent(Math.exp(found.error) - 1) : formatNumber(found.error);
-  const said = `A polynomial of ${found.terms} terms through ${found.points} points explains ${percent(Math.max(0, found.explained))} of ` +
+  const fit = `A polynomial of ${found.terms} terms through ${found.points} points explains ${percent(Math.max(0, found.explained))} of ` +
     `the variance${found.logarithmic ? " of the objective's logarithm" : ""} at points that were left out; its error there is ${error}.`;
   if (!found.trustworthy) {
-    return h("p", { class: "nothing" }, `${said} That is too little: nothing is said of which parameter matters.`);
+    return h("p", { class: "nothing" }, `${fit} Too inaccurate: no sensitivity is given.`);
   }
   const order = own.parameters.map((_, i) => i).sort((a, b) => (found.total[b] ?? 0) - (found.total[a] ?? 0));
   const bars = order.map((i) => {
     const total = found.total[i] ?? 0;
     const first = found.first[i] ?? 0;
     const interval = ends(found.total_interval[i]);
-    const place = (share: number) => `${100 * Math.min(1, Math.max(0, share))}%`;
-    return h("div", { class: "share-row", "data-parameter": own.parameters[i]!.name, "data-total": total },
-      h("span", { class: "share-name" }, own.parameters[i]!.name),
-      h("span", { class: "share-track", "aria-hidden": "true" },
-        h("span", { class: "share-total", style: `width: ${place(total)}` }),
-        h("span", { class: "share-first", style: `width: ${place(first)}` }),
-        interval ? h("span", { class: "share-interval", style: `left: ${place(interval[0])}; right: calc(100% - ${place(interval[1])})` }) : null),
-      h("span", { class: "share-text" }, `${percent(total)}${bracket(interval, 100)}, alone ${percent(first)}` +
-        (found.does_not_matter[i] ? "; does not matter" : "")));
+    const place = (fraction: number) => `${100 * Math.min(1, Math.max(0, fraction))}%`;
+    return h("div", { class: "sobol-row", "data-parameter": own.parameters[i]!.name, "data-total": total },
+      h("span", { class: "sobol-name" }, own.parameters[i]!.name),
+      h("span", { class: "sobol-track", "aria-hidden": "true" },
+        h("span", { class: "sobol-total", style: `width: ${place(total)}` }),
+        h("span", { class: "sobol-first", style: `width: ${place(first)}` }),
+        interval ? h("span", { class: "sobol-interval", style: `left: ${place(interval[0])}; right: calc(100% - ${place(interval[1])})` }) : null),
+      h("span", { class: "sobol-text" }, `${percent(total)}${bracket(interval, 100)}, first order ${percent(first)}` +
+        (found.does_not_matter[i] ? "; negligible" : "")));
   });
-  return h("div", {}, h("div", { class: "shares" }, ...bars), h("p", { class: "soft" },
-    `Wide bars: in total, with its 95 % interval; narrow bars: alone. ${said}`), interactions(own, found.second));
+  return h("div", {}, h("div", { class: "sobol" }, ...bars), h("p", { class: "soft" },
+    `Wide bars: total Sobol index with its 95 % interval; narrow bars: first-order index. ${fit}`), interactions(own, found.second));
 }
 
 function interactions(own: TunedEstimator, second: number[][]): HTMLElement | null {
   const pairs: string[] = [];
   own.parameters.forEach((a, i) => own.parameters.forEach((b, k) => {
-    const share = second[i]?.[k] ?? 0;
-    if (k > i && share >= 0.05) pairs.push(`${a.name} and ${b.name} act together: ${percent(share)} of the variance`);
+    const fraction = second[i]?.[k] ?? 0;
+    if (k > i && fraction >= 0.05) pairs.push(`interaction of ${a.name} and ${b.name}: ${percent(fraction)} of the variance`);
   }));
   return pairs.length > 0 ? h("p", {}, `${pairs.join("; ")}.`) : null;
 }
 
 /** Every point with its values and the median of the score. */
-export function pointTable(data: TuningPayload, own: TunedEstimator, score: string, choice: WalkChoice): HTMLElement {
+export function pointTable(data: TuningPayload, own: TunedEstimator, score: string, choice: SequenceChoice): HTMLElement {
   const points = pointsOf(data, own, score, choice);
-  if (points.length === 0) return h("p", { class: "nothing" }, "No unit of this choice is done yet.");
+  if (points.length === 0) return h("p", { class: "nothing" }, "No job of this choice is done yet.");
   const columns: Column<Point>[] = [
-    { title: "point", value: (point) => point.index, show: (point) => (point.untuned ? `${point.index}, untuned` : String(point.index)) },
-    { title: score, hint: "median over the walks", best: "low", eligible: (point) => point.lost === 0, value: (point) => point.score },
+    { title: "point", value: (point) => point.index, show: (point) => (point.untuned ? `${point.index}, defaults` : String(point.index)) },
+    { title: score, hint: "median over the sequences", best: "low", eligible: (point) => point.diverged === 0, value: (point) => point.score },
     ...own.parameters.map((parameter, i): Column<Point> => ({
       title: parameter.name, ...(parameter.unit && parameter.unit !== "-" ? { unit: parameter.unit } : {}),
       value: (point) => point.values[i],
     })),
-    { title: "walks", value: (point) => point.walks, show: (point) => String(point.walks) },
-    { title: "lost", value: (point) => point.lost, show: (point) => (point.lost > 0 ? `✕ ${point.lost}` : "0") },
+    { title: "sequences", value: (point) => point.sequences, show: (point) => String(point.sequences) },
+    { title: "diverged", value: (point) => point.diverged, show: (point) => (point.diverged > 0 ? `✕ ${point.diverged}` : "0") },
   ];
   if (own.points.generation) columns.push({ title: "generation", value: (point) => point.generation, show: (point) => formatFixed(point.generation, 0) });
   return sortableTable(points, columns, {
-    caption: `${points.length} points, median of ${score} over ${choice.scenario ?? "all walks"}${choice.heldOut ? ", held out" : ""}`,
+    caption: `${points.length} points, median of ${score} over ${choice.scenario ?? "all sequences"}${choice.heldOut ? ", held out" : ""}`,
     rowName: (point) => String(point.index), sortBy: 1,
   });
 }

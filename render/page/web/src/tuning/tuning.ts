@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** The page of a sweep or a tuning: what is best, what matters, curves, a map, every point. */
+/** The page of a sweep or a tuning: best values, sensitivity, curves, a map, every point. */
 import "../charts/charts.css";
 import "./tuning.css";
 import { choice, facts, notes } from "../charts/controls";
@@ -27,7 +27,7 @@ function scoreChoices(data: TuningPayload, view: View) {
   const analysed = view.estimator.analyses.map((each) => each.score);
   return [
     ...analysed.map((value) => ({ value, label: value })),
-    ...data.scores.filter((each) => !analysed.includes(each)).map((value) => ({ value, label: value, group: "points alone" })),
+    ...data.scores.filter((each) => !analysed.includes(each)).map((value) => ({ value, label: value, group: "points only" })),
   ];
 }
 
@@ -35,14 +35,14 @@ function bestSection(view: View): HTMLElement {
   const analysis = analysisOf(view);
   if (!analysis) {
     return section("best", "Best values", h("p", { class: "nothing" },
-      `Best values and sensitivity are told of ${view.estimator.analyses.map((each) => each.score).join(", ")}; of ${view.score} the points alone.`));
+      `Best values and sensitivity exist for ${view.estimator.analyses.map((each) => each.score).join(", ")}; for ${view.score} only the points are shown.`));
   }
   return section("best", "Best values", outcome(analysis), bestTable(view.estimator, analysis));
 }
 
 function sensitivitySection(view: View): HTMLElement | null {
   const analysis = analysisOf(view);
-  return analysis ? section("sensitivity", "What matters", sensitivity(view.estimator, analysis)) : null;
+  return analysis ? section("sensitivity", "Sensitivity", sensitivity(view.estimator, analysis)) : null;
 }
 
 function curveSection(data: TuningPayload, view: View, redraw: () => void): HTMLElement {
@@ -50,12 +50,12 @@ function curveSection(data: TuningPayload, view: View, redraw: () => void): HTML
   if (!analysis) view.cloud = true;
   const kinds = [{ value: "cloud", label: "every point, by scenario" }];
   if (analysis) kinds.unshift({ value: "slice", label: "one parameter, others at their defaults" });
-  return section("curves", "Over each parameter",
+  return section("curves", "By parameter",
     h("div", { class: "toolbar" }, choice("Show", kinds, view.cloud ? "cloud" : "slice", (value) => {
       view.cloud = value === "cloud";
       redraw();
     })), curves(data, view.estimator, analysis, view.score, view.cloud),
-    h("p", { class: "soft" }, view.cloud ? "Median over the seeds of a scenario; ✕: a run was lost."
+    h("p", { class: "soft" }, view.cloud ? "Median over the seeds of a scenario; ✕: a run diverged."
       : "Bars and areas: 95 % intervals, over seeds where measured, else by the polynomial's error."));
 }
 
@@ -71,7 +71,7 @@ function mapSection(view: View, redraw: () => void): HTMLElement | null {
 
 function pointSection(data: TuningPayload, view: View, redraw: () => void): HTMLElement {
   const scenarios = scenariosOf(data);
-  const anyHeldOut = (data.held_out_units["done"] ?? 0) > 0;
+  const anyHeldOut = (data.held_out_jobs["done"] ?? 0) > 0;
   return section("points", "Every point",
     h("div", { class: "toolbar" },
       choice("Scenario", [{ value: "", label: "all" }, ...scenarios.map((each, i) => ({ value: String(i), label: each }))],
@@ -79,7 +79,7 @@ function pointSection(data: TuningPayload, view: View, redraw: () => void): HTML
           view.scenario = value === "" ? null : scenarios[Number(value)] ?? null;
           redraw();
         }),
-      anyHeldOut ? choice("Walks", [{ value: "tuned", label: "tuned on" }, { value: "held", label: "held out" }],
+      anyHeldOut ? choice("Sequences", [{ value: "tuned", label: "tuning" }, { value: "held", label: "held out" }],
         view.heldOut ? "held" : "tuned", (value) => {
           view.heldOut = value === "held";
           redraw();
@@ -95,26 +95,26 @@ function part(make: (redraw: () => void) => HTMLElement | null): HTMLElement {
   return place;
 }
 
-function unitText(units: Record<string, number>): string {
-  const bad = ["failed", "crashed", "timed_out", "missing"].filter((key) => (units[key] ?? 0) > 0)
-    .map((key) => `${units[key]} ${key.replace("_", " ")}`);
-  return `${units["done"] ?? 0} of ${units["total"] ?? 0} done${bad.length > 0 ? `, ${bad.join(", ")}` : ""}`;
+function jobText(jobs: Record<string, number>): string {
+  const bad = ["failed", "crashed", "timed_out", "missing"].filter((key) => (jobs[key] ?? 0) > 0)
+    .map((key) => `${jobs[key]} ${key.replace("_", " ")}`);
+  return `${jobs["done"] ?? 0} of ${jobs["total"] ?? 0} done${bad.length > 0 ? `, ${bad.join(", ")}` : ""}`;
 }
 
 /** Fills `root` with the page of a sweep or a tuning. */
 export function renderTuning(root: HTMLElement, data: TuningPayload): void {
   root.append(h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()));
   root.append(facts([
-    ["units", unitText(data.units)],
-    ["held out", (data.held_out_units["total"] ?? 0) > 0 ? unitText(data.held_out_units) : null],
-    ["scenarios", scenariosOf(data).length], ["walks", data.walks.length],
+    ["jobs", jobText(data.jobs)],
+    ["held out", (data.held_out_jobs["total"] ?? 0) > 0 ? jobText(data.held_out_jobs) : null],
+    ["scenarios", scenariosOf(data).length], ["sequences", data.sequences.length],
     ["points", data.estimators[0] ? pointsOf(data, data.estimators[0], "", { scenario: null, heldOut: false }).length : 0],
   ]));
-  const told = notes(data.notes);
-  const plan = section("plan", "Plan", told, h("pre", { class: "plan" }, data.plan));
+  const noted = notes(data.notes);
+  const plan = section("plan", "Plan", noted, h("pre", { class: "plan" }, data.plan));
   const first = data.estimators[0];
   if (!first) {
-    root.append(section("best", "Best values", h("p", { class: "nothing" }, "No unit is done yet.")), plan);
+    root.append(section("best", "Best values", h("p", { class: "nothing" }, "No job is done yet.")), plan);
     return;
   }
   const view: View = {

@@ -6,18 +6,19 @@
 
 #include "bench/run/scenario.hpp"
 #include "core/error.hpp"
-#include "render/film/filmed_walk.hpp"
+#include "render/film/filmed_sequence.hpp"
 
 namespace aims {
 
 /// Whether the folder is one that `aims run` writes for a seed.
-bool holds_walk(const std::filesystem::path& folder);
+bool holds_sequence(const std::filesystem::path& folder);
 
-/// What the files of a run tell: trajectories, waypoint times, the scene (built anew from
+/// What the files of a run hold: trajectories, waypoint times, the scene (rebuilt from
 /// config.yaml) and the final map of `mapped` (empty: of the first estimator that has one), whose
 /// points all count as seen at the start. Joint angles are not in the files, so there is no
 /// snapshot. The estimate that the map belongs to comes first. Error for a file that is missing or
 /// broken.
-Result<FilmedWalk> stored_walk(const std::filesystem::path& folder, const std::string& mapped);
+Result<FilmedSequence> stored_sequence(const std::filesystem::path& folder,
+                                       const std::string& mapped);
 
 }  // namespace aims

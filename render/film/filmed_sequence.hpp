@@ -16,22 +16,22 @@
 
 namespace aims {
 
-/// What pictures of a walk need, everything in the world frame.
-struct FilmedWalk {
+/// What pictures of a sequence need, everything in the world frame.
+struct FilmedSequence {
   std::string scenario;
   std::uint64_t seed = 0;
   bool complete = true;  ///< false when the observer ended it early
   Scene scene;
   Trajectory truth;                      ///< T_world_body, at 10 Hz
-  std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz; none when the walk came from files
+  std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz; none when the sequence comes from files
   std::vector<WaypointTime> waypoint_times;
-  std::vector<NamedTrajectory> estimates;  ///< anchored at the start; of the first is the map
+  std::vector<NamedTrajectory> estimates;  ///< aligned at the start; the map is that of the first
   std::vector<GrownPoint> map;             ///< in order of time
 };
 
-/// Simulates the scenario and runs its estimators; the first of them lays the map. Error when the
+/// Simulates the scenario and runs its estimators; the first of them makes the map. Error when the
 /// scenario cannot be simulated.
-Result<FilmedWalk> film_walk(const Scenario& scenario, const RunOptions& options,
-                             const Observer& observer);
+Result<FilmedSequence> film_sequence(const Scenario& scenario, const RunOptions& options,
+                                     const Observer& observer);
 
 }  // namespace aims

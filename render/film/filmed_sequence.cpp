@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/film/filmed_walk.hpp"
+#include "render/film/filmed_sequence.hpp"
 
 #include "bench/metrics/association.hpp"
 #include "bench/run/start_anchor.hpp"
@@ -19,33 +19,33 @@ void hand_over(const std::vector<Delivery>& batch, std::size_t from,
   }
 }
 
-FilmedWalk walk_of(const Scenario& scenario, const Simulation& simulation,
-                   const std::vector<TimedEstimator>& estimators) {
-  FilmedWalk walk;
-  walk.scenario = scenario.name;
-  walk.scene = simulation.scene();
+FilmedSequence sequence_of(const Scenario& scenario, const Simulation& simulation,
+                           const std::vector<TimedEstimator>& estimators) {
+  FilmedSequence sequence;
+  sequence.scenario = scenario.name;
+  sequence.scene = simulation.scene();
   const Trajectory truth = body_trajectory(simulation.truth());
-  walk.truth = thinned(truth, kDrawnSpacing);
-  walk.snapshots = simulation.truth().snapshots;
-  walk.waypoint_times = simulation.truth().waypoint_times;
+  sequence.truth = thinned(truth, kDrawnSpacing);
+  sequence.snapshots = simulation.truth().snapshots;
+  sequence.waypoint_times = simulation.truth().waypoint_times;
   for (const TimedEstimator& each : estimators) {
-    walk.estimates.push_back(
+    sequence.estimates.push_back(
         {each.name(), anchored(each.estimator().result().trajectory, truth, scenario.scoring)});
   }
-  return walk;
+  return sequence;
 }
 
 }  // namespace
 
-Result<FilmedWalk> film_walk(const Scenario& scenario, const RunOptions& options,
-                             const Observer& observer) {
+Result<FilmedSequence> film_sequence(const Scenario& scenario, const RunOptions& options,
+                                     const Observer& observer) {
   const Stopwatch stopwatch;
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
   auto estimators = make_estimators(scenario.estimators, scenario.estimator, simulation->rig());
   if (!estimators) return tl::unexpected(estimators.error());
-  if (estimators->empty()) return failure("estimators: expected at least one to lay the map");
-  const auto report = [&]() -> const EstimatorResult& {
+  if (estimators->empty()) return failure("estimators: expected at least one to make the map");
+  const auto result = [&]() -> const EstimatorResult& {
     return estimators->front().estimator().result();
   };
   MapGrowth growth(simulation->rig().T_body_lidar);
@@ -62,20 +62,20 @@ Result<FilmedWalk> film_walk(const Scenario& scenario, const RunOptions& options
       [&] {
         for (const LidarScanPtr& scan : scans) growth.add(scan);
         scans.clear();
-        growth.settle(report().trajectory);
+        growth.settle(result().trajectory);
         return observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
       });
-  growth.settle(report().trajectory);
-  FilmedWalk walk = walk_of(scenario, *simulation, *estimators);
-  walk.seed = options.seed;
-  walk.complete = !end.stopped;
-  walk.map = growth.points();
+  growth.settle(result().trajectory);
+  FilmedSequence sequence = sequence_of(scenario, *simulation, *estimators);
+  sequence.seed = options.seed;
+  sequence.complete = !end.stopped;
+  sequence.map = growth.points();
   const Pose T_world_odom =
-      start_anchor(report().trajectory, body_trajectory(simulation->truth()), scenario.scoring);
-  for (GrownPoint& point : walk.map) {
+      start_anchor(result().trajectory, body_trajectory(simulation->truth()), scenario.scoring);
+  for (GrownPoint& point : sequence.map) {
     point.position = (T_world_odom * point.position.cast<double>()).cast<float>();
   }
-  return walk;
+  return sequence;
 }
 
 }  // namespace aims

@@ -21,10 +21,10 @@ struct PictureSize {
   int height = 0;
 };
 
-/// "640x400": 160 to 7680 pixels wide, 120 to 4320 high. Error that says so for anything else.
+/// "640x400": 160 to 7680 pixels wide, 120 to 4320 high. Error otherwise.
 Result<PictureSize> parse_picture_size(const std::string& text);
 
-/// What to draw of a walk, and how.
+/// What to draw of a sequence, and how.
 struct FilmOptions {
   std::filesystem::path out;  ///< folder of the pictures
   bool overwrite = false;     ///< replace a folder of pictures that exists
@@ -35,9 +35,10 @@ struct FilmOptions {
   PictureSize still_size{2400, 1350};
   PictureSize video_size{640, 400};
   FilmView view = FilmView::kFollow;
-  double frame_rate = 12.0;    ///< of the video [Hz]
-  double seconds = 8.0;        ///< length of the video [s]
-  std::optional<double> at_s;  ///< instant of the still; none: three quarters of the way [s]
+  double frame_rate = 12.0;  ///< of the video [Hz]
+  double seconds = 8.0;      ///< length of the video [s]
+  std::optional<double>
+      at_s;  ///< instant of the still; none: after three quarters of the motion [s]
 
   bool needs_simulation() const { return still || !video.empty(); }
 };
@@ -49,9 +50,10 @@ Result<void> check(const FilmOptions& options);
 /// Pictures of a video drawn so far; returning false ends it and nothing is written.
 using FrameObserver = std::function<bool(int done, int frames)>;
 
-/// Draws what `options` ask for and writes it, with render.json, which says of what it is. Returns
-/// the files in order. Error when something cannot be drawn or written; then nothing is left.
-Result<std::vector<std::filesystem::path>> write_film(const FilmedWalk& walk,
+/// Draws what `options` ask for and writes it, with render.json, which names scenario, seed and
+/// files. Returns the files in order. Error when something cannot be drawn or written; then nothing
+/// is left.
+Result<std::vector<std::filesystem::path>> write_film(const FilmedSequence& sequence,
                                                       const FilmOptions& options,
                                                       const FrameObserver& observer);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/film/film_report.hpp"
+#include "render/film/film_files.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,10 @@
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/output_folder.hpp"
-#include "render/film/apng.hpp"
 #include "render/film/ffmpeg.hpp"
+#include "render/film/film_movie.hpp"
 #include "render/film/vector_pictures.hpp"
+#include "render/film/webp.hpp"
 #include "render/plots/canvas.hpp"
 
 namespace aims {
@@ -21,40 +22,41 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostFrames = 2000;
-constexpr double kStillShare = 0.75;  ///< of the way, where the still is taken
+constexpr double kStillFraction = 0.75;  ///< of the time in motion, when the still is taken
 
-enum class VideoKind { kApng, kFfmpeg };
+enum class VideoKind { kWebp, kFfmpeg };
 
 Result<VideoKind> kind_of(const std::string& video) {
   const fs::path file = video;
   if (file.has_parent_path()) {
     return failure(
-        fmt::format("--video {}: expected a file name without a folder; --out says "
-                    "where it goes",
+        fmt::format("--video {}: expected a file name without a folder; --out gives "
+                    "the folder",
                     video));
   }
   const std::string ending = file.extension().string();
-  if (ending == ".png" || ending == ".apng") return VideoKind::kApng;
+  if (ending == ".webp") return VideoKind::kWebp;
   if (ending == ".mp4" || ending == ".webm") return VideoKind::kFfmpeg;
   return failure(
-      fmt::format("--video {}: expected a file name ending in .png, .apng, .mp4 or .webm", video));
+      fmt::format("--video {}: expected a file name ending in .webp, .mp4 or .webm", video));
 }
 
-Result<void> write_still(const FilmedWalk& walk, const FilmOptions& options, const fs::path& file,
-                         Json& record) {
+Result<void> write_still(const FilmedSequence& sequence, const FilmOptions& options,
+                         const fs::path& file, Json& record) {
   const FilmConfig config{.width = options.still_size.width,
                           .height = options.still_size.height,
                           .view = options.view,
                           .still = true};
-  auto film = Film::create(walk, config);
+  auto film = Film::create(sequence, config);
   if (!film) return tl::unexpected(film.error());
-  const FilmSpan span = walking_span(walk);
+  const FilmSpan span = motion_span(sequence);
   const double at = options.at_s.value_or(to_seconds(span.begin) +
-                                          kStillShare * to_seconds(span.end - span.begin));
-  if (at < to_seconds(walk.truth.front().stamp) || at > to_seconds(walk.truth.back().stamp)) {
-    return failure(fmt::format("--at {:g}: expected {:.1f} to {:.1f} s, when the walk was", at,
-                               to_seconds(walk.truth.front().stamp),
-                               to_seconds(walk.truth.back().stamp)));
+                                          kStillFraction * to_seconds(span.end - span.begin));
+  if (at < to_seconds(sequence.truth.front().stamp) ||
+      at > to_seconds(sequence.truth.back().stamp)) {
+    return failure(fmt::format(
+        "--at {:g}: expected {:.1f} to {:.1f} s, the time span of the sequence", at,
+        to_seconds(sequence.truth.front().stamp), to_seconds(sequence.truth.back().stamp)));
   }
   const auto picture = film->picture(from_seconds(at));
   if (!picture) return tl::unexpected(picture.error());
@@ -68,7 +70,7 @@ Result<void> write_still(const FilmedWalk& walk, const FilmOptions& options, con
   return canvas->finish();
 }
 
-/// The movie, whose drawing tells the observer and ends when that has enough.
+/// The movie with an observer that is called before each frame and may end it.
 Movie observed(const Movie& movie, const FrameObserver& observer) {
   Movie result = movie;
   result.draw = [draw = movie.draw, frames = movie.frames, observer](int frame) -> Result<Image> {
@@ -78,13 +80,13 @@ Movie observed(const Movie& movie, const FrameObserver& observer) {
   return result;
 }
 
-Result<void> write_video(const FilmedWalk& walk, const FilmOptions& options, const fs::path& file,
-                         const FrameObserver& observer, Json& record) {
+Result<void> write_video(const FilmedSequence& sequence, const FilmOptions& options,
+                         const fs::path& file, const FrameObserver& observer, Json& record) {
   const FilmConfig config{
       .width = options.video_size.width, .height = options.video_size.height, .view = options.view};
-  auto film = Film::create(walk, config);
+  auto film = Film::create(sequence, config);
   if (!film) return tl::unexpected(film.error());
-  const FilmSpan span = walking_span(walk);
+  const FilmSpan span = motion_span(sequence);
   const Movie movie =
       observed(movie_of(*film, span, config, options.seconds, options.frame_rate), observer);
   record["video"] = {{"file", file.filename().string()},
@@ -97,39 +99,40 @@ Result<void> write_video(const FilmedWalk& walk, const FilmOptions& options, con
   if (*kind_of(options.video) == VideoKind::kFfmpeg) {
     return write_with_ffmpeg(*find_ffmpeg(), file, movie);
   }
-  const auto bytes = apng_bytes(movie);
+  const auto bytes = webp_bytes(movie);
   if (!bytes) return tl::unexpected(bytes.error());
   return write_file_atomically(file, *bytes);
 }
 
-Json record_of(const FilmedWalk& walk) {
+Json record_of(const FilmedSequence& sequence) {
   Json record;
   record["schema"] = "aims.render/1";
-  record["scenario"] = walk.scenario;
-  record["seed"] = walk.seed;
-  record["complete"] = walk.complete;
-  record["map_of"] = walk.estimates.empty() ? Json() : Json(walk.estimates.front().name);
+  record["scenario"] = sequence.scenario;
+  record["seed"] = sequence.seed;
+  record["complete"] = sequence.complete;
+  record["map_of"] = sequence.estimates.empty() ? Json() : Json(sequence.estimates.front().name);
   return record;
 }
 
-Result<std::vector<std::string>> write_all(const FilmedWalk& walk, const FilmOptions& options,
+Result<std::vector<std::string>> write_all(const FilmedSequence& sequence,
+                                           const FilmOptions& options,
                                            const FrameObserver& observer, const fs::path& folder) {
   std::vector<std::string> files;
-  Json record = record_of(walk);
+  Json record = record_of(sequence);
   Result<void> written;
   if (options.still) {
     files.emplace_back("still.png");
-    written = write_still(walk, options, folder / files.back(), record);
+    written = write_still(sequence, options, folder / files.back(), record);
   }
   if (written && !options.video.empty()) {
     files.push_back(options.video);
-    written = write_video(walk, options, folder / files.back(), observer, record);
+    written = write_video(sequence, options, folder / files.back(), observer, record);
   }
   if (!written) return tl::unexpected(written.error());
   std::vector<std::string> endings;
   if (options.svg) endings.emplace_back(".svg");
   if (options.pdf) endings.emplace_back(".pdf");
-  const auto vectors = write_vector_pictures(walk, endings, folder);
+  const auto vectors = write_vector_pictures(sequence, endings, folder);
   if (!vectors) return tl::unexpected(vectors.error());
   files.insert(files.end(), vectors->begin(), vectors->end());
   record["files"] = files;
@@ -146,8 +149,8 @@ Result<PictureSize> parse_picture_size(const std::string& text) {
   const auto width = std::from_chars(text.data(), end, size.width);
   const bool crossed = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
   const auto height = crossed ? std::from_chars(width.ptr + 1, end, size.height) : width;
-  const bool whole = crossed && height.ec == std::errc() && height.ptr == end;
-  if (whole && size.width >= 160 && size.width <= 7680 && size.height >= 120 &&
+  const bool complete = crossed && height.ec == std::errc() && height.ptr == end;
+  if (complete && size.width >= 160 && size.width <= 7680 && size.height >= 120 &&
       size.height <= 4320) {
     return size;
   }
@@ -167,7 +170,7 @@ Result<void> check(const FilmOptions& options) {
     return failure(fmt::format("--seconds {:g} at --fps {:g} make {:g} frames; expected 2 to {}",
                                options.seconds, options.frame_rate, frames, kMostFrames));
   }
-  if (*kind == VideoKind::kApng) return {};
+  if (*kind == VideoKind::kWebp) return {};
   if (options.video_size.width % 2 != 0 || options.video_size.height % 2 != 0) {
     return failure(fmt::format("--size {}x{}: expected even numbers for {}",
                                options.video_size.width, options.video_size.height,
@@ -176,17 +179,17 @@ Result<void> check(const FilmOptions& options) {
   if (!find_ffmpeg()) {
     return failure(
         fmt::format("--video {}: needs the program ffmpeg on PATH; a video that ends in "
-                    ".png needs none",
+                    ".webp needs none",
                     options.video));
   }
   return {};
 }
 
-Result<std::vector<fs::path>> write_film(const FilmedWalk& walk, const FilmOptions& options,
+Result<std::vector<fs::path>> write_film(const FilmedSequence& sequence, const FilmOptions& options,
                                          const FrameObserver& observer) {
   auto folder = OutputFolder::create(options.out, options.overwrite);
   if (!folder) return tl::unexpected(folder.error());
-  const auto files = write_all(walk, options, observer, folder->path());
+  const auto files = write_all(sequence, options, observer, folder->path());
   if (!files) return tl::unexpected(files.error());
   if (auto committed = folder->commit(); !committed) return tl::unexpected(committed.error());
   std::vector<fs::path> result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/report.hpp"
+#include "render/page/page.hpp"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ Result<PageData> page_of(const fs::path& folder, const PageOptions& options) {
 
 }  // namespace
 
-Result<void> write_report(const fs::path& folder, const fs::path& file, PageOptions options) {
+Result<void> write_page(const fs::path& folder, const fs::path& file, PageOptions options) {
   if (options.out_folder.empty()) {
     options.out_folder = file.has_parent_path() ? file.parent_path() : ".";
   }
@@ -76,26 +76,26 @@ Result<void> write_report(const fs::path& folder, const fs::path& file, PageOpti
   return write_file_atomically(file, *html);
 }
 
-Result<Reports> write_reports(const fs::path& folder, const PageOptions& options) {
-  Reports reports;
+Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& options) {
+  WrittenPages written_pages;
   const bool suite = holds_suite(folder);
   const std::vector<fs::path> runs = suite ? runs_of_suite(folder) : runs_in(folder);
   for (const fs::path& run : runs) {
     if (suite && is_up_to_date(run)) continue;
-    if (auto written = write_report(run, run / kPageFile); written) {
-      reports.pages.push_back(run / kPageFile);
+    if (auto written = write_page(run, run / kPageFile); written) {
+      written_pages.pages.push_back(run / kPageFile);
     } else if (suite) {
-      reports.warnings.push_back(written.error().message);
+      written_pages.warnings.push_back(written.error().message);
     } else {
       return tl::unexpected(written.error());
     }
   }
   const bool only_seeds = !suite && !runs.empty() && !holds_run(folder);
-  if (only_seeds) return reports;
-  auto written = write_report(folder, folder / kPageFile, options);
+  if (only_seeds) return written_pages;
+  auto written = write_page(folder, folder / kPageFile, options);
   if (!written) return tl::unexpected(written.error());
-  reports.pages.push_back(folder / kPageFile);
-  return reports;
+  written_pages.pages.push_back(folder / kPageFile);
+  return written_pages;
 }
 
 }  // namespace aims

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/film/stored_walk.hpp"
+#include "render/film/stored_sequence.hpp"
 
 #include <fmt/format.h>
 
@@ -38,19 +38,19 @@ Result<void> order(std::vector<std::string>& names, const fs::path& folder,
   return {};
 }
 
-Result<void> add_estimates(FilmedWalk& walk, const fs::path& folder,
+Result<void> add_estimates(FilmedSequence& sequence, const fs::path& folder,
                            const std::vector<std::string>& names, const ScoreConfig& scoring) {
   for (const std::string& name : names) {
     const auto estimate = read_tum(folder / (name + ".tum"), PoseRules::kAsGiven);
     if (!estimate) return tl::unexpected(estimate.error());
-    const bool first = walk.estimates.empty();
-    walk.estimates.push_back({name, anchored(*estimate, walk.truth, scoring)});
+    const bool first = sequence.estimates.empty();
+    sequence.estimates.push_back({name, anchored(*estimate, sequence.truth, scoring)});
     if (!first || !fs::exists(map_file(folder, name))) continue;
     const auto points = read_ply(map_file(folder, name));
     if (!points) return tl::unexpected(points.error());
-    const Pose T_world_odom = start_anchor(*estimate, walk.truth, scoring);
+    const Pose T_world_odom = start_anchor(*estimate, sequence.truth, scoring);
     for (const Eigen::Vector3f& point : *points) {
-      walk.map.push_back({(T_world_odom * point.cast<double>()).cast<float>(), 0});
+      sequence.map.push_back({(T_world_odom * point.cast<double>()).cast<float>(), 0});
     }
   }
   return {};
@@ -58,32 +58,32 @@ Result<void> add_estimates(FilmedWalk& walk, const fs::path& folder,
 
 }  // namespace
 
-bool holds_walk(const fs::path& folder) {
+bool holds_sequence(const fs::path& folder) {
   return fs::is_regular_file(folder / "config.yaml") && fs::is_regular_file(folder / "truth.tum");
 }
 
-Result<FilmedWalk> stored_walk(const fs::path& folder, const std::string& mapped) {
+Result<FilmedSequence> stored_sequence(const fs::path& folder, const std::string& mapped) {
   const auto scenario = load_scenario(folder / "config.yaml", {});
   if (!scenario) return tl::unexpected(scenario.error());
-  FilmedWalk walk;
-  walk.scenario = scenario->name;
-  walk.seed = static_cast<std::uint64_t>(scenario->seed);
-  walk.scene = build_scene(scenario->simulation.scene, walk.seed);
+  FilmedSequence sequence;
+  sequence.scenario = scenario->name;
+  sequence.seed = static_cast<std::uint64_t>(scenario->seed);
+  sequence.scene = build_scene(scenario->simulation.scene, sequence.seed);
   auto truth = read_tum(folder / "truth.tum");
   if (!truth) return tl::unexpected(truth.error());
   const auto text = read_file(folder / "waypoint_times.csv");
   if (!text) return tl::unexpected(text.error());
   auto waypoint_times = parse_waypoint_times(*text, (folder / "waypoint_times.csv").string());
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
-  walk.waypoint_times = std::move(*waypoint_times);
+  sequence.waypoint_times = std::move(*waypoint_times);
   std::vector<std::string> names = labels_of(scenario->estimators);
   if (auto ordered = order(names, folder, mapped); !ordered) return tl::unexpected(ordered.error());
-  walk.truth = std::move(*truth);
-  if (auto added = add_estimates(walk, folder, names, scenario->scoring); !added) {
+  sequence.truth = std::move(*truth);
+  if (auto added = add_estimates(sequence, folder, names, scenario->scoring); !added) {
     return tl::unexpected(added.error());
   }
-  walk.truth = thinned(walk.truth, kDrawnSpacing);
-  return walk;
+  sequence.truth = thinned(sequence.truth, kDrawnSpacing);
+  return sequence;
 }
 
 }  // namespace aims

@@ -11,22 +11,23 @@
 namespace aims {
 
 /// Name of a page in the folder that it shows.
-inline constexpr const char* kPageFile = "report.html";
+inline constexpr const char* kPageFile = "page.html";
 
-/// What `write_reports` wrote.
-struct Reports {
+/// What `write_pages` wrote.
+struct WrittenPages {
   std::vector<std::filesystem::path> pages;
   std::vector<std::string> warnings;  ///< runs of a suite whose page could not be written, and why
 };
 
 /// Writes the page of a folder to `file`: of one run, of a suite, or of a sweep. Error, with the
 /// file and what was expected, when the folder holds nothing of these or something broken.
-Result<void> write_report(const std::filesystem::path& folder, const std::filesystem::path& file,
-                          PageOptions options = {});
+Result<void> write_page(const std::filesystem::path& folder, const std::filesystem::path& file,
+                        PageOptions options = {});
 
 /// Writes every page of a folder of results, each as `kPageFile` into the folder that it shows: one
 /// run; each seed of `aims run`; a suite and, before it, those of its runs that kept trajectories,
 /// unless their page is newer than their scores; a sweep. Runs of a suite stop nothing else.
-Result<Reports> write_reports(const std::filesystem::path& folder, const PageOptions& options = {});
+Result<WrittenPages> write_pages(const std::filesystem::path& folder,
+                                 const PageOptions& options = {});
 
 }  // namespace aims
