@@ -71,8 +71,9 @@ void print_report(const UnitRun& run, const SweepArguments& arguments) {
 int sweep_command(const SweepArguments& arguments, const fs::path& folder) {
   const auto plan = plan_of(arguments.plan);
   if (!plan) return bad_input("sweep", plan.error());
-  const auto options = options_of(arguments);
+  auto options = options_of(arguments);
   if (!options) return bad_input("sweep", options.error());
+  options->timeout_s = plan->timeout;
   const auto units =
       plan_units(*plan, arguments.plan.folder.empty() ? folder : fs::path(arguments.plan.folder));
   if (!units) return bad_input("sweep", units.error());
@@ -82,7 +83,7 @@ int sweep_command(const SweepArguments& arguments, const fs::path& folder) {
   }
   watch_interrupt();
   UnitDisplay display(arguments.quiet);
-  const auto run = run_sweep(*plan, *units, *options, display.observer());
+  const auto run = run_sweep(plan_text(*plan), *units, *options, display.observer());
   display.close();
   if (!run) return bad_input("sweep", run.error());
   print_report(*run, arguments);

@@ -98,7 +98,7 @@ std::span<const SweepUnit> part_of(std::span<const SweepUnit> units, const Shard
   return units.subspan(border(shard.index - 1), border(shard.index) - border(shard.index - 1));
 }
 
-Result<UnitRun> run_sweep(const SweepPlan& plan, std::span<const SweepUnit> units,
+Result<UnitRun> run_sweep(const std::string& plan, std::span<const SweepUnit> units,
                           const SweepOptions& options, const UnitObserver& observer) {
   const auto claimed = claim(options.out, options.shard);
   if (!claimed) return tl::unexpected(claimed.error());
@@ -112,7 +112,7 @@ Result<UnitRun> run_sweep(const SweepPlan& plan, std::span<const SweepUnit> unit
   unit_options.cache_limit = options.cache_limit;
   unit_options.kept_walks = shared_walks(units, options.shard);
   unit_options.jobs = options.jobs;
-  unit_options.timeout_s = plan.timeout;
+  unit_options.timeout_s = options.timeout_s;
   unit_options.retry = options.retry;
   unit_options.walks_only = options.walks_only;
   return UnitRunner(std::move(unit_options)).run(part_of(units, options.shard), observer);

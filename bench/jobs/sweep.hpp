@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "bench/jobs/unit_runner.hpp"
-#include "bench/tuning/sweep_plan.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -32,16 +32,17 @@ struct SweepOptions {
   std::uintmax_t cache_limit = kCacheLimit;  ///< of those walks [bytes]; 0: any
   int jobs = 1;                              ///< processes at a time
   Shard shard;
+  double timeout_s = 0.0;   ///< wall time that a unit is given [s]; 0: any
   bool retry = false;       ///< do what failed before again
   bool renew = false;       ///< take the plan although the folder is of another plan or code
   bool walks_only = false;  ///< simulate what is missing and evaluate nothing
 };
 
 /// Does the shard's units that `out` has no result of, each into `out/units/ID.json`. The folder
-/// also gets plan.yaml, the plan, and units.csv, all units by their ids. Error when the folder is
-/// something else, belongs to another plan or to another version of code or scenarios, or when
-/// another sweep works on it; shards of one plan may work on it together.
-Result<UnitRun> run_sweep(const SweepPlan& plan, std::span<const SweepUnit> units,
+/// also gets plan.yaml, the plan (YAML), and units.csv, all units by their ids. Error when the
+/// folder is something else, belongs to another plan or to another version of code or scenarios, or
+/// when another sweep works on it; shards of one plan may work on it together.
+Result<UnitRun> run_sweep(const std::string& plan, std::span<const SweepUnit> units,
                           const SweepOptions& options, const UnitObserver& observer);
 
 }  // namespace aims

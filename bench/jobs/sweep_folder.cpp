@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kCodeLine = "# code ";
 
 /// plan.yaml: the plan, and the code that its ids are of.
-std::string plan_file_text(const SweepPlan& plan) {
-  return fmt::format("# aims sweep\n{}{}\n{}", kCodeLine, code_version(), plan_text(plan));
+std::string plan_file_text(const std::string& plan) {
+  return fmt::format("# aims sweep\n{}{}\n{}", kCodeLine, code_version(), plan);
 }
 
 std::string unit_list(std::span<const SweepUnit> units) {
@@ -86,7 +86,7 @@ std::string mismatch(const std::string& plan_there, const std::string& plan_here
 
 }  // namespace
 
-Result<void> SweepFolder::enter(const SweepPlan& plan, std::span<const SweepUnit> units,
+Result<void> SweepFolder::enter(const std::string& plan, std::span<const SweepUnit> units,
                                 bool renew) const {
   const fs::path plan_file = path_ / "plan.yaml";
   const fs::path list_file = path_ / "units.csv";

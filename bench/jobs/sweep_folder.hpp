@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "bench/jobs/unit_folder.hpp"
-#include "bench/tuning/sweep_plan.hpp"
 #include "core/error.hpp"
 #include "core/files/folder_lock.hpp"
 
@@ -27,10 +26,10 @@ class SweepFolder {
  public:
   explicit SweepFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Makes the folder one of that plan and those units, or checks that it is. Error when it is
+  /// Makes the folder one of that plan (as YAML) and those units, or checks that it is. Error when it is
   /// something else or of other units; with `renew` it becomes one of these, and results that are
   /// also of these stay valid.
-  Result<void> enter(const SweepPlan& plan, std::span<const SweepUnit> units, bool renew) const;
+  Result<void> enter(const std::string& plan, std::span<const SweepUnit> units, bool renew) const;
 
   /// Every unit that the sweep is to do. Error when the folder is not of a sweep.
   Result<std::vector<ListedUnit>> listed() const;

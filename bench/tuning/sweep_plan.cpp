@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/jobs/scenario_variants.hpp"
+#include "bench/tuning/scenario_variants.hpp"
 #include "bench/jobs/unit_id.hpp"
 #include "bench/run/catalogue.hpp"
 #include "bench/run/seeds.hpp"

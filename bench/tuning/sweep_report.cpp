@@ -12,6 +12,7 @@
 
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/response_report.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/yaml_config.hpp"
 

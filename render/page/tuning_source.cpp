@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/run/seeds.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv_columns.hpp"

@@ -9,6 +9,7 @@
 
 #include "bench/jobs/sweep_folder.hpp"
 #include "bench/jobs/sweep_store.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "tests/bench/jobs/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -137,7 +138,7 @@ class Sweep : public ::testing::Test {
     options_.cache = walks_->path();
   }
 
-  Result<UnitRun> sweep() { return run_sweep(plan_, units_, options_, keep_going); }
+  Result<UnitRun> sweep() { return run_sweep(plan_text(plan_), units_, options_, keep_going); }
 
   void expect_refused(const std::string& part) {
     const auto run = sweep();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/jobs/scenario_variants.hpp"
+#include "bench/tuning/scenario_variants.hpp"
 
 #include <fmt/format.h>
 
