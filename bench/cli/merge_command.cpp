@@ -39,7 +39,7 @@ void report(const MergedSweep& sweep, const std::string& score, const fs::path& 
 void print_open(const MergedSweep& sweep) {
   std::size_t shown = 0;
   std::size_t left = 0;
-  for (const MergedUnit& unit : sweep.units) {
+  for (const MergedJob& unit : sweep.units) {
     const std::string outcome = unit.outcome();
     if (outcome == "done") continue;
     if (++shown > kMostShown) {

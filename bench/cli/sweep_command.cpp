@@ -29,7 +29,7 @@ struct SweepArguments {
   CacheArguments cache;
   int jobs = default_jobs();
   bool list = false;
-  bool walks_only = false;
+  bool simulate_only = false;
   bool retry = false;
   bool renew = false;
   bool quiet = false;
@@ -45,27 +45,27 @@ Result<SweepOptions> options_of(const SweepArguments& arguments) {
   options.jobs = arguments.jobs;
   options.retry = arguments.retry;
   options.renew = arguments.renew;
-  options.walks_only = arguments.walks_only;
+  options.simulate_only = arguments.simulate_only;
   const auto shard = parse_shard(arguments.shard);
   if (!shard) return tl::unexpected(shard.error());
   options.shard = *shard;
   return options;
 }
 
-void print_units(std::span<const SweepUnit> units) {
-  for (const SweepUnit& unit : units) {
+void print_jobs(std::span<const Job> units) {
+  for (const Job& unit : units) {
     fmt::print("{}\t{}\n", unit.id, text_of(unit));
   }
 }
 
-void print_report(const UnitRun& run, const SweepArguments& arguments) {
+void print_report(const JobRun& run, const SweepArguments& arguments) {
   fmt::print("{} units done, {} of them failed; {} found finished; {} walks simulated\n", run.done,
              run.failed, run.reused, run.walks);
   print_pruned(run.pruned, arguments.cache);
   if (!run.complete) fmt::print("interrupted: the same command continues\n");
   if (run.failed > 0) fmt::print("why: aims merge {0}; again: --retry\n", arguments.out);
   fmt::print("results: {}; into one database: aims merge {}\n",
-             (fs::path(arguments.out) / "units").string(), arguments.out);
+             (fs::path(arguments.out) / "jobs").string(), arguments.out);
 }
 
 int sweep_command(const SweepArguments& arguments, const fs::path& folder) {
@@ -75,14 +75,14 @@ int sweep_command(const SweepArguments& arguments, const fs::path& folder) {
   if (!options) return bad_input("sweep", options.error());
   options->timeout_s = plan->timeout;
   const auto units =
-      plan_units(*plan, arguments.plan.folder.empty() ? folder : fs::path(arguments.plan.folder));
+      plan_jobs(*plan, arguments.plan.folder.empty() ? folder : fs::path(arguments.plan.folder));
   if (!units) return bad_input("sweep", units.error());
   if (arguments.list) {
-    print_units(part_of(*units, options->shard));
+    print_jobs(part_of(*units, options->shard));
     return kOk;
   }
   watch_interrupt();
-  UnitDisplay display(arguments.quiet);
+  JobDisplay display(arguments.quiet);
   const auto run = run_sweep(plan_text(*plan), *units, *options, display.observer());
   display.close();
   if (!run) return bad_input("sweep", run.error());
@@ -106,7 +106,7 @@ void add_sweep_command(CLI::App& app, const fs::path& scenario_folder, int& exit
                   "Processes at a time; the results do not depend on it");
   command->add_option("--shard", arguments->shard, "I/N: part I of N of the units");
   command->add_flag("--list", arguments->list, "Print the units with their ids, and do nothing");
-  command->add_flag("--walks-only", arguments->walks_only,
+  command->add_flag("--walks-only", arguments->simulate_only,
                     "Simulate the walks that are missing, and evaluate nothing");
   command->add_flag("--retry", arguments->retry, "Do units that failed before again");
   command->add_flag("--renew", arguments->renew,

@@ -98,7 +98,7 @@ Result<std::uintmax_t> limit_of(const CacheArguments& arguments) {
 
 void print_pruned(const CachePruned& pruned, const CacheArguments& arguments) {
   const fs::path folder =
-      arguments.folder.empty() ? WalkCache::default_folder() : fs::path(arguments.folder);
+      arguments.folder.empty() ? SequenceCache::default_folder() : fs::path(arguments.folder);
   if (pruned.walks > 0) {
     fmt::print(
         "{}: {} walks that were used longest ago are removed, {:.3g} GB (--cache-limit {})\n",
@@ -111,19 +111,19 @@ void print_pruned(const CachePruned& pruned, const CacheArguments& arguments) {
              left_gb, arguments.limit_gb);
 }
 
-UnitObserver UnitDisplay::observer() {
-  return [this](const UnitProgress& progress) {
+JobObserver JobDisplay::observer() {
+  return [this](const JobProgress& progress) {
     show(progress);
     return !interrupted();
   };
 }
 
-void UnitDisplay::close() {
+void JobDisplay::close() {
   if (open_) fmt::print(stderr, "\n");
   open_ = false;
 }
 
-void UnitDisplay::show(const UnitProgress& progress) {
+void JobDisplay::show(const JobProgress& progress) {
   const bool due = terminal_ || progress.elapsed_s >= shown_at_s_ + kLineEvery ||
                    progress.done == progress.total;
   if (quiet_ || !due) return;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/unit_runner.hpp"
+#include "bench/jobs/job_runner.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "core/error.hpp"
 
@@ -54,20 +54,20 @@ Result<std::uintmax_t> limit_of(const CacheArguments& arguments);
 void print_pruned(const CachePruned& pruned, const CacheArguments& arguments);
 
 /// Shows how far units are: a line that changes on a terminal, now and then a line elsewhere.
-class UnitDisplay {
+class JobDisplay {
  public:
-  explicit UnitDisplay(bool quiet) : quiet_(quiet) {}
-  ~UnitDisplay() { close(); }
-  UnitDisplay(const UnitDisplay&) = delete;
-  UnitDisplay& operator=(const UnitDisplay&) = delete;
+  explicit JobDisplay(bool quiet) : quiet_(quiet) {}
+  ~JobDisplay() { close(); }
+  JobDisplay(const JobDisplay&) = delete;
+  JobDisplay& operator=(const JobDisplay&) = delete;
 
   /// Shows each step and wants no more after Ctrl-C; must not outlive the display.
-  UnitObserver observer();
+  JobObserver observer();
   /// Ends the line.
   void close();
 
  private:
-  void show(const UnitProgress& progress);
+  void show(const JobProgress& progress);
 
   bool quiet_;
   bool terminal_ = isatty(STDERR_FILENO) != 0;

@@ -77,17 +77,17 @@ Result<void> check_apply(const TuneArguments& arguments, const TunePlan& plan) {
 
 Result<TuneResult> work(const TuneArguments& arguments, std::uintmax_t cache_limit,
                         const TuneTask& task) {
-  UnitOptions options;
-  options.units = fs::path(arguments.out) / "units";
+  JobOptions options;
+  options.folder = fs::path(arguments.out) / "jobs";
   if (!arguments.cache.folder.empty()) options.cache = arguments.cache.folder;
   options.cache_limit = cache_limit;
   options.jobs = arguments.jobs;
   options.timeout_s = task.plan.timeout;
   options.retry = arguments.retry;
   watch_interrupt();
-  UnitRunner runner(std::move(options));
-  UnitDisplay display(arguments.quiet);
-  auto result = tune(task, run_by_units(runner, display.observer(), task.plan.objectives));
+  JobRunner runner(std::move(options));
+  JobDisplay display(arguments.quiet);
+  auto result = tune(task, run_by_jobs(runner, display.observer(), task.plan.objectives));
   display.close();
   print_pruned(runner.pruned(), arguments.cache);
   return result;

@@ -74,9 +74,9 @@ std::string text_of(const Objective& objective) {
                      objective.lost_penalty);
 }
 
-RunScore run_score(const UnitResult& unit, const std::string& score) {
+RunScore run_score(const JobResult& unit, const std::string& score) {
   return {score_in(unit, score),
-          unit.outcome != UnitOutcome::kDone || score_in(unit, "success") == 0.0};
+          unit.outcome != JobOutcome::kDone || score_in(unit, "success") == 0.0};
 }
 
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,

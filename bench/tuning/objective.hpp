@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/sweep_unit.hpp"
+#include "bench/jobs/job.hpp"
 #include "bench/tuning/design.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
@@ -39,7 +39,7 @@ struct RunScore {
 };
 
 /// That of a unit's result by the score's key. A unit that was not done is a lost run.
-RunScore run_score(const UnitResult& unit, const std::string& score);
+RunScore run_score(const JobResult& unit, const std::string& score);
 
 /// The statistic over the runs, plus the penalty times the share of lost runs. A lost run counts as
 /// the penalty in the statistic, or as its score where that is more. Where the objective is

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/sweep_unit.hpp"
+#include "bench/jobs/job.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/tuning/design.hpp"
 #include "core/error.hpp"

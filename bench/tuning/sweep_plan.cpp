@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bench/tuning/scenario_variants.hpp"
-#include "bench/jobs/unit_id.hpp"
+#include "bench/jobs/job_id.hpp"
 #include "bench/run/catalogue.hpp"
 #include "bench/run/seeds.hpp"
 #include "bench/tuning/range_key.hpp"
@@ -84,7 +84,7 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
 struct WalkGroup {
   struct Member {
     const PlannedPoint* point = nullptr;
-    const UnitIds* ids = nullptr;
+    const JobIds* ids = nullptr;
     std::string key;
   };
   std::vector<Member> members;
@@ -92,13 +92,13 @@ struct WalkGroup {
 
 /// Adds one scenario's units but those whose ids are known already.
 Result<void> add_units(std::span<const std::uint64_t> seeds, std::span<const PlannedPoint> points,
-                       std::set<std::string>& known, std::vector<SweepUnit>& units) {
-  std::map<const Scenario*, UnitIds> ids;
+                       std::set<std::string>& known, std::vector<Job>& units) {
+  std::map<const Scenario*, JobIds> ids;
   std::map<std::string, std::size_t> index;
   std::vector<WalkGroup> groups;
   for (const PlannedPoint& point : points) {
     const Scenario& scenario = *point.variant.scenario;
-    const UnitIds& own = ids.try_emplace(&scenario, scenario).first->second;
+    const JobIds& own = ids.try_emplace(&scenario, scenario).first->second;
     auto key = own.estimator_key(point.estimator);
     if (!key) return tl::unexpected(key.error());
     const auto [at, is_new] = index.emplace(point.variant.walk, groups.size());
@@ -180,14 +180,14 @@ Result<Scenarios> plan_scenarios(std::span<const std::string> names,
       "scenarios: [corridor]");
 }
 
-Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan, const fs::path& folder) {
+Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder) {
   const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, plan.set, folder);
   if (!scenarios) return tl::unexpected(scenarios.error());
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());
   const auto ranges = parse_ranges(plan.over);
   if (!ranges) return tl::unexpected(ranges.error());
-  std::vector<SweepUnit> units;
+  std::vector<Job> units;
   std::set<std::string> ids;
   for (const auto& scenario : *scenarios) {
     const auto points = points_of(plan, *ranges, scenario);

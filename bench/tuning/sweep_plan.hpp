@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/sweep_unit.hpp"
+#include "bench/jobs/job.hpp"
 #include "bench/tuning/design.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
@@ -48,7 +48,7 @@ Result<std::vector<std::shared_ptr<const Scenario>>> plan_scenarios(
 /// those on one walk stand together; none twice (points of a whole number may round to one, and one
 /// may be what the untuned estimator has). Error for a range, estimator or scenario
 /// that is not right, a value that a parameter does not allow, and a plan without any unit.
-Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan,
+Result<std::vector<Job>> plan_jobs(const SweepPlan& plan,
                                           const std::filesystem::path& scenario_folder);
 
 }  // namespace aims

@@ -127,7 +127,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     }
   }
   if (varied.ranges.empty()) return failure("the sweep varies nothing: no range in its plan");
-  for (const MergedUnit& unit : sweep.units) {
+  for (const MergedJob& unit : sweep.units) {
     if (!unit.file.is_object()) continue;
     const Json untuned = unit.file.value("untuned", Json::object());
     for (const auto& [key, text] : untuned.items()) {
@@ -138,9 +138,9 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
   return varied;
 }
 
-std::optional<PlacedUnit> placed_unit(const MergedUnit& unit, const VariedParameters& varied) {
+std::optional<PlacedJob> placed_job(const MergedJob& unit, const VariedParameters& varied) {
   if (unit.outcome() == "missing") return std::nullopt;
-  PlacedUnit placed;
+  PlacedJob placed;
   placed.estimator.name = unit.file.value("estimator", "");
   placed.estimator.label = placed.estimator.name;
   std::map<std::string, std::string> settings;
@@ -193,8 +193,8 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
   Walks walks;
   std::vector<std::string> names;
   std::map<std::string, Collected> by_name;
-  for (const MergedUnit& unit : sweep.units) {
-    const auto found = placed_unit(unit, *varied);
+  for (const MergedJob& unit : sweep.units) {
+    const auto found = placed_job(unit, *varied);
     if (!found) continue;
     const std::string name = text_of(found->estimator);
     Collected& collected = by_name[name];

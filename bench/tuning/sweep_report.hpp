@@ -27,15 +27,15 @@ struct VariedParameters {
 Result<VariedParameters> varied_in(const MergedSweep& sweep);
 
 /// Where a unit stands in a design.
-struct PlacedUnit {
+struct PlacedJob {
   EstimatorSpec estimator;     ///< with the settings that are not varied
   std::vector<double> values;  ///< of each range; empty: the untuned estimator
   ResponseCase on;
-  UnitResult result;
+  JobResult result;
 };
 
 /// None for a unit that has no file, or values of some ranges alone.
-std::optional<PlacedUnit> placed_unit(const MergedUnit& unit, const VariedParameters& varied);
+std::optional<PlacedJob> placed_job(const MergedJob& unit, const VariedParameters& varied);
 
 /// The untuned value of each range for that estimator. Error for a setting or key that is unknown.
 Result<std::vector<double>> untuned_values(const EstimatorSpec& estimator,

@@ -134,12 +134,12 @@ class Tuning {
 };
 
 /// By walk first, so that neighbours share an open walk.
-std::vector<SweepUnit> units_of(std::span<const EstimatorSpec> estimators,
+std::vector<Job> units_of(std::span<const EstimatorSpec> estimators,
                                 std::span<const Walk> walks) {
-  std::vector<SweepUnit> units;
+  std::vector<Job> units;
   for (const Walk& walk : walks) {
     for (const EstimatorSpec& estimator : estimators) {
-      units.push_back(make_unit(walk.scenario, walk.seed, estimator));
+      units.push_back(make_job(walk.scenario, walk.seed, estimator));
     }
   }
   return units;
@@ -149,12 +149,12 @@ std::vector<SweepUnit> units_of(std::span<const EstimatorSpec> estimators,
 
 Result<TuneResult> tune(const TuneTask& task, const RunOnWalks& run) { return Tuning(task, run)(); }
 
-RunOnWalks run_by_units(UnitRunner& runner, const UnitObserver& observer,
+RunOnWalks run_by_jobs(JobRunner& runner, const JobObserver& observer,
                         const std::vector<Objective>& objectives) {
   return [&runner, observer, objectives](
              std::span<const EstimatorSpec> estimators,
              std::span<const Walk> walks) -> Result<std::optional<WalkScores>> {
-    const std::vector<SweepUnit> units = units_of(estimators, walks);
+    const std::vector<Job> units = units_of(estimators, walks);
     const auto run = runner.run(units, observer);
     if (!run) return tl::unexpected(run.error());
     if (!run->complete) return std::optional<WalkScores>();

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/jobs/unit_runner.hpp"
+#include "bench/jobs/job_runner.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/error.hpp"
@@ -39,7 +39,7 @@ struct TuneResult {
 Result<TuneResult> tune(const TuneTask& task, const RunOnWalks& run);
 
 /// Runs estimators as units, those that `runner` has not stored yet, and reads their scores.
-RunOnWalks run_by_units(UnitRunner& runner, const UnitObserver& observer,
+RunOnWalks run_by_jobs(JobRunner& runner, const JobObserver& observer,
                         const std::vector<Objective>& objectives);
 
 /// The settings "key=value" of a point, below `estimator.`.

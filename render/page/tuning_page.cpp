@@ -32,7 +32,7 @@ struct Row {
   std::size_t point = 0;
   std::size_t walk = 0;
   bool held_out = false;
-  UnitResult result;
+  JobResult result;
 };
 
 /// The units of one estimator.
@@ -60,8 +60,8 @@ std::size_t index_in(std::vector<Value>& values, const Same& same, Value value) 
 
 void collect(const MergedSweep& units, const VariedParameters& varied, bool held_out,
              Collected& all) {
-  for (const MergedUnit& unit : units.units) {
-    auto placed = placed_unit(unit, varied);
+  for (const MergedJob& unit : units.units) {
+    auto placed = placed_job(unit, varied);
     if (!placed) continue;
     const std::string name = text_of(placed->estimator);
     const std::size_t e =

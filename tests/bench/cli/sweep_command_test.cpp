@@ -75,7 +75,7 @@ TEST_F(Sweeps, ListTheIdsThatTheirFilesWillHave) {
   ASSERT_EQ(sweep("--out out --shard 3/3").exit_code, 0);
   const std::string id =
       list.output.substr(list.output.rfind('\n', list.output.size() - 2) + 1, 16);
-  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "units" / (id + ".json"))) << id;
+  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "jobs" / (id + ".json"))) << id;
 }
 
 TEST_F(Sweeps, RecordUnitsThatTakeTooLongAndDoThemAgainWhenAsked) {
@@ -156,7 +156,7 @@ TEST_F(Sweeps, KeepWhatIsFinishedAtCtrlCAndContinue) {
   EXPECT_EQ(ended.exit_code, 130) << ended.output;
   EXPECT_TRUE(holds(ended, "interrupted: the same command continues")) << ended.output;
   std::size_t finished = 0;
-  for (const auto& entry : fs::directory_iterator(folder_.path() / "out" / "units")) {
+  for (const auto& entry : fs::directory_iterator(folder_.path() / "out" / "jobs")) {
     if (entry.path().extension() == ".json") ++finished;
   }
   EXPECT_GE(finished, 1U);

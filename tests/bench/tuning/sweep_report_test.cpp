@@ -17,10 +17,10 @@ namespace {
 
 constexpr const char* kEta = "degeneracy.eta";
 
-MergedUnit unit_of(const std::string& scenario, int seed, const Json& settings, double ate) {
-  MergedUnit unit;
+MergedJob unit_of(const std::string& scenario, int seed, const Json& settings, double ate) {
+  MergedJob unit;
   unit.listed = {"id", scenario, fmt::format("{}", seed), "aims"};
-  unit.file = {{"schema", kUnitSchema}, {"scenario", scenario},
+  unit.file = {{"schema", kJobSchema}, {"scenario", scenario},
                {"family", ""},          {"seed", seed},
                {"estimator", "aims"},   {"settings", settings},
                {"outcome", "done"},     {"scores", {{"ate_m", ate}, {"success", true}}}};
@@ -101,7 +101,7 @@ TEST(SweepReport, LeavesOutPointsThatAreNotDoneOnAllWalks) {
 TEST(SweepReport, OneUnitIsBothTheUntunedOneAndAPointOfTheGrid) {
   MergedSweep sweep = sweep_over_eta(true);
   const std::string own = fmt::format("{}", EstimatorConfig{}.degeneracy.eta);
-  std::erase_if(sweep.units, [&](const MergedUnit& unit) {
+  std::erase_if(sweep.units, [&](const MergedJob& unit) {
     return unit.file["settings"].value(kEta, "") == own;
   });
   const auto responses = sweep_responses(sweep, "ate_m");
@@ -145,7 +145,7 @@ TEST(SweepReport, FailedUnitsCountAsLost) {
 TEST(SweepReport, KeepsEstimatorsWithOtherSettingsApart) {
   MergedSweep sweep = sweep_over_eta(false);
   const MergedSweep again = sweep;
-  for (MergedUnit unit : again.units) {
+  for (MergedJob unit : again.units) {
     unit.file["settings"]["degeneracy.alpha"] = "0.5";
     sweep.units.push_back(unit);
   }

@@ -35,7 +35,7 @@ Json unit(const std::string& scenario, int seed, const std::vector<double>& valu
   if (!values.empty()) {
     settings = {{kEta, fmt::format("{}", values[0])}, {kKappa, fmt::format("{}", values[1])}};
   }
-  return {{"schema", kUnitSchema},
+  return {{"schema", kJobSchema},
           {"scenario", scenario},
           {"family", ""},
           {"seed", seed},
@@ -51,12 +51,12 @@ Json unit(const std::string& scenario, int seed, const std::vector<double>& valu
 class Units {
  public:
   explicit Units(fs::path folder) : folder_(std::move(folder)) {
-    fs::create_directories(folder_ / "units");
+    fs::create_directories(folder_ / "jobs");
   }
 
   void add(const Json& unit) {
     list(unit);
-    put(folder_ / "units" / (id_ + ".json"), unit.dump());
+    put(folder_ / "jobs" / (id_ + ".json"), unit.dump());
   }
 
   /// One that is not done yet.
@@ -66,7 +66,7 @@ class Units {
                          unit["seed"].get<int>());
   }
 
-  void write_list() const { put(folder_ / "units.csv", "id,scenario,seed,estimator\n" + list_); }
+  void write_list() const { put(folder_ / "jobs.csv", "id,scenario,seed,estimator\n" + list_); }
   const fs::path& folder() const { return folder_; }
 
  private:

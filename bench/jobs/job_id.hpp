@@ -18,18 +18,18 @@ std::string text_hash(std::string_view text);
 /// it, and of nothing else: the effective configuration of simulation, scoring and the estimator
 /// with the settings of its spec, the seed, the estimator's name, the code's version. Labels,
 /// descriptions, tags and expectations do not count, nor does where a file lies.
-std::string unit_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator);
+std::string job_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator);
 
-/// The same for many units of one scenario, whose common part is put into words once.
-class UnitIds {
+/// The same for many jobs of one scenario, whose common part is put into words once.
+class JobIds {
  public:
-  explicit UnitIds(const Scenario& scenario);
+  explicit JobIds(const Scenario& scenario);
 
   /// Stands for the estimator with its settings. Error for a setting that there is not, or a value
   /// that it does not allow.
   Result<std::string> estimator_key(const EstimatorSpec& estimator) const;
 
-  /// `unit_id` of the scenario, the seed and the estimator of that key.
+  /// `job_id` of the scenario, the seed and the estimator of that key.
   std::string id(std::uint64_t seed, const std::string& estimator_key) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/jobs/walk_file.hpp"
+#include "bench/run/sequence_file.hpp"
 
 #include <fmt/format.h>
 
@@ -7,26 +7,26 @@
 #include <optional>
 #include <utility>
 
-#include "bench/jobs/walk_encoding.hpp"
+#include "bench/run/sequence_encoding.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kBegin = "aimswalk";
-constexpr std::string_view kEnd = "walkdone";
+constexpr std::string_view kBegin = "aimsseqn";
+constexpr std::string_view kEnd = "seqndone";
 constexpr std::uint32_t kFormat = 1;
 /// At the end of the file: where the truth begins, and `kEnd`.
 constexpr std::size_t kTrailerSize = sizeof(std::uint64_t) + kEnd.size();
 
 }  // namespace
 
-Result<WalkWriter> WalkWriter::create(const fs::path& file, const SensorRig& rig,
+Result<SequenceWriter> SequenceWriter::create(const fs::path& file, const SensorRig& rig,
                                       std::string_view origin) {
   auto atomic = AtomicFile::create(file);
   if (!atomic) return tl::unexpected(atomic.error());
-  WalkWriter writer(std::move(*atomic));
+  SequenceWriter writer(std::move(*atomic));
   append(writer.buffer_, bytes_of(kBegin));
   append_number(writer.buffer_, kFormat);
   append_pose(writer.buffer_, rig.T_body_lidar);
@@ -35,12 +35,12 @@ Result<WalkWriter> WalkWriter::create(const fs::path& file, const SensorRig& rig
   return writer;
 }
 
-Result<void> WalkWriter::write(std::span<const Delivery> deliveries) {
+Result<void> SequenceWriter::write(std::span<const Delivery> deliveries) {
   for (const Delivery& delivery : deliveries) append_delivery(buffer_, delivery);
   return flush();
 }
 
-Result<void> WalkWriter::finish(const Truth& truth) {
+Result<void> SequenceWriter::finish(const Truth& truth) {
   const std::uint64_t truth_begin = flushed_ + buffer_.size();
   append_truth(buffer_, truth);
   append_number(buffer_, truth_begin);
@@ -50,25 +50,25 @@ Result<void> WalkWriter::finish(const Truth& truth) {
   return file_.commit(false);
 }
 
-Result<void> WalkWriter::flush() {
+Result<void> SequenceWriter::flush() {
   auto written = file_.write(buffer_);
   flushed_ += buffer_.size();
   buffer_.clear();
   return written;
 }
 
-Result<WalkReader> WalkReader::open(const fs::path& file) {
+Result<SequenceReader> SequenceReader::open(const fs::path& file) {
   auto mapped = MappedFile::open(file);
   if (!mapped) return tl::unexpected(mapped.error());
-  WalkReader reader(file, std::move(*mapped));
+  SequenceReader reader(file, std::move(*mapped));
   if (reader.read_header()) return reader;
   return failure(
-      fmt::format("{}: expected a whole recorded walk of format {}; delete it and it is "
+      fmt::format("{}: expected a whole recorded sequence of format {}; delete it and it is "
                   "simulated again",
                   file.string(), kFormat));
 }
 
-bool WalkReader::read_header() {
+bool SequenceReader::read_header() {
   const std::span<const std::byte> all = file_.bytes();
   if (all.size() < kTrailerSize) return false;
   ByteCursor trailer(all.last(kTrailerSize));
@@ -87,12 +87,12 @@ bool WalkReader::read_header() {
   return read_truth(all.subspan(*truth_begin, all.size() - kTrailerSize - *truth_begin));
 }
 
-bool WalkReader::read_truth(std::span<const std::byte> bytes) {
+bool SequenceReader::read_truth(std::span<const std::byte> bytes) {
   ByteCursor cursor(bytes);
   return take_truth(cursor, truth_) && cursor.left() == 0;
 }
 
-Result<void> WalkReader::replay(const std::function<void(const Delivery&)>& visit) const {
+Result<void> SequenceReader::replay(const std::function<void(const Delivery&)>& visit) const {
   ByteCursor cursor(deliveries_);
   while (cursor.left() > 0) {
     const std::size_t at = cursor.position();

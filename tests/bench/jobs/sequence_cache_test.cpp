@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/jobs/walk_cache.hpp"
+#include "bench/jobs/sequence_cache.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,8 +9,8 @@
 #include <chrono>
 #include <fstream>
 
-#include "bench/jobs/evaluate.hpp"
-#include "bench/jobs/walk_file.hpp"
+#include "bench/run/evaluate.hpp"
+#include "bench/run/sequence_file.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/score_record.hpp"
 #include "core/files/atomic_file.hpp"
@@ -30,33 +30,33 @@ Json without_times(Json scores) {
   return scores;
 }
 
-/// One walk that the tests share, since simulating it takes most of their time.
-class Walk : public ::testing::Test {
+/// One sequence that the tests share, since simulating it takes most of their time.
+class Sequence : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new TemporaryFolder;
-    const auto made = WalkCache(shared_->path()).make(short_walk(), 1);
+    const auto made = SequenceCache(shared_->path()).make(short_walk(), 1);
     ASSERT_TRUE(made) << made.error().message;
     ASSERT_TRUE(made->simulated);
   }
   static void TearDownTestSuite() { delete shared_; }
 
   static fs::path file() {
-    return WalkCache(shared_->path()).file_of(WalkCache::id_of(short_walk(), 1));
+    return SequenceCache(shared_->path()).file_of(SequenceCache::id_of(short_walk(), 1));
   }
 
   static TemporaryFolder* shared_;
   TemporaryFolder folder_;
 };
 
-TemporaryFolder* Walk::shared_ = nullptr;
+TemporaryFolder* Sequence::shared_ = nullptr;
 
-TEST_F(Walk, ReadsBackEveryDeliveryBitForBit) {
+TEST_F(Sequence, ReadsBackEveryDeliveryBitForBit) {
   auto simulation = Simulation::create(short_walk().simulation, 1);
   ASSERT_TRUE(simulation);
   std::vector<Delivery> direct;
   while (simulation->advance(kSecond, direct)) continue;
-  const auto reader = WalkReader::open(file());
+  const auto reader = SequenceReader::open(file());
   ASSERT_TRUE(reader) << reader.error().message;
   std::size_t next = 0;
   std::size_t scans = 0;
@@ -100,15 +100,15 @@ TEST_F(Walk, ReadsBackEveryDeliveryBitForBit) {
   EXPECT_GT(scans, 20U);
 }
 
-TEST_F(Walk, EvaluatedGivesTheScoresOfTheDirectRun) {
+TEST_F(Sequence, EvaluatedGivesTheScoresOfTheDirectRun) {
   Scenario scenario = short_walk();
   scenario.estimators = {"aims", "other=aims+degeneracy.eta=1", "leg"};
   const auto direct = run(scenario, {1, 1}, [](const Progress&) { return true; });
   ASSERT_TRUE(direct);
-  const auto walk = open_walk(file(), scenario);
-  ASSERT_TRUE(walk) << walk.error().message;
+  const auto sequence = open_sequence(file(), scenario);
+  ASSERT_TRUE(sequence) << sequence.error().message;
   for (std::size_t i = 0; i < scenario.estimators.size(); ++i) {
-    const auto outcome = evaluate(*walk, scenario, scenario.estimators[i]);
+    const auto outcome = evaluate(*sequence, scenario, scenario.estimators[i]);
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(without_times(estimator_json(*outcome)),
               without_times(estimator_json(direct->estimators[i])))
@@ -116,25 +116,25 @@ TEST_F(Walk, EvaluatedGivesTheScoresOfTheDirectRun) {
   }
 }
 
-TEST_F(Walk, IsRefusedWhenCutShortOrOfAnotherFormat) {
+TEST_F(Sequence, IsRefusedWhenCutShortOrOfAnotherFormat) {
   const std::string whole = read_file(file()).value();
-  const fs::path broken = folder_.path() / "broken.walk";
+  const fs::path broken = folder_.path() / "broken.sequence";
   for (const std::size_t size :
        {std::size_t{0}, std::size_t{7}, whole.size() / 2, whole.size() - 1}) {
     ASSERT_TRUE(write_file_atomically(broken, std::string_view(whole).substr(0, size)));
-    const auto reader = WalkReader::open(broken);
+    const auto reader = SequenceReader::open(broken);
     ASSERT_FALSE(reader) << size;
-    EXPECT_NE(reader.error().message.find("broken.walk: expected a whole recorded walk"),
+    EXPECT_NE(reader.error().message.find("broken.sequence: expected a whole recorded sequence"),
               std::string::npos);
   }
   std::string other = whole;
   other[8] = 9;  // the format's number
   ASSERT_TRUE(write_file_atomically(broken, other));
-  EXPECT_FALSE(WalkReader::open(broken));
+  EXPECT_FALSE(SequenceReader::open(broken));
 }
 
-TEST_F(Walk, IsMadeOnce) {
-  const WalkCache cache(shared_->path());
+TEST_F(Sequence, IsMadeOnce) {
+  const SequenceCache cache(shared_->path());
   const auto stamp = fs::last_write_time(file());
   const auto again = cache.make(short_walk(), 1);
   ASSERT_TRUE(again);
@@ -142,40 +142,40 @@ TEST_F(Walk, IsMadeOnce) {
   EXPECT_EQ(fs::last_write_time(file()), stamp);
 }
 
-TEST(WalkCache, IdDependsOnWhatDecidesTheWalkAndOnNothingElse) {
-  const std::string id = WalkCache::id_of(short_walk(), 1);
+TEST(SequenceCache, IdDependsOnWhatDecidesTheWalkAndOnNothingElse) {
+  const std::string id = SequenceCache::id_of(short_walk(), 1);
   EXPECT_EQ(id.size(), 16U);
-  EXPECT_NE(id, WalkCache::id_of(short_walk(), 2));
+  EXPECT_NE(id, SequenceCache::id_of(short_walk(), 2));
   Scenario other = short_walk();
   other.simulation.lidar.range_max = 5.0;
-  EXPECT_NE(id, WalkCache::id_of(other, 1));
+  EXPECT_NE(id, SequenceCache::id_of(other, 1));
   Scenario same = short_walk("another name");
   same.estimator.degeneracy.eta += 1.0;
   same.scoring.lost_error_offset += 1.0;
   same.estimators = {"lio"};
-  EXPECT_EQ(id, WalkCache::id_of(same, 1));
+  EXPECT_EQ(id, SequenceCache::id_of(same, 1));
 }
 
-TEST(WalkCache, ClearsAwayWhatAKilledProcessLeftOfTheWalk) {
+TEST(SequenceCache, ClearsAwayWhatAKilledProcessLeftOfTheWalk) {
   const TemporaryFolder folder;
-  const WalkCache cache(folder.path());
-  const fs::path file = cache.file_of(WalkCache::id_of(short_walk(), 2));
-  std::ofstream(file.string() + ".node7.4711.tmp") << "half a walk";
-  std::ofstream(folder.path() / "0123456789abcdef.walk.node7.4711.tmp") << "another's";
+  const SequenceCache cache(folder.path());
+  const fs::path file = cache.file_of(SequenceCache::id_of(short_walk(), 2));
+  std::ofstream(file.string() + ".node7.4711.tmp") << "half a sequence";
+  std::ofstream(folder.path() / "0123456789abcdef.sequence.node7.4711.tmp") << "another's";
   ASSERT_TRUE(cache.make(short_walk(), 2)->simulated);
   EXPECT_FALSE(fs::exists(file.string() + ".node7.4711.tmp"));
-  EXPECT_TRUE(fs::exists(folder.path() / "0123456789abcdef.walk.node7.4711.tmp"));
+  EXPECT_TRUE(fs::exists(folder.path() / "0123456789abcdef.sequence.node7.4711.tmp"));
 }
 
-TEST(WalkCache, RefusesWhatCannotBeSimulatedAndLeavesNothing) {
+TEST(SequenceCache, RefusesWhatCannotBeSimulatedAndLeavesNothing) {
   const TemporaryFolder folder;
-  const auto made = WalkCache(folder.path()).make(testing::in_wall(), 1);
+  const auto made = SequenceCache(folder.path()).make(testing::in_wall(), 1);
   ASSERT_TRUE(made) << made.error().message;
   ASSERT_TRUE(made->refusal);
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
-/// A cache with walks of 1000 bytes, used an hour apart in the order of their names.
+/// A cache with sequences of 1000 bytes, used an hour apart in the order of their names.
 class FullCache : public ::testing::Test {
  protected:
   FullCache() {
@@ -184,7 +184,7 @@ class FullCache : public ::testing::Test {
       std::ofstream(cache_.file_of(kIds[i])) << std::string(1000, 'w');
       fs::last_write_time(cache_.file_of(kIds[i]), now - std::chrono::hours(10 - i));
     }
-    std::ofstream(folder_.path() / "a.walk.node7.4711.tmp") << "being made";
+    std::ofstream(folder_.path() / "a.sequence.node7.4711.tmp") << "being made";
   }
 
   /// Names of those that are there.
@@ -196,20 +196,20 @@ class FullCache : public ::testing::Test {
 
   static constexpr std::array<const char*, 4> kIds = {"a", "b", "c", "d"};
   TemporaryFolder folder_;
-  WalkCache cache_{folder_.path()};
+  SequenceCache cache_{folder_.path()};
 };
 
 TEST_F(FullCache, LosesWhatWasUsedLongestAgoUntilItFits) {
   const CachePruned nothing = cache_.prune(4000, {});
-  EXPECT_EQ(nothing.walks, 0U);
+  EXPECT_EQ(nothing.sequences, 0U);
   EXPECT_EQ(nothing.left, 4000U);
   const CachePruned pruned = cache_.prune(2500, {});
   EXPECT_EQ(left(), "cd");
-  EXPECT_EQ(pruned.walks, 2U);
+  EXPECT_EQ(pruned.sequences, 2U);
   EXPECT_EQ(pruned.bytes, 2000U);
   EXPECT_EQ(pruned.left, 2000U);
-  EXPECT_TRUE(fs::exists(folder_.path() / "a.walk.node7.4711.tmp")) << "its maker's";
-  EXPECT_EQ(WalkCache(folder_.path() / "nowhere").prune(0, {}).walks, 0U);
+  EXPECT_TRUE(fs::exists(folder_.path() / "a.sequence.node7.4711.tmp")) << "its maker's";
+  EXPECT_EQ(SequenceCache(folder_.path() / "nowhere").prune(0, {}).sequences, 0U);
 }
 
 TEST_F(FullCache, KeepsWhatIsInUseOrWaitedFor) {
@@ -238,7 +238,7 @@ TEST_F(FullCache, KeepsWhatAnotherProcessUses) {
   const auto in_use = cache_.use("a");
   const pid_t child = ::fork();
   if (child == 0) {
-    const bool kept = WalkCache(folder_.path()).prune(1, {}).left == 1000;
+    const bool kept = SequenceCache(folder_.path()).prune(1, {}).left == 1000;
     ::_exit(kept ? 0 : 1);
   }
   int status = -1;
@@ -247,10 +247,10 @@ TEST_F(FullCache, KeepsWhatAnotherProcessUses) {
   EXPECT_EQ(left(), "a");
 }
 
-TEST(WalkCache, AFolderThatCannotBeWrittenIsAnError) {
+TEST(SequenceCache, AFolderThatCannotBeWrittenIsAnError) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "file") << "x";
-  const auto made = WalkCache(folder.path() / "file").make(short_walk(), 1);
+  const auto made = SequenceCache(folder.path() / "file").make(short_walk(), 1);
   ASSERT_FALSE(made);
   EXPECT_NE(made.error().message.find((folder.path() / "file").string()), std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/jobs/walk_encoding.hpp"
+#include "bench/run/sequence_encoding.hpp"
 
 #include <array>
 #include <cstring>

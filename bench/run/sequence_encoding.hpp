@@ -13,7 +13,7 @@
 
 namespace aims {
 
-/// The parts of a walk's file (bench/jobs/walk_file.hpp) as bytes, and back. `append_*` writes
+/// The parts of a sequence's file (bench/run/sequence_file.hpp) as bytes, and back. `append_*` writes
 /// at the end of `out`; `take_*` reads at the cursor and is false, or nothing, where the bytes end
 /// too early or mean nothing.
 void append_pose(std::vector<std::byte>& out, const Pose& pose);

@@ -18,15 +18,15 @@
 
 namespace aims {
 
-/// Writes a simulated walk as one file, bit for bit what the simulation yielded: the rig, every
+/// Writes a simulated sequence as one file, bit for bit what the simulation yielded: the rig, every
 /// delivery in order of arrival, and of the truth what scores are made from (motion at the physics
 /// rate, waypoint times, information of the sweeps; no biases, no pictures). A bag holds the truth
 /// at 10 ms alone and nothing of the sweeps, so that scores would differ. Little-endian numbers,
 /// one after the other; 22 bytes per return. The file appears whole, on finish().
-class WalkWriter {
+class SequenceWriter {
  public:
-  /// `origin` is kept as text: what the walk is of.
-  static Result<WalkWriter> create(const std::filesystem::path& file, const SensorRig& rig,
+  /// `origin` is kept as text: what the sequence is of.
+  static Result<SequenceWriter> create(const std::filesystem::path& file, const SensorRig& rig,
                                    std::string_view origin);
 
   Result<void> write(std::span<const Delivery> deliveries);
@@ -34,7 +34,7 @@ class WalkWriter {
   Result<void> finish(const Truth& truth);
 
  private:
-  explicit WalkWriter(AtomicFile file) : file_(std::move(file)) {}
+  explicit SequenceWriter(AtomicFile file) : file_(std::move(file)) {}
   Result<void> flush();
 
   AtomicFile file_;
@@ -42,12 +42,12 @@ class WalkWriter {
   std::size_t flushed_ = 0;  ///< bytes in the file
 };
 
-/// Reads what `WalkWriter` wrote. Measurements are read as they are asked for: memory is that of
-/// one scan, and processes that read one walk share the file's pages.
-class WalkReader {
+/// Reads what `SequenceWriter` wrote. Measurements are read as they are asked for: memory is that of
+/// one scan, and processes that read one sequence share the file's pages.
+class SequenceReader {
  public:
-  /// Error when the file is no walk, of another format, or cut short.
-  static Result<WalkReader> open(const std::filesystem::path& file);
+  /// Error when the file is no sequence, of another format, or cut short.
+  static Result<SequenceReader> open(const std::filesystem::path& file);
 
   const SensorRig& rig() const { return rig_; }
   const Truth& truth() const { return truth_; }
@@ -60,7 +60,7 @@ class WalkReader {
   Result<void> replay(const std::function<void(const Delivery&)>& visit) const;
 
  private:
-  WalkReader(std::filesystem::path path, MappedFile file)
+  SequenceReader(std::filesystem::path path, MappedFile file)
       : path_(std::move(path)), file_(std::move(file)) {}
   bool read_header();
   bool read_truth(std::span<const std::byte> bytes);

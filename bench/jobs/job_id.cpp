@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/jobs/unit_id.hpp"
+#include "bench/jobs/job_id.hpp"
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ std::string key_of(std::string_view name, EstimatorConfig config) {
 
 std::string text_hash(std::string_view text) { return fmt::format("{:016x}", fnv1a(text)); }
 
-UnitIds::UnitIds(const Scenario& scenario) : estimator_(scenario.estimator) {
+JobIds::JobIds(const Scenario& scenario) : estimator_(scenario.estimator) {
   // What does not change a run's numbers, and the estimator, are left out.
   Scenario bare;
   bare.simulation = scenario.simulation;
@@ -35,19 +35,19 @@ UnitIds::UnitIds(const Scenario& scenario) : estimator_(scenario.estimator) {
   scenario_key_ = text_hash(config_text(bare));
 }
 
-Result<std::string> UnitIds::estimator_key(const EstimatorSpec& estimator) const {
+Result<std::string> JobIds::estimator_key(const EstimatorSpec& estimator) const {
   auto config = config_with(estimator, estimator_);
   if (!config) return tl::unexpected(config.error());
   return key_of(estimator.name, std::move(*config));
 }
 
-std::string UnitIds::id(std::uint64_t seed, const std::string& estimator_key) const {
+std::string JobIds::id(std::uint64_t seed, const std::string& estimator_key) const {
   return text_hash(
       fmt::format("{}\n{}\n{}\n{}", code_version(), seed, scenario_key_, estimator_key));
 }
 
-std::string unit_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator) {
-  const UnitIds ids(scenario);
+std::string job_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator) {
+  const JobIds ids(scenario);
   const auto spec = parse_estimator_spec(estimator);
   const auto key = spec ? ids.estimator_key(*spec) : tl::unexpected(spec.error());
   return ids.id(seed, key ? *key : key_of(estimator, scenario.estimator));
