@@ -39,7 +39,7 @@ void report(const MergedSweep& sweep, const std::string& score, const fs::path& 
 void print_open(const MergedSweep& sweep) {
   std::size_t shown = 0;
   std::size_t left = 0;
-  for (const MergedJob& unit : sweep.units) {
+  for (const MergedJob& unit : sweep.jobs) {
     const std::string outcome = unit.outcome();
     if (outcome == "done") continue;
     if (++shown > kMostShown) {
@@ -73,8 +73,8 @@ int merge_command(const MergeArguments& arguments) {
     fmt::print("note: {} results of another plan, code or scenario are left out\n", sweep->others);
   }
   fmt::print("{} of {} units done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
-             sweep->units.size(), (out / "sweep.sqlite").string());
-  return sweep->count("done") == sweep->units.size() ? kOk : kGateFailed;
+             sweep->jobs.size(), (out / "sweep.sqlite").string());
+  return sweep->count("done") == sweep->jobs.size() ? kOk : kGateFailed;
 }
 
 }  // namespace

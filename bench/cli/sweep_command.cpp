@@ -60,7 +60,7 @@ void print_jobs(std::span<const Job> units) {
 
 void print_report(const JobRun& run, const SweepArguments& arguments) {
   fmt::print("{} units done, {} of them failed; {} found finished; {} walks simulated\n", run.done,
-             run.failed, run.reused, run.walks);
+             run.failed, run.reused, run.sequences);
   print_pruned(run.pruned, arguments.cache);
   if (!run.complete) fmt::print("interrupted: the same command continues\n");
   if (run.failed > 0) fmt::print("why: aims merge {0}; again: --retry\n", arguments.out);

@@ -99,10 +99,10 @@ Result<std::uintmax_t> limit_of(const CacheArguments& arguments) {
 void print_pruned(const CachePruned& pruned, const CacheArguments& arguments) {
   const fs::path folder =
       arguments.folder.empty() ? SequenceCache::default_folder() : fs::path(arguments.folder);
-  if (pruned.walks > 0) {
+  if (pruned.sequences > 0) {
     fmt::print(
         "{}: {} walks that were used longest ago are removed, {:.3g} GB (--cache-limit {})\n",
-        folder.string(), pruned.walks, 1e-9 * static_cast<double>(pruned.bytes),
+        folder.string(), pruned.sequences, 1e-9 * static_cast<double>(pruned.bytes),
         arguments.limit_gb);
   }
   const double left_gb = 1e-9 * static_cast<double>(pruned.left);
@@ -129,7 +129,7 @@ void JobDisplay::show(const JobProgress& progress) {
   if (quiet_ || !due) return;
   std::string line = fmt::format("{} of {} units", progress.done, progress.total);
   if (progress.failed > 0) line += fmt::format(", {} failed", progress.failed);
-  if (progress.walks > 0) line += fmt::format(", {} walks simulated", progress.walks);
+  if (progress.sequences > 0) line += fmt::format(", {} sequences simulated", progress.sequences);
   if (line == shown_ && !terminal_) return;
   shown_ = line;
   shown_at_s_ = progress.elapsed_s;

@@ -127,7 +127,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     }
   }
   if (varied.ranges.empty()) return failure("the sweep varies nothing: no range in its plan");
-  for (const MergedJob& unit : sweep.units) {
+  for (const MergedJob& unit : sweep.jobs) {
     if (!unit.file.is_object()) continue;
     const Json untuned = unit.file.value("untuned", Json::object());
     for (const auto& [key, text] : untuned.items()) {
@@ -193,7 +193,7 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
   Walks walks;
   std::vector<std::string> names;
   std::map<std::string, Collected> by_name;
-  for (const MergedJob& unit : sweep.units) {
+  for (const MergedJob& unit : sweep.jobs) {
     const auto found = placed_job(unit, *varied);
     if (!found) continue;
     const std::string name = text_of(found->estimator);
@@ -219,7 +219,7 @@ Result<void> write_sweep_report(const MergedSweep& sweep, Objective objective,
   const auto responses = sweep_responses(sweep, objective.score);
   if (!responses) return tl::unexpected(responses.error());
   std::string text = "# Sweep\n";
-  text += fmt::format("\n{} of {} units done.\n", sweep.count("done"), sweep.units.size());
+  text += fmt::format("\n{} of {} units done.\n", sweep.count("done"), sweep.jobs.size());
   for (std::size_t i = 0; i < responses->size(); ++i) {
     const SweepResponse& response = (*responses)[i];
     Objective own = objective;

@@ -60,7 +60,7 @@ std::size_t index_in(std::vector<Value>& values, const Same& same, Value value) 
 
 void collect(const MergedSweep& units, const VariedParameters& varied, bool held_out,
              Collected& all) {
-  for (const MergedJob& unit : units.units) {
+  for (const MergedJob& unit : units.jobs) {
     auto placed = placed_job(unit, varied);
     if (!placed) continue;
     const std::string name = text_of(placed->estimator);
@@ -234,7 +234,7 @@ Json walks_json(const std::vector<ResponseCase>& walks) {
 }
 
 Json counts_json(const MergedSweep& units) {
-  Json json = {{"total", units.units.size()}, {"others", units.others}};
+  Json json = {{"total", units.jobs.size()}, {"others", units.others}};
   for (const char* outcome : {"done", "failed", "crashed", "timed_out", "missing"}) {
     json[outcome] = units.count(outcome);
   }

@@ -126,7 +126,7 @@ Result<TuningSource> read_tune(const fs::path& folder) {
       continue;
     }
     const bool tuned = walks->contain(unit->listed.scenario, unit->file["seed"]);
-    (tuned ? source.units : source.held_out).units.push_back(std::move(*unit));
+    (tuned ? source.units : source.held_out).jobs.push_back(std::move(*unit));
   }
   if (broken > 0) source.notes.push_back(fmt::format("{} files of units cannot be read", broken));
   return source;

@@ -25,7 +25,7 @@ bool keep_going(const JobProgress&) { return true; }
 
 SweepPlan small_plan() {
   SweepPlan plan;
-  plan.scenarios = {AIMS_SCENARIOS "/corridor.yaml", "severity_5"};
+  plan.scenarios = {AIMS_SCENARIOS "/paper/corridor.yaml", "severity_5"};
   plan.seeds = "1-3";
   plan.over = {"degeneracy.eta=0:6:4", "degeneracy.kappa=log(1,100,3)"};
   return plan;

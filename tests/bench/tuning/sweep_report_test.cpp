@@ -33,10 +33,10 @@ MergedSweep sweep_over_eta(bool untuned) {
   sweep.plans = {"# aims sweep\nover: [\"degeneracy.eta=0:6:13\"]\nscenarios: [corridor]\n"};
   const auto ate = [](double eta, int seed) { return 0.1 * seed * (1.0 + std::abs(eta - 1.0)); };
   for (int seed = 1; seed <= 4; ++seed) {
-    if (untuned) sweep.units.push_back(unit_of("corridor", seed, Json::object(), ate(3.0, seed)));
+    if (untuned) sweep.jobs.push_back(unit_of("corridor", seed, Json::object(), ate(3.0, seed)));
     for (int k = 0; k <= 12; ++k) {
       const double eta = 0.5 * k;
-      sweep.units.push_back(
+      sweep.jobs.push_back(
           unit_of("corridor", seed, {{kEta, fmt::format("{}", eta)}}, ate(eta, seed)));
     }
   }
@@ -90,8 +90,8 @@ TEST(SweepReport, WithoutUntunedRunsComparesPlainScores) {
 
 TEST(SweepReport, LeavesOutPointsThatAreNotDoneOnAllWalks) {
   MergedSweep sweep = sweep_over_eta(true);
-  sweep.units[3].file = Json();
-  sweep.units.back().file = Json();
+  sweep.jobs[3].file = Json();
+  sweep.jobs.back().file = Json();
   const auto responses = sweep_responses(sweep, "ate_m");
   ASSERT_TRUE(responses);
   EXPECT_EQ(responses->front().incomplete, 2U);
@@ -101,7 +101,7 @@ TEST(SweepReport, LeavesOutPointsThatAreNotDoneOnAllWalks) {
 TEST(SweepReport, OneUnitIsBothTheUntunedOneAndAPointOfTheGrid) {
   MergedSweep sweep = sweep_over_eta(true);
   const std::string own = fmt::format("{}", EstimatorConfig{}.degeneracy.eta);
-  std::erase_if(sweep.units, [&](const MergedJob& unit) {
+  std::erase_if(sweep.jobs, [&](const MergedJob& unit) {
     return unit.file["settings"].value(kEta, "") == own;
   });
   const auto responses = sweep_responses(sweep, "ate_m");
@@ -116,11 +116,11 @@ TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
   MergedSweep sweep;
   sweep.plans = {"over: [\"links.leg_odometry.loss=0:0.5:6\"]\nscenarios: [corridor]\n"};
   for (int seed = 1; seed <= 2; ++seed) {
-    sweep.units.push_back(unit_of("corridor", seed, Json::object(), 0.1));
+    sweep.jobs.push_back(unit_of("corridor", seed, Json::object(), 0.1));
     for (int k = 0; k <= 5; ++k) {
       const Json settings = {{"links.leg_odometry.loss", fmt::format("{}", 0.1 * k)}};
-      sweep.units.push_back(unit_of("corridor", seed, settings, 0.1 + 0.02 * k * seed));
-      sweep.units.back().file["untuned"] = {{"links.leg_odometry.loss", "0.05"}};
+      sweep.jobs.push_back(unit_of("corridor", seed, settings, 0.1 + 0.02 * k * seed));
+      sweep.jobs.back().file["untuned"] = {{"links.leg_odometry.loss", "0.05"}};
     }
   }
   const auto responses = sweep_responses(sweep, "ate_m");
@@ -135,7 +135,7 @@ TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
 
 TEST(SweepReport, FailedUnitsCountAsLost) {
   MergedSweep sweep = sweep_over_eta(true);
-  sweep.units[1].file["outcome"] = "crashed";
+  sweep.jobs[1].file["outcome"] = "crashed";
   const auto responses = sweep_responses(sweep, "ate_m");
   ASSERT_TRUE(responses);
   EXPECT_TRUE(responses->front().table.runs[0][0].lost);
@@ -147,7 +147,7 @@ TEST(SweepReport, KeepsEstimatorsWithOtherSettingsApart) {
   const MergedSweep again = sweep;
   for (MergedJob unit : again.units) {
     unit.file["settings"]["degeneracy.alpha"] = "0.5";
-    sweep.units.push_back(unit);
+    sweep.jobs.push_back(unit);
   }
   const auto responses = sweep_responses(sweep, "ate_m");
   ASSERT_TRUE(responses);
