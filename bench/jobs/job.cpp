@@ -59,10 +59,10 @@ std::optional<double> score_in(const JobResult& result, const std::string& key) 
 Json job_json(const Job& job, const JobResult& result) {
   Json settings = Json::object();
   for (const auto& [key, value] : job.estimator.settings) settings[key] = value;
-  Json untuned = Json::object();
+  Json defaults = Json::object();
   for (const ScenarioSetting& each : job.scenario_settings) {
     settings[each.key] = each.value;
-    untuned[each.key] = each.untuned;
+    defaults[each.key] = each.default_value;
   }
   Json json = {{"schema", kJobSchema},
                {"id", job.id},
@@ -74,7 +74,7 @@ Json job_json(const Job& job, const JobResult& result) {
                {"estimator", job.estimator.name},
                {"settings", std::move(settings)},
                {"outcome", name_of(result.outcome)}};
-  if (!untuned.empty()) json["untuned"] = std::move(untuned);
+  if (!defaults.empty()) json["defaults"] = std::move(defaults);
   if (!result.message.empty()) json["message"] = result.message;
   if (!result.scores.is_null()) json["scores"] = result.scores;
   json["wall_s"] = result.wall_s;

@@ -22,7 +22,7 @@ inline constexpr std::string_view kJobSchema = "aims.job/1";
 struct ScenarioSetting {
   std::string key;      ///< e.g. "links.leg_odometry.loss"
   std::string value;    ///< as in YAML
-  std::string untuned;  ///< what the scenario has itself
+  std::string default_value;  ///< of the scenario itself
 };
 
 /// The least piece of work: one estimator with its settings on one sequence. The same job gives the

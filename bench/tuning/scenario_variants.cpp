@@ -46,7 +46,7 @@ Result<ScenarioVariant> ScenarioVariants::make(const std::vector<std::string>& v
     if (auto done = assign(fields, each.full, values[i]); !done) {
       return tl::unexpected(done.error());
     }
-    variant.settings.push_back({ranges_[each.index].key, values[i], each.untuned});
+    variant.settings.push_back({ranges_[each.index].key, values[i], each.default_value});
     if (!each.full.starts_with("scoring.")) variant.walk += values[i] + "\n";
   }
   variant.scenario = std::move(scenario);

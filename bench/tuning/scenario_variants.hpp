@@ -38,7 +38,7 @@ class ScenarioVariants {
   struct Varied {
     std::size_t index = 0;  ///< of the range
     std::string full;       ///< its key in the scenario
-    std::string untuned;    ///< what the scenario has
+    std::string default_value;  ///< of the scenario
     bool whole = false;     ///< a whole number
   };
 

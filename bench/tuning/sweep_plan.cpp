@@ -70,7 +70,7 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
   std::vector<PlannedPoint> planned;
   planned.reserve(estimators->size() * (points.size() + 1));
   for (const EstimatorSpec& estimator : *estimators) {
-    if (plan.untuned || ranges.empty()) planned.push_back({estimator, variants.untouched()});
+    if (plan.include_defaults || ranges.empty()) planned.push_back({estimator, variants.untouched()});
     for (const auto& point : points) {
       auto variant = variants.at(point);
       if (!variant) return tl::unexpected(variant.error());
@@ -125,11 +125,11 @@ void describe(Fields& f, SweepPlan& p) {
   f.texts("tags", p.tags, {.meaning = "with them, all scenarios with any of these tags"});
   f.text("seeds", p.seeds, {.meaning = "of every scenario: 3, 1-5 or 1,4,7-9"});
   f.texts("estimators", p.estimators, {.meaning = "NAME or LABEL=NAME+key=value"});
-  f.texts("over", p.over,
+  f.texts("param", p.param,
           {.meaning = "what is varied, any number of `aims config`: KEY=LOW:HIGH:COUNT or "
                       "KEY=log(LOW,HIGH,COUNT)"});
   f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
-  f.flag("untuned", p.untuned,
+  f.flag("include_defaults", p.include_defaults,
          {.meaning = "also run the estimators without what is varied, to be compared with"});
   f.choice("design", p.design,
            {{"grid", DesignKind::kGrid},
@@ -185,7 +185,7 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
   if (!scenarios) return tl::unexpected(scenarios.error());
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());
-  const auto ranges = parse_ranges(plan.over);
+  const auto ranges = parse_ranges(plan.param);
   if (!ranges) return tl::unexpected(ranges.error());
   std::vector<Job> units;
   std::set<std::string> ids;

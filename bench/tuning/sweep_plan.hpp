@@ -20,9 +20,9 @@ struct SweepPlan {
   std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
   std::string seeds = "1";             ///< "1-5", "1,4,7-9"
   std::vector<std::string> estimators = {"aims"};  ///< specs (estimator/estimator_spec.hpp)
-  std::vector<std::string> over;                   ///< ranges (bench/tuning/design.hpp)
+  std::vector<std::string> param;                   ///< ranges (bench/tuning/design.hpp)
   std::vector<std::string> set;                    ///< "key=value" on top of every scenario
-  bool untuned = false;  ///< also run the estimators without what is varied, to be compared with
+  bool include_defaults = false;  ///< also run the estimators without what is varied, to be compared with
   DesignKind design = DesignKind::kGrid;
   int samples = 64;      ///< points of every design but a grid
   int design_seed = 1;   ///< of those points

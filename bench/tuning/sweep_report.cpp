@@ -108,7 +108,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     if (auto read = load_config_text(text, "plan.yaml", plan); !read) {
       return tl::unexpected(read.error());
     }
-    auto ranges = parse_ranges(plan.over);
+    auto ranges = parse_ranges(plan.param);
     if (!ranges) return tl::unexpected(ranges.error());
     for (ParameterRange& range : *ranges) {
       const bool known = std::any_of(varied.ranges.begin(), varied.ranges.end(),
@@ -129,8 +129,8 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
   if (varied.ranges.empty()) return failure("the sweep varies nothing: no range in its plan");
   for (const MergedJob& unit : sweep.jobs) {
     if (!unit.file.is_object()) continue;
-    const Json untuned = unit.file.value("untuned", Json::object());
-    for (const auto& [key, text] : untuned.items()) {
+    const Json defaults = unit.file.value("defaults", Json::object());
+    for (const auto& [key, text] : defaults.items()) {
       const auto value = text.is_string() ? number_of(text.get<std::string>()) : std::nullopt;
       if (value) varied.scenario_values.emplace(key, *value);
     }

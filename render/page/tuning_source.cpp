@@ -65,9 +65,9 @@ std::string as_sweep(const TunePlan& plan) {
   sweep.tags = plan.tags;
   sweep.seeds = plan.seeds;
   sweep.estimators = {plan.estimator};
-  sweep.over = plan.over;
+  sweep.param = plan.param;
   sweep.set = plan.set;
-  sweep.untuned = true;
+  sweep.include_defaults = true;
   return plan_text(sweep);
 }
 
@@ -77,7 +77,7 @@ std::map<std::vector<double>, TunedPoint> points_in(const fs::path& file, const 
   const auto table = CsvColumns::read(file);
   if (!table) return points;
   std::vector<std::vector<double>> columns;
-  for (const std::string& text : plan.over) {
+  for (const std::string& text : plan.param) {
     const auto range = parse_range(text);
     auto column = range ? table->numbers(range->key) : failure("no range");
     if (!column || column->size() != table->rows()) return {};

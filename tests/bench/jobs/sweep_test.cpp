@@ -27,7 +27,7 @@ SweepPlan small_plan() {
   SweepPlan plan;
   plan.scenarios = {AIMS_SCENARIOS "/paper/corridor.yaml", "severity_5"};
   plan.seeds = "1-3";
-  plan.over = {"degeneracy.eta=0:6:4", "degeneracy.kappa=log(1,100,3)"};
+  plan.param = {"degeneracy.eta=0:6:4", "degeneracy.kappa=log(1,100,3)"};
   return plan;
 }
 
@@ -82,11 +82,11 @@ TEST(SweepPlan, RefusesWhatIsNotRight) {
   expect(with([](auto& p) { p.scenarios.clear(); }), "no scenario is given");
   expect(with([](auto& p) { p.scenarios = {"coridor"}; }), "did you mean 'corridor'");
   expect(with([](auto& p) { p.tags = {"dail"}; }), "no scenario has the tag 'dail'");
-  expect(with([](auto& p) { p.over = {"degeneracy.etta=0:1:2"}; }), "degeneracy.eta");
-  expect(with([](auto& p) { p.over = {"degeneracy.eta=6:0:2"}; }), "reversed");
-  expect(with([](auto& p) { p.over = {"degeneracy.eta=1:1:3"}; }), "empty");
-  expect(with([](auto& p) { p.over = {"degeneracy.kappa=log(0,1,3)"}; }), "logarithm");
-  expect(with([](auto& p) { p.over = {"degeneracy.alpha=0:7:3"}; }), "a number in [0, 1)");
+  expect(with([](auto& p) { p.param = {"degeneracy.etta=0:1:2"}; }), "degeneracy.eta");
+  expect(with([](auto& p) { p.param = {"degeneracy.eta=6:0:2"}; }), "reversed");
+  expect(with([](auto& p) { p.param = {"degeneracy.eta=1:1:3"}; }), "empty");
+  expect(with([](auto& p) { p.param = {"degeneracy.kappa=log(0,1,3)"}; }), "logarithm");
+  expect(with([](auto& p) { p.param = {"degeneracy.alpha=0:7:3"}; }), "a number in [0, 1)");
   expect(with([](auto& p) { p.estimators = {"aimz"}; }), "did you mean 'aims'");
   expect(with([](auto& p) { p.estimators.clear(); }), "estimators");
   expect(with([](auto& p) { p.seeds = ""; }), "is not a seed");
@@ -97,7 +97,7 @@ TEST(SweepPlan, HoldsNoUnitTwiceWhenPointsRoundToOne) {
   SweepPlan plan = small_plan();
   plan.scenarios = {"corridor"};
   plan.seeds = "1";
-  plan.over = {"lidar.max_iterations=1:3:9"};
+  plan.param = {"lidar.max_iterations=1:3:9"};
   EXPECT_EQ(jobs_of(plan)->size(), 3U);
 }
 

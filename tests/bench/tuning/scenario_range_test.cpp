@@ -81,7 +81,7 @@ SweepPlan plan_over(std::vector<std::string> over) {
   plan.scenarios = {AIMS_SCENARIOS "/corridor.yaml"};
   plan.estimators = {"aims", "leg"};
   plan.seeds = "1-2";
-  plan.over = std::move(over);
+  plan.param = std::move(over);
   return plan;
 }
 
@@ -111,7 +111,7 @@ TEST(ScenarioRange, OfTheSimulationMakesAWalkPerValueThatItsUnitsShare) {
   for (const Job& unit : units) {
     ASSERT_EQ(unit.scenario_settings.size(), 1U);
     EXPECT_EQ(unit.scenario_settings[0].key, "links.leg_odometry.loss");
-    EXPECT_EQ(unit.scenario_settings[0].untuned, "0.05");
+    EXPECT_EQ(unit.scenario_settings[0].default_value, "0.05");
     EXPECT_EQ(unit.scenario_settings[0].value,
               fmt::format("{}", unit.scenario->simulation.links.leg_odometry.loss));
     EXPECT_EQ(unit.id, make_job(unit.scenario, unit.seed, unit.estimator).id);
@@ -127,8 +127,8 @@ TEST(ScenarioRange, OfTheScoringKeepsTheWalk) {
 TEST(ScenarioRange, RoundsWholeNumbersAndMakesNoUnitTwice) {
   SweepPlan plan = plan_over({"lidar.rings=15:17:9"});
   EXPECT_EQ(units_of(plan).size(), 3U * 2U * 2U);
-  plan.over = {"links.leg_odometry.loss=0:0.1:3"};
-  plan.untuned = true;
+  plan.param = {"links.leg_odometry.loss=0:0.1:3"};
+  plan.include_defaults = true;
   EXPECT_EQ(units_of(plan).size(), 3U * 2U * 2U) << "0.05 is what the scenario has";
 }
 
@@ -138,7 +138,7 @@ TEST(ScenarioRange, IsInTheUnitsTextAndFile) {
   EXPECT_EQ(text_of(unit), "corridor seed 2 leg+links.leg_odometry.loss=0.5");
   const Json json = job_json(unit, {});
   EXPECT_EQ(json["settings"]["links.leg_odometry.loss"], "0.5");
-  EXPECT_EQ(json["untuned"]["links.leg_odometry.loss"], "0.05");
+  EXPECT_EQ(json["defaults"]["links.leg_odometry.loss"], "0.05");
 }
 
 TEST(ScenarioRange, IsSwept) {

@@ -114,13 +114,13 @@ TEST(SweepReport, OneUnitIsBothTheUntunedOneAndAPointOfTheGrid) {
 
 TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
   MergedSweep sweep;
-  sweep.plans = {"over: [\"links.leg_odometry.loss=0:0.5:6\"]\nscenarios: [corridor]\n"};
+  sweep.plans = {"param: [\"links.leg_odometry.loss=0:0.5:6\"]\nscenarios: [corridor]\n"};
   for (int seed = 1; seed <= 2; ++seed) {
     sweep.jobs.push_back(unit_of("corridor", seed, Json::object(), 0.1));
     for (int k = 0; k <= 5; ++k) {
       const Json settings = {{"links.leg_odometry.loss", fmt::format("{}", 0.1 * k)}};
       sweep.jobs.push_back(unit_of("corridor", seed, settings, 0.1 + 0.02 * k * seed));
-      sweep.jobs.back().file["untuned"] = {{"links.leg_odometry.loss", "0.05"}};
+      sweep.jobs.back().file["defaults"] = {{"links.leg_odometry.loss", "0.05"}};
     }
   }
   const auto responses = sweep_responses(sweep, "ate_m");

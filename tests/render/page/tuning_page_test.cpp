@@ -77,7 +77,7 @@ class Units {
 };
 
 constexpr const char* kRanges =
-    "over: [\"degeneracy.eta=0:6:4\", \"degeneracy.kappa=log(1,100,3)\"]\n";
+    "param: [\"degeneracy.eta=0:6:4\", \"degeneracy.kappa=log(1,100,3)\"]\n";
 
 double ate_of(double eta, double kappa, int seed) {
   return 0.1 * seed * (1.0 + std::abs(eta - 4.0) + 0.1 * std::log10(kappa));
@@ -151,7 +151,7 @@ TEST(TuningPage, AParameterOfTheSimulationHasItsUnitAndItsOwnDefault) {
   for (const char* sigma : {"0.01", "0.02", "0.03"}) {
     Json walked = unit("walk", 1, {}, 0.1);
     walked["settings"] = {{"lidar.range_sigma", sigma}};
-    walked["untuned"] = {{"lidar.range_sigma", "0.015"}};
+    walked["defaults"] = {{"lidar.range_sigma", "0.015"}};
     units.add(walked);
   }
   units.write_list();
@@ -244,7 +244,7 @@ TEST(TuningPage, UnitsThatFailedAreLostRowsWithoutScores) {
 
 void write_tune_plan(const fs::path& folder) {
   put(folder / "tune.yaml",
-      "over: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
+      "param: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
       "scenarios: [walk]\nseeds: 1-2\nheld_out: {scenarios: [other], seeds: 7}\n"
       "objectives:\n  - {score: m_end_m, statistic: mean}\n");
 }
