@@ -78,8 +78,7 @@ std::shared_ptr<BagArguments> add_bag_options(Command& command) {
   auto arguments = std::make_shared<BagArguments>();
   command.argument("bag", arguments->bag, "Bag");
   command.option("--config", arguments->config, "YAML file; its group recording is used");
-  add_settings(command, arguments->shared,
-               "the configuration, e.g. recording.topics.imu=/imu");
+  add_settings(command, arguments->shared, "the configuration, e.g. recording.topics.imu=/imu");
   command.flag("--recover", arguments->recover, "Read the intact part of a damaged bag");
   return arguments;
 }

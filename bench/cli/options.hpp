@@ -30,7 +30,7 @@ struct SharedOptions {
   std::vector<std::string> settings;    ///< "key=value"
   std::vector<std::string> param;       ///< ranges
   std::string out;
-  std::string cache;                       ///< empty: the default
+  std::string cache;                          ///< empty: the default
   double cache_limit_gb = kCacheLimit / 1e9;  ///< 0: any
   int jobs = default_jobs();
   bool retry = false;

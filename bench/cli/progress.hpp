@@ -17,7 +17,8 @@ void watch_interrupt();
 /// True after Ctrl-C.
 bool interrupted();
 
-/// Shows the progress of one sequence on standard error: a bar on a terminal, plain lines elsewhere.
+/// Shows the progress of one sequence on standard error: a bar on a terminal, plain lines
+/// elsewhere.
 class ProgressDisplay {
  public:
   /// `done` is what happens to the seconds that it counts: "simulated", "read".

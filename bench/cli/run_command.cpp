@@ -68,10 +68,9 @@ int run_command(const RunArguments& arguments) {
   if (!options) return bad_input("run", options.error());
   watch_interrupt();
   ProgressDisplay display(scenario->name, arguments.shared.quiet);
-  const auto experiment =
-      run_experiment(*scenario, *options, [&](std::uint64_t seed, const Progress& progress) {
-        return display.show(seed, progress);
-      });
+  const auto experiment = run_experiment(
+      *scenario, *options,
+      [&](std::uint64_t seed, const Progress& progress) { return display.show(seed, progress); });
   display.close();
   if (!experiment) return bad_input("run", experiment.error());
   print_results(*scenario, *experiment);

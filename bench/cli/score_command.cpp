@@ -38,8 +38,8 @@ int score_command(const ScoreArguments& arguments) {
   if (!input) return bad_input("score", input.error());
   const auto scores = score_trajectories(std::move(*input));
   if (!scores) return bad_input("score", scores.error());
-  const auto report = write_trajectory_report(
-      *scores, {shared.out, shared.overwrite, !arguments.no_pictures});
+  const auto report =
+      write_trajectory_report(*scores, {shared.out, shared.overwrite, !arguments.no_pictures});
   if (!report) return bad_input("score", report.error());
   print_results(*scores, *report);
   return kOk;
@@ -47,11 +47,9 @@ int score_command(const ScoreArguments& arguments) {
 
 void add_inputs(Command& command, ScoringRequest& request) {
   command.option("--truth", request.truth, "Ground-truth trajectory", Presence::kRequired);
-  command.repeatable("--estimate", request.estimates, "Estimated trajectory",
-                     Presence::kRequired);
+  command.repeatable("--estimate", request.estimates, "Estimated trajectory", Presence::kRequired);
   command.repeatable("--name", request.names, "Name of each estimate, in their order");
-  command.option("--times", request.times,
-                 "Stamps of KITTI poses: a file with one per line [s]");
+  command.option("--times", request.times, "Stamps of KITTI poses: a file with one per line [s]");
   command.option("--time-offset", request.time_offset_s, {-1e12, 1e12},
                  "Added to the stamps of the estimates [s] (0)");
   command.option("--extrinsic", request.extrinsic,

@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kContinues = "The same command again continues, and runs only what is missing or has changed.\n";
+constexpr const char* kContinues =
+    "The same command again continues, and runs only what is missing or has changed.\n";
 
 /// The one estimator of --estimators; `absent` without it.
 Result<std::string> one_estimator(const SharedOptions& options, const std::string& absent) {
@@ -88,7 +89,8 @@ void declare_ablation(Command command, const fs::path& scenarios) {
   command.list("--groups", arguments->groups,
                "Groups of keys below estimator. whose switches are inverted,\n"
                "one at a time (directional)");
-  command.list("--baselines", arguments->baselines, "Estimators to compare with, e.g. lio,tfs_clean");
+  command.list("--baselines", arguments->baselines,
+               "Estimators to compare with, e.g. lio,tfs_clean");
   command.footer(std::string(kContinues) +
                  "Examples:\n"
                  "  aims study ablation severity_3 severity_8 --seeds 1-3 --out out/ablation\n"
@@ -123,11 +125,12 @@ void declare_consistency(Command command, const fs::path& scenarios) {
   shared->folder = scenarios.string();
   add_suite_options(command, *shared, "out/consistency", "1-10");
   add_estimators(command, *shared, "those of each scenario");
-  command.footer(std::string(kContinues) +
-                 "Examples:\n"
-                 "  aims study consistency severity_3 severity_8 --seeds 1-50 --estimators aims_d,lio\n"
-                 "  aims study consistency severity_9 --estimators aims_d,learning=aims_d+"
-                 "directional.leg_states.hold=false");
+  command.footer(
+      std::string(kContinues) +
+      "Examples:\n"
+      "  aims study consistency severity_3 severity_8 --seeds 1-50 --estimators aims_d,lio\n"
+      "  aims study consistency severity_9 --estimators aims_d,learning=aims_d+"
+      "directional.leg_states.hold=false");
   command.action([shared] { return consistency_command(*shared); });
 }
 

@@ -135,16 +135,16 @@ void declare_sweep(Command command, const fs::path& scenarios) {
   arguments->shared.folder = scenarios.string();
   command.argument("plan", arguments->plan, "YAML file of these options; the command line wins",
                    Presence::kOptional);
-  add_plan_options(command, arguments->shared,
-                   "KEY=LOW:HIGH:COUNT or\nKEY=log(LOW,HIGH,COUNT)");
+  add_plan_options(command, arguments->shared, "KEY=LOW:HIGH:COUNT or\nKEY=log(LOW,HIGH,COUNT)");
   add_design(command, *arguments);
   add_continued_out(command, arguments->shared, "out/sweep");
   command.option("--shard", arguments->shard, "I/N: part I of N of the jobs (1/1)");
   command.flag("--list", arguments->list, "Print the jobs with their ids, and run nothing");
   command.flag("--simulate-only", arguments->simulate_only,
                "Simulate missing sequences, and run no estimator");
-  command.flag("--force", arguments->force,
-               "Continue in a folder of another plan, code or scenario\nversion; valid results stay");
+  command.flag(
+      "--force", arguments->force,
+      "Continue in a folder of another plan, code or scenario\nversion; valid results stay");
   command.exclude("--retry", "--simulate-only");
   command.exclude("--list", "--force");
   command.exclude("--list", "--simulate-only");

@@ -62,7 +62,8 @@ Result<TunePlan> plan_of(const TuneArguments& arguments) {
   put_on_top(arguments.shared, *plan);
   const auto estimators = joined_specs(arguments.shared.estimators);
   if (estimators.size() > 1) {
-    return failure(fmt::format("--estimators: expected one estimator, found {}", estimators.size()));
+    return failure(
+        fmt::format("--estimators: expected one estimator, found {}", estimators.size()));
   }
   if (!estimators.empty()) plan->estimator = estimators.front();
   if (arguments.apply.empty()) return plan;

@@ -20,8 +20,8 @@ inline constexpr std::string_view kJobSchema = "aims.job/1";
 
 /// A value that a job's scenario has instead of its own.
 struct ScenarioSetting {
-  std::string key;      ///< e.g. "links.leg_odometry.loss"
-  std::string value;    ///< as in YAML
+  std::string key;            ///< e.g. "links.leg_odometry.loss"
+  std::string value;          ///< as in YAML
   std::string default_value;  ///< of the scenario itself
 };
 
@@ -36,8 +36,7 @@ struct Job {
 };
 
 /// The job of those parts under its id.
-Job make_job(std::shared_ptr<const Scenario> scenario, std::uint64_t seed,
-                    EstimatorSpec estimator);
+Job make_job(std::shared_ptr<const Scenario> scenario, std::uint64_t seed, EstimatorSpec estimator);
 
 /// "aims+degeneracy.eta=3+links.lidar.loss=0.1": the estimator with its settings, and what is set
 /// of the scenario.

@@ -45,14 +45,14 @@ bool holds_sweep_or_nothing(const fs::path& out) {
 Result<Claim> claim(const fs::path& out, const Shard& shard) {
   if (!holds_sweep_or_nothing(out)) {
     return failure(
-        fmt::format("{}: exists and is no sweep's folder; give another --out", out.string()));
+        fmt::format("{}: exists and is no folder of aims sweep; give another --out", out.string()));
   }
   if (auto made = make_folder(out); !made) return tl::unexpected(made.error());
   const bool alone = shard.count == 1;
   auto folder = alone ? FolderLock::take(out) : FolderLock::share(out);
   if (!folder) {
     return failure(
-        fmt::format("{}: another sweep works there, or it cannot be written", out.string()));
+        fmt::format("{}: in use by another aims sweep, or it cannot be written", out.string()));
   }
   Claim claim{std::move(*folder), std::nullopt};
   if (alone) return claim;
@@ -99,7 +99,7 @@ std::span<const Job> part_of(std::span<const Job> jobs, const Shard& shard) {
 }
 
 Result<JobRun> run_sweep(const std::string& plan, std::span<const Job> jobs,
-                          const SweepOptions& options, const JobObserver& observer) {
+                         const SweepOptions& options, const JobObserver& observer) {
   const auto claimed = claim(options.out, options.shard);
   if (!claimed) return tl::unexpected(claimed.error());
   const SweepFolder folder(options.out);

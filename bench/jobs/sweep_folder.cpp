@@ -101,7 +101,7 @@ Result<void> SweepFolder::enter(const std::string& plan, std::span<const Job> jo
         mismatch(*plan_there, plan_here, list_there.value_or(list_here), list_here);
     if (!why.empty() && !renew) {
       return failure(fmt::format(
-          "{}: {}; give another --out, or --renew to go on here (what is still valid is kept)",
+          "{}: {}; give another --out, or --force to continue here (valid results stay)",
           path_.string(), why));
     }
     if (why.empty() && list_there && *plan_there == plan_here) return {};

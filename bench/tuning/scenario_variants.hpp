@@ -36,10 +36,10 @@ class ScenarioVariants {
 
  private:
   struct Varied {
-    std::size_t index = 0;  ///< of the range
-    std::string full;       ///< its key in the scenario
+    std::size_t index = 0;      ///< of the range
+    std::string full;           ///< its key in the scenario
     std::string default_value;  ///< of the scenario
-    bool whole = false;     ///< a whole number
+    bool whole = false;         ///< a whole number
   };
 
   Result<ScenarioVariant> make(const std::vector<std::string>& values) const;

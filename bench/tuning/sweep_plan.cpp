@@ -7,11 +7,11 @@
 #include <set>
 #include <utility>
 
-#include "bench/tuning/scenario_variants.hpp"
 #include "bench/jobs/job_id.hpp"
 #include "bench/run/catalogue.hpp"
 #include "bench/run/seeds.hpp"
 #include "bench/tuning/range_key.hpp"
+#include "bench/tuning/scenario_variants.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
 
@@ -70,7 +70,8 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
   std::vector<PlannedPoint> planned;
   planned.reserve(estimators->size() * (points.size() + 1));
   for (const EstimatorSpec& estimator : *estimators) {
-    if (plan.include_defaults || ranges.empty()) planned.push_back({estimator, variants.untouched()});
+    if (plan.include_defaults || ranges.empty())
+      planned.push_back({estimator, variants.untouched()});
     for (const auto& point : points) {
       auto variant = variants.at(point);
       if (!variant) return tl::unexpected(variant.error());

@@ -20,9 +20,10 @@ struct SweepPlan {
   std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
   std::string seeds = "1";             ///< "1-5", "1,4,7-9"
   std::vector<std::string> estimators = {"aims"};  ///< specs (estimator/estimator_spec.hpp)
-  std::vector<std::string> param;                   ///< ranges (bench/tuning/design.hpp)
+  std::vector<std::string> param;                  ///< ranges (bench/tuning/design.hpp)
   std::vector<std::string> set;                    ///< "key=value" on top of every scenario
-  bool include_defaults = false;  ///< also run the estimators without what is varied, to be compared with
+  bool include_defaults =
+      false;  ///< also run the estimators without what is varied, to be compared with
   DesignKind design = DesignKind::kGrid;
   int samples = 64;      ///< points of every design but a grid
   int design_seed = 1;   ///< of those points
@@ -49,6 +50,6 @@ Result<std::vector<std::shared_ptr<const Scenario>>> plan_scenarios(
 /// may be what the untuned estimator has). Error for a range, estimator or scenario
 /// that is not right, a value that a parameter does not allow, and a plan without any unit.
 Result<std::vector<Job>> plan_jobs(const SweepPlan& plan,
-                                          const std::filesystem::path& scenario_folder);
+                                   const std::filesystem::path& scenario_folder);
 
 }  // namespace aims

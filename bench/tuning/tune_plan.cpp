@@ -37,7 +37,8 @@ Result<std::vector<double>> untuned(const TuneTask& task, const Scenario& scenar
 
 Result<void> read_ranges(TuneTask& task, const Scenario& base) {
   if (task.plan.param.empty()) {
-    return failure("param: the plan varies nothing; expected ranges, e.g. [\"degeneracy.eta=0:6\"]");
+    return failure(
+        "param: the plan varies nothing; expected ranges, e.g. [\"degeneracy.eta=0:6\"]");
   }
   auto ranges = parse_ranges(task.plan.param);
   if (!ranges) return tl::unexpected(ranges.error());

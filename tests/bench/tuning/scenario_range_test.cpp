@@ -78,7 +78,7 @@ TEST(RangeKey, IsHeldAgainstTheScenario) {
 
 SweepPlan plan_over(std::vector<std::string> over) {
   SweepPlan plan;
-  plan.scenarios = {AIMS_SCENARIOS "/corridor.yaml"};
+  plan.scenarios = {AIMS_SCENARIOS "/paper/corridor.yaml"};
   plan.estimators = {"aims", "leg"};
   plan.seeds = "1-2";
   plan.param = std::move(over);
