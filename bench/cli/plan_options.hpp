@@ -23,7 +23,7 @@ void put_on_top(const SharedOptions& options, Plan& plan) {
     plan.scenarios = options.scenarios;
     plan.tags = options.tags;
   }
-  if (!options.param.empty()) plan.param = options.param;
+  if (!options.param.empty()) plan.params = options.param;
   if (!options.seeds.empty()) plan.seeds = options.seeds;
   plan.set.insert(plan.set.end(), options.settings.begin(), options.settings.end());
 }

@@ -33,7 +33,7 @@ struct SweepArguments {
 
 /// Error for options of the design that this design does not read.
 Result<void> check_design(const SweepArguments& arguments, const SweepPlan& plan) {
-  if (plan.param.empty() && (!arguments.design.empty() || arguments.include_defaults)) {
+  if (plan.params.empty() && (!arguments.design.empty() || arguments.include_defaults)) {
     return failure("--design, --include-defaults: no effect without --param");
   }
   if (plan.design == DesignKind::kGrid && (arguments.samples || arguments.design_seed)) {

@@ -57,9 +57,9 @@ void describe(Fields& fields, Objective& objective) {
                  .meaning = "which, for the statistic 'quantile'"});
   fields.flag("relative", objective.relative,
               {.meaning = "divide each score by that of the untuned estimator on the same walk"});
-  fields.number("lost_penalty", objective.lost_penalty,
+  fields.number("divergence_penalty", objective.divergence_penalty,
                 {.range = positive(),
-                 .meaning = "what a lost run counts for, and what is added if all are lost"});
+                 .meaning = "what a diverged run counts for, and what is added if all are lost"});
 }
 
 std::string text_of(const Objective& objective) {
@@ -69,9 +69,9 @@ std::string text_of(const Objective& objective) {
   if (objective.statistic == ObjectiveStatistic::kQuantile) {
     statistic = fmt::format("{} quantile", objective.quantile);
   }
-  return fmt::format("{} of {}{}, a lost run counts {}", statistic, objective.score,
+  return fmt::format("{} of {}{}, a diverged run counts {}", statistic, objective.score,
                      objective.relative ? " over that of the defaults" : "",
-                     objective.lost_penalty);
+                     objective.divergence_penalty);
 }
 
 RunScore run_score(const JobResult& unit, const std::string& score) {
@@ -87,13 +87,14 @@ std::optional<double> objective_value(const Objective& objective, std::span<cons
     auto value = counted(objective, runs[i], i < reference.size() ? &reference[i] : nullptr);
     if (runs[i].lost) {
       ++lost;
-      value = std::max(value.value_or(objective.lost_penalty), objective.lost_penalty);
+      value = std::max(value.value_or(objective.divergence_penalty), objective.divergence_penalty);
     }
     if (value) values.push_back(*value);
   }
   const auto statistic = statistic_of(objective, values);
   if (!statistic) return std::nullopt;
-  return *statistic + objective.lost_penalty * static_cast<double>(lost) / double(runs.size());
+  return *statistic +
+         objective.divergence_penalty * static_cast<double>(lost) / double(runs.size());
 }
 
 std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family) {

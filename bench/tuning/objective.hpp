@@ -22,14 +22,14 @@ enum class ObjectiveStatistic { kMedian, kWorst, kMean, kQuantile };
 struct Objective {
   std::string score = "ate_m";  ///< dotted key of scores.json, e.g. "m_list_percent.all"
   ObjectiveStatistic statistic = ObjectiveStatistic::kMedian;
-  double quantile = 0.9;     ///< for `kQuantile`, in (0, 1)
-  bool relative = true;      ///< each score over that of the defaults on the same walk
-  double lost_penalty = 10;  ///< what a lost run counts for, and what all lost add; > 0
+  double quantile = 0.9;           ///< for `kQuantile`, in (0, 1)
+  bool relative = true;            ///< each score over that of the defaults on the same walk
+  double divergence_penalty = 10;  ///< what a diverged run counts for, and what all lost add; > 0
 };
 
 void describe(Fields& fields, Objective& objective);
 
-/// "median of ate_m over the defaults' (a lost run counts 10)".
+/// "median of ate_m over the defaults' (a diverged run counts 10)".
 std::string text_of(const Objective& objective);
 
 /// What one run came to in one score.

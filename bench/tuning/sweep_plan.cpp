@@ -126,7 +126,7 @@ void describe(Fields& f, SweepPlan& p) {
   f.texts("tags", p.tags, {.meaning = "with them, all scenarios with any of these tags"});
   f.text("seeds", p.seeds, {.meaning = "of every scenario: 3, 1-5 or 1,4,7-9"});
   f.texts("estimators", p.estimators, {.meaning = "NAME or LABEL=NAME+key=value"});
-  f.texts("param", p.param,
+  f.texts("params", p.params,
           {.meaning = "what is varied, any number of `aims config`: KEY=LOW:HIGH:COUNT or "
                       "KEY=log(LOW,HIGH,COUNT)"});
   f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
@@ -186,7 +186,7 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
   if (!scenarios) return tl::unexpected(scenarios.error());
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());
-  const auto ranges = parse_ranges(plan.param);
+  const auto ranges = parse_ranges(plan.params);
   if (!ranges) return tl::unexpected(ranges.error());
   std::vector<Job> units;
   std::set<std::string> ids;

@@ -20,7 +20,7 @@ struct SweepPlan {
   std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
   std::string seeds = "1";             ///< "1-5", "1,4,7-9"
   std::vector<std::string> estimators = {"aims"};  ///< specs (estimator/estimator_spec.hpp)
-  std::vector<std::string> param;                  ///< ranges (bench/tuning/design.hpp)
+  std::vector<std::string> params;                 ///< ranges (bench/tuning/design.hpp)
   std::vector<std::string> set;                    ///< "key=value" on top of every scenario
   bool include_defaults =
       false;  ///< also run the estimators without what is varied, to be compared with

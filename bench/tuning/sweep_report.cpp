@@ -108,7 +108,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     if (auto read = load_config_text(text, "plan.yaml", plan); !read) {
       return tl::unexpected(read.error());
     }
-    auto ranges = parse_ranges(plan.param);
+    auto ranges = parse_ranges(plan.params);
     if (!ranges) return tl::unexpected(ranges.error());
     for (ParameterRange& range : *ranges) {
       const bool known = std::any_of(varied.ranges.begin(), varied.ranges.end(),

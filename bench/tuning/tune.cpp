@@ -134,8 +134,7 @@ class Tuning {
 };
 
 /// By walk first, so that neighbours share an open walk.
-std::vector<Job> units_of(std::span<const EstimatorSpec> estimators,
-                                std::span<const Walk> walks) {
+std::vector<Job> units_of(std::span<const EstimatorSpec> estimators, std::span<const Walk> walks) {
   std::vector<Job> units;
   for (const Walk& walk : walks) {
     for (const EstimatorSpec& estimator : estimators) {
@@ -150,7 +149,7 @@ std::vector<Job> units_of(std::span<const EstimatorSpec> estimators,
 Result<TuneResult> tune(const TuneTask& task, const RunOnWalks& run) { return Tuning(task, run)(); }
 
 RunOnWalks run_by_jobs(JobRunner& runner, const JobObserver& observer,
-                        const std::vector<Objective>& objectives) {
+                       const std::vector<Objective>& objectives) {
   return [&runner, observer, objectives](
              std::span<const EstimatorSpec> estimators,
              std::span<const Walk> walks) -> Result<std::optional<WalkScores>> {

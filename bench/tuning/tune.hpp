@@ -40,7 +40,7 @@ Result<TuneResult> tune(const TuneTask& task, const RunOnWalks& run);
 
 /// Runs estimators as units, those that `runner` has not stored yet, and reads their scores.
 RunOnWalks run_by_jobs(JobRunner& runner, const JobObserver& observer,
-                        const std::vector<Objective>& objectives);
+                       const std::vector<Objective>& objectives);
 
 /// The settings "key=value" of a point, below `estimator.`.
 std::vector<std::pair<std::string, std::string>> settings_of(const TuneTask& task,

@@ -36,11 +36,11 @@ Result<std::vector<double>> untuned(const TuneTask& task, const Scenario& scenar
 }
 
 Result<void> read_ranges(TuneTask& task, const Scenario& base) {
-  if (task.plan.param.empty()) {
+  if (task.plan.params.empty()) {
     return failure(
         "param: the plan varies nothing; expected ranges, e.g. [\"degeneracy.eta=0:6\"]");
   }
-  auto ranges = parse_ranges(task.plan.param);
+  auto ranges = parse_ranges(task.plan.params);
   if (!ranges) return tl::unexpected(ranges.error());
   task.ranges = std::move(*ranges);
   if (auto right = check_ranges(task.ranges, base); !right) return right;
@@ -144,7 +144,7 @@ void describe(Fields& f, OptimizerOptions& o) {
 
 void describe(Fields& f, TunePlan& p) {
   f.text("estimator", p.estimator, {.meaning = "NAME or LABEL=NAME+key=value, untuned"});
-  f.texts("param", p.param, {.meaning = "what is tuned: KEY=LOW:HIGH or KEY=log(LOW,HIGH)"});
+  f.texts("params", p.params, {.meaning = "what is tuned: KEY=LOW:HIGH or KEY=log(LOW,HIGH)"});
   f.texts("scenarios", p.scenarios, {.meaning = "scenario files or names"});
   f.texts("tags", p.tags, {.meaning = "with them, all scenarios with any of these tags"});
   f.text("seeds", p.seeds, {.meaning = "of every scenario: 3, 1-5 or 1,4,7-9"});

@@ -27,7 +27,7 @@ struct HeldOut {
 /// What is to be tuned, on what, for what.
 struct TunePlan {
   std::string estimator = "aims";      ///< spec of the untuned estimator
-  std::vector<std::string> param;      ///< ranges (bench/tuning/design.hpp); counts play no part
+  std::vector<std::string> params;     ///< ranges (bench/tuning/design.hpp); counts play no part
   std::vector<std::string> scenarios;  ///< files or names
   std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
   std::string seeds = "1-3";

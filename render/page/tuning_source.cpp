@@ -65,7 +65,7 @@ std::string as_sweep(const TunePlan& plan) {
   sweep.tags = plan.tags;
   sweep.seeds = plan.seeds;
   sweep.estimators = {plan.estimator};
-  sweep.param = plan.param;
+  sweep.params = plan.params;
   sweep.set = plan.set;
   sweep.include_defaults = true;
   return plan_text(sweep);
@@ -77,7 +77,7 @@ std::map<std::vector<double>, TunedPoint> points_in(const fs::path& file, const 
   const auto table = CsvColumns::read(file);
   if (!table) return points;
   std::vector<std::vector<double>> columns;
-  for (const std::string& text : plan.param) {
+  for (const std::string& text : plan.params) {
     const auto range = parse_range(text);
     auto column = range ? table->numbers(range->key) : failure("no range");
     if (!column || column->size() != table->rows()) return {};

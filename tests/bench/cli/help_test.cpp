@@ -2,6 +2,7 @@
 // Every command and shared option exists, under the same name and with the same help everywhere.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <set>
@@ -84,12 +85,12 @@ TEST_F(Help, ListsEveryCommandAndItsSharedOptions) {
 }
 
 TEST_F(Help, UsesStandardTerms) {
-  const auto words = read_word_list(AIMS_SCENARIOS "/../tests/lint/private_words.txt");
+  const auto words = lint::read_word_list("tests/lint/private_words.txt");
   ASSERT_FALSE(words.empty());
   for (const auto& [command, unused] : kCommands) {
     const std::string help = aims(command + " --help").output;
     for (const std::string& message :
-         private_words_in(split_lines("aims " + command + " --help", help), words)) {
+         lint::private_words_in(lint::split_lines("aims " + command + " --help", help), words)) {
       ADD_FAILURE() << message;
     }
   }

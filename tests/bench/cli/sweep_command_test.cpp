@@ -22,7 +22,7 @@ const std::string kPlan =
     "scenarios: [my.yaml]\n"
     "seeds: 1\n"
     "estimators: [leg]\n"
-    "param: [\"leg.rate_hz=100:200:3\"]\n";
+    "params: [\"leg.rate_hz=100:200:3\"]\n";
 
 class Sweeps : public testing::CommandLine {
  protected:

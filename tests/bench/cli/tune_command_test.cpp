@@ -18,7 +18,7 @@ using testing::Outcome;
 /// Neither range holds the default, so that values which are not taken over show.
 const std::string kPlan =
     "estimator: leg\n"
-    "param: [\"leg.rate_hz=60:150\", \"leg.max_speed=log(1,4)\"]\n"
+    "params: [\"leg.rate_hz=60:150\", \"leg.max_speed=log(1,4)\"]\n"
     "scenarios: [my.yaml]\n"
     "seeds: 1\n"
     "held_out: {seeds: 2}\n"

@@ -27,7 +27,7 @@ SweepPlan small_plan() {
   SweepPlan plan;
   plan.scenarios = {AIMS_SCENARIOS "/paper/corridor.yaml", "severity_5"};
   plan.seeds = "1-3";
-  plan.param = {"degeneracy.eta=0:6:4", "degeneracy.kappa=log(1,100,3)"};
+  plan.params = {"degeneracy.eta=0:6:4", "degeneracy.kappa=log(1,100,3)"};
   return plan;
 }
 
@@ -82,11 +82,11 @@ TEST(SweepPlan, RefusesWhatIsNotRight) {
   expect(with([](auto& p) { p.scenarios.clear(); }), "no scenario is given");
   expect(with([](auto& p) { p.scenarios = {"coridor"}; }), "did you mean 'corridor'");
   expect(with([](auto& p) { p.tags = {"dail"}; }), "no scenario has the tag 'dail'");
-  expect(with([](auto& p) { p.param = {"degeneracy.etta=0:1:2"}; }), "degeneracy.eta");
-  expect(with([](auto& p) { p.param = {"degeneracy.eta=6:0:2"}; }), "reversed");
-  expect(with([](auto& p) { p.param = {"degeneracy.eta=1:1:3"}; }), "empty");
-  expect(with([](auto& p) { p.param = {"degeneracy.kappa=log(0,1,3)"}; }), "logarithm");
-  expect(with([](auto& p) { p.param = {"degeneracy.alpha=0:7:3"}; }), "a number in [0, 1)");
+  expect(with([](auto& p) { p.params = {"degeneracy.etta=0:1:2"}; }), "degeneracy.eta");
+  expect(with([](auto& p) { p.params = {"degeneracy.eta=6:0:2"}; }), "reversed");
+  expect(with([](auto& p) { p.params = {"degeneracy.eta=1:1:3"}; }), "empty");
+  expect(with([](auto& p) { p.params = {"degeneracy.kappa=log(0,1,3)"}; }), "logarithm");
+  expect(with([](auto& p) { p.params = {"degeneracy.alpha=0:7:3"}; }), "a number in [0, 1)");
   expect(with([](auto& p) { p.estimators = {"aimz"}; }), "did you mean 'aims'");
   expect(with([](auto& p) { p.estimators.clear(); }), "estimators");
   expect(with([](auto& p) { p.seeds = ""; }), "is not a seed");
@@ -97,7 +97,7 @@ TEST(SweepPlan, HoldsNoUnitTwiceWhenPointsRoundToOne) {
   SweepPlan plan = small_plan();
   plan.scenarios = {"corridor"};
   plan.seeds = "1";
-  plan.param = {"lidar.max_iterations=1:3:9"};
+  plan.params = {"lidar.max_iterations=1:3:9"};
   EXPECT_EQ(jobs_of(plan)->size(), 3U);
 }
 
@@ -176,9 +176,9 @@ TEST_F(Sweep, RefusesAFolderInUseOrOfSomethingElse) {
   ASSERT_TRUE(sweep());
   {
     const auto lock = FolderLock::take(options_.out);
-    expect_refused("another sweep works there");
+    expect_refused("in use by another aims sweep");
     options_.shard = {1, 2};
-    expect_refused("another sweep works there");
+    expect_refused("in use by another aims sweep");
   }
   const fs::path shard = options_.out / "shards" / "1-of-2";
   fs::create_directories(shard);
@@ -191,7 +191,7 @@ TEST_F(Sweep, RefusesAFolderInUseOrOfSomethingElse) {
   options_.out = folder_.path() / "thesis";
   fs::create_directories(options_.out);
   std::ofstream(options_.out / "thesis.tex") << "years of work";
-  expect_refused("is no sweep's folder");
+  expect_refused("is no folder of aims sweep");
 }
 
 TEST_F(Sweep, KeepsToOnePlanCodeAndScenarios) {

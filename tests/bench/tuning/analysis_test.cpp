@@ -90,7 +90,7 @@ TEST(Objective, EachLostRunMakesItWorse) {
     EXPECT_GT(after, before);
     before = after;
   }
-  EXPECT_DOUBLE_EQ(before, 2.0 * objective.lost_penalty);
+  EXPECT_DOUBLE_EQ(before, 2.0 * objective.divergence_penalty);
 }
 
 TEST(Objective, ALostRunNeverCountsLessThanItsScore) {

@@ -81,7 +81,7 @@ SweepPlan plan_over(std::vector<std::string> over) {
   plan.scenarios = {AIMS_SCENARIOS "/paper/corridor.yaml"};
   plan.estimators = {"aims", "leg"};
   plan.seeds = "1-2";
-  plan.param = std::move(over);
+  plan.params = std::move(over);
   return plan;
 }
 
@@ -127,7 +127,7 @@ TEST(ScenarioRange, OfTheScoringKeepsTheWalk) {
 TEST(ScenarioRange, RoundsWholeNumbersAndMakesNoUnitTwice) {
   SweepPlan plan = plan_over({"lidar.rings=15:17:9"});
   EXPECT_EQ(units_of(plan).size(), 3U * 2U * 2U);
-  plan.param = {"links.leg_odometry.loss=0:0.1:3"};
+  plan.params = {"links.leg_odometry.loss=0:0.1:3"};
   plan.include_defaults = true;
   EXPECT_EQ(units_of(plan).size(), 3U * 2U * 2U) << "0.05 is what the scenario has";
 }

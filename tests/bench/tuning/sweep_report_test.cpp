@@ -84,7 +84,7 @@ TEST(SweepReport, SaysTheBestAndDrawsTheCurve) {
 TEST(SweepReport, WithoutUntunedRunsComparesPlainScores) {
   const TemporaryFolder folder;
   const std::string text = report_of(sweep_over_eta(false), folder.path());
-  EXPECT_TRUE(says(text, "median of ate_m, a lost run counts")) << text;
+  EXPECT_TRUE(says(text, "median of ate_m, a diverged run counts")) << text;
   EXPECT_TRUE(says(text, "the defaults have -")) << text;
 }
 
@@ -114,7 +114,7 @@ TEST(SweepReport, OneUnitIsBothTheUntunedOneAndAPointOfTheGrid) {
 
 TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
   MergedSweep sweep;
-  sweep.plans = {"param: [\"links.leg_odometry.loss=0:0.5:6\"]\nscenarios: [corridor]\n"};
+  sweep.plans = {"params: [\"links.leg_odometry.loss=0:0.5:6\"]\nscenarios: [corridor]\n"};
   for (int seed = 1; seed <= 2; ++seed) {
     sweep.jobs.push_back(unit_of("corridor", seed, Json::object(), 0.1));
     for (int k = 0; k <= 5; ++k) {

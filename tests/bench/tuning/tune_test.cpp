@@ -25,7 +25,7 @@ const fs::path kScenarios = AIMS_SCENARIOS;
 
 TunePlan small_plan() {
   TunePlan plan;
-  plan.param = {"degeneracy.eta=0:6", "degeneracy.kappa=log(1,100)", "degeneracy.alpha=0:0.99"};
+  plan.params = {"degeneracy.eta=0:6", "degeneracy.kappa=log(1,100)", "degeneracy.alpha=0:0.99"};
   plan.scenarios = {"corridor", "garage"};
   plan.seeds = "1-4";
   plan.held_out.seeds = "11-14";
@@ -95,9 +95,9 @@ Result<TuneResult> tuned(const TunePlan& plan, Bowl bowl = {}) {
 
 TEST(TunePlan, IsReadFromYamlAndWrittenAsItIsRead) {
   const std::string text =
-      "param: [\"degeneracy.eta=0:6\"]\nscenarios: [corridor]\nseeds: 1-2\n"
+      "params: [\"degeneracy.eta=0:6\"]\nscenarios: [corridor]\nseeds: 1-2\n"
       "held_out: {seeds: 5-6, scenarios: [garage]}\n"
-      "objectives:\n  - {score: m_end_m, statistic: worst, relative: false, lost_penalty: 50}\n"
+      "objectives:\n  - {score: m_end_m, statistic: worst, relative: false, divergence_penalty: 50}\n"
       "optimizer: {algorithm: de, generations: 3, population: 6, seed: 4}\n";
   TunePlan plan;
   ASSERT_TRUE(load_config_text(text, "plan.yaml", plan));
@@ -122,7 +122,7 @@ TEST(TunePlan, FindsWalksAndUntunedValues) {
 
 TEST(TunePlan, TakesTheEstimatorsKeysInFullToo) {
   TunePlan plan = small_plan();
-  plan.param = {"estimator.degeneracy.eta=0:6"};
+  plan.params = {"estimator.degeneracy.eta=0:6"};
   EXPECT_EQ(task_of(plan).ranges.front().key, "degeneracy.eta");
 }
 
@@ -140,12 +140,12 @@ TEST(TunePlan, RefusalSaysWhatWasExpected) {
     change(plan);
     return refusal_of(plan);
   };
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.param.clear(); }), "expected ranges"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.param = {"degeneracy.eta=3:3:1"}; }), "one value"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.param = {"degeneracy.et=0:6"}; }), "did you mean"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.param = {"links.lidar.loss=0:0.5"}; }),
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params.clear(); }), "expected ranges"));
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params = {"degeneracy.eta=3:3:1"}; }), "one value"));
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params = {"degeneracy.et=0:6"}; }), "did you mean"));
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params = {"links.lidar.loss=0:0.5"}; }),
                    "would make the task easier"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.param = {"scoring.lost_error_offset=0.1:5"}; }),
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params = {"scoring.lost_error_offset=0.1:5"}; }),
                    "is no key of the estimator"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.scenarios.clear(); }), "no scenario"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.scenarios = {"coridor"}; }), "corridor"));

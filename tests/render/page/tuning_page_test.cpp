@@ -77,7 +77,7 @@ class Units {
 };
 
 constexpr const char* kRanges =
-    "param: [\"degeneracy.eta=0:6:4\", \"degeneracy.kappa=log(1,100,3)\"]\n";
+    "params: [\"degeneracy.eta=0:6:4\", \"degeneracy.kappa=log(1,100,3)\"]\n";
 
 double ate_of(double eta, double kappa, int seed) {
   return 0.1 * seed * (1.0 + std::abs(eta - 4.0) + 0.1 * std::log10(kappa));
@@ -244,7 +244,7 @@ TEST(TuningPage, UnitsThatFailedAreLostRowsWithoutScores) {
 
 void write_tune_plan(const fs::path& folder) {
   put(folder / "tune.yaml",
-      "param: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
+      "params: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
       "scenarios: [walk]\nseeds: 1-2\nheld_out: {scenarios: [other], seeds: 7}\n"
       "objectives:\n  - {score: m_end_m, statistic: mean}\n");
 }

@@ -81,7 +81,7 @@ TEST(Ticks, OfALogarithmicAxisOfLessThanADecadeAreSeveral) {
 TEST(Wrapped, LinesFitAndHaveAllWordsInOrder) {
   const TextStyle style{.size = 13.0};
   const std::string text =
-      "mean of ate_m over that of the defaults, a lost run counts 10; measured";
+      "mean of ate_m over that of the defaults, a diverged run counts 10; measured";
   Canvas ruler = Canvas::over(Image(1, 1));
   for (const double width : {90.0, 200.0, 300.0, 2000.0}) {
     std::string joined;
