@@ -8,7 +8,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/jobs/sweep_store.hpp"
-#include "bench/tuning/sweep_report.hpp"
+#include "bench/tuning/sweep_summary.hpp"
 
 namespace aims {
 namespace {
@@ -28,7 +28,7 @@ void write_summary(const MergedSweep& sweep, const std::string& score, const fs:
   Objective objective;
   objective.score = score;
   std::vector<std::string> warnings;
-  const auto written = write_sweep_report(sweep, objective, out, warnings);
+  const auto written = write_sweep_summary(sweep, objective, out, warnings);
   if (!written) warnings.push_back("no sweep.md: " + written.error().message);
   for (const std::string& warning : warnings) fmt::print("note: {}\n", warning);
 }

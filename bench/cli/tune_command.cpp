@@ -10,7 +10,7 @@
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
 #include "bench/tuning/tune.hpp"
-#include "bench/tuning/tune_report.hpp"
+#include "bench/tuning/tune_summary.hpp"
 #include "core/files/folder_lock.hpp"
 #include "estimator/estimator_spec.hpp"
 

@@ -47,7 +47,7 @@ Result<ScenarioVariant> ScenarioVariants::make(const std::vector<std::string>& v
       return tl::unexpected(done.error());
     }
     variant.settings.push_back({ranges_[each.index].key, values[i], each.default_value});
-    if (!each.full.starts_with("scoring.")) variant.walk += values[i] + "\n";
+    if (!each.full.starts_with("scoring.")) variant.sequence += values[i] + "\n";
   }
   variant.scenario = std::move(scenario);
   return variant;

@@ -18,11 +18,11 @@ namespace aims {
 struct ScenarioVariant {
   std::shared_ptr<const Scenario> scenario;
   std::vector<ScenarioSetting> settings;  ///< per range of the scenario; empty: the scenario itself
-  std::string walk;  ///< equal for variants whose walks are the same: other scoring alone
+  std::string sequence;  ///< equal for variants whose sequences are the same: other scoring alone
 };
 
-/// The variants of one scenario at points of a design, each made once, so that units on one walk
-/// know it. Ranges of the estimator's keys play no part.
+/// The variants of one scenario at points of a design, each made once, so that jobs on one sequence
+/// share it. Ranges of the estimator's keys are ignored.
 class ScenarioVariants {
  public:
   /// The ranges (as of `parse_ranges`, checked by `check_ranges`) must outlive the object.

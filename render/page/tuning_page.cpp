@@ -15,7 +15,7 @@
 #include "bench/run/scenario.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
-#include "bench/tuning/sweep_report.hpp"
+#include "bench/tuning/sweep_summary.hpp"
 #include "render/page/json_access.hpp"
 #include "render/page/tuning_analysis.hpp"
 
@@ -155,7 +155,7 @@ Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores,
     point.push_back(static_cast<double>(row.point));
     walk.push_back(static_cast<double>(row.walk));
     outcome.push_back(static_cast<std::uint8_t>(row.result.outcome));
-    lost.push_back(run_score(row.result, "success").lost ? 1 : 0);
+    lost.push_back(run_score(row.result, "success").diverged ? 1 : 0);
     held_out.push_back(row.held_out ? 1 : 0);
     for (const std::string& key : scores) {
       values.push_back(score_in(row.result, key).value_or(kNone));
@@ -227,7 +227,7 @@ Result<Json> analyses_json(const TuningSource& source, const std::string& estima
 
 Json walks_json(const std::vector<ResponseCase>& walks) {
   Json json = Json::array();
-  for (const ResponseCase& each : walks) {
+  for (const ResponseCase& each : sequences) {
     json.push_back({{"scenario", each.scenario}, {"family", each.family}, {"seed", each.seed}});
   }
   return json;
@@ -246,7 +246,7 @@ Result<Json> estimators_json(const TuningSource& source, const VariedParameters&
                              PageData& page) {
   Json json = Json::array();
   for (const EstimatorRows& own : all.estimators) {
-    const auto defaults = untuned_values(own.estimator, varied);
+    const auto defaults = default_values(own.estimator, varied);
     if (!defaults) return tl::unexpected(defaults.error());
     auto analyses = analyses_json(source, text_of(own.estimator), page);
     if (!analyses) return analyses;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/tuning/analysis.hpp"
-#include "bench/tuning/tune_report.hpp"
+#include "bench/tuning/tune_summary.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -63,24 +63,24 @@ struct Bowl {
   int calls = 0;
   int last_call = 1'000'000;
 
-  Result<std::optional<WalkScores>> operator()(std::span<const EstimatorSpec> estimators,
-                                               std::span<const Walk> walks) {
-    if (++calls > last_call) return std::optional<WalkScores>();
-    WalkScores scores;
+  Result<std::optional<SequenceScores>> operator()(std::span<const EstimatorSpec> estimators,
+                                                   std::span<const ScenarioSeed> sequences) {
+    if (++calls > last_call) return std::optional<SequenceScores>();
+    SequenceScores scores;
     for (const EstimatorSpec& spec : estimators) {
       scores.emplace_back();
-      for (const Walk& walk : walks) {
-        scores.back().push_back({{score(spec, walk), false}, {time_of(spec), false}});
+      for (const ScenarioSeed& sequence : sequences) {
+        scores.back().push_back({{score(spec, sequence), false}, {time_of(spec), false}});
       }
     }
     return scores;
   }
 
-  double score(const EstimatorSpec& spec, const Walk& walk) const {
-    RandomStream random = rng(walk.seed, "test." + walk.scenario->name);
+  double score(const EstimatorSpec& spec, const ScenarioSeed& sequence) const {
+    RandomStream random = rng(sequence.seed, "test." + sequence.scenario->name);
     const double eta = setting(spec, "degeneracy.eta", 3.0);
     const double kappa = setting(spec, "degeneracy.kappa", 12.6);
-    const double best = overfit && walk.seed > 10 ? 5.0 : 1.0;
+    const double best = overfit && sequence.seed > 10 ? 5.0 : 1.0;
     const double bowl = std::pow((eta - best) / 2.0, 2) + std::pow(std::log(kappa / 30.0), 2);
     return 0.1 * (1.0 + bowl) * std::exp(0.05 * random.normal());
   }
@@ -97,7 +97,8 @@ TEST(TunePlan, IsReadFromYamlAndWrittenAsItIsRead) {
   const std::string text =
       "params: [\"degeneracy.eta=0:6\"]\nscenarios: [corridor]\nseeds: 1-2\n"
       "held_out: {seeds: 5-6, scenarios: [garage]}\n"
-      "objectives:\n  - {score: m_end_m, statistic: worst, relative: false, divergence_penalty: 50}\n"
+      "objectives:\n  - {score: m_end_m, statistic: worst, relative: false, divergence_penalty: "
+      "50}\n"
       "optimizer: {algorithm: de, generations: 3, population: 6, seed: 4}\n";
   TunePlan plan;
   ASSERT_TRUE(load_config_text(text, "plan.yaml", plan));
@@ -113,7 +114,7 @@ TEST(TunePlan, FindsWalksAndUntunedValues) {
   TunePlan plan = small_plan();
   plan.held_out.scenarios = {"corridor_smooth"};
   const TuneTask task = task_of(plan);
-  EXPECT_EQ(task.walks.size(), 8U);
+  EXPECT_EQ(task.sequences.size(), 8U);
   EXPECT_EQ(task.held_out.size(), 12U);
   const EstimatorConfig config;
   EXPECT_EQ(task.defaults, (std::vector<double>{config.degeneracy.eta, config.degeneracy.kappa,
@@ -196,7 +197,7 @@ TEST(Tune, KeepsWhatIsDoneWhenItIsInterrupted) {
 TEST(Tune, RefusesAScoreThatNoRunHas) {
   const auto result = tune(task_of(small_plan()), [](auto estimators, auto walks) {
     const std::vector<std::vector<RunScore>> without(walks.size(), std::vector<RunScore>(1));
-    return Result<std::optional<WalkScores>>(WalkScores(estimators.size(), without));
+    return Result<std::optional<SequenceScores>>(SequenceScores(estimators.size(), without));
   });
   ASSERT_FALSE(result);
   EXPECT_TRUE(says(result.error().message, "'ate_m'"));
@@ -247,7 +248,7 @@ TEST(TuneReport, SaysWhetherTheGainHolds) {
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };
   const std::string holds = report({});
-  EXPECT_TRUE(says(holds, "The gain holds on what was held out")) << holds;
+  EXPECT_TRUE(says(holds, "The gain holds on the held-out sequences")) << holds;
   EXPECT_FALSE(says(holds, "`degeneracy.eta` does not matter")) << holds;
   const std::string overfit = report({.overfit = true});
   EXPECT_TRUE(says(overfit, "the tuned values are worse than the defaults")) << overfit;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench/tuning/analysis.hpp"
-#include "bench/tuning/sweep_report.hpp"
+#include "bench/tuning/sweep_summary.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/tuning/sweep_report.hpp"
+#include "bench/tuning/sweep_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "bench/tuning/range_key.hpp"
-#include "bench/tuning/response_report.hpp"
+#include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/yaml_config.hpp"
@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Values = std::vector<double>;  ///< of the ranges' keys; empty: the untuned estimator
-using Walks = std::vector<ResponseCase>;
+using Values = std::vector<double>;  ///< of the ranges' keys; empty: the default setting
+using Cases = std::vector<ResponseCase>;
 
 std::optional<double> number_of(const std::string& text) {
   double value = 0.0;
@@ -31,27 +31,27 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
-/// The runs of one estimator, by point and walk.
+/// The runs of one estimator, by point and sequence.
 struct Collected {
   EstimatorSpec estimator;
   std::vector<Values> order;  ///< of points, as they appear
   std::map<Values, std::map<std::size_t, RunScore>> runs;
 };
 
-std::size_t index_of(const ResponseCase& on, Walks& walks) {
-  for (std::size_t i = 0; i < walks.size(); ++i) {
-    if (walks[i].scenario == on.scenario && walks[i].seed == on.seed) return i;
+std::size_t index_of(const ResponseCase& on, Cases& cases) {
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    if (sequences[i].scenario == on.scenario && sequences[i].seed == on.seed) return i;
   }
-  walks.push_back(on);
-  return walks.size() - 1;
+  sequences.push_back(on);
+  return sequences.size() - 1;
 }
 
-/// The runs in the order of the walks; none unless all are there.
-std::optional<std::vector<RunScore>> all_runs(const std::map<std::size_t, RunScore>& by_walk,
-                                              std::size_t walks) {
-  if (by_walk.size() != walks) return std::nullopt;
+/// The runs in the order of the sequences; none unless all are there.
+std::optional<std::vector<RunScore>> all_runs(const std::map<std::size_t, RunScore>& by_sequence,
+                                              std::size_t sequences) {
+  if (by_sequence.size() != sequences) return std::nullopt;
   std::vector<RunScore> runs;
-  for (const auto& [walk, run] : by_walk) runs.push_back(run);
+  for (const auto& [sequence, run] : by_sequence) runs.push_back(run);
   return runs;
 }
 
@@ -62,8 +62,8 @@ bool on_grid(const ParameterRange& range, double value) {
   return false;
 }
 
-/// Where the untuned values are a point of the grid, one unit serves both and is listed once.
-void add_untuned_point(ResponseTable& table) {
+/// Where the default values are a point of the grid, one job serves both and is listed once.
+void add_default_point(ResponseTable& table) {
   const auto& values = table.defaults;
   if (table.default_runs.empty()) return;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -75,17 +75,17 @@ void add_untuned_point(ResponseTable& table) {
 }
 
 Result<SweepResponse> response_of(const Collected& collected, const VariedParameters& varied,
-                                  const Walks& walks) {
+                                  const Cases& cases) {
   SweepResponse response;
   response.estimator = text_of(collected.estimator);
   ResponseTable& table = response.table;
   table.ranges = varied.ranges;
-  table.cases = walks;
-  auto defaults = untuned_values(collected.estimator, varied);
+  table.cases = sequences;
+  auto defaults = default_values(collected.estimator, varied);
   if (!defaults) return tl::unexpected(defaults.error());
   table.defaults = std::move(*defaults);
   for (const Values& values : collected.order) {
-    auto runs = all_runs(collected.runs.at(values), walks.size());
+    auto runs = all_runs(collected.runs.at(values), sequences.size());
     if (!runs) {
       ++response.incomplete;
     } else if (values.empty()) {
@@ -95,7 +95,7 @@ Result<SweepResponse> response_of(const Collected& collected, const VariedParame
       table.runs.push_back(std::move(*runs));
     }
   }
-  if (response.incomplete == 0) add_untuned_point(table);
+  if (response.incomplete == 0) add_default_point(table);
   return response;
 }
 
@@ -127,9 +127,9 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     }
   }
   if (varied.ranges.empty()) return failure("the sweep varies nothing: no range in its plan");
-  for (const MergedJob& unit : sweep.jobs) {
-    if (!unit.file.is_object()) continue;
-    const Json defaults = unit.file.value("defaults", Json::object());
+  for (const MergedJob& job : sweep.jobs) {
+    if (!job.file.is_object()) continue;
+    const Json defaults = job.file.value("defaults", Json::object());
     for (const auto& [key, text] : defaults.items()) {
       const auto value = text.is_string() ? number_of(text.get<std::string>()) : std::nullopt;
       if (value) varied.scenario_values.emplace(key, *value);
@@ -138,13 +138,13 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
   return varied;
 }
 
-std::optional<PlacedJob> placed_job(const MergedJob& unit, const VariedParameters& varied) {
-  if (unit.outcome() == "missing") return std::nullopt;
+std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters& varied) {
+  if (job.outcome() == "missing") return std::nullopt;
   PlacedJob placed;
-  placed.estimator.name = unit.file.value("estimator", "");
+  placed.estimator.name = job.file.value("estimator", "");
   placed.estimator.label = placed.estimator.name;
   std::map<std::string, std::string> settings;
-  const Json all_settings = unit.file.value("settings", Json::object());
+  const Json all_settings = job.file.value("settings", Json::object());
   for (const auto& [key, value] : all_settings.items()) {
     settings[key] = value.is_string() ? value.get<std::string>() : value.dump();
   }
@@ -158,16 +158,16 @@ std::optional<PlacedJob> placed_job(const MergedJob& unit, const VariedParameter
   }
   if (!placed.values.empty() && placed.values.size() != varied.ranges.size()) return std::nullopt;
   placed.estimator.settings.assign(settings.begin(), settings.end());
-  const std::string family = unit.file.value("family", "");
-  placed.on = {unit.listed.scenario, family.empty() ? unit.listed.scenario : family,
-               unit.file.value("seed", std::uint64_t{0})};
-  auto result = result_in(unit.file);
+  const std::string family = job.file.value("family", "");
+  placed.on = {job.listed.scenario, family.empty() ? job.listed.scenario : family,
+               job.file.value("seed", std::uint64_t{0})};
+  auto result = result_in(job.file);
   if (!result) return std::nullopt;
   placed.result = std::move(*result);
   return placed;
 }
 
-Result<std::vector<double>> untuned_values(const EstimatorSpec& estimator,
+Result<std::vector<double>> default_values(const EstimatorSpec& estimator,
                                            const VariedParameters& varied) {
   auto config = config_with(estimator, varied.base);
   if (!config) return tl::unexpected(config.error());
@@ -190,11 +190,11 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
                                                    const std::string& score) {
   const auto varied = varied_in(sweep);
   if (!varied) return tl::unexpected(varied.error());
-  Walks walks;
+  Cases cases;
   std::vector<std::string> names;
   std::map<std::string, Collected> by_name;
-  for (const MergedJob& unit : sweep.jobs) {
-    const auto found = placed_job(unit, *varied);
+  for (const MergedJob& job : sweep.jobs) {
+    const auto found = placed_job(job, *varied);
     if (!found) continue;
     const std::string name = text_of(found->estimator);
     Collected& collected = by_name[name];
@@ -203,30 +203,30 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
       collected.estimator = found->estimator;
     }
     if (!collected.runs.contains(found->values)) collected.order.push_back(found->values);
-    collected.runs[found->values][index_of(found->on, walks)] = run_score(found->result, score);
+    collected.runs[found->values][index_of(found->on, sequences)] = run_score(found->result, score);
   }
   std::vector<SweepResponse> responses;
   for (const std::string& name : names) {
-    auto response = response_of(by_name[name], *varied, walks);
+    auto response = response_of(by_name[name], *varied, sequences);
     if (!response) return tl::unexpected(response.error());
     responses.push_back(std::move(*response));
   }
   return responses;
 }
 
-Result<void> write_sweep_report(const MergedSweep& sweep, Objective objective,
-                                const fs::path& folder, std::vector<std::string>& warnings) {
+Result<void> write_sweep_summary(const MergedSweep& sweep, Objective objective,
+                                 const fs::path& folder, std::vector<std::string>& warnings) {
   const auto responses = sweep_responses(sweep, objective.score);
   if (!responses) return tl::unexpected(responses.error());
   std::string text = "# Sweep\n";
-  text += fmt::format("\n{} of {} units done.\n", sweep.count("done"), sweep.jobs.size());
+  text += fmt::format("\n{} of {} jobs done.\n", sweep.count("done"), sweep.jobs.size());
   for (std::size_t i = 0; i < responses->size(); ++i) {
     const SweepResponse& response = (*responses)[i];
     Objective own = objective;
     own.relative = own.relative && !response.table.default_runs.empty();
     text += fmt::format("\n## `{}`\n\n", response.estimator);
     if (response.incomplete > 0) {
-      text += fmt::format("{} points are left out: not all of their walks are done.\n\n",
+      text += fmt::format("{} points are left out: not all of their sequences are done.\n\n",
                           response.incomplete);
     }
     text += response_markdown(response.table, own);

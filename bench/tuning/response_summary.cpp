@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/tuning/response_report.hpp"
+#include "bench/tuning/response_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kInteracts = 0.05;
 
-std::string percent_text(const std::optional<double>& share) {
-  return share ? fmt::format("{:.0f} %", 100.0 * *share) : "-";
+std::string percent_text(const std::optional<double>& fraction) {
+  return fraction ? fmt::format("{:.0f} %", 100.0 * *fraction) : "-";
 }
 
-std::string percent_text(const std::optional<double>& share, const Interval& interval) {
-  std::string text = percent_text(share);
+std::string percent_text(const std::optional<double>& fraction, const Interval& interval) {
+  std::string text = percent_text(fraction);
   if (!interval.low || !interval.high) return text;
   return text + fmt::format(" [{:.0f}, {:.0f}]", 100.0 * *interval.low, 100.0 * *interval.high);
 }
@@ -31,11 +31,11 @@ std::vector<double> scores_of(std::span<const RunScore> runs, std::span<const st
   return scores;
 }
 
-std::string lost_text(std::span<const RunScore> runs, std::span<const std::size_t> cases) {
+std::string diverged_text(std::span<const RunScore> runs, std::span<const std::size_t> cases) {
   if (runs.empty()) return "-";
-  const auto lost =
-      std::count_if(cases.begin(), cases.end(), [&](std::size_t i) { return runs[i].lost; });
-  return fmt::format("{} of {}", lost, cases.size());
+  const auto diverged =
+      std::count_if(cases.begin(), cases.end(), [&](std::size_t i) { return runs[i].diverged; });
+  return fmt::format("{} of {}", diverged, cases.size());
 }
 
 std::vector<std::string> gain_row(const ResponseTable& table, const Objective& objective,
@@ -54,11 +54,11 @@ std::vector<std::string> gain_row(const ResponseTable& table, const Objective& o
           figure_text(median(scores_of(table.runs[point], cases))),
           figure_text(objective_at(table, objective, kDefaults, cases)),
           figure_text(objective_at(table, objective, point, cases), interval),
-          lost_text(table.default_runs, cases),
-          lost_text(table.runs[point], cases)};
+          diverged_text(table.default_runs, cases),
+          diverged_text(table.runs[point], cases)};
 }
 
-/// Sentences on what the surrogate says.
+/// The surrogate's error, negligible parameters and interactions.
 std::string sensitivity_markdown(const ResponseTable& table, const Sensitivity& sensitivity) {
   const Surrogate& surrogate = sensitivity.surrogate;
   const std::string error =
@@ -66,24 +66,25 @@ std::string sensitivity_markdown(const ResponseTable& table, const Sensitivity& 
                               : figure_text(surrogate.error());
   std::string text = fmt::format(
       "\nA polynomial of {} terms through {} points explains {} of the variance of the objective{} "
-      "at\npoints that were left out; its error there is {}.\n",
+      "at\npoints left out of the fit (cross-validation); its error there is {}.\n",
       surrogate.terms(), sensitivity.points, percent_text(std::max(0.0, surrogate.explained())),
       sensitivity.logarithmic ? "'s logarithm" : "", error);
-  if (!sensitivity.trustworthy()) {
-    return text + "**That is too little: nothing is said of which parameter matters.**\n";
+  if (!sensitivity.is_reliable()) {
+    return text + "**Below 50 %, no sensitivity indices are reported.**\n";
   }
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
-    if (!sensitivity.does_not_matter(i)) continue;
-    text += fmt::format("\n- `{}` does not matter between {} and {}: total index below 5 %.",
-                        table.ranges[i].key, table.ranges[i].low, table.ranges[i].high);
+    if (!sensitivity.is_negligible(i)) continue;
+    text +=
+        fmt::format("\n- `{}` has a negligible effect between {} and {}: total index below 5 %.",
+                    table.ranges[i].key, table.ranges[i].low, table.ranges[i].high);
   }
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     for (std::size_t k = i + 1; k < table.ranges.size(); ++k) {
-      const double share =
+      const double fraction =
           surrogate.indices().second(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-      if (share < kInteracts) continue;
-      text += fmt::format("\n- `{}` and `{}` act together: {} of the variance.",
-                          table.ranges[i].key, table.ranges[k].key, percent_text(share));
+      if (fraction < kInteracts) continue;
+      text += fmt::format("\n- `{}` and `{}` interact: {} of the variance.", table.ranges[i].key,
+                          table.ranges[k].key, percent_text(fraction));
     }
   }
   return text + "\n";
@@ -103,10 +104,11 @@ std::string figure_text(const std::optional<double>& value, const Interval& inte
 TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
                           const Sensitivity* sensitivity) {
   TextTable text;
-  text.header = {"parameter", "range", "default", "best [95 %]", "way from default [of range]"};
-  const bool shares = sensitivity != nullptr && sensitivity->trustworthy();
-  if (shares) {
-    text.header.insert(text.header.end(), {"alone", "in total [95 %]"});
+  text.header = {"parameter", "range", "default", "best [95 %]",
+                 "distance from default [of range]"};
+  const bool indices_known = sensitivity != nullptr && sensitivity->is_reliable();
+  if (indices_known) {
+    text.header.insert(text.header.end(), {"first-order index", "total index [95 %]"});
   }
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     const ParameterRange& range = table.ranges[i];
@@ -114,7 +116,7 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
         {range.key, fmt::format("{} to {}{}", range.low, range.high, range.log ? ", log" : ""),
          fmt::format("{}", table.defaults[i]), figure_text(best.values[i], best.between[i]),
          fmt::format("{:+.2f}", best.distance[i])});
-    if (!shares) continue;
+    if (!indices_known) continue;
     const SobolIndices& indices = sensitivity->surrogate.indices();
     text.rows.back().push_back(percent_text(indices.first[i]));
     text.rows.back().push_back(percent_text(indices.total[i], indices.total_interval[i]));
@@ -124,10 +126,8 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
 
 TextTable gain_table(const ResponseTable& table, const Objective& objective, std::size_t point) {
   TextTable text;
-  text.header = {"scenario",     objective.score + ", defaults",
-                 "tuned",        "objective, defaults",
-                 "tuned [95 %]", "lost, defaults",
-                 "tuned"};
+  text.header = {"scenario",     objective.score + ", defaults", "tuned", "objective, defaults",
+                 "tuned [95 %]", "diverged, defaults",           "tuned"};
   std::vector<std::string> names;
   for (const ResponseCase& each : table.cases) {
     if (std::find(names.begin(), names.end(), each.scenario) == names.end()) {
@@ -154,13 +154,12 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
       table.points.size(), figure_text(best->objective, best->objective_interval),
       figure_text(best->defaults));
   if (best->gain) {
-    text += fmt::format("Less than the defaults by {}.\n",
-                        percent_text(best->gain, best->gain_interval));
+    text += fmt::format("Reduction by {}.\n", percent_text(best->gain, best->gain_interval));
   }
   const std::size_t seeds = seeds_of(table).size();
-  text += seeds < 2 ? "One seed tells nothing of the spread: there are no intervals.\n"
-                    : fmt::format("Intervals are bootstraps over {} seeds{}.\n", seeds,
-                                  seeds < 10 ? ", and too narrow for so few" : "");
+  text += seeds < 2 ? "One seed: no intervals.\n"
+                    : fmt::format("Intervals are 95 % bootstrap intervals over {} seeds{}.\n",
+                                  seeds, seeds < 10 ? ", too narrow for so few" : "");
   text += '\n';
   text += to_markdown(parameter_table(table, *best, sensitivity ? &*sensitivity : nullptr));
   text += sensitivity ? sensitivity_markdown(table, *sensitivity)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/tuning/tune_report.hpp"
+#include "bench/tuning/tune_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "bench/run/code_version.hpp"
-#include "bench/tuning/response_report.hpp"
+#include "bench/tuning/response_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
@@ -15,17 +15,17 @@ namespace aims {
 namespace {
 
 /// "corridor, severity_5; seeds 1 2 3".
-std::string walks_text(std::span<const Walk> walks) {
+std::string sequences_text(std::span<const ScenarioSeed> sequences) {
   std::vector<std::string> scenarios;
   std::vector<std::string> seeds;
   const auto add = [](std::vector<std::string>& texts, const std::string& text) {
     if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
   };
-  for (const Walk& walk : walks) {
-    add(scenarios, walk.scenario->name);
-    add(seeds, fmt::format("{}", walk.seed));
+  for (const ScenarioSeed& sequence : sequences) {
+    add(scenarios, sequence.scenario->name);
+    add(seeds, fmt::format("{}", sequence.seed));
   }
-  return fmt::format("{} walks: {}; seeds {}", walks.size(), fmt::join(scenarios, ", "),
+  return fmt::format("{} sequences: {}; seeds {}", sequences.size(), fmt::join(scenarios, ", "),
                      fmt::join(seeds, " "));
 }
 
@@ -51,10 +51,10 @@ std::vector<std::string> outcome_row(const std::string& name, const Result<BestP
           interval_text(point->gain_interval)};
 }
 
-/// Whether the gain holds where nothing was tuned.
+/// Whether the gain holds on the held-out sequences.
 std::string verdict(const TuneResult& result) {
   if (result.held_out.empty()) {
-    return "**Nothing was held out: whether the gain holds on other walks is not known.**\n";
+    return "**No sequences were held out, so the gain is not validated.**\n";
   }
   const auto tuned = chosen_point(result, false);
   const auto held = chosen_point(result, true);
@@ -62,12 +62,14 @@ std::string verdict(const TuneResult& result) {
   const Interval& interval = held->gain_interval;
   if (!interval.low || !interval.high) return "One held-out seed gives the gain no interval.\n";
   if (*interval.low > 0.0) {
-    return fmt::format("The gain holds on what was held out; {:.0f} % of it is left there.\n",
-                       100.0 * *held->gain / std::max(1e-9, *tuned->gain));
+    return fmt::format(
+        "The gain holds on the held-out sequences, where it is {:.0f} % of that on the tuned "
+        "ones.\n",
+        100.0 * *held->gain / std::max(1e-9, *tuned->gain));
   }
   return *interval.high < 0.0
-             ? "**On what was held out the tuned values are worse than the defaults.**\n"
-             : "**On what was held out the gain cannot be told from none: keep the defaults unless "
+             ? "**On the held-out sequences the tuned values are worse than the defaults.**\n"
+             : "**On the held-out sequences the gain is not significant: keep the defaults unless "
                "there is\nanother reason.**\n";
 }
 
@@ -120,19 +122,19 @@ std::string single_markdown(const TuneResult& result) {
 std::string markdown_of(const TuneResult& result, const std::vector<std::string>& pictures) {
   const TuneTask& task = result.task;
   std::string text = fmt::format("# Tuning `{}`\n\n", text_of(task.estimator));
-  if (!result.complete) text += "**Interrupted: of what was finished alone.**\n\n";
+  if (!result.complete) text += "**Interrupted: only finished points are included.**\n\n";
   for (const Objective& objective : task.plan.objectives) {
     text += fmt::format("- objective: {}\n", text_of(objective));
   }
-  text += fmt::format("- tuned on {}\n", walks_text(task.walks));
+  text += fmt::format("- tuned on {}\n", sequences_text(task.sequences));
   text += task.held_out.empty() ? "- nothing held out\n"
-                                : fmt::format("- held out {}\n", walks_text(task.held_out));
+                                : fmt::format("- held out {}\n", sequences_text(task.held_out));
   text += fmt::format("- {}\n- code {}\n", search_text(result), code_version());
   if (result.chosen.empty()) return text;
   if (task.plan.objectives.size() == 1) {
     text += single_markdown(result);
   } else {
-    text += "\n## Front\n\nNo point is better than one of these in every objective.\n\n" +
+    text += "\n## Pareto front\n\nNo point is better than one of these in every objective.\n\n" +
             to_markdown(front_table(result));
     text += "\n## First objective\n\n" +
             response_markdown(result.tables.front(), task.plan.objectives.front());
@@ -207,10 +209,10 @@ std::string overlay_text(const TuneResult& result) {
       fmt::format("# Values of `{}` by aims tune; on top of any scenario: --set @FILE\n",
                   text_of(task.estimator));
   text += fmt::format("# objective: {}\n", text_of(task.plan.objectives.front()));
-  text += fmt::format("# tuned on {}\n", walks_text(task.walks));
+  text += fmt::format("# tuned on {}\n", sequences_text(task.sequences));
   text += outcome_line("  objective there", chosen_point(result, false));
   if (!result.held_out.empty()) {
-    text += fmt::format("# held out {}\n", walks_text(task.held_out));
+    text += fmt::format("# held out {}\n", sequences_text(task.held_out));
     text += outcome_line("  objective there", chosen_point(result, true));
   }
   text += fmt::format("# search: {}\n# code: {}\n# plan:\n{}", search_text(result), code_version(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/tuning/sweep_report.hpp"
+#include "bench/tuning/sweep_summary.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,9 +21,9 @@ MergedJob unit_of(const std::string& scenario, int seed, const Json& settings, d
   MergedJob unit;
   unit.listed = {"id", scenario, fmt::format("{}", seed), "aims"};
   unit.file = {{"schema", kJobSchema}, {"scenario", scenario},
-               {"family", ""},          {"seed", seed},
-               {"estimator", "aims"},   {"settings", settings},
-               {"outcome", "done"},     {"scores", {{"ate_m", ate}, {"success", true}}}};
+               {"family", ""},         {"seed", seed},
+               {"estimator", "aims"},  {"settings", settings},
+               {"outcome", "done"},    {"scores", {{"ate_m", ate}, {"success", true}}}};
   return unit;
 }
 
@@ -45,7 +45,7 @@ MergedSweep sweep_over_eta(bool untuned) {
 
 std::string report_of(const MergedSweep& sweep, const std::filesystem::path& folder) {
   std::vector<std::string> warnings;
-  const auto written = write_sweep_report(sweep, {}, folder, warnings);
+  const auto written = write_sweep_summary(sweep, {}, folder, warnings);
   EXPECT_TRUE(written) << written.error().message;
   EXPECT_TRUE(warnings.empty());
   std::ifstream stream(folder / "sweep.md");
@@ -76,7 +76,7 @@ TEST(SweepReport, SaysTheBestAndDrawsTheCurve) {
   const std::string text = report_of(sweep_over_eta(true), folder.path());
   EXPECT_TRUE(says(text, "| degeneracy.eta |")) << text;
   EXPECT_TRUE(says(text, "1 [1, 1]")) << text;
-  EXPECT_TRUE(says(text, "Less than the defaults by 67 % [67, 67]")) << text;
+  EXPECT_TRUE(says(text, "Reduction by 67 % [67, 67]")) << text;
   EXPECT_TRUE(says(text, "(degeneracy.eta.png)")) << text;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "degeneracy.eta.png"));
 }
@@ -138,7 +138,7 @@ TEST(SweepReport, FailedUnitsCountAsLost) {
   sweep.jobs[1].file["outcome"] = "crashed";
   const auto responses = sweep_responses(sweep, "ate_m");
   ASSERT_TRUE(responses);
-  EXPECT_TRUE(responses->front().table.runs[0][0].lost);
+  EXPECT_TRUE(responses->front().table.runs[0][0].diverged);
   EXPECT_EQ(responses->front().incomplete, 0U);
 }
 

@@ -13,14 +13,14 @@
 namespace aims {
 
 /// The chosen point as a configuration file to be laid on top of any scenario (`--set @FILE`), with
-/// where it comes from as comments: objective before and after, walks, algorithm, code, plan.
+/// where it comes from as comments: objective before and after, sequences, algorithm, code, plan.
 /// Expects one objective and a chosen point.
 std::string overlay_text(const TuneResult& result);
 
 /// Writes `overlay_text` to a file, whole or not at all.
 Result<void> write_overlay(const TuneResult& result, const std::filesystem::path& file);
 
-/// A row per part of the walks: objective of the defaults, of the chosen point, and what is gained.
+/// A row per part of the sequences: objective of the defaults, of the chosen point, and the gain.
 TextTable outcome_table(const TuneResult& result);
 
 /// A row per point of the front: its values and objectives, tuned and held out.
