@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/exit_code.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/run/estimate.hpp"
 #include "recordings/inspection/bag_check.hpp"
@@ -16,16 +15,22 @@
 namespace aims {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct BagArguments {
+  SharedOptions shared;
   std::string bag;
   std::string config;
-  std::vector<std::string> overrides;
   std::vector<std::string> systems;
   bool recover = false;
 };
 
 Result<BagInfo> info_of(const BagArguments& arguments) {
-  const auto config = load_estimate_config(arguments.config, arguments.overrides);
+  const auto& settings = arguments.shared.settings;
+  if (auto read = check_settings(settings, {"recording"}, false); !read) {
+    return tl::unexpected(read.error());
+  }
+  const auto config = load_estimate_config(arguments.config, settings);
   if (!config) return tl::unexpected(config.error());
   return bag_info(arguments.bag, config->recording, {arguments.recover});
 }
@@ -37,9 +42,9 @@ int info_command(const BagArguments& arguments) {
   return kOk;
 }
 
-/// The checks of the systems asked for; error for a system that is not known.
-Result<std::vector<RequirementCheck>> checks_for(const std::vector<std::string>& systems,
-                                                 std::vector<RequirementCheck> all) {
+/// The checks of those systems, or of all without any; error for one that is not known.
+Result<std::vector<RequirementCheck>> checks_of(const std::vector<std::string>& systems,
+                                                std::vector<RequirementCheck> all) {
   if (systems.empty()) return all;
   std::vector<RequirementCheck> wanted;
   for (const std::string& system : systems) {
@@ -51,7 +56,7 @@ Result<std::vector<RequirementCheck>> checks_for(const std::vector<std::string>&
     for (const RequirementCheck& each : all) {
       if (known.empty() || known.back() != each.system) known.push_back(each.system);
     }
-    return failure(fmt::format("--for: unknown system '{}'; expected one of {}", system,
+    return failure(fmt::format("--system: unknown system '{}'; expected one of {}", system,
                                fmt::join(known, ", ")));
   }
   return wanted;
@@ -60,7 +65,7 @@ Result<std::vector<RequirementCheck>> checks_for(const std::vector<std::string>&
 int check_command(const BagArguments& arguments) {
   const auto info = info_of(arguments);
   if (!info) return bad_input("check", info.error());
-  const auto checks = checks_for(arguments.systems, check_bag(*info));
+  const auto checks = checks_of(arguments.systems, check_bag(*info));
   if (!checks) return bad_input("check", checks.error());
   fmt::print("{}\n{}\n{}", info->file.string(), to_text(check_table(*checks)), check_text(*checks));
   const bool missing = std::any_of(checks->begin(), checks->end(), [](const auto& each) {
@@ -69,35 +74,31 @@ int check_command(const BagArguments& arguments) {
   return missing && !arguments.systems.empty() ? kGateFailed : kOk;
 }
 
-CLI::App* add_bag_command(CLI::App& app, const char* name, const char* meaning,
-                          const std::shared_ptr<BagArguments>& arguments) {
-  auto* command = app.add_subcommand(name, meaning);
-  command->add_option("bag", arguments->bag, "ROS 1 bag")->required();
-  command->add_option("--config", arguments->config, "YAML file as for aims estimate");
-  add_repeatable(*command, "--set", arguments->overrides,
-                 "key=value on top, e.g. recording.topics.imu=/i");
-  command->add_flag("--recover", arguments->recover, "Read what is whole in a broken bag");
-  return command;
+std::shared_ptr<BagArguments> add_bag_options(Command& command) {
+  auto arguments = std::make_shared<BagArguments>();
+  command.argument("bag", arguments->bag, "Bag");
+  command.option("--config", arguments->config, "YAML file; its group recording is used");
+  add_settings(command, arguments->shared, "the configuration, e.g. recording.topics.imu=/imu");
+  command.flag("--recover", arguments->recover, "Read the intact part of a damaged bag");
+  return arguments;
 }
 
 }  // namespace
 
-void add_info_command(CLI::App& app, int& exit_code) {
-  auto arguments = std::make_shared<BagArguments>();
-  auto* command = add_bag_command(
-      app, "info", "Topics, rates, gaps, offsets, noise and extrinsics of a bag", arguments);
-  command->callback([arguments, &exit_code] { exit_code = info_command(*arguments); });
+void declare_info(Command command, const fs::path& /*scenarios*/) {
+  auto arguments = add_bag_options(command);
+  command.footer("Example:\n  aims info robot.bag");
+  command.action([arguments] { return info_command(*arguments); });
 }
 
-void add_check_command(CLI::App& app, int& exit_code) {
-  auto arguments = std::make_shared<BagArguments>();
-  auto* command =
-      add_bag_command(app, "check", "Which systems a bag has all the inputs for", arguments);
-  command
-      ->add_option("--for", arguments->systems,
-                   "Only these, e.g. FAST-LIO2,LIO-SAM; exit code 1 when one cannot run")
-      ->delimiter(',');
-  command->callback([arguments, &exit_code] { exit_code = check_command(*arguments); });
+void declare_check(Command command, const fs::path& /*scenarios*/) {
+  auto arguments = add_bag_options(command);
+  command.list("--system", arguments->systems, "Only these systems, e.g. FAST-LIO2,LIO-SAM (all)");
+  command.footer(
+      "Example:\n"
+      "  aims check robot.bag --system FAST-LIO2,LIO-SAM\n"
+      "Exit codes: as of aims; 1 when a system of --system lacks an input.");
+  command.action([arguments] { return check_command(*arguments); });
 }
 
 }  // namespace aims

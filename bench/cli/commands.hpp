@@ -1,36 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
+
+#include "bench/cli/command.hpp"
 
 namespace aims {
 
-/// Each adds one subcommand; when it is given, its work's exit code goes to `exit_code`.
-/// `scenario_folder` is where bare scenario names are looked up.
-void add_run_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
-void add_render_command(CLI::App& app, const std::filesystem::path& scenario_folder,
-                        int& exit_code);
-void add_simulate_command(CLI::App& app, const std::filesystem::path& scenario_folder,
-                          int& exit_code);
-void add_estimate_command(CLI::App& app, int& exit_code);
-void add_info_command(CLI::App& app, int& exit_code);
-void add_check_command(CLI::App& app, int& exit_code);
-void add_suite_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
-void add_report_command(CLI::App& app, int& exit_code);
-void add_score_command(CLI::App& app, int& exit_code);
-void add_compare_command(CLI::App& app, int& exit_code);
-void add_detectors_command(CLI::App& app, const std::filesystem::path& scenario_folder,
-                           int& exit_code);
-void add_ablate_command(CLI::App& app, const std::filesystem::path& scenario_folder,
-                        int& exit_code);
-void add_consistency_command(CLI::App& app, const std::filesystem::path& scenario_folder,
-                             int& exit_code);
-void add_sweep_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
-void add_merge_command(CLI::App& app, int& exit_code);
-void add_tune_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
-void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code);
-void add_config_command(CLI::App& app, const std::filesystem::path& scenario_folder,
-                        int& exit_code);
+/// Each declares one command; `scenarios` is where bare scenario names are looked up.
+void declare_run(Command command, const std::filesystem::path& scenarios);
+void declare_suite(Command command, const std::filesystem::path& scenarios);
+void declare_sweep(Command command, const std::filesystem::path& scenarios);
+void declare_merge(Command command, const std::filesystem::path& scenarios);
+void declare_tune(Command command, const std::filesystem::path& scenarios);
+void declare_study(Command command, const std::filesystem::path& scenarios);
+void declare_simulate(Command command, const std::filesystem::path& scenarios);
+void declare_estimate(Command command, const std::filesystem::path& scenarios);
+void declare_score(Command command, const std::filesystem::path& scenarios);
+void declare_info(Command command, const std::filesystem::path& scenarios);
+void declare_check(Command command, const std::filesystem::path& scenarios);
+void declare_render(Command command, const std::filesystem::path& scenarios);
+void declare_page(Command command, const std::filesystem::path& scenarios);
+void declare_config(Command command, const std::filesystem::path& scenarios);
+void declare_list(Command command, const std::filesystem::path& scenarios);
+
+/// Writes the pages of a folder that was just filled and prints where they are. A page that cannot
+/// be written is a warning: the results are there.
+void write_pages_of(const std::filesystem::path& folder);
 
 }  // namespace aims

@@ -3,13 +3,13 @@
 
 namespace aims {
 
-/// What the `aims` command returns to its caller.
+/// Exit codes of the `aims` command.
 enum ExitCode : int {
   kOk = 0,
-  kGateFailed = 1,     ///< a scenario's expectation does not hold; a unit of a sweep failed
+  kGateFailed = 1,     ///< an expectation of a scenario failed; jobs failed or are missing
   kBadInput = 2,       ///< usage, configuration or files
   kInternal = 3,       ///< a defect of this program
-  kInterrupted = 130,  ///< Ctrl-C; what was recorded so far is written
+  kInterrupted = 130,  ///< Ctrl-C; results so far are written
 };
 
 }  // namespace aims

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/exit_code.hpp"
+#include "bench/cli/options.hpp"
 #include "bench/run/catalogue.hpp"
 
 namespace aims {
@@ -18,19 +18,16 @@ void print_entry(const CatalogueEntry& entry) {
   fmt::print("  {:<16} {}{}\n", entry.name, entry.description, tags);
 }
 
-int print_list(const std::string& folder, const std::vector<std::string>& tags) {
-  const auto files = scenarios_in(folder, tags);
-  if (!files) {
-    fmt::print(stderr, "aims list: {}\n", files.error().message);
-    return kBadInput;
-  }
-  fmt::print("Scenarios in {}:\n", folder);
+int list_command(const SharedOptions& shared) {
+  const auto files = scenarios_in(shared.folder, shared.tags);
+  if (!files) return bad_input("list", files.error());
+  fmt::print("Scenarios in {} [tags]:\n", shared.folder);
   for (const CatalogueEntry& entry : scenario_catalogue(*files)) print_entry(entry);
   const std::vector<Family> families = families_of(*files);
-  if (!families.empty()) fmt::print("Families, by level:\n");
+  if (!families.empty()) fmt::print("Families of scenarios, which differ in one quantity:\n");
   for (const Family& family : families) {
-    fmt::print("  {:<16} [{}], {} cases: {}\n", family.name, family.level_unit, family.cases.size(),
-               fmt::join(family.cases, ", "));
+    fmt::print("  {:<16} [{}], {} scenarios: {}\n", family.name, family.level_unit,
+               family.cases.size(), fmt::join(family.cases, ", "));
   }
   fmt::print("Estimators:\n");
   for (const CatalogueEntry& entry : estimator_catalogue()) print_entry(entry);
@@ -39,16 +36,13 @@ int print_list(const std::string& folder, const std::vector<std::string>& tags) 
 
 }  // namespace
 
-void add_list_command(CLI::App& app, const std::filesystem::path& scenario_folder, int& exit_code) {
-  auto* command = app.add_subcommand("list", "Scenarios, families and estimators, a line each");
-  auto folder = std::make_shared<std::string>(scenario_folder.string());
-  auto tags = std::make_shared<std::vector<std::string>>();
-  command->add_option("--folder", *folder, "Folder of scenarios, searched with those in it");
-  command
-      ->add_option("--tags", *tags, "Only scenarios with any of these tags, e.g. stress,severity")
-      ->delimiter(',');
-  command->footer("Examples:\n  aims list\n  aims list --tags stress,severity");
-  command->callback([folder, tags, &exit_code] { exit_code = print_list(*folder, *tags); });
+void declare_list(Command command, const std::filesystem::path& scenarios) {
+  auto shared = std::make_shared<SharedOptions>();
+  shared->folder = scenarios.string();
+  add_tags(command, *shared);
+  add_folder(command, *shared);
+  command.footer("Examples:\n  aims list\n  aims list --tags stress,severity");
+  command.action([shared] { return list_command(*shared); });
 }
 
 }  // namespace aims

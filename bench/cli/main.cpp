@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <array>
 #include <exception>
 #include <filesystem>
 
@@ -11,73 +11,68 @@
 
 namespace {
 
+using aims::CommandEntry;
+
+constexpr std::array kCommands = {
+    CommandEntry{"run", "Simulate a scenario, run estimators on it, score and draw",
+                 aims::declare_run},
+    CommandEntry{"suite", "Run many scenarios on many seeds and tabulate the scores",
+                 aims::declare_suite},
+    CommandEntry{"sweep", "Evaluate estimators over ranges of parameters", aims::declare_sweep},
+    CommandEntry{"merge", "Collect the results of a sweep in one database and one table",
+                 aims::declare_merge},
+    CommandEntry{"tune", "Optimize the parameters of an estimator and validate them on other data",
+                 aims::declare_tune},
+    CommandEntry{"study", "Ablation, consistency, degeneracy detectors, comparison of results",
+                 aims::declare_study},
+    CommandEntry{"simulate", "Record the measurements of a scenario as a ROS 1 bag",
+                 aims::declare_simulate},
+    CommandEntry{"estimate", "Run estimators on a recorded bag", aims::declare_estimate},
+    CommandEntry{"score", "Score trajectories of any system against ground truth",
+                 aims::declare_score},
+    CommandEntry{"info", "Topics, rates, gaps, time offsets, noise and extrinsics of a bag",
+                 aims::declare_info},
+    CommandEntry{"check", "Which systems find all their inputs in a bag", aims::declare_check},
+    CommandEntry{"render", "Draw a sequence: a still, a looped video, vector pictures",
+                 aims::declare_render},
+    CommandEntry{"page", "Write an HTML page that shows a folder of results", aims::declare_page},
+    CommandEntry{"config", "Every parameter with value, unit, range, meaning and source",
+                 aims::declare_config},
+    CommandEntry{"list", "Scenarios, families of scenarios and estimators", aims::declare_list},
+};
+
 constexpr const char* kDescription =
-    "aims: legged-robot localization in degenerate corridors, settled by measurement.\n"
-    "A simulated quadruped walks a scenario; every estimator gets the same measurements;\n"
-    "truth scores them.";
+    "aims: benchmark of legged-robot localization in degenerate corridors.\n"
+    "A simulated quadruped walks through a scenario. Every estimator gets the same\n"
+    "measurements, and its trajectory is scored against the ground truth.";
 
 constexpr const char* kFooter =
     "Examples:\n"
-    "  aims run scenarios/paper/corridor.yaml\n"
-    "  aims run corridor --seed 1-5 --estimators aims,lio --out out/compare\n"
+    "  aims run corridor\n"
+    "  aims run corridor --seeds 1-5 --estimators aims,lio --out out/compare\n"
     "  aims run corridor --set lidar.range_max=30 --set estimator.degeneracy.eta=5\n"
     "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
-    "  aims score --truth truth.tum --estimate mine.tum --segments a-b=12.5:110.2\n"
-    "  aims report out/corridor-seed-1\n"
-    "  aims compare out/before out/after\n"
-    "  aims detectors corridor corridor_smooth --seeds 1-5\n"
-    "  aims ablate severity_3 severity_8 --seeds 1-3\n"
-    "  aims consistency severity_9 --seeds 1-50 --estimators aims_d,lio\n"
-    "  aims sweep --over degeneracy.eta=0:6:13 --scenarios corridor --seeds 1-5\n"
+    "  aims sweep --param degeneracy.eta=0:6:13 --scenarios corridor --seeds 1-5\n"
     "  aims tune bench/tuning/plans/aims.yaml --out out/tune\n"
-    "  aims render corridor --out out/render\n"
-    "  aims simulate corridor -o walk.bag\n"
-    "  aims estimate walk.bag --estimators aims,lio\n"
-    "  aims info robot.bag\n"
-    "  aims list\n"
-    "  aims config corridor\n"
-    "Exit codes: 0 ok, 1 an expectation of the scenario failed, 2 bad usage or configuration,\n"
-    "3 internal error, 130 interrupted.";
-
-int parse_and_run(int argc, char** argv) {
-  CLI::App app(kDescription, "aims");
-  app.footer(kFooter);
-  app.set_version_flag("--version", "aims " AIMS_VERSION);
-  app.require_subcommand(1);
-  const std::filesystem::path scenarios =
-      aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
-  int exit_code = aims::kOk;
-  aims::add_run_command(app, scenarios, exit_code);
-  aims::add_render_command(app, scenarios, exit_code);
-  aims::add_simulate_command(app, scenarios, exit_code);
-  aims::add_estimate_command(app, exit_code);
-  aims::add_info_command(app, exit_code);
-  aims::add_check_command(app, exit_code);
-  aims::add_suite_command(app, scenarios, exit_code);
-  aims::add_report_command(app, exit_code);
-  aims::add_score_command(app, exit_code);
-  aims::add_compare_command(app, exit_code);
-  aims::add_detectors_command(app, scenarios, exit_code);
-  aims::add_ablate_command(app, scenarios, exit_code);
-  aims::add_consistency_command(app, scenarios, exit_code);
-  aims::add_sweep_command(app, scenarios, exit_code);
-  aims::add_merge_command(app, exit_code);
-  aims::add_tune_command(app, scenarios, exit_code);
-  aims::add_list_command(app, scenarios, exit_code);
-  aims::add_config_command(app, scenarios, exit_code);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? aims::kOk : aims::kBadInput;
-  }
-  return exit_code;
-}
+    "  aims study ablation severity_3 severity_8 --seeds 1-3\n"
+    "  aims study consistency severity_9 --seeds 1-50 --estimators aims_d,lio\n"
+    "  aims study compare out/before out/after\n"
+    "  aims simulate corridor --out corridor.bag\n"
+    "  aims estimate corridor.bag --estimators aims,lio\n"
+    "  aims score --truth truth.tum --estimate mine.tum --segments a-b=12.5:110.2\n"
+    "  aims page out/corridor-seed-1\n"
+    "Exit codes: 0 success; 1 an expectation of a scenario failed, or jobs failed or are\n"
+    "missing; 2 wrong usage, configuration or input; 3 internal error; 130 interrupted.";
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return parse_and_run(argc, argv);
+    const auto scenarios =
+        aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
+    const aims::Program program = {"aims",    kDescription, kFooter, "aims " AIMS_VERSION,
+                                   kCommands, scenarios};
+    return aims::run_program(program, argc, argv);
   } catch (const std::exception& error) {
     fmt::print(stderr, "aims: internal error: {}\n", error.what());
     return aims::kInternal;

@@ -6,24 +6,172 @@
 #include <algorithm>
 #include <thread>
 
+#include "bench/run/seeds.hpp"
+#include "estimator/estimator_spec.hpp"
+
 namespace aims {
+
+namespace fs = std::filesystem;
+
+int default_jobs() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+
+void add_scenario(Command& command, SharedOptions& options, Presence presence) {
+  command.argument("scenario", options.scenario, "Scenario: a YAML file or a name of `aims list`",
+                   presence);
+}
+
+void add_named_scenarios(Command& command, SharedOptions& options) {
+  command.arguments("scenario", options.named, "The same as --scenarios");
+}
+
+void add_folder(Command& command, SharedOptions& options) {
+  command.option("--folder", options.folder,
+                 "Folder of scenarios, searched with its subfolders\n(the shipped ones)");
+}
+
+void add_tags(Command& command, SharedOptions& options) {
+  command.list("--tags", options.tags, "Scenarios with any of these tags, e.g. stress,severity");
+}
+
+void add_scenarios(Command& command, SharedOptions& options) {
+  command.list("--scenarios", options.scenarios, "Scenario files or names, e.g. corridor,garage");
+  add_tags(command, options);
+  add_folder(command, options);
+}
+
+void add_seeds(Command& command, SharedOptions& options, const std::string& absent) {
+  command.option("--seeds,--seed", options.seeds,
+                 fmt::format("Seed, range or list: 3, 1-5 or 1,4,7-9 ({})", absent));
+}
+
+void add_estimators(Command& command, SharedOptions& options, const std::string& absent) {
+  command.list("--estimators", options.estimators,
+               fmt::format("Estimators, each NAME or LABEL=NAME+key=value with\n"
+                           "keys below estimator. ({})",
+                           absent));
+}
+
+void add_settings(Command& command, SharedOptions& options, const std::string& on) {
+  command.repeatable("--set", options.settings,
+                     fmt::format("key=value, or @FILE of such keys, on top of\n{}", on));
+}
+
+void add_param(Command& command, SharedOptions& options, const std::string& forms) {
+  command.repeatable("--param", options.param,
+                     fmt::format("Parameter to vary, {},\n"
+                                 "a key below estimator. or of the scenario",
+                                 forms));
+}
+
+void add_out(Command& command, SharedOptions& options, const std::string& absent) {
+  command.option("-o,--out", options.out, fmt::format("Where the results go ({})", absent));
+}
+
+void add_continued_out(Command& command, SharedOptions& options, const std::string& folder) {
+  options.out = folder;
+  command.option("-o,--out", options.out,
+                 fmt::format("Folder of results; one that exists is continued\n({})", folder));
+}
+
+void add_cache(Command& command, SharedOptions& options) {
+  constexpr double kMost = 1e9;
+  command.option("--cache", options.cache,
+                 "Folder of simulated sequences, shared by all commands\n"
+                 "(~/.cache/aims/sequences)");
+  command.option("--cache-limit", options.cache_limit_gb, {0.0, kMost},
+                 "Size of the cache [GB]; those used longest ago are\n"
+                 "removed, none that is in use; 0: no limit (20)");
+}
+
+void add_jobs(Command& command, SharedOptions& options) {
+  command.option("-j,--jobs", options.jobs, {1, 256},
+                 "Jobs at a time; the results do not depend on it\n(number of cores)");
+}
+
+void add_retry(Command& command, SharedOptions& options) {
+  command.flag("--retry", options.retry, "Repeat jobs that failed before");
+}
+
+void add_overwrite(Command& command, SharedOptions& options) {
+  command.flag("--overwrite", options.overwrite, "Replace results that exist");
+}
+
+void add_quiet(Command& command, SharedOptions& options) {
+  command.flag("-q,--quiet", options.quiet, "Show no progress");
+}
+
+std::vector<std::string> overrides_of(const SharedOptions& options) {
+  std::vector<std::string> overrides = options.settings;
+  if (!options.estimators.empty()) {
+    overrides.push_back(estimators_setting(joined_specs(options.estimators)));
+  }
+  return overrides;
+}
+
+Result<void> check_settings(const std::vector<std::string>& settings,
+                            const std::vector<std::string>& groups, bool refused) {
+  for (const std::string& setting : settings) {
+    if (setting.starts_with('@')) continue;  // a file may hold keys of every command
+    const std::string key = setting.substr(0, setting.find('='));
+    const bool in_group = std::any_of(groups.begin(), groups.end(), [&](const std::string& group) {
+      return key == group || key.starts_with(group + ".");
+    });
+    if (in_group == refused) {
+      return failure(fmt::format("--set {}: no effect in this command; it reads {} {}", setting,
+                                 refused ? "every key but those of" : "only the keys of",
+                                 fmt::join(groups, ", ")));
+    }
+  }
+  return {};
+}
+
+Result<Scenario> scenario_of(const SharedOptions& options) {
+  const auto file = find_scenario(options.scenario, options.folder);
+  if (!file) return tl::unexpected(file.error());
+  return load_scenario(*file, overrides_of(options));
+}
+
+Result<std::vector<ScenarioFile>> scenarios_of(const SharedOptions& options) {
+  std::vector<std::string> names = options.named;
+  names.insert(names.end(), options.scenarios.begin(), options.scenarios.end());
+  return select_scenarios(names, options.tags, options.folder, overrides_of(options));
+}
+
+Result<std::vector<std::uint64_t>> seeds_of(const SharedOptions& options,
+                                            const std::vector<std::uint64_t>& absent) {
+  return options.seeds.empty() ? absent : parse_seeds(options.seeds);
+}
+
+Result<std::uint64_t> seed_of(const SharedOptions& options, const Scenario& scenario) {
+  const auto seeds = seeds_of(options, {static_cast<std::uint64_t>(scenario.seed)});
+  if (!seeds) return tl::unexpected(seeds.error());
+  if (seeds->size() == 1) return seeds->front();
+  return failure(fmt::format("--seeds {}: expected one seed, since the output is of one sequence",
+                             options.seeds));
+}
+
+std::uintmax_t cache_limit(const SharedOptions& options) {
+  if (options.cache_limit_gb == 0.0) return 0;
+  return static_cast<std::uintmax_t>(std::max(1.0, 1e9 * options.cache_limit_gb));
+}
+
+void print_pruned(const CachePruned& pruned, const SharedOptions& options) {
+  const fs::path folder =
+      options.cache.empty() ? SequenceCache::default_folder() : fs::path(options.cache);
+  const double limit_gb = options.cache_limit_gb;
+  if (pruned.sequences > 0) {
+    fmt::print("{}: removed {} sequences, {:.3g} GB (--cache-limit {})\n", folder.string(),
+               pruned.sequences, 1e-9 * static_cast<double>(pruned.bytes), limit_gb);
+  }
+  const double left_gb = 1e-9 * static_cast<double>(pruned.left);
+  if (limit_gb == 0.0 || left_gb <= limit_gb) return;
+  fmt::print("{}: {:.3g} GB of sequences are in use, more than --cache-limit {}\n", folder.string(),
+             left_gb, limit_gb);
+}
 
 int bad_input(const char* command, const Error& error) {
   fmt::print(stderr, "aims {}: {}\n", command, error.message);
   return kBadInput;
 }
-
-CLI::Option* add_repeatable(CLI::App& command, const std::string& name,
-                            std::vector<std::string>& values, const std::string& meaning) {
-  return command.add_option(name, values, meaning)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void add_jobs_option(CLI::App& command, int& jobs, const std::string& meaning) {
-  command.add_option("--jobs", jobs, meaning)->check(CLI::Range(1, 256));
-}
-
-int default_jobs() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
 }  // namespace aims

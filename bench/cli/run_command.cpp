@@ -6,15 +6,10 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/exit_code.hpp"
-#include "bench/cli/interrupt.hpp"
 #include "bench/cli/options.hpp"
-#include "bench/cli/progress_display.hpp"
-#include "bench/cli/report_command.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/score_table.hpp"
-#include "bench/run/seeds.hpp"
-#include "estimator/estimator_spec.hpp"
 #include "render/results/pictures.hpp"
 
 namespace aims {
@@ -23,44 +18,24 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunArguments {
-  std::string scenario;
-  std::string seeds;
-  std::vector<std::string> estimators;
-  std::vector<std::string> overrides;
-  std::string out;
-  int jobs = default_jobs();
-  bool overwrite = false;
-  bool quiet = false;
+  SharedOptions shared;
   bool no_pictures = false;
-  bool no_report = false;
+  bool no_page = false;
 };
 
-Result<Scenario> scenario_of(const RunArguments& arguments, const fs::path& folder) {
-  const auto file = find_scenario(arguments.scenario, folder);
-  if (!file) return tl::unexpected(file.error());
-  std::vector<std::string> overrides = arguments.overrides;
-  if (!arguments.estimators.empty()) {
-    overrides.push_back(estimators_setting(joined_specs(arguments.estimators)));
-  }
-  return load_scenario(*file, overrides);
-}
-
 Result<ExperimentOptions> options_of(const RunArguments& arguments, const Scenario& scenario) {
+  const SharedOptions& shared = arguments.shared;
   ExperimentOptions options;
-  options.seeds = {static_cast<std::uint64_t>(scenario.seed)};
-  if (!arguments.seeds.empty()) {
-    auto seeds = parse_seeds(arguments.seeds);
-    if (!seeds) return tl::unexpected(seeds.error());
-    options.seeds = std::move(*seeds);
+  auto seeds = seeds_of(shared, {static_cast<std::uint64_t>(scenario.seed)});
+  if (!seeds) return tl::unexpected(seeds.error());
+  options.seeds = std::move(*seeds);
+  options.out = shared.out;
+  if (shared.out.empty()) {
+    const std::string text = shared.seeds.empty() ? std::to_string(scenario.seed) : shared.seeds;
+    options.out = fs::path("out") / fmt::format("{}-seed-{}", scenario.name, text);
   }
-  options.out = arguments.out;
-  if (arguments.out.empty()) {
-    const std::string seeds =
-        arguments.seeds.empty() ? std::to_string(scenario.seed) : arguments.seeds;
-    options.out = fs::path("out") / fmt::format("{}-seed-{}", scenario.name, seeds);
-  }
-  options.overwrite = arguments.overwrite;
-  options.jobs = arguments.jobs;
+  options.overwrite = shared.overwrite;
+  options.jobs = shared.jobs;
   options.pictures = !arguments.no_pictures;
   return options;
 }
@@ -68,81 +43,64 @@ Result<ExperimentOptions> options_of(const RunArguments& arguments, const Scenar
 std::string seeds_text(const Experiment& experiment) {
   std::vector<std::uint64_t> seeds;
   for (const RunRecord& run : experiment.runs) seeds.push_back(run.seed);
-  const char* meaning = seeds.size() > 1 ? ": median (worst)" : "";
-  return fmt::format("{}{}", fmt::join(seeds, ", "), meaning);
+  return fmt::format("{}{}", fmt::join(seeds, ", "), seeds.size() > 1 ? ": median (worst)" : "");
 }
 
-void print_report(const Scenario& scenario, const Experiment& experiment) {
+void print_results(const Scenario& scenario, const Experiment& experiment) {
   fmt::print("{}, seed {}\n{}\n", scenario.name, seeds_text(experiment),
              to_text(score_table(experiment.runs)));
   for (const std::string& warning : experiment.warnings) fmt::print("warning: {}\n", warning);
   for (const GateCheck& failure : experiment.failures) {
-    fmt::print("EXPECTATION FAILED: {}\n  again: {}\n", text_of(scenario, failure),
+    fmt::print("EXPECTATION FAILED: {}\n  to repeat: {}\n", text_of(scenario, failure),
                reproducing_command(scenario, failure));
   }
-  if (!experiment.complete) {
-    fmt::print("interrupted: the results hold what was walked until then\n");
-  }
+  if (!experiment.complete) fmt::print("interrupted: the results end where the run was stopped\n");
   fmt::print("results: {}\n", (experiment.folder / "").string());
   for (const fs::path& picture : pictures_in(experiment.folder)) {
     fmt::print("  {}\n", picture.string());
   }
 }
 
-int exit_code_of(const Experiment& experiment) {
-  if (!experiment.complete) return kInterrupted;
-  return experiment.failures.empty() ? kOk : kGateFailed;
-}
-
-int run_command(const RunArguments& arguments, const fs::path& folder) {
-  const auto scenario = scenario_of(arguments, folder);
+int run_command(const RunArguments& arguments) {
+  const auto scenario = scenario_of(arguments.shared);
   if (!scenario) return bad_input("run", scenario.error());
   const auto options = options_of(arguments, *scenario);
   if (!options) return bad_input("run", options.error());
-
   watch_interrupt();
-  ProgressDisplay display(scenario->name, arguments.quiet);
-  const auto experiment =
-      run_experiment(*scenario, *options, [&](std::uint64_t seed, const Progress& progress) {
-        display.show(seed, progress);
-        return !interrupted();
-      });
+  ProgressDisplay display(scenario->name, arguments.shared.quiet);
+  const auto experiment = run_experiment(
+      *scenario, *options,
+      [&](std::uint64_t seed, const Progress& progress) { return display.show(seed, progress); });
   display.close();
   if (!experiment) return bad_input("run", experiment.error());
-  print_report(*scenario, *experiment);
-  if (!arguments.no_report) show_reports(experiment->folder);
-  return exit_code_of(*experiment);
+  print_results(*scenario, *experiment);
+  if (!arguments.no_page) write_pages_of(experiment->folder);
+  if (!experiment->complete) return kInterrupted;
+  return experiment->failures.empty() ? kOk : kGateFailed;
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& app, const fs::path& scenario_folder, int& exit_code) {
-  auto* command =
-      app.add_subcommand("run", "Simulate a scenario, estimate, score, draw, write results");
+void declare_run(Command command, const fs::path& scenarios) {
   auto arguments = std::make_shared<RunArguments>();
-  command->add_option("scenario", arguments->scenario, "Scenario file, or its bare name")
-      ->required();
-  command->add_option("--seed", arguments->seeds, "Seed, range or list: 3, 1-5, 1,4,7-9");
-  command
-      ->add_option("--estimators", arguments->estimators,
-                   "Estimators to run, e.g. aims,lio or\n"
-                   "loose=aims+leg.scale_sigma=0.1")
-      ->delimiter(',');
-  add_repeatable(*command, "--set", arguments->overrides,
-                 "key=value on top of the scenario; repeatable");
-  command->add_option("--out", arguments->out, "Folder for the results (out/SCENARIO-seed-N)");
-  add_jobs_option(*command, arguments->jobs, "Threads; the results do not depend on it");
-  command->add_flag("--overwrite", arguments->overwrite, "Replace results that exist");
-  command->add_flag("--quiet", arguments->quiet, "No progress, the table alone");
-  command->add_flag("--no-pictures", arguments->no_pictures, "Draw nothing");
-  command->add_flag("--no-report", arguments->no_report, "Write no page (page.html)");
-  command->footer(
+  SharedOptions& shared = arguments->shared;
+  shared.folder = scenarios.string();
+  add_scenario(command, shared, Presence::kRequired);
+  add_folder(command, shared);
+  add_seeds(command, shared, "that of the scenario");
+  add_estimators(command, shared, "those of the scenario");
+  add_settings(command, shared);
+  add_out(command, shared, "out/SCENARIO-seed-N");
+  add_overwrite(command, shared);
+  add_jobs(command, shared);
+  add_quiet(command, shared);
+  command.flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
+  command.flag("--no-page", arguments->no_page, "Write no HTML page");
+  command.footer(
       "Examples:\n"
       "  aims run scenarios/paper/corridor.yaml\n"
-      "  aims run corridor --seed 1-5 --set lidar.range_max=30 --out out/short-sighted");
-  command->callback([arguments, scenario_folder, &exit_code] {
-    exit_code = run_command(*arguments, scenario_folder);
-  });
+      "  aims run corridor --seeds 1-5 --set lidar.range_max=30 --out out/short-range");
+  command.action([arguments] { return run_command(*arguments); });
 }
 
 }  // namespace aims

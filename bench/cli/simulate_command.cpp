@@ -3,16 +3,13 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/exit_code.hpp"
-#include "bench/cli/interrupt.hpp"
 #include "bench/cli/options.hpp"
-#include "bench/cli/progress_display.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/run/record.hpp"
-#include "bench/run/seeds.hpp"
 
 namespace aims {
 namespace {
@@ -20,48 +17,17 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SimulateArguments {
-  std::string scenario;
-  std::string seed;
-  std::vector<std::string> overrides;
-  std::string out;
-  BagCompression compression = BagCompression::kNone;
-  double fast_imu = 0.0;
-  bool overwrite = false;
-  bool quiet = false;
+  SharedOptions shared;
+  std::string compression = "none";
+  std::optional<double> fast_imu_hz;
 };
 
 const std::map<std::string, BagCompression> kCompressions = {
     {"none", BagCompression::kNone}, {"lz4", BagCompression::kLz4}, {"bz2", BagCompression::kBz2}};
 
-Result<Scenario> scenario_of(const SimulateArguments& arguments, const fs::path& folder) {
-  const auto file = find_scenario(arguments.scenario, folder);
-  if (!file) return tl::unexpected(file.error());
-  std::vector<std::string> overrides = arguments.overrides;
-  if (arguments.fast_imu > 0.0) {
-    overrides.push_back(fmt::format("fast_imu_rate={}", arguments.fast_imu));
-  }
-  return load_scenario(*file, overrides);
-}
-
-Result<RecordOptions> options_of(const SimulateArguments& arguments, const Scenario& scenario) {
-  RecordOptions options;
-  options.seed = static_cast<std::uint64_t>(scenario.seed);
-  if (!arguments.seed.empty()) {
-    const auto seeds = parse_seeds(arguments.seed);
-    if (!seeds) return tl::unexpected(seeds.error());
-    if (seeds->size() != 1) return failure("--seed: expected one seed: a bag holds one walk");
-    options.seed = seeds->front();
-  }
-  options.bag = arguments.out;
-  options.overwrite = arguments.overwrite;
-  options.compression = arguments.compression;
-  return options;
-}
-
-void print_report(const RecordOutcome& outcome, const RecordOptions& options) {
-  const double megabytes = static_cast<double>(outcome.bag_bytes) / 1e6;
-  fmt::print("{}: {:.1f} MB, {:.1f} s simulated in {:.1f} s\n", options.bag.string(), megabytes,
-             outcome.simulated_s, outcome.wall_s);
+void print_results(const RecordOutcome& outcome, const RecordOptions& options) {
+  fmt::print("{}: {:.1f} MB, {:.1f} s simulated in {:.1f} s\n", options.bag.string(),
+             static_cast<double>(outcome.bag_bytes) / 1e6, outcome.simulated_s, outcome.wall_s);
   fmt::print("  {}\n  {}\n", outcome.truth.string(), outcome.waypoint_times.string());
   if (outcome.fell) fmt::print("warning: the robot fell\n");
   if (outcome.touched_wall) fmt::print("warning: the robot touched a wall\n");
@@ -69,53 +35,61 @@ void print_report(const RecordOutcome& outcome, const RecordOptions& options) {
     fmt::print("warning: {} messages from before time 0 were left out: ROS has no negative time\n",
                outcome.left_out);
   }
-  if (!outcome.complete) fmt::print("interrupted: the bag holds what was walked until then\n");
+  if (!outcome.complete) {
+    fmt::print("interrupted: the bag ends where the simulation was stopped\n");
+  }
 }
 
-int simulate_command(const SimulateArguments& arguments, const fs::path& folder) {
-  const auto scenario = scenario_of(arguments, folder);
+int simulate_command(const SimulateArguments& arguments) {
+  SharedOptions shared = arguments.shared;
+  const auto read = check_settings(shared.settings, {"estimator", "estimators", "scoring"}, true);
+  if (!read) return bad_input("simulate", read.error());
+  if (arguments.fast_imu_hz) {
+    shared.settings.push_back(fmt::format("fast_imu_rate={}", *arguments.fast_imu_hz));
+  }
+  const auto scenario = scenario_of(shared);
   if (!scenario) return bad_input("simulate", scenario.error());
-  const auto options = options_of(arguments, *scenario);
-  if (!options) return bad_input("simulate", options.error());
+  const auto seed = seed_of(shared, *scenario);
+  if (!seed) return bad_input("simulate", seed.error());
+  RecordOptions options;
+  options.seed = *seed;
+  options.bag = shared.out;
+  options.overwrite = shared.overwrite;
+  options.compression = kCompressions.at(arguments.compression);
   watch_interrupt();
-  ProgressDisplay display(scenario->name, arguments.quiet);
-  const auto outcome = record(*scenario, *options, [&](const Progress& progress) {
-    display.show(options->seed, progress);
-    return !interrupted();
+  ProgressDisplay display(scenario->name, shared.quiet);
+  const auto outcome = record(*scenario, options, [&](const Progress& progress) {
+    return display.show(options.seed, progress);
   });
   display.close();
   if (!outcome) return bad_input("simulate", outcome.error());
-  print_report(*outcome, *options);
+  print_results(*outcome, options);
   return outcome->complete ? kOk : kInterrupted;
 }
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app, const fs::path& scenario_folder, int& exit_code) {
-  auto* command = app.add_subcommand("simulate", "Record a scenario's measurements as a ROS 1 bag");
+void declare_simulate(Command command, const fs::path& scenarios) {
   auto arguments = std::make_shared<SimulateArguments>();
-  command->add_option("scenario", arguments->scenario, "Scenario file, or its bare name")
-      ->required();
-  command->add_option("-o,--out", arguments->out, "Bag to write, e.g. walk.bag")->required();
-  command->add_option("--seed", arguments->seed, "Seed of the walk (the scenario's)");
-  add_repeatable(*command, "--set", arguments->overrides,
-                 "key=value on top of the scenario; repeatable");
-  command
-      ->add_option("--fast-imu", arguments->fast_imu,
-                   "Rate [Hz] of a second IMU topic, e.g. 200 (none)")
-      ->check(CLI::Range(1.0, 2000.0));
-  command->add_option("--compression", arguments->compression, "none, lz4 or bz2 (none)")
-      ->transform(CLI::CheckedTransformer(kCompressions));
-  command->add_flag("--overwrite", arguments->overwrite, "Replace a bag that exists");
-  command->add_flag("--quiet", arguments->quiet, "No progress");
-  command->footer(
-      "Beside the bag stand NAME.truth.tum (true poses of the body) and NAME.waypoint_times.csv.\n"
+  SharedOptions& shared = arguments->shared;
+  shared.folder = scenarios.string();
+  add_scenario(command, shared, Presence::kRequired);
+  add_folder(command, shared);
+  command.option("-o,--out", shared.out, "Bag to write, e.g. corridor.bag", Presence::kRequired);
+  add_seeds(command, shared, "that of the scenario; one");
+  add_settings(command, shared);
+  command.option("--fast-imu", arguments->fast_imu_hz, {1.0, 2000.0},
+                 "Rate of a second IMU topic [Hz], e.g. 200 (none)");
+  command.choice("--compression", arguments->compression, {"none", "lz4", "bz2"},
+                 "Of the chunks of the bag (none)");
+  add_overwrite(command, shared);
+  add_quiet(command, shared);
+  command.footer(
+      "Also writes NAME.truth.tum (true poses of the body) and NAME.waypoint_times.csv.\n"
       "Examples:\n"
-      "  aims simulate corridor -o walk.bag\n"
-      "  aims simulate garage --seed 3 --fast-imu 200 --compression lz4 -o garage.bag");
-  command->callback([arguments, scenario_folder, &exit_code] {
-    exit_code = simulate_command(*arguments, scenario_folder);
-  });
+      "  aims simulate corridor --out corridor.bag\n"
+      "  aims simulate garage --seeds 3 --fast-imu 200 --compression lz4 --out garage.bag");
+  command.action([arguments] { return simulate_command(*arguments); });
 }
 
 }  // namespace aims

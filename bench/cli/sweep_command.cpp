@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/exit_code.hpp"
-#include "bench/cli/interrupt.hpp"
-#include "bench/cli/options.hpp"
-#include "bench/cli/sweep_options.hpp"
+#include "bench/cli/plan_options.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/jobs/sweep.hpp"
+#include "bench/tuning/sweep_plan.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 namespace {
@@ -22,107 +18,146 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SweepArguments {
-  PlanArguments plan;
+  SharedOptions shared;
+  std::string plan;
+  std::string design;
+  std::optional<int> samples;
+  std::optional<int> design_seed;
+  std::optional<double> timeout;
+  bool include_defaults = false;
   std::string shard = "1/1";
-  std::vector<std::string> only;
-  std::string out = "out/sweep";
-  CacheArguments cache;
-  int jobs = default_jobs();
   bool list = false;
-  bool walks_only = false;
-  bool retry = false;
-  bool renew = false;
-  bool quiet = false;
+  bool simulate_only = false;
+  bool force = false;
 };
 
-Result<SweepOptions> options_of(const SweepArguments& arguments) {
+/// Error for options of the design that this design does not read.
+Result<void> check_design(const SweepArguments& arguments, const SweepPlan& plan) {
+  if (plan.params.empty() && (!arguments.design.empty() || arguments.include_defaults)) {
+    return failure("--design, --include-defaults: no effect without --param");
+  }
+  if (plan.design == DesignKind::kGrid && (arguments.samples || arguments.design_seed)) {
+    return failure(
+        "--samples, --design-seed: no effect on a grid; expected --design random, sobol or lhs");
+  }
+  return {};
+}
+
+/// The plan of the file with the options on top.
+Result<SweepPlan> plan_of(const SweepArguments& arguments) {
+  SweepPlan plan;
+  if (!arguments.plan.empty()) {
+    auto loaded = load_plan(arguments.plan);
+    if (!loaded) return loaded;
+    plan = std::move(*loaded);
+  }
+  put_on_top(arguments.shared, plan);
+  if (!arguments.shared.estimators.empty()) {
+    plan.estimators = joined_specs(arguments.shared.estimators);
+  }
+  if (!arguments.design.empty()) plan.design = *parse_design_kind(arguments.design);
+  plan.samples = arguments.samples.value_or(plan.samples);
+  plan.design_seed = arguments.design_seed.value_or(plan.design_seed);
+  plan.timeout = arguments.timeout.value_or(plan.timeout);
+  plan.include_defaults = plan.include_defaults || arguments.include_defaults;
+  if (auto right = check_design(arguments, plan); !right) return tl::unexpected(right.error());
+  return plan;
+}
+
+Result<SweepOptions> options_of(const SweepArguments& arguments, const SweepPlan& plan) {
   SweepOptions options;
-  options.out = arguments.out;
-  options.cache = arguments.cache.folder;
-  const auto limit = limit_of(arguments.cache);
-  if (!limit) return tl::unexpected(limit.error());
-  options.cache_limit = *limit;
-  options.jobs = arguments.jobs;
-  options.retry = arguments.retry;
-  options.renew = arguments.renew;
-  options.walks_only = arguments.walks_only;
+  options.out = arguments.shared.out;
+  options.cache = arguments.shared.cache;
+  options.cache_limit = cache_limit(arguments.shared);
+  options.jobs = arguments.shared.jobs;
+  options.timeout_s = plan.timeout;
+  options.retry = arguments.shared.retry;
+  options.renew = arguments.force;
+  options.simulate_only = arguments.simulate_only;
   const auto shard = parse_shard(arguments.shard);
   if (!shard) return tl::unexpected(shard.error());
   options.shard = *shard;
   return options;
 }
 
-void print_units(std::span<const SweepUnit> units) {
-  for (const SweepUnit& unit : units) {
-    fmt::print("{}\t{}\n", unit.id, text_of(unit));
-  }
-}
-
-void print_report(const UnitRun& run, const SweepArguments& arguments) {
-  fmt::print("{} units done, {} of them failed; {} found finished; {} walks simulated\n", run.done,
-             run.failed, run.reused, run.walks);
-  print_pruned(run.pruned, arguments.cache);
+void print_results(const JobRun& run, const SharedOptions& shared) {
+  fmt::print("{} jobs done, {} of them failed; {} found finished; {} sequences simulated\n",
+             run.done, run.failed, run.reused, run.sequences);
+  print_pruned(run.pruned, shared);
   if (!run.complete) fmt::print("interrupted: the same command continues\n");
-  if (run.failed > 0) fmt::print("why: aims merge {0}; again: --retry\n", arguments.out);
-  fmt::print("results: {}; into one database: aims merge {}\n",
-             (fs::path(arguments.out) / "units").string(), arguments.out);
+  if (run.failed > 0) {
+    fmt::print("why jobs failed: aims merge {0}; to repeat them: --retry\n", shared.out);
+  }
+  fmt::print("results: {}; to collect them: aims merge {}\n",
+             (fs::path(shared.out) / "jobs").string(), shared.out);
 }
 
-int sweep_command(const SweepArguments& arguments, const fs::path& folder) {
-  const auto plan = plan_of(arguments.plan);
+int sweep_command(const SweepArguments& arguments) {
+  const auto plan = plan_of(arguments);
   if (!plan) return bad_input("sweep", plan.error());
-  const auto options = options_of(arguments);
+  const auto options = options_of(arguments, *plan);
   if (!options) return bad_input("sweep", options.error());
-  const auto units =
-      plan_units(*plan, arguments.plan.folder.empty() ? folder : fs::path(arguments.plan.folder));
-  if (!units) return bad_input("sweep", units.error());
+  const auto jobs = plan_jobs(*plan, arguments.shared.folder);
+  if (!jobs) return bad_input("sweep", jobs.error());
   if (arguments.list) {
-    print_units(part_of(*units, options->shard));
+    for (const Job& job : part_of(*jobs, options->shard)) {
+      fmt::print("{}\t{}\n", job.id, text_of(job));
+    }
     return kOk;
   }
   watch_interrupt();
-  UnitDisplay display(arguments.quiet);
-  const auto run = run_sweep(*plan, *units, *options, display.observer());
+  JobDisplay display(arguments.shared.quiet);
+  const auto run = run_sweep(plan_text(*plan), *jobs, *options, display.observer());
   display.close();
   if (!run) return bad_input("sweep", run.error());
-  print_report(*run, arguments);
+  print_results(*run, arguments.shared);
   if (!run->complete) return kInterrupted;
   return run->failed == 0 ? kOk : kGateFailed;
 }
 
+void add_design(Command& command, SweepArguments& arguments) {
+  constexpr double kMost = 1e7;
+  command.choice("--design", arguments.design, {"grid", "random", "sobol", "lhs"},
+                 "How points are laid out (grid); lhs: Latin hypercube");
+  command.option("--samples", arguments.samples, {1, kMost},
+                 "Points of every design but a grid (64)");
+  command.option("--design-seed", arguments.design_seed, {0, 1e9}, "Seed of those points (1)");
+  command.flag("--include-defaults", arguments.include_defaults,
+               "Also run each estimator at its default setting");
+  command.option("--timeout", arguments.timeout, {0, 1e9},
+                 "Wall time of a job [s]; 0: no limit (0)");
+}
+
 }  // namespace
 
-void add_sweep_command(CLI::App& app, const fs::path& scenario_folder, int& exit_code) {
-  auto* command = app.add_subcommand(
-      "sweep",
-      "Evaluate estimators over ranges of their parameters or the simulation's; continues what was "
-      "interrupted");
+void declare_sweep(Command command, const fs::path& scenarios) {
   auto arguments = std::make_shared<SweepArguments>();
-  add_plan_options(*command, arguments->plan);
-  command->add_option("--out", arguments->out, "Folder that is filled or continued (out/sweep)");
-  add_cache_options(*command, arguments->cache);
-  add_jobs_option(*command, arguments->jobs,
-                  "Processes at a time; the results do not depend on it");
-  command->add_option("--shard", arguments->shard, "I/N: part I of N of the units");
-  command->add_flag("--list", arguments->list, "Print the units with their ids, and do nothing");
-  command->add_flag("--walks-only", arguments->walks_only,
-                    "Simulate the walks that are missing, and evaluate nothing");
-  command->add_flag("--retry", arguments->retry, "Do units that failed before again");
-  command->add_flag("--renew", arguments->renew,
-                    "Go on in a folder of another plan, code or scenarios");
-  command->add_flag("--quiet", arguments->quiet, "No progress");
-  command->footer(
+  arguments->shared.folder = scenarios.string();
+  command.argument("plan", arguments->plan, "YAML file of these options; the command line wins",
+                   Presence::kOptional);
+  add_plan_options(command, arguments->shared, "KEY=LOW:HIGH:COUNT or\nKEY=log(LOW,HIGH,COUNT)");
+  add_design(command, *arguments);
+  add_continued_out(command, arguments->shared, "out/sweep");
+  command.option("--shard", arguments->shard, "I/N: part I of N of the jobs (1/1)");
+  command.flag("--list", arguments->list, "Print the jobs with their ids, and run nothing");
+  command.flag("--simulate-only", arguments->simulate_only,
+               "Simulate missing sequences, and run no estimator");
+  command.flag(
+      "--force", arguments->force,
+      "Continue in a folder of another plan, code or scenario\nversion; valid results stay");
+  command.exclude("--retry", "--simulate-only");
+  command.exclude("--list", "--force");
+  command.exclude("--list", "--simulate-only");
+  command.footer(
+      "The same command again continues.\n"
       "Examples:\n"
-      "  aims sweep --over degeneracy.eta=0:6:13 --over 'degeneracy.kappa=log(1,100,9)' \\\n"
+      "  aims sweep --param degeneracy.eta=0:6:13 --param 'degeneracy.kappa=log(1,100,9)' \\\n"
       "      --scenarios corridor,severity_5 --seeds 1-5 --out out/eta\n"
-      "  aims sweep --over links.leg_odometry.loss=0:0.5:6 --estimators aims,leg --scenarios "
-      "corridor\n"
-      "  aims sweep plan.yaml --jobs 2\n"
-      "  aims sweep plan.yaml --shard 2/8          # one of eight parts, see docs/scaling.md\n"
-      "The same command again continues. Exit codes: as of aims; 1 when units failed.");
-  command->callback([arguments, scenario_folder, &exit_code] {
-    exit_code = sweep_command(*arguments, scenario_folder);
-  });
+      "  aims sweep --param links.leg_odometry.loss=0:0.5:6 --estimators aims,leg \\\n"
+      "      --scenarios corridor\n"
+      "  aims sweep plan.yaml --shard 2/8    # one of eight parts, e.g. on another machine\n"
+      "Exit codes: as of aims; 1 when jobs failed.");
+  command.action([arguments] { return sweep_command(*arguments); });
 }
 
 }  // namespace aims

@@ -2,19 +2,17 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/exit_code.hpp"
-#include "bench/cli/interrupt.hpp"
-#include "bench/cli/options.hpp"
-#include "bench/cli/sweep_options.hpp"
+#include "bench/cli/plan_options.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/tuning/tune.hpp"
-#include "bench/tuning/tune_report.hpp"
+#include "bench/tuning/tune_summary.hpp"
 #include "core/files/folder_lock.hpp"
+#include "estimator/estimator_spec.hpp"
 
 namespace aims {
 namespace {
@@ -22,14 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct TuneArguments {
+  SharedOptions shared;
   std::string plan;
-  std::string folder;
-  std::string out = "out/tune";
   std::string apply;
-  CacheArguments cache;
-  int jobs = default_jobs();
-  bool retry = false;
-  bool quiet = false;
 };
 
 /// A folder that is not there, is a tuning's, or holds nothing but what one that just began leaves.
@@ -49,52 +42,58 @@ Result<FolderLock> claim(const fs::path& out, const TunePlan& plan) {
   std::error_code code;
   if (!holds_tuning_or_nothing(out)) {
     return failure(
-        fmt::format("{}: exists and is no tuning's folder; give another --out", out.string()));
+        fmt::format("{}: exists and is no folder of aims tune; give another --out", out.string()));
   }
   fs::create_directories(out, code);
   if (code) return failure(fmt::format("{}: {}", out.string(), code.message()));
   auto lock = FolderLock::take(out);
   if (!lock) {
     return failure(
-        fmt::format("{}: another tuning works there, or it cannot be written", out.string()));
+        fmt::format("{}: in use by another aims tune, or it cannot be written", out.string()));
   }
   auto written = write_plan(plan, out / "tune.yaml");
   if (!written) return tl::unexpected(written.error());
   return std::move(*lock);
 }
 
-Result<void> check_apply(const TuneArguments& arguments, const TunePlan& plan) {
-  if (arguments.apply.empty()) return {};
-  if (plan.objectives.size() > 1) {
+Result<TunePlan> plan_of(const TuneArguments& arguments) {
+  auto plan = load_tune_plan(arguments.plan);
+  if (!plan) return plan;
+  put_on_top(arguments.shared, *plan);
+  const auto estimators = joined_specs(arguments.shared.estimators);
+  if (estimators.size() > 1) {
     return failure(
-        "--apply: several objectives give a front, of which none is the best; expected "
-        "a plan with one");
+        fmt::format("--estimators: expected one estimator, found {}", estimators.size()));
+  }
+  if (!estimators.empty()) plan->estimator = estimators.front();
+  if (arguments.apply.empty()) return plan;
+  if (plan->objectives.size() > 1) {
+    return failure("--apply: several objectives give a Pareto front; expected a plan with one");
   }
   const fs::path folder = fs::absolute(arguments.apply).parent_path();
-  if (fs::is_directory(folder)) return {};
+  if (fs::is_directory(folder)) return plan;
   return failure(fmt::format("--apply {}: no folder {}", arguments.apply, folder.string()));
 }
 
-Result<TuneResult> work(const TuneArguments& arguments, std::uintmax_t cache_limit,
-                        const TuneTask& task) {
-  UnitOptions options;
-  options.units = fs::path(arguments.out) / "units";
-  if (!arguments.cache.folder.empty()) options.cache = arguments.cache.folder;
-  options.cache_limit = cache_limit;
-  options.jobs = arguments.jobs;
+Result<TuneResult> work(const SharedOptions& shared, const TuneTask& task) {
+  JobOptions options;
+  options.folder = fs::path(shared.out) / "jobs";
+  if (!shared.cache.empty()) options.cache = shared.cache;
+  options.cache_limit = cache_limit(shared);
+  options.jobs = shared.jobs;
   options.timeout_s = task.plan.timeout;
-  options.retry = arguments.retry;
+  options.retry = shared.retry;
   watch_interrupt();
-  UnitRunner runner(std::move(options));
-  UnitDisplay display(arguments.quiet);
-  auto result = tune(task, run_by_units(runner, display.observer(), task.plan.objectives));
+  JobRunner runner(std::move(options));
+  JobDisplay display(shared.quiet);
+  auto result = tune(task, run_by_jobs(runner, display.observer(), task.plan.objectives));
   display.close();
-  print_pruned(runner.pruned(), arguments.cache);
+  print_pruned(runner.pruned(), shared);
   return result;
 }
 
 int finish(const TuneArguments& arguments, const TuneResult& result) {
-  const fs::path out = arguments.out;
+  const fs::path out = arguments.shared.out;
   std::vector<std::string> warnings;
   if (auto written = write_tuning(result, out, warnings); !written) {
     return bad_input("tune", written.error());
@@ -111,55 +110,40 @@ int finish(const TuneArguments& arguments, const TuneResult& result) {
   if (auto written = write_overlay(result, arguments.apply); !written) {
     return bad_input("tune", written.error());
   }
-  fmt::print("values: {0}; to use them: --set @{0}\n", arguments.apply);
+  fmt::print("tuned values: {0}; to use them: --set @{0}\n", arguments.apply);
   return kOk;
 }
 
-int tune_command(const TuneArguments& arguments, const fs::path& scenario_folder) {
-  const auto plan = load_tune_plan(arguments.plan);
+int tune_command(const TuneArguments& arguments) {
+  const auto plan = plan_of(arguments);
   if (!plan) return bad_input("tune", plan.error());
-  if (auto right = check_apply(arguments, *plan); !right) return bad_input("tune", right.error());
-  const auto limit = limit_of(arguments.cache);
-  if (!limit) return bad_input("tune", limit.error());
-  const auto task =
-      tune_task(*plan, arguments.folder.empty() ? scenario_folder : fs::path(arguments.folder));
+  const auto task = tune_task(*plan, arguments.shared.folder);
   if (!task) return bad_input("tune", Error{arguments.plan + ": " + task.error().message});
-  const auto lock = claim(arguments.out, *plan);
+  const auto lock = claim(arguments.shared.out, *plan);
   if (!lock) return bad_input("tune", lock.error());
-  const auto result = work(arguments, *limit, *task);
+  const auto result = work(arguments.shared, *task);
   if (!result) return bad_input("tune", result.error());
   return finish(arguments, *result);
 }
 
 }  // namespace
 
-void add_tune_command(CLI::App& app, const fs::path& scenario_folder, int& exit_code) {
-  auto* command = app.add_subcommand(
-      "tune", "Look for better values of an estimator's parameters; says whether they hold");
+void declare_tune(Command command, const fs::path& scenarios) {
   auto arguments = std::make_shared<TuneArguments>();
-  command->add_option("plan", arguments->plan, "YAML file: what is tuned, on what, for what")
-      ->required();
-  command->add_option("--folder", arguments->folder,
-                      "Folder of scenarios, searched with those in it");
-  command->add_option("--out", arguments->out, "Folder that is filled or continued (out/tune)");
-  command->add_option(
-      "--apply", arguments->apply,
-      "Write the values there as a file for --set @FILE, with where they come from");
-  add_cache_options(*command, arguments->cache);
-  add_jobs_option(*command, arguments->jobs,
-                  "Processes at a time; the results do not depend on it");
-  command->add_flag("--retry", arguments->retry, "Do units that failed before again");
-  command->add_flag("--quiet", arguments->quiet, "No progress");
-  command->footer(
+  arguments->shared.folder = scenarios.string();
+  command.argument("plan", arguments->plan,
+                   "YAML file: parameters, sequences, objectives, optimizer");
+  add_plan_options(command, arguments->shared, "KEY=LOW:HIGH or\nKEY=log(LOW,HIGH)");
+  add_continued_out(command, arguments->shared, "out/tune");
+  command.option("--apply", arguments->apply,
+                 "Also write the tuned values to this file, for --set @FILE");
+  command.footer(
+      "The same command again continues.\n"
       "Examples:\n"
       "  aims tune bench/tuning/plans/aims.yaml --out out/tune --jobs 2\n"
       "  aims tune plan.yaml --apply tuned.yaml\n"
-      "  aims run corridor --set @tuned.yaml\n"
-      "What is done is kept: the same command continues, and repeats nothing. docs/tuning.md\n"
-      "tells what to tune. Exit codes: as of aims.");
-  command->callback([arguments, scenario_folder, &exit_code] {
-    exit_code = tune_command(*arguments, scenario_folder);
-  });
+      "  aims run corridor --set @tuned.yaml");
+  command.action([arguments] { return tune_command(*arguments); });
 }
 
 }  // namespace aims

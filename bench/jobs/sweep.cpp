@@ -45,14 +45,14 @@ bool holds_sweep_or_nothing(const fs::path& out) {
 Result<Claim> claim(const fs::path& out, const Shard& shard) {
   if (!holds_sweep_or_nothing(out)) {
     return failure(
-        fmt::format("{}: exists and is no sweep's folder; give another --out", out.string()));
+        fmt::format("{}: exists and is no folder of aims sweep; give another --out", out.string()));
   }
   if (auto made = make_folder(out); !made) return tl::unexpected(made.error());
   const bool alone = shard.count == 1;
   auto folder = alone ? FolderLock::take(out) : FolderLock::share(out);
   if (!folder) {
     return failure(
-        fmt::format("{}: another sweep works there, or it cannot be written", out.string()));
+        fmt::format("{}: in use by another aims sweep, or it cannot be written", out.string()));
   }
   Claim claim{std::move(*folder), std::nullopt};
   if (alone) return claim;
@@ -64,16 +64,16 @@ Result<Claim> claim(const fs::path& out, const Shard& shard) {
                              shard.count));
 }
 
-/// The walks of units that other shards may still do.
-std::set<std::string> shared_walks(std::span<const SweepUnit> units, const Shard& shard) {
-  std::set<std::string> walks;
-  if (shard.count == 1) return walks;
+/// The sequences of jobs that other shards may still do.
+std::set<std::string> shared_sequences(std::span<const Job> jobs, const Shard& shard) {
+  std::set<std::string> sequences;
+  if (shard.count == 1) return sequences;
   std::set<std::pair<const Scenario*, std::uint64_t>> known;
-  for (const SweepUnit& unit : units) {
-    if (!known.emplace(unit.scenario.get(), unit.seed).second) continue;
-    walks.insert(WalkCache::id_of(*unit.scenario, unit.seed));
+  for (const Job& job : jobs) {
+    if (!known.emplace(job.scenario.get(), job.seed).second) continue;
+    sequences.insert(SequenceCache::id_of(*job.scenario, job.seed));
   }
-  return walks;
+  return sequences;
 }
 
 }  // namespace
@@ -91,31 +91,31 @@ Result<Shard> parse_shard(std::string_view text) {
   return failure(fmt::format("--shard: expected I/N with I from 1 to N, e.g. 2/8, got '{}'", text));
 }
 
-std::span<const SweepUnit> part_of(std::span<const SweepUnit> units, const Shard& shard) {
+std::span<const Job> part_of(std::span<const Job> jobs, const Shard& shard) {
   const auto border = [&](int index) {
-    return units.size() * static_cast<std::size_t>(index) / static_cast<std::size_t>(shard.count);
+    return jobs.size() * static_cast<std::size_t>(index) / static_cast<std::size_t>(shard.count);
   };
-  return units.subspan(border(shard.index - 1), border(shard.index) - border(shard.index - 1));
+  return jobs.subspan(border(shard.index - 1), border(shard.index) - border(shard.index - 1));
 }
 
-Result<UnitRun> run_sweep(const SweepPlan& plan, std::span<const SweepUnit> units,
-                          const SweepOptions& options, const UnitObserver& observer) {
+Result<JobRun> run_sweep(const std::string& plan, std::span<const Job> jobs,
+                         const SweepOptions& options, const JobObserver& observer) {
   const auto claimed = claim(options.out, options.shard);
   if (!claimed) return tl::unexpected(claimed.error());
   const SweepFolder folder(options.out);
-  if (auto entered = folder.enter(plan, units, options.renew); !entered) {
+  if (auto entered = folder.enter(plan, jobs, options.renew); !entered) {
     return tl::unexpected(entered.error());
   }
-  UnitOptions unit_options;
-  unit_options.units = folder.units().path();
-  if (!options.cache.empty()) unit_options.cache = options.cache;
-  unit_options.cache_limit = options.cache_limit;
-  unit_options.kept_walks = shared_walks(units, options.shard);
-  unit_options.jobs = options.jobs;
-  unit_options.timeout_s = plan.timeout;
-  unit_options.retry = options.retry;
-  unit_options.walks_only = options.walks_only;
-  return UnitRunner(std::move(unit_options)).run(part_of(units, options.shard), observer);
+  JobOptions job_options;
+  job_options.folder = folder.jobs().path();
+  if (!options.cache.empty()) job_options.cache = options.cache;
+  job_options.cache_limit = options.cache_limit;
+  job_options.kept_sequences = shared_sequences(jobs, options.shard);
+  job_options.jobs = options.jobs;
+  job_options.timeout_s = options.timeout_s;
+  job_options.retry = options.retry;
+  job_options.simulate_only = options.simulate_only;
+  return JobRunner(std::move(job_options)).run(part_of(jobs, options.shard), observer);
 }
 
 }  // namespace aims

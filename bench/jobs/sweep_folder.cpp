@@ -19,15 +19,15 @@ namespace fs = std::filesystem;
 constexpr std::string_view kCodeLine = "# code ";
 
 /// plan.yaml: the plan, and the code that its ids are of.
-std::string plan_file_text(const SweepPlan& plan) {
-  return fmt::format("# aims sweep\n{}{}\n{}", kCodeLine, code_version(), plan_text(plan));
+std::string plan_file_text(const std::string& plan) {
+  return fmt::format("# aims sweep\n{}{}\n{}", kCodeLine, code_version(), plan);
 }
 
-std::string unit_list(std::span<const SweepUnit> units) {
+std::string job_list(std::span<const Job> jobs) {
   CsvTable table({"id", "scenario", "seed", "estimator"});
-  for (const SweepUnit& unit : units) {
-    table.add(unit.id).add(unit.scenario->name).add(static_cast<std::int64_t>(unit.seed));
-    table.add(point_text(unit)).end_row();
+  for (const Job& job : jobs) {
+    table.add(job.id).add(job.scenario->name).add(static_cast<std::int64_t>(job.seed));
+    table.add(point_text(job)).end_row();
   }
   return table.text();
 }
@@ -69,29 +69,29 @@ std::string first_difference(const std::string& theirs, const std::string& ours)
   return "(fewer lines)";
 }
 
-/// Why the folder's units are not these; empty when they are, whatever else the plan says.
+/// Why the folder's jobs are not these; empty when they are, whatever else the plan says.
 std::string mismatch(const std::string& plan_there, const std::string& plan_here,
                      const std::string& list_there, const std::string& list_here) {
   const std::string code_there = line_of(plan_there, kCodeLine);
   if (code_there != code_version()) {
-    return fmt::format("holds units of code {}, and this is code {}", code_there, code_version());
+    return fmt::format("holds jobs of code {}, and this is code {}", code_there, code_version());
   }
   if (list_there == list_here) return "";
   if (plan_there != plan_here) {
-    return fmt::format("holds units of another plan, with '{}'",
+    return fmt::format("holds jobs of another plan, with '{}'",
                        first_difference(plan_there, plan_here));
   }
-  return "holds units of other scenarios: a scenario file has changed";
+  return "holds jobs of other scenarios: a scenario file has changed";
 }
 
 }  // namespace
 
-Result<void> SweepFolder::enter(const SweepPlan& plan, std::span<const SweepUnit> units,
+Result<void> SweepFolder::enter(const std::string& plan, std::span<const Job> jobs,
                                 bool renew) const {
   const fs::path plan_file = path_ / "plan.yaml";
-  const fs::path list_file = path_ / "units.csv";
+  const fs::path list_file = path_ / "jobs.csv";
   const std::string plan_here = plan_file_text(plan);
-  const std::string list_here = unit_list(units);
+  const std::string list_here = job_list(jobs);
   if (fs::exists(plan_file)) {
     const auto plan_there = read_file(plan_file);
     if (!plan_there) return tl::unexpected(plan_there.error());
@@ -101,7 +101,7 @@ Result<void> SweepFolder::enter(const SweepPlan& plan, std::span<const SweepUnit
         mismatch(*plan_there, plan_here, list_there.value_or(list_here), list_here);
     if (!why.empty() && !renew) {
       return failure(fmt::format(
-          "{}: {}; give another --out, or --renew to go on here (what is still valid is kept)",
+          "{}: {}; give another --out, or --force to continue here (valid results stay)",
           path_.string(), why));
     }
     if (why.empty() && list_there && *plan_there == plan_here) return {};
@@ -110,22 +110,22 @@ Result<void> SweepFolder::enter(const SweepPlan& plan, std::span<const SweepUnit
   return write_file_atomically(list_file, list_here);
 }
 
-Result<std::vector<ListedUnit>> SweepFolder::listed() const {
-  const fs::path file = path_ / "units.csv";
+Result<std::vector<ListedJob>> SweepFolder::listed() const {
+  const fs::path file = path_ / "jobs.csv";
   const auto text = read_file(file);
   if (!text)
-    return failure(fmt::format("{}: not the folder of a sweep: no units.csv", path_.string()));
+    return failure(fmt::format("{}: not the folder of a sweep: no jobs.csv", path_.string()));
   std::istringstream lines(*text);
   std::string line;
   std::getline(lines, line);
-  std::vector<ListedUnit> units;
+  std::vector<ListedJob> jobs;
   while (std::getline(lines, line)) {
     std::vector<std::string> cells = cells_of(line);
     if (cells.size() != 4)
       return failure(fmt::format("{}: expected 4 cells: {}", file.string(), line));
-    units.push_back({cells[0], cells[1], cells[2], cells[3]});
+    jobs.push_back({cells[0], cells[1], cells[2], cells[3]});
   }
-  return units;
+  return jobs;
 }
 
 Result<std::string> SweepFolder::plan() const { return read_file(path_ / "plan.yaml"); }

@@ -7,38 +7,37 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/unit_folder.hpp"
-#include "bench/tuning/sweep_plan.hpp"
+#include "bench/jobs/job_results.hpp"
 #include "core/error.hpp"
 #include "core/files/folder_lock.hpp"
 
 namespace aims {
 
-/// A unit as units.csv lists it: enough to say what is missing, without scenarios or this code.
-struct ListedUnit {
+/// A job as jobs.csv lists it: enough to say what is missing, without scenarios or this code.
+struct ListedJob {
   std::string id;
   std::string scenario;
   std::string seed;
   std::string estimator;  ///< with its settings and those of the scenario
 };
 
-/// The folder of a sweep: plan.yaml, units.csv, units/ID.json, shards/I-of-N/.lock.
+/// The folder of a sweep: plan.yaml, jobs.csv, jobs/ID.json, shards/I-of-N/.lock.
 class SweepFolder {
  public:
   explicit SweepFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Makes the folder one of that plan and those units, or checks that it is. Error when it is
-  /// something else or of other units; with `renew` it becomes one of these, and results that are
+  /// Makes the folder one of that plan (as YAML) and those jobs, or checks that it is. Error when it is
+  /// something else or of other jobs; with `renew` it becomes one of these, and results that are
   /// also of these stay valid.
-  Result<void> enter(const SweepPlan& plan, std::span<const SweepUnit> units, bool renew) const;
+  Result<void> enter(const std::string& plan, std::span<const Job> jobs, bool renew) const;
 
-  /// Every unit that the sweep is to do. Error when the folder is not of a sweep.
-  Result<std::vector<ListedUnit>> listed() const;
+  /// Every job that the sweep is to do. Error when the folder is not of a sweep.
+  Result<std::vector<ListedJob>> listed() const;
 
   /// The text of plan.yaml.
   Result<std::string> plan() const;
 
-  UnitFolder units() const { return UnitFolder(path_ / "units"); }
+  JobResults jobs() const { return JobResults(path_ / "jobs"); }
   const std::filesystem::path& path() const { return path_; }
 
  private:

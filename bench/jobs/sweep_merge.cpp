@@ -15,15 +15,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMissing = "missing";
 
-bool is_done(const MergedUnit& unit) { return unit.outcome() == name_of(UnitOutcome::kDone); }
+bool is_done(const MergedJob& job) { return job.outcome() == name_of(JobOutcome::kDone); }
 
-/// The file of a unit; null when it is not there or no such file.
-Json file_of(const UnitFolder& folder, const std::string& id) {
+/// The file of a job; null when it is not there or no such file.
+Json file_of(const JobResults& folder, const std::string& id) {
   auto json = folder.read(id);
   return json && result_in(*json) ? std::move(*json) : Json();
 }
 
-/// Calls `visit(key, value)` for every leaf of the unit's scores, keys dotted.
+/// Calls `visit(key, value)` for every leaf of the job's scores, keys dotted.
 template <class Visit>
 void visit_scores(const Json& json, const std::string& prefix, const Visit& visit) {
   for (const auto& [key, value] : json.items()) {
@@ -62,14 +62,14 @@ void add_cell(CsvTable& table, const Json& value) {
 
 }  // namespace
 
-std::string MergedUnit::outcome() const {
+std::string MergedJob::outcome() const {
   return file.is_null() ? kMissing : file.value("outcome", kMissing);
 }
 
 std::size_t MergedSweep::count(std::string_view outcome) const {
   return static_cast<std::size_t>(
-      std::count_if(units.begin(), units.end(),
-                    [&](const MergedUnit& each) { return each.outcome() == outcome; }));
+      std::count_if(jobs.begin(), jobs.end(),
+                    [&](const MergedJob& each) { return each.outcome() == outcome; }));
 }
 
 Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
@@ -85,19 +85,19 @@ Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
     if (std::find(sweep.plans.begin(), sweep.plans.end(), *plan) == sweep.plans.end()) {
       sweep.plans.push_back(*plan);
     }
-    for (ListedUnit& unit : *listed) {
-      const auto [at, added] = index.emplace(unit.id, sweep.units.size());
-      if (added) sweep.units.push_back({std::move(unit), Json()});
+    for (ListedJob& job : *listed) {
+      const auto [at, added] = index.emplace(job.id, sweep.jobs.size());
+      if (added) sweep.jobs.push_back({std::move(job), Json()});
     }
-    for (const std::string& id : folder.units().ids()) {
+    for (const std::string& id : folder.jobs().ids()) {
       const auto at = index.find(id);
       if (at == index.end()) {
         others.insert(id);
         continue;
       }
-      MergedUnit& unit = sweep.units[at->second];
-      if (is_done(unit)) continue;
-      if (Json file = file_of(folder.units(), id); !file.is_null()) unit.file = std::move(file);
+      MergedJob& job = sweep.jobs[at->second];
+      if (is_done(job)) continue;
+      if (Json file = file_of(folder.jobs(), id); !file.is_null()) job.file = std::move(file);
     }
   }
   // A later folder may list what an earlier one has a result of.
@@ -109,10 +109,10 @@ Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
 Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
   Columns parameters;
   Columns scores;
-  for (const MergedUnit& unit : sweep.units) {
-    if (!is_done(unit)) continue;
-    for (const auto& [key, unused] : unit.file["settings"].items()) parameters.add(key);
-    visit_scores(unit.file["scores"], "",
+  for (const MergedJob& job : sweep.jobs) {
+    if (!is_done(job)) continue;
+    for (const auto& [key, unused] : job.file["settings"].items()) parameters.add(key);
+    visit_scores(job.file["scores"], "",
                  [&](const std::string& key, const Json&) { scores.add(key); });
   }
   std::vector<std::string> header = {"id", "scenario", "seed", "estimator", "outcome"};
@@ -120,15 +120,15 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
     header.insert(header.end(), columns->names().begin(), columns->names().end());
   }
   CsvTable table(header);
-  for (const MergedUnit& unit : sweep.units) {
-    table.add(unit.listed.id).add(unit.listed.scenario).add(unit.listed.seed);
-    table.add(unit.listed.estimator).add(unit.outcome());
-    if (is_done(unit)) {
+  for (const MergedJob& job : sweep.jobs) {
+    table.add(job.listed.id).add(job.listed.scenario).add(job.listed.seed);
+    table.add(job.listed.estimator).add(job.outcome());
+    if (is_done(job)) {
       std::map<std::string, Json> found;
-      visit_scores(unit.file["scores"], "",
+      visit_scores(job.file["scores"], "",
                    [&](const std::string& key, const Json& value) { found[key] = value; });
       for (const std::string& key : parameters.names()) {
-        add_cell(table, unit.file["settings"].value(key, Json()));
+        add_cell(table, job.file["settings"].value(key, Json()));
       }
       for (const std::string& key : scores.names()) add_cell(table, found[key]);
     }
@@ -140,14 +140,14 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
 TextTable merge_table(const MergedSweep& sweep) {
   const std::vector<std::string> outcomes = {"done", "failed", "crashed", "timed_out", kMissing};
   TextTable table;
-  table.header = {"scenario", "units"};
+  table.header = {"scenario", "jobs"};
   table.header.insert(table.header.end(), outcomes.begin(), outcomes.end());
   Columns scenarios;
   std::map<std::string, std::map<std::string, std::size_t>> counts;
-  for (const MergedUnit& unit : sweep.units) {
-    scenarios.add(unit.listed.scenario);
-    ++counts[unit.listed.scenario]["units"];
-    ++counts[unit.listed.scenario][unit.outcome()];
+  for (const MergedJob& job : sweep.jobs) {
+    scenarios.add(job.listed.scenario);
+    ++counts[job.listed.scenario]["jobs"];
+    ++counts[job.listed.scenario][job.outcome()];
   }
   for (const std::string& scenario : scenarios.names()) {
     std::vector<std::string> row = {scenario};

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTables = R"(
 CREATE TABLE about (key TEXT NOT NULL, value TEXT NOT NULL);
-CREATE TABLE units (unit INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE, scenario TEXT NOT NULL,
+CREATE TABLE jobs (job INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE, scenario TEXT NOT NULL,
   family TEXT, level REAL, seed INTEGER NOT NULL, estimator TEXT NOT NULL, settings TEXT NOT NULL,
   outcome TEXT NOT NULL, message TEXT, code TEXT, wall_s REAL);
-CREATE TABLE parameters (unit INTEGER NOT NULL REFERENCES units, key TEXT NOT NULL, value,
-  PRIMARY KEY (unit, key)) WITHOUT ROWID;
-CREATE TABLE scores (unit INTEGER NOT NULL REFERENCES units, key TEXT NOT NULL, value,
-  PRIMARY KEY (unit, key)) WITHOUT ROWID;
+CREATE TABLE parameters (job INTEGER NOT NULL REFERENCES jobs, key TEXT NOT NULL, value,
+  PRIMARY KEY (job, key)) WITHOUT ROWID;
+CREATE TABLE scores (job INTEGER NOT NULL REFERENCES jobs, key TEXT NOT NULL, value,
+  PRIMARY KEY (job, key)) WITHOUT ROWID;
 )";
 
 void bind_text(SQLite::Statement& statement, int at, const Json& file, const char* key) {
@@ -58,7 +58,7 @@ Json setting_value(const std::string& text) {
 class Filler {
  public:
   explicit Filler(SQLite::Database& database)
-      : unit_(database, "INSERT INTO units VALUES (?,?,?,?,?,?,?,?,?,?,?,?)"),
+      : job_(database, "INSERT INTO jobs VALUES (?,?,?,?,?,?,?,?,?,?,?,?)"),
         parameter_(database, "INSERT INTO parameters VALUES (?,?,?)"),
         score_(database, "INSERT INTO scores VALUES (?,?,?)"),
         about_(database, "INSERT INTO about VALUES (?,?)") {}
@@ -69,24 +69,24 @@ class Filler {
     finish(about_);
   }
 
-  void add(const MergedUnit& unit) {
+  void add(const MergedJob& job) {
     ++number_;
-    const ListedUnit& listed = unit.listed;
-    const Json& file = unit.file;
-    unit_.bind(1, number_);
-    unit_.bind(2, listed.id);
-    unit_.bind(3, listed.scenario);
-    bind_text(unit_, 4, file, "family");
-    bind_number(unit_, 5, file.is_object() ? file.value("level", Json()) : Json());
-    unit_.bind(6, static_cast<std::int64_t>(std::stoull(listed.seed)));
+    const ListedJob& listed = job.listed;
+    const Json& file = job.file;
+    job_.bind(1, number_);
+    job_.bind(2, listed.id);
+    job_.bind(3, listed.scenario);
+    bind_text(job_, 4, file, "family");
+    bind_number(job_, 5, file.is_object() ? file.value("level", Json()) : Json());
+    job_.bind(6, static_cast<std::int64_t>(std::stoull(listed.seed)));
     const std::size_t plus = listed.estimator.find('+');
-    unit_.bind(7, listed.estimator.substr(0, plus));
-    unit_.bind(8, plus == std::string::npos ? "" : listed.estimator.substr(plus + 1));
-    unit_.bind(9, unit.outcome());
-    bind_text(unit_, 10, file, "message");
-    bind_text(unit_, 11, file, "code");
-    bind_number(unit_, 12, file.is_object() ? file.value("wall_s", Json()) : Json());
-    finish(unit_);
+    job_.bind(7, listed.estimator.substr(0, plus));
+    job_.bind(8, plus == std::string::npos ? "" : listed.estimator.substr(plus + 1));
+    job_.bind(9, job.outcome());
+    bind_text(job_, 10, file, "message");
+    bind_text(job_, 11, file, "code");
+    bind_number(job_, 12, file.is_object() ? file.value("wall_s", Json()) : Json());
+    finish(job_);
     if (!file.is_object()) return;
     const Json settings = file.value("settings", Json::object());
     for (const auto& [key, value] : settings.items()) {
@@ -119,7 +119,7 @@ class Filler {
   }
 
   std::int64_t number_ = 0;
-  SQLite::Statement unit_;
+  SQLite::Statement job_;
   SQLite::Statement parameter_;
   SQLite::Statement score_;
   SQLite::Statement about_;
@@ -135,7 +135,7 @@ void fill(const MergedSweep& sweep, const fs::path& file) {
   Filler filler(database);
   filler.about("schema", std::string(kSweepSchema));
   for (const std::string& plan : sweep.plans) filler.about("plan", plan);
-  for (const MergedUnit& unit : sweep.units) filler.add(unit);
+  for (const MergedJob& job : sweep.jobs) filler.add(job);
   transaction.commit();
 }
 

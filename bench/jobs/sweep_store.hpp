@@ -17,36 +17,36 @@ namespace aims {
 /// Version of the layout of sweep.sqlite; see docs/scaling.md.
 inline constexpr std::string_view kSweepSchema = "aims.sweep/1";
 
-/// A unit that a sweep was to do and its file, null when there is none.
-struct MergedUnit {
-  ListedUnit listed;
+/// A job that a sweep was to do and its file, null when there is none.
+struct MergedJob {
+  ListedJob listed;
   Json file;
 
   /// "done", "failed", "crashed", "timed_out" or "missing".
   std::string outcome() const;
 };
 
-/// Every unit of one or several folders.
+/// Every job of one or several folders.
 struct MergedSweep {
-  std::vector<MergedUnit> units;  ///< in the order of the plans; each id once
+  std::vector<MergedJob> jobs;  ///< in the order of the plans; each id once
   std::vector<std::string> plans;
-  std::size_t others = 0;  ///< results in the folders that are of no listed unit, left out
+  std::size_t others = 0;  ///< results in the folders that are of no listed job, left out
 
   std::size_t count(std::string_view outcome) const;
 };
 
-/// Reads the folders' units; of a unit that several have, the one that is done. Works while sweeps
+/// Reads the folders' jobs; of a job that several have, the one that is done. Works while sweeps
 /// fill them: what is not there yet is missing. Error when one is not the folder of a sweep.
 Result<MergedSweep> merge_sweeps(std::span<const std::filesystem::path> folders);
 
-/// Writes the units as an SQLite database with the tables units, parameters, scores and about. The
+/// Writes the jobs as an SQLite database with the tables jobs, parameters, scores and about. The
 /// file appears whole.
 Result<void> write_sqlite(const MergedSweep& sweep, const std::filesystem::path& file);
 
-/// Writes the units as one table: a row per unit, a column per parameter and score.
+/// Writes the jobs as one table: a row per job, a column per parameter and score.
 Result<void> write_sweep_csv(const MergedSweep& sweep, const std::filesystem::path& file);
 
-/// Units by scenario and outcome.
+/// Jobs by scenario and outcome.
 TextTable merge_table(const MergedSweep& sweep);
 
 }  // namespace aims

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "bench/jobs/stored_results.hpp"
-#include "bench/jobs/unit_id.hpp"
+#include "bench/jobs/job_id.hpp"
 #include "bench/run/weak_axis_series.hpp"
 #include "core/files/atomic_file.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is stored of `label` under "units" or "specs"; empty when there is nothing.
+/// What is stored of `label` under "jobs" or "specs"; empty when there is nothing.
 std::string stored_text(const RunRecord& record, const char* group, const std::string& label) {
   return record.scores.value(group, Json::object()).value(label, std::string());
 }
@@ -38,8 +38,8 @@ void keep_current(const Scenario& scenario, std::uint64_t seed, bool series, Sto
   std::vector<std::string> stale;
   std::vector<std::string> bare;
   for (const auto& [label, unused] : estimators.items()) {
-    const std::string id = unit_id(scenario, seed, spec_of(scenario, record, label));
-    if (stored_text(record, "units", label) != id) {
+    const std::string id = job_id(scenario, seed, spec_of(scenario, record, label));
+    if (stored_text(record, "jobs", label) != id) {
       stale.push_back(label);
     } else if (series && !holds_series(record, label)) {
       bare.push_back(label);
@@ -85,10 +85,10 @@ Result<void> UnitStore::put(const Scenario& scenario, RunRecord& record) const {
   Json specs = Json::object();
   for (const auto& [label, unused] : record.scores["estimators"].items()) {
     const std::string spec = spec_of(scenario, record, label);
-    ids[label] = unit_id(scenario, record.seed, spec);
+    ids[label] = job_id(scenario, record.seed, spec);
     if (spec != label) specs[label] = spec;
   }
-  record.scores["units"] = std::move(ids);
+  record.scores["jobs"] = std::move(ids);
   record.scores["specs"] = std::move(specs);
   const fs::path folder = folder_of(scenario.name, record.seed);
   std::error_code code;

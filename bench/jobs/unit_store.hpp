@@ -21,14 +21,14 @@ struct StoredUnits {
 };
 
 /// The folder `runs/` of a suite: `SCENARIO/seed-N/scores.json`, one file per scenario and seed,
-/// that carries the id of each estimator's unit, and the spec of each that has a label. A file is
+/// that carries the id of each estimator's job, and the spec of each that has a label. A file is
 /// replaced whole, so that it is finished or is not there.
 class UnitStore {
  public:
   /// With `series`, an estimator counts as finished only with its errors along the weak axis.
   explicit UnitStore(const std::filesystem::path& suite_folder, bool series = false);
 
-  /// What is stored under the ids that the scenario's units have now. A file that cannot be read
+  /// What is stored under the ids that the scenario's jobs have now. A file that cannot be read
   /// counts as not there.
   StoredUnits find(const Scenario& scenario, std::uint64_t seed) const;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "estimator/registry.hpp"
 
@@ -51,6 +52,30 @@ Result<std::vector<ScenarioFile>> scenarios_in(const fs::path& folder,
     return each.scenario && !has_any(*each.scenario, tags);
   });
   return files;
+}
+
+Result<std::vector<ScenarioFile>> select_scenarios(std::span<const std::string> names,
+                                                   std::span<const std::string> tags,
+                                                   const fs::path& folder,
+                                                   std::span<const std::string> overrides) {
+  std::vector<ScenarioFile> selected;
+  const auto add = [&selected](ScenarioFile file) {
+    const bool known = std::any_of(selected.begin(), selected.end(), [&](const auto& each) {
+      return fs::weakly_canonical(each.file) == fs::weakly_canonical(file.file);
+    });
+    if (!known) selected.push_back(std::move(file));
+  };
+  for (const std::string& name : names) {
+    const auto file = find_scenario(name, folder);
+    if (!file) return tl::unexpected(file.error());
+    add({*file, load_scenario(*file, overrides)});
+  }
+  if (!names.empty() && tags.empty()) return selected;
+  auto files = scenarios_in(folder, tags, overrides);
+  if (!files) return files;
+  for (ScenarioFile& each : *files) add(std::move(each));
+  if (!selected.empty()) return selected;
+  return failure(fmt::format("{}: holds no scenario", folder.string()));
 }
 
 std::vector<CatalogueEntry> scenario_catalogue(std::span<const ScenarioFile> files) {

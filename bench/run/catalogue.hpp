@@ -38,6 +38,14 @@ Result<std::vector<ScenarioFile>> scenarios_in(const std::filesystem::path& fold
                                                std::span<const std::string> tags,
                                                std::span<const std::string> overrides = {});
 
+/// The scenarios of these files or names, then all others in `folder` that have any of the tags;
+/// without either every scenario there. Each comes once. Errors as of `scenarios_in` and
+/// `find_scenario`, and a folder without any scenario.
+Result<std::vector<ScenarioFile>> select_scenarios(std::span<const std::string> names,
+                                                   std::span<const std::string> tags,
+                                                   const std::filesystem::path& folder,
+                                                   std::span<const std::string> overrides = {});
+
 /// A line per scenario.
 std::vector<CatalogueEntry> scenario_catalogue(std::span<const ScenarioFile> files);
 

@@ -124,7 +124,7 @@ std::string reproducing_command(const Scenario& scenario, const GateCheck& check
       std::find_if(scenario.estimators.begin(), scenario.estimators.end(),
                    [&](const auto& spec) { return label_of(spec) == check.expectation.estimator; });
   const bool found = asked != scenario.estimators.end();
-  std::string command = fmt::format("aims run {} --seed {} --estimators {}", quoted(file),
+  std::string command = fmt::format("aims run {} --seeds {} --estimators {}", quoted(file),
                                     fmt::join(check.seeds, ","),
                                     quoted(found ? *asked : check.expectation.estimator));
   for (const std::string& setting : scenario.overrides) {

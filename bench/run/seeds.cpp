@@ -40,7 +40,7 @@ Result<std::vector<std::uint64_t>> parse_seeds(std::string_view text) {
     const auto comma = rest.find(',');
     if (!append_range(rest.substr(0, comma), seeds)) {
       return failure(fmt::format(
-          "--seed: '{}' is not a seed, a range like 1-5, or a list like 1,4,7-9", text));
+          "--seeds: '{}' is not a seed, a range like 1-5, or a list like 1,4,7-9", text));
     }
     if (comma == std::string_view::npos) return seeds;
     rest = rest.substr(comma + 1);

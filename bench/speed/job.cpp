@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a unit of a sweep costs beside its estimator: reading the walk, and a process of its own.
+// What a job of a sweep costs beside its estimator: reading the sequence, and a process of its own.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
-#include "bench/jobs/evaluate.hpp"
+#include "bench/run/evaluate.hpp"
 #include "bench/jobs/process_pool.hpp"
-#include "bench/jobs/walk_cache.hpp"
+#include "bench/jobs/sequence_cache.hpp"
 
 namespace aims {
 namespace {
@@ -23,23 +23,23 @@ Scenario walk_of(double metres) {
   return scenario;
 }
 
-/// A walk in a folder that goes with the program; made once.
-class Walk {
+/// A sequence in a folder that goes with the program; made once.
+class Sequence {
  public:
-  Walk() : scenario_(walk_of(3.0)) {
+  Sequence() : scenario_(walk_of(3.0)) {
     std::string name = (fs::temp_directory_path() / "aims-bench-XXXXXX").string();
     folder_ = mkdtemp(name.data());
-    const WalkCache cache(folder_);
+    const SequenceCache cache(folder_);
     if (!cache.make(scenario_, 1)) std::abort();
-    file_ = cache.file_of(WalkCache::id_of(scenario_, 1));
+    file_ = cache.file_of(SequenceCache::id_of(scenario_, 1));
   }
-  Walk(const Walk&) = delete;
-  Walk& operator=(const Walk&) = delete;
-  ~Walk() { fs::remove_all(folder_); }
+  Sequence(const Sequence&) = delete;
+  Sequence& operator=(const Sequence&) = delete;
+  ~Sequence() { fs::remove_all(folder_); }
 
-  static const Walk& only() {
-    static const Walk walk;
-    return walk;
+  static const Sequence& only() {
+    static const Sequence sequence;
+    return sequence;
   }
   const fs::path& file() const { return file_; }
   const Scenario& scenario() const { return scenario_; }
@@ -50,38 +50,38 @@ class Walk {
   fs::path file_;
 };
 
-/// Truth and what the sweeps allow to know: once per walk.
-void open_a_walk(benchmark::State& state) {
+/// Truth and what the sweeps allow to know: once per sequence.
+void open_a_sequence(benchmark::State& state) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(open_walk(Walk::only().file(), Walk::only().scenario()));
+    benchmark::DoNotOptimize(open_sequence(Sequence::only().file(), Sequence::only().scenario()));
 }
-BENCHMARK(open_a_walk)->Unit(benchmark::kMillisecond);
+BENCHMARK(open_a_sequence)->Unit(benchmark::kMillisecond);
 
-/// All measurements: once per unit.
-void replay_a_walk(benchmark::State& state) {
-  const auto walk = open_walk(Walk::only().file(), Walk::only().scenario());
+/// All measurements: once per job.
+void replay_a_sequence(benchmark::State& state) {
+  const auto sequence = open_sequence(Sequence::only().file(), Sequence::only().scenario());
   std::int64_t scans = 0;
   for (auto _ : state) {
-    const auto replayed = walk->reader.replay(
+    const auto replayed = sequence->reader.replay(
         [&](const Delivery& delivery) { scans += delivery.measurement.index() == 2 ? 1 : 0; });
     if (!replayed) state.SkipWithError("not read");
   }
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(walk->reader.size()));
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(sequence->reader.size()));
   state.counters["per_scan_s"] = benchmark::Counter(
       static_cast<double>(scans), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(replay_a_walk)->Unit(benchmark::kMillisecond);
+BENCHMARK(replay_a_sequence)->Unit(benchmark::kMillisecond);
 
-/// One estimator over the walk, scored: the unit itself.
-void evaluate_a_unit(benchmark::State& state) {
-  const auto walk = open_walk(Walk::only().file(), Walk::only().scenario());
-  for (auto _ : state) benchmark::DoNotOptimize(evaluate(*walk, Walk::only().scenario(), "aims"));
+/// One estimator over the sequence, scored: the job itself.
+void evaluate_a_job(benchmark::State& state) {
+  const auto sequence = open_sequence(Sequence::only().file(), Sequence::only().scenario());
+  for (auto _ : state) benchmark::DoNotOptimize(evaluate(*sequence, Sequence::only().scenario(), "aims"));
 }
-BENCHMARK(evaluate_a_unit)->Unit(benchmark::kMillisecond);
+BENCHMARK(evaluate_a_job)->Unit(benchmark::kMillisecond);
 
-/// A process that does nothing, beside an open walk.
+/// A process that does nothing, beside an open sequence.
 void start_a_process(benchmark::State& state) {
-  const auto walk = open_walk(Walk::only().file(), Walk::only().scenario());
+  const auto sequence = open_sequence(Sequence::only().file(), Sequence::only().scenario());
   ProcessPool pool(1);
   for (auto _ : state) {
     if (!pool.start(0, 0.0, [] { return std::string(); })) state.SkipWithError("no process");

@@ -62,7 +62,7 @@ struct SuiteProgress {
 /// Called from one thread at a time; returning false ends the suite with what is finished.
 using SuiteObserver = std::function<bool(const SuiteProgress&)>;
 
-/// Runs every scenario on every seed, unless `out` has it already under the same ids (unit_id), and
+/// Runs every scenario on every seed, unless `out` has it already under the same ids (job_id), and
 /// writes each as soon as it is finished; then matrices, families and gates over all of it. The
 /// estimators that a scenario and seed lack share one simulation. The files are the same for any
 /// number of jobs and of interruptions, but for those with times in them. What cannot run is

@@ -13,7 +13,7 @@ namespace aims {
 namespace {
 
 constexpr std::uint64_t kBootstrapSeed = 1;
-constexpr double kMatters = 0.05;
+constexpr double kNegligibleIndex = 0.05;
 constexpr int kCurveSteps = 25;
 constexpr int kMapSteps = 24;
 
@@ -159,7 +159,7 @@ SlicePoint fitted_point(const Sensitivity& sensitivity, const Eigen::VectorXd& f
 
 void fill_from_surrogate(const ResponseTable& table, const Objective& objective, Slice& slice) {
   const auto sensitivity = sensitivity_of(table, objective, slice.family);
-  if (!sensitivity || !sensitivity->trustworthy()) return;
+  if (!sensitivity || !sensitivity->is_reliable()) return;
   Eigen::VectorXd fractions = fractions_of(table, table.defaults);
   const int steps = slice.second ? kMapSteps : kCurveSteps;
   for (int row = 0; row < (slice.second ? steps : 1); ++row) {
@@ -230,11 +230,11 @@ Result<BestPoint> best_point(const ResponseTable& table, const Objective& object
   return best;
 }
 
-bool Sensitivity::does_not_matter(std::size_t parameter) const {
+bool Sensitivity::is_negligible(std::size_t parameter) const {
   const SobolIndices& indices = surrogate.indices();
-  if (!trustworthy()) return false;
-  return indices.total[parameter] < kMatters &&
-         indices.total_interval[parameter].high.value_or(1.0) < kMatters;
+  if (!is_reliable()) return false;
+  return indices.total[parameter] < kNegligibleIndex &&
+         indices.total_interval[parameter].high.value_or(1.0) < kNegligibleIndex;
 }
 
 Result<Sensitivity> sensitivity_of(const ResponseTable& table, const Objective& objective,

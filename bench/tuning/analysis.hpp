@@ -13,17 +13,16 @@
 
 namespace aims {
 
-/// The best of the points that were run, and how sure that is. Intervals are 95 %, over seeds that
-/// are drawn again, each with all its scenarios; they are empty for one seed, and too narrow for a
-/// few.
+/// The best of the points that were run, with 95 % bootstrap intervals over seeds, each resampled
+/// with all its scenarios. They are empty for one seed, and too narrow for a few.
 struct BestPoint {
   std::size_t point = 0;
   std::vector<double> values;     ///< of each parameter
-  std::vector<Interval> between;  ///< of each parameter: where the best of the drawn seeds lies
+  std::vector<Interval> between;  ///< of each parameter: interval of the best value
   double objective = 0.0;
   Interval objective_interval;
-  std::optional<double> defaults;  ///< objective of the untuned values
-  std::optional<double> gain;      ///< share of the defaults' objective that is gone
+  std::optional<double> defaults;  ///< objective of the default setting
+  std::optional<double> gain;      ///< reduction of the objective, as a fraction of the defaults'
   Interval gain_interval;
   std::vector<double> distance;  ///< best minus defaults per parameter, in widths of its range
 };
@@ -31,17 +30,19 @@ struct BestPoint {
 /// Error when no point has an objective.
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective);
 
-/// What the objective depends on, by a surrogate of its logarithm (of itself where it can be zero).
+/// Global sensitivity of the objective, by a surrogate of its logarithm (of itself where it can be
+/// zero).
 struct Sensitivity {
   std::size_t points = 0;   ///< that have an objective
-  bool logarithmic = true;  ///< the variance that is shared out is that of the logarithm
+  bool logarithmic = true;  ///< the indices are of the logarithm
   Surrogate surrogate;
 
-  /// Below half, the indices are of a function that is not the objective.
-  bool trustworthy() const { return surrogate.explained() >= 0.5; }
-  /// True of a parameter whose total index is, by its interval, below 5 %, or that the objective
-  /// does not vary with at all; never of an untrustworthy surrogate.
-  bool does_not_matter(std::size_t parameter) const;
+  /// True when the surrogate explains at least half of the variance; below, its indices mean
+  /// little.
+  bool is_reliable() const { return surrogate.explained() >= 0.5; }
+  /// True of a parameter whose total index is below 5 % with its entire interval; never of an
+  /// unreliable surrogate.
+  bool is_negligible(std::size_t parameter) const;
 };
 
 /// Error for fewer points than a surrogate needs. With `family` over its scenarios alone.
@@ -53,7 +54,7 @@ struct SlicePoint {
   double x = 0.0;
   double y = 0.0;  ///< of the second parameter of a map
   std::optional<double> objective;
-  Interval interval;  ///< 95 %: over drawn seeds where measured, else by the surrogate's error
+  Interval interval;  ///< 95 %: bootstrap over seeds where measured, else by the surrogate's error
 };
 
 /// The objective along one parameter or over two, all others at the defaults (or at the grid's
@@ -62,12 +63,12 @@ struct Slice {
   std::size_t first = 0;
   std::optional<std::size_t> second;
   std::string family;     ///< whose scenarios; "" for all
-  bool measured = false;  ///< else what the surrogate says
+  bool measured = false;  ///< else predicted by the surrogate
   std::vector<SlicePoint> points;
 };
 
 /// One parameter's curve: from points of the design where at least three lie on it, else from the
-/// surrogate where it is trustworthy, without an objective where it extrapolates; else without
+/// surrogate where it is reliable, without an objective where it extrapolates; else without
 /// points.
 Slice curve_of(const ResponseTable& table, const Objective& objective, std::size_t parameter,
                const std::string& family = "");

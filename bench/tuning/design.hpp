@@ -40,7 +40,7 @@ inline constexpr std::size_t kMostPoints = 10'000'000;
 
 /// The range that `text` describes. Errors name the text and what was expected: no number, a
 /// reversed or empty range, fewer values than its ends need, the logarithm of what is not positive.
-/// Whose the key is `range_key` tells (bench/tuning/range_key.hpp).
+/// `range_key` (bench/tuning/range_key.hpp) finds whose key it is.
 Result<ParameterRange> parse_range(std::string_view text);
 
 /// The text that `parse_range` reads.
@@ -54,8 +54,8 @@ Result<DesignKind> parse_design_kind(std::string_view text);
 Result<std::size_t> design_size(DesignKind kind, std::span<const ParameterRange> ranges,
                                 int samples);
 
-/// The value at `fraction` in [0, 1] of the range (of its logarithm where it says so), rounded to
-/// twelve digits, so that it is the same with every mathematics library.
+/// The value at `fraction` in [0, 1] of the range (of its logarithm in a logarithmic range),
+/// rounded to twelve digits, so that it is the same with every mathematics library.
 double value_at(const ParameterRange& range, double fraction);
 
 /// Where `value` lies in the range: 0 = low, 1 = high; 0.5 in a range of one value.

@@ -26,7 +26,7 @@ std::optional<double> statistic_of(const Objective& objective, const std::vector
   return std::nullopt;
 }
 
-/// The run's score as it counts when the run is not lost.
+/// The run's score as it counts when the run did not diverge.
 std::optional<double> counted(const Objective& objective, const RunScore& run,
                               const RunScore* reference) {
   if (!run.value || !std::isfinite(*run.value)) return std::nullopt;
@@ -43,8 +43,7 @@ void append_new(std::vector<Value>& values, const Value& value) {
 }  // namespace
 
 void describe(Fields& fields, Objective& objective) {
-  fields.text("score", objective.score,
-              {.meaning = "dotted key of scores.json, of which less is better"});
+  fields.text("score", objective.score, {.meaning = "dotted key of scores.json, to be minimized"});
   fields.choice("statistic", objective.statistic,
                 {{"median", ObjectiveStatistic::kMedian},
                  {"worst", ObjectiveStatistic::kWorst},
@@ -56,10 +55,10 @@ void describe(Fields& fields, Objective& objective) {
                  .range = {.min = 0.0, .max = 1.0, .min_included = false, .max_included = false},
                  .meaning = "which, for the statistic 'quantile'"});
   fields.flag("relative", objective.relative,
-              {.meaning = "divide each score by that of the untuned estimator on the same walk"});
-  fields.number("lost_penalty", objective.lost_penalty,
+              {.meaning = "divide each score by that of the default setting on the same sequence"});
+  fields.number("divergence_penalty", objective.divergence_penalty,
                 {.range = positive(),
-                 .meaning = "what a lost run counts for, and what is added if all are lost"});
+                 .meaning = "value of a diverged run; added times the fraction of diverged runs"});
 }
 
 std::string text_of(const Objective& objective) {
@@ -69,31 +68,32 @@ std::string text_of(const Objective& objective) {
   if (objective.statistic == ObjectiveStatistic::kQuantile) {
     statistic = fmt::format("{} quantile", objective.quantile);
   }
-  return fmt::format("{} of {}{}, a lost run counts {}", statistic, objective.score,
+  return fmt::format("{} of {}{}, a diverged run counts {}", statistic, objective.score,
                      objective.relative ? " over that of the defaults" : "",
-                     objective.lost_penalty);
+                     objective.divergence_penalty);
 }
 
-RunScore run_score(const UnitResult& unit, const std::string& score) {
-  return {score_in(unit, score),
-          unit.outcome != UnitOutcome::kDone || score_in(unit, "success") == 0.0};
+RunScore run_score(const JobResult& job, const std::string& score) {
+  return {score_in(job, score),
+          job.outcome != JobOutcome::kDone || score_in(job, "success") == 0.0};
 }
 
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
                                       std::span<const RunScore> reference) {
   std::vector<double> values;
-  std::size_t lost = 0;
+  std::size_t diverged = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     auto value = counted(objective, runs[i], i < reference.size() ? &reference[i] : nullptr);
-    if (runs[i].lost) {
-      ++lost;
-      value = std::max(value.value_or(objective.lost_penalty), objective.lost_penalty);
+    if (runs[i].diverged) {
+      ++diverged;
+      value = std::max(value.value_or(objective.divergence_penalty), objective.divergence_penalty);
     }
     if (value) values.push_back(*value);
   }
   const auto statistic = statistic_of(objective, values);
   if (!statistic) return std::nullopt;
-  return *statistic + objective.lost_penalty * static_cast<double>(lost) / double(runs.size());
+  return *statistic +
+         objective.divergence_penalty * static_cast<double>(diverged) / double(runs.size());
 }
 
 std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family) {

@@ -8,60 +8,60 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/sweep_unit.hpp"
+#include "bench/jobs/job.hpp"
 #include "bench/tuning/design.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
 
 namespace aims {
 
-/// What of a score over many runs is made small.
+/// Statistic of a score over many runs.
 enum class ObjectiveStatistic { kMedian, kWorst, kMean, kQuantile };
 
 /// One number for many runs, of which less is better.
 struct Objective {
   std::string score = "ate_m";  ///< dotted key of scores.json, e.g. "m_list_percent.all"
   ObjectiveStatistic statistic = ObjectiveStatistic::kMedian;
-  double quantile = 0.9;     ///< for `kQuantile`, in (0, 1)
-  bool relative = true;      ///< each score over that of the defaults on the same walk
-  double lost_penalty = 10;  ///< what a lost run counts for, and what all lost add; > 0
+  double quantile = 0.9;           ///< for `kQuantile`, in (0, 1)
+  bool relative = true;            ///< each score over that of the defaults on the same sequence
+  double divergence_penalty = 10;  ///< value of a diverged run, and added times their fraction; > 0
 };
 
 void describe(Fields& fields, Objective& objective);
 
-/// "median of ate_m over the defaults' (a lost run counts 10)".
+/// "median of ate_m over the defaults' (a diverged run counts 10)".
 std::string text_of(const Objective& objective);
 
-/// What one run came to in one score.
+/// One score of one run.
 struct RunScore {
   std::optional<double> value;  ///< none: the run has no such score
-  bool lost = false;            ///< no success, or the run failed
+  bool diverged = false;        ///< no success, or the job failed
 };
 
-/// That of a unit's result by the score's key. A unit that was not done is a lost run.
-RunScore run_score(const UnitResult& unit, const std::string& score);
+/// The score of that key of a job. A job that failed is a diverged run.
+RunScore run_score(const JobResult& job, const std::string& score);
 
-/// The statistic over the runs, plus the penalty times the share of lost runs. A lost run counts as
-/// the penalty in the statistic, or as its score where that is more. Where the objective is
-/// relative, `reference` has the defaults' runs on the same walks, and a run without a positive
-/// score to be held against is left out unless it is lost. None when no run is left.
+/// The statistic over the runs, plus the penalty times the fraction of diverged runs. A diverged
+/// run counts as the penalty in the statistic, or as its score where that is more. Where the
+/// objective is relative, `reference` has the runs of the default setting on the same sequences,
+/// and a run without a positive reference is left out unless it diverged. None when no run is left.
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
                                       std::span<const RunScore> reference);
 
-/// One walk on which every point was run.
+/// One sequence on which every point was run.
 struct ResponseCase {
   std::string scenario;
   std::string family;  ///< of the scenario; its own name when it has none
   std::uint64_t seed = 0;
 };
 
-/// One score over points of a design and walks.
+/// One score over points of a design and sequences.
 struct ResponseTable {
   std::vector<ParameterRange> ranges;
   std::vector<ResponseCase> cases;
   std::vector<std::vector<double>> points;  ///< a value per range
   std::vector<std::vector<RunScore>> runs;  ///< per point and case
-  std::vector<double> defaults;             ///< the untuned value per range
+  std::vector<double> defaults;             ///< the default values per range
   std::vector<RunScore> default_runs;       ///< per case; empty: were not run
 };
 

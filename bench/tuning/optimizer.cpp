@@ -22,26 +22,26 @@ namespace {
 
 constexpr double kConverged = 1e-3;
 
-/// What is known of the objectives, shared by all copies of the problem.
-struct Knowledge {
+/// Objectives of the points evaluated so far, shared by all copies of the problem.
+struct Evaluations {
   std::map<std::vector<double>, std::vector<double>> values;
-  Points asked;  ///< for and not known
+  Points missing;  ///< requested and not evaluated
 };
 
-/// pagmo's problem: looks values up. A point that is not known is noted and given zeros: pagmo asks
-/// for a generation's points one by one, so that each generation is first rehearsed on a copy, to
-/// learn its points, which do not depend on one another's values.
+/// pagmo's problem: looks values up. A point without a value is noted and given zeros: pagmo
+/// requests the points of a generation one by one, so each generation first runs on a copy to
+/// collect its points, which do not depend on one another's values.
 struct LookUp {
-  std::shared_ptr<Knowledge> knowledge;
+  std::shared_ptr<Evaluations> evaluations;
   std::size_t inputs = 1;
   std::size_t objectives = 1;
 
   pagmo::vector_double fitness(const pagmo::vector_double& point) const {
-    const auto found = knowledge->values.find(point);
-    if (found != knowledge->values.end()) return found->second;
-    if (std::find(knowledge->asked.begin(), knowledge->asked.end(), point) ==
-        knowledge->asked.end()) {
-      knowledge->asked.push_back(point);
+    const auto found = evaluations->values.find(point);
+    if (found != evaluations->values.end()) return found->second;
+    if (std::find(evaluations->missing.begin(), evaluations->missing.end(), point) ==
+        evaluations->missing.end()) {
+      evaluations->missing.push_back(point);
     }
     return pagmo::vector_double(objectives, 0.0);
   }
@@ -88,15 +88,15 @@ class Optimization {
                const OptimizerOptions& options)
       : function_(function),
         options_(options),
-        problem_(LookUp{knowledge_, inputs, objectives}),
+        problem_(LookUp{evaluations_, inputs, objectives}),
         algorithm_(algorithm_of(options, objectives)) {}
 
   Result<OptimizerRun> run(const std::vector<double>& start) {
     const Points first = first_population(start, options_);
-    if (auto known = learn(first, 0); !known) return tl::unexpected(known.error());
+    if (auto known = add_values(first, 0); !known) return tl::unexpected(known.error());
     if (!run_.complete) return std::move(run_);
     pagmo::population population(problem_, 0, static_cast<unsigned>(options_.seed));
-    for (const auto& point : first) population.push_back(point, knowledge_->values.at(point));
+    for (const auto& point : first) population.push_back(point, evaluations_->values.at(point));
     for (int generation = 1; generation <= options_.generations; ++generation) {
       if (auto evolved = evolve(population, generation); !evolved) {
         return tl::unexpected(evolved.error());
@@ -109,29 +109,29 @@ class Optimization {
   }
 
  private:
-  /// Rehearses until the generation asks for nothing that is not known, then takes it.
+  /// Evolves a copy until every point of the generation has a value, then keeps it.
   Result<void> evolve(pagmo::population& population, int generation) {
     while (true) {
-      pagmo::algorithm rehearsal = algorithm_;
-      pagmo::population next = rehearsal.evolve(population);
-      if (knowledge_->asked.empty()) {
-        algorithm_ = std::move(rehearsal);
+      pagmo::algorithm copy = algorithm_;
+      pagmo::population next = copy.evolve(population);
+      if (evaluations_->missing.empty()) {
+        algorithm_ = std::move(copy);
         population = std::move(next);
         return {};
       }
-      const Points asked = std::exchange(knowledge_->asked, {});
-      if (auto known = learn(asked, generation); !known) return known;
+      const Points missing = std::exchange(evaluations_->missing, {});
+      if (auto known = add_values(missing, generation); !known) return known;
       if (!run_.complete) return {};
     }
   }
 
-  Result<void> learn(const Points& points, int generation) {
+  Result<void> add_values(const Points& points, int generation) {
     const auto objectives = function_(points);
     if (!objectives) return tl::unexpected(objectives.error());
     run_.complete = objectives->has_value();
     if (!run_.complete) return {};
     for (std::size_t k = 0; k < points.size(); ++k) {
-      if (!knowledge_->values.emplace(points[k], (**objectives)[k]).second) continue;
+      if (!evaluations_->values.emplace(points[k], (**objectives)[k]).second) continue;
       run_.points.push_back(points[k]);
       run_.objectives.push_back((**objectives)[k]);
       run_.generation.push_back(generation);
@@ -153,7 +153,7 @@ class Optimization {
 
   const BatchFunction& function_;
   const OptimizerOptions& options_;
-  std::shared_ptr<Knowledge> knowledge_ = std::make_shared<Knowledge>();
+  std::shared_ptr<Evaluations> evaluations_ = std::make_shared<Evaluations>();
   pagmo::problem problem_;
   pagmo::algorithm algorithm_;
   OptimizerRun run_;

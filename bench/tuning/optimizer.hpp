@@ -11,12 +11,12 @@
 
 namespace aims {
 
-/// How a least value is looked for; all by pagmo.
+/// Optimization algorithms, all of pagmo.
 enum class OptimizerKind {
   kAuto,   ///< CMA-ES for one objective, NSGA-II for several
   kCmaes,  ///< covariance matrix adaptation (Hansen 2006)
   kDe,     ///< differential evolution (Storn and Price 1997)
-  kNsga2,  ///< a front of several objectives (Deb et al. 2002)
+  kNsga2,  ///< Pareto front of several objectives (Deb et al. 2002)
 };
 
 struct OptimizerOptions {
@@ -33,21 +33,21 @@ using Points = std::vector<std::vector<double>>;
 /// what there is (an interruption); so does an error, which is returned.
 using BatchFunction = std::function<Result<std::optional<Points>>(const Points&)>;
 
-/// Everything that was asked for, in order; no point twice.
+/// Every point that was evaluated, in order; none twice.
 struct OptimizerRun {
   Points points;
   Points objectives;
   std::vector<int> generation;  ///< of each point, 0 = the first population
-  bool complete = true;         ///< false when the function ended it
+  bool complete = true;         ///< false when the function ended the run
   bool converged = false;       ///< ended early: a generation lay within 0.1 % of the ranges
 };
 
 /// Error for a population or a kind that does not fit.
 Result<void> check_optimizer(const OptimizerOptions& options, std::size_t objectives);
 
-/// Looks for the points of the unit cube that make the objectives small. The first population is
-/// `start` and a Sobol sequence. A generation is asked for at once, so that it can be worked on in
-/// parallel. Same seed, same points.
+/// Minimizes the objectives over the unit cube. The first population is
+/// `start` and a Sobol sequence. A generation is evaluated in one call, so that its points can run
+/// in parallel. Same seed, same points.
 Result<OptimizerRun> minimize(const BatchFunction& function, const std::vector<double>& start,
                               std::size_t objectives, const OptimizerOptions& options);
 

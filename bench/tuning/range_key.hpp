@@ -19,8 +19,9 @@ struct RangeKey {
 };
 
 /// The key that `given` names: `degeneracy.eta` and `estimator.degeneracy.eta` are the estimator's,
-/// `links.lidar.loss` and `scenario.links.lidar.loss` the scenario's; what the estimator does not
-/// have is taken for the scenario's, existing or not. Error for a key that both have.
+/// `links.lidar.loss` and `scenario.links.lidar.loss` the scenario's; a key that the
+/// estimator does not have counts as the scenario's, existing or not. Error for a key that both
+/// have.
 Result<RangeKey> range_key(std::string_view given);
 
 /// The full key in a scenario of a range whose key is the `name` of a `RangeKey`.

@@ -101,7 +101,8 @@ Eigen::Index best_column(const Eigen::MatrixXd& left, const Eigen::VectorXd& siz
   double most = 0.0;
   for (Eigen::Index k = 0; k < left.cols(); ++k) {
     const double squared = left.col(k).squaredNorm();
-    if (squared < 1e-8 * size(k)) continue;  // a sum of chosen ones, as far as the points tell
+    if (squared < 1e-8 * size(k))
+      continue;  // a linear combination of the chosen ones at the points
     const double part = left.col(k).dot(residual);
     if (part * part / squared > most) {
       most = part * part / squared;
@@ -175,8 +176,8 @@ SobolIndices indices_of(const std::vector<Degrees>& terms, const Eigen::VectorXd
     indices.second(Eigen::Index(of[1]), Eigen::Index(of[0])) += part;
   }
   if (variance <= 0.0) return indices;
-  for (double& share : indices.first) share /= variance;
-  for (double& share : indices.total) share /= variance;
+  for (double& index : indices.first) index /= variance;
+  for (double& index : indices.total) index /= variance;
   indices.second /= variance;
   return indices;
 }

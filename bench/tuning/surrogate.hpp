@@ -12,7 +12,7 @@
 
 namespace aims {
 
-/// Shares of the variance of a function whose inputs are independent and uniform in their ranges
+/// Fractions of the variance of a function whose inputs are independent and uniform in their ranges
 /// (I. M. Sobol, 2001).
 struct SobolIndices {
   std::vector<double> first;  ///< of each input alone
@@ -42,11 +42,11 @@ class Surrogate {
   /// points (Hoaglin and Welsch 1978), but in what an optimizer leaves empty [unit of the values].
   double error_at(const Eigen::VectorXd& point) const;
 
-  /// True where the error is beyond the deviation of all values, so that their mean would tell as
-  /// much, and more than 5 % of an input's range beyond all points of the fit.
+  /// True where the error is beyond the deviation of all values, so that their mean would predict
+  /// as well, and more than 5 % of an input's range beyond all points of the fit.
   bool extrapolates(const Eigen::VectorXd& point) const;
 
-  /// Share of the values' variance that is explained at points that were left out; at most 1,
+  /// Fraction of the values' variance that is explained at points that were left out; at most 1,
   /// negative when the mean were better. 1 for values that do not vary.
   double explained() const { return explained_; }
 

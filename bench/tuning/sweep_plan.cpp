@@ -7,11 +7,11 @@
 #include <set>
 #include <utility>
 
-#include "bench/jobs/scenario_variants.hpp"
-#include "bench/jobs/unit_id.hpp"
+#include "bench/jobs/job_id.hpp"
 #include "bench/run/catalogue.hpp"
 #include "bench/run/seeds.hpp"
 #include "bench/tuning/range_key.hpp"
+#include "bench/tuning/scenario_variants.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
 
@@ -25,7 +25,6 @@ using Scenarios = std::vector<std::shared_ptr<const Scenario>>;
 Result<void> add_scenario(Result<Scenario> scenario, Scenarios& scenarios) {
   if (!scenario) return tl::unexpected(scenario.error());
   for (const auto& known : scenarios) {
-    if (known->file == scenario->file) return {};
     if (known->name != scenario->name) continue;
     return failure(fmt::format("{} and {}: two scenarios of the name '{}'", known->file.string(),
                                scenario->file.string(), scenario->name));
@@ -70,7 +69,8 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
   std::vector<PlannedPoint> planned;
   planned.reserve(estimators->size() * (points.size() + 1));
   for (const EstimatorSpec& estimator : *estimators) {
-    if (plan.untuned || ranges.empty()) planned.push_back({estimator, variants.untouched()});
+    if (plan.include_defaults || ranges.empty())
+      planned.push_back({estimator, variants.untouched()});
     for (const auto& point : points) {
       auto variant = variants.at(point);
       if (!variant) return tl::unexpected(variant.error());
@@ -80,38 +80,38 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
   return planned;
 }
 
-/// Points that share a walk on each seed, with the part of their units' ids that seeds share.
-struct WalkGroup {
+/// Points on the same sequences, with the part of their jobs' ids that does not depend on the seed.
+struct SequenceGroup {
   struct Member {
     const PlannedPoint* point = nullptr;
-    const UnitIds* ids = nullptr;
+    const JobIds* ids = nullptr;
     std::string key;
   };
   std::vector<Member> members;
 };
 
-/// Adds one scenario's units but those whose ids are known already.
-Result<void> add_units(std::span<const std::uint64_t> seeds, std::span<const PlannedPoint> points,
-                       std::set<std::string>& known, std::vector<SweepUnit>& units) {
-  std::map<const Scenario*, UnitIds> ids;
+/// Adds one scenario's jobs but those whose ids are known already.
+Result<void> add_jobs(std::span<const std::uint64_t> seeds, std::span<const PlannedPoint> points,
+                      std::set<std::string>& known, std::vector<Job>& jobs) {
+  std::map<const Scenario*, JobIds> ids;
   std::map<std::string, std::size_t> index;
-  std::vector<WalkGroup> groups;
+  std::vector<SequenceGroup> groups;
   for (const PlannedPoint& point : points) {
     const Scenario& scenario = *point.variant.scenario;
-    const UnitIds& own = ids.try_emplace(&scenario, scenario).first->second;
+    const JobIds& own = ids.try_emplace(&scenario, scenario).first->second;
     auto key = own.estimator_key(point.estimator);
     if (!key) return tl::unexpected(key.error());
-    const auto [at, is_new] = index.emplace(point.variant.walk, groups.size());
+    const auto [at, is_new] = index.emplace(point.variant.sequence, groups.size());
     if (is_new) groups.emplace_back();
     groups[at->second].members.push_back({&point, &own, std::move(*key)});
   }
-  for (const WalkGroup& group : groups) {
+  for (const SequenceGroup& group : groups) {
     for (const std::uint64_t seed : seeds) {
       for (const auto& [point, own, key] : group.members) {
         std::string id = own->id(seed, key);
         if (!known.insert(id).second) continue;
-        units.push_back({point->variant.scenario, seed, point->estimator, std::move(id),
-                         point->variant.settings});
+        jobs.push_back({point->variant.scenario, seed, point->estimator, std::move(id),
+                        point->variant.settings});
       }
     }
   }
@@ -125,12 +125,12 @@ void describe(Fields& f, SweepPlan& p) {
   f.texts("tags", p.tags, {.meaning = "with them, all scenarios with any of these tags"});
   f.text("seeds", p.seeds, {.meaning = "of every scenario: 3, 1-5 or 1,4,7-9"});
   f.texts("estimators", p.estimators, {.meaning = "NAME or LABEL=NAME+key=value"});
-  f.texts("over", p.over,
-          {.meaning = "what is varied, any number of `aims config`: KEY=LOW:HIGH:COUNT or "
+  f.texts("params", p.params,
+          {.meaning = "parameters that vary, any number of `aims config`: KEY=LOW:HIGH:COUNT or "
                       "KEY=log(LOW,HIGH,COUNT)"});
   f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
-  f.flag("untuned", p.untuned,
-         {.meaning = "also run the estimators without what is varied, to be compared with"});
+  f.flag("include_defaults", p.include_defaults,
+         {.meaning = "also run each estimator at its default setting, as the baseline"});
   f.choice("design", p.design,
            {{"grid", DesignKind::kGrid},
             {"random", DesignKind::kRandom},
@@ -142,7 +142,7 @@ void describe(Fields& f, SweepPlan& p) {
   f.integer("design_seed", p.design_seed,
             {.unit = "-", .range = at_least(0), .meaning = "of those points"});
   f.number("timeout", p.timeout,
-           {.unit = "s", .range = at_least(0), .meaning = "wall time of a unit; 0: any"});
+           {.unit = "s", .range = at_least(0), .meaning = "wall time of a job; 0: any"});
 }
 
 Result<SweepPlan> load_plan(const fs::path& file) {
@@ -159,43 +159,37 @@ std::string plan_text(const SweepPlan& plan) {
 Result<Scenarios> plan_scenarios(std::span<const std::string> names,
                                  std::span<const std::string> tags,
                                  std::span<const std::string> settings, const fs::path& folder) {
+  if (names.empty() && tags.empty()) {
+    return failure(
+        "no scenario is given, so that there is no job: expected scenarios or tags, e.g. "
+        "scenarios: [corridor]");
+  }
+  auto files = select_scenarios(names, tags, folder, settings);
+  if (!files) return tl::unexpected(files.error());
   Scenarios scenarios;
-  for (const std::string& name : names) {
-    const auto file = find_scenario(name, folder);
-    if (!file) return tl::unexpected(file.error());
-    auto added = add_scenario(load_scenario(*file, settings), scenarios);
+  for (ScenarioFile& each : *files) {
+    auto added = add_scenario(std::move(each.scenario), scenarios);
     if (!added) return tl::unexpected(added.error());
   }
-  if (!tags.empty()) {
-    auto files = scenarios_in(folder, tags, settings);
-    if (!files) return tl::unexpected(files.error());
-    for (ScenarioFile& each : *files) {
-      auto added = add_scenario(std::move(each.scenario), scenarios);
-      if (!added) return tl::unexpected(added.error());
-    }
-  }
-  if (!scenarios.empty()) return scenarios;
-  return failure(
-      "no scenario is given, so that there is no unit: expected scenarios or tags, e.g. "
-      "scenarios: [corridor]");
+  return scenarios;
 }
 
-Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan, const fs::path& folder) {
+Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder) {
   const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, plan.set, folder);
   if (!scenarios) return tl::unexpected(scenarios.error());
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());
-  const auto ranges = parse_ranges(plan.over);
+  const auto ranges = parse_ranges(plan.params);
   if (!ranges) return tl::unexpected(ranges.error());
-  std::vector<SweepUnit> units;
+  std::vector<Job> jobs;
   std::set<std::string> ids;
   for (const auto& scenario : *scenarios) {
     const auto points = points_of(plan, *ranges, scenario);
     if (!points) return tl::unexpected(points.error());
-    auto added = add_units(*seeds, *points, ids, units);
+    auto added = add_jobs(*seeds, *points, ids, jobs);
     if (!added) return tl::unexpected(added.error());
   }
-  return units;
+  return jobs;
 }
 
 }  // namespace aims

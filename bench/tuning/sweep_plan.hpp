@@ -7,26 +7,26 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/sweep_unit.hpp"
+#include "bench/jobs/job.hpp"
 #include "bench/tuning/design.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
 
 namespace aims {
 
-/// What a sweep is to do: every point of a design, on every walk, with every estimator.
+/// What a sweep is to do: every point of a design, on every sequence, with every estimator.
 struct SweepPlan {
   std::vector<std::string> scenarios;  ///< files or names
   std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
   std::string seeds = "1";             ///< "1-5", "1,4,7-9"
   std::vector<std::string> estimators = {"aims"};  ///< specs (estimator/estimator_spec.hpp)
-  std::vector<std::string> over;                   ///< ranges (bench/tuning/design.hpp)
+  std::vector<std::string> params;                 ///< ranges (bench/tuning/design.hpp)
   std::vector<std::string> set;                    ///< "key=value" on top of every scenario
-  bool untuned = false;  ///< also run the estimators without what is varied, to be compared with
+  bool include_defaults = false;  ///< also run each estimator at its default setting
   DesignKind design = DesignKind::kGrid;
   int samples = 64;      ///< points of every design but a grid
   int design_seed = 1;   ///< of those points
-  double timeout = 0.0;  ///< wall time that a unit is given [s]; 0: any
+  double timeout = 0.0;  ///< wall time that a job is given [s]; 0: any
 };
 
 void describe(Fields& fields, SweepPlan& plan);
@@ -44,11 +44,11 @@ Result<std::vector<std::shared_ptr<const Scenario>>> plan_scenarios(
     std::span<const std::string> scenarios, std::span<const std::string> tags,
     std::span<const std::string> settings, const std::filesystem::path& folder);
 
-/// The plan's units: by scenario, what is varied of the simulation, seed, estimator, point, so that
-/// those on one walk stand together; none twice (points of a whole number may round to one, and one
-/// may be what the untuned estimator has). Error for a range, estimator or scenario
-/// that is not right, a value that a parameter does not allow, and a plan without any unit.
-Result<std::vector<SweepUnit>> plan_units(const SweepPlan& plan,
-                                          const std::filesystem::path& scenario_folder);
+/// The plan's jobs: by scenario, varied values of the simulation, seed, estimator, point, so that
+/// those on one sequence stand together; none twice (points of a whole number may round to one, and
+/// one may be the default). Error for a range, estimator or scenario that is not right, a value
+/// that a parameter does not allow, and a plan without any job.
+Result<std::vector<Job>> plan_jobs(const SweepPlan& plan,
+                                   const std::filesystem::path& scenario_folder);
 
 }  // namespace aims

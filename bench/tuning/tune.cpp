@@ -32,16 +32,16 @@ std::vector<double> start_of(const TuneTask& task) {
 }
 
 /// The runs of one estimator in one objective.
-std::vector<RunScore> runs_in(const std::vector<std::vector<RunScore>>& by_walk,
+std::vector<RunScore> runs_in(const std::vector<std::vector<RunScore>>& by_sequence,
                               std::size_t objective) {
   std::vector<RunScore> runs;
-  for (const auto& scores : by_walk) runs.push_back(scores[objective]);
+  for (const auto& scores : by_sequence) runs.push_back(scores[objective]);
   return runs;
 }
 
 class Tuning {
  public:
-  Tuning(const TuneTask& task, const RunOnWalks& run) : run_(run) { result_.task = task; }
+  Tuning(const TuneTask& task, const RunOnSequences& run) : run_(run) { result_.task = task; }
 
   Result<TuneResult> operator()() {
     auto defaults = add_defaults();
@@ -64,8 +64,8 @@ class Tuning {
   /// False when it was interrupted.
   Result<bool> add_defaults() {
     const TuneTask& task = result_.task;
-    result_.tables.assign(task.plan.objectives.size(), empty_table(task, task.walks));
-    auto scores = run_({&task.estimator, 1}, task.walks);
+    result_.tables.assign(task.plan.objectives.size(), empty_table(task, task.sequences));
+    auto scores = run_({&task.estimator, 1}, task.sequences);
     if (!scores) return tl::unexpected(scores.error());
     result_.complete = scores->has_value();
     if (!result_.complete) return false;
@@ -87,7 +87,7 @@ class Tuning {
     for (const auto& point : points) {
       estimators.push_back(spec_at(task.estimator, task.ranges, values_of(task, point)));
     }
-    auto scores = run_(estimators, task.walks);
+    auto scores = run_(estimators, task.sequences);
     if (!scores) return tl::unexpected(scores.error());
     if (!*scores) return std::optional<Points>();
     Points objectives(points.size());
@@ -129,39 +129,41 @@ class Tuning {
     return {};
   }
 
-  const RunOnWalks& run_;
+  const RunOnSequences& run_;
   TuneResult result_;
 };
 
-/// By walk first, so that neighbours share an open walk.
-std::vector<SweepUnit> units_of(std::span<const EstimatorSpec> estimators,
-                                std::span<const Walk> walks) {
-  std::vector<SweepUnit> units;
-  for (const Walk& walk : walks) {
+/// By sequence first, so that neighbours share an open sequence.
+std::vector<Job> jobs_of(std::span<const EstimatorSpec> estimators,
+                         std::span<const ScenarioSeed> sequences) {
+  std::vector<Job> jobs;
+  for (const ScenarioSeed& sequence : sequences) {
     for (const EstimatorSpec& estimator : estimators) {
-      units.push_back(make_unit(walk.scenario, walk.seed, estimator));
+      jobs.push_back(make_job(sequence.scenario, sequence.seed, estimator));
     }
   }
-  return units;
+  return jobs;
 }
 
 }  // namespace
 
-Result<TuneResult> tune(const TuneTask& task, const RunOnWalks& run) { return Tuning(task, run)(); }
+Result<TuneResult> tune(const TuneTask& task, const RunOnSequences& run) {
+  return Tuning(task, run)();
+}
 
-RunOnWalks run_by_units(UnitRunner& runner, const UnitObserver& observer,
-                        const std::vector<Objective>& objectives) {
+RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
+                           const std::vector<Objective>& objectives) {
   return [&runner, observer, objectives](
              std::span<const EstimatorSpec> estimators,
-             std::span<const Walk> walks) -> Result<std::optional<WalkScores>> {
-    const std::vector<SweepUnit> units = units_of(estimators, walks);
-    const auto run = runner.run(units, observer);
+             std::span<const ScenarioSeed> sequences) -> Result<std::optional<SequenceScores>> {
+    const std::vector<Job> jobs = jobs_of(estimators, sequences);
+    const auto run = runner.run(jobs, observer);
     if (!run) return tl::unexpected(run.error());
-    if (!run->complete) return std::optional<WalkScores>();
-    const std::vector<std::vector<RunScore>> none(walks.size());
-    WalkScores scores(estimators.size(), none);
-    for (std::size_t i = 0; i < units.size(); ++i) {
-      const auto result = runner.folder().find(units[i].id);
+    if (!run->complete) return std::optional<SequenceScores>();
+    const std::vector<std::vector<RunScore>> none(sequences.size());
+    SequenceScores scores(estimators.size(), none);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      const auto result = runner.folder().find(jobs[i].id);
       auto& of_unit = scores[i % estimators.size()][i / estimators.size()];
       for (const Objective& each : objectives) {
         of_unit.push_back(result ? run_score(*result, each.score) : RunScore{});
@@ -176,14 +178,14 @@ std::vector<std::pair<std::string, std::string>> settings_of(const TuneTask& tas
   return spec_at(EstimatorSpec{}, task.ranges, point).settings;
 }
 
-ResponseTable empty_table(const TuneTask& task, std::span<const Walk> walks) {
+ResponseTable empty_table(const TuneTask& task, std::span<const ScenarioSeed> sequences) {
   ResponseTable table;
   table.ranges = task.ranges;
   table.defaults = task.defaults;
-  for (const Walk& walk : walks) {
-    const std::string& family = walk.scenario->family;
-    table.cases.push_back(
-        {walk.scenario->name, family.empty() ? walk.scenario->name : family, walk.seed});
+  for (const ScenarioSeed& sequence : sequences) {
+    const std::string& family = sequence.scenario->family;
+    table.cases.push_back({sequence.scenario->name,
+                           family.empty() ? sequence.scenario->name : family, sequence.seed});
   }
   return table;
 }

@@ -8,45 +8,46 @@
 #include <span>
 #include <vector>
 
-#include "bench/jobs/unit_runner.hpp"
+#include "bench/jobs/job_runner.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/error.hpp"
 
 namespace aims {
 
-/// Per estimator, walk and objective what the run came to.
-using WalkScores = std::vector<std::vector<std::vector<RunScore>>>;
+/// The score per estimator, sequence and objective.
+using SequenceScores = std::vector<std::vector<std::vector<RunScore>>>;
 
-/// Runs estimators over walks. No value when it was interrupted.
-using RunOnWalks = std::function<Result<std::optional<WalkScores>>(
-    std::span<const EstimatorSpec> estimators, std::span<const Walk> walks)>;
+/// Runs estimators over sequences. No value when it was interrupted.
+using RunOnSequences = std::function<Result<std::optional<SequenceScores>>(
+    std::span<const EstimatorSpec> estimators, std::span<const ScenarioSeed> sequences)>;
 
-/// What a tuning came to. Tables are one per objective.
+/// Result of a tuning, with one table per objective.
 struct TuneResult {
   TuneTask task;
-  std::vector<ResponseTable> tables;  ///< on the walks that are tuned on; every point that was run
-  std::vector<int> generation;        ///< of each point, 0 = the first population
-  std::vector<std::size_t> chosen;    ///< the best point; of several objectives the front
+  std::vector<ResponseTable>
+      tables;                   ///< on the sequences that are tuned on; every point that was run
+  std::vector<int> generation;  ///< of each point, 0 = the first population
+  std::vector<std::size_t> chosen;      ///< the best point; of several objectives the front
   std::vector<ResponseTable> held_out;  ///< of the chosen points, in order; empty: nothing held out
   bool complete = true;                 ///< false when it was interrupted
   bool converged = false;               ///< ended before its last generation
 };
 
-/// Runs the untuned estimator, lets the optimizer look for better values, and runs what it found on
-/// the walks that are held out. The same task gives the same points where its scores do not depend
-/// on time. Error when the untuned estimator has no objective on the walks.
-Result<TuneResult> tune(const TuneTask& task, const RunOnWalks& run);
+/// Runs the default setting, optimizes the parameters, and evaluates the result on the held-out
+/// sequences. The same task gives the same points where its scores do not depend
+/// on time. Error when the default setting has no objective on the sequences.
+Result<TuneResult> tune(const TuneTask& task, const RunOnSequences& run);
 
-/// Runs estimators as units, those that `runner` has not stored yet, and reads their scores.
-RunOnWalks run_by_units(UnitRunner& runner, const UnitObserver& observer,
-                        const std::vector<Objective>& objectives);
+/// Runs estimators as jobs, those that `runner` has not stored yet, and reads their scores.
+RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
+                           const std::vector<Objective>& objectives);
 
 /// The settings "key=value" of a point, below `estimator.`.
 std::vector<std::pair<std::string, std::string>> settings_of(const TuneTask& task,
                                                              std::span<const double> point);
 
-/// A table without runs: the task's ranges and defaults, a case per walk.
-ResponseTable empty_table(const TuneTask& task, std::span<const Walk> walks);
+/// A table without runs: the task's ranges and defaults, a case per sequence.
+ResponseTable empty_table(const TuneTask& task, std::span<const ScenarioSeed> sequences);
 
 }  // namespace aims

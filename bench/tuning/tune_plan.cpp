@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using Scenarios = std::vector<std::shared_ptr<const Scenario>>;
 
 /// The estimator's own value of each range's key in that scenario.
-Result<std::vector<double>> untuned(const TuneTask& task, const Scenario& scenario) {
+Result<std::vector<double>> default_values(const TuneTask& task, const Scenario& scenario) {
   auto config = config_with(task.estimator, scenario.estimator);
   if (!config) return tl::unexpected(config.error());
   const Fields fields = fields_of(*config);
@@ -36,10 +36,11 @@ Result<std::vector<double>> untuned(const TuneTask& task, const Scenario& scenar
 }
 
 Result<void> read_ranges(TuneTask& task, const Scenario& base) {
-  if (task.plan.over.empty()) {
-    return failure("over: the plan varies nothing; expected ranges, e.g. [\"degeneracy.eta=0:6\"]");
+  if (task.plan.params.empty()) {
+    return failure(
+        "params: the plan varies nothing; expected ranges, e.g. [\"degeneracy.eta=0:6\"]");
   }
-  auto ranges = parse_ranges(task.plan.over);
+  auto ranges = parse_ranges(task.plan.params);
   if (!ranges) return tl::unexpected(ranges.error());
   task.ranges = std::move(*ranges);
   if (auto right = check_ranges(task.ranges, base); !right) return right;
@@ -51,7 +52,7 @@ Result<void> read_ranges(TuneTask& task, const Scenario& base) {
     return failure(
         fmt::format("range '{}': '{}' is no key of the estimator, and an optimizer that may change "
                     "it would make the task easier; expected keys below estimator., or aims sweep "
-                    "for what such a key does",
+                    "to vary such a key",
                     text_of(range), range.key));
   }
   return {};
@@ -65,10 +66,10 @@ Result<void> check_objectives(const TunePlan& plan) {
   return check_optimizer(plan.optimizer, plan.objectives.size());
 }
 
-void add_walks(const Scenarios& scenarios, const std::vector<std::uint64_t>& seeds,
-               std::vector<Walk>& walks) {
+void add_sequences(const Scenarios& scenarios, const std::vector<std::uint64_t>& seeds,
+                   std::vector<ScenarioSeed>& sequences) {
   for (const auto& scenario : scenarios) {
-    for (const std::uint64_t seed : seeds) walks.push_back({scenario, seed});
+    for (const std::uint64_t seed : seeds) sequences.push_back({scenario, seed});
   }
 }
 
@@ -80,35 +81,35 @@ Result<void> add_held_out(const Scenarios& tuned, const std::vector<std::uint64_
     auto own = parse_seeds(held.seeds);
     if (!own) return failure("held_out.seeds: " + own.error().message);
     seeds = std::move(*own);
-    add_walks(tuned, seeds, task.held_out);
+    add_sequences(tuned, seeds, task.held_out);
   }
   if (!held.scenarios.empty() || !held.tags.empty()) {
     const auto others = plan_scenarios(held.scenarios, held.tags, task.plan.set, folder);
     if (!others) return failure("held_out: " + others.error().message);
-    add_walks(*others, seeds, task.held_out);
+    add_sequences(*others, seeds, task.held_out);
   }
-  for (const Walk& walk : task.held_out) {
-    for (const Walk& seen : task.walks) {
-      if (walk.seed != seen.seed || walk.scenario->name != seen.scenario->name) continue;
+  for (const ScenarioSeed& sequence : task.held_out) {
+    for (const ScenarioSeed& seen : task.sequences) {
+      if (sequence.seed != seen.seed || sequence.scenario->name != seen.scenario->name) continue;
       return failure(
           fmt::format("held_out: {} seed {} is also tuned on; expected other seeds or "
                       "scenarios",
-                      walk.scenario->name, walk.seed));
+                      sequence.scenario->name, sequence.seed));
     }
   }
   return {};
 }
 
-Result<void> check_untuned(const TuneTask& task) {
-  for (const Walk& walk : task.walks) {
-    const auto values = untuned(task, *walk.scenario);
+Result<void> check_defaults(const TuneTask& task) {
+  for (const ScenarioSeed& sequence : task.sequences) {
+    const auto values = default_values(task, *sequence.scenario);
     if (!values) return tl::unexpected(values.error());
     for (std::size_t i = 0; i < task.ranges.size(); ++i) {
       if ((*values)[i] == task.defaults[i]) continue;
       return failure(fmt::format(
-          "{}: {} is {} there and {} in {}; expected the same untuned values in all scenarios",
-          walk.scenario->name, task.ranges[i].key, (*values)[i], task.defaults[i],
-          task.walks.front().scenario->name));
+          "{}: {} is {} there and {} in {}; expected the same default values in all scenarios",
+          sequence.scenario->name, task.ranges[i].key, (*values)[i], task.defaults[i],
+          task.sequences.front().scenario->name));
     }
   }
   return {};
@@ -117,7 +118,7 @@ Result<void> check_untuned(const TuneTask& task) {
 }  // namespace
 
 void describe(Fields& f, HeldOut& h) {
-  f.texts("scenarios", h.scenarios, {.meaning = "scenarios that nothing is tuned on"});
+  f.texts("scenarios", h.scenarios, {.meaning = "scenarios used for validation only"});
   f.texts("tags", h.tags, {.meaning = "with them, all scenarios with any of these tags"});
   f.text("seeds", h.seeds,
          {.meaning = "of these scenarios and of those tuned on; empty: these alone, tuned seeds"});
@@ -142,17 +143,18 @@ void describe(Fields& f, OptimizerOptions& o) {
 }
 
 void describe(Fields& f, TunePlan& p) {
-  f.text("estimator", p.estimator, {.meaning = "NAME or LABEL=NAME+key=value, untuned"});
-  f.texts("over", p.over, {.meaning = "what is tuned: KEY=LOW:HIGH or KEY=log(LOW,HIGH)"});
+  f.text("estimator", p.estimator,
+         {.meaning = "NAME or LABEL=NAME+key=value at its default setting"});
+  f.texts("params", p.params, {.meaning = "parameters to tune: KEY=LOW:HIGH or KEY=log(LOW,HIGH)"});
   f.texts("scenarios", p.scenarios, {.meaning = "scenario files or names"});
   f.texts("tags", p.tags, {.meaning = "with them, all scenarios with any of these tags"});
   f.text("seeds", p.seeds, {.meaning = "of every scenario: 3, 1-5 or 1,4,7-9"});
   f.group("held_out", p.held_out);
   f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
-  f.list("objectives", p.objectives, "what is made small; two or more give a front");
+  f.list("objectives", p.objectives, "minimized; two or more give a Pareto front");
   f.group("optimizer", p.optimizer);
   f.number("timeout", p.timeout,
-           {.unit = "s", .range = at_least(0), .meaning = "wall time of a unit; 0: any"});
+           {.unit = "s", .range = at_least(0), .meaning = "wall time of a job; 0: any"});
 }
 
 Result<TunePlan> load_tune_plan(const fs::path& file) {
@@ -181,16 +183,16 @@ Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {
   if (!scenarios) return tl::unexpected(scenarios.error());
   if (auto read = read_ranges(task, *scenarios->front()); !read)
     return tl::unexpected(read.error());
-  auto defaults = untuned(task, *scenarios->front());
+  auto defaults = default_values(task, *scenarios->front());
   if (!defaults) return tl::unexpected(defaults.error());
   task.defaults = std::move(*defaults);
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());
-  add_walks(*scenarios, *seeds, task.walks);
+  add_sequences(*scenarios, *seeds, task.sequences);
   if (auto held = add_held_out(*scenarios, *seeds, folder, task); !held) {
     return tl::unexpected(held.error());
   }
-  if (auto same = check_untuned(task); !same) return tl::unexpected(same.error());
+  if (auto same = check_defaults(task); !same) return tl::unexpected(same.error());
   return task;
 }
 

@@ -17,17 +17,17 @@
 
 namespace aims {
 
-/// Walks that the optimizer never sees.
+/// Sequences for validation, which the optimizer does not use.
 struct HeldOut {
   std::vector<std::string> scenarios;  ///< besides those that are tuned on
   std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
   std::string seeds;  ///< of these scenarios and of those tuned on; empty: these alone, tuned seeds
 };
 
-/// What is to be tuned, on what, for what.
+/// Parameters, sequences and objectives of a tuning.
 struct TunePlan {
-  std::string estimator = "aims";      ///< spec of the untuned estimator
-  std::vector<std::string> over;       ///< ranges (bench/tuning/design.hpp); counts play no part
+  std::string estimator = "aims";      ///< spec of the estimator at its default setting
+  std::vector<std::string> params;     ///< ranges (bench/tuning/design.hpp); without counts
   std::vector<std::string> scenarios;  ///< files or names
   std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
   std::string seeds = "1-3";
@@ -35,7 +35,7 @@ struct TunePlan {
   std::vector<std::string> set;  ///< "key=value" on top of every scenario
   std::vector<Objective> objectives = {Objective{}};
   OptimizerOptions optimizer;
-  double timeout = 0.0;  ///< wall time that a unit is given [s]; 0: any
+  double timeout = 0.0;  ///< wall time that a job is given [s]; 0: any
 };
 
 void describe(Fields& fields, HeldOut& held_out);
@@ -51,8 +51,8 @@ std::string plan_text(const TunePlan& plan);
 /// Writes `plan_text` to a file, whole or not at all.
 Result<void> write_plan(const TunePlan& plan, const std::filesystem::path& file);
 
-/// A scenario's walk on one seed.
-struct Walk {
+/// A scenario's sequence on one seed.
+struct ScenarioSeed {
   std::shared_ptr<const Scenario> scenario;
   std::uint64_t seed = 0;
 };
@@ -62,14 +62,14 @@ struct TuneTask {
   TunePlan plan;
   EstimatorSpec estimator;
   std::vector<ParameterRange> ranges;
-  std::vector<double> defaults;  ///< what the estimator has without being tuned, per range
-  std::vector<Walk> walks;
-  std::vector<Walk> held_out;
+  std::vector<double> defaults;  ///< default value per range
+  std::vector<ScenarioSeed> sequences;
+  std::vector<ScenarioSeed> held_out;
 };
 
-/// Error for a plan without ranges or walks, for ranges, objectives or an optimizer that are not
-/// right, for scenarios in which the untuned values differ, and for a walk that is both tuned on
-/// and held out. `scenario_folder` is where names and tags are looked up.
+/// Error for a plan without ranges or sequences, for ranges, objectives or an optimizer that are
+/// not right, for scenarios in which the default values differ, and for a sequence that is both
+/// tuned on and held out. `scenario_folder` is where names and tags are looked up.
 Result<TuneTask> tune_task(const TunePlan& plan, const std::filesystem::path& scenario_folder);
 
 }  // namespace aims

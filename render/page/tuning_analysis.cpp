@@ -45,10 +45,10 @@ Json sensitivity_json(const Sensitivity& sensitivity, std::size_t parameters) {
     second.push_back(std::move(row));
   }
   Json idle = Json::array();
-  for (std::size_t i = 0; i < parameters; ++i) idle.push_back(sensitivity.does_not_matter(i));
+  for (std::size_t i = 0; i < parameters; ++i) idle.push_back(sensitivity.is_negligible(i));
   return {{"points", sensitivity.points},
           {"logarithmic", sensitivity.logarithmic},
-          {"trustworthy", sensitivity.trustworthy()},
+          {"trustworthy", sensitivity.is_reliable()},
           {"terms", sensitivity.surrogate.terms()},
           {"error", sensitivity.surrogate.error()},
           {"explained", sensitivity.surrogate.explained()},

@@ -15,7 +15,7 @@
 #include "bench/run/scenario.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
-#include "bench/tuning/sweep_report.hpp"
+#include "bench/tuning/sweep_summary.hpp"
 #include "render/page/json_access.hpp"
 #include "render/page/tuning_analysis.hpp"
 
@@ -32,7 +32,7 @@ struct Row {
   std::size_t point = 0;
   std::size_t sequence = 0;
   bool held_out = false;
-  UnitResult result;
+  JobResult result;
 };
 
 /// The jobs of one estimator.
@@ -60,8 +60,8 @@ std::size_t index_in(std::vector<Value>& values, const Same& same, Value value) 
 
 void collect(const MergedSweep& units, const VariedParameters& varied, bool held_out,
              Collected& all) {
-  for (const MergedUnit& unit : units.units) {
-    auto placed = placed_unit(unit, varied);
+  for (const MergedJob& unit : units.jobs) {
+    auto placed = placed_job(unit, varied);
     if (!placed) continue;
     const std::string name = text_of(placed->estimator);
     const std::size_t e =
@@ -155,7 +155,7 @@ Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores,
     point.push_back(static_cast<double>(row.point));
     sequence.push_back(static_cast<double>(row.sequence));
     outcome.push_back(static_cast<std::uint8_t>(row.result.outcome));
-    diverged.push_back(run_score(row.result, "success").lost ? 1 : 0);
+    diverged.push_back(run_score(row.result, "success").diverged ? 1 : 0);
     held_out.push_back(row.held_out ? 1 : 0);
     for (const std::string& key : scores) {
       values.push_back(score_in(row.result, key).value_or(kNone));
@@ -234,7 +234,7 @@ Json sequences_json(const std::vector<ResponseCase>& sequences) {
 }
 
 Json counts_json(const MergedSweep& units) {
-  Json json = {{"total", units.units.size()}, {"others", units.others}};
+  Json json = {{"total", units.jobs.size()}, {"others", units.others}};
   for (const char* outcome : {"done", "failed", "crashed", "timed_out", "missing"}) {
     json[outcome] = units.count(outcome);
   }
@@ -246,7 +246,7 @@ Result<Json> estimators_json(const TuningSource& source, const VariedParameters&
                              PageData& page) {
   Json json = Json::array();
   for (const EstimatorRows& own : all.estimators) {
-    const auto defaults = untuned_values(own.estimator, varied);
+    const auto defaults = default_values(own.estimator, varied);
     if (!defaults) return tl::unexpected(defaults.error());
     auto analyses = analyses_json(source, text_of(own.estimator), page);
     if (!analyses) return analyses;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/run/seeds.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv_columns.hpp"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTunePlan = "tune.yaml";
 constexpr const char* kSweepPlan = "plan.yaml";
-constexpr const char* kUnitList = "units.csv";
+constexpr const char* kUnitList = "jobs.csv";
 constexpr const char* kTunePoints = "tune.csv";
 
 /// Names of scenarios that a plan gives by name or file.
@@ -64,9 +65,9 @@ std::string as_sweep(const TunePlan& plan) {
   sweep.tags = plan.tags;
   sweep.seeds = plan.seeds;
   sweep.estimators = {plan.estimator};
-  sweep.over = plan.over;
+  sweep.params = plan.params;
   sweep.set = plan.set;
-  sweep.untuned = true;
+  sweep.include_defaults = true;
   return plan_text(sweep);
 }
 
@@ -76,7 +77,7 @@ std::map<std::vector<double>, TunedPoint> points_in(const fs::path& file, const 
   const auto table = CsvColumns::read(file);
   if (!table) return points;
   std::vector<std::vector<double>> columns;
-  for (const std::string& text : plan.over) {
+  for (const std::string& text : plan.params) {
     const auto range = parse_range(text);
     auto column = range ? table->numbers(range->key) : failure("no range");
     if (!column || column->size() != table->rows()) return {};
@@ -93,14 +94,14 @@ std::map<std::vector<double>, TunedPoint> points_in(const fs::path& file, const 
 }
 
 /// A unit's file as one of a sweep, where it is one.
-Result<MergedUnit> unit_of(const UnitFolder& folder, const std::string& id) {
+Result<MergedJob> unit_of(const JobResults& folder, const std::string& id) {
   auto json = folder.read(id);
   const bool whole = json && result_in(*json) && member(*json, "settings").is_object() &&
                      member(*json, "seed").is_number_unsigned() &&
                      !text_in(*json, "scenario").empty();
   if (!whole) return failure(id);
   const std::string seed = fmt::format("{}", (*json)["seed"].get<std::uint64_t>());
-  return MergedUnit{{id, text_in(*json, "scenario"), seed, text_in(*json, "estimator")},
+  return MergedJob{{id, text_in(*json, "scenario"), seed, text_in(*json, "estimator")},
                     std::move(*json)};
 }
 
@@ -116,7 +117,7 @@ Result<TuningSource> read_tune(const fs::path& folder) {
   source.units.plans = {as_sweep(*plan)};
   source.held_out.plans = source.units.plans;
   source.points = points_in(folder / kTunePoints, *plan);
-  const UnitFolder units(folder / "units");
+  const JobResults units(folder / "jobs");
   std::size_t broken = 0;
   for (const std::string& id : units.ids()) {
     auto unit = unit_of(units, id);
@@ -125,7 +126,7 @@ Result<TuningSource> read_tune(const fs::path& folder) {
       continue;
     }
     const bool tuned = sequences->contain(unit->listed.scenario, unit->file["seed"]);
-    (tuned ? source.units : source.held_out).units.push_back(std::move(*unit));
+    (tuned ? source.units : source.held_out).jobs.push_back(std::move(*unit));
   }
   if (broken > 0) source.notes.push_back(fmt::format("{} job files cannot be read", broken));
   return source;
@@ -154,7 +155,7 @@ Result<TuningSource> read_tuning(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / kTunePlan, ignored)) return read_tune(folder);
   if (holds_tuning(folder)) return read_sweep(folder);
-  return failure(folder.string() + ": holds neither a sweep (plan.yaml, units.csv) nor a tuning " +
+  return failure(folder.string() + ": holds neither a sweep (plan.yaml, jobs.csv) nor a tuning " +
                  "(tune.yaml)");
 }
 

@@ -30,7 +30,7 @@ struct TuningSource {
   std::vector<std::string> notes;                    ///< what could not be used
 };
 
-/// Whether the folder is that of a sweep (plan.yaml, units.csv) or of a tuning (tune.yaml).
+/// Whether the folder is that of a sweep (plan.yaml, jobs.csv) or of a tuning (tune.yaml).
 bool holds_tuning(const std::filesystem::path& folder);
 
 /// Reads the folder; jobs that are being written meanwhile are left out. Error when it holds

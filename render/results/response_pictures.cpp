@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "bench/tuning/response_report.hpp"
+#include "bench/tuning/response_summary.hpp"
 #include "render/plots/field_plot.hpp"
 #include "render/plots/level_plot.hpp"
 #include "render/plots/plot.hpp"
@@ -77,7 +77,7 @@ Result<bool> draw_curve(const ResponseTable& table, const Objective& objective, 
 std::pair<std::size_t, std::size_t> leading(const ResponseTable& table,
                                             const Objective& objective) {
   const auto sensitivity = sensitivity_of(table, objective);
-  if (!sensitivity || !sensitivity->trustworthy()) return {0, 1};
+  if (!sensitivity || !sensitivity->is_reliable()) return {0, 1};
   const auto& total = sensitivity->surrogate.indices().total;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < total.size(); ++i) order.push_back(i);

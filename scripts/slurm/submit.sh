@@ -26,7 +26,7 @@ mkdir -p "$log"
 after=()
 if [ -n "${WALKS:-}" ]; then
   walks=$(sbatch --parsable --array="1-$WALKS" --output="$log/walks-%a.txt" "${options[@]}" \
-    "$here/sweep.sbatch" "$WALKS" "$plan" "$out" --walks-only "$@")
+    "$here/sweep.sbatch" "$WALKS" "$plan" "$out" --simulate-only "$@")
   after=(--dependency="afterany:$walks")
   echo "walks: job $walks, $WALKS tasks"
 fi

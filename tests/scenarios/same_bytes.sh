@@ -11,7 +11,7 @@ mkdir -p "$out"
 for jobs in 1 2; do
   # Expectations are for whole walks: exit code 1 is no matter here.
   "$aims" suite --tags paper,corridor,severity,stress --seeds 1 --estimators aims,leg --trajectories \
-    --no-report --set "max_duration=$seconds" --jobs $jobs --out "$out/jobs-$jobs" --quiet >"$out/jobs-$jobs.log" 2>&1 ||
+    --no-page --set "max_duration=$seconds" --jobs $jobs --out "$out/jobs-$jobs" --quiet >"$out/jobs-$jobs.log" 2>&1 ||
     [ $? -eq 1 ] || { tail -5 "$out/jobs-$jobs.log" >&2; exit 2; }
 done
 runs=$(find "$out/jobs-1/runs" -name aims.tum | wc -l)

@@ -26,7 +26,7 @@ class CommandLine : public testing::CommandLine {
     EXPECT_FALSE(fs::exists(folder_.path() / "out"));
   }
 
-  const std::string kCorridor = std::string("'") + AIMS_SCENARIOS "/corridor.yaml'";
+  const std::string kCorridor = std::string("'") + AIMS_SCENARIOS "/paper/corridor.yaml'";
 };
 
 TEST_F(CommandLine, RunsAShortWalkAndPrintsATableRowPerEstimator) {
@@ -48,7 +48,7 @@ TEST_F(CommandLine, DetectorsPrintsARowPerIndexAndSaysWhenNothingCanBeDetected) 
   const std::string yaml =
       "scene: {corridor: {length: 10}}\n"
       "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n";
-  const Outcome outcome = aims("detectors " + scenario(yaml) + " --seeds 1 --quiet --out here");
+  const Outcome outcome = aims("study detectors " + scenario(yaml) + " --seeds 1 --quiet --out here");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   for (const char* row : {"\nD ", "\nO_lidar ", "\nC_IL ", "\nsmallest_eigenvalue "}) {
     EXPECT_NE(outcome.output.find(row), std::string::npos) << row << outcome.output;
@@ -56,9 +56,9 @@ TEST_F(CommandLine, DetectorsPrintsARowPerIndexAndSaysWhenNothingCanBeDetected) 
   EXPECT_NE(outcome.output.find("all runs, n10: none of"), std::string::npos) << outcome.output;
   EXPECT_EQ(outcome.output.find("nan"), std::string::npos) << outcome.output;
   EXPECT_TRUE(fs::exists(folder_.path() / "here" / "roc.png"));
-  EXPECT_EQ(aims("detectors my.yaml --seeds 1 --out here").exit_code, 2) << "exists already";
-  EXPECT_EQ(aims("detectors my.yaml --seeds x --out new").exit_code, 2);
-  EXPECT_EQ(aims("detectors my.yaml --estimator leg --seeds 1 --out new").exit_code, 2);
+  EXPECT_EQ(aims("study detectors my.yaml --seeds 1 --out here").exit_code, 2) << "exists already";
+  EXPECT_EQ(aims("study detectors my.yaml --seeds x --out new").exit_code, 2);
+  EXPECT_EQ(aims("study detectors my.yaml --estimator leg --seeds 1 --out new").exit_code, 2);
   EXPECT_FALSE(fs::exists(folder_.path() / "new"));
 }
 
@@ -87,7 +87,7 @@ TEST_F(CommandLine, BadUsageIsRefused) {
   expect_refused(kCorridor + " --set lidar.range_mx=3", "did you mean 'lidar.range_max'?");
   expect_refused(kCorridor + " --set lidar.range_max", "--set");
   expect_refused(kCorridor + " --estimators aims,lioo", "did you mean 'lio'?");
-  expect_refused(kCorridor + " --seed x", "--seed");
+  expect_refused(kCorridor + " --seeds x", "--seeds");
   expect_refused(kCorridor + " --out /proc/nowhere/run", "/proc/nowhere");
 }
 
@@ -122,7 +122,7 @@ TEST_F(CommandLine, ListShowsFamiliesAndTakesSeveralTags) {
   std::ofstream(deep / "other.yaml") << "tags: [three]";
   const Outcome list = aims("list --tags two,one");
   EXPECT_EQ(list.exit_code, 0) << list.output;
-  EXPECT_NE(list.output.find("loss             [%], 2 cases: mild, hard"), std::string::npos)
+  EXPECT_NE(list.output.find("loss             [%], 2 scenarios: mild, hard"), std::string::npos)
       << list.output;
   EXPECT_EQ(list.output.find("other"), std::string::npos) << list.output;
   const Outcome unknown = aims("list --tags four");
@@ -141,13 +141,13 @@ TEST_F(CommandLine, ASuiteRunsResumesChecksItsGatesAndIsCompared) {
   EXPECT_EQ(first.exit_code, 1) << first.output;
   EXPECT_NE(first.output.find("2 runs simulated, 0 found"), std::string::npos) << first.output;
   EXPECT_NE(first.output.find("walk seed 1,2: leg median ate_m"), std::string::npos);
-  EXPECT_NE(first.output.find("again: aims run scenarios/walk.yaml --seed 1,2 --estimators leg"),
+  EXPECT_NE(first.output.find("to repeat: aims run scenarios/walk.yaml --seeds 1,2 --estimators leg"),
             std::string::npos)
       << first.output;
   EXPECT_NE(aims(suite).output.find("0 runs simulated, 2 found"), std::string::npos);
   const Outcome changed = aims(suite + " --set estimator.degeneracy.eta=4");
   EXPECT_NE(changed.output.find("another code or configuration"), std::string::npos);
-  const Outcome same = aims("compare here here --fail-on-worse --out compared");
+  const Outcome same = aims("study compare here here --fail-on-worse --out compared");
   EXPECT_EQ(same.exit_code, 0) << same.output;
   EXPECT_NE(same.output.find("0 better, 0 worse"), std::string::npos) << same.output;
   EXPECT_TRUE(fs::exists(folder_.path() / "compared" / "compare.json"));
@@ -167,7 +167,7 @@ TEST_F(CommandLine, ASuiteSaysWhatIsWrongWithItsArguments) {
   refused("suite --set lidar.range_mx=3", "did you mean 'lidar.range_max'?");
   refused("suite --tags short --out scenarios", "is no suite's folder");
   refused("suite --folder nowhere", "nowhere: holds no scenario");
-  refused("compare scenarios scenarios", "holds no finished results");
+  refused("study compare scenarios scenarios", "holds no finished results");
 }
 
 TEST_F(CommandLine, HelpAndVersionSucceedAndNonsenseDoesNot) {

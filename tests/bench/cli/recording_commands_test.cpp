@@ -46,7 +46,7 @@ class Recordings : public testing::CommandLine {
 
   /// walk.bag and what the command said.
   Outcome simulate(const std::string& options = "") const {
-    return aims("simulate " + scenario(kShortWalk) + " --quiet -o walk.bag " + options);
+    return aims("simulate " + scenario(kShortWalk) + " --quiet --out walk.bag " + options);
   }
 };
 
@@ -92,7 +92,7 @@ TEST_F(Recordings, AKilledSimulationLeavesABagThatOpens) {
   int with_messages = 0;
   for (const char* after : {"0.4", "0.7", "1.1", "1.9"}) {
     shell(std::string("timeout -s KILL ") + after + " '" AIMS_COMMAND "' simulate '" +
-          AIMS_SCENARIOS + "/corridor.yaml' --quiet --overwrite -o killed.bag");
+          AIMS_SCENARIOS + "/paper/corridor.yaml' --quiet --overwrite --out killed.bag");
     if (!fs::exists(folder_.path() / "killed.bag")) continue;
     const Outcome info = aims("info killed.bag");
     EXPECT_EQ(info.exit_code, 0) << after << info.output;
@@ -118,8 +118,8 @@ TEST_F(Recordings, CheckNamesWhatASystemMisses) {
   const Outcome all = aims("check walk.bag");
   EXPECT_EQ(all.exit_code, 0) << all.output;
   EXPECT_NE(all.output.find("LIO-SAM: poor: IMU of 200 Hz"), std::string::npos) << all.output;
-  EXPECT_EQ(aims("check walk.bag --for LIO-SAM,Leg-KILO").exit_code, 0) << "poorly, but they run";
-  const Outcome unknown = aims("check walk.bag --for SLAM9000");
+  EXPECT_EQ(aims("check walk.bag --system LIO-SAM,Leg-KILO").exit_code, 0) << "poorly, but they run";
+  const Outcome unknown = aims("check walk.bag --system SLAM9000");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.output.find("FAST-LIO2"), std::string::npos) << unknown.output;
 }
@@ -137,9 +137,9 @@ TEST_F(Recordings, BadInputIsRefusedWithFileAndOffset) {
   expect_refused("estimate walk.bag --topics lidar=/velodyne", {"/velodyne", "/lidar/points"});
   expect_refused("estimate walk.bag --topics lidars=/lidar/points", {"lidars", "lidar"});
   expect_refused("estimate walk.bag --topics /lidar/points", {"--topics", "SENSOR=TOPIC"});
-  expect_refused("estimate walk.bag --estimator ames", {"ames", "aims"});
+  expect_refused("estimate walk.bag --estimators ames", {"ames", "aims"});
   expect_refused("estimate walk.bag --set estimator.degeneracy.etta=3", {"etta", "eta"});
-  expect_refused("simulate my.yaml -o walk.bag", {"walk.bag"});
+  expect_refused("simulate my.yaml --out walk.bag", {"walk.bag"});
 }
 
 TEST_F(Recordings, WhatIsWholeOfACutBagIsEstimatedWhenAskedFor) {

@@ -111,7 +111,7 @@ TEST_F(RenderCommand, RefusesWhatItCannotDraw) {
   expect_refused(walk + " --video walk.mp4 --size 641x400", "even");
   expect_refused(walk + " --view inside", "--view");
   expect_refused(walk + " --fps 0", "--fps");
-  expect_refused(walk + " --seed 1-3", "one seed");
+  expect_refused(walk + " --seeds 1-3", "one seed");
   expect_refused(walk + " --estimators lioo", "did you mean 'lio'?");
 }
 

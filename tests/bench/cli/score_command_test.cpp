@@ -85,12 +85,12 @@ TEST_F(Score, OfARunsOwnFilesIsWhatTheRunScored) {
           << segment;
     }
   }
-  const Outcome compared = aims("compare scored scored");
+  const Outcome compared = aims("study compare scored scored");
   EXPECT_EQ(compared.exit_code, 0) << compared.output;
 }
 
 TEST_F(Score, TakesTruthAndEstimatesFromABag) {
-  const Outcome made = aims("simulate " + scenario(kShortWalk) + " --quiet -o walk.bag");
+  const Outcome made = aims("simulate " + scenario(kShortWalk) + " --quiet --out walk.bag");
   ASSERT_EQ(made.exit_code, 0) << made.output;
   expect_refused("--truth walk.bag --estimate walk.bag:/nope",
                  {"no topic /nope; there are", "/ground_truth/lidar (nav_msgs/Odometry)"});

@@ -22,7 +22,7 @@ const std::string kPlan =
     "scenarios: [my.yaml]\n"
     "seeds: 1\n"
     "estimators: [leg]\n"
-    "over: [\"leg.rate_hz=100:200:3\"]\n";
+    "params: [\"leg.rate_hz=100:200:3\"]\n";
 
 class Sweeps : public testing::CommandLine {
  protected:
@@ -50,17 +50,17 @@ class Sweeps : public testing::CommandLine {
 TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
   const Outcome first = sweep("--out out --shard 1/3");
   ASSERT_EQ(first.exit_code, 0) << first.output;
-  EXPECT_TRUE(holds(first, "1 units done, 0 of them failed; 0 found finished; 1 walks simulated"));
+  EXPECT_TRUE(holds(first, "1 jobs done, 0 of them failed; 0 found finished; 1 sequences simulated"));
   const Outcome early = aims("merge out");
-  EXPECT_EQ(early.exit_code, 1) << "units are missing";
-  EXPECT_TRUE(holds(early, "1 of 3 units done")) << early.output;
+  EXPECT_EQ(early.exit_code, 1) << "jobs are missing";
+  EXPECT_TRUE(holds(early, "1 of 3 jobs done")) << early.output;
   EXPECT_TRUE(holds(early, "missing: ")) << early.output;
   const Outcome rest = sweep("--out out");
-  EXPECT_TRUE(holds(rest, "2 units done, 0 of them failed; 1 found finished; 0 walks simulated"))
+  EXPECT_TRUE(holds(rest, "2 jobs done, 0 of them failed; 1 found finished; 0 sequences simulated"))
       << rest.output;
   const Outcome merged = aims("merge out");
   EXPECT_EQ(merged.exit_code, 0) << merged.output;
-  EXPECT_TRUE(holds(merged, "3 of 3 units done: out/sweep.sqlite")) << merged.output;
+  EXPECT_TRUE(holds(merged, "3 of 3 jobs done: out/sweep.sqlite")) << merged.output;
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "sweep.sqlite"));
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "sweep.csv"));
 }
@@ -75,43 +75,43 @@ TEST_F(Sweeps, ListTheIdsThatTheirFilesWillHave) {
   ASSERT_EQ(sweep("--out out --shard 3/3").exit_code, 0);
   const std::string id =
       list.output.substr(list.output.rfind('\n', list.output.size() - 2) + 1, 16);
-  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "units" / (id + ".json"))) << id;
+  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "jobs" / (id + ".json"))) << id;
 }
 
-TEST_F(Sweeps, RecordUnitsThatTakeTooLongAndDoThemAgainWhenAsked) {
+TEST_F(Sweeps, RecordJobsThatTakeTooLongAndDoThemAgainWhenAsked) {
   const Outcome late = sweep("--estimators aims --timeout 0.001 --out out");
   EXPECT_EQ(late.exit_code, 1) << late.output;
-  EXPECT_TRUE(holds(late, "3 units done, 3 of them failed")) << late.output;
+  EXPECT_TRUE(holds(late, "3 jobs done, 3 of them failed")) << late.output;
   const Outcome why = aims("merge out");
   EXPECT_EQ(why.exit_code, 1);
   EXPECT_TRUE(holds(why, "timed_out: ")) << why.output;
   EXPECT_TRUE(holds(why, "stopped after 0.001 s")) << why.output;
   const Outcome kept = sweep("--estimators aims --timeout 0.001 --out out");
-  EXPECT_TRUE(holds(kept, "0 units done")) << kept.output;
+  EXPECT_TRUE(holds(kept, "0 jobs done")) << kept.output;
   const Outcome again = sweep("--estimators aims --timeout 0 --out out --retry");
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_TRUE(holds(again, "3 units done, 0 of them failed")) << again.output;
+  EXPECT_TRUE(holds(again, "3 jobs done, 0 of them failed")) << again.output;
 }
 
 TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
-  expect_refused("--over leg.rate_khz=1:2:2", {"unknown key 'leg.rate_khz'", "leg.rate_hz"});
-  expect_refused("--over leg.rate_hz=2:1:2", {"leg.rate_hz=2:1:2", "reversed"});
-  expect_refused("--over leg.rate_hz=5:5:3", {"empty"});
-  expect_refused("--over 'leg.rate_hz=log(0,5,3)'", {"logarithm"});
-  expect_refused("--over leg.rate_hz=-1:5:3", {"leg.rate_hz", "expected a number > 0"});
-  expect_refused("--over leg.rate_hz=x", {"KEY=LOW:HIGH:COUNT"});
-  expect_refused("--over links.leg_odometry.los=0:1:2", {"did you mean 'links.leg_odometry.loss'"});
-  expect_refused("--over links.leg_odometry.loss=0:2:3",
+  expect_refused("--param leg.rate_khz=1:2:2", {"unknown key 'leg.rate_khz'", "leg.rate_hz"});
+  expect_refused("--param leg.rate_hz=2:1:2", {"leg.rate_hz=2:1:2", "reversed"});
+  expect_refused("--param leg.rate_hz=5:5:3", {"empty"});
+  expect_refused("--param 'leg.rate_hz=log(0,5,3)'", {"logarithm"});
+  expect_refused("--param leg.rate_hz=-1:5:3", {"leg.rate_hz", "expected a number > 0"});
+  expect_refused("--param leg.rate_hz=x", {"KEY=LOW:HIGH:COUNT"});
+  expect_refused("--param links.leg_odometry.los=0:1:2", {"did you mean 'links.leg_odometry.loss'"});
+  expect_refused("--param links.leg_odometry.loss=0:2:3",
                  {"links.leg_odometry.loss=0:2:3", "a number in [0, 1]"});
-  expect_refused("--over imu.gyro_bias_walk=0:1:3", {"expected 'estimator.imu.gyro_bias_walk'"});
-  expect_refused("--over seed=1:5:5", {"'seeds'"});
-  expect_refused("--cache-limit=-1", {"--cache-limit -1", "expected GB"});
+  expect_refused("--param imu.gyro_bias_walk=0:1:3", {"expected 'estimator.imu.gyro_bias_walk'"});
+  expect_refused("--param seed=1:5:5", {"'seeds'"});
+  expect_refused("--cache-limit=-1", {"--cache-limit", "not in range"});
   expect_refused("--design sobbol", {"design", "sobol"});
-  expect_refused("--samples 0", {"samples", ">= 1"});
+  expect_refused("--samples 0", {"--samples", "not in range"});
   expect_refused("--shard 3/2", {"--shard", "'3/2'"});
   expect_refused("--scenarios nowhere", {"nowhere"});
   expect_refused("--estimators legs", {"did you mean 'leg'"});
-  expect_refused("--out my.yaml", {"my.yaml", "no sweep's folder"});
+  expect_refused("--out my.yaml", {"my.yaml", "no folder of aims sweep"});
   write("plan.yaml", "scenarios: []\n");
   expect_refused("", {"no scenario is given"});
   write("plan.yaml", kPlan + "desing: grid\n");
@@ -120,57 +120,57 @@ TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
 }
 
 TEST_F(Sweeps, AreRefusedBesideAnotherAndInAFolderOfAnotherPlan) {
-  ASSERT_EQ(sweep("--out out --walks-only").exit_code, 0);
-  expect_refused("--out out --seeds 1-2", {"out: holds units of another plan", "--renew"});
+  ASSERT_EQ(sweep("--out out --simulate-only").exit_code, 0);
+  expect_refused("--out out --seeds 1-2", {"out: holds jobs of another plan", "--force"});
   const Outcome beside =
       shell("flock out/.lock '" AIMS_COMMAND "' sweep plan.yaml --cache walks --quiet --out out");
   EXPECT_EQ(beside.exit_code, 2) << beside.output;
-  EXPECT_TRUE(holds(beside, "out: another sweep works there")) << beside.output;
+  EXPECT_TRUE(holds(beside, "out: in use by another aims sweep")) << beside.output;
 }
 
-TEST_F(Sweeps, OverTheSimulationMakeAWalkPerValue) {
+TEST_F(Sweeps, OverTheSimulationMakeASequencePerValue) {
   const Outcome done =
-      sweep("--out out --over links.leg_odometry.loss=0:0.9:3 --over leg.rate_hz=100:200:2");
+      sweep("--out out --param links.leg_odometry.loss=0:0.9:3 --param leg.rate_hz=100:200:2");
   ASSERT_EQ(done.exit_code, 0) << done.output;
-  EXPECT_TRUE(holds(done, "6 units done, 0 of them failed; 0 found finished; 3 walks simulated"))
+  EXPECT_TRUE(holds(done, "6 jobs done, 0 of them failed; 0 found finished; 3 sequences simulated"))
       << done.output;
   ASSERT_EQ(aims("merge out").exit_code, 0);
   const auto table = read_file(folder_.path() / "out" / "sweep.csv");
   ASSERT_TRUE(table);
   EXPECT_NE(table->find("links.leg_odometry.loss"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "links.leg_odometry.loss.png"));
-  const Outcome other = sweep("--out other --over scoring.max_error_offset=0.5:2:3");
-  EXPECT_TRUE(holds(other, "3 units done, 0 of them failed; 0 found finished; 1 walks simulated"))
+  const Outcome other = sweep("--out other --param scoring.max_error_offset=0.5:2:3");
+  EXPECT_TRUE(holds(other, "3 jobs done, 0 of them failed; 0 found finished; 1 sequences simulated"))
       << other.output;
 }
 
 TEST_F(Sweeps, KeepWhatIsFinishedAtCtrlCAndContinue) {
-  ASSERT_EQ(sweep("--out out --over leg.rate_hz=100:200:101 --walks-only").exit_code, 0);
+  ASSERT_EQ(sweep("--out out --param leg.rate_hz=100:200:101 --simulate-only").exit_code, 0);
   const std::string command =
       "sweep plan.yaml --cache walks --quiet --jobs 1 --out out "
-      "--over leg.rate_hz=100:200:101";
+      "--param leg.rate_hz=100:200:101";
   const Outcome ended = shell(
       "{ '" AIMS_COMMAND "' " + command +
-      " & pid=$!; until ls out/units/*.json >first 2>&1 || ! kill -0 $pid; do sleep 0.01; done; "
+      " & pid=$!; until ls out/jobs/*.json >first 2>&1 || ! kill -0 $pid; do sleep 0.01; done; "
       "kill -INT $pid; wait $pid; }");
   EXPECT_EQ(ended.exit_code, 130) << ended.output;
   EXPECT_TRUE(holds(ended, "interrupted: the same command continues")) << ended.output;
   std::size_t finished = 0;
-  for (const auto& entry : fs::directory_iterator(folder_.path() / "out" / "units")) {
+  for (const auto& entry : fs::directory_iterator(folder_.path() / "out" / "jobs")) {
     if (entry.path().extension() == ".json") ++finished;
   }
   EXPECT_GE(finished, 1U);
   ASSERT_LT(finished, 101U) << "Ctrl-C came too late to tell";
   const Outcome rest = aims(command);
   EXPECT_EQ(rest.exit_code, 0) << rest.output;
-  EXPECT_TRUE(holds(rest, std::to_string(101 - finished) + " units done, 0 of them failed; " +
-                              std::to_string(finished) + " found finished; 0 walks"))
+  EXPECT_TRUE(holds(rest, std::to_string(101 - finished) + " jobs done, 0 of them failed; " +
+                              std::to_string(finished) + " found finished; 0 sequences"))
       << rest.output;
 }
 
-TEST_F(Sweeps, SayWhatGoesFromTheCacheOfWalks) {
+TEST_F(Sweeps, SayWhatIsRemovedFromTheCache) {
   fs::create_directories(folder_.path() / "walks");
-  const fs::path old = folder_.path() / "walks" / "0123456789abcdef.walk";
+  const fs::path old = folder_.path() / "walks" / "0123456789abcdef.sequence";
   std::ofstream(old) << std::string(5'000'000, 'w');
   fs::last_write_time(old, fs::file_time_type::clock::now() - std::chrono::hours(1));
   EXPECT_FALSE(holds(sweep("--out out"), "removed")) << "20 GB may stay";
@@ -188,8 +188,8 @@ TEST_F(Sweeps, AreRefusedInAFolderOfAnotherCode) {
   std::string text = read_file(file).value();
   text.replace(text.find("# code ") + 7, 4, "beef");
   std::ofstream(file) << text;
-  expect_refused("--out out", {"out: holds units of code beef", "this is code", "--renew"});
-  const Outcome renewed = sweep("--out out --renew");
+  expect_refused("--out out", {"out: holds jobs of code beef", "this is code", "--force"});
+  const Outcome renewed = sweep("--out out --force");
   EXPECT_EQ(renewed.exit_code, 0) << renewed.output;
   EXPECT_TRUE(holds(renewed, "3 found finished")) << "their ids say which code they are of";
 }
@@ -201,17 +201,17 @@ TEST_F(Sweeps, EndWithTheFileThatNoSpaceIsLeftFor) {
   }
   const Outcome full = shell(
       "unshare -rm sh -c 'mount -t tmpfs -o size=48k tmpfs small && \"$0\" sweep plan.yaml "
-      "--cache walks --quiet --over leg.rate_hz=100:200:40 --out small/out; code=$?; "
+      "--cache walks --quiet --param leg.rate_hz=100:200:40 --out small/out; code=$?; "
       "find small -name \"*.tmp\"; exit $code' '" AIMS_COMMAND "'");
   EXPECT_EQ(full.exit_code, 2) << full.output;
-  EXPECT_TRUE(holds(full, "small/out/units/")) << full.output;
+  EXPECT_TRUE(holds(full, "small/out/jobs/")) << full.output;
   EXPECT_TRUE(holds(full, "No space left on device")) << full.output;
   EXPECT_FALSE(holds(full, ".tmp")) << "nothing half-written remains: " << full.output;
 }
 
 TEST_F(Sweeps, SayWhichFileAFullDiskCouldNotTake) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  ASSERT_EQ(sweep("--out out --walks-only").exit_code, 0);
+  ASSERT_EQ(sweep("--out out --simulate-only").exit_code, 0);
   // A limit on the size of files stands in for a disk that is full: no walk fits.
   const Outcome full = shell("ulimit -f 64; trap '' XFSZ; '" AIMS_COMMAND
                              "' sweep plan.yaml --cache others --quiet --out out");

@@ -18,7 +18,7 @@ using testing::Outcome;
 /// Neither range holds the default, so that values which are not taken over show.
 const std::string kPlan =
     "estimator: leg\n"
-    "over: [\"leg.rate_hz=60:150\", \"leg.max_speed=log(1,4)\"]\n"
+    "params: [\"leg.rate_hz=60:150\", \"leg.max_speed=log(1,4)\"]\n"
     "scenarios: [my.yaml]\n"
     "seeds: 1\n"
     "held_out: {seeds: 2}\n"
@@ -91,8 +91,8 @@ TEST_F(Tunes, RefuseBadPlansWithOneLine) {
   expect_refused(with(kPlan, "{seeds: 2}", "{seeds: 1}"), out, "also tuned on");
   expect_refused(kPlan + "generation: 3\n", out, "plan.yaml:7:1");
   expect_refused(kPlan, out + " --apply nowhere/tuned.yaml", "no folder");
-  expect_refused(kPlan, out + " --cache-limit=-1", "expected GB");
-  expect_refused(kPlan, "--out my.yaml", "my.yaml: exists and is no tuning's folder");
+  expect_refused(kPlan, out + " --cache-limit=-1", "not in range");
+  expect_refused(kPlan, "--out my.yaml", "my.yaml: exists and is no folder of aims tune");
 }
 
 TEST_F(Tunes, AreRefusedBesideAnother) {
@@ -100,7 +100,7 @@ TEST_F(Tunes, AreRefusedBesideAnother) {
   const Outcome beside =
       shell("flock out/.lock '" AIMS_COMMAND "' tune plan.yaml --cache walks --quiet --out out");
   EXPECT_EQ(beside.exit_code, 2) << beside.output;
-  EXPECT_TRUE(holds(beside, "out: another tuning works there")) << beside.output;
+  EXPECT_TRUE(holds(beside, "out: in use by another aims tune")) << beside.output;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "bench/jobs/sweep_folder.hpp"
 #include "bench/jobs/sweep_store.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "tests/bench/jobs/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -20,39 +21,39 @@ namespace fs = std::filesystem;
 using testing::shared;
 using testing::short_walk;
 
-bool keep_going(const UnitProgress&) { return true; }
+bool keep_going(const JobProgress&) { return true; }
 
 SweepPlan small_plan() {
   SweepPlan plan;
-  plan.scenarios = {AIMS_SCENARIOS "/corridor.yaml", "severity_5"};
+  plan.scenarios = {AIMS_SCENARIOS "/paper/corridor.yaml", "severity_5"};
   plan.seeds = "1-3";
-  plan.over = {"degeneracy.eta=0:6:4", "degeneracy.kappa=log(1,100,3)"};
+  plan.params = {"degeneracy.eta=0:6:4", "degeneracy.kappa=log(1,100,3)"};
   return plan;
 }
 
-Result<std::vector<SweepUnit>> units_of(const SweepPlan& plan) {
-  return plan_units(plan, AIMS_SCENARIOS);
+Result<std::vector<Job>> jobs_of(const SweepPlan& plan) {
+  return plan_jobs(plan, AIMS_SCENARIOS);
 }
 
 std::string error_of(const SweepPlan& plan) {
-  const auto units = units_of(plan);
-  return units ? "no error" : units.error().message;
+  const auto jobs = jobs_of(plan);
+  return jobs ? "no error" : jobs.error().message;
 }
 
 TEST(SweepPlan, MakesEveryPointOnEveryWalkAndThoseOnOneWalkStandTogether) {
-  const auto units = units_of(small_plan());
-  ASSERT_TRUE(units) << units.error().message;
-  ASSERT_EQ(units->size(), 2U * 3U * 12U);
+  const auto jobs = jobs_of(small_plan());
+  ASSERT_TRUE(jobs) << jobs.error().message;
+  ASSERT_EQ(jobs->size(), 2U * 3U * 12U);
   std::set<std::string> ids;
-  std::set<std::pair<std::string, std::uint64_t>> walks;
-  for (std::size_t i = 0; i < units->size(); ++i) {
-    const SweepUnit& unit = (*units)[i];
-    EXPECT_EQ(unit.id, make_unit(unit.scenario, unit.seed, unit.estimator).id);
-    ids.insert(unit.id);
-    const auto walk = std::pair(unit.scenario->name, unit.seed);
-    EXPECT_EQ(walks.insert(walk).second, i % 12 == 0);
+  std::set<std::pair<std::string, std::uint64_t>> sequences;
+  for (std::size_t i = 0; i < jobs->size(); ++i) {
+    const Job& job = (*jobs)[i];
+    EXPECT_EQ(job.id, make_job(job.scenario, job.seed, job.estimator).id);
+    ids.insert(job.id);
+    const auto sequence = std::pair(job.scenario->name, job.seed);
+    EXPECT_EQ(sequences.insert(sequence).second, i % 12 == 0);
   }
-  EXPECT_EQ(ids.size(), units->size());
+  EXPECT_EQ(ids.size(), jobs->size());
 }
 
 TEST(SweepPlan, ReadsBackFromItsText) {
@@ -66,7 +67,7 @@ TEST(SweepPlan, ReadsBackFromItsText) {
   const auto read = load_plan(file);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(plan_text(*read), plan_text(plan));
-  EXPECT_EQ(units_of(*read)->size(), 2U * 3U * 7U);
+  EXPECT_EQ(jobs_of(*read)->size(), 2U * 3U * 7U);
 }
 
 TEST(SweepPlan, RefusesWhatIsNotRight) {
@@ -81,11 +82,11 @@ TEST(SweepPlan, RefusesWhatIsNotRight) {
   expect(with([](auto& p) { p.scenarios.clear(); }), "no scenario is given");
   expect(with([](auto& p) { p.scenarios = {"coridor"}; }), "did you mean 'corridor'");
   expect(with([](auto& p) { p.tags = {"dail"}; }), "no scenario has the tag 'dail'");
-  expect(with([](auto& p) { p.over = {"degeneracy.etta=0:1:2"}; }), "degeneracy.eta");
-  expect(with([](auto& p) { p.over = {"degeneracy.eta=6:0:2"}; }), "reversed");
-  expect(with([](auto& p) { p.over = {"degeneracy.eta=1:1:3"}; }), "empty");
-  expect(with([](auto& p) { p.over = {"degeneracy.kappa=log(0,1,3)"}; }), "logarithm");
-  expect(with([](auto& p) { p.over = {"degeneracy.alpha=0:7:3"}; }), "a number in [0, 1)");
+  expect(with([](auto& p) { p.params = {"degeneracy.etta=0:1:2"}; }), "degeneracy.eta");
+  expect(with([](auto& p) { p.params = {"degeneracy.eta=6:0:2"}; }), "reversed");
+  expect(with([](auto& p) { p.params = {"degeneracy.eta=1:1:3"}; }), "empty");
+  expect(with([](auto& p) { p.params = {"degeneracy.kappa=log(0,1,3)"}; }), "logarithm");
+  expect(with([](auto& p) { p.params = {"degeneracy.alpha=0:7:3"}; }), "a number in [0, 1)");
   expect(with([](auto& p) { p.estimators = {"aimz"}; }), "did you mean 'aims'");
   expect(with([](auto& p) { p.estimators.clear(); }), "estimators");
   expect(with([](auto& p) { p.seeds = ""; }), "is not a seed");
@@ -96,21 +97,21 @@ TEST(SweepPlan, HoldsNoUnitTwiceWhenPointsRoundToOne) {
   SweepPlan plan = small_plan();
   plan.scenarios = {"corridor"};
   plan.seeds = "1";
-  plan.over = {"lidar.max_iterations=1:3:9"};
-  EXPECT_EQ(units_of(plan)->size(), 3U);
+  plan.params = {"lidar.max_iterations=1:3:9"};
+  EXPECT_EQ(jobs_of(plan)->size(), 3U);
 }
 
 TEST(Shard, TogetherAreAllUnitsEachOnce) {
-  const std::vector<SweepUnit> units(11);
+  const std::vector<Job> jobs(11);
   for (const int count : {1, 2, 3, 11, 20}) {
     std::size_t next = 0;
     for (int index = 1; index <= count; ++index) {
-      const auto part = part_of(units, {index, count});
-      EXPECT_EQ(part.data(), units.data() + next);
+      const auto part = part_of(jobs, {index, count});
+      EXPECT_EQ(part.data(), jobs.data() + next);
       next += part.size();
       EXPECT_LE(part.size(), 11U / count + 1);
     }
-    EXPECT_EQ(next, units.size());
+    EXPECT_EQ(next, jobs.size());
   }
   EXPECT_EQ(parse_shard("2/8")->index, 2);
   for (const char* wrong : {"", "2", "0/4", "5/4", "a/4", "1/4x", "-1/4"}) {
@@ -118,26 +119,26 @@ TEST(Shard, TogetherAreAllUnitsEachOnce) {
   }
 }
 
-/// A sweep of two settings of the cheapest estimator over a short walk, and its walk.
+/// A sweep of two settings of the cheapest estimator over a short sequence, and its sequence.
 class Sweep : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    walks_ = new TemporaryFolder;
-    ASSERT_TRUE(WalkCache(walks_->path()).make(short_walk(), 1));
+    sequences_ = new TemporaryFolder;
+    ASSERT_TRUE(SequenceCache(sequences_->path()).make(short_walk(), 1));
   }
-  static void TearDownTestSuite() { delete walks_; }
+  static void TearDownTestSuite() { delete sequences_; }
 
   Sweep() {
     plan_.scenarios = {"short"};
     const auto scenario = shared(short_walk());
     for (const char* spec : {"leg+leg.rate_hz=100", "leg+leg.rate_hz=200"}) {
-      units_.push_back(make_unit(scenario, 1, parse_estimator_spec(spec).value()));
+      jobs_.push_back(make_job(scenario, 1, parse_estimator_spec(spec).value()));
     }
     options_.out = folder_.path() / "sweep";
-    options_.cache = walks_->path();
+    options_.cache = sequences_->path();
   }
 
-  Result<UnitRun> sweep() { return run_sweep(plan_, units_, options_, keep_going); }
+  Result<JobRun> sweep() { return run_sweep(plan_text(plan_), jobs_, options_, keep_going); }
 
   void expect_refused(const std::string& part) {
     const auto run = sweep();
@@ -146,14 +147,14 @@ class Sweep : public ::testing::Test {
     EXPECT_NE(run.error().message.find(options_.out.string()), std::string::npos);
   }
 
-  static TemporaryFolder* walks_;
+  static TemporaryFolder* sequences_;
   TemporaryFolder folder_;
   SweepPlan plan_;
-  std::vector<SweepUnit> units_;
+  std::vector<Job> jobs_;
   SweepOptions options_;
 };
 
-TemporaryFolder* Sweep::walks_ = nullptr;
+TemporaryFolder* Sweep::sequences_ = nullptr;
 
 TEST_F(Sweep, FillsItsFolderShardByShardAndContinues) {
   options_.shard = {2, 2};
@@ -162,8 +163,8 @@ TEST_F(Sweep, FillsItsFolderShardByShardAndContinues) {
   EXPECT_EQ(second->done, 1U);
   const auto half = merge_sweeps(std::vector{options_.out});
   ASSERT_TRUE(half);
-  EXPECT_EQ(half->units[0].outcome(), "missing");
-  EXPECT_EQ(half->units[1].outcome(), "done");
+  EXPECT_EQ(half->jobs[0].outcome(), "missing");
+  EXPECT_EQ(half->jobs[1].outcome(), "done");
   options_.shard = {};
   const auto rest = sweep();
   ASSERT_TRUE(rest) << rest.error().message;
@@ -175,9 +176,9 @@ TEST_F(Sweep, RefusesAFolderInUseOrOfSomethingElse) {
   ASSERT_TRUE(sweep());
   {
     const auto lock = FolderLock::take(options_.out);
-    expect_refused("another sweep works there");
+    expect_refused("in use by another aims sweep");
     options_.shard = {1, 2};
-    expect_refused("another sweep works there");
+    expect_refused("in use by another aims sweep");
   }
   const fs::path shard = options_.out / "shards" / "1-of-2";
   fs::create_directories(shard);
@@ -190,7 +191,7 @@ TEST_F(Sweep, RefusesAFolderInUseOrOfSomethingElse) {
   options_.out = folder_.path() / "thesis";
   fs::create_directories(options_.out);
   std::ofstream(options_.out / "thesis.tex") << "years of work";
-  expect_refused("is no sweep's folder");
+  expect_refused("is no folder of aims sweep");
 }
 
 TEST_F(Sweep, KeepsToOnePlanCodeAndScenarios) {
@@ -200,14 +201,14 @@ TEST_F(Sweep, KeepsToOnePlanCodeAndScenarios) {
   std::string other = text;
   other.replace(other.find("# code ") + 7, 4, "beef");
   ASSERT_TRUE(write_file_atomically(file, other));
-  expect_refused("holds units of code beef");
+  expect_refused("holds jobs of code beef");
   ASSERT_TRUE(write_file_atomically(file, text));
 
   plan_.timeout = 60.0;
   EXPECT_TRUE(sweep()) << "it decides no result";
-  units_.pop_back();
+  jobs_.pop_back();
   plan_.samples = 5;
-  expect_refused("holds units of another plan, with 'samples: 64'");
+  expect_refused("holds jobs of another plan, with 'samples: 64'");
   plan_.samples = 64;
   expect_refused("other scenarios");
   options_.renew = true;
@@ -216,8 +217,8 @@ TEST_F(Sweep, KeepsToOnePlanCodeAndScenarios) {
   EXPECT_EQ(renewed->reused, 1U);
   const auto merged = merge_sweeps(std::vector{options_.out});
   ASSERT_TRUE(merged);
-  EXPECT_EQ(merged->units.size(), 1U);
-  EXPECT_EQ(merged->others, 1U) << "the unit that is listed no more";
+  EXPECT_EQ(merged->jobs.size(), 1U);
+  EXPECT_EQ(merged->others, 1U) << "the job that is listed no more";
 }
 
 TEST_F(Sweep, MergesFoldersIntoOneDatabaseAndTable) {
@@ -237,14 +238,14 @@ TEST_F(Sweep, MergesFoldersIntoOneDatabaseAndTable) {
   ASSERT_TRUE(write_sqlite(*merged, file)) << "over an earlier one";
   const SQLite::Database database(file.string());
   SQLite::Statement query(database,
-                          "SELECT p.value, s.value, u.seed FROM units u JOIN parameters p "
-                          "USING (unit) JOIN scores s USING (unit) WHERE p.key = 'leg.rate_hz' "
+                          "SELECT p.value, s.value, u.seed FROM jobs u JOIN parameters p "
+                          "USING (job) JOIN scores s USING (job) WHERE p.key = 'leg.rate_hz' "
                           "AND s.key = 'm_end_m' AND u.outcome = 'done' ORDER BY p.value");
   for (std::size_t i = 0; i < 2; ++i) {
     ASSERT_TRUE(query.executeStep());
     EXPECT_EQ(query.getColumn(0).getDouble(), i == 0 ? 100.0 : 200.0);
-    const UnitFolder folder((i == 0 ? first : options_.out) / "units");
-    EXPECT_EQ(query.getColumn(1).getDouble(), score_in(*folder.find(units_[i].id), "m_end_m"));
+    const JobResults folder((i == 0 ? first : options_.out) / "jobs");
+    EXPECT_EQ(query.getColumn(1).getDouble(), score_in(*folder.find(jobs_[i].id), "m_end_m"));
     EXPECT_EQ(query.getColumn(2).getInt(), 1);
   }
   EXPECT_FALSE(query.executeStep());

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <map>
 
-#include "bench/jobs/unit_id.hpp"
+#include "bench/jobs/job_id.hpp"
 #include "bench/studies/families.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/folder_lock.hpp"
@@ -181,13 +181,13 @@ TEST_F(SuiteRuns, RefuseAFolderOfSomethingElseAndOneInUse) {
   EXPECT_NE(used.error().message.find("another suite"), std::string::npos);
 }
 
-TEST(UnitId, DependsOnWhatDecidesARunAndOnNothingElse) {
+TEST(JobId, DependsOnWhatDecidesARunAndOnNothingElse) {
   const Scenario scenario = short_walk("a", 5.0);
-  const std::string id = unit_id(scenario, 1, "aims");
+  const std::string id = job_id(scenario, 1, "aims");
   EXPECT_EQ(id.size(), 16U);
-  EXPECT_NE(id, unit_id(scenario, 2, "aims"));
-  EXPECT_NE(id, unit_id(scenario, 1, "leg"));
-  EXPECT_NE(id, unit_id(short_walk("a", 6.0), 1, "aims"));
+  EXPECT_NE(id, job_id(scenario, 2, "aims"));
+  EXPECT_NE(id, job_id(scenario, 1, "leg"));
+  EXPECT_NE(id, job_id(short_walk("a", 6.0), 1, "aims"));
   Scenario same = scenario;
   same.name = "b";
   same.description = "other words";
@@ -196,12 +196,12 @@ TEST(UnitId, DependsOnWhatDecidesARunAndOnNothingElse) {
   same.estimators = {"aims"};
   same.expect = {{"aims", "ate_m", 1.0}};
   same.file = "/elsewhere/b.yaml";
-  EXPECT_EQ(id, unit_id(same, 1, "aims"));
+  EXPECT_EQ(id, job_id(same, 1, "aims"));
   same.estimator.degeneracy.eta += 1.0;
-  EXPECT_NE(id, unit_id(same, 1, "aims"));
+  EXPECT_NE(id, job_id(same, 1, "aims"));
   same = scenario;
   same.scoring.max_error_offset += 1.0;
-  EXPECT_NE(id, unit_id(same, 1, "aims"));
+  EXPECT_NE(id, job_id(same, 1, "aims"));
 }
 
 /// A case of a family with one run per ATE.

@@ -90,7 +90,7 @@ TEST(Objective, EachLostRunMakesItWorse) {
     EXPECT_GT(after, before);
     before = after;
   }
-  EXPECT_DOUBLE_EQ(before, 2.0 * objective.lost_penalty);
+  EXPECT_DOUBLE_EQ(before, 2.0 * objective.divergence_penalty);
 }
 
 TEST(Objective, ALostRunNeverCountsLessThanItsScore) {
@@ -169,10 +169,10 @@ TEST(Sensitivity, TellsWhichParameterDoesNotMatter) {
   const auto sensitivity = sensitivity_of(table, absolute());
   ASSERT_TRUE(sensitivity);
   EXPECT_TRUE(sensitivity->logarithmic);
-  EXPECT_TRUE(sensitivity->trustworthy());
-  EXPECT_FALSE(sensitivity->does_not_matter(0));
-  EXPECT_FALSE(sensitivity->does_not_matter(1));
-  EXPECT_TRUE(sensitivity->does_not_matter(2));
+  EXPECT_TRUE(sensitivity->is_reliable());
+  EXPECT_FALSE(sensitivity->is_negligible(0));
+  EXPECT_FALSE(sensitivity->is_negligible(1));
+  EXPECT_TRUE(sensitivity->is_negligible(2));
 }
 
 TEST(Sensitivity, OfNoiseTrustsNothing) {
@@ -183,8 +183,8 @@ TEST(Sensitivity, OfNoiseTrustsNothing) {
       [&](const std::vector<double>&, const ResponseCase&) { return std::exp(random.normal()); });
   const auto sensitivity = sensitivity_of(table, absolute());
   ASSERT_TRUE(sensitivity);
-  EXPECT_FALSE(sensitivity->trustworthy());
-  EXPECT_FALSE(sensitivity->does_not_matter(0));
+  EXPECT_FALSE(sensitivity->is_reliable());
+  EXPECT_FALSE(sensitivity->is_negligible(0));
   EXPECT_TRUE(curve_of(table, absolute(), 0).points.empty());
 }
 

@@ -78,24 +78,24 @@ TEST(RangeKey, IsHeldAgainstTheScenario) {
 
 SweepPlan plan_over(std::vector<std::string> over) {
   SweepPlan plan;
-  plan.scenarios = {AIMS_SCENARIOS "/corridor.yaml"};
+  plan.scenarios = {AIMS_SCENARIOS "/paper/corridor.yaml"};
   plan.estimators = {"aims", "leg"};
   plan.seeds = "1-2";
-  plan.over = std::move(over);
+  plan.params = std::move(over);
   return plan;
 }
 
-std::vector<SweepUnit> units_of(const SweepPlan& plan) {
-  auto units = plan_units(plan, AIMS_SCENARIOS);
+std::vector<Job> units_of(const SweepPlan& plan) {
+  auto units = plan_jobs(plan, AIMS_SCENARIOS);
   EXPECT_TRUE(units) << units.error().message;
-  return units.value_or(std::vector<SweepUnit>());
+  return units.value_or(std::vector<Job>());
 }
 
 /// Names of the units' walks, in order; the same walk once where units on it stand together.
-std::vector<std::string> walks_of(const std::vector<SweepUnit>& units) {
+std::vector<std::string> walks_of(const std::vector<Job>& units) {
   std::vector<std::string> walks;
-  for (const SweepUnit& unit : units) {
-    const std::string id = WalkCache::id_of(*unit.scenario, unit.seed);
+  for (const Job& unit : units) {
+    const std::string id = SequenceCache::id_of(*unit.scenario, unit.seed);
     if (walks.empty() || walks.back() != id) walks.push_back(id);
   }
   return walks;
@@ -108,13 +108,13 @@ TEST(ScenarioRange, OfTheSimulationMakesAWalkPerValueThatItsUnitsShare) {
   const auto walks = walks_of(units);
   EXPECT_EQ(walks.size(), 3U * 2U) << "those on one walk stand together";
   EXPECT_EQ(std::set(walks.begin(), walks.end()).size(), walks.size());
-  for (const SweepUnit& unit : units) {
+  for (const Job& unit : units) {
     ASSERT_EQ(unit.scenario_settings.size(), 1U);
     EXPECT_EQ(unit.scenario_settings[0].key, "links.leg_odometry.loss");
-    EXPECT_EQ(unit.scenario_settings[0].untuned, "0.05");
+    EXPECT_EQ(unit.scenario_settings[0].default_value, "0.05");
     EXPECT_EQ(unit.scenario_settings[0].value,
               fmt::format("{}", unit.scenario->simulation.links.leg_odometry.loss));
-    EXPECT_EQ(unit.id, make_unit(unit.scenario, unit.seed, unit.estimator).id);
+    EXPECT_EQ(unit.id, make_job(unit.scenario, unit.seed, unit.estimator).id);
   }
 }
 
@@ -127,18 +127,18 @@ TEST(ScenarioRange, OfTheScoringKeepsTheWalk) {
 TEST(ScenarioRange, RoundsWholeNumbersAndMakesNoUnitTwice) {
   SweepPlan plan = plan_over({"lidar.rings=15:17:9"});
   EXPECT_EQ(units_of(plan).size(), 3U * 2U * 2U);
-  plan.over = {"links.leg_odometry.loss=0:0.1:3"};
-  plan.untuned = true;
+  plan.params = {"links.leg_odometry.loss=0:0.1:3"};
+  plan.include_defaults = true;
   EXPECT_EQ(units_of(plan).size(), 3U * 2U * 2U) << "0.05 is what the scenario has";
 }
 
 TEST(ScenarioRange, IsInTheUnitsTextAndFile) {
   const auto units = units_of(plan_over({"links.leg_odometry.loss=0:0.5:2"}));
-  const SweepUnit& unit = units.back();
+  const Job& unit = units.back();
   EXPECT_EQ(text_of(unit), "corridor seed 2 leg+links.leg_odometry.loss=0.5");
-  const Json json = unit_json(unit, {});
+  const Json json = job_json(unit, {});
   EXPECT_EQ(json["settings"]["links.leg_odometry.loss"], "0.5");
-  EXPECT_EQ(json["untuned"]["links.leg_odometry.loss"], "0.05");
+  EXPECT_EQ(json["defaults"]["links.leg_odometry.loss"], "0.05");
 }
 
 TEST(ScenarioRange, IsSwept) {
@@ -146,16 +146,16 @@ TEST(ScenarioRange, IsSwept) {
   SweepOptions options;
   options.out = folder.path() / "sweep";
   options.cache = folder.path() / "walks";
-  std::vector<SweepUnit> units;
+  std::vector<Job> units;
   for (const char* loss : {"0", "0.9"}) {
     Scenario scenario = testing::short_walk();
     ASSERT_TRUE(assign(fields_of(scenario), "links.leg_odometry.loss", loss));
     for (const char* spec : {"leg", "leg+leg.rate_hz=100"}) {
-      units.push_back(make_unit(testing::shared(scenario), 1, parse_estimator_spec(spec).value()));
+      units.push_back(make_job(testing::shared(scenario), 1, parse_estimator_spec(spec).value()));
       units.back().scenario_settings = {{"links.leg_odometry.loss", loss, "0.05"}};
     }
   }
-  const auto run = run_sweep({}, units, options, [](const UnitProgress&) { return true; });
+  const auto run = run_sweep({}, units, options, [](const JobProgress&) { return true; });
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->done, 4U);
   EXPECT_EQ(run->walks, 2U) << "a walk per value, for both of its units";

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/tuning/analysis.hpp"
-#include "bench/tuning/tune_report.hpp"
+#include "bench/tuning/tune_summary.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -25,7 +25,7 @@ const fs::path kScenarios = AIMS_SCENARIOS;
 
 TunePlan small_plan() {
   TunePlan plan;
-  plan.over = {"degeneracy.eta=0:6", "degeneracy.kappa=log(1,100)", "degeneracy.alpha=0:0.99"};
+  plan.params = {"degeneracy.eta=0:6", "degeneracy.kappa=log(1,100)", "degeneracy.alpha=0:0.99"};
   plan.scenarios = {"corridor", "garage"};
   plan.seeds = "1-4";
   plan.held_out.seeds = "11-14";
@@ -63,24 +63,24 @@ struct Bowl {
   int calls = 0;
   int last_call = 1'000'000;
 
-  Result<std::optional<WalkScores>> operator()(std::span<const EstimatorSpec> estimators,
-                                               std::span<const Walk> walks) {
-    if (++calls > last_call) return std::optional<WalkScores>();
-    WalkScores scores;
+  Result<std::optional<SequenceScores>> operator()(std::span<const EstimatorSpec> estimators,
+                                                   std::span<const ScenarioSeed> sequences) {
+    if (++calls > last_call) return std::optional<SequenceScores>();
+    SequenceScores scores;
     for (const EstimatorSpec& spec : estimators) {
       scores.emplace_back();
-      for (const Walk& walk : walks) {
-        scores.back().push_back({{score(spec, walk), false}, {time_of(spec), false}});
+      for (const ScenarioSeed& sequence : sequences) {
+        scores.back().push_back({{score(spec, sequence), false}, {time_of(spec), false}});
       }
     }
     return scores;
   }
 
-  double score(const EstimatorSpec& spec, const Walk& walk) const {
-    RandomStream random = rng(walk.seed, "test." + walk.scenario->name);
+  double score(const EstimatorSpec& spec, const ScenarioSeed& sequence) const {
+    RandomStream random = rng(sequence.seed, "test." + sequence.scenario->name);
     const double eta = setting(spec, "degeneracy.eta", 3.0);
     const double kappa = setting(spec, "degeneracy.kappa", 12.6);
-    const double best = overfit && walk.seed > 10 ? 5.0 : 1.0;
+    const double best = overfit && sequence.seed > 10 ? 5.0 : 1.0;
     const double bowl = std::pow((eta - best) / 2.0, 2) + std::pow(std::log(kappa / 30.0), 2);
     return 0.1 * (1.0 + bowl) * std::exp(0.05 * random.normal());
   }
@@ -95,9 +95,10 @@ Result<TuneResult> tuned(const TunePlan& plan, Bowl bowl = {}) {
 
 TEST(TunePlan, IsReadFromYamlAndWrittenAsItIsRead) {
   const std::string text =
-      "over: [\"degeneracy.eta=0:6\"]\nscenarios: [corridor]\nseeds: 1-2\n"
+      "params: [\"degeneracy.eta=0:6\"]\nscenarios: [corridor]\nseeds: 1-2\n"
       "held_out: {seeds: 5-6, scenarios: [garage]}\n"
-      "objectives:\n  - {score: m_end_m, statistic: worst, relative: false, lost_penalty: 50}\n"
+      "objectives:\n  - {score: m_end_m, statistic: worst, relative: false, divergence_penalty: "
+      "50}\n"
       "optimizer: {algorithm: de, generations: 3, population: 6, seed: 4}\n";
   TunePlan plan;
   ASSERT_TRUE(load_config_text(text, "plan.yaml", plan));
@@ -113,7 +114,7 @@ TEST(TunePlan, FindsWalksAndUntunedValues) {
   TunePlan plan = small_plan();
   plan.held_out.scenarios = {"corridor_smooth"};
   const TuneTask task = task_of(plan);
-  EXPECT_EQ(task.walks.size(), 8U);
+  EXPECT_EQ(task.sequences.size(), 8U);
   EXPECT_EQ(task.held_out.size(), 12U);
   const EstimatorConfig config;
   EXPECT_EQ(task.defaults, (std::vector<double>{config.degeneracy.eta, config.degeneracy.kappa,
@@ -122,7 +123,7 @@ TEST(TunePlan, FindsWalksAndUntunedValues) {
 
 TEST(TunePlan, TakesTheEstimatorsKeysInFullToo) {
   TunePlan plan = small_plan();
-  plan.over = {"estimator.degeneracy.eta=0:6"};
+  plan.params = {"estimator.degeneracy.eta=0:6"};
   EXPECT_EQ(task_of(plan).ranges.front().key, "degeneracy.eta");
 }
 
@@ -140,12 +141,12 @@ TEST(TunePlan, RefusalSaysWhatWasExpected) {
     change(plan);
     return refusal_of(plan);
   };
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over.clear(); }), "expected ranges"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"degeneracy.eta=3:3:1"}; }), "one value"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"degeneracy.et=0:6"}; }), "did you mean"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"links.lidar.loss=0:0.5"}; }),
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params.clear(); }), "expected ranges"));
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params = {"degeneracy.eta=3:3:1"}; }), "one value"));
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params = {"degeneracy.et=0:6"}; }), "did you mean"));
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params = {"links.lidar.loss=0:0.5"}; }),
                    "would make the task easier"));
-  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.over = {"scoring.max_error_offset=0.1:5"}; }),
+  EXPECT_TRUE(says(refusal([](TunePlan& p) { p.params = {"scoring.max_error_offset=0.1:5"}; }),
                    "is no key of the estimator"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.scenarios.clear(); }), "no scenario"));
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.scenarios = {"coridor"}; }), "corridor"));
@@ -196,7 +197,7 @@ TEST(Tune, KeepsWhatIsDoneWhenItIsInterrupted) {
 TEST(Tune, RefusesAScoreThatNoRunHas) {
   const auto result = tune(task_of(small_plan()), [](auto estimators, auto walks) {
     const std::vector<std::vector<RunScore>> without(walks.size(), std::vector<RunScore>(1));
-    return Result<std::optional<WalkScores>>(WalkScores(estimators.size(), without));
+    return Result<std::optional<SequenceScores>>(SequenceScores(estimators.size(), without));
   });
   ASSERT_FALSE(result);
   EXPECT_TRUE(says(result.error().message, "'ate_m'"));
@@ -247,7 +248,7 @@ TEST(TuneReport, SaysWhetherTheGainHolds) {
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };
   const std::string holds = report({});
-  EXPECT_TRUE(says(holds, "The gain holds on what was held out")) << holds;
+  EXPECT_TRUE(says(holds, "The gain holds on the held-out sequences")) << holds;
   EXPECT_FALSE(says(holds, "`degeneracy.eta` does not matter")) << holds;
   const std::string overfit = report({.overfit = true});
   EXPECT_TRUE(says(overfit, "the tuned values are worse than the defaults")) << overfit;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench/tuning/analysis.hpp"
-#include "bench/tuning/sweep_report.hpp"
+#include "bench/tuning/sweep_summary.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -35,7 +35,7 @@ Json unit(const std::string& scenario, int seed, const std::vector<double>& valu
   if (!values.empty()) {
     settings = {{kEta, fmt::format("{}", values[0])}, {kKappa, fmt::format("{}", values[1])}};
   }
-  return {{"schema", kUnitSchema},
+  return {{"schema", kJobSchema},
           {"scenario", scenario},
           {"family", ""},
           {"seed", seed},
@@ -51,12 +51,12 @@ Json unit(const std::string& scenario, int seed, const std::vector<double>& valu
 class Units {
  public:
   explicit Units(fs::path folder) : folder_(std::move(folder)) {
-    fs::create_directories(folder_ / "units");
+    fs::create_directories(folder_ / "jobs");
   }
 
   void add(const Json& unit) {
     list(unit);
-    put(folder_ / "units" / (id_ + ".json"), unit.dump());
+    put(folder_ / "jobs" / (id_ + ".json"), unit.dump());
   }
 
   /// One that is not done yet.
@@ -66,7 +66,7 @@ class Units {
                          unit["seed"].get<int>());
   }
 
-  void write_list() const { put(folder_ / "units.csv", "id,scenario,seed,estimator\n" + list_); }
+  void write_list() const { put(folder_ / "jobs.csv", "id,scenario,seed,estimator\n" + list_); }
   const fs::path& folder() const { return folder_; }
 
  private:
@@ -77,7 +77,7 @@ class Units {
 };
 
 constexpr const char* kRanges =
-    "over: [\"degeneracy.eta=0:6:4\", \"degeneracy.kappa=log(1,100,3)\"]\n";
+    "params: [\"degeneracy.eta=0:6:4\", \"degeneracy.kappa=log(1,100,3)\"]\n";
 
 double ate_of(double eta, double kappa, int seed) {
   return 0.1 * seed * (1.0 + std::abs(eta - 4.0) + 0.1 * std::log10(kappa));
@@ -151,7 +151,7 @@ TEST(TuningPage, AParameterOfTheSimulationHasItsUnitAndItsOwnDefault) {
   for (const char* sigma : {"0.01", "0.02", "0.03"}) {
     Json walked = unit("walk", 1, {}, 0.1);
     walked["settings"] = {{"lidar.range_sigma", sigma}};
-    walked["untuned"] = {{"lidar.range_sigma", "0.015"}};
+    walked["defaults"] = {{"lidar.range_sigma", "0.015"}};
     units.add(walked);
   }
   units.write_list();
@@ -244,7 +244,7 @@ TEST(TuningPage, UnitsThatFailedAreLostRowsWithoutScores) {
 
 void write_tune_plan(const fs::path& folder) {
   put(folder / "tune.yaml",
-      "over: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
+      "params: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
       "scenarios: [walk]\nseeds: 1-2\nheld_out: {scenarios: [other], seeds: 7}\n"
       "objectives:\n  - {score: m_end_m, statistic: mean}\n");
 }

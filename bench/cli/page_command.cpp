@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/options.hpp"
+#include "render/page/report.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostShown = 5;  ///< pages that are listed one by one
+
+struct PageArguments {
+  std::vector<std::string> folders;
+  std::string out;
+  std::string against;
+  std::string detectors;
+};
+
+void print_pages(const Reports& reports) {
+  for (const std::string& warning : reports.warnings) fmt::print("warning: {}\n", warning);
+  const std::size_t count = reports.pages.size();
+  const std::size_t left_out = count > kMostShown ? count - kMostShown : 0;
+  if (left_out > 0) fmt::print("page: {} pages of runs, and\n", left_out);
+  for (std::size_t i = left_out; i < count; ++i) {
+    fmt::print("page: {}\n", reports.pages[i].string());
+  }
+}
+
+/// The page of one folder, to the file that was asked for.
+int write_one(const PageArguments& arguments, const PageOptions& options) {
+  if (arguments.folders.size() != 1) {
+    return bad_input(
+        "page", {fmt::format("--out: expected one folder, found {}", arguments.folders.size())});
+  }
+  const auto written = write_report(arguments.folders.front(), arguments.out, options);
+  if (!written) return bad_input("page", written.error());
+  fmt::print("page: {}\n", arguments.out);
+  return kOk;
+}
+
+int page_command(const PageArguments& arguments) {
+  const PageOptions options = {arguments.against, arguments.detectors, {}};
+  if (!arguments.out.empty()) return write_one(arguments, options);
+  for (const std::string& folder : arguments.folders) {
+    const auto reports = write_reports(folder, options);
+    if (!reports) return bad_input("page", reports.error());
+    print_pages(*reports);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void write_pages_of(const fs::path& folder) {
+  const auto reports = write_reports(folder);
+  if (reports) {
+    print_pages(*reports);
+  } else {
+    fmt::print("warning: no page: {}\n", reports.error().message);
+  }
+}
+
+void declare_page(Command command, const fs::path& /*scenarios*/) {
+  auto arguments = std::make_shared<PageArguments>();
+  command.arguments("folder", arguments->folders,
+                    "Folders of run, suite, estimate, score, sweep or tune", Presence::kRequired);
+  command.option("-o,--out", arguments->out,
+                 fmt::format("File to write, of one folder (FOLDER/{})", kPageFile));
+  command.option("--against", arguments->against,
+                 "Folder of earlier results to compare a suite with");
+  command.option("--detectors", arguments->detectors,
+                 "Folder of aims study detectors to show with a suite");
+  command.footer(
+      "Several seeds get a page each; of a suite, so do the runs that kept trajectories. A page\n"
+      "is one file that opens without a network or server.\n"
+      "Examples:\n"
+      "  aims page out/corridor-seed-1\n"
+      "  aims page out/severity --against out/severity_before --out compare.html");
+  command.action([arguments] { return page_command(*arguments); });
+}
+
+}  // namespace aims

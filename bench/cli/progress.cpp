@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <utility>
+
+namespace aims {
+namespace {
+
+constexpr double kLineEvery = 10.0;  ///< where standard error is no terminal [s]
+
+volatile std::sig_atomic_t noted = 0;
+
+void on_interrupt(int signal) {
+  noted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
+
+/// "45 s", "12 min" or "3 h 05 min".
+std::string duration_text(double seconds) {
+  const int whole = static_cast<int>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min", (whole + 59) / 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string figures(const Progress& progress, const std::string& done) {
+  const double factor = progress.wall_s > 0.0 ? progress.simulated_s / progress.wall_s : 0.0;
+  const double ahead = std::max(0.0, progress.expected_s - progress.simulated_s);
+  const double left = factor > 0.0 ? ahead / factor : 0.0;
+  return fmt::format("{:5.0f} s of about {:.0f} s {}, {:.1f}x real time, {:.0f} s left",
+                     progress.simulated_s, progress.expected_s, done, factor, left);
+}
+
+std::string bar(double fraction) {
+  constexpr int kWidth = 24;
+  const int filled = static_cast<int>(kWidth * fraction);
+  return std::string(filled, '#') + std::string(kWidth - filled, '.');
+}
+
+}  // namespace
+
+void watch_interrupt() { std::signal(SIGINT, on_interrupt); }
+
+bool interrupted() { return noted != 0; }
+
+ProgressDisplay::ProgressDisplay(std::string label, bool quiet, std::string done)
+    : label_(std::move(label)), done_(std::move(done)), quiet_(quiet), terminal_(is_terminal()) {}
+
+bool ProgressDisplay::show(std::optional<std::uint64_t> seed, const Progress& progress) {
+  if (quiet_) return !interrupted();
+  if (seed != seed_shown_) {
+    close();
+    seed_shown_ = seed;
+    tenths_shown_ = 0;
+  }
+  const std::string label = seed ? fmt::format("{} seed {}", label_, *seed) : label_;
+  const double fraction = std::clamp(progress.simulated_s / progress.expected_s, 0.0, 1.0);
+  if (terminal_) {
+    fmt::print(stderr, "\r{} [{}] {} ", label, bar(fraction), figures(progress, done_));
+    bar_open_ = true;
+  } else if (const int tenths = static_cast<int>(10.0 * fraction); tenths > tenths_shown_) {
+    tenths_shown_ = tenths;
+    fmt::print(stderr, "{}: {}\n", label, figures(progress, done_));
+  }
+  std::fflush(stderr);
+  return !interrupted();
+}
+
+void ProgressDisplay::close() {
+  if (bar_open_) fmt::print(stderr, "\n");
+  bar_open_ = false;
+}
+
+JobDisplay::JobDisplay(bool quiet) : quiet_(quiet), terminal_(is_terminal()) {}
+
+JobObserver JobDisplay::observer() {
+  return [this](const JobProgress& progress) {
+    show(progress);
+    return !interrupted();
+  };
+}
+
+SuiteObserver JobDisplay::suite_observer() {
+  return [this](const SuiteProgress& progress) {
+    show({progress.done, 0, progress.total, 0, progress.elapsed_s, progress.left_s});
+    return !interrupted();
+  };
+}
+
+void JobDisplay::close() {
+  if (open_) fmt::print(stderr, "\n");
+  open_ = false;
+}
+
+void JobDisplay::show(const JobProgress& progress) {
+  const bool due = terminal_ || progress.elapsed_s >= shown_at_s_ + kLineEvery ||
+                   progress.done == progress.total;
+  if (quiet_ || !due) return;
+  std::string line = fmt::format("{} of {} jobs", progress.done, progress.total);
+  if (progress.failed > 0) line += fmt::format(", {} failed", progress.failed);
+  if (progress.sequences > 0) line += fmt::format(", {} sequences simulated", progress.sequences);
+  if (line == shown_ && !terminal_) return;
+  shown_ = line;
+  shown_at_s_ = progress.elapsed_s;
+  line += ", " + duration_text(progress.elapsed_s);
+  if (progress.left_s) line += fmt::format(", {} left", duration_text(*progress.left_s));
+  fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "    " : "\n");
+  open_ = terminal_;
+  std::fflush(stderr);
+}
+
+}  // namespace aims

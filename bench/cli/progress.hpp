@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bench/jobs/job_runner.hpp"
+#include "bench/run/run.hpp"
+#include "bench/studies/suite.hpp"
+
+namespace aims {
+
+/// From now on Ctrl-C is noted; a second Ctrl-C ends the program at once.
+void watch_interrupt();
+
+/// True after Ctrl-C.
+bool interrupted();
+
+/// Shows the progress of one sequence on standard error: a bar on a terminal, plain lines
+/// elsewhere.
+class ProgressDisplay {
+ public:
+  /// `done` is what happens to the seconds that it counts: "simulated", "read".
+  ProgressDisplay(std::string label, bool quiet, std::string done = "simulated");
+  ~ProgressDisplay() { close(); }
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  /// Shows the seed that is being run, if any; false after Ctrl-C.
+  bool show(std::optional<std::uint64_t> seed, const Progress& progress);
+  /// Ends the bar's line.
+  void close();
+
+ private:
+  std::string label_;
+  std::string done_;
+  bool quiet_;
+  bool terminal_;
+  bool bar_open_ = false;
+  std::optional<std::uint64_t> seed_shown_;
+  int tenths_shown_ = 0;
+};
+
+/// Shows how many jobs are done: a line that changes on a terminal, a line every 10 s elsewhere.
+class JobDisplay {
+ public:
+  explicit JobDisplay(bool quiet);
+  ~JobDisplay() { close(); }
+  JobDisplay(const JobDisplay&) = delete;
+  JobDisplay& operator=(const JobDisplay&) = delete;
+
+  /// Show each step and return false after Ctrl-C; must not outlive the display.
+  JobObserver observer();
+  SuiteObserver suite_observer();
+  /// Ends the line.
+  void close();
+
+ private:
+  void show(const JobProgress& progress);
+
+  bool quiet_;
+  bool terminal_;
+  bool open_ = false;
+  std::string shown_;
+  double shown_at_s_ = 0.0;
+};
+
+}  // namespace aims

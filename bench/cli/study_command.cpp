@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/options.hpp"
+#include "bench/cli/progress.hpp"
+#include "bench/cli/suite_options.hpp"
+#include "bench/studies/ablation.hpp"
+#include "bench/studies/comparison.hpp"
+#include "bench/studies/consistency_study.hpp"
+#include "bench/studies/detector_report.hpp"
+#include "bench/studies/detectors.hpp"
+#include "estimator/estimator_spec.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kContinues =
+    "The same command again continues, and runs only what is missing or has changed.\n";
+
+/// The one estimator of --estimators; `absent` without it.
+Result<std::string> one_estimator(const SharedOptions& options, const std::string& absent) {
+  const auto specs = joined_specs(options.estimators);
+  if (specs.empty()) return absent;
+  if (specs.size() == 1) return specs.front();
+  return failure(fmt::format("--estimators: expected one estimator, found {}", specs.size()));
+}
+
+std::vector<std::uint64_t> first_seeds(std::uint64_t count) {
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) seeds.push_back(seed);
+  return seeds;
+}
+
+struct AblationArguments {
+  SharedOptions shared;
+  std::vector<std::string> groups = {"directional"};
+  std::vector<std::string> baselines;
+};
+
+void print_ablation(const Ablation& ablation, const fs::path& out) {
+  print_counts(ablation.suite);
+  for (const AblationCase& each : ablation.cases) {
+    if (each.rows.empty()) continue;
+    fmt::print("{}, median over {} seeds (ratio to {})\n{}\n", each.scenario,
+               each.rows.front().runs, ablation.whole, to_text(case_table(each)));
+  }
+  fmt::print("Geometric mean of the ratios over scenarios\n{}\n", to_text(worth_table(ablation)));
+  print_outcome(ablation.suite);
+  fmt::print("results: {}, ablation.json, ablation.csv\n", (out / "ablation.md").string());
+}
+
+int ablation_command(const AblationArguments& arguments) {
+  constexpr const char* kName = "study ablation";
+  SharedOptions shared = arguments.shared;
+  AblationOptions options;
+  auto estimator = one_estimator(shared, options.estimator);
+  if (!estimator) return bad_input(kName, estimator.error());
+  options.estimator = std::move(*estimator);
+  shared.estimators.clear();  // the study sets its own
+  options.groups = arguments.groups;
+  options.others = joined_specs(arguments.baselines);
+  auto suite = suite_options(shared, {});
+  if (!suite) return bad_input(kName, suite.error());
+  options.suite = std::move(*suite);
+  auto scenarios = study_scenarios(shared);
+  if (!scenarios) return bad_input(kName, scenarios.error());
+  watch_interrupt();
+  JobDisplay display(shared.quiet);
+  const auto ablation = run_ablation(std::move(*scenarios), options, display.suite_observer());
+  display.close();
+  if (!ablation) return bad_input(kName, ablation.error());
+  print_ablation(*ablation, options.suite.out);
+  return exit_code_of(ablation->suite);
+}
+
+void declare_ablation(Command command, const fs::path& scenarios) {
+  auto arguments = std::make_shared<AblationArguments>();
+  SharedOptions& shared = arguments->shared;
+  shared.folder = scenarios.string();
+  add_suite_options(command, shared, "out/ablation", "those of each scenario");
+  add_estimators(command, shared, "aims_d; one");
+  command.list("--groups", arguments->groups,
+               "Groups of keys below estimator. whose switches are inverted,\n"
+               "one at a time (directional)");
+  command.list("--baselines", arguments->baselines,
+               "Estimators to compare with, e.g. lio,tfs_clean");
+  command.footer(std::string(kContinues) +
+                 "Examples:\n"
+                 "  aims study ablation severity_3 severity_8 --seeds 1-3 --out out/ablation\n"
+                 "  aims study ablation --tags severity --seeds 1-5 --baselines lio,tfs_clean\n"
+                 "  aims study ablation severity_5 --groups directional.leg_states");
+  command.action([arguments] { return ablation_command(*arguments); });
+}
+
+int consistency_command(const SharedOptions& shared) {
+  constexpr const char* kName = "study consistency";
+  const auto options = suite_options(shared, first_seeds(10));
+  if (!options) return bad_input(kName, options.error());
+  auto scenarios = study_scenarios(shared);
+  if (!scenarios) return bad_input(kName, scenarios.error());
+  watch_interrupt();
+  JobDisplay display(shared.quiet);
+  const auto study = run_consistency(std::move(*scenarios), *options, display.suite_observer());
+  display.close();
+  if (!study) return bad_input(kName, study.error());
+  print_counts(study->suite);
+  fmt::print("Along the weak axis, over the sequence\n{}\n", to_text(consistency_table(*study)));
+  fmt::print("At the end of the sequence, root mean square over seeds [m]\n{}\n",
+             to_text(end_table(*study)));
+  print_outcome(study->suite);
+  fmt::print("results: {}, consistency.json, consistency.csv, pictures\n",
+             (options->out / "consistency.md").string());
+  return exit_code_of(study->suite);
+}
+
+void declare_consistency(Command command, const fs::path& scenarios) {
+  auto shared = std::make_shared<SharedOptions>();
+  shared->folder = scenarios.string();
+  add_suite_options(command, *shared, "out/consistency", "1-10");
+  add_estimators(command, *shared, "those of each scenario");
+  command.footer(
+      std::string(kContinues) +
+      "Examples:\n"
+      "  aims study consistency severity_3 severity_8 --seeds 1-50 --estimators aims_d,lio\n"
+      "  aims study consistency severity_9 --estimators aims_d,learning=aims_d+"
+      "directional.leg_states.hold=false");
+  command.action([shared] { return consistency_command(*shared); });
+}
+
+Result<std::vector<Scenario>> loaded(Result<std::vector<ScenarioFile>> files) {
+  if (!files) return tl::unexpected(files.error());
+  std::vector<Scenario> scenarios;
+  for (ScenarioFile& each : *files) {
+    if (!each.scenario) return tl::unexpected(each.scenario.error());
+    scenarios.push_back(std::move(*each.scenario));
+  }
+  return scenarios;
+}
+
+int detectors_command(const SharedOptions& given) {
+  constexpr const char* kName = "study detectors";
+  SharedOptions shared = given;
+  DetectorOptions options;
+  auto estimator = one_estimator(shared, options.estimator);
+  if (!estimator) return bad_input(kName, estimator.error());
+  options.estimator = *estimator;
+  shared.estimators = {*estimator};
+  const auto scenarios = loaded(study_scenarios(shared));
+  if (!scenarios) return bad_input(kName, scenarios.error());
+  auto seeds = seeds_of(shared, first_seeds(5));
+  if (!seeds) return bad_input(kName, seeds.error());
+  options.seeds = std::move(*seeds);
+  options.out = shared.out;
+  options.overwrite = shared.overwrite;
+  options.jobs = shared.jobs;
+  watch_interrupt();
+  const auto study =
+      run_detectors(*scenarios, options, [&](const std::string& label, int done, int of) {
+        if (!shared.quiet) fmt::print(stderr, "{}/{} {}\n", done, of, label);
+        return !interrupted();
+      });
+  if (!study) {
+    const int code = bad_input(kName, study.error());
+    return interrupted() ? kInterrupted : code;
+  }
+  fmt::print(
+      "{} runs; AUC with 95 % interval over runs, detection rate at {:.0f} % false alarms, "
+      "median delay, onsets missed\n{}\n",
+      study->runs.size(), 100.0 * kFalseAlarms, to_text(detector_table(study->scores)));
+  for (const std::string& warning : study->warnings) fmt::print("note: {}\n", warning);
+  fmt::print("results: {}\n", (study->folder / "").string());
+  return kOk;
+}
+
+void declare_detectors(Command command, const fs::path& scenarios) {
+  auto shared = std::make_shared<SharedOptions>();
+  shared->folder = scenarios.string();
+  shared->out = "out/detectors";
+  add_named_scenarios(command, *shared);
+  add_scenarios(command, *shared);
+  add_seeds(command, *shared, "1-5");
+  add_estimators(command, *shared, "aims; one");
+  add_settings(command, *shared, "each scenario");
+  add_out(command, *shared, "out/detectors");
+  add_overwrite(command, *shared);
+  add_jobs(command, *shared);
+  add_quiet(command, *shared);
+  command.footer(
+      "Example:\n"
+      "  aims study detectors corridor corridor_smooth --seeds 1-5 --out out/detectors");
+  command.action([shared] { return detectors_command(*shared); });
+}
+
+struct CompareArguments {
+  std::string before;
+  std::string after;
+  SharedOptions shared;
+  bool fail_on_worse = false;
+};
+
+void print_changes(const char* title, const Comparison& comparison, ChangeVerdict verdict) {
+  if (count(comparison, verdict) == 0) return;
+  fmt::print("\n{}\n{}", title, to_text(change_table(comparison, verdict)));
+}
+
+int compare_command(const CompareArguments& arguments) {
+  constexpr const char* kName = "study compare";
+  const auto before = read_results(arguments.before);
+  if (!before) return bad_input(kName, before.error());
+  const auto after = read_results(arguments.after);
+  if (!after) return bad_input(kName, after.error());
+  const Comparison comparison = compare(*before, *after);
+  fmt::print("{}\n", summary_text(comparison));
+  print_changes("worse", comparison, ChangeVerdict::kWorse);
+  print_changes("better", comparison, ChangeVerdict::kBetter);
+  print_changes("different, on one seed", comparison, ChangeVerdict::kUnknown);
+  for (const std::string& run : comparison.only_before) fmt::print("only before: {}\n", run);
+  for (const std::string& run : comparison.only_after) fmt::print("only after: {}\n", run);
+  if (!arguments.shared.out.empty()) {
+    const auto written =
+        write_comparison(comparison, arguments.before, arguments.after, arguments.shared.out);
+    if (!written) return bad_input(kName, written.error());
+  }
+  const bool worse = count(comparison, ChangeVerdict::kWorse) > 0;
+  return arguments.fail_on_worse && worse ? kGateFailed : kOk;
+}
+
+void declare_compare(Command command) {
+  auto arguments = std::make_shared<CompareArguments>();
+  command.argument("before", arguments->before, "Folder of aims run or aims suite");
+  command.argument("after", arguments->after, "Folder of aims run or aims suite");
+  add_out(command, arguments->shared, "nowhere: the result is only printed");
+  command.flag("--fail-on-worse", arguments->fail_on_worse,
+               "Exit with 1 when a score got significantly worse");
+  command.footer(
+      "Runs are paired by scenario, seed and estimator.\n"
+      "Examples:\n"
+      "  aims study compare out/before out/after\n"
+      "  aims study compare out/suite out/eta5 --out out/eta5-compared --fail-on-worse");
+  command.action([arguments] { return compare_command(*arguments); });
+}
+
+}  // namespace
+
+void declare_study(Command command, const fs::path& scenarios) {
+  declare_ablation(
+      command.subcommand("ablation", "The effect of each switch of an estimator on its scores"),
+      scenarios);
+  declare_consistency(
+      command.subcommand("consistency",
+                         "Errors along the weak axis against stated covariance and lower bound"),
+      scenarios);
+  declare_detectors(
+      command.subcommand("detectors",
+                         "ROC of the degeneracy indices of an estimator against the truth"),
+      scenarios);
+  declare_compare(
+      command.subcommand("compare", "Scores that got better or worse between two folders"));
+  command.footer(
+      "Examples:\n"
+      "  aims study ablation severity_3 severity_8 --seeds 1-3\n"
+      "  aims study compare out/before out/after");
+}
+
+}  // namespace aims

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/run/scenario.hpp"
+#include "bench/run/score_record.hpp"
+#include "core/error.hpp"
+#include "estimator/estimator_spec.hpp"
+
+namespace aims {
+
+/// Version of the layout of a job's file; see docs/scaling.md.
+inline constexpr std::string_view kJobSchema = "aims.job/1";
+
+/// A value that a job's scenario has instead of its own.
+struct ScenarioSetting {
+  std::string key;            ///< e.g. "links.leg_odometry.loss"
+  std::string value;          ///< as in YAML
+  std::string default_value;  ///< of the scenario itself
+};
+
+/// The least piece of work: one estimator with its settings on one sequence. The same job gives the
+/// same scores wherever and whenever it is done.
+struct Job {
+  std::shared_ptr<const Scenario> scenario;  ///< with its settings on top
+  std::uint64_t seed = 0;
+  EstimatorSpec estimator;
+  std::string id;  ///< bench/jobs/job_id.hpp: of scenario, seed, estimator, settings, code version
+  std::vector<ScenarioSetting> scenario_settings = {};  ///< what a sweep varies of the scenario
+};
+
+/// The job of those parts under its id.
+Job make_job(std::shared_ptr<const Scenario> scenario, std::uint64_t seed, EstimatorSpec estimator);
+
+/// "aims+degeneracy.eta=3+links.lidar.loss=0.1": the estimator with its settings, and what is set
+/// of the scenario.
+std::string point_text(const Job& job);
+
+/// "corridor seed 1 aims+degeneracy.eta=3", for messages.
+std::string text_of(const Job& job);
+
+/// How a job ended.
+enum class JobOutcome {
+  kDone,
+  kFailed,    ///< could not be done, e.g. the sequence cannot be simulated
+  kCrashed,   ///< its process was ended by a signal, or by itself
+  kTimedOut,  ///< it was stopped after the time that a job is given
+};
+
+std::string_view name_of(JobOutcome outcome);
+
+/// What a job came to.
+struct JobResult {
+  JobOutcome outcome = JobOutcome::kDone;
+  std::string message;  ///< unless done: why
+  Json scores;          ///< when done: what scores.json holds of the estimator
+  double wall_s = 0.0;  ///< that evaluating took
+};
+
+/// One number of the scores by dotted key ("m_list_percent.all", "time_per_scan_ms.mean"; success
+/// is 1 or 0); none when the job failed or the score has no value.
+std::optional<double> score_in(const JobResult& result, const std::string& key);
+
+/// What a job's file holds: the job, in words and by its id, and what it came to.
+Json job_json(const Job& job, const JobResult& result);
+
+/// The result in a job's file; none when it is no such thing.
+std::optional<JobResult> result_in(const Json& json);
+
+}  // namespace aims

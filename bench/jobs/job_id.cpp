@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/jobs/job_id.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/run/code_version.hpp"
+#include "core/files/config_dump.hpp"
+
+namespace aims {
+namespace {
+
+/// http://www.isthe.com/chongo/tech/comp/fnv
+std::uint64_t fnv1a(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
+}
+
+std::string key_of(std::string_view name, EstimatorConfig config) {
+  return fmt::format("{}\n{}", name, text_hash(dump_config(fields_of(config))));
+}
+
+}  // namespace
+
+std::string text_hash(std::string_view text) { return fmt::format("{:016x}", fnv1a(text)); }
+
+JobIds::JobIds(const Scenario& scenario) : estimator_(scenario.estimator) {
+  // What does not change a run's numbers, and the estimator, are left out.
+  Scenario bare;
+  bare.simulation = scenario.simulation;
+  bare.scoring = scenario.scoring;
+  scenario_key_ = text_hash(config_text(bare));
+}
+
+Result<std::string> JobIds::estimator_key(const EstimatorSpec& estimator) const {
+  auto config = config_with(estimator, estimator_);
+  if (!config) return tl::unexpected(config.error());
+  return key_of(estimator.name, std::move(*config));
+}
+
+std::string JobIds::id(std::uint64_t seed, const std::string& estimator_key) const {
+  return text_hash(
+      fmt::format("{}\n{}\n{}\n{}", code_version(), seed, scenario_key_, estimator_key));
+}
+
+std::string job_id(const Scenario& scenario, std::uint64_t seed, const std::string& estimator) {
+  const JobIds ids(scenario);
+  const auto spec = parse_estimator_spec(estimator);
+  const auto key = spec ? ids.estimator_key(*spec) : tl::unexpected(spec.error());
+  return ids.id(seed, key ? *key : key_of(estimator, scenario.estimator));
+}
+
+}  // namespace aims

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/run/evaluate.hpp"
+#include "bench/jobs/job.hpp"
+#include "bench/jobs/job_results.hpp"
+#include "bench/jobs/sequence_cache.hpp"
+#include "core/error.hpp"
+
+namespace aims {
+
+/// What a cache of sequences may hold unless told otherwise [bytes].
+inline constexpr std::uintmax_t kCacheLimit = 20'000'000'000;
+
+struct JobOptions {
+  std::filesystem::path folder;  ///< of results, one file per job
+  std::filesystem::path cache = SequenceCache::default_folder();  ///< of simulated sequences
+  /// Of the cache's sequences [bytes]; 0: any. Jobs' sequences stay while they wait for them.
+  std::uintmax_t cache_limit = kCacheLimit;
+  std::set<std::string> kept_sequences = {};  ///< ids that others wait for
+  int jobs = 1;                           ///< processes at a time; the results do not depend on it
+  double timeout_s = 0.0;                 ///< wall time that a job is given [s]; 0: any
+  bool retry = false;                     ///< do what failed before again
+  bool simulate_only = false;                ///< simulate what is missing and evaluate nothing
+};
+
+/// How far the jobs have come.
+struct JobProgress {
+  std::size_t done = 0;    ///< of this invocation, failures included
+  std::size_t failed = 0;  ///< of them
+  std::size_t total = 0;   ///< without those that were found finished
+  std::size_t sequences = 0;   ///< simulated
+  double elapsed_s = 0.0;
+  std::optional<double> left_s;  ///< none before anything is known
+};
+
+/// Returning false ends the work with what is finished.
+using JobObserver = std::function<bool(const JobProgress&)>;
+
+/// What an invocation did.
+struct JobRun {
+  std::size_t done = 0;    ///< evaluated now, failures included
+  std::size_t failed = 0;  ///< of them
+  std::size_t reused = 0;  ///< found finished
+  std::size_t sequences = 0;   ///< simulated now
+  bool complete = true;    ///< false when the observer ended it early
+  CachePruned pruned;      ///< from the cache, in all runs of the runner
+};
+
+/// Runs an estimator over a sequence; `evaluate`, but for tests.
+using Evaluate = std::function<Result<EstimatorOutcome>(
+    const Sequence& sequence, const Scenario& scenario, const std::string& estimator)>;
+
+/// Does jobs, each in a process of its own, so that one that crashes or hangs is recorded as such
+/// and stops nothing else. Each sequence is simulated once, also in a process of its own, and read by
+/// all jobs on it. The calling process must not have other threads that work meanwhile.
+///
+///   JobRunner runner({.folder = out / "jobs", .jobs = 2});
+///   runner.run(jobs, observer);                       // those that are not there yet
+///   const auto result = runner.folder().find(jobs[0].id);
+class JobRunner {
+ public:
+  explicit JobRunner(JobOptions options, Evaluate evaluate = aims::evaluate);
+
+  /// Does those of the jobs that have no result. A job that fails is a result; an error is what
+  /// keeps all jobs from being done, e.g. a full disk.
+  Result<JobRun> run(std::span<const Job> jobs, const JobObserver& observer);
+
+  const JobResults& folder() const { return folder_; }
+
+  /// What went from the cache so far.
+  const CachePruned& pruned() const { return pruned_; }
+
+ private:
+  class Schedule;
+  struct OpenSequence {
+    std::string id;
+    std::unique_ptr<const Sequence> sequence;
+    std::optional<FolderLock> in_use;
+  };
+
+  std::string sequence_id(const Job& job);
+  /// The open sequence; opens it, and closes the one that was opened first when there are many.
+  Result<const Sequence*> open(const std::string& id, const Scenario& scenario);
+  /// Keeps the cache within its limit, but for the sequences of these ids.
+  void prune(std::set<std::string> kept);
+
+  JobOptions options_;
+  Evaluate evaluate_;
+  JobResults folder_;
+  SequenceCache cache_;
+  std::map<std::pair<std::shared_ptr<const Scenario>, std::uint64_t>, std::string> sequence_ids_;
+  std::list<OpenSequence> open_;  ///< kept from run to run
+  CachePruned pruned_;
+};
+
+}  // namespace aims

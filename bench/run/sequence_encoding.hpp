@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/files/byte_cursor.hpp"
+#include "core/measurements.hpp"
+#include "sim/robot/truth.hpp"
+
+namespace aims {
+
+/// The parts of a sequence's file (bench/run/sequence_file.hpp) as bytes, and back. `append_*` writes
+/// at the end of `out`; `take_*` reads at the cursor and is false, or nothing, where the bytes end
+/// too early or mean nothing.
+void append_pose(std::vector<std::byte>& out, const Pose& pose);
+void append_text(std::vector<std::byte>& out, std::string_view text);
+void append_delivery(std::vector<std::byte>& out, const Delivery& delivery);
+void append_truth(std::vector<std::byte>& out, const Truth& truth);
+
+bool take_pose(ByteCursor& cursor, Pose& pose);
+bool take_text(ByteCursor& cursor, std::string& text);
+std::optional<Delivery> take_delivery(ByteCursor& cursor);
+bool take_truth(ByteCursor& cursor, Truth& truth);
+
+}  // namespace aims

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/response_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/metrics/statistics.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kInteracts = 0.05;
+
+std::string percent_text(const std::optional<double>& fraction) {
+  return fraction ? fmt::format("{:.0f} %", 100.0 * *fraction) : "-";
+}
+
+std::string percent_text(const std::optional<double>& fraction, const Interval& interval) {
+  std::string text = percent_text(fraction);
+  if (!interval.low || !interval.high) return text;
+  return text + fmt::format(" [{:.0f}, {:.0f}]", 100.0 * *interval.low, 100.0 * *interval.high);
+}
+
+std::vector<double> scores_of(std::span<const RunScore> runs, std::span<const std::size_t> cases) {
+  std::vector<double> scores;
+  for (const std::size_t i : cases) {
+    if (i < runs.size() && runs[i].value) scores.push_back(*runs[i].value);
+  }
+  return scores;
+}
+
+std::string diverged_text(std::span<const RunScore> runs, std::span<const std::size_t> cases) {
+  if (runs.empty()) return "-";
+  const auto diverged =
+      std::count_if(cases.begin(), cases.end(), [&](std::size_t i) { return runs[i].diverged; });
+  return fmt::format("{} of {}", diverged, cases.size());
+}
+
+std::vector<std::string> gain_row(const ResponseTable& table, const Objective& objective,
+                                  std::size_t point, const std::string& name,
+                                  const std::vector<std::size_t>& cases) {
+  const auto interval = bootstrap_interval(
+      cases.size(),
+      [&](std::span<const std::size_t> drawn) {
+        std::vector<std::size_t> some;
+        for (const std::size_t i : drawn) some.push_back(cases[i]);
+        return objective_at(table, objective, point, some);
+      },
+      1);
+  return {name,
+          figure_text(median(scores_of(table.default_runs, cases))),
+          figure_text(median(scores_of(table.runs[point], cases))),
+          figure_text(objective_at(table, objective, kDefaults, cases)),
+          figure_text(objective_at(table, objective, point, cases), interval),
+          diverged_text(table.default_runs, cases),
+          diverged_text(table.runs[point], cases)};
+}
+
+/// The surrogate's error, negligible parameters and interactions.
+std::string sensitivity_markdown(const ResponseTable& table, const Sensitivity& sensitivity) {
+  const Surrogate& surrogate = sensitivity.surrogate;
+  const std::string error =
+      sensitivity.logarithmic ? fmt::format("{:.0f} %", 100.0 * (std::exp(surrogate.error()) - 1.0))
+                              : figure_text(surrogate.error());
+  std::string text = fmt::format(
+      "\nA polynomial of {} terms through {} points explains {} of the variance of the objective{} "
+      "at\npoints left out of the fit (cross-validation); its error there is {}.\n",
+      surrogate.terms(), sensitivity.points, percent_text(std::max(0.0, surrogate.explained())),
+      sensitivity.logarithmic ? "'s logarithm" : "", error);
+  if (!sensitivity.is_reliable()) {
+    return text + "**Below 50 %, no sensitivity indices are reported.**\n";
+  }
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    if (!sensitivity.is_negligible(i)) continue;
+    text +=
+        fmt::format("\n- `{}` has a negligible effect between {} and {}: total index below 5 %.",
+                    table.ranges[i].key, table.ranges[i].low, table.ranges[i].high);
+  }
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    for (std::size_t k = i + 1; k < table.ranges.size(); ++k) {
+      const double fraction =
+          surrogate.indices().second(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+      if (fraction < kInteracts) continue;
+      text += fmt::format("\n- `{}` and `{}` interact: {} of the variance.", table.ranges[i].key,
+                          table.ranges[k].key, percent_text(fraction));
+    }
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string figure_text(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3g}", *value) : "-";
+}
+
+std::string figure_text(const std::optional<double>& value, const Interval& interval) {
+  if (!value || !interval.low || !interval.high) return figure_text(value);
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", *value, *interval.low, *interval.high);
+}
+
+TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
+                          const Sensitivity* sensitivity) {
+  TextTable text;
+  text.header = {"parameter", "range", "default", "best [95 %]",
+                 "distance from default [of range]"};
+  const bool indices_known = sensitivity != nullptr && sensitivity->is_reliable();
+  if (indices_known) {
+    text.header.insert(text.header.end(), {"first-order index", "total index [95 %]"});
+  }
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    const ParameterRange& range = table.ranges[i];
+    text.rows.push_back(
+        {range.key, fmt::format("{} to {}{}", range.low, range.high, range.log ? ", log" : ""),
+         fmt::format("{}", table.defaults[i]), figure_text(best.values[i], best.between[i]),
+         fmt::format("{:+.2f}", best.distance[i])});
+    if (!indices_known) continue;
+    const SobolIndices& indices = sensitivity->surrogate.indices();
+    text.rows.back().push_back(percent_text(indices.first[i]));
+    text.rows.back().push_back(percent_text(indices.total[i], indices.total_interval[i]));
+  }
+  return text;
+}
+
+TextTable gain_table(const ResponseTable& table, const Objective& objective, std::size_t point) {
+  TextTable text;
+  text.header = {"scenario",     objective.score + ", defaults", "tuned", "objective, defaults",
+                 "tuned [95 %]", "diverged, defaults",           "tuned"};
+  std::vector<std::string> names;
+  for (const ResponseCase& each : table.cases) {
+    if (std::find(names.begin(), names.end(), each.scenario) == names.end()) {
+      names.push_back(each.scenario);
+    }
+  }
+  for (const std::string& name : names) {
+    std::vector<std::size_t> cases;
+    for (std::size_t i = 0; i < table.cases.size(); ++i) {
+      if (table.cases[i].scenario == name) cases.push_back(i);
+    }
+    text.rows.push_back(gain_row(table, objective, point, name, cases));
+  }
+  text.rows.push_back(gain_row(table, objective, point, "all", cases_of(table, "")));
+  return text;
+}
+
+std::string response_markdown(const ResponseTable& table, const Objective& objective) {
+  const auto best = best_point(table, objective);
+  if (!best) return best.error().message + ".\n";
+  const auto sensitivity = sensitivity_of(table, objective);
+  std::string text = fmt::format(
+      "Objective: {}. The best of {} points has {}; the defaults have {}.\n", text_of(objective),
+      table.points.size(), figure_text(best->objective, best->objective_interval),
+      figure_text(best->defaults));
+  if (best->gain) {
+    text += fmt::format("Reduction by {}.\n", percent_text(best->gain, best->gain_interval));
+  }
+  const std::size_t seeds = seeds_of(table).size();
+  text += seeds < 2 ? "One seed: no intervals.\n"
+                    : fmt::format("Intervals are 95 % bootstrap intervals over {} seeds{}.\n",
+                                  seeds, seeds < 10 ? ", too narrow for so few" : "");
+  text += '\n';
+  text += to_markdown(parameter_table(table, *best, sensitivity ? &*sensitivity : nullptr));
+  text += sensitivity ? sensitivity_markdown(table, *sensitivity)
+                      : "\nNo surrogate: " + sensitivity.error().message + ".\n";
+  return text;
+}
+
+std::string pictures_markdown(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += fmt::format("\n![{0}]({0})\n", name);
+  return text;
+}
+
+}  // namespace aims

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/tuning/analysis.hpp"
+#include "core/error.hpp"
+#include "core/files/table.hpp"
+
+namespace aims {
+
+/// A figure with as many digits as serve: "0.0312", "12.3", "-" for none.
+std::string figure_text(const std::optional<double>& value);
+
+/// "0.0312 [0.029, 0.034]"; without brackets where there is no interval.
+std::string figure_text(const std::optional<double>& value, const Interval& interval);
+
+/// A row per parameter: range, default, best with its interval, distance of the best from the
+/// default, and, with a surrogate, the Sobol indices.
+TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
+                          const Sensitivity* sensitivity);
+
+/// A row per scenario and one for all: median score of the defaults and of `point`, the objective
+/// of the point with its interval over seeds, diverged runs of both.
+TextTable gain_table(const ResponseTable& table, const Objective& objective, std::size_t point);
+
+/// Markdown of the best point and, by a surrogate with its error, of sensitivity indices,
+/// negligible parameters and interactions.
+std::string response_markdown(const ResponseTable& table, const Objective& objective);
+
+/// Draws the objective into `folder`: KEY.png, a curve along each parameter, a line per family of
+/// scenarios, and KEY-KEY.png, the map over the two with the largest total indices (the first two
+/// without indices). What neither the design nor the surrogate covers is left out. points.png,
+/// every point over each parameter, where a curve is not measured. The files, by name.
+Result<std::vector<std::string>> draw_response(const ResponseTable& table,
+                                               const Objective& objective,
+                                               const std::filesystem::path& folder);
+
+/// Links to the pictures, as Markdown.
+std::string pictures_markdown(const std::vector<std::string>& names);
+
+}  // namespace aims

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/sweep_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "bench/tuning/range_key.hpp"
+#include "bench/tuning/response_summary.hpp"
+#include "bench/tuning/sweep_plan.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/yaml_config.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Values = std::vector<double>;  ///< of the ranges' keys; empty: the default setting
+using Cases = std::vector<ResponseCase>;
+
+std::optional<double> number_of(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// The runs of one estimator, by point and sequence.
+struct Collected {
+  EstimatorSpec estimator;
+  std::vector<Values> order;  ///< of points, as they appear
+  std::map<Values, std::map<std::size_t, RunScore>> runs;
+};
+
+std::size_t index_of(const ResponseCase& on, Cases& cases) {
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    if (sequences[i].scenario == on.scenario && sequences[i].seed == on.seed) return i;
+  }
+  sequences.push_back(on);
+  return sequences.size() - 1;
+}
+
+/// The runs in the order of the sequences; none unless all are there.
+std::optional<std::vector<RunScore>> all_runs(const std::map<std::size_t, RunScore>& by_sequence,
+                                              std::size_t sequences) {
+  if (by_sequence.size() != sequences) return std::nullopt;
+  std::vector<RunScore> runs;
+  for (const auto& [sequence, run] : by_sequence) runs.push_back(run);
+  return runs;
+}
+
+bool on_grid(const ParameterRange& range, double value) {
+  for (int k = 0; k < range.count; ++k) {
+    if (value_at(range, range.count == 1 ? 0.0 : k / double(range.count - 1)) == value) return true;
+  }
+  return false;
+}
+
+/// Where the default values are a point of the grid, one job serves both and is listed once.
+void add_default_point(ResponseTable& table) {
+  const auto& values = table.defaults;
+  if (table.default_runs.empty()) return;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!on_grid(table.ranges[i], values[i])) return;
+  }
+  if (std::find(table.points.begin(), table.points.end(), values) != table.points.end()) return;
+  table.points.push_back(values);
+  table.runs.push_back(table.default_runs);
+}
+
+Result<SweepResponse> response_of(const Collected& collected, const VariedParameters& varied,
+                                  const Cases& cases) {
+  SweepResponse response;
+  response.estimator = text_of(collected.estimator);
+  ResponseTable& table = response.table;
+  table.ranges = varied.ranges;
+  table.cases = sequences;
+  auto defaults = default_values(collected.estimator, varied);
+  if (!defaults) return tl::unexpected(defaults.error());
+  table.defaults = std::move(*defaults);
+  for (const Values& values : collected.order) {
+    auto runs = all_runs(collected.runs.at(values), sequences.size());
+    if (!runs) {
+      ++response.incomplete;
+    } else if (values.empty()) {
+      table.default_runs = std::move(*runs);
+    } else {
+      table.points.push_back(values);
+      table.runs.push_back(std::move(*runs));
+    }
+  }
+  if (response.incomplete == 0) add_default_point(table);
+  return response;
+}
+
+}  // namespace
+
+Result<VariedParameters> varied_in(const MergedSweep& sweep) {
+  VariedParameters varied;
+  for (const std::string& text : sweep.plans) {
+    SweepPlan plan;
+    if (auto read = load_config_text(text, "plan.yaml", plan); !read) {
+      return tl::unexpected(read.error());
+    }
+    auto ranges = parse_ranges(plan.params);
+    if (!ranges) return tl::unexpected(ranges.error());
+    for (ParameterRange& range : *ranges) {
+      const bool known = std::any_of(varied.ranges.begin(), varied.ranges.end(),
+                                     [&](const auto& each) { return each.key == range.key; });
+      if (!known) varied.ranges.push_back(std::move(range));
+    }
+    const Fields fields = fields_of(varied.base);
+    for (const std::string& setting : plan.set) {
+      constexpr std::string_view kGroup = "estimator.";
+      if (!setting.starts_with(kGroup)) continue;
+      const auto equals = setting.find('=');
+      const std::string_view whole = setting;
+      auto done = assign(fields, whole.substr(kGroup.size(), equals - kGroup.size()),
+                         whole.substr(equals + 1));
+      if (!done) return tl::unexpected(done.error());
+    }
+  }
+  if (varied.ranges.empty()) return failure("the sweep varies nothing: no range in its plan");
+  for (const MergedJob& job : sweep.jobs) {
+    if (!job.file.is_object()) continue;
+    const Json defaults = job.file.value("defaults", Json::object());
+    for (const auto& [key, text] : defaults.items()) {
+      const auto value = text.is_string() ? number_of(text.get<std::string>()) : std::nullopt;
+      if (value) varied.scenario_values.emplace(key, *value);
+    }
+  }
+  return varied;
+}
+
+std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters& varied) {
+  if (job.outcome() == "missing") return std::nullopt;
+  PlacedJob placed;
+  placed.estimator.name = job.file.value("estimator", "");
+  placed.estimator.label = placed.estimator.name;
+  std::map<std::string, std::string> settings;
+  const Json all_settings = job.file.value("settings", Json::object());
+  for (const auto& [key, value] : all_settings.items()) {
+    settings[key] = value.is_string() ? value.get<std::string>() : value.dump();
+  }
+  for (const ParameterRange& range : varied.ranges) {
+    const auto found = settings.find(range.key);
+    if (found == settings.end()) continue;
+    const auto value = number_of(found->second);
+    if (!value) return std::nullopt;
+    placed.values.push_back(*value);
+    settings.erase(found);
+  }
+  if (!placed.values.empty() && placed.values.size() != varied.ranges.size()) return std::nullopt;
+  placed.estimator.settings.assign(settings.begin(), settings.end());
+  const std::string family = job.file.value("family", "");
+  placed.on = {job.listed.scenario, family.empty() ? job.listed.scenario : family,
+               job.file.value("seed", std::uint64_t{0})};
+  auto result = result_in(job.file);
+  if (!result) return std::nullopt;
+  placed.result = std::move(*result);
+  return placed;
+}
+
+Result<std::vector<double>> default_values(const EstimatorSpec& estimator,
+                                           const VariedParameters& varied) {
+  auto config = config_with(estimator, varied.base);
+  if (!config) return tl::unexpected(config.error());
+  const Fields fields = fields_of(*config);
+  std::vector<double> values;
+  for (const ParameterRange& range : varied.ranges) {
+    if (!range.of_estimator) {
+      const auto known = varied.scenario_values.find(range.key);
+      values.push_back(known == varied.scenario_values.end() ? range.low : known->second);
+      continue;
+    }
+    const Parameter* parameter = fields.find(range.key);
+    if (parameter == nullptr) return failure(unknown_key_message(fields, range.key));
+    values.push_back(number_of(parameter->text()).value_or(range.low));
+  }
+  return values;
+}
+
+Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
+                                                   const std::string& score) {
+  const auto varied = varied_in(sweep);
+  if (!varied) return tl::unexpected(varied.error());
+  Cases cases;
+  std::vector<std::string> names;
+  std::map<std::string, Collected> by_name;
+  for (const MergedJob& job : sweep.jobs) {
+    const auto found = placed_job(job, *varied);
+    if (!found) continue;
+    const std::string name = text_of(found->estimator);
+    Collected& collected = by_name[name];
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(name);
+      collected.estimator = found->estimator;
+    }
+    if (!collected.runs.contains(found->values)) collected.order.push_back(found->values);
+    collected.runs[found->values][index_of(found->on, sequences)] = run_score(found->result, score);
+  }
+  std::vector<SweepResponse> responses;
+  for (const std::string& name : names) {
+    auto response = response_of(by_name[name], *varied, sequences);
+    if (!response) return tl::unexpected(response.error());
+    responses.push_back(std::move(*response));
+  }
+  return responses;
+}
+
+Result<void> write_sweep_summary(const MergedSweep& sweep, Objective objective,
+                                 const fs::path& folder, std::vector<std::string>& warnings) {
+  const auto responses = sweep_responses(sweep, objective.score);
+  if (!responses) return tl::unexpected(responses.error());
+  std::string text = "# Sweep\n";
+  text += fmt::format("\n{} of {} jobs done.\n", sweep.count("done"), sweep.jobs.size());
+  for (std::size_t i = 0; i < responses->size(); ++i) {
+    const SweepResponse& response = (*responses)[i];
+    Objective own = objective;
+    own.relative = own.relative && !response.table.default_runs.empty();
+    text += fmt::format("\n## `{}`\n\n", response.estimator);
+    if (response.incomplete > 0) {
+      text += fmt::format("{} points are left out: not all of their sequences are done.\n\n",
+                          response.incomplete);
+    }
+    text += response_markdown(response.table, own);
+    if (response.table.points.empty()) continue;
+    const std::string part = responses->size() > 1 ? fmt::format("estimator-{}", i + 1) : "";
+    std::error_code ignored;
+    fs::create_directories(folder / part, ignored);
+    auto drawn = draw_response(response.table, own, folder / part);
+    if (!drawn) {
+      warnings.push_back(drawn.error().message);
+      continue;
+    }
+    for (std::string& name : *drawn) name = part.empty() ? name : part + "/" + name;
+    text += pictures_markdown(*drawn);
+  }
+  return write_file_atomically(folder / "sweep.md", text);
+}
+
+}  // namespace aims
