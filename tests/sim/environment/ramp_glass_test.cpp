@@ -135,14 +135,14 @@ TEST(GlassScene, PacketsHitTheSameAsSingleRays) {
 }
 
 TEST(GlassScene, PanesCoverTheConfiguredFractionAndLeaveOutDoors) {
-  for (const double share : {0.25, 0.5, 1.0}) {
+  for (const double fraction : {0.25, 0.5, 1.0}) {
     const Span along{-3.0, 28.0};
     double covered = 0.0;
-    for (const Span& pane : glass_panes({.share = share}, along, {})) covered += pane.length();
-    EXPECT_NEAR(covered, share * 31.0, 1e-9);
+    for (const Span& pane : glass_panes({.fraction = fraction}, along, {})) covered += pane.length();
+    EXPECT_NEAR(covered, fraction * 31.0, 1e-9);
     const std::vector<Span> doors = {{1.0, 1.9}, {9.2, 10.1}, {17.0, 17.9}};
     double end = along.begin;
-    for (const Span& pane : glass_panes({.share = share}, along, doors)) {
+    for (const Span& pane : glass_panes({.fraction = fraction}, along, doors)) {
       EXPECT_GE(pane.begin, end - 1e-12);
       end = pane.end;
       for (const Span& door : doors) {
