@@ -91,7 +91,7 @@ Json localizability_json(const RunLocalizability& run) {
   Json bound;
   if (!run.bounds.empty()) {
     const PosteriorBound& end = run.bounds.back();
-    bound = {{"along", json_of(end.along)},
+    bound = {{"along", json_of(end.longitudinal)},
              {"lateral", json_of(end.lateral)},
              {"vertical", json_of(end.vertical)}};
   }

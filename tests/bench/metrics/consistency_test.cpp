@@ -59,7 +59,7 @@ TEST(Consistency, OfAConsistentFilterLiesInsideTheBoundsAtNineteenInstantsOfTwen
   ASSERT_EQ(result.judged, kInstants);
   EXPECT_NEAR(*result.inside_fraction, 0.95, 0.04);
   EXPECT_NEAR(*result.mean_nees, 1.0, 0.1);
-  EXPECT_NEAR(*result.along.share, 0.9545, 0.015);
+  EXPECT_NEAR(*result.two_sigma.fraction, 0.9545, 0.015);
   EXPECT_TRUE(*result.mean_nees_interval.low < 1.0 && 1.0 < *result.mean_nees_interval.high);
 }
 
@@ -68,7 +68,7 @@ TEST(Consistency, OfAFilterThatStatesHalfItsErrorLiesAboveTheBounds) {
   EXPECT_LT(*result.inside_fraction, 0.05);
   EXPECT_GT(*result.above_fraction, 0.95);
   EXPECT_NEAR(*result.mean_nees, 4.0, 0.4);
-  EXPECT_NEAR(*result.along.share, 0.6827, 0.03);
+  EXPECT_NEAR(*result.two_sigma.fraction, 0.6827, 0.03);
   EXPECT_LT(*result.end.covered.interval.high, 0.95);
 }
 
@@ -106,7 +106,7 @@ TEST(Consistency, CoverageCarriesTheWilsonInterval) {
   EXPECT_DOUBLE_EQ(*coverage.fraction, 0.96);
   EXPECT_NEAR(*coverage.interval.low, 0.8654, 5e-4);
   EXPECT_NEAR(*coverage.interval.high, 0.9890, 5e-4);
-  EXPECT_FALSE(coverage_of(0, 0, true).share);
+  EXPECT_FALSE(coverage_of(0, 0, true).fraction);
   EXPECT_FALSE(coverage_of(3, 4, false).interval.low);
 }
 

@@ -95,7 +95,7 @@ TEST(PosteriorBound, OneLongitudinallyInformativeScanDeterminesTheLegScale) {
   EXPECT_LT(bounds[1].leg_scale, 1e-3);
   EXPECT_LT(bounds[1].longitudinal, 0.05) << "against 1.05 m without the scan";
   p.lidar = false;
-  EXPECT_GT(posterior_bounds(straight_motion(50, 0.7), scans, p)[1].along, 1.0);
+  EXPECT_GT(posterior_bounds(straight_motion(50, 0.7), scans, p)[1].longitudinal, 1.0);
 }
 
 /// Along one axis the recursion is the Riccati equation of position and velocity in closed form.
@@ -139,7 +139,7 @@ TEST(PosteriorBound, IsTheSpreadOfTheOptimalFilterInALinearWorld) {
   p.accelerometer = {force_density, 0.0, bias_sigma};
   p.legs = {true, leg_rate, leg_sigma, scale_sigma};
   p.initial.velocity_sigma = 1.0;  // the start moves: the bound supposes this anyway
-  const double bound = posterior_bounds(motion, scans_at({steps * kStep}, kNothing), p)[0].along;
+  const double bound = posterior_bounds(motion, scans_at({steps * kStep}, kNothing), p)[0].longitudinal;
 
   using Vector4 = Eigen::Vector4d;  // position, speed, bias, scale
   RandomStream random(11, "test.filter");
