@@ -220,7 +220,7 @@ TEST(Eskf, ReportsPosesWithoutLidar) {
   }
   for (const char* name : {"aims", "lio", "leg"}) {
     const EstimatorResult result = run(name, kept, world.rig());
-    EXPECT_LE(longest_gap(result.trajectory), kLongestSilence + 10 * kMillisecond) << name;
+    EXPECT_LE(longest_gap(result.trajectory), kMaxPoseInterval + 10 * kMillisecond) << name;
     if (result.diagnostics.empty()) continue;
     const auto bridged = result.trajectory.size() - result.diagnostics.size();
     EXPECT_NEAR(static_cast<double>(bridged), 12.0, 1.0) << name;

@@ -96,10 +96,8 @@ TEST(LegNoise, NoiseGrowsWithSlipMissingFeetTurningAndGaps) {
   const Eigen::Vector3d growth = (sample_covariance(config, slip, {}) - nominal(config)).diagonal();
   EXPECT_NEAR(growth.x(), 0.15 * 0.15 - config.nominal_spread * config.nominal_spread, 1e-9);
   EXPECT_NEAR(growth.y(), 0.0, 1e-9) << "the foot slips forward only";
-  const auto grown = [&](const StanceFeet& stance, const LegConditions& circumstances) {
-    return (sample_covariance(config, stance, circumstances) - nominal(config))
-        .diagonal()
-        .minCoeff();
+  const auto grown = [&](const StanceFeet& stance, const LegConditions& conditions) {
+    return (sample_covariance(config, stance, conditions) - nominal(config)).diagonal().minCoeff();
   };
   const StanceFeet one_foot{true, 1, Eigen::Vector3d::Zero()};
   const StanceFeet none{true, 0, Eigen::Vector3d::Zero()};
