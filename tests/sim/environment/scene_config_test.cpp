@@ -8,11 +8,13 @@
 
 #include "sim/environment/ray_caster.hpp"
 #include "sim/environment/scene_mjcf.hpp"
+#include "tests/sim/environment/scene_checks.hpp"
 
 namespace aims {
 namespace {
 
 using Eigen::Vector3d;
+using testing::distance;
 
 SceneConfig plain_corridor() {
   SceneConfig config;
@@ -20,21 +22,16 @@ SceneConfig plain_corridor() {
   return config;
 }
 
-double distance(const RayCaster& caster, const Vector3d& origin, const Vector3d& direction) {
-  const auto hit = caster.cast(origin, direction);
-  return hit ? hit->distance : std::numeric_limits<double>::infinity();
-}
-
 /// An opening in a wall as rays measure it.
-struct Opening {
+struct MeasuredOpening {
   double begin = 0.0;
   double end = 0.0;
   double depth = 0.0;
 };
 
 /// Openings in the wall towards `side` (+1 left, -1 right), seen at 1 m height every 5 mm.
-std::vector<Opening> measure_openings(const RayCaster& caster, double side) {
-  std::vector<Opening> openings;
+std::vector<MeasuredOpening> measure_openings(const RayCaster& caster, double side) {
+  std::vector<MeasuredOpening> openings;
   bool open = false;
   for (double x = -2.9; x < 81.5; x += 0.005) {
     const double behind = distance(caster, {x, 0.0, 1.0}, {0.0, side, 0.0}) - 1.1;
@@ -90,10 +87,8 @@ TEST(CorridorScene, PlainOneIsSevenBoxesAtKnownPlaces) {
 TEST(CorridorScene, FeaturesThatAreOffChangeNothing) {
   SceneConfig config;
   const std::string plain = scene_mjcf(build_scene(config, 3), "", MjcfPurpose::kRender).value();
-  config.corridor.glass = {.fraction = 0.0,
-                           .pane_length = 5.0,
-                           .max_incidence_deg = 30.0,
-                           .backing_distance = 3.0};
+  config.corridor.glass = {
+      .fraction = 0.0, .pane_length = 5.0, .max_incidence_deg = 30.0, .backing_distance = 3.0};
   config.ramp = {.start = 1.0, .length = 2.0, .grade = 0.0};
   config.people = {.count = 0, .speed = 2.0, .lane_offset = 5.0};
   config.garage.cars = 1;

@@ -158,12 +158,12 @@ Spread spread_of_registrations(const Scene& scene, const LidarConfig& config, in
 }
 
 TEST(ScanInformation, OneFacingReturnInformsByItsInverseVarianceAlongItsNormal) {
-  ScanTruth scan;
-  scan.points = {{5.0F, 0.0F, 0.0F}};
-  scan.normals = {{-1.0F, 0.0F, 0.0F}};
-  scan.cosines = {1.0F};
-  scan.surfaces = {0};
-  const ScanInformation scan = scan_information(7, scan, Pose{}, 0.1);
+  ScanTruth hits;
+  hits.points = {{5.0F, 0.0F, 0.0F}};
+  hits.normals = {{-1.0F, 0.0F, 0.0F}};
+  hits.cosines = {1.0F};
+  hits.surfaces = {0};
+  const ScanInformation scan = scan_information(7, hits, Pose{}, 0.1);
   Matrix6 expected = Matrix6::Zero();
   expected(3, 3) = 100.0;
   EXPECT_TRUE(scan.information.isApprox(expected, 1e-9)) << scan.information;
@@ -179,19 +179,19 @@ TEST(ScanInformation, EqualsTheFiniteDifferencesOfTheRangesThatTheSceneGives) {
   Lidar lidar(config, caster, 1);
   // The sensor sits beside the body's origin, and both turn within the scan.
   const Pose T_body_lidar{so3_exp({0.0, 0.1, 0.2}), {0.1, -0.05, 0.2}};
-  Trajectory scan;
+  Trajectory motion;
   for (int i = 0; i <= 40; ++i) {
     const double t = 0.0025 * i;
     const Pose body{so3_exp({0.02, 0.3 * t, 0.4 + 0.5 * t}), {0.3 + 0.8 * t, -0.2, 0.5}};
-    scan.push_back({from_seconds(t), body * T_body_lidar});
+    motion.push_back({from_seconds(t), body * T_body_lidar});
   }
   ScanTruth seen;
-  const LidarScan scan = lidar.scan(0, scan, &seen);
-  const Pose end = scan.back().pose * T_body_lidar.inverse();
+  const LidarScan scan = lidar.scan(0, motion, &seen);
+  const Pose end = motion.back().pose * T_body_lidar.inverse();
   Matrix6 expected = Matrix6::Zero();
   ScanTruth kept;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const Pose at = *pose_at(scan, scan.points[i].time_offset_ns);
+    const Pose at = *pose_at(motion, scan.points[i].time_offset_ns);
     const Vector3d beam = scan.points[i].position.cast<double>().normalized();
     const auto range_at = [&](const Vector6& by) -> std::optional<double> {
       const Pose shifted = end * Pose{so3_exp(by.head<3>()), by.tail<3>()} * end.inverse() * at;
@@ -271,13 +271,13 @@ TEST(ScanInformation, BoundsTheSpreadWithinFifteenPercentAlongAWeaklyObservedAxi
 }
 
 TEST(ScanInformation, LeavesOutMovingSurfaces) {
-  ScanTruth scan;
-  scan.points = {{5.0F, 0.0F, 0.0F}, {3.0F, 0.5F, 0.1F}};
-  scan.normals = {{-1.0F, 0.0F, 0.0F}, {-0.8F, 0.6F, 0.0F}};
-  scan.cosines = {1.0F, 0.9F};
-  scan.surfaces = {3, 7};
-  EXPECT_EQ(scan_information(0, scan, Pose{}, 0.1).returns, 2);
-  const ScanInformation scan = scan_information(0, scan, Pose{}, 0.1, 7);
+  ScanTruth hits;
+  hits.points = {{5.0F, 0.0F, 0.0F}, {3.0F, 0.5F, 0.1F}};
+  hits.normals = {{-1.0F, 0.0F, 0.0F}, {-0.8F, 0.6F, 0.0F}};
+  hits.cosines = {1.0F, 0.9F};
+  hits.surfaces = {3, 7};
+  EXPECT_EQ(scan_information(0, hits, Pose{}, 0.1).returns, 2);
+  const ScanInformation scan = scan_information(0, hits, Pose{}, 0.1, 7);
   EXPECT_EQ(scan.returns, 1);
   EXPECT_DOUBLE_EQ(scan.information.bottomRightCorner(3, 3).trace(), 100.0);
 }
