@@ -61,8 +61,8 @@ TEST_F(HostileBag, NeverClosed) {
   std::string bytes = sample();
   patch(bytes, "index_pos=", 0, std::uint64_t{0});
   expect_error(bytes,
-               "at byte 13: the bag was never closed and has no index; --recover reads what is "
-               "whole, `rosbag reindex` mends it");
+               "at byte 13: the bag was never closed and has no index; --recover reads the intact "
+               "chunks, `rosbag reindex` repairs it");
   EXPECT_EQ(error_of(bytes, {.recover = true}), "");
 }
 
@@ -182,7 +182,7 @@ TEST_F(HostileBag, AnIndexThatContradictsItsChunk) {
   bytes = sample();
   const std::size_t counts = bytes.find("ver=", infos) + 12;
   bytes[counts + 4] = static_cast<char>(bytes[counts + 4] + 1);
-  expect_error(bytes, "of connection 0 in this chunk, as the index says, found");
+  expect_error(bytes, "of connection 0 in this chunk, as the index states, found");
   bytes = sample();
   bytes[counts] = 9;
   expect_error(bytes, "a chunk's info names connection 9 which no record announces");

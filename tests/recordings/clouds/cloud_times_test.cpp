@@ -54,7 +54,7 @@ TEST_F(CloudTimes, PointsWithoutTimeAreTimedByAzimuth) {
   ASSERT_EQ(scans.size(), 4U);
   EXPECT_EQ(scans[1]->stamp, kStart + 100 * kMillisecond);
   EXPECT_EQ(scans[1]->end, kStart + 200 * kMillisecond);
-  EXPECT_FALSE(read.noted("run the other way"));
+  EXPECT_FALSE(read.noted("opposite direction"));
   for (std::size_t i = 0; i < 200; ++i) {
     ASSERT_NEAR(scans[1]->points[i].time_offset_ns, 5e5 * static_cast<double>(i), 100.0);
   }
@@ -67,7 +67,7 @@ TEST_F(CloudTimes, AWrongDirectionOfSpinIsNotedAndConfigurable) {
   RecordingConfig config;
   config.lidar_clockwise = false;
   const Recording read = read_untimed(bag(), 1.0, 105 * kMillisecond, config);
-  EXPECT_FALSE(read.noted("run the other way"));
+  EXPECT_FALSE(read.noted("opposite direction"));
   EXPECT_NEAR(test::scans_of(read.deliveries)[2]->points[50].time_offset_ns, 25e6, 100.0);
 }
 

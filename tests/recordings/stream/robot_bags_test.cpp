@@ -178,7 +178,7 @@ TEST_F(RobotBags, HesaiTimesSinceTheEpoch) {
 
 TEST_F(RobotBags, PointTimesOnAnotherClockAreRelativeToTheFirst) {
   expect_scans("other_clock", 200);
-  EXPECT_TRUE(noted("on a clock of its own"));
+  EXPECT_TRUE(noted("on another clock"));
 }
 
 TEST_F(RobotBags, LivoxCloudWithNanosecondsInDoubles) {
@@ -203,7 +203,7 @@ TEST_F(RobotBags, LivoxCustomMessagesAndAnImuInGravities) {
 /// Times to within the rings' share of a column, which azimuth does not tell.
 TEST_F(RobotBags, BarePointsGetRingAndTimeFromTheirDirection) {
   open("bare", {});
-  EXPECT_TRUE(noted("made up from azimuth, spinning clockwise"));
+  EXPECT_TRUE(noted("derived from azimuth, spinning clockwise"));
   EXPECT_TRUE(noted("derived from elevation, 16 rings"));
   const auto scans = test::scans_of(deliveries_);
   ASSERT_EQ(scans.size(), expected_.scans.size());
@@ -239,7 +239,7 @@ TEST_F(RobotBags, JointsAndContactsGiveLegOdometry) {
   // The pose goes round as the twist says: 0.745 s at 0.3 rad/s.
   EXPECT_NEAR(yaw_of(legs.back().T_odom_base.rotation), 0.3 * 0.745, 1e-3);
   EXPECT_NEAR(setup_.leg_rate_hz.value_or(0.0), 200.0, 1e-6);
-  EXPECT_TRUE(noted("by the leg model"));
+  EXPECT_TRUE(noted("by leg kinematics"));
 }
 
 TEST_F(RobotBags, ATwistIsIntegratedAndExtrinsicsFollowTheChain) {
