@@ -7,7 +7,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
-#include "render/page/report.hpp"
+#include "render/page/page.hpp"
 
 namespace aims {
 namespace {
@@ -23,13 +23,13 @@ struct PageArguments {
   std::string detectors;
 };
 
-void print_pages(const Reports& reports) {
-  for (const std::string& warning : reports.warnings) fmt::print("warning: {}\n", warning);
-  const std::size_t count = reports.pages.size();
+void print_pages(const WrittenPages& written) {
+  for (const std::string& warning : written.warnings) fmt::print("warning: {}\n", warning);
+  const std::size_t count = written.pages.size();
   const std::size_t left_out = count > kMostShown ? count - kMostShown : 0;
   if (left_out > 0) fmt::print("page: {} pages of runs, and\n", left_out);
   for (std::size_t i = left_out; i < count; ++i) {
-    fmt::print("page: {}\n", reports.pages[i].string());
+    fmt::print("page: {}\n", written.pages[i].string());
   }
 }
 
@@ -39,7 +39,7 @@ int write_one(const PageArguments& arguments, const PageOptions& options) {
     return bad_input(
         "page", {fmt::format("--out: expected one folder, found {}", arguments.folders.size())});
   }
-  const auto written = write_report(arguments.folders.front(), arguments.out, options);
+  const auto written = write_page(arguments.folders.front(), arguments.out, options);
   if (!written) return bad_input("page", written.error());
   fmt::print("page: {}\n", arguments.out);
   return kOk;
@@ -49,9 +49,9 @@ int page_command(const PageArguments& arguments) {
   const PageOptions options = {arguments.against, arguments.detectors, {}};
   if (!arguments.out.empty()) return write_one(arguments, options);
   for (const std::string& folder : arguments.folders) {
-    const auto reports = write_reports(folder, options);
-    if (!reports) return bad_input("page", reports.error());
-    print_pages(*reports);
+    const auto written = write_pages(folder, options);
+    if (!written) return bad_input("page", written.error());
+    print_pages(*written);
   }
   return kOk;
 }
@@ -59,11 +59,11 @@ int page_command(const PageArguments& arguments) {
 }  // namespace
 
 void write_pages_of(const fs::path& folder) {
-  const auto reports = write_reports(folder);
-  if (reports) {
-    print_pages(*reports);
+  const auto written = write_pages(folder);
+  if (written) {
+    print_pages(*written);
   } else {
-    fmt::print("warning: no page: {}\n", reports.error().message);
+    fmt::print("warning: no page: {}\n", written.error().message);
   }
 }
 

@@ -117,7 +117,7 @@ Result<FilmedSequence> sequence_of(const SharedOptions& shared, const FilmOption
   if (!seed) return tl::unexpected(seed.error());
   ProgressDisplay display(scenario->name, shared.quiet);
   return film_sequence(*scenario, {*seed, shared.jobs},
-                   [&](const Progress& progress) { return display.show(*seed, progress); });
+                       [&](const Progress& progress) { return display.show(*seed, progress); });
 }
 
 /// Shows the progress of a video on a terminal; false after Ctrl-C.
@@ -157,8 +157,8 @@ int render_command(const RenderArguments& arguments) {
 void add_outputs(Command& command, RenderArguments& arguments) {
   command.flag("--still", arguments.still, "still.png, for papers and pages");
   command.option("--video", arguments.video,
-                 "Looped video of that name: .png or .apng (animated\n"
-                 "PNG), .mp4 or .webm (by ffmpeg, on PATH)");
+                 "Looped video of that name: .webp (animated), .mp4 or\n"
+                 ".webm (by ffmpeg, on PATH)");
   command.flag("--svg", arguments.svg, "Trajectories and maps as SVG");
   command.flag("--pdf", arguments.pdf, "Trajectories and maps as PDF");
   command.choice("--view", arguments.view, {"follow", "top"}, "Camera (follow)");
@@ -187,7 +187,7 @@ void declare_render(Command command, const fs::path& scenarios) {
   add_jobs(command, shared);
   add_quiet(command, shared);
   command.footer(
-      "Without --still, --video, --svg or --pdf: --still --video walk.png. Still and video are\n"
+      "Without --still, --video, --svg or --pdf: --still --video walk.webp. Still and video are\n"
       "simulated, also from the folder of a run (its config.yaml); --svg and --pdf of such a\n"
       "folder are drawn from its files.\n"
       "Examples:\n"

@@ -29,7 +29,7 @@ sed -i 's|short_walk|</script><script>window.broken=1</script>|' \
   "$out/hostile/config.yaml" "$out/hostile/scores.json"
 mkdir "$out/bare"
 cp "$out/run/scores.json" "$out/bare"
-"$aims" report "$out/hostile" "$out/bare"
+"$aims" page "$out/hostile" "$out/bare"
 # The same folder gives the same page.
-"$aims" report "$out/run" --out "$out/again.html"
+"$aims" page "$out/run" --out "$out/again.html"
 cmp "$out/run/page.html" "$out/again.html"
