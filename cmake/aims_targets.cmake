@@ -28,12 +28,12 @@ endif()
 option(AIMS_UNITY "Compile the source files of a library in batches" OFF)
 
 # aims_batches(TARGET [FUNCTIONS]): compiles the target in batches. Files of a batch share their
-# anonymous namespace: a file that defines a constant or type (FUNCTIONS: also an alias or function,
-# which in a library are mostly overloads) of a name that an earlier file has is compiled alone.
+# anonymous namespace: a file that defines a constant or type (FUNCTIONS: also a function, which in a
+# library are mostly overloads) of a name that an earlier file has is compiled alone.
 function(aims_batches target)
-  set(definition "\n(const[a-z]* [^\n=({]* k|struct |class |enum class )[A-Z][A-Za-z0-9]*")
+  set(definition "\n(const[a-z]* [^\n=({]* k|struct |class |enum class |using )[A-Z][A-Za-z0-9]*( =)?")
   if("FUNCTIONS" IN_LIST ARGN)
-    set(definition "${definition}|\nusing [A-Z][A-Za-z0-9]* =|\n[A-Za-z][^\n=(]* [a-z_0-9]+\\(")
+    set(definition "${definition}|\n[A-Za-z][^\n=(]* [a-z_0-9]+\\(")
   endif()
   get_target_property(sources ${target} SOURCES)
   set(taken "")
@@ -44,6 +44,7 @@ function(aims_batches target)
       set(alone OFF)
       file(READ ${path} text)
       string(REGEX MATCHALL "${definition}" names "${text}")
+      list(FILTER names EXCLUDE REGEX "\nusing .*[^=]$")  # a using-declaration may be repeated
       list(TRANSFORM names REPLACE "( =|\\()$" "")
       list(TRANSFORM names REPLACE "^.*[ *&]" "")
       foreach(name ${names})
@@ -56,6 +57,8 @@ function(aims_batches target)
     set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ${alone})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  # GCC takes an anonymous namespace of a file that another includes for one of a header.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # aims_cold(TARGET): for code that runs once per command and includes much. Always in batches, as
