@@ -38,7 +38,7 @@ struct Collected {
   std::map<Values, std::map<std::size_t, RunScore>> runs;
 };
 
-std::size_t index_of(const ResponseCase& on, Cases& cases) {
+std::size_t index_of(const ResponseCase& on, Cases& sequences) {
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     if (sequences[i].scenario == on.scenario && sequences[i].seed == on.seed) return i;
   }
@@ -75,7 +75,7 @@ void add_default_point(ResponseTable& table) {
 }
 
 Result<SweepResponse> response_of(const Collected& collected, const VariedParameters& varied,
-                                  const Cases& cases) {
+                                  const Cases& sequences) {
   SweepResponse response;
   response.estimator = text_of(collected.estimator);
   ResponseTable& table = response.table;
@@ -190,7 +190,7 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
                                                    const std::string& score) {
   const auto varied = varied_in(sweep);
   if (!varied) return tl::unexpected(varied.error());
-  Cases cases;
+  Cases sequences;
   std::vector<std::string> names;
   std::map<std::string, Collected> by_name;
   for (const MergedJob& job : sweep.jobs) {

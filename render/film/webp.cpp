@@ -12,9 +12,9 @@
 namespace aims {
 namespace {
 
-using Encoder = std::unique_ptr<WebPAnimEncoder, void (*)(WebPAnimEncoder*)>;
+using WebpEncoder = std::unique_ptr<WebPAnimEncoder, void (*)(WebPAnimEncoder*)>;
 
-Encoder encoder_of(const Movie& movie) {
+WebpEncoder encoder_of(const Movie& movie) {
   WebPAnimEncoderOptions options;
   WebPAnimEncoderOptionsInit(&options);
   options.anim_params.loop_count = 0;  // without end
@@ -74,7 +74,7 @@ Result<std::string> webp_bytes(const Movie& movie) {
   if (movie.frames < 1 || movie.width < 1 || movie.height < 1) {
     return failure("a movie needs at least one frame of one pixel");
   }
-  const Encoder encoder = encoder_of(movie);
+  const WebpEncoder encoder = encoder_of(movie);
   if (!encoder) return failure("libwebp: no encoder");
   const WebPConfig config = encoding();
   const auto stamp_ms = [&](int frame) {

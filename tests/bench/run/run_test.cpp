@@ -4,25 +4,26 @@
 #include <gtest/gtest.h>
 
 #include "core/files/tum.hpp"
+#include "tests/bench/run/short_walk.hpp"
 
 namespace aims {
 namespace {
 
+using test::keep_going;
+
 /// A few seconds of the corridor: stand, walk three metres, turn, walk back.
-Scenario short_walk() {
+Scenario there_and_back() {
   Scenario scenario;
-  scenario.name = "short_walk";
+  scenario.name = "there_and_back";
   scenario.simulation.scene.corridor.length = 10.0;
   scenario.simulation.route.points = {{"a", 0.0, 0.0}, {"b", 3.0, 0.0}, {"a", 0.0, 0.0}};
   scenario.simulation.route.stand_before = 2.5;
   return scenario;
 }
 
-bool keep_going(const Progress&) { return true; }
-
 TEST(Run, GivesTheSameBytesOnOneThreadAndOnTwo) {
-  const auto one = run(short_walk(), {.seed = 3, .jobs = 1}, keep_going);
-  const auto two = run(short_walk(), {.seed = 3, .jobs = 2}, keep_going);
+  const auto one = run(there_and_back(), {.seed = 3, .jobs = 1}, keep_going);
+  const auto two = run(there_and_back(), {.seed = 3, .jobs = 2}, keep_going);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(tum_text(one->truth_trajectory), tum_text(two->truth_trajectory));
   ASSERT_EQ(one->estimators.size(), 6U);
@@ -34,7 +35,7 @@ TEST(Run, GivesTheSameBytesOnOneThreadAndOnTwo) {
 }
 
 TEST(Run, ScoresEveryEstimatorOnAWalkThatEndsWhereItBegan) {
-  const auto result = run(short_walk(), {.seed = 1, .jobs = 2}, keep_going);
+  const auto result = run(there_and_back(), {.seed = 1, .jobs = 2}, keep_going);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(result->complete);
   EXPECT_FALSE(result->truth.fell);
@@ -46,7 +47,7 @@ TEST(Run, ScoresEveryEstimatorOnAWalkThatEndsWhereItBegan) {
 }
 
 TEST(Run, EndsEarlyWithWhatThereIsWhenTheObserverSaysSo) {
-  const auto result = run(short_walk(), {.seed = 1, .jobs = 2},
+  const auto result = run(there_and_back(), {.seed = 1, .jobs = 2},
                           [](const Progress& progress) { return progress.simulated_s < 5.0; });
   ASSERT_TRUE(result);
   EXPECT_FALSE(result->complete);
@@ -56,13 +57,13 @@ TEST(Run, EndsEarlyWithWhatThereIsWhenTheObserverSaysSo) {
 }
 
 TEST(Run, RefusesAScenarioThatStartsInAWall) {
-  Scenario scenario = short_walk();
+  Scenario scenario = there_and_back();
   scenario.simulation.route.points = {{"a", 0.0, 1.1}, {"b", 3.0, 1.1}};
   EXPECT_FALSE(run(scenario, {.seed = 1, .jobs = 1}, keep_going));
 }
 
 TEST(Run, RefusesARouteWithoutLength) {
-  Scenario scenario = short_walk();
+  Scenario scenario = there_and_back();
   scenario.simulation.route.points = {{"a", 1.0, 0.0}, {"b", 1.0, 0.0}};
   EXPECT_FALSE(run(scenario, {.seed = 1, .jobs = 1}, keep_going));
 }

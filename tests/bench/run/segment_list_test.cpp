@@ -56,7 +56,7 @@ TEST(SegmentList, WhatIsNotThereIsAnError) {
   EXPECT_EQ(unknown.error().message,
             "--segments: 'b-a': no way between two such waypoint_times; passed are: a, b");
   const auto beyond =
-      resolve_segments({{{"x", kSecond, 301 * kSecond}}, {}}, waypoint times, kTruth);
+      resolve_segments({{{"x", kSecond, 301 * kSecond}}, {}}, waypoint_times, kTruth);
   ASSERT_FALSE(beyond);
   EXPECT_NE(beyond.error().message.find("not within the truth's stamps"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "estimator/filter/static_initialization.hpp"
 #include "tests/estimator/ground/ground_scene.hpp"
 
 namespace aims {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/jobs/unit_id.hpp"
+#include "bench/jobs/job_id.hpp"
 #include "bench/run/scenario.hpp"
 
 namespace aims {
@@ -105,14 +105,14 @@ TEST(EstimatorSpec, CommasInsideBracketsSurviveTheCommandLine) {
 
 TEST(EstimatorSpec, TheUnitIdDependsOnTheSettingsAndNotOnTheLabel) {
   const Scenario scenario;
-  const std::string plain = unit_id(scenario, 1, "aims_d");
-  EXPECT_EQ(unit_id(scenario, 1, "full=aims_d"), plain);
-  EXPECT_EQ(unit_id(scenario, 1, "x=aims_d+directional.ground_constraint.enabled=true"), plain);
+  const std::string plain = job_id(scenario, 1, "aims_d");
+  EXPECT_EQ(job_id(scenario, 1, "full=aims_d"), plain);
+  EXPECT_EQ(job_id(scenario, 1, "x=aims_d+directional.ground_constraint.enabled=true"), plain);
   const std::string without =
-      unit_id(scenario, 1, "x=aims_d+directional.ground_constraint.enabled=false");
+      job_id(scenario, 1, "x=aims_d+directional.ground_constraint.enabled=false");
   EXPECT_NE(without, plain);
-  EXPECT_EQ(unit_id(scenario, 1, "y=aims_d+directional.ground_constraint.enabled=false"), without);
-  EXPECT_NE(unit_id(scenario, 1, "y=aims+directional.ground_constraint.enabled=false"), without);
+  EXPECT_EQ(job_id(scenario, 1, "y=aims_d+directional.ground_constraint.enabled=false"), without);
+  EXPECT_NE(job_id(scenario, 1, "y=aims+directional.ground_constraint.enabled=false"), without);
 }
 
 }  // namespace
