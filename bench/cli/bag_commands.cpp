@@ -71,7 +71,7 @@ int check_command(const BagArguments& arguments) {
   const bool missing = std::any_of(checks->begin(), checks->end(), [](const auto& each) {
     return each.fulfilment == Fulfilment::kMissing;
   });
-  return missing && !arguments.systems.empty() ? kGateFailed : kOk;
+  return missing && !arguments.systems.empty() ? kExpectationFailed : kOk;
 }
 
 std::shared_ptr<BagArguments> add_bag_options(Command& command) {

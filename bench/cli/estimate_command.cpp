@@ -9,9 +9,10 @@
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress.hpp"
 #include "bench/run/estimate.hpp"
-#include "bench/run/estimate_report.hpp"
+#include "bench/run/estimate_summary.hpp"
 #include "core/files/output_folder.hpp"
-#include "render/results/pictures.hpp"
+#include "render/results/estimate_pictures.hpp"
+#include "render/results/run_pictures.hpp"
 
 namespace aims {
 namespace {

@@ -7,8 +7,9 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
-#include "bench/jobs/sweep_store.hpp"
+#include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/sweep_summary.hpp"
+#include "render/results/response_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -28,7 +29,7 @@ void write_summary(const MergedSweep& sweep, const std::string& score, const fs:
   Objective objective;
   objective.score = score;
   std::vector<std::string> warnings;
-  const auto written = write_sweep_summary(sweep, objective, out, warnings);
+  const auto written = write_sweep_summary(sweep, objective, out, draw_response, warnings);
   if (!written) warnings.push_back("no sweep.md: " + written.error().message);
   for (const std::string& warning : warnings) fmt::print("note: {}\n", warning);
 }
@@ -69,7 +70,7 @@ int merge_command(const MergeArguments& arguments) {
   }
   fmt::print("{} of {} jobs done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
              sweep->jobs.size(), (out / "sweep.sqlite").string());
-  return sweep->count("done") == sweep->jobs.size() ? kOk : kGateFailed;
+  return sweep->count("done") == sweep->jobs.size() ? kOk : kExpectationFailed;
 }
 
 }  // namespace

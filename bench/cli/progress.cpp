@@ -88,13 +88,6 @@ JobObserver JobDisplay::observer() {
   };
 }
 
-SuiteObserver JobDisplay::suite_observer() {
-  return [this](const SuiteProgress& progress) {
-    show({progress.done, 0, progress.total, 0, progress.elapsed_s, progress.left_s});
-    return !interrupted();
-  };
-}
-
 void JobDisplay::close() {
   if (open_) fmt::print(stderr, "\n");
   open_ = false;
@@ -104,7 +97,8 @@ void JobDisplay::show(const JobProgress& progress) {
   const bool due = terminal_ || progress.elapsed_s >= shown_at_s_ + kLineEvery ||
                    progress.done == progress.total;
   if (quiet_ || !due) return;
-  std::string line = fmt::format("{} of {} jobs", progress.done, progress.total);
+  std::string line = fmt::format("{:3.0f} %, {} of {} jobs", 100.0 * progress.fraction,
+                                 progress.done, progress.total);
   if (progress.failed > 0) line += fmt::format(", {} failed", progress.failed);
   if (progress.sequences > 0) line += fmt::format(", {} sequences simulated", progress.sequences);
   if (line == shown_ && !terminal_) return;

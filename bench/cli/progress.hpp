@@ -6,8 +6,7 @@
 #include <string>
 
 #include "bench/jobs/job_runner.hpp"
-#include "bench/run/run.hpp"
-#include "bench/studies/suite.hpp"
+#include "bench/run/progress.hpp"
 
 namespace aims {
 
@@ -50,9 +49,8 @@ class JobDisplay {
   JobDisplay(const JobDisplay&) = delete;
   JobDisplay& operator=(const JobDisplay&) = delete;
 
-  /// Show each step and return false after Ctrl-C; must not outlive the display.
+  /// Shows each step and returns false after Ctrl-C; must not outlive the display.
   JobObserver observer();
-  SuiteObserver suite_observer();
   /// Ends the line.
   void close();
 

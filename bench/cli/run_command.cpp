@@ -7,10 +7,10 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
-#include "bench/cli/progress.hpp"
-#include "bench/run/experiment.hpp"
+#include "bench/cli/suite_options.hpp"
 #include "bench/run/score_table.hpp"
-#include "render/results/pictures.hpp"
+#include "bench/studies/run_folder.hpp"
+#include "render/results/run_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -23,41 +23,44 @@ struct RunArguments {
   bool no_page = false;
 };
 
-Result<ExperimentOptions> options_of(const RunArguments& arguments, const Scenario& scenario) {
+Result<SuiteOptions> options_of(const RunArguments& arguments, const Scenario& scenario) {
   const SharedOptions& shared = arguments.shared;
-  ExperimentOptions options;
-  auto seeds = seeds_of(shared, {static_cast<std::uint64_t>(scenario.seed)});
-  if (!seeds) return tl::unexpected(seeds.error());
-  options.seeds = std::move(*seeds);
-  options.out = shared.out;
+  auto options = suite_options(shared, {static_cast<std::uint64_t>(scenario.seed)});
+  if (!options) return options;
   if (shared.out.empty()) {
     const std::string text = shared.seeds.empty() ? std::to_string(scenario.seed) : shared.seeds;
-    options.out = fs::path("out") / fmt::format("{}-seed-{}", scenario.name, text);
+    options->jobs.out = fs::path("out") / fmt::format("{}-seed-{}", scenario.name, text);
   }
-  options.overwrite = shared.overwrite;
-  options.jobs = shared.jobs;
-  options.pictures = !arguments.no_pictures;
+  options->jobs.redo = shared.overwrite;
+  options->jobs.retry = true;
+  options->jobs.outputs.trajectories = true;
   return options;
 }
 
-std::string seeds_text(const Experiment& experiment) {
+std::string seeds_text(const SuiteCase& each) {
   std::vector<std::uint64_t> seeds;
-  for (const RunRecord& run : experiment.runs) seeds.push_back(run.seed);
+  for (const RunRecord& run : each.runs) seeds.push_back(run.seed);
   return fmt::format("{}{}", fmt::join(seeds, ", "), seeds.size() > 1 ? ": median (worst)" : "");
 }
 
-void print_results(const Scenario& scenario, const Experiment& experiment) {
-  fmt::print("{}, seed {}\n{}\n", scenario.name, seeds_text(experiment),
-             to_text(score_table(experiment.runs)));
-  for (const std::string& warning : experiment.warnings) fmt::print("warning: {}\n", warning);
-  for (const GateCheck& failure : experiment.failures) {
-    fmt::print("EXPECTATION FAILED: {}\n  to repeat: {}\n", text_of(scenario, failure),
-               reproducing_command(scenario, failure));
+void print_results(const Suite& suite, const RunArguments& arguments, const fs::path& out) {
+  const SuiteCase& each = suite.cases.front();
+  fmt::print("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
+             to_text(score_table(each.runs)));
+  for (const ExpectationCheck& check : failed(each.expectations)) {
+    fmt::print("EXPECTATION FAILED: {}\n  to repeat: {}\n", text_of(each.scenario, check),
+               reproducing_command(each.scenario, check));
   }
-  if (!experiment.complete) fmt::print("interrupted: the results end where the run was stopped\n");
-  fmt::print("results: {}\n", (experiment.folder / "").string());
-  for (const fs::path& picture : pictures_in(experiment.folder)) {
-    fmt::print("  {}\n", picture.string());
+  print_outcome(suite, arguments.shared);
+  fmt::print("results: {}\n", (out / "").string());
+  for (const fs::path& picture : pictures_in(out)) fmt::print("  {}\n", picture.string());
+}
+
+/// Draws the runs; a picture that cannot be drawn costs no results.
+void draw(const std::vector<fs::path>& folders) {
+  for (const fs::path& folder : folders) {
+    const auto drawn = draw_run(folder);
+    if (!drawn) fmt::print("warning: {}\n", drawn.error().message);
   }
 }
 
@@ -66,17 +69,20 @@ int run_command(const RunArguments& arguments) {
   if (!scenario) return bad_input("run", scenario.error());
   const auto options = options_of(arguments, *scenario);
   if (!options) return bad_input("run", options.error());
-  watch_interrupt();
-  ProgressDisplay display(scenario->name, arguments.shared.quiet);
-  const auto experiment = run_experiment(
-      *scenario, *options,
-      [&](std::uint64_t seed, const Progress& progress) { return display.show(seed, progress); });
-  display.close();
-  if (!experiment) return bad_input("run", experiment.error());
-  print_results(*scenario, *experiment);
-  if (!arguments.no_page) write_pages_of(experiment->folder);
-  if (!experiment->complete) return kInterrupted;
-  return experiment->failures.empty() ? kOk : kGateFailed;
+  const auto suite =
+      run_with_display({{scenario->file, *scenario}}, *options, arguments.shared.quiet);
+  if (!suite) return bad_input("run", suite.error());
+  const SuiteCase& only = suite->cases.front();
+  if (only.runs.empty() && !suite->failures.empty()) {
+    return bad_input("run", {suite->failures.front().message});
+  }
+  const fs::path& out = options->jobs.out;
+  if (auto written = write_runs(*suite, out); !written) return bad_input("run", written.error());
+  if (!arguments.no_pictures) draw(run_folders(*suite, out));
+  print_results(*suite, arguments, out);
+  if (!arguments.no_page && !only.runs.empty()) write_pages_of(out);
+  const int code = exit_code_of(*suite);
+  return code == kOk && !failed(only.expectations).empty() ? kExpectationFailed : code;
 }
 
 }  // namespace
@@ -92,11 +98,13 @@ void declare_run(Command command, const fs::path& scenarios) {
   add_settings(command, shared);
   add_out(command, shared, "out/SCENARIO-seed-N");
   add_overwrite(command, shared);
+  add_cache(command, shared);
   add_jobs(command, shared);
   add_quiet(command, shared);
   command.flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
   command.flag("--no-page", arguments->no_page, "Write no HTML page");
   command.footer(
+      "The same command again continues, and runs only what is missing or has changed.\n"
       "Examples:\n"
       "  aims run scenarios/paper/corridor.yaml\n"
       "  aims run corridor --seeds 1-5 --set lidar.range_max=30 --out out/short-range");

@@ -7,8 +7,10 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/run/scoring_input.hpp"
-#include "bench/run/trajectory_report.hpp"
-#include "render/results/pictures.hpp"
+#include "bench/run/trajectory_summary.hpp"
+#include "core/files/output_folder.hpp"
+#include "render/results/run_pictures.hpp"
+#include "render/results/trajectory_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -21,13 +23,12 @@ struct ScoreArguments {
   bool no_pictures = false;
 };
 
-void print_results(const TrajectoryScores& scores, const TrajectoryReport& report) {
+void print_results(const TrajectoryScores& scores, const fs::path& folder) {
   fmt::print("{}\n{}\n{}", to_text(trajectory_source_table(scores)),
              to_text(trajectory_score_table(scores)), score_legend(scores));
   for (const std::string& note : scores.notes) fmt::print("note: {}\n", note);
-  for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);
-  fmt::print("results: {}\n", (report.folder / "").string());
-  for (const auto& picture : pictures_in(report.folder)) fmt::print("  {}\n", picture.string());
+  fmt::print("results: {}\n", (folder / "").string());
+  for (const auto& picture : pictures_in(folder)) fmt::print("  {}\n", picture.string());
 }
 
 int score_command(const ScoreArguments& arguments) {
@@ -38,10 +39,16 @@ int score_command(const ScoreArguments& arguments) {
   if (!input) return bad_input("score", input.error());
   const auto scores = score_trajectories(std::move(*input));
   if (!scores) return bad_input("score", scores.error());
-  const auto report =
-      write_trajectory_report(*scores, {shared.out, shared.overwrite, !arguments.no_pictures});
-  if (!report) return bad_input("score", report.error());
-  print_results(*scores, *report);
+  auto folder = OutputFolder::create(shared.out, shared.overwrite);
+  if (!folder) return bad_input("score", folder.error());
+  auto written = write_trajectory_scores(*scores, folder->path());
+  if (!written) return bad_input("score", written.error());
+  if (!arguments.no_pictures) {
+    const auto drawn = draw_trajectory_pictures(*scores, folder->path());
+    if (!drawn) fmt::print("warning: {}\n", drawn.error().message);
+  }
+  if (auto committed = folder->commit(); !committed) return bad_input("score", committed.error());
+  print_results(*scores, folder->final_path());
   return kOk;
 }
 

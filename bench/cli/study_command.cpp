@@ -7,14 +7,16 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
-#include "bench/cli/progress.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/studies/ablation.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/consistency_study.hpp"
-#include "bench/studies/detector_report.hpp"
+#include "bench/studies/detector_summary.hpp"
 #include "bench/studies/detectors.hpp"
+#include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
+#include "render/results/consistency_pictures.hpp"
+#include "render/results/detector_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -44,40 +46,39 @@ struct AblationArguments {
   std::vector<std::string> baselines;
 };
 
-void print_ablation(const Ablation& ablation, const fs::path& out) {
-  print_counts(ablation.suite);
+void print_ablation(const Ablation& ablation) {
   for (const AblationCase& each : ablation.cases) {
     if (each.rows.empty()) continue;
     fmt::print("{}, median over {} seeds (ratio to {})\n{}\n", each.scenario,
-               each.rows.front().runs, ablation.whole, to_text(case_table(each)));
+               each.rows.front().runs, ablation.complete, to_text(case_table(each)));
   }
-  fmt::print("Geometric mean of the ratios over scenarios\n{}\n", to_text(worth_table(ablation)));
-  print_outcome(ablation.suite);
-  fmt::print("results: {}, ablation.json, ablation.csv\n", (out / "ablation.md").string());
+  fmt::print("Geometric mean of the ratios over scenarios\n{}\n", to_text(effect_table(ablation)));
 }
 
 int ablation_command(const AblationArguments& arguments) {
   constexpr const char* kName = "study ablation";
   SharedOptions shared = arguments.shared;
-  AblationOptions options;
-  auto estimator = one_estimator(shared, options.estimator);
+  AblationOptions variants;
+  auto estimator = one_estimator(shared, variants.estimator);
   if (!estimator) return bad_input(kName, estimator.error());
-  options.estimator = std::move(*estimator);
+  variants = {*estimator, arguments.groups, joined_specs(arguments.baselines)};
   shared.estimators.clear();  // the study sets its own
-  options.groups = arguments.groups;
-  options.others = joined_specs(arguments.baselines);
-  auto suite = suite_options(shared, {});
-  if (!suite) return bad_input(kName, suite.error());
-  options.suite = std::move(*suite);
+  const auto options = suite_options(shared, {});
+  if (!options) return bad_input(kName, options.error());
   auto scenarios = study_scenarios(shared);
   if (!scenarios) return bad_input(kName, scenarios.error());
-  watch_interrupt();
-  JobDisplay display(shared.quiet);
-  const auto ablation = run_ablation(std::move(*scenarios), options, display.suite_observer());
-  display.close();
-  if (!ablation) return bad_input(kName, ablation.error());
-  print_ablation(*ablation, options.suite.out);
-  return exit_code_of(ablation->suite);
+  if (auto set = set_variants(variants, *scenarios); !set) return bad_input(kName, set.error());
+  const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
+  if (!suite) return bad_input(kName, suite.error());
+  const Ablation ablation = ablation_of(*suite, label_of(*estimator));
+  auto written = write_suite(*suite, shared.out);
+  if (written) written = write_ablation(ablation, *suite, shared.out);
+  if (!written) return bad_input(kName, written.error());
+  print_ablation(ablation);
+  print_outcome(*suite, shared);
+  fmt::print("results: {}, ablation.json, ablation.csv\n",
+             (fs::path(shared.out) / "ablation.md").string());
+  return exit_code_of(*suite);
 }
 
 void declare_ablation(Command command, const fs::path& scenarios) {
@@ -99,25 +100,33 @@ void declare_ablation(Command command, const fs::path& scenarios) {
   command.action([arguments] { return ablation_command(*arguments); });
 }
 
+Result<void> write_views(const Suite& suite, const ConsistencyStudy& study, const fs::path& out) {
+  auto written = write_suite(suite, out);
+  if (written) written = write_consistency(study, suite, out);
+  return written ? draw_consistency(study, out) : written;
+}
+
 int consistency_command(const SharedOptions& shared) {
   constexpr const char* kName = "study consistency";
-  const auto options = suite_options(shared, first_seeds(10));
+  auto options = suite_options(shared, first_seeds(10));
   if (!options) return bad_input(kName, options.error());
+  options->jobs.outputs.weak_axis = true;
   auto scenarios = study_scenarios(shared);
   if (!scenarios) return bad_input(kName, scenarios.error());
-  watch_interrupt();
-  JobDisplay display(shared.quiet);
-  const auto study = run_consistency(std::move(*scenarios), *options, display.suite_observer());
-  display.close();
+  const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
+  if (!suite) return bad_input(kName, suite.error());
+  const auto study = consistency_study(*suite, shared.out);
   if (!study) return bad_input(kName, study.error());
-  print_counts(study->suite);
+  if (auto written = write_views(*suite, *study, shared.out); !written) {
+    return bad_input(kName, written.error());
+  }
   fmt::print("Along the weak axis, over the sequence\n{}\n", to_text(consistency_table(*study)));
   fmt::print("At the end of the sequence, root mean square over seeds [m]\n{}\n",
              to_text(end_table(*study)));
-  print_outcome(study->suite);
+  print_outcome(*suite, shared);
   fmt::print("results: {}, consistency.json, consistency.csv, pictures\n",
-             (options->out / "consistency.md").string());
-  return exit_code_of(study->suite);
+             (fs::path(shared.out) / "consistency.md").string());
+  return exit_code_of(*suite);
 }
 
 void declare_consistency(Command command, const fs::path& scenarios) {
@@ -134,65 +143,41 @@ void declare_consistency(Command command, const fs::path& scenarios) {
   command.action([shared] { return consistency_command(*shared); });
 }
 
-Result<std::vector<Scenario>> loaded(Result<std::vector<ScenarioFile>> files) {
-  if (!files) return tl::unexpected(files.error());
-  std::vector<Scenario> scenarios;
-  for (ScenarioFile& each : *files) {
-    if (!each.scenario) return tl::unexpected(each.scenario.error());
-    scenarios.push_back(std::move(*each.scenario));
-  }
-  return scenarios;
-}
-
 int detectors_command(const SharedOptions& given) {
   constexpr const char* kName = "study detectors";
   SharedOptions shared = given;
-  DetectorOptions options;
-  auto estimator = one_estimator(shared, options.estimator);
+  const auto estimator = one_estimator(shared, "aims");
   if (!estimator) return bad_input(kName, estimator.error());
-  options.estimator = *estimator;
   shared.estimators = {*estimator};
-  const auto scenarios = loaded(study_scenarios(shared));
+  auto options = suite_options(shared, first_seeds(5));
+  if (!options) return bad_input(kName, options.error());
+  options->jobs.outputs.trajectories = true;
+  auto scenarios = study_scenarios(shared);
   if (!scenarios) return bad_input(kName, scenarios.error());
-  auto seeds = seeds_of(shared, first_seeds(5));
-  if (!seeds) return bad_input(kName, seeds.error());
-  options.seeds = std::move(*seeds);
-  options.out = shared.out;
-  options.overwrite = shared.overwrite;
-  options.jobs = shared.jobs;
-  watch_interrupt();
-  const auto study =
-      run_detectors(*scenarios, options, [&](const std::string& label, int done, int of) {
-        if (!shared.quiet) fmt::print(stderr, "{}/{} {}\n", done, of, label);
-        return !interrupted();
-      });
-  if (!study) {
-    const int code = bad_input(kName, study.error());
-    return interrupted() ? kInterrupted : code;
-  }
+  const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
+  if (!suite) return bad_input(kName, suite.error());
+  const auto study = detector_study(*suite, shared.out);
+  if (!study) return bad_input(kName, study.error());
+  auto written = write_detectors(*study, shared.out);
+  if (written) written = draw_detectors(*study, shared.out);
+  if (!written) return bad_input(kName, written.error());
   fmt::print(
       "{} runs; AUC with 95 % interval over runs, detection rate at {:.0f} % false alarms, "
       "median delay, onsets missed\n{}\n",
       study->runs.size(), 100.0 * kFalseAlarms, to_text(detector_table(study->scores)));
   for (const std::string& warning : study->warnings) fmt::print("note: {}\n", warning);
-  fmt::print("results: {}\n", (study->folder / "").string());
-  return kOk;
+  print_outcome(*suite, shared);
+  fmt::print("results: {}\n", (fs::path(shared.out) / "detectors.md").string());
+  return exit_code_of(*suite);
 }
 
 void declare_detectors(Command command, const fs::path& scenarios) {
   auto shared = std::make_shared<SharedOptions>();
   shared->folder = scenarios.string();
-  shared->out = "out/detectors";
-  add_named_scenarios(command, *shared);
-  add_scenarios(command, *shared);
-  add_seeds(command, *shared, "1-5");
+  add_suite_options(command, *shared, "out/detectors", "1-5");
   add_estimators(command, *shared, "aims; one");
-  add_settings(command, *shared, "each scenario");
-  add_out(command, *shared, "out/detectors");
-  add_overwrite(command, *shared);
-  add_jobs(command, *shared);
-  add_quiet(command, *shared);
   command.footer(
+      std::string(kContinues) +
       "Example:\n"
       "  aims study detectors corridor corridor_smooth --seeds 1-5 --out out/detectors");
   command.action([shared] { return detectors_command(*shared); });
@@ -229,7 +214,7 @@ int compare_command(const CompareArguments& arguments) {
     if (!written) return bad_input(kName, written.error());
   }
   const bool worse = count(comparison, ChangeVerdict::kWorse) > 0;
-  return arguments.fail_on_worse && worse ? kGateFailed : kOk;
+  return arguments.fail_on_worse && worse ? kExpectationFailed : kOk;
 }
 
 void declare_compare(Command command) {

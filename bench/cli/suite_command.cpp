@@ -7,10 +7,12 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
-#include "bench/cli/progress.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/studies/families.hpp"
+#include "bench/studies/run_folder.hpp"
+#include "bench/studies/suite_summary.hpp"
 #include "bench/studies/suite_tables.hpp"
+#include "render/results/family_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -29,15 +31,14 @@ void print_matrix(const char* title, const TextTable& table) {
 
 void print_expectations(const Suite& suite) {
   for (const SuiteCase& each : suite.cases) {
-    for (const GateCheck& check : failed(each.gates)) {
+    for (const ExpectationCheck& check : failed(each.expectations)) {
       fmt::print("EXPECTATION FAILED: {}\n  to repeat: {}\n", text_of(each.scenario, check),
                  reproducing_command(each.scenario, check));
     }
   }
 }
 
-void print_results(const Suite& suite, const fs::path& out) {
-  print_counts(suite);
+void print_results(const Suite& suite, const SharedOptions& shared) {
   fmt::print("Median [95 % bootstrap interval] worst, over seeds\n\n");
   print_matrix("M_list over all segments [%]", headline_table(suite, kHeadlineScores[0]));
   print_matrix("M_end [m]", headline_table(suite, kHeadlineScores[1]));
@@ -45,27 +46,38 @@ void print_results(const Suite& suite, const fs::path& out) {
   const auto families = family_results(suite);
   if (!families.empty()) print_matrix("Level of failure", breaks_table(families));
   print_expectations(suite);
-  print_outcome(suite);
-  fmt::print("results: {}, suite.json, suite.csv\n", (out / "suite.md").string());
+  print_outcome(suite, shared);
+  fmt::print("results: {}, suite.json, suite.csv\n",
+             (fs::path(shared.out) / "suite.md").string());
+}
+
+Result<void> write_views(const Suite& suite, const SuiteArguments& arguments) {
+  const fs::path out = arguments.shared.out;
+  auto written = write_suite(suite, out);
+  if (written && arguments.trajectories) written = write_suite_runs(suite, out);
+  if (written) written = draw_families(family_results(suite), out / "families");
+  return written;
 }
 
 int suite_command(const SuiteArguments& arguments) {
   auto options = suite_options(arguments.shared, {});
   if (!options) return bad_input("suite", options.error());
-  options->trajectories = arguments.trajectories;
+  options->jobs.outputs.trajectories = arguments.trajectories;
   auto scenarios = scenarios_of(arguments.shared);
   if (!scenarios) return bad_input("suite", scenarios.error());
-  watch_interrupt();
-  JobDisplay display(arguments.shared.quiet);
-  const auto suite = run_suite(std::move(*scenarios), *options, display.suite_observer());
-  display.close();
+  const auto suite =
+      run_with_display(std::move(*scenarios), *options, arguments.shared.quiet);
   if (!suite) return bad_input("suite", suite.error());
-  print_results(*suite, options->out);
-  if (!arguments.no_page) write_pages_of(options->out);
-  const bool hold = std::all_of(suite->cases.begin(), suite->cases.end(),
-                                [](const SuiteCase& each) { return failed(each.gates).empty(); });
+  if (auto written = write_views(*suite, arguments); !written) {
+    return bad_input("suite", written.error());
+  }
+  print_results(*suite, arguments.shared);
+  if (!arguments.no_page) write_pages_of(arguments.shared.out);
+  const bool hold =
+      std::all_of(suite->cases.begin(), suite->cases.end(),
+                  [](const SuiteCase& each) { return failed(each.expectations).empty(); });
   const int code = exit_code_of(*suite);
-  return code == kOk && !hold ? kGateFailed : code;
+  return code == kOk && !hold ? kExpectationFailed : code;
 }
 
 }  // namespace

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "bench/cli/progress.hpp"
+
 namespace aims {
 
 void add_suite_options(Command& command, SharedOptions& options, const std::string& folder,
@@ -12,7 +16,9 @@ void add_suite_options(Command& command, SharedOptions& options, const std::stri
   add_seeds(command, options, seeds);
   add_settings(command, options, "each scenario");
   add_continued_out(command, options, folder);
+  add_cache(command, options);
   add_jobs(command, options);
+  add_retry(command, options);
   add_quiet(command, options);
 }
 
@@ -22,8 +28,11 @@ Result<SuiteOptions> suite_options(const SharedOptions& options,
   if (!seeds) return tl::unexpected(seeds.error());
   SuiteOptions suite;
   suite.seeds = std::move(*seeds);
-  suite.out = options.out;
-  suite.jobs = options.jobs;
+  suite.jobs.out = options.out;
+  suite.jobs.cache = options.cache;
+  suite.jobs.cache_limit = cache_limit(options);
+  suite.jobs.jobs = options.jobs;
+  suite.jobs.retry = options.retry;
   return suite;
 }
 
@@ -34,16 +43,20 @@ Result<std::vector<ScenarioFile>> study_scenarios(const SharedOptions& options) 
   return scenarios_of(options);
 }
 
-void print_counts(const Suite& suite) {
-  for (const std::string& note : suite.notes) fmt::print("note: {}\n", note);
-  fmt::print("{} runs simulated, {} found finished\n\n", suite.runs_done, suite.runs_reused);
+Result<Suite> run_with_display(std::vector<ScenarioFile> scenarios, const SuiteOptions& options,
+                               bool quiet) {
+  watch_interrupt();
+  JobDisplay display(quiet);
+  auto suite = run_suite(std::move(scenarios), options, display.observer());
+  display.close();
+  return suite;
 }
 
-void print_outcome(const Suite& suite) {
-  for (const SuiteFailure& each : suite.failures) {
-    const std::string seed = each.seed ? fmt::format(" seed {}", *each.seed) : "";
-    fmt::print("COULD NOT RUN: {}{}: {}\n", each.scenario, seed, each.message);
-  }
+void print_outcome(const Suite& suite, const SharedOptions& options) {
+  fmt::print("{} jobs done, {} found finished, {} sequences simulated\n", suite.run.done,
+             suite.run.reused, suite.run.sequences);
+  print_pruned(suite.run.pruned, options);
+  for (const SuiteFailure& each : suite.failures) fmt::print("FAILED: {}\n", text_of(each));
   if (!suite.complete) fmt::print("interrupted: the same command continues\n");
 }
 

@@ -11,7 +11,7 @@
 namespace aims {
 
 /// What `aims suite` and the studies on a suite have in common: scenarios, seeds, --set, --out,
-/// --jobs, --quiet.
+/// --cache, --jobs, --retry, --quiet.
 void add_suite_options(Command& command, SharedOptions& options, const std::string& folder,
                        const std::string& seeds);
 
@@ -22,11 +22,12 @@ Result<SuiteOptions> suite_options(const SharedOptions& options,
 /// The scenarios of a study, which must be named or have a tag.
 Result<std::vector<ScenarioFile>> study_scenarios(const SharedOptions& options);
 
-/// Prints how many runs were simulated and how many found.
-void print_counts(const Suite& suite);
+/// Does the jobs of the scenarios and shows how far they are; Ctrl-C ends it early.
+Result<Suite> run_with_display(std::vector<ScenarioFile> scenarios, const SuiteOptions& options,
+                               bool quiet);
 
-/// Prints what could not run, and whether the suite was interrupted.
-void print_outcome(const Suite& suite);
+/// Prints how many jobs were done, what failed, and whether the suite was interrupted.
+void print_outcome(const Suite& suite, const SharedOptions& options);
 
 /// Of a suite whose expectations do not count.
 int exit_code_of(const Suite& suite);

@@ -8,7 +8,6 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
-#include "bench/jobs/sweep.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "estimator/estimator_spec.hpp"
 
@@ -64,19 +63,15 @@ Result<SweepPlan> plan_of(const SweepArguments& arguments) {
   return plan;
 }
 
-Result<SweepOptions> options_of(const SweepArguments& arguments, const SweepPlan& plan) {
-  SweepOptions options;
+JobOptions options_of(const SweepArguments& arguments, const SweepPlan& plan) {
+  JobOptions options;
   options.out = arguments.shared.out;
   options.cache = arguments.shared.cache;
   options.cache_limit = cache_limit(arguments.shared);
   options.jobs = arguments.shared.jobs;
   options.timeout_s = plan.timeout;
   options.retry = arguments.shared.retry;
-  options.renew = arguments.force;
   options.simulate_only = arguments.simulate_only;
-  const auto shard = parse_shard(arguments.shard);
-  if (!shard) return tl::unexpected(shard.error());
-  options.shard = *shard;
   return options;
 }
 
@@ -95,24 +90,25 @@ void print_results(const JobRun& run, const SharedOptions& shared) {
 int sweep_command(const SweepArguments& arguments) {
   const auto plan = plan_of(arguments);
   if (!plan) return bad_input("sweep", plan.error());
-  const auto options = options_of(arguments, *plan);
-  if (!options) return bad_input("sweep", options.error());
+  const auto shard = parse_shard(arguments.shard);
+  if (!shard) return bad_input("sweep", shard.error());
   const auto jobs = plan_jobs(*plan, arguments.shared.folder);
   if (!jobs) return bad_input("sweep", jobs.error());
   if (arguments.list) {
-    for (const Job& job : part_of(*jobs, options->shard)) {
+    for (const Job& job : part_of(*jobs, *shard)) {
       fmt::print("{}\t{}\n", job.id, text_of(job));
     }
     return kOk;
   }
   watch_interrupt();
   JobDisplay display(arguments.shared.quiet);
-  const auto run = run_sweep(plan_text(*plan), *jobs, *options, display.observer());
+  const auto run = run_jobs({*jobs, *shard, plan_text(*plan), arguments.force},
+                            options_of(arguments, *plan), display.observer());
   display.close();
   if (!run) return bad_input("sweep", run.error());
   print_results(*run, arguments.shared);
   if (!run->complete) return kInterrupted;
-  return run->failed == 0 ? kOk : kGateFailed;
+  return run->failed == 0 ? kOk : kExpectationFailed;
 }
 
 void add_design(Command& command, SweepArguments& arguments) {

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
@@ -11,8 +10,8 @@
 #include "bench/cli/progress.hpp"
 #include "bench/tuning/tune.hpp"
 #include "bench/tuning/tune_summary.hpp"
-#include "core/files/folder_lock.hpp"
 #include "estimator/estimator_spec.hpp"
+#include "render/results/response_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -25,35 +24,14 @@ struct TuneArguments {
   std::string apply;
 };
 
-/// A folder that is not there, is a tuning's, or holds nothing but what one that just began leaves.
-bool holds_tuning_or_nothing(const fs::path& out) {
-  std::error_code ignored;
-  if (!fs::exists(out, ignored) || fs::exists(out / "tune.yaml", ignored)) return true;
-  if (!fs::is_directory(out, ignored)) return false;
-  for (const auto& entry : fs::directory_iterator(out, ignored)) {
-    const fs::path name = entry.path().filename();
-    if (name != ".lock" && name.extension() != ".tmp") return false;
-  }
-  return true;
-}
-
-/// Makes the folder and keeps others out. Error when it is something else or in use.
-Result<FolderLock> claim(const fs::path& out, const TunePlan& plan) {
-  std::error_code code;
-  if (!holds_tuning_or_nothing(out)) {
-    return failure(
-        fmt::format("{}: exists and is no folder of aims tune; give another --out", out.string()));
-  }
-  fs::create_directories(out, code);
-  if (code) return failure(fmt::format("{}: {}", out.string(), code.message()));
-  auto lock = FolderLock::take(out);
-  if (!lock) {
-    return failure(
-        fmt::format("{}: in use by another aims tune, or it cannot be written", out.string()));
-  }
+/// Makes the folder, keeps others out and writes the plan. Error when it is something else or in
+/// use.
+Result<StoreClaim> claim(const fs::path& out, const TunePlan& plan) {
+  auto claimed = claim_store(out);
+  if (!claimed) return claimed;
   auto written = write_plan(plan, out / "tune.yaml");
   if (!written) return tl::unexpected(written.error());
-  return std::move(*lock);
+  return claimed;
 }
 
 Result<TunePlan> plan_of(const TuneArguments& arguments) {
@@ -77,8 +55,8 @@ Result<TunePlan> plan_of(const TuneArguments& arguments) {
 
 Result<TuneResult> work(const SharedOptions& shared, const TuneTask& task) {
   JobOptions options;
-  options.folder = fs::path(shared.out) / "jobs";
-  if (!shared.cache.empty()) options.cache = shared.cache;
+  options.out = shared.out;
+  options.cache = shared.cache;
   options.cache_limit = cache_limit(shared);
   options.jobs = shared.jobs;
   options.timeout_s = task.plan.timeout;
@@ -95,7 +73,7 @@ Result<TuneResult> work(const SharedOptions& shared, const TuneTask& task) {
 int finish(const TuneArguments& arguments, const TuneResult& result) {
   const fs::path out = arguments.shared.out;
   std::vector<std::string> warnings;
-  if (auto written = write_tuning(result, out, warnings); !written) {
+  if (auto written = write_tuning(result, out, draw_response, warnings); !written) {
     return bad_input("tune", written.error());
   }
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);

@@ -77,6 +77,7 @@ Json job_json(const Job& job, const JobResult& result) {
   if (!defaults.empty()) json["defaults"] = std::move(defaults);
   if (!result.message.empty()) json["message"] = result.message;
   if (!result.scores.is_null()) json["scores"] = result.scores;
+  if (!result.sequence.is_null()) json["sequence"] = result.sequence;
   json["wall_s"] = result.wall_s;
   return json;
 }
@@ -89,6 +90,7 @@ std::optional<JobResult> result_in(const Json& json) try {
     result.outcome = outcome;
     result.message = json.value("message", "");
     result.scores = json.value("scores", Json());
+    result.sequence = json.value("sequence", Json());
     result.wall_s = json.value("wall_s", 0.0);
     if (outcome == JobOutcome::kDone && !result.scores.is_object()) return std::nullopt;
     return result;

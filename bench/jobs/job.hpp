@@ -60,6 +60,7 @@ struct JobResult {
   JobOutcome outcome = JobOutcome::kDone;
   std::string message;  ///< unless done: why
   Json scores;          ///< when done: what scores.json holds of the estimator
+  Json sequence;        ///< when done: what scores.json holds whoever estimates
   double wall_s = 0.0;  ///< that evaluating took
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -60,20 +61,39 @@ std::string crash_text(int status, const std::string& text) {
 
 }  // namespace
 
+ProcessPool::ProcessPool(int size) {
+  static_assert(std::atomic<double>::is_always_lock_free, "shared between processes");
+  const auto count = static_cast<std::size_t>(size);
+  void* shared = ::mmap(nullptr, count * sizeof(std::atomic<double>), PROT_READ | PROT_WRITE,
+                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) throw std::system_error(errno, std::system_category(), "mmap");
+  parts_ = {static_cast<std::atomic<double>*>(shared), count};  // zero bytes are 0.0
+}
+
 ProcessPool::~ProcessPool() {
   for (const Running& each : running_) ::kill(each.pid, SIGKILL);
   for (Running& each : running_) reap(each);
+  ::munmap(parts_.data(), parts_.size_bytes());
 }
 
-Result<void> ProcessPool::start(std::size_t key, double timeout_s,
-                                const std::function<std::string()>& work) {
+double ProcessPool::under_way() const {
+  double sum = 0.0;
+  for (const Running& each : running_) sum += parts_[each.part];
+  return sum;
+}
+
+Result<void> ProcessPool::start(std::size_t key, double timeout_s, const Work& work) {
+  std::size_t part = 0;
+  const auto is_taken = [&](const Running& each) { return each.part == part; };
+  while (std::any_of(running_.begin(), running_.end(), is_taken)) ++part;
+  parts_[part] = 0.0;
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) {
     return failure(fmt::format("no pipe to a process: {}", std::strerror(errno)));
   }
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
-  if (pid == 0) live(parent, ends[1], work);
+  if (pid == 0) live(parent, ends[1], [&] { return work(parts_[part]); });
   const int error = errno;
   ::close(ends[1]);
   if (pid < 0) {
@@ -83,6 +103,7 @@ Result<void> ProcessPool::start(std::size_t key, double timeout_s,
   Running running;
   running.key = key;
   running.pid = pid;
+  running.part = part;
   running.pipe = ends[0];
   running.timeout_s = timeout_s;
   running_.push_back(std::move(running));

@@ -3,9 +3,11 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,21 +26,27 @@ struct EndedProcess {
 };
 
 /// Runs functions in processes of their own, copies of the calling one: they see all that it had in
-/// memory, and nothing of them but the returned text comes back. None outlives the pool, nor the
-/// calling process however that ends. The calling process must have no other thread at work.
+/// memory, and nothing of them but the returned text, and how far they are, comes back. None outlives
+/// the pool, nor the calling process however that ends. The calling process must have no other
+/// thread at work.
 class ProcessPool {
  public:
-  explicit ProcessPool(int size) : size_(static_cast<std::size_t>(size)) {}
+  /// What a process does; it may set how much of it is done, in [0, 1].
+  using Work = std::function<std::string(std::atomic<double>& part)>;
+
+  explicit ProcessPool(int size);
   ProcessPool(const ProcessPool&) = delete;
   ProcessPool& operator=(const ProcessPool&) = delete;
   ~ProcessPool();
 
-  bool has_room() const { return running_.size() < size_; }
+  bool has_room() const { return running_.size() < parts_.size(); }
   bool is_idle() const { return running_.empty(); }
+  /// Sum over the processes of how much each has done.
+  double under_way() const;
 
   /// Starts `work`, which is ended after `timeout_s` [s] of wall time, 0: never. What it throws
   /// counts as a crash. Error when the system gives no process.
-  Result<void> start(std::size_t key, double timeout_s, const std::function<std::string()>& work);
+  Result<void> start(std::size_t key, double timeout_s, const Work& work);
 
   /// Waits until a process ends, at most `patience_s` [s]; those that have ended.
   std::vector<EndedProcess> wait(double patience_s);
@@ -47,6 +55,7 @@ class ProcessPool {
   struct Running {
     std::size_t key = 0;
     pid_t pid = -1;
+    std::size_t part = 0;  ///< index of how far it is
     int pipe = -1;  ///< its text comes here; it ends with the process
     double timeout_s = 0.0;
     Stopwatch stopwatch;
@@ -60,7 +69,7 @@ class ProcessPool {
   void stop_late();
   int poll_time_ms(double patience_s) const;
 
-  std::size_t size_;
+  std::span<std::atomic<double>> parts_;  ///< shared with the processes
   std::vector<Running> running_;
 };
 

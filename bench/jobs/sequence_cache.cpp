@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "bench/jobs/job_id.hpp"
-#include "bench/run/sequence_file.hpp"
 #include "bench/run/code_version.hpp"
+#include "bench/run/sequence_file.hpp"
 #include "bench/run/stream.hpp"
+#include "core/files/config_dump.hpp"
 #include "sim/simulation.hpp"
 
 namespace aims {
@@ -23,12 +24,12 @@ namespace fs = std::filesystem;
 
 /// What the sequence is of: the simulation's configuration alone.
 std::string simulation_text(const Scenario& scenario) {
-  Scenario bare;
-  bare.simulation = scenario.simulation;
-  return config_text(bare);
+  SimulationConfig copy = scenario.simulation;
+  return dump_config(fields_of(copy));
 }
 
-Result<SequenceMade> simulate(const Scenario& scenario, std::uint64_t seed, const fs::path& file) {
+Result<SequenceMade> simulate(const Scenario& scenario, std::uint64_t seed, const fs::path& file,
+                              const std::function<void(double)>& observer) {
   auto simulation = Simulation::create(scenario.simulation, seed);
   if (!simulation) return SequenceMade{false, located(scenario, simulation.error()).message};
   const std::string origin =
@@ -36,11 +37,13 @@ Result<SequenceMade> simulate(const Scenario& scenario, std::uint64_t seed, cons
                   seed, simulation_text(scenario));
   auto writer = SequenceWriter::create(file, simulation->rig(), origin);
   if (!writer) return tl::unexpected(writer.error());
+  const double expected_s = to_seconds(simulation->expected_duration());
   std::vector<Delivery> deliveries;
-  for (bool walking = true; walking;) {
+  for (bool moving = true; moving;) {
     deliveries.clear();
-    walking = simulation->advance(kStreamBatch, deliveries);
+    moving = simulation->advance(kStreamBatch, deliveries);
     if (auto written = writer->write(deliveries); !written) return tl::unexpected(written.error());
+    if (observer) observer(std::min(1.0, to_seconds(simulation->now()) / expected_s));
   }
   if (auto done = writer->finish(simulation->truth()); !done) return tl::unexpected(done.error());
   return SequenceMade{true, std::nullopt};
@@ -104,7 +107,8 @@ bool SequenceCache::has(const std::string& id) const {
   return fs::exists(file_of(id), ignored);
 }
 
-Result<SequenceMade> SequenceCache::make(const Scenario& scenario, std::uint64_t seed) const {
+Result<SequenceMade> SequenceCache::make(const Scenario& scenario, std::uint64_t seed,
+                                         const std::function<void(double)>& observer) const {
   const std::string id = id_of(scenario, seed);
   if (has(id)) return SequenceMade{};
   std::error_code code;
@@ -117,7 +121,7 @@ Result<SequenceMade> SequenceCache::make(const Scenario& scenario, std::uint64_t
   }
   if (has(id)) return SequenceMade{};
   clear_remains(file_of(id));
-  auto made = simulate(scenario, seed, file_of(id));
+  auto made = simulate(scenario, seed, file_of(id), observer);
   fs::remove(folder_ / (id + ".lock"), code);
   return made;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,7 +47,9 @@ class SequenceCache {
 
   /// Simulates the sequence unless it is there. While another process makes it, waits. What cannot be
   /// simulated (robot in a wall, no path) is refused; error when the folder cannot be written.
-  Result<SequenceMade> make(const Scenario& scenario, std::uint64_t seed) const;
+  /// `observer` is called with the part that is simulated, in [0, 1].
+  Result<SequenceMade> make(const Scenario& scenario, std::uint64_t seed,
+                            const std::function<void(double)>& observer = {}) const;
 
   /// Keeps the sequence from being pruned, by any process, as long as the lock lives, and notes that it
   /// was used now. Nothing when it is not there.

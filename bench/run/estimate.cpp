@@ -16,16 +16,6 @@
 namespace aims {
 namespace {
 
-EstimatorOutcome outcome_of(const TimedEstimator& timed) {
-  EstimatorOutcome outcome;
-  outcome.name = timed.name();
-  outcome.result = timed.estimator().result();
-  outcome.map = timed.estimator().map_points();
-  outcome.scan_times_ms = timed.scan_times_ms();
-  outcome.wall_s = timed.total_seconds();
-  return outcome;
-}
-
 /// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
 void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   if (result.truth.empty()) return;

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "bench/metrics/scores.hpp"
-#include "bench/run/run.hpp"
+#include "bench/run/evaluate.hpp"
+#include "bench/run/progress.hpp"
 #include "bench/run/trajectory_scoring.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"

@@ -1,39 +1,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/evaluate.hpp"
 
-#include <utility>
-#include <vector>
-
 #include "bench/run/stream.hpp"
 
 namespace aims {
+namespace {
 
-Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario) {
-  auto reader = SequenceReader::open(file);
-  if (!reader) return tl::unexpected(reader.error());
-  Sequence sequence{std::move(*reader), {}};
-  Truth truth = sequence.reader.release_truth();
-  sequence.run.complete = true;
-  sequence.run.truth_trajectory = body_trajectory(truth);
-  sequence.run.localizability =
-      run_localizability(scenario.simulation, sequence.reader.rig(), truth, sequence.run.truth_trajectory);
-  sequence.run.truth.waypoint_times =
-      std::move(truth.waypoint_times);  // samples and sweeps served above
-  return sequence;
+/// Hands every measurement to the estimator, in order of arrival.
+Result<void> stream_into(const Sequence& sequence, TimedEstimator& estimator,
+                         const PartObserver& observer) {
+  const double end_s = to_seconds(sequence.end());
+  Time next = 0;
+  const auto replayed = sequence.reader.replay([&](const Delivery& delivery) {
+    estimator.consume({&delivery, 1});
+    if (delivery.arrival < next) return;
+    observer(to_seconds(delivery.arrival) / end_s);
+    next = delivery.arrival + kStreamBatch;
+  });
+  estimator.finish();
+  return replayed;
+}
+
+/// What the estimator came to, held against the truth.
+EstimatorOutcome scored(const TimedEstimator& estimator, const Sequence& sequence,
+                        const Scenario& scenario) {
+  EstimatorOutcome outcome = outcome_of(estimator);
+  outcome.scores = score(outcome.result.trajectory, sequence.truth_trajectory,
+                         sequence.waypoint_times, scenario.scoring);
+  outcome.weak_axis_errors =
+      weak_axis_errors_of(outcome.result, sequence.truth_trajectory, sequence.localizability,
+                          scenario.scoring, half_scan(scenario.simulation));
+  outcome.weak_axis = weak_axis_scores(outcome.weak_axis_errors);
+  return outcome;
+}
+
+}  // namespace
+
+EstimatorOutcome outcome_of(const TimedEstimator& timed) {
+  EstimatorOutcome outcome;
+  outcome.name = timed.name();
+  outcome.result = timed.estimator().result();
+  outcome.map = timed.estimator().map_points();
+  outcome.scan_times_ms = timed.scan_times_ms();
+  outcome.wall_s = timed.total_seconds();
+  return outcome;
 }
 
 Result<EstimatorOutcome> evaluate(const Sequence& sequence, const Scenario& scenario,
-                                  const std::string& estimator) {
-  const std::vector<std::string> specs = {estimator};
-  auto estimators = make_estimators(specs, scenario.estimator, sequence.reader.rig());
+                                  const std::string& estimator, const PartObserver& observer) {
+  auto estimators = make_estimators({&estimator, 1}, scenario.estimator, sequence.reader.rig());
   if (!estimators) return tl::unexpected(estimators.error());
-  TimedEstimator& timed = estimators->front();
-  const auto replayed = sequence.reader.replay([&](const Delivery& delivery) {
-    timed.consume({&delivery, 1});
-  });
-  if (!replayed) return tl::unexpected(replayed.error());
-  timed.finish();
-  return outcome_of(timed, sequence.run, scenario);
+  auto streamed = stream_into(sequence, estimators->front(), observer);
+  if (!streamed) return tl::unexpected(streamed.error());
+  return scored(estimators->front(), sequence, scenario);
 }
 
 }  // namespace aims

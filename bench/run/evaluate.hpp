@@ -1,32 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "bench/run/sequence_file.hpp"
-#include "bench/run/run.hpp"
+#include "bench/metrics/scores.hpp"
 #include "bench/run/scenario.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/run/sequence.hpp"
+#include "bench/run/timed_estimator.hpp"
 #include "core/error.hpp"
+#include "estimator/estimator.hpp"
 
 namespace aims {
 
-/// A sequence that was simulated before, ready for any number of estimators, with all that their
-/// scores have in common.
-struct Sequence {
-  SequenceReader reader;
-  RunResult run;  ///< truth and localizability; no estimators
+/// What one estimator came to on one stream.
+struct EstimatorOutcome {
+  std::string name;
+  EstimatorResult result;
+  std::vector<Eigen::Vector3f> map;  ///< in its odometry frame [m]
+  Scores scores;
+  std::vector<WeakAxisError> weak_axis_errors;  ///< along what the LiDAR cannot see, by scan
+  std::vector<WeakAxisScore> weak_axis;         ///< summary of them
+  std::vector<double> scan_times_ms;
+  double wall_s = 0.0;
 };
 
-/// Opens the file of the scenario's sequence (bench/jobs/sequence_cache.hpp). Reads the truth; the
-/// measurements stay in the file.
-Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario);
+/// What an estimator that has finished came to, but for scores.
+EstimatorOutcome outcome_of(const TimedEstimator& timed);
 
-/// Runs one estimator, with its settings on top of the scenario's, over the sequence and scores it, on
-/// the calling thread. The outcome, but for wall times, is that of `run` on the same scenario and
-/// seed. Error for a spec or a sequence that cannot be read.
+/// Called with the part of the sequence that is done, in [0, 1].
+using PartObserver = std::function<void(double)>;
+
+/// Runs one estimator, with its settings on top of the scenario's, over the sequence and scores it,
+/// on the calling thread. Error for a spec or a sequence that cannot be read.
 Result<EstimatorOutcome> evaluate(const Sequence& sequence, const Scenario& scenario,
-                                  const std::string& estimator);
+                                  const std::string& estimator, const PartObserver& observer);
 
 }  // namespace aims

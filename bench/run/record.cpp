@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/run/code_version.hpp"
-#include "bench/run/results.hpp"
+#include "bench/run/sequence.hpp"
 #include "bench/run/stream.hpp"
 #include "bench/run/tables.hpp"
 #include "core/files/tum.hpp"

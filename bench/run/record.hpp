@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "bench/run/run.hpp"
+#include "bench/run/progress.hpp"
 #include "bench/run/scenario.hpp"
 #include "core/error.hpp"
 #include "recordings/bag/bag_writer.hpp"

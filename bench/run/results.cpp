@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/results.hpp"
 
-#include <fmt/format.h>
-
 #include "bench/run/tables.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
 
@@ -12,41 +9,31 @@ namespace aims {
 
 namespace fs = std::filesystem;
 
-Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder) {
-  auto written = write_tum(folder / (outcome.name + ".tum"), outcome.result.trajectory);
+Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder,
+                             const std::string& name) {
+  auto written = write_tum(folder / (name + ".tum"), outcome.result.trajectory);
+  if (written && !outcome.map.empty()) {
+    written = write_ply(folder / (name + ".map.ply"), outcome.map);
+  }
   if (!written) return written;
-  if (!outcome.map.empty()) {
-    written = write_ply(folder / (outcome.name + ".map.ply"), outcome.map);
-    if (!written) return written;
-  }
-  return write_csv(folder / (outcome.name + ".diagnostics.csv"), diagnostics_table(outcome));
+  return write_csv(folder / (name + ".diagnostics.csv"), diagnostics_table(outcome));
 }
 
-Result<void> write_streams(const Scenario& scenario, const RunResult& result,
-                           const fs::path& folder) {
-  auto written =
-      write_file_atomically(folder / "config.yaml", effective_config(scenario, result.seed));
-  if (written)
-    written = write_tum(folder / "truth.tum", thinned(result.truth_trajectory, kTruthSpacing));
-  if (written)
-    written =
-        write_csv(folder / "waypoint_times.csv", waypoint_times_table(result.truth.waypoint_times));
-  if (written)
-    written = write_csv(folder / "localizability.csv", localizability_table(result.localizability));
-  if (written) written = write_csv(folder / "legs.csv", legs_table(result.legs));
-  for (const EstimatorOutcome& outcome : result.estimators) {
-    if (written) written = write_estimator(outcome, folder);
-  }
-  return written;
-}
-
-Result<void> write_results(const Scenario& scenario, const RunResult& result,
-                           const RunRecord& record, const fs::path& folder) {
-  auto written = write_streams(scenario, result, folder);
-  if (written) written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
-  if (written)
-    written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");
-  return written;
+Result<EstimatorOutcome> read_estimator(const fs::path& folder, const std::string& name) {
+  EstimatorOutcome outcome;
+  outcome.name = name;
+  auto trajectory = read_tum(folder / (name + ".tum"), PoseRules::kAsGiven);
+  if (!trajectory) return tl::unexpected(trajectory.error());
+  outcome.result.trajectory = std::move(*trajectory);
+  auto diagnostics = read_diagnostics(folder / (name + ".diagnostics.csv"));
+  if (!diagnostics) return tl::unexpected(diagnostics.error());
+  outcome.result.diagnostics = std::move(*diagnostics);
+  const fs::path map = folder / (name + ".map.ply");
+  if (!fs::exists(map)) return outcome;
+  auto points = read_ply(map);
+  if (!points) return tl::unexpected(points.error());
+  outcome.map = std::move(*points);
+  return outcome;
 }
 
 }  // namespace aims

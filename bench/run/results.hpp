@@ -2,29 +2,23 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
-#include "bench/run/run.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/run/evaluate.hpp"
 #include "core/error.hpp"
-#include "core/time.hpp"
 
 namespace aims {
 
-/// Truth poses are written at this spacing; the simulation holds them at the physics rate.
-inline constexpr Duration kTruthSpacing = 10 * kMillisecond;
+/// Writes what one estimator came to: NAME.tum, where it keeps one its map (NAME.map.ply), and
+/// NAME.diagnostics.csv, in this order.
+Result<void> write_estimator(const EstimatorOutcome& outcome, const std::filesystem::path& folder,
+                             const std::string& name);
 
-/// Writes what one estimator came to: trajectory (NAME.tum), diagnostics (NAME.diagnostics.csv)
-/// and, where it keeps one, its map (NAME.map.ply).
-Result<void> write_estimator(const EstimatorOutcome& outcome, const std::filesystem::path& folder);
+/// Reads those files; the outcome has no scores.
+Result<EstimatorOutcome> read_estimator(const std::filesystem::path& folder,
+                                        const std::string& name);
 
-/// Writes what a run's scores were made from: the files of `write_results` but the scores.
-Result<void> write_streams(const Scenario& scenario, const RunResult& result,
-                           const std::filesystem::path& folder);
-
-/// Writes a run into `folder`: scores.json, scores.csv, config.yaml, truth.tum, waypoint_times.csv,
-/// localizability.csv, legs.csv and per estimator trajectory (TUM), diagnostics (CSV) and map
-/// (PLY). The files are described in docs/results.md.
-Result<void> write_results(const Scenario& scenario, const RunResult& result,
-                           const RunRecord& record, const std::filesystem::path& folder);
+/// Endings of those files, with their dots.
+inline constexpr const char* kEstimatorFiles[] = {".tum", ".map.ply", ".diagnostics.csv"};
 
 }  // namespace aims

@@ -39,7 +39,7 @@ std::vector<std::string> localizability_header() {
   for (const DegeneracyLevel& level : kDegeneracyLevels) {
     header.push_back("degenerate_" + std::string(level.name));
   }
-  for (const char* name : {"bound_weak_axis_m", "bound_along_m", "bound_lateral_m",
+  for (const char* name : {"bound_weak_axis_m", "bound_longitudinal_m", "bound_lateral_m",
                            "bound_vertical_m", "bound_heading_rad", "bound_leg_scale"}) {
     header.emplace_back(name);
   }

@@ -78,9 +78,9 @@ void describe(Fields& f, Expectation& e) {
   f.number("max", e.max, {.unit = "as the score", .meaning = "largest value that passes"});
   f.number("min", e.min, {.unit = "as the score", .meaning = "smallest value that passes"});
   f.choice("statistic", e.statistic,
-           {{"worst", GateStatistic::kWorst},
-            {"median", GateStatistic::kMedian},
-            {"mean", GateStatistic::kMean}},
+           {{"worst", ExpectationStatistic::kWorst},
+            {"median", ExpectationStatistic::kMedian},
+            {"mean", ExpectationStatistic::kMean}},
            {.meaning = "what of the score over several seeds is limited"});
 }
 

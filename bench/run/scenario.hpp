@@ -16,7 +16,7 @@
 namespace aims {
 
 /// What of a score over several seeds is held against the limits.
-enum class GateStatistic {
+enum class ExpectationStatistic {
   kWorst,   ///< the largest against `max`, the smallest against `min`
   kMedian,  ///< the middle
   kMean,    ///< of `success`: the share of seeds
@@ -32,7 +32,7 @@ struct Expectation {
   std::string score;       ///< dotted key inside the estimator's scores, e.g. "m_list_percent.a-b"
   double max = kNoLimit;   ///< in the score's own unit
   double min = -kNoLimit;  ///< in the score's own unit
-  GateStatistic statistic = GateStatistic::kWorst;
+  ExpectationStatistic statistic = ExpectationStatistic::kWorst;
 
   bool operator==(const Expectation&) const = default;
 };

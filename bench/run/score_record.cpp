@@ -6,9 +6,6 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/gates.hpp"
-#include "estimator/estimator_spec.hpp"
-#include "estimator/registry.hpp"
 
 namespace aims {
 namespace {
@@ -21,7 +18,7 @@ Json json_of(const std::optional<Part>& part, Member Part::*member) {
 }
 
 Json axis_json(const AxisError& error) {
-  return {{"along", error.longitudinal_m},
+  return {{"longitudinal", error.longitudinal_m},
           {"lateral", error.lateral_m},
           {"vertical", error.vertical_m},
           {"heading_rad", error.heading_rad}};
@@ -74,16 +71,16 @@ Json weak_axis_json(const std::vector<WeakAxisScore>& scores) {
   return json;
 }
 
-/// What the run's scans allow to know, whoever estimates.
+/// What the scans constrain, whoever estimates.
 Json localizability_json(const RunLocalizability& run) {
   std::vector<double> returns;
   for (const Localizability& scan : run.scans) returns.push_back(scan.equivalent_returns);
-  Json share = Json::object();
+  Json fraction = Json::object();
   for (const DegeneracyLevel& level : kDegeneracyLevels) {
     const auto degenerate =
         std::count_if(run.scans.begin(), run.scans.end(),
                       [&level](const Localizability& scan) { return is_degenerate(scan, level); });
-    share[std::string(level.name)] =
+    fraction[std::string(level.name)] =
         run.scans.empty()
             ? Json()
             : Json(static_cast<double>(degenerate) / static_cast<double>(run.scans.size()));
@@ -91,44 +88,14 @@ Json localizability_json(const RunLocalizability& run) {
   Json bound;
   if (!run.bounds.empty()) {
     const PosteriorBound& end = run.bounds.back();
-    bound = {{"along", json_of(end.longitudinal)},
+    bound = {{"longitudinal", json_of(end.longitudinal)},
              {"lateral", json_of(end.lateral)},
              {"vertical", json_of(end.vertical)}};
   }
   return {{"scans", run.scans.size()},
           {"median_equivalent_returns", json_of(median(returns))},
-          {"degenerate_share", std::move(share)},
+          {"degenerate_fraction", std::move(fraction)},
           {"bound_end_m", std::move(bound)}};
-}
-
-Json times_json(const RunResult& result, double drawing_s) {
-  Json times = {{"physics", result.simulation_times.physics},
-                {"lidar", result.simulation_times.lidar},
-                {"drawing", drawing_s}};
-  for (const EstimatorOutcome& outcome : result.estimators) {
-    times["estimators"][outcome.name] = outcome.wall_s;
-  }
-  return times;
-}
-
-Json gates_json(const Scenario& scenario, const RunRecord& record) {
-  Json gates = Json::array();
-  for (const GateCheck& check : check_gates(scenario, {&record, 1}))
-    gates.push_back(gate_json(check));
-  return gates;
-}
-
-/// Calls `visit(key, value)` for every leaf of `json`, keys dotted.
-template <class Visit>
-void visit_leaves(const Json& json, const std::string& prefix, const Visit& visit) {
-  for (const auto& [key, value] : json.items()) {
-    const std::string full = prefix.empty() ? key : prefix + "." + key;
-    if (value.is_object()) {
-      visit_leaves(value, full, visit);
-    } else {
-      visit(full, value);
-    }
-  }
 }
 
 }  // namespace
@@ -140,8 +107,8 @@ Json json_of(const std::optional<double>& value) {
 Json scores_json(const Scores& scores) {
   Json json;
   json["success"] = scores.success;
-  json["lost_reason"] = name_of(scores.failure_reason);
-  json["lost_at_s"] = scores.diverged_at ? Json(to_seconds(*scores.diverged_at)) : Json();
+  json["diverged_reason"] = name_of(scores.failure_reason);
+  json["diverged_at_s"] = scores.diverged_at ? Json(to_seconds(*scores.diverged_at)) : Json();
   add_segments(json, scores);
   json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
   json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);
@@ -174,62 +141,36 @@ Json segments_json(const Scores& scores) {
   return segments;
 }
 
-RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s) {
-  RunRecord record;
-  record.seed = result.seed;
-  const double wall_s = result.wall_s + drawing_s;
-  record.scores = {
-      {"schema", kScoresSchema},
-      {"version", AIMS_VERSION},
-      {"scenario", scenario.name},
-      {"seed", result.seed},
-      {"complete", result.complete},
-      {"simulated_s", result.simulated_s},
-      {"wall_s", wall_s},
-      {"realtime_factor", wall_s > 0.0 ? result.simulated_s / wall_s : 0.0},
-      {"times_s", times_json(result, drawing_s)},
-      {"robot", {{"fell", result.truth.fell}, {"touched_wall", result.truth.touched_wall}}},
-      {"segments",
-       result.estimators.empty() ? Json::array() : segments_json(result.estimators.front().scores)},
-      {"localizability", localizability_json(result.localizability)}};
-  for (const EstimatorOutcome& outcome : result.estimators) {
-    record.scores["estimators"][outcome.name] = estimator_json(outcome);
-  }
-  record.scores["gates"] = gates_json(scenario, record);
-  return record;
+Json sequence_json(const Sequence& sequence, const Scores& scores) {
+  return {{"simulated_s", to_seconds(sequence.end())},
+          {"robot", {{"fell", sequence.fell}, {"touched_wall", sequence.touched_wall}}},
+          {"segments", segments_json(scores)},
+          {"localizability", localizability_json(sequence.localizability)}};
 }
 
-void take_estimators(const Scenario& scenario, const RunRecord& from, RunRecord& record) {
-  std::vector<std::string> names;
-  for (const EstimatorEntry& entry : estimator_registry()) names.emplace_back(entry.name);
-  for (const std::string& label : labels_of(scenario.estimators)) names.push_back(label);
-  for (const auto& [name, unused] : from.scores.at("estimators").items()) names.push_back(name);
-  Json merged = Json::object();
-  for (const std::string& name : names) {
-    for (const RunRecord* each : {&std::as_const(record), &from}) {
-      const Json& estimators = each->scores.at("estimators");
-      if (!merged.contains(name) && estimators.contains(name)) merged[name] = estimators[name];
+const Json& estimator_in(const RunRecord& record, const std::string& estimator) {
+  static const Json none;
+  const auto estimators = record.scores.find("estimators");
+  if (estimators == record.scores.end() || !estimators->contains(estimator)) return none;
+  return estimators->at(estimator);
+}
+
+void visit_leaves(const Json& json, const std::string& prefix,
+                  const std::function<void(const std::string&, const Json&)>& visit) {
+  for (const auto& [key, value] : json.items()) {
+    const std::string full = prefix.empty() ? key : prefix + "." + key;
+    if (value.is_object()) {
+      visit_leaves(value, full, visit);
+    } else {
+      visit(full, value);
     }
   }
-  for (const auto& [name, seconds] : from.scores["times_s"]["estimators"].items()) {
-    Json& times = record.scores["times_s"]["estimators"];
-    if (merged.contains(name) && !times.contains(name)) times[name] = seconds;
-  }
-  for (const char* group : {"specs", "weak_axis_series"}) {
-    if (!from.scores.contains(group)) continue;
-    for (const auto& [name, value] : from.scores[group].items()) {
-      Json& own = record.scores[group];
-      if (merged.contains(name) && !own.contains(name)) own[name] = value;
-    }
-  }
-  record.scores["estimators"] = std::move(merged);
-  record.scores["gates"] = gates_json(scenario, record);
 }
 
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
                                  const std::string& key) {
   std::optional<double> found;
-  visit_leaves(record.scores.at("estimators").at(estimator), "",
+  visit_leaves(estimator_in(record, estimator), "",
                [&](const std::string& name, const Json& value) {
                  if (name != key) return;
                  if (value.is_number()) found = value.get<double>();
@@ -240,7 +181,7 @@ std::optional<double> find_score(const RunRecord& record, const std::string& est
 
 std::vector<std::string> score_keys(const RunRecord& record, const std::string& estimator) {
   std::vector<std::string> keys;
-  visit_leaves(record.scores.at("estimators").at(estimator), "",
+  visit_leaves(estimator_in(record, estimator), "",
                [&](const std::string& name, const Json& value) {
                  if (!value.is_string()) keys.push_back(name);
                });

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "bench/run/run.hpp"
+#include "bench/run/evaluate.hpp"
 #include "bench/run/scenario.hpp"
 
 namespace aims {
@@ -15,7 +16,7 @@ namespace aims {
 using Json = nlohmann::ordered_json;
 
 /// Version of the layout of scores.json; see docs/results.md.
-inline constexpr std::string_view kScoresSchema = "aims.scores/1";
+inline constexpr std::string_view kScoresSchema = "aims.scores/2";
 
 /// The number, or null for none and for what is not finite.
 Json json_of(const std::optional<double>& value);
@@ -35,15 +36,19 @@ Json estimator_json(const EstimatorOutcome& outcome);
 /// The segments with their true straight lengths, which are the same for every estimate.
 Json segments_json(const Scores& scores);
 
-/// The record of a run; `drawing_s` is the wall time [s] spent on its pictures.
-RunRecord record_of(const Scenario& scenario, const RunResult& result, double drawing_s);
+/// What scores.json holds of a run whoever estimates: duration, robot, segments, localizability.
+/// `scores` are of any estimator.
+Json sequence_json(const Sequence& sequence, const Scores& scores);
 
-/// Adds to `record` the estimators of `from` that it does not have; both are of the same scenario
-/// and seed. Gates follow; the order becomes that of the registry.
-void take_estimators(const Scenario& scenario, const RunRecord& from, RunRecord& record);
+/// What the record holds of that estimator; null when there is nothing.
+const Json& estimator_in(const RunRecord& record, const std::string& estimator);
+
+/// Calls `visit(key, value)` for every leaf of an object, keys dotted and below `prefix`.
+void visit_leaves(const Json& json, const std::string& prefix,
+                  const std::function<void(const std::string&, const Json&)>& visit);
 
 /// One number of an estimator in a record, by dotted key ("m_list_percent.a-b"); empty when it has
-/// no value (a segment not walked, a lost estimator) or does not exist.
+/// no value (a segment not walked, an estimator that diverged) or does not exist.
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
                                  const std::string& key);
 

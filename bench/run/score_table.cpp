@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/run/summary.hpp"
+#include "bench/run/score_statistics.hpp"
 
 namespace aims {
 namespace {
@@ -16,7 +16,7 @@ struct Column {
 
 std::vector<Column> columns_of(const RunRecord& run) {
   std::vector<Column> columns;
-  for (const Json& segment : run.scores["segments"]) {
+  for (const Json& segment : run.scores.at("segments")) {
     const auto name = segment["name"].get<std::string>();
     columns.push_back({fmt::format("M_list({}) %", name), "m_list_percent." + name, 3});
   }
@@ -27,18 +27,16 @@ std::vector<Column> columns_of(const RunRecord& run) {
   return columns;
 }
 
-std::string cell(const ScoreSummary& summary, int digits, bool several) {
+std::string cell(const ScoreStatistics& summary, int digits, bool several) {
   if (!summary.median) return "-";
   const std::string median = fmt::format("{:.{}f}", *summary.median, digits);
   return several ? fmt::format("{} ({:.{}f})", median, *summary.worst, digits) : median;
 }
 
 std::string success_cell(std::span<const RunRecord> runs, const std::string& estimator) {
-  std::size_t successes = 0;
-  for (const RunRecord& run : runs)
-    successes += run.scores["estimators"][estimator]["success"] == true;
-  if (runs.size() == 1) return successes == 1 ? "yes" : "lost";
-  return fmt::format("{}/{}", successes, runs.size());
+  const std::size_t count = successes(runs, estimator);
+  if (runs.size() == 1) return count == 1 ? "yes" : "diverged";
+  return fmt::format("{}/{}", count, finished(runs, estimator));
 }
 
 }  // namespace
@@ -50,10 +48,10 @@ TextTable score_table(std::span<const RunRecord> runs) {
   table.header = {"estimator"};
   for (const Column& column : columns) table.header.push_back(column.title);
   table.header.emplace_back("success");
-  for (const auto& [estimator, unused] : runs.front().scores["estimators"].items()) {
+  for (const auto& [estimator, unused] : runs.front().scores.at("estimators").items()) {
     std::vector<std::string> row = {estimator};
     for (const Column& column : columns) {
-      row.push_back(cell(summarize(runs, estimator, column.key), column.digits, runs.size() > 1));
+      row.push_back(cell(statistics_of(runs, estimator, column.key), column.digits, runs.size() > 1));
     }
     row.push_back(success_cell(runs, estimator));
     table.rows.push_back(std::move(row));

@@ -14,7 +14,8 @@ enum class Kind : std::uint8_t { kImu = 1, kLegs = 2, kScan = 3 };
 
 /// Of a return: x, y, z, intensity, time offset, ring.
 constexpr std::size_t kPointSize = 4 * sizeof(float) + sizeof(std::int32_t) + sizeof(std::uint16_t);
-constexpr std::size_t kTruthSampleSize = sizeof(Time) + 13 * sizeof(double);
+constexpr std::size_t kTruthSampleSize = sizeof(Time) + (13 + kLegCount) * sizeof(double);
+constexpr std::size_t kLeastSnapshotSize = sizeof(Time) + sizeof(std::uint64_t);
 constexpr std::size_t kScanInformationSize =
     sizeof(Time) + 37 * sizeof(double) + sizeof(std::int32_t);
 
@@ -114,13 +115,14 @@ LidarPoint point_at(const std::byte* bytes) {
   return point;
 }
 
-bool take_scan(ByteCursor& cursor, LidarScan& scan) {
+bool take_scan(ByteCursor& cursor, LidarScan& scan, bool with_points) {
   std::size_t count = 0;
   if (!take_number(cursor, scan.stamp) || !take_number(cursor, scan.end) ||
       !take_count(cursor, kPointSize, count)) {
     return false;
   }
   const std::byte* bytes = cursor.take(count * kPointSize)->data();
+  if (!with_points) return true;
   scan.points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) scan.points.push_back(point_at(bytes + i * kPointSize));
   return true;
@@ -128,7 +130,17 @@ bool take_scan(ByteCursor& cursor, LidarScan& scan) {
 
 bool take_sample(ByteCursor& cursor, TruthSample& sample) {
   return take_number(cursor, sample.stamp) && take_pose(cursor, sample.T_world_body) &&
-         take_matrix(cursor, sample.velocity) && take_matrix(cursor, sample.angular_velocity);
+         take_matrix(cursor, sample.velocity) && take_matrix(cursor, sample.angular_velocity) &&
+         take_numbers(cursor, sample.slip_speed.data(), sample.slip_speed.size());
+}
+
+bool take_snapshot(ByteCursor& cursor, RobotSnapshot& snapshot) {
+  std::size_t count = 0;
+  if (!take_number(cursor, snapshot.stamp) || !take_count(cursor, sizeof(double), count)) {
+    return false;
+  }
+  snapshot.qpos.resize(count);
+  return take_numbers(cursor, snapshot.qpos.data(), count);
 }
 
 bool take_information(ByteCursor& cursor, ScanInformation& scan) {
@@ -198,7 +210,7 @@ void append_delivery(std::vector<std::byte>& out, const Delivery& delivery) {
   }
 }
 
-std::optional<Delivery> take_delivery(ByteCursor& cursor) {
+std::optional<Delivery> take_delivery(ByteCursor& cursor, bool with_points) {
   std::uint8_t kind = 0;
   Delivery delivery;
   if (!take_number(cursor, kind) || !take_number(cursor, delivery.arrival)) return std::nullopt;
@@ -212,7 +224,7 @@ std::optional<Delivery> take_delivery(ByteCursor& cursor) {
     delivery.measurement = sample;
   } else if (kind == static_cast<std::uint8_t>(Kind::kScan)) {
     auto scan = std::make_shared<LidarScan>();
-    if (!take_scan(cursor, *scan)) return std::nullopt;
+    if (!take_scan(cursor, *scan, with_points)) return std::nullopt;
     delivery.measurement = LidarScanPtr(std::move(scan));
   } else {
     return std::nullopt;
@@ -229,6 +241,13 @@ void append_truth(std::vector<std::byte>& out, const Truth& truth) {
     append_pose(out, sample.T_world_body);
     append_matrix(out, sample.velocity);
     append_matrix(out, sample.angular_velocity);
+    append_numbers(out, sample.slip_speed);
+  }
+  append_number(out, std::uint64_t{truth.snapshots.size()});
+  for (const RobotSnapshot& snapshot : truth.snapshots) {
+    append_number(out, snapshot.stamp);
+    append_number(out, std::uint64_t{snapshot.qpos.size()});
+    append_numbers(out, snapshot.qpos);
   }
   append_number(out, std::uint64_t{truth.waypoint_times.size()});
   for (const WaypointTime& waypoint_time : truth.waypoint_times) {
@@ -251,6 +270,7 @@ bool take_truth(ByteCursor& cursor, Truth& truth) {
   truth.fell = fell != 0;
   truth.touched_wall = touched_wall != 0;
   return take_entries(cursor, kTruthSampleSize, truth.samples, take_sample) &&
+         take_entries(cursor, kLeastSnapshotSize, truth.snapshots, take_snapshot) &&
          take_entries(cursor, sizeof(std::uint64_t) + sizeof(Time), truth.waypoint_times,
                       take_waypoint_time) &&
          take_entries(cursor, kScanInformationSize, truth.scans, take_information);

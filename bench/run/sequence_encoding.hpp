@@ -23,7 +23,7 @@ void append_truth(std::vector<std::byte>& out, const Truth& truth);
 
 bool take_pose(ByteCursor& cursor, Pose& pose);
 bool take_text(ByteCursor& cursor, std::string& text);
-std::optional<Delivery> take_delivery(ByteCursor& cursor);
+std::optional<Delivery> take_delivery(ByteCursor& cursor, bool with_points = true);
 bool take_truth(ByteCursor& cursor, Truth& truth);
 
 }  // namespace aims

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kBegin = "aimsseqn";
 constexpr std::string_view kEnd = "seqndone";
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 /// At the end of the file: where the truth begins, and `kEnd`.
 constexpr std::size_t kTrailerSize = sizeof(std::uint64_t) + kEnd.size();
 
@@ -84,19 +84,34 @@ bool SequenceReader::read_header() {
   const std::size_t begin = cursor.position();
   if (*truth_begin < begin || *truth_begin > all.size() - kTrailerSize) return false;
   deliveries_ = all.subspan(begin, *truth_begin - begin);
-  return read_truth(all.subspan(*truth_begin, all.size() - kTrailerSize - *truth_begin));
+  truth_ = all.subspan(*truth_begin, all.size() - kTrailerSize - *truth_begin);
+  Truth truth;
+  ByteCursor truth_cursor(truth_);
+  return take_truth(truth_cursor, truth) && truth_cursor.left() == 0;
 }
 
-bool SequenceReader::read_truth(std::span<const std::byte> bytes) {
-  ByteCursor cursor(bytes);
-  return take_truth(cursor, truth_) && cursor.left() == 0;
+Truth SequenceReader::truth() const {
+  Truth truth;
+  ByteCursor cursor(truth_);
+  take_truth(cursor, truth);  // `open` has tried
+  return truth;
 }
 
 Result<void> SequenceReader::replay(const std::function<void(const Delivery&)>& visit) const {
+  return replay(visit, true);
+}
+
+Result<void> SequenceReader::replay_without_points(
+    const std::function<void(const Delivery&)>& visit) const {
+  return replay(visit, false);
+}
+
+Result<void> SequenceReader::replay(const std::function<void(const Delivery&)>& visit,
+                                    bool with_points) const {
   ByteCursor cursor(deliveries_);
   while (cursor.left() > 0) {
     const std::size_t at = cursor.position();
-    const auto delivery = take_delivery(cursor);
+    const auto delivery = take_delivery(cursor, with_points);
     if (!delivery) {
       return failure(
           fmt::format("{}: no delivery at byte {} of the stream; delete the file and it "

@@ -20,9 +20,10 @@ namespace aims {
 
 /// Writes a simulated sequence as one file, bit for bit what the simulation yielded: the rig, every
 /// delivery in order of arrival, and of the truth what scores are made from (motion at the physics
-/// rate, waypoint times, information of the sweeps; no biases, no pictures). A bag holds the truth
-/// at 10 ms alone and nothing of the sweeps, so that scores would differ. Little-endian numbers,
-/// one after the other; 22 bytes per return. The file appears whole, on finish().
+/// rate, slip of the feet, joints at 10 Hz, waypoint times, information of the scans; no biases). A
+/// bag holds the truth at 10 ms alone and nothing of the scans, so that scores would differ.
+/// Little-endian numbers, one after the other; 22 bytes per return. The file appears whole, on
+/// finish().
 class SequenceWriter {
  public:
   /// `origin` is kept as text: what the sequence is of.
@@ -50,26 +51,27 @@ class SequenceReader {
   static Result<SequenceReader> open(const std::filesystem::path& file);
 
   const SensorRig& rig() const { return rig_; }
-  const Truth& truth() const { return truth_; }
-  /// The truth, which the reader has no longer.
-  Truth release_truth() { return std::exchange(truth_, {}); }
+  /// The truth, read from the file each time.
+  Truth truth() const;
   const std::string& origin() const { return origin_; }
   std::size_t size() const { return file_.bytes().size(); }
 
   /// Hands over every delivery, in order of arrival. Error for bytes that are no delivery.
   Result<void> replay(const std::function<void(const Delivery&)>& visit) const;
+  /// The same with scans that have no points, at a fraction of the time.
+  Result<void> replay_without_points(const std::function<void(const Delivery&)>& visit) const;
 
  private:
   SequenceReader(std::filesystem::path path, MappedFile file)
       : path_(std::move(path)), file_(std::move(file)) {}
   bool read_header();
-  bool read_truth(std::span<const std::byte> bytes);
+  Result<void> replay(const std::function<void(const Delivery&)>& visit, bool with_points) const;
 
   std::filesystem::path path_;
   MappedFile file_;
   std::span<const std::byte> deliveries_;
+  std::span<const std::byte> truth_;
   SensorRig rig_;
-  Truth truth_;
   std::string origin_;
 };
 

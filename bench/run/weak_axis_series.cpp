@@ -3,73 +3,66 @@
 
 #include <cmath>
 #include <map>
+#include <string>
+#include <vector>
+
+#include "core/files/csv_columns.hpp"
 
 namespace aims {
 namespace {
 
-constexpr const char* kGroup = "weak_axis_series";
-
 /// Deviation along the weak axis that IMU and legs allow, by the stamp of the scan.
-std::map<Time, double> leg_bounds(const RunResult& result) {
-  const auto bounds = bounds_without_lidar(result.truth, result.localizability);
+std::map<Time, double> leg_bounds(const Sequence& sequence) {
+  const RunLocalizability& localizability = sequence.localizability;
+  const auto bounds = bounds_without_lidar(sequence.reader.truth(), localizability);
   std::map<Time, double> by_stamp;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const Localizability& scan = result.localizability.scans[i];
+    const Localizability& scan = localizability.scans[i];
     by_stamp[scan.stamp] = bound_along(bounds[i], scan.weak_axis_in_world);
   }
   return by_stamp;
 }
 
-Json series_json(const std::vector<WeakAxisError>& errors, const std::map<Time, double>& legs,
-                 Time start) {
-  Json json = {{"t_s", Json::array()},
-               {"error_m", Json::array()},
-               {"sigma_m", Json::array()},
-               {"bound_m", Json::array()},
-               {"leg_bound_m", Json::array()}};
+}  // namespace
+
+CsvTable weak_axis_table(const Sequence& sequence, const EstimatorOutcome& outcome) {
+  CsvTable table({"t_s", "error_m", "sigma_m", "bound_m", "leg_bound_m"});
+  if (sequence.truth_trajectory.empty()) return table;
+  const auto legs = leg_bounds(sequence);
+  const Time start = sequence.truth_trajectory.front().stamp;
   Time next = start;
-  for (const WeakAxisError& each : errors) {
+  for (const WeakAxisError& each : outcome.weak_axis_errors) {
     if (each.stamp < next) continue;
     const auto second =
         static_cast<std::int64_t>((each.stamp - start) / (kSeriesSpacing * kSecond));
     next = start + (second + 1) * kSeriesSpacing * kSecond;
-    json["t_s"].push_back(second * kSeriesSpacing);
-    json["error_m"].push_back(each.error_m);
+    table.add(second * kSeriesSpacing).add(each.error_m);
     const bool stated = each.variance && *each.variance > 0.0;
-    json["sigma_m"].push_back(stated ? json_of(std::sqrt(*each.variance)) : Json());
-    json["bound_m"].push_back(json_of(each.bound_m));
+    table.add(stated ? std::optional(std::sqrt(*each.variance)) : std::nullopt);
+    table.add(each.bound_m);
     const auto leg = legs.find(each.stamp);
-    json["leg_bound_m"].push_back(leg == legs.end() ? Json() : json_of(leg->second));
+    table.add(leg == legs.end() ? std::nullopt : std::optional(leg->second)).end_row();
   }
-  return json;
+  return table;
 }
 
-double number_in(const Json& json) { return json.is_number() ? json.get<double>() : 0.0; }
-
-}  // namespace
-
-void add_weak_axis_series(const RunResult& result, RunRecord& record) {
-  if (result.truth_trajectory.empty()) return;
-  const auto legs = leg_bounds(result);
-  for (const EstimatorOutcome& outcome : result.estimators) {
-    record.scores[kGroup][outcome.name] =
-        series_json(outcome.weak_axis_errors, legs, result.truth_trajectory.front().stamp);
+Result<ConsistencyRun> read_weak_axis(const std::filesystem::path& file) {
+  const auto table = CsvColumns::read(file);
+  if (!table) return tl::unexpected(table.error());
+  std::vector<std::vector<double>> columns;
+  for (const char* name : {"t_s", "error_m", "sigma_m", "bound_m", "leg_bound_m"}) {
+    auto numbers = table->numbers(name);
+    if (!numbers) return tl::unexpected(numbers.error());
+    if (numbers->size() != table->rows()) return failure(file.string() + ": expected " + name);
+    columns.push_back(std::move(*numbers));
   }
-}
-
-bool holds_series(const RunRecord& record, const std::string& label) {
-  return record.scores.contains(kGroup) && record.scores[kGroup].contains(label);
-}
-
-ConsistencyRun series_of(const RunRecord& record, const std::string& label) {
+  const auto or_zero = [](double value) { return std::isfinite(value) ? value : 0.0; };
   ConsistencyRun run;
-  if (!holds_series(record, label)) return run;
-  const Json& series = record.scores[kGroup][label];
-  for (std::size_t i = 0; i < series.at("t_s").size(); ++i) {
-    const Json& sigma = series.at("sigma_m")[i];
-    run.push_back({number_in(series.at("t_s")[i]), number_in(series.at("error_m")[i]),
-                   sigma.is_number() ? std::optional(sigma.get<double>()) : std::nullopt,
-                   number_in(series.at("bound_m")[i]), number_in(series.at("leg_bound_m")[i])});
+  for (std::size_t i = 0; i < table->rows(); ++i) {
+    const double sigma = columns[2][i];
+    run.push_back({columns[0][i], or_zero(columns[1][i]),
+                   std::isfinite(sigma) ? std::optional(sigma) : std::nullopt,
+                   or_zero(columns[3][i]), or_zero(columns[4][i])});
   }
   return run;
 }

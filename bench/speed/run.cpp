@@ -2,7 +2,7 @@
 // Real-time factor of a whole run on one thread, and of its parts.
 #include <benchmark/benchmark.h>
 
-#include "bench/run/run.hpp"
+#include "bench/run/evaluate.hpp"
 
 namespace aims {
 namespace {

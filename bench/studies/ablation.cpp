@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/studies/suite_summary.hpp"
 
 namespace aims {
 namespace {
@@ -24,34 +23,23 @@ std::string part_of(const std::string& key, const std::string& group) {
   return part;
 }
 
-AblationRow row_of(const SuiteCase& each, const std::string& label) {
+AblationRow row_of(const SuiteCase& each, const std::string& complete, const std::string& label) {
   AblationRow row;
   row.label = label;
-  row.runs = each.runs.size();
+  row.runs = finished(each.runs, label);
   row.successes = successes(each.runs, label);
   for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
-    const ScoreSummary summary = summarize(each.runs, label, kAblationScores[i].key);
-    row.cells[i] = {summary.median, summary.worst, std::nullopt, summary.count};
+    row.cells[i] = statistics_of(
+        paired({each.runs, complete}, {each.runs, label}, kAblationScores[i].key));
   }
   return row;
 }
 
-void set_ratios(const AblationRow& whole, AblationRow& row) {
-  for (std::size_t i = 0; i < row.cells.size(); ++i) {
-    const auto& reference = whole.cells[i].median;
-    if (row.cells[i].median && reference && *reference > 0.0) {
-      row.cells[i].ratio = *row.cells[i].median / *reference;
-    }
-  }
-}
-
-AblationCase case_of(const SuiteCase& each, const std::string& whole) {
+AblationCase case_of(const SuiteCase& each, const std::string& complete) {
   AblationCase result{each.scenario.name, {}};
   if (each.runs.empty()) return result;
-  const AblationRow reference = row_of(each, whole);
   for (const std::string& label : labels_of(each.scenario.estimators)) {
-    result.rows.push_back(row_of(each, label));
-    set_ratios(reference, result.rows.back());
+    result.rows.push_back(row_of(each, complete, label));
   }
   return result;
 }
@@ -68,8 +56,8 @@ std::string changes_of(const Suite& suite, const std::string& label) {
   return label;
 }
 
-AblationWorth worth_of(const Ablation& ablation, const std::string& label) {
-  AblationWorth worth{label, changes_of(ablation.suite, label), {}, std::nullopt, ""};
+AblationEffect effect_of(const Ablation& ablation, const Suite& suite, const std::string& label) {
+  AblationEffect effect{label, changes_of(suite, label), {}, std::nullopt, ""};
   constexpr std::size_t kAte = 2;
   static_assert(std::string_view(kAblationScores[kAte].key) == "ate_m");
   for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
@@ -81,14 +69,14 @@ AblationWorth worth_of(const Ablation& ablation, const std::string& label) {
         if (row.label != label || !ratio || !(*ratio > 0.0)) continue;
         logarithms += std::log(*ratio);
         ++count;
-        if (i != kAte || (worth.worst_ratio && *worth.worst_ratio >= *ratio)) continue;
-        worth.worst_ratio = ratio;
-        worth.worst_scenario = each.scenario;
+        if (i != kAte || (effect.worst_ratio && *effect.worst_ratio >= *ratio)) continue;
+        effect.worst_ratio = ratio;
+        effect.worst_scenario = each.scenario;
       }
     }
-    if (count > 0) worth.ratios[i] = std::exp(logarithms / count);
+    if (count > 0) effect.ratios[i] = std::exp(logarithms / count);
   }
-  return worth;
+  return effect;
 }
 
 }  // namespace
@@ -118,42 +106,34 @@ Result<std::vector<std::string>> ablation_specs(const std::string& text,
   return specs;
 }
 
-Ablation ablation_of(Suite suite, const std::string& whole) {
+Ablation ablation_of(const Suite& suite, const std::string& complete) {
   Ablation ablation;
-  ablation.whole = whole;
-  ablation.suite = std::move(suite);
-  for (const SuiteCase& each : ablation.suite.cases) {
-    ablation.cases.push_back(case_of(each, whole));
-  }
-  std::vector<std::string> labels = {whole};
-  for (const AblationCase& each : ablation.cases) {
-    for (const AblationRow& row : each.rows) {
+  ablation.complete = complete;
+  std::vector<std::string> labels = {complete};
+  for (const SuiteCase& each : suite.cases) {
+    ablation.cases.push_back(case_of(each, complete));
+    for (const AblationRow& row : ablation.cases.back().rows) {
       if (std::find(labels.begin(), labels.end(), row.label) == labels.end()) {
         labels.push_back(row.label);
       }
     }
   }
-  for (const std::string& label : labels) ablation.worth.push_back(worth_of(ablation, label));
+  for (const std::string& label : labels) {
+    ablation.effects.push_back(effect_of(ablation, suite, label));
+  }
   return ablation;
 }
 
-Result<Ablation> run_ablation(std::vector<ScenarioFile> scenarios, const AblationOptions& options,
-                              const SuiteObserver& observer) {
+Result<void> set_variants(const AblationOptions& options, std::vector<ScenarioFile>& scenarios) {
   for (ScenarioFile& each : scenarios) {
     if (!each.scenario) continue;
     auto specs = ablation_specs(options.estimator, options.groups, each.scenario->estimator);
     if (!specs) return tl::unexpected(specs.error());
-    specs->insert(specs->end(), options.others.begin(), options.others.end());
-    if (auto valid = check_estimator_specs(*specs); !valid) return tl::unexpected(valid.error());
+    specs->insert(specs->end(), options.baselines.begin(), options.baselines.end());
+    if (auto valid = check_estimator_specs(*specs); !valid) return valid;
     each.scenario->estimators = std::move(*specs);
   }
-  auto suite = run_suite(std::move(scenarios), options.suite, observer);
-  if (!suite) return tl::unexpected(suite.error());
-  Ablation ablation = ablation_of(std::move(*suite), label_of(options.estimator));
-  if (auto written = write_ablation(ablation, options.suite.out); !written) {
-    return tl::unexpected(written.error());
-  }
-  return ablation;
+  return {};
 }
 
 }  // namespace aims

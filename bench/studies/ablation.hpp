@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/run/score_statistics.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
@@ -17,7 +18,7 @@
 namespace aims {
 
 /// Version of the layout of ablation.json; see docs/results.md.
-inline constexpr std::string_view kAblationSchema = "aims.ablation/1";
+inline constexpr std::string_view kAblationSchema = "aims.ablation/2";
 
 /// The scores that an ablation compares.
 struct AblationScore {
@@ -36,16 +37,7 @@ inline constexpr std::array<AblationScore, 5> kAblationScores = {{
 struct AblationOptions {
   std::string estimator = "aims_d";                   ///< spec of what is taken apart
   std::vector<std::string> groups = {"directional"};  ///< below `estimator.`: their flags
-  std::vector<std::string> others;                    ///< specs that run beside it
-  SuiteOptions suite;
-};
-
-/// Median over seeds of one score of one variant, against that of the whole.
-struct AblationCell {
-  std::optional<double> median;
-  std::optional<double> worst;
-  std::optional<double> ratio;  ///< of the medians; none when the whole's is zero or missing
-  std::size_t count = 0;        ///< runs that have a value
+  std::vector<std::string> baselines;                 ///< specs that run beside it
 };
 
 /// One variant on one scenario.
@@ -53,16 +45,16 @@ struct AblationRow {
   std::string label;
   std::size_t runs = 0;
   std::size_t successes = 0;
-  std::array<AblationCell, kAblationScores.size()> cells;
+  std::array<PairedStatistics, kAblationScores.size()> cells;  ///< against the complete estimator
 };
 
 struct AblationCase {
   std::string scenario;
-  std::vector<AblationRow> rows;  ///< the whole first
+  std::vector<AblationRow> rows;  ///< the complete estimator first
 };
 
 /// One variant over all scenarios.
-struct AblationWorth {
+struct AblationEffect {
   std::string label;
   std::string changes;  ///< its settings, e.g. "directional.ground_constraint.enabled=false"
   /// Geometric means over scenarios of the ratios; none without any.
@@ -72,10 +64,9 @@ struct AblationWorth {
 };
 
 struct Ablation {
-  std::string whole;  ///< label of what is taken apart
+  std::string complete;  ///< label of what is taken apart
   std::vector<AblationCase> cases;
-  std::vector<AblationWorth> worth;
-  Suite suite;
+  std::vector<AblationEffect> effects;
 };
 
 /// The estimator `spec` and, for each flag of the groups, itself with that flag turned over:
@@ -85,22 +76,21 @@ Result<std::vector<std::string>> ablation_specs(const std::string& spec,
                                                 const std::vector<std::string>& groups,
                                                 const EstimatorConfig& base);
 
-/// Sums up a suite that ran variants of `whole`.
-Ablation ablation_of(Suite suite, const std::string& whole);
+/// Sums up a suite that ran variants of the estimator with the label `complete`.
+Ablation ablation_of(const Suite& suite, const std::string& complete);
 
-/// Runs every scenario and seed with the estimator, its variants and `others` on the same stream,
-/// as `run_suite` does, which also continues what was interrupted. Writes ablation.md, ablation.csv
-/// and ablation.json beside the suite's files.
-Result<Ablation> run_ablation(std::vector<ScenarioFile> scenarios, const AblationOptions& options,
-                              const SuiteObserver& observer);
+/// Gives every scenario the estimator, its variants and the baselines. Error as of `ablation_specs`,
+/// and for two specs of one label.
+Result<void> set_variants(const AblationOptions& options, std::vector<ScenarioFile>& scenarios);
 
-/// Variants by the worth of what they lack: geometric means of the ratios.
-TextTable worth_table(const Ablation& ablation);
+/// A row per variant: geometric means of the ratios over scenarios.
+TextTable effect_table(const Ablation& ablation);
 
 /// Variants on one scenario: "median (x ratio)" of each score.
 TextTable case_table(const AblationCase& each);
 
-/// Writes the three files into `folder`.
-Result<void> write_ablation(const Ablation& ablation, const std::filesystem::path& folder);
+/// Writes ablation.md, ablation.csv and ablation.json into `folder`.
+Result<void> write_ablation(const Ablation& ablation, const Suite& suite,
+                            const std::filesystem::path& folder);
 
 }  // namespace aims

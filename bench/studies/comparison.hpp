@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/stored_results.hpp"
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/jobs/results.hpp"
+#include "bench/run/score_statistics.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {
@@ -24,13 +24,11 @@ struct ScoreChange {
   std::string scenario;
   std::string estimator;
   std::string score;
-  std::size_t seeds = 0;  ///< that have the score on both sides
-  double before = 0.0;    ///< median over them; of `success` the mean
+  PairedStatistics pairs;  ///< over the seeds that have it on both sides, before as the reference
+  double before = 0.0;     ///< median over them; of `success` the mean
   double after = 0.0;
-  double change = 0.0;  ///< mean of the paired differences, after - before
-  Interval interval;    ///< of the change, 95 %
   ChangeVerdict verdict = ChangeVerdict::kNone;
-  /// Probability that better or worse is said when only chance gives the differences their signs.
+  /// Probability of the verdict better or worse when the signs of the differences are random.
   double false_alarm = 0.0;
 };
 
@@ -42,15 +40,15 @@ struct Comparison {
 };
 
 /// Pairs the runs of the same scenario, seed and estimator. A change is better or worse when the
-/// bootstrap interval of its mean leaves out zero and it exceeds both the score's own floor
-/// (kHeadlineScores) and 5 % of the value before. How often that rule speaks by chance is counted
-/// by giving the same differences all other signs (at most 64 draws of them).
+/// bootstrap interval of its mean excludes zero and it exceeds both the score's own floor
+/// (kHeadlineScores) and 5 % of the value before. Its rate of false alarms is counted by giving the
+/// same differences all other signs (at most 64 draws of them).
 Comparison compare(const StoredResults& before, const StoredResults& after);
 
 /// Number of changes with that verdict.
 std::size_t count(const Comparison& comparison, ChangeVerdict verdict);
 
-/// One line on how many were compared, and how much of it chance explains.
+/// One line: how many were compared, better, worse, and false alarms that are expected.
 std::string summary_text(const Comparison& comparison);
 
 /// What got better, worse, or differs on one seed, as a table; empty rows when nothing.
@@ -60,7 +58,7 @@ TextTable change_table(const Comparison& comparison, ChangeVerdict verdict);
 Json comparison_json(const Comparison& comparison, const std::string& before,
                      const std::string& after);
 
-/// Writes compare.json (schema aims.compare/1) and compare.md into `folder`, which is made.
+/// Writes compare.json (schema aims.compare/2) and compare.md into `folder`, which is made.
 Result<void> write_comparison(const Comparison& comparison, const std::string& before,
                               const std::string& after, const std::filesystem::path& folder);
 

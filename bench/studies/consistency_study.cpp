@@ -1,41 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/studies/consistency_study.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "bench/run/weak_axis_series.hpp"
-#include "estimator/estimator_spec.hpp"
 
 namespace aims {
+namespace {
 
-ConsistencyStudy consistency_study(Suite suite) {
-  ConsistencyStudy study;
-  study.suite = std::move(suite);
-  for (const SuiteCase& each : study.suite.cases) {
-    for (const std::string& label : labels_of(each.scenario.estimators)) {
-      ConsistencyCase made{each.scenario.name, label, {}, {}, {}};
-      for (const RunRecord& record : each.runs) {
-        made.seeds.push_back(record.seed);
-        made.runs.push_back(series_of(record, label));
-      }
-      made.result = consistency_of(made.runs);
-      study.cases.push_back(std::move(made));
-    }
-  }
-  return study;
+/// The case of that scenario and estimator, which is added when it is not there.
+ConsistencyCase& case_of(const Job& job, ConsistencyStudy& study) {
+  const auto known = std::find_if(study.begin(), study.end(), [&](const ConsistencyCase& each) {
+    return each.scenario == job.scenario->name && each.estimator == job.estimator.label;
+  });
+  if (known != study.end()) return *known;
+  return study.emplace_back(
+      ConsistencyCase{job.scenario->name, job.estimator.label, {}, {}, {}});
 }
 
-Result<ConsistencyStudy> run_consistency(std::vector<ScenarioFile> scenarios,
-                                         const SuiteOptions& options,
-                                         const SuiteObserver& observer) {
-  SuiteOptions with_series = options;
-  with_series.weak_axis_series = true;
-  auto suite = run_suite(std::move(scenarios), with_series, observer);
-  if (!suite) return tl::unexpected(suite.error());
-  ConsistencyStudy study = consistency_study(std::move(*suite));
-  if (auto written = write_consistency(study, options.out); !written) {
-    return tl::unexpected(written.error());
+}  // namespace
+
+Result<ConsistencyStudy> consistency_study(const Suite& suite,
+                                           const std::filesystem::path& folder) {
+  const JobStore store(folder);
+  ConsistencyStudy study;
+  for (const Job& job : suite.jobs) {
+    const auto result = store.find(job.id);
+    if (!result || result->outcome != JobOutcome::kDone) continue;
+    auto series = read_weak_axis(store.outputs_of(job.id) / kWeakAxisFile);
+    if (!series) return tl::unexpected(series.error());
+    ConsistencyCase& each = case_of(job, study);
+    each.seeds.push_back(job.seed);
+    each.runs.push_back(std::move(*series));
   }
+  for (ConsistencyCase& each : study) each.result = consistency_of(each.runs);
   return study;
 }
 

@@ -14,7 +14,7 @@
 namespace aims {
 
 /// Version of the layout of consistency.json; see docs/results.md.
-inline constexpr std::string_view kConsistencySchema = "aims.consistency/1";
+inline constexpr std::string_view kConsistencySchema = "aims.consistency/2";
 
 /// One estimator on one scenario.
 struct ConsistencyCase {
@@ -25,30 +25,22 @@ struct ConsistencyCase {
   Consistency result;
 };
 
-struct ConsistencyStudy {
-  std::vector<ConsistencyCase> cases;
-  Suite suite;
-};
+using ConsistencyStudy = std::vector<ConsistencyCase>;
 
-/// Judges what a suite with `weak_axis_series` yielded.
-ConsistencyStudy consistency_study(Suite suite);
-
-/// Runs every scenario on every seed as `run_suite` does, which also continues what was
-/// interrupted, and holds the error along the true weak axis against the covariance that each
-/// estimator states and against the posterior bound. Writes consistency.md, consistency.csv,
-/// consistency.json and a picture per scenario and estimator beside the suite's files.
-Result<ConsistencyStudy> run_consistency(std::vector<ScenarioFile> scenarios,
-                                         const SuiteOptions& options,
-                                         const SuiteObserver& observer);
+/// Holds the error along the true weak axis against the covariance that each estimator states and
+/// against the posterior bound, from the jobs of a suite that kept it (`JobOutputs::weak_axis`) in
+/// the store `folder`. Error for a file that is missing or cannot be read.
+Result<ConsistencyStudy> consistency_study(const Suite& suite,
+                                           const std::filesystem::path& folder);
 
 /// A row per scenario and estimator: NEES, coverage, efficiency.
 TextTable consistency_table(const ConsistencyStudy& study);
 
-/// A row per scenario and estimator: error at the end of the walk against what is stated and
-/// bounds.
+/// A row per scenario and estimator: error at the end of the sequence, stated deviation, bounds.
 TextTable end_table(const ConsistencyStudy& study);
 
-/// Writes tables and pictures into `folder`.
-Result<void> write_consistency(const ConsistencyStudy& study, const std::filesystem::path& folder);
+/// Writes consistency.md, consistency.csv and consistency.json into `folder`.
+Result<void> write_consistency(const ConsistencyStudy& study, const Suite& suite,
+                               const std::filesystem::path& folder);
 
 }  // namespace aims

@@ -16,7 +16,7 @@ constexpr std::uint64_t kBootstrapSeed = 1;
 /// Points that a curve keeps.
 constexpr std::size_t kCurvePoints = 400;
 
-/// The runs as one index and one level see them; larger scores speak for degeneracy.
+/// The runs for one index and one level; larger scores mean degeneracy.
 std::vector<LabelledRun> labelled(std::span<const DetectorRun* const> runs, std::size_t index,
                                   const DegeneracyLevel& level) {
   const double sign = degeneracy_indices()[index].high_is_degenerate ? 1.0 : -1.0;
@@ -41,7 +41,7 @@ std::vector<RocPoint> thinned_curve(const std::vector<RocPoint>& curve) {
   return kept;
 }
 
-/// What depends on a threshold: the share of detections and the delays.
+/// What depends on a threshold: the fraction of detections and the delays.
 void score_operating_point(std::span<const LabelledRun> runs, bool high_is_degenerate,
                            DetectorScore& score) {
   const std::vector<RocPoint> curve = roc_curve(runs);
@@ -109,9 +109,9 @@ const std::vector<DegeneracyIndex>& degeneracy_indices() {
        [](const Scan& s) { return s.smallest_eigenvalue; }},
       {"condition_number", true, "Hinduja, Ho and Kaess 2019",
        [](const Scan& s) { return s.condition_number; }},
-      {"weak_weight", false, "own: share of what a scan tells that is not noise",
+      {"weak_weight", false, "this project: fraction of the information of the weakest axis that is not noise-induced",
        [](const Scan& s) { return s.weak_weight; }},
-      {"weak_ratio", false, "own: least ratio of what a scan tells to what noise gives by chance",
+      {"weak_ratio", false, "this project: smallest ratio of information to noise-induced information",
        [](const Scan& s) { return s.weak_ratio; }},
       {"points_used", false, "usual practice",
        [](const Scan& s) { return static_cast<double>(s.points_used); }}};
@@ -128,14 +128,14 @@ DetectorRun detector_run(const std::vector<ScanDiagnostics>& diagnostics,
       ++run.without_update;
       continue;
     }
-    const auto sweep = nearest_stamp(stamps, scan.stamp, tolerance);
-    if (!sweep) {
+    const auto nearest = nearest_stamp(stamps, scan.stamp, tolerance);
+    if (!nearest) {
       ++run.without_truth;
       continue;
     }
     DetectorScan& each = run.scans.emplace_back();
     each.stamp = scan.stamp;
-    each.equivalent_returns = truth[*sweep].equivalent_returns;
+    each.equivalent_returns = truth[*nearest].equivalent_returns;
     for (const DegeneracyIndex& index : degeneracy_indices()) {
       each.values.push_back(index.value(scan));
     }

@@ -12,25 +12,25 @@
 #include "bench/metrics/bootstrap.hpp"
 #include "bench/metrics/detector.hpp"
 #include "bench/metrics/localizability.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator.hpp"
 
 namespace aims {
 
 /// A quantity of ScanDiagnostics as a detector of degeneracy, in the direction that its source
-/// claims; an AUC below 0.5 refutes that direction.
+/// states; an AUC below 0.5 refutes that direction.
 struct DegeneracyIndex {
   std::string name;
   bool high_is_degenerate = true;
-  std::string source;  ///< who claims the direction
+  std::string source;  ///< who states the direction
   std::function<double(const ScanDiagnostics&)> value;
 };
 
 /// Every index that is judged.
 const std::vector<DegeneracyIndex>& degeneracy_indices();
 
-/// One scan with an update: each index' value and what the truth says.
+/// One scan with an update: each index' value and the truth.
 struct DetectorScan {
   Time stamp = 0;
   std::vector<double> values;       ///< by index
@@ -43,10 +43,10 @@ struct DetectorRun {
   std::uint64_t seed = 0;
   std::vector<DetectorScan> scans;
   int without_update = 0;  ///< scans left out because the estimator made no update
-  int without_truth = 0;   ///< scans left out because no true sweep is near their stamp
+  int without_truth = 0;   ///< scans left out because no scan information is near their stamp
 };
 
-/// Pairs every scan's diagnostics with the true sweep nearest in time, at most `tolerance` away.
+/// Pairs every scan's diagnostics with the true scan information nearest in time, at most `tolerance` away.
 DetectorRun detector_run(const std::vector<ScanDiagnostics>& diagnostics,
                          std::span<const Localizability> truth, Duration tolerance);
 
@@ -60,7 +60,7 @@ struct DetectorScore {
   int degenerate = 0;                ///< scans that are
   std::optional<double> auc;         ///< none: the truth never changes
   Interval auc_interval;             ///< 95 %, bootstrap over runs
-  std::optional<double> detections;  ///< share at the operating point
+  std::optional<double> detections;  ///< fraction at the operating point
   std::optional<double> threshold;   ///< of the index there, in its own unit and sign
   int onsets = 0;
   int missed = 0;
@@ -75,30 +75,16 @@ inline constexpr double kFalseAlarms = 0.05;
 /// those pooled; within each, levels and then indices in their order.
 std::vector<DetectorScore> score_detectors(std::span<const DetectorRun> runs);
 
-struct DetectorOptions {
-  std::vector<std::uint64_t> seeds = {1};
-  std::string estimator = "aims";
-  std::filesystem::path out;
-  bool overwrite = false;
-  int jobs = 1;  ///< runs under way at a time; the results do not depend on it
-};
-
-/// What `run_detectors` yields besides the files that it wrote.
 struct DetectorStudy {
+  std::string estimator;          ///< its label
   std::vector<DetectorRun> runs;  ///< scenario by scenario, seed by seed
   std::vector<DetectorScore> scores;
-  std::filesystem::path folder;
   std::vector<std::string> warnings;  ///< e.g. a level that the truth never crosses
 };
 
-/// Called after each run with its label and how many of how many are done; false ends the study.
-using DetectorObserver = std::function<bool(const std::string& label, int done, int of)>;
-
-/// Runs every scenario with every seed, one estimator alone, and judges its indices. Writes
-/// detectors.json, detectors.csv, detectors.md, roc.png and roc.svg into `out`. Error when a
-/// scenario cannot run, the estimator has no diagnostics, or the observer ended it.
-Result<DetectorStudy> run_detectors(std::span<const Scenario> scenarios,
-                                    const DetectorOptions& options,
-                                    const DetectorObserver& observer);
+/// Judges the indices of an estimator by the jobs of a suite with one estimator that kept
+/// trajectories in the store `folder`. Error when the estimator has no diagnostics of scans, or a
+/// file cannot be read.
+Result<DetectorStudy> detector_study(const Suite& suite, const std::filesystem::path& folder);
 
 }  // namespace aims

@@ -7,14 +7,15 @@
 #include <map>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/run/score_statistics.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {
 namespace {
 
-constexpr double kLeastSuccessRate = 0.5;
-constexpr double kMostGrowth = 2.0;  ///< of the ATE from the mildest level
+constexpr double kMinSuccessRate = 0.5;
+constexpr double kMaxGrowth = 2.0;  ///< of the ATE from the mildest level
 
 using Members = std::vector<const SuiteCase*>;
 
@@ -23,13 +24,14 @@ FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
   point.level = each.scenario.level;
   const auto own = labels_of(each.scenario.estimators);
   if (std::find(own.begin(), own.end(), estimator) == own.end()) return point;
-  point.ate_m = summarize(each.runs, estimator, "ate_m").median;
+  point.ate_m = statistics_of(each.runs, estimator, "ate_m").median;
   point.ate_interval = median_interval(each.runs, estimator, "ate_m");
-  point.m_list = summarize(each.runs, estimator, "m_list_percent.all").median;
+  point.m_list = statistics_of(each.runs, estimator, "m_list_percent.all").median;
   point.m_list_interval = median_interval(each.runs, estimator, "m_list_percent.all");
-  point.runs = each.runs.size();
+  point.runs = finished(each.runs, estimator);
+  if (point.runs == 0) return point;
   point.success_rate =
-      static_cast<double>(successes(each.runs, estimator)) / static_cast<double>(each.runs.size());
+      static_cast<double>(successes(each.runs, estimator)) / static_cast<double>(point.runs);
   return point;
 }
 
@@ -67,8 +69,8 @@ std::size_t mildest_of(const std::vector<FamilyCurve>& curves, std::size_t level
 
 bool broken(const FamilyPoint& point, const FamilyPoint& mildest) {
   if (point.runs == 0) return false;
-  if (point.success_rate < kLeastSuccessRate || !point.ate_m) return true;
-  return mildest.ate_m && *point.ate_m > kMostGrowth * *mildest.ate_m;
+  if (point.success_rate < kMinSuccessRate || !point.ate_m) return true;
+  return mildest.ate_m && *point.ate_m > kMaxGrowth * *mildest.ate_m;
 }
 
 std::vector<double> breaks_of(const std::vector<FamilyPoint>& points, std::size_t mildest) {

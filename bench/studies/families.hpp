@@ -32,7 +32,7 @@ struct FamilyResult {
   std::string name;
   std::string level_unit;
   double mildest = 0.0;  ///< level from which the others are judged
-  /// Median over seeds of the sweeps' median equivalent returns along the weak axis, per level.
+  /// Median over seeds of the scans' median equivalent returns along the weak axis, per level.
   std::vector<std::optional<double>> equivalent_returns;
   std::vector<FamilyCurve> curves;
 };

@@ -3,22 +3,25 @@
 
 #include <algorithm>
 
-#include "bench/metrics/statistics.hpp"
 #include "bench/run/code_version.hpp"
+#include "bench/studies/families.hpp"
+#include "bench/studies/suite_tables.hpp"
+#include "core/files/atomic_file.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
 namespace {
 
-/// Of the resampling: one seed, so that a table can be repeated.
-constexpr std::uint64_t kBootstrapSeed = 1;
-
 Json scores_json(std::span<const RunRecord> runs, const std::string& estimator) {
   Json scores = Json::object();
-  for (const std::string& key : score_keys(runs.front(), estimator)) {
+  const auto first = std::find_if(runs.begin(), runs.end(), [&](const RunRecord& run) {
+    return !estimator_in(run, estimator).is_null();
+  });
+  if (first == runs.end()) return scores;
+  for (const std::string& key : score_keys(*first, estimator)) {
     if (is_timing(key)) continue;
-    const ScoreSummary summary = summarize(runs, estimator, key);
+    const ScoreStatistics summary = statistics_of(runs, estimator, key);
     Json score = {{"median", json_of(summary.median)},
                   {"worst", json_of(summary.worst)},
                   {"count", summary.count}};
@@ -43,49 +46,29 @@ Json case_json(const SuiteCase& each) {
                {"seeds", Json::array()},
                {"fell", Json::array()},
                {"estimators", Json::object()},
-               {"gates", Json::array()}};
+               {"expectations", Json::array()}};
   for (const RunRecord& run : each.runs) {
     json["seeds"].push_back(run.seed);
-    if (run.scores["robot"]["fell"] == true) json["fell"].push_back(run.seed);
+    if (robot_fell(run)) json["fell"].push_back(run.seed);
   }
-  for (const GateCheck& check : each.gates) json["gates"].push_back(gate_json(check));
+  for (const ExpectationCheck& check : each.expectations) {
+    json["expectations"].push_back(check_json(check));
+  }
   if (each.runs.empty()) return json;
   for (const std::string& estimator : labels_of(each.scenario.estimators)) {
+    const std::size_t runs = finished(each.runs, estimator);
     const std::size_t count = successes(each.runs, estimator);
+    if (runs == 0) continue;
     json["estimators"][estimator] = {
-        {"runs", each.runs.size()},
+        {"runs", runs},
         {"successes", count},
-        {"success_rate", static_cast<double>(count) / static_cast<double>(each.runs.size())},
+        {"success_rate", static_cast<double>(count) / static_cast<double>(runs)},
         {"scores", scores_json(each.runs, estimator)}};
   }
   return json;
 }
 
 }  // namespace
-
-Interval median_interval(std::span<const RunRecord> runs, const std::string& estimator,
-                         const std::string& key) {
-  std::vector<double> values;
-  for (const RunRecord& run : runs) {
-    if (const auto value = find_score(run, estimator, key)) values.push_back(*value);
-  }
-  std::vector<double> sample(values.size());
-  return bootstrap_interval(
-      values.size(),
-      [&](std::span<const std::size_t> drawn) {
-        std::transform(drawn.begin(), drawn.end(), sample.begin(),
-                       [&](std::size_t index) { return values[index]; });
-        return median(sample);
-      },
-      kBootstrapSeed);
-}
-
-std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator) {
-  return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) {
-        return run.scores["estimators"][estimator]["success"] == true;
-      }));
-}
 
 std::vector<std::string> estimators_of(const Suite& suite) {
   std::vector<std::string> names;
@@ -104,8 +87,6 @@ std::vector<std::string> estimators_of(const Suite& suite) {
   return names;
 }
 
-bool is_timing(const std::string& score_key) { return score_key.starts_with("time_per_scan_ms"); }
-
 Json suite_json(const Suite& suite) {
   Json json = {{"schema", kSuiteSchema},
                {"version", AIMS_VERSION},
@@ -118,9 +99,30 @@ Json suite_json(const Suite& suite) {
   for (const SuiteFailure& each : suite.failures) {
     json["failures"].push_back({{"scenario", each.scenario},
                                 {"seed", each.seed ? Json(*each.seed) : Json()},
+                                {"estimator", each.estimator},
                                 {"message", each.message}});
   }
   return json;
+}
+
+bool holds_suite(const std::filesystem::path& folder) {
+  const auto text = read_file(folder / "suite.json");
+  if (!text) return false;
+  const Json json = Json::parse(*text, nullptr, false);
+  return json.is_object() && json.value("schema", "") == kSuiteSchema;
+}
+
+Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder) {
+  const std::vector<FamilyResult> families = family_results(suite);
+  Json json = suite_json(suite);
+  json["families"] = families_json(families);
+  auto written = write_csv(folder / "suite.csv", suite_csv(suite));
+  if (written) written = write_csv(folder / "timings.csv", timings_csv(suite));
+  if (written) {
+    written = write_file_atomically(folder / "suite.md", suite_markdown(suite, families));
+  }
+  if (written) written = write_file_atomically(folder / "suite.json", json.dump(2) + "\n");
+  return written;
 }
 
 }  // namespace aims

@@ -11,14 +11,13 @@ namespace aims {
 namespace {
 
 bool ran(const SuiteCase& each, const std::string& estimator) {
-  const auto own = labels_of(each.scenario.estimators);
-  return !each.runs.empty() && std::find(own.begin(), own.end(), estimator) != own.end();
+  return finished(each.runs, estimator) > 0;
 }
 
 std::string headline_cell(const SuiteCase& each, const std::string& estimator,
                           const HeadlineScore& score) {
   if (!ran(each, estimator)) return "";
-  const ScoreSummary summary = summarize(each.runs, estimator, score.key);
+  const ScoreStatistics summary = statistics_of(each.runs, estimator, score.key);
   if (!summary.median) return "-";
   std::string text = fmt::format("{:.{}f}", *summary.median, score.digits);
   const Interval interval = median_interval(each.runs, estimator, score.key);
@@ -26,8 +25,8 @@ std::string headline_cell(const SuiteCase& each, const std::string& estimator,
     text += fmt::format(" [{:.{}f}, {:.{}f}] {:.{}f}", *interval.low, score.digits, *interval.high,
                         score.digits, *summary.worst, score.digits);
   }
-  if (summary.count < each.runs.size()) {
-    text += fmt::format(" ({} of {})", summary.count, each.runs.size());
+  if (const std::size_t runs = finished(each.runs, estimator); summary.count < runs) {
+    text += fmt::format(" ({} of {})", summary.count, runs);
   }
   return text;
 }
@@ -46,12 +45,12 @@ TextTable matrix(const Suite& suite, const Cell& cell) {
   return table;
 }
 
-std::string gates_markdown(const Suite& suite) {
+std::string expectations_markdown(const Suite& suite) {
   std::size_t count = 0;
   std::string text;
   for (const SuiteCase& each : suite.cases) {
-    count += each.gates.size();
-    for (const GateCheck& check : failed(each.gates)) {
+    count += each.expectations.size();
+    for (const ExpectationCheck& check : failed(each.expectations)) {
       text += fmt::format("- {}; again: `{}`\n", text_of(each.scenario, check),
                           reproducing_command(each.scenario, check));
     }
@@ -62,13 +61,10 @@ std::string gates_markdown(const Suite& suite) {
 
 std::string failures_markdown(const Suite& suite) {
   std::string text;
-  for (const SuiteFailure& each : suite.failures) {
-    const std::string seed = each.seed ? fmt::format(" seed {}", *each.seed) : "";
-    text += fmt::format("- {}{}: {}\n", each.scenario, seed, each.message);
-  }
+  for (const SuiteFailure& each : suite.failures) text += fmt::format("- {}\n", text_of(each));
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
-      if (run.scores["robot"]["fell"] != true) continue;
+      if (!robot_fell(run)) continue;
       text += fmt::format("- {} seed {}: the robot fell\n", each.scenario.name, run.seed);
     }
   }
@@ -86,7 +82,7 @@ TextTable headline_table(const Suite& suite, const HeadlineScore& score) {
 TextTable success_table(const Suite& suite) {
   return matrix(suite, [](const SuiteCase& each, const std::string& estimator) {
     if (!ran(each, estimator)) return std::string();
-    return fmt::format("{}/{}", successes(each.runs, estimator), each.runs.size());
+    return fmt::format("{}/{}", successes(each.runs, estimator), finished(each.runs, estimator));
   });
 }
 
@@ -109,23 +105,22 @@ TextTable breaks_table(const std::vector<FamilyResult>& families) {
 
 std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& families) {
   std::string text = "# Suite\n\n";
-  if (!suite.complete) text += "**Interrupted: what follows is of the finished runs alone.**\n\n";
+  if (!suite.complete) text += "**Interrupted: of the finished runs alone.**\n\n";
   text +=
-      "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about "
-      "ten "
-      "seeds the intervals are coarse and too narrow; with one seed there are none.\n";
+      "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about\n"
+      "ten seeds the intervals are coarse and too narrow; with one seed there are none.\n";
   for (const HeadlineScore& score : kHeadlineScores) {
     text += fmt::format("\n## {} [{}]\n\n{}", score.title, score.unit,
                         to_markdown(headline_table(suite, score)));
   }
-  text += fmt::format("\n## Localized to the end\n\n{}", to_markdown(success_table(suite)));
+  text += fmt::format("\n## Success\n\nRuns that did not diverge, of all.\n\n{}", to_markdown(success_table(suite)));
   if (!families.empty()) {
     text += fmt::format(
         "\n## Breaks at\n\nThe first level, going away from the mildest, where less than half of "
         "the runs succeed or the median ATE exceeds twice that at the mildest.\n\n{}",
         to_markdown(breaks_table(families)));
   }
-  text += "\n## Expectations\n\n" + gates_markdown(suite);
+  text += "\n## Expectations\n\n" + expectations_markdown(suite);
   text += "\n## Failures\n\n" + failures_markdown(suite);
   return text;
 }
@@ -153,19 +148,23 @@ CsvTable suite_csv(const Suite& suite) {
 }
 
 CsvTable timings_csv(const Suite& suite) {
-  CsvTable table({"scenario", "seed", "estimator", "simulated_s", "run_wall_s", "estimator_wall_s",
-                  "mean_per_scan_ms"});
+  CsvTable table({"scenario", "seed", "estimator", "simulated_s", "wall_s", "mean_per_scan_ms"});
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
       for (const std::string& estimator : labels_of(each.scenario.estimators)) {
+        if (estimator_in(run, estimator).is_null()) continue;
         table.add(each.scenario.name).add(static_cast<std::int64_t>(run.seed)).add(estimator);
-        table.add(run.scores.value("simulated_s", 0.0)).add(run.scores.value("wall_s", 0.0));
-        table.add(run.scores["times_s"]["estimators"].value(estimator, 0.0));
+        table.add(run.scores.value("simulated_s", 0.0));
+        table.add(run.scores.value("wall_s", Json::object()).value(estimator, 0.0));
         table.add(find_score(run, estimator, "time_per_scan_ms.mean")).end_row();
       }
     }
   }
   return table;
+}
+
+bool robot_fell(const RunRecord& run) {
+  return run.scores.value("robot", Json::object()).value("fell", false);
 }
 
 }  // namespace aims

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/score_statistics.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/suite.hpp"
-#include "bench/studies/suite_summary.hpp"
 #include "core/files/csv.hpp"
 #include "core/files/table.hpp"
 
@@ -15,13 +15,13 @@ namespace aims {
 /// Scenario x estimator of one score: "median [low, high] worst" over seeds.
 TextTable headline_table(const Suite& suite, const HeadlineScore& score);
 
-/// Scenario x estimator: runs localized to the end, of all.
+/// Scenario x estimator: runs that did not diverge, of all.
 TextTable success_table(const Suite& suite);
 
 /// Family x estimator: the levels at which each breaks.
 TextTable breaks_table(const std::vector<FamilyResult>& families);
 
-/// All tables, gates that fail, and what could not run, as Markdown.
+/// All tables, expectations that fail, and failures, as Markdown.
 std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& families);
 
 /// One row per scenario, seed, estimator and score, but for times.
@@ -29,5 +29,8 @@ CsvTable suite_csv(const Suite& suite);
 
 /// One row per scenario, seed and estimator: wall times.
 CsvTable timings_csv(const Suite& suite);
+
+/// Whether the robot fell in that run.
+bool robot_fell(const RunRecord& run);
 
 }  // namespace aims

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,13 +33,10 @@ TextTable gain_table(const ResponseTable& table, const Objective& objective, std
 /// negligible parameters and interactions.
 std::string response_markdown(const ResponseTable& table, const Objective& objective);
 
-/// Draws the objective into `folder`: KEY.png, a curve along each parameter, a line per family of
-/// scenarios, and KEY-KEY.png, the map over the two with the largest total indices (the first two
-/// without indices). What neither the design nor the surrogate covers is left out. points.png,
-/// every point over each parameter, where a curve is not measured. The files, by name.
-Result<std::vector<std::string>> draw_response(const ResponseTable& table,
-                                               const Objective& objective,
-                                               const std::filesystem::path& folder);
+/// Draws the objective of a table into a folder; the files, by name
+/// (render/results/response_pictures.hpp).
+using DrawResponse = std::function<Result<std::vector<std::string>>(
+    const ResponseTable& table, const Objective& objective, const std::filesystem::path& folder)>;
 
 /// Links to the pictures, as Markdown.
 std::string pictures_markdown(const std::vector<std::string>& names);

@@ -215,7 +215,8 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
 }
 
 Result<void> write_sweep_summary(const MergedSweep& sweep, Objective objective,
-                                 const fs::path& folder, std::vector<std::string>& warnings) {
+                                 const fs::path& folder, const DrawResponse& draw,
+                                 std::vector<std::string>& warnings) {
   const auto responses = sweep_responses(sweep, objective.score);
   if (!responses) return tl::unexpected(responses.error());
   std::string text = "# Sweep\n";
@@ -234,7 +235,7 @@ Result<void> write_sweep_summary(const MergedSweep& sweep, Objective objective,
     const std::string part = responses->size() > 1 ? fmt::format("estimator-{}", i + 1) : "";
     std::error_code ignored;
     fs::create_directories(folder / part, ignored);
-    auto drawn = draw_response(response.table, own, folder / part);
+    auto drawn = draw(response.table, own, folder / part);
     if (!drawn) {
       warnings.push_back(drawn.error().message);
       continue;

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/sweep_store.hpp"
+#include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/objective.hpp"
+#include "bench/tuning/response_report.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -58,7 +59,7 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
 /// per estimator where there are several), so far as jobs are done. Where default runs are missing,
 /// a relative objective becomes one of plain scores. What cannot be drawn is named in `warnings`.
 Result<void> write_sweep_summary(const MergedSweep& sweep, Objective objective,
-                                 const std::filesystem::path& folder,
+                                 const std::filesystem::path& folder, const DrawResponse& draw,
                                  std::vector<std::string>& warnings);
 
 }  // namespace aims

@@ -163,7 +163,7 @@ RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
     const std::vector<std::vector<RunScore>> none(sequences.size());
     SequenceScores scores(estimators.size(), none);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-      const auto result = runner.folder().find(jobs[i].id);
+      const auto result = runner.store().find(jobs[i].id);
       auto& of_unit = scores[i % estimators.size()][i / estimators.size()];
       for (const Objective& each : objectives) {
         of_unit.push_back(result ? run_score(*result, each.score) : RunScore{});

@@ -262,10 +262,10 @@ TextTable front_table(const TuneResult& result) {
 }
 
 Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder,
-                          std::vector<std::string>& warnings) {
+                          const DrawResponse& draw, std::vector<std::string>& warnings) {
   std::vector<std::string> pictures;
   if (!result.chosen.empty()) {
-    auto drawn = draw_response(result.tables.front(), result.task.plan.objectives.front(), folder);
+    auto drawn = draw(result.tables.front(), result.task.plan.objectives.front(), folder);
     if (drawn) {
       pictures = std::move(*drawn);
     } else {

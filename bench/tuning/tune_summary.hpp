@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/tuning/response_report.hpp"
 #include "bench/tuning/tune.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
@@ -29,6 +30,6 @@ TextTable front_table(const TuneResult& result);
 /// Writes tune.md, tune.csv (every point), tuned.yaml (of one objective) and pictures of the first
 /// objective into `folder`. Pictures that cannot be drawn are named in `warnings`.
 Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder,
-                          std::vector<std::string>& warnings);
+                          const DrawResponse& draw, std::vector<std::string>& warnings);
 
 }  // namespace aims

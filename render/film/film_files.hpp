@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/run.hpp"
+#include "bench/run/evaluate.hpp"
 #include "bench/run/scenario.hpp"
 #include "core/error.hpp"
 #include "render/film/film.hpp"

@@ -5,6 +5,7 @@
 #include "bench/run/start_anchor.hpp"
 #include "bench/run/stream.hpp"
 #include "core/stopwatch.hpp"
+#include "sim/simulation.hpp"
 
 namespace aims {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/run.hpp"
+#include "bench/run/progress.hpp"
 #include "bench/run/scenario.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "bench/studies/suite_report.hpp"
+#include "bench/studies/suite_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "render/page/page_template.hpp"
 #include "render/page/run_folder.hpp"

@@ -85,7 +85,7 @@ Json changes_json(const RunFolder& run) {
 
 Json diverged_at_json(const RunFolder& run, const std::string& name, double start) {
   const Json scores = member(member(run.scores, "estimators"), name);
-  const Json diverged_at = member(scores, "lost_at_s");
+  const Json diverged_at = member(scores, "diverged_at_s");
   return diverged_at.is_number() ? Json(diverged_at.get<double>() - start) : Json();
 }
 

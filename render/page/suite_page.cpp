@@ -11,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/jobs/stored_results.hpp"
-#include "bench/jobs/unit_store.hpp"
+#include "bench/jobs/results.hpp"
 #include "bench/studies/comparison.hpp"
-#include "bench/studies/suite.hpp"
+#include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "render/page/detector_curves.hpp"
 #include "render/page/json_access.hpp"
@@ -48,10 +47,10 @@ Result<void> check_scenarios(const Json& suite, const fs::path& file) {
 
 /// What the page shows of one estimator on one seed.
 Json outcome_of(const RunRecord& run, const std::string& estimator) {
-  const Json& scores = run.scores["estimators"][estimator];
+  const Json& scores = estimator_in(run, estimator);
   Json outcome = {{"success", member(scores, "success")},
-                  {"lost_at_s", json_of(find_score(run, estimator, "lost_at_s"))},
-                  {"lost_reason", text_in(scores, "lost_reason")}};
+                  {"diverged_at_s", json_of(find_score(run, estimator, "diverged_at_s"))},
+                  {"diverged_reason", text_in(scores, "diverged_reason")}};
   for (const HeadlineScore& score : kHeadlineScores) {
     outcome[score.key] = json_of(find_score(run, estimator, score.key));
   }
@@ -66,25 +65,34 @@ Json run_link(const fs::path& run_folder, const fs::path& page_folder) {
   return link_to(target.lexically_relative(fs::weakly_canonical(page_folder, ignored)));
 }
 
+/// The record of that seed; null when there is none.
+const RunRecord* record_in(const StoredResults& results, const std::string& scenario,
+                           std::uint64_t seed) {
+  const auto runs = results.find(scenario);
+  if (runs == results.end()) return nullptr;
+  const auto found = std::find_if(runs->second.begin(), runs->second.end(),
+                                  [seed](const RunRecord& run) { return run.seed == seed; });
+  return found == runs->second.end() ? nullptr : &*found;
+}
+
 /// A row per scenario and seed.
 Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_folder, Json& notes) {
-  const UnitStore store(folder);
+  const StoredResults results = read_results(folder).value_or(StoredResults());
   Json runs = Json::array();
   for (const Json& scenario : suite["scenarios"]) {
     const std::string name = text_in(scenario, "name");
-    for (const Json& seed : scenario["seeds"]) {
-      const fs::path run_folder = store.folder_of(name, seed.get<std::uint64_t>());
+    for (const Json& json : scenario["seeds"]) {
+      const auto seed = json.get<std::uint64_t>();
       Json run = {{"scenario", name},
                   {"seed", seed},
-                  {"href", run_link(run_folder, page_folder)},
+                  {"href", run_link(suite_run_folder(folder, name, seed), page_folder)},
                   {"estimators", Json::object()}};
-      const auto record = read_record(run_folder / "scores.json");
-      if (!record) {
-        notes.push_back(fmt::format("{}, seed {}: its scores.json cannot be read", name,
-                                    seed.get<std::uint64_t>()));
+      const RunRecord* record = record_in(results, name, seed);
+      if (record == nullptr) {
+        notes.push_back(fmt::format("{}, seed {}: no results of its jobs", name, seed));
       } else {
         for (const auto& [estimator, unused] : scenario["estimators"].items()) {
-          if (!record->scores["estimators"].contains(estimator)) continue;
+          if (estimator_in(*record, estimator).is_null()) continue;
           run["estimators"][estimator] = outcome_of(*record, estimator);
         }
       }

@@ -94,14 +94,14 @@ std::map<std::vector<double>, TunedPoint> points_in(const fs::path& file, const 
 }
 
 /// A unit's file as one of a sweep, where it is one.
-Result<MergedJob> unit_of(const JobResults& folder, const std::string& id) {
+Result<MergedJob> unit_of(const JobStore& folder, const std::string& id) {
   auto json = folder.read(id);
   const bool whole = json && result_in(*json) && member(*json, "settings").is_object() &&
                      member(*json, "seed").is_number_unsigned() &&
                      !text_in(*json, "scenario").empty();
   if (!whole) return failure(id);
   const std::string seed = fmt::format("{}", (*json)["seed"].get<std::uint64_t>());
-  return MergedJob{{id, text_in(*json, "scenario"), seed, text_in(*json, "estimator")},
+  return MergedJob{{id, text_in(*json, "scenario"), seed, "", text_in(*json, "estimator")},
                     std::move(*json)};
 }
 
@@ -117,7 +117,7 @@ Result<TuningSource> read_tune(const fs::path& folder) {
   source.units.plans = {as_sweep(*plan)};
   source.held_out.plans = source.units.plans;
   source.points = points_in(folder / kTunePoints, *plan);
-  const JobResults units(folder / "jobs");
+  const JobStore units(folder);
   std::size_t broken = 0;
   for (const std::string& id : units.ids()) {
     auto unit = unit_of(units, id);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/sweep_store.hpp"
+#include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/objective.hpp"
 #include "core/error.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "bench/run/run.hpp"
+#include "bench/run/evaluate.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
 

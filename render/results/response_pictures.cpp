@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "render/results/response_pictures.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "tests/bench/jobs/short_walk.hpp"
+#include "tests/bench/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -26,7 +26,8 @@ Job job_of(const std::shared_ptr<const Scenario>& scenario, const std::string& s
 }
 
 /// An estimator that does what its label says, in place of a real one.
-Result<EstimatorOutcome> pretended(const Sequence&, const Scenario&, const std::string& spec) {
+Result<EstimatorOutcome> pretended(const Sequence&, const Scenario&, const std::string& spec,
+                                   const PartObserver&) {
   if (spec.find("eta=1") != std::string::npos) std::raise(SIGSEGV);
   while (spec.find("eta=2") != std::string::npos) ::pause();
   if (spec.find("eta=3") != std::string::npos) return failure("not today");
@@ -45,7 +46,7 @@ class Jobs : public ::testing::Test {
 
   JobOptions options(int jobs = 1) const {
     JobOptions options;
-    options.folder = folder_.path() / fs::path("jobs");
+    options.out = folder_.path() / fs::path("out");
     options.cache = sequences_->path();
     options.jobs = jobs;
     return options;
@@ -66,7 +67,7 @@ TEST_F(Jobs, GiveTheSameScoresForAnyNumberOfJobsAndAreNeverRepeated) {
   std::map<std::string, Json> first;
   for (const int processes : {1, 2}) {
     JobOptions some = options(processes);
-    some.folder = folder_.path() / std::to_string(processes);
+    some.out = folder_.path() / std::to_string(processes);
     JobRunner runner(some);
     const auto done = runner.run(jobs, keep_going);
     ASSERT_TRUE(done) << done.error().message;
@@ -74,7 +75,7 @@ TEST_F(Jobs, GiveTheSameScoresForAnyNumberOfJobsAndAreNeverRepeated) {
     EXPECT_EQ(done->failed, 0U);
     EXPECT_EQ(done->sequences, 0U) << "the sequence was there";
     for (const Job& job : jobs) {
-      auto result = runner.folder().find(job.id);
+      auto result = runner.store().find(job.id);
       ASSERT_TRUE(result);
       EXPECT_EQ(score_in(*result, "success"), 1.0);
       result->scores.erase("time_per_scan_ms");
@@ -101,7 +102,7 @@ TEST_F(Jobs, ThatCrashHangOrFailAreRecordedAndStopNothing) {
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->done, 4U);
   EXPECT_EQ(run->failed, 3U);
-  const auto result = [&](int i) { return runner.folder().find(jobs[i].id).value(); };
+  const auto result = [&](int i) { return runner.store().find(jobs[i].id).value(); };
   EXPECT_EQ(result(0).outcome, JobOutcome::kCrashed);
   EXPECT_EQ(result(0).message, "signal 11 (Segmentation fault)");
   EXPECT_EQ(result(1).outcome, JobOutcome::kTimedOut);
@@ -124,21 +125,51 @@ TEST_F(Jobs, OnAWalkThatCannotBeSimulatedFailWithTheReason) {
   const auto run = runner.run(jobs, keep_going);
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->failed, 2U);
-  const auto result = runner.folder().find(jobs[0].id);
+  const auto result = runner.store().find(jobs[0].id);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->outcome, JobOutcome::kFailed);
   EXPECT_NE(result->message.find("the sequence could not be simulated: "), std::string::npos);
-  EXPECT_EQ(runner.folder().find(jobs[2].id)->outcome, JobOutcome::kDone);
+  EXPECT_EQ(runner.store().find(jobs[2].id)->outcome, JobOutcome::kDone);
+}
+
+TEST_F(Jobs, AreDoneAgainWhenAnOutputIsWantedThatTheyLack) {
+  const std::vector<Job> jobs = {job_of(shared(short_walk()), "aims")};
+  ASSERT_TRUE(JobRunner(options()).run(jobs, keep_going));
+  JobOptions more = options();
+  more.outputs = {.trajectories = true, .weak_axis = true};
+  JobRunner runner(more);
+  EXPECT_EQ(runner.run(jobs, keep_going)->done, 1U);
+  const fs::path own = runner.store().outputs_of(jobs[0].id);
+  for (const char* name : {"estimate.tum", "estimate.map.ply", "estimate.diagnostics.csv",
+                           "weak_axis.csv"}) {
+    EXPECT_TRUE(fs::exists(own / name)) << name;
+  }
+  EXPECT_EQ(runner.run(jobs, keep_going)->reused, 1U);
+  fs::remove(own / "weak_axis.csv");
+  EXPECT_EQ(runner.run(jobs, keep_going)->done, 1U);
+  EXPECT_EQ(JobRunner(options()).run(jobs, keep_going)->reused, 1U) << "scores alone are there";
+}
+
+TEST_F(Jobs, TellHowFarTheyAre) {
+  const std::vector<Job> jobs = {job_of(shared(short_walk()), "leg", 3)};
+  double last = 0.0;
+  const auto run = JobRunner(options()).run(jobs, [&](const JobProgress& progress) {
+    EXPECT_GE(progress.fraction, last);
+    last = progress.fraction;
+    return true;
+  });
+  ASSERT_TRUE(run);
+  EXPECT_EQ(last, 1.0);
 }
 
 TEST_F(Jobs, AreDoneAgainWhenTheirFileIsBroken) {
   const std::vector<Job> jobs = {job_of(shared(short_walk()), "leg")};
   JobRunner runner(options());
   ASSERT_TRUE(runner.run(jobs, keep_going));
-  const fs::path file = runner.folder().path() / (jobs[0].id + ".json");
+  const fs::path file = runner.store().path() / "jobs" / (jobs[0].id + ".json");
   fs::resize_file(file, fs::file_size(file) / 2);
   EXPECT_EQ(runner.run(jobs, keep_going)->done, 1U);
-  EXPECT_TRUE(runner.folder().find(jobs[0].id));
+  EXPECT_TRUE(runner.store().find(jobs[0].id));
 }
 
 TEST_F(Jobs, MakeABrokenWalkAnew) {
@@ -180,7 +211,7 @@ TEST_F(Jobs, KeepTheCacheWithinItsLimitButForTheirOwnWalks) {
 
   small.cache_limit = 0;
   std::ofstream(old) << "of an earlier sweep";
-  small.folder = folder_.path() / "again";
+  small.out = folder_.path() / "again";
   ASSERT_TRUE(JobRunner(small).run(jobs, keep_going));
   EXPECT_TRUE(fs::exists(old)) << "any size";
 }
@@ -200,11 +231,11 @@ TEST_F(Jobs, EndWhenTheObserverHasEnough) {
 
 TEST_F(Jobs, AFolderThatCannotBeWrittenEndsTheWorkAndIsNamed) {
   JobOptions blocked = options();
-  std::ofstream(folder_.path() / "jobs") << "a file where the folder should be";
+  std::ofstream(folder_.path() / "out") << "a file where the folder should be";
   const std::vector<Job> jobs = {job_of(shared(short_walk()), "leg")};
   const auto run = JobRunner(blocked).run(jobs, keep_going);
   ASSERT_FALSE(run);
-  EXPECT_NE(run.error().message.find((folder_.path() / "jobs").string()), std::string::npos);
+  EXPECT_NE(run.error().message.find((folder_.path() / "out").string()), std::string::npos);
 }
 
 }  // namespace

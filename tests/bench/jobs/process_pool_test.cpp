@@ -24,9 +24,9 @@ TEST(ProcessPool, GivesBackWhatEachReturns) {
   ProcessPool pool(3);
   const std::string remembered = "of the caller";
   const std::string large(1'000'000, 'x');  // more than a pipe holds
-  ASSERT_TRUE(pool.start(5, 0.0, [&] { return remembered; }));
-  ASSERT_TRUE(pool.start(6, 0.0, [&] { return large; }));
-  ASSERT_TRUE(pool.start(7, 0.0, [] { return std::string(); }));
+  ASSERT_TRUE(pool.start(5, 0.0, [&](auto&) { return remembered; }));
+  ASSERT_TRUE(pool.start(6, 0.0, [&](auto&) { return large; }));
+  ASSERT_TRUE(pool.start(7, 0.0, [](auto&) { return std::string(); }));
   EXPECT_FALSE(pool.has_room());
   auto ended = all_of(pool);
   EXPECT_TRUE(pool.has_room());
@@ -38,12 +38,12 @@ TEST(ProcessPool, GivesBackWhatEachReturns) {
 
 TEST(ProcessPool, SaysByWhatAProcessCrashed) {
   ProcessPool pool(3);
-  ASSERT_TRUE(pool.start(1, 0.0, [] {
+  ASSERT_TRUE(pool.start(1, 0.0, [](auto&) {
     std::raise(SIGKILL);
     return std::string();
   }));
-  ASSERT_TRUE(pool.start(2, 0.0, []() -> std::string { throw std::runtime_error("no way"); }));
-  ASSERT_TRUE(pool.start(3, 0.0, []() -> std::string { ::_exit(3); }));
+  ASSERT_TRUE(pool.start(2, 0.0, [](auto&) -> std::string { throw std::runtime_error("no way"); }));
+  ASSERT_TRUE(pool.start(3, 0.0, [](auto&) -> std::string { ::_exit(3); }));
   auto ended = all_of(pool);
   for (const auto& [key, each] : ended) EXPECT_EQ(each.end, ProcessEnd::kCrashed) << key;
   EXPECT_EQ(ended[1].text, "signal 9 (Killed)");
@@ -53,11 +53,11 @@ TEST(ProcessPool, SaysByWhatAProcessCrashed) {
 
 TEST(ProcessPool, EndsWhatTakesTooLongAndNothingElse) {
   ProcessPool pool(2);
-  ASSERT_TRUE(pool.start(1, 0.05, [] {
+  ASSERT_TRUE(pool.start(1, 0.05, [](auto&) {
     while (true) ::pause();
     return std::string();
   }));
-  ASSERT_TRUE(pool.start(2, 60.0, [] { return std::string("in time"); }));
+  ASSERT_TRUE(pool.start(2, 60.0, [](auto&) { return std::string("in time"); }));
   auto ended = all_of(pool);
   EXPECT_EQ(ended[1].end, ProcessEnd::kTimedOut);
   EXPECT_EQ(ended[2].text, "in time");
@@ -68,7 +68,7 @@ TEST(ProcessPool, LeavesNoProcessBehind) {
   ASSERT_EQ(::pipe(ends), 0);
   {
     ProcessPool pool(1);
-    ASSERT_TRUE(pool.start(1, 0.0, [] {
+    ASSERT_TRUE(pool.start(1, 0.0, [](auto&) {
       while (true) ::pause();
       return std::string();
     }));

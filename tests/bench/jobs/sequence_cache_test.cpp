@@ -11,11 +11,13 @@
 
 #include "bench/run/evaluate.hpp"
 #include "bench/run/sequence_file.hpp"
-#include "bench/run/run.hpp"
+#include "bench/run/evaluate.hpp"
 #include "bench/run/score_record.hpp"
+#include "bench/run/stream.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/tum.hpp"
 #include "sim/simulation.hpp"
-#include "tests/bench/jobs/short_walk.hpp"
+#include "tests/bench/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -24,14 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::short_walk;
 
-/// What the estimators of a record came to, but for the wall times.
-Json without_times(Json scores) {
-  scores.erase("time_per_scan_ms");
-  return scores;
-}
-
 /// One sequence that the tests share, since simulating it takes most of their time.
-class Sequence : public ::testing::Test {
+class SequenceFile : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new TemporaryFolder;
@@ -49,9 +45,9 @@ class Sequence : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TemporaryFolder* Sequence::shared_ = nullptr;
+TemporaryFolder* SequenceFile::shared_ = nullptr;
 
-TEST_F(Sequence, ReadsBackEveryDeliveryBitForBit) {
+TEST_F(SequenceFile, ReadsBackEveryDeliveryBitForBit) {
   auto simulation = Simulation::create(short_walk().simulation, 1);
   ASSERT_TRUE(simulation);
   std::vector<Delivery> direct;
@@ -100,23 +96,55 @@ TEST_F(Sequence, ReadsBackEveryDeliveryBitForBit) {
   EXPECT_GT(scans, 20U);
 }
 
-TEST_F(Sequence, EvaluatedGivesTheScoresOfTheDirectRun) {
+TEST_F(SequenceFile, ReadsBackTheTruthBitForBit) {
+  auto simulation = Simulation::create(short_walk().simulation, 1);
+  ASSERT_TRUE(simulation);
+  std::vector<Delivery> deliveries;
+  while (simulation->advance(kSecond, deliveries)) continue;
+  const Truth& made = simulation->truth();
+  const Truth read = SequenceReader::open(file())->truth();
+  ASSERT_EQ(read.samples.size(), made.samples.size());
+  for (std::size_t i = 0; i < made.samples.size(); ++i) {
+    ASSERT_EQ(read.samples[i].stamp, made.samples[i].stamp);
+    ASSERT_EQ(read.samples[i].T_world_body.translation, made.samples[i].T_world_body.translation);
+    ASSERT_EQ(read.samples[i].slip_speed, made.samples[i].slip_speed);
+  }
+  ASSERT_EQ(read.snapshots.size(), made.snapshots.size());
+  ASSERT_FALSE(made.snapshots.empty());
+  EXPECT_EQ(read.snapshots.back().qpos, made.snapshots.back().qpos);
+  ASSERT_EQ(read.scans.size(), made.scans.size());
+  EXPECT_EQ(read.scans.back().information, made.scans.back().information);
+  EXPECT_EQ(read.waypoint_times.size(), made.waypoint_times.size());
+}
+
+TEST_F(SequenceFile, GivesEstimatorsWhatTheSimulationGives) {
   Scenario scenario = short_walk();
   scenario.estimators = {"aims", "other=aims+degeneracy.eta=1", "leg"};
-  const auto direct = run(scenario, {1, 1}, [](const Progress&) { return true; });
+  auto simulation = Simulation::create(scenario.simulation, 1);
+  ASSERT_TRUE(simulation);
+  auto direct = make_estimators(scenario.estimators, scenario.estimator, simulation->rig());
   ASSERT_TRUE(direct);
+  std::vector<Delivery> deliveries;
+  while (simulation->advance(kSecond, deliveries)) continue;
   const auto sequence = open_sequence(file(), scenario);
   ASSERT_TRUE(sequence) << sequence.error().message;
   for (std::size_t i = 0; i < scenario.estimators.size(); ++i) {
-    const auto outcome = evaluate(*sequence, scenario, scenario.estimators[i]);
+    TimedEstimator& estimator = (*direct)[i];
+    estimator.consume(deliveries);
+    estimator.finish();
+    const Trajectory& trajectory = estimator.estimator().result().trajectory;
+    const auto outcome = evaluate(*sequence, scenario, scenario.estimators[i], [](double) {});
     ASSERT_TRUE(outcome) << outcome.error().message;
-    EXPECT_EQ(without_times(estimator_json(*outcome)),
-              without_times(estimator_json(direct->estimators[i])))
-        << scenario.estimators[i];
+    EXPECT_EQ(tum_text(outcome->result.trajectory), tum_text(trajectory)) << estimator.name();
+    const Truth& truth = simulation->truth();
+    const Scores scores =
+        score(trajectory, body_trajectory(truth), truth.waypoint_times, scenario.scoring);
+    EXPECT_EQ(scores_json(outcome->scores), scores_json(scores)) << estimator.name();
+    EXPECT_FALSE(outcome->weak_axis.empty());
   }
 }
 
-TEST_F(Sequence, IsRefusedWhenCutShortOrOfAnotherFormat) {
+TEST_F(SequenceFile, IsRefusedWhenCutShortOrOfAnotherFormat) {
   const std::string whole = read_file(file()).value();
   const fs::path broken = folder_.path() / "broken.sequence";
   for (const std::size_t size :
@@ -133,7 +161,7 @@ TEST_F(Sequence, IsRefusedWhenCutShortOrOfAnotherFormat) {
   EXPECT_FALSE(SequenceReader::open(broken));
 }
 
-TEST_F(Sequence, IsMadeOnce) {
+TEST_F(SequenceFile, IsMadeOnce) {
   const SequenceCache cache(shared_->path());
   const auto stamp = fs::last_write_time(file());
   const auto again = cache.make(short_walk(), 1);

@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "bench/jobs/stored_results.hpp"
-#include "bench/run/trajectory_report.hpp"
+#include "bench/jobs/results.hpp"
+#include "bench/run/trajectory_summary.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
+#include <optional>
 
-#include "bench/run/weak_axis_series.hpp"
 #include "bench/studies/consistency_study.hpp"
 #include "core/files/atomic_file.hpp"
-#include "tests/bench/run/short_walk.hpp"
+#include "render/results/consistency_pictures.hpp"
+#include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -88,49 +88,54 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
     }
     suite.cases.push_back(std::move(each));
   }
-  const Ablation ablation = ablation_of(std::move(suite), "aims_d");
-  ASSERT_EQ(ablation.worth.size(), 2U);
-  EXPECT_NEAR(*ablation.worth[0].ratios[2], 1.0, 1e-12);
-  EXPECT_NEAR(*ablation.worth[1].ratios[2], 4.0, 1e-12);
-  EXPECT_NEAR(*ablation.worth[1].worst_ratio, 8.0, 1e-12);
-  EXPECT_EQ(ablation.worth[1].worst_scenario, "b");
-  EXPECT_EQ(ablation.worth[1].changes, "aims_d+directional.ground_constraint.enabled=false");
+  const Ablation ablation = ablation_of(suite, "aims_d");
+  ASSERT_EQ(ablation.effects.size(), 2U);
+  EXPECT_NEAR(*ablation.effects[0].ratios[2], 1.0, 1e-12);
+  EXPECT_NEAR(*ablation.effects[1].ratios[2], 4.0, 1e-12);
+  EXPECT_NEAR(*ablation.effects[1].worst_ratio, 8.0, 1e-12);
+  EXPECT_EQ(ablation.effects[1].worst_scenario, "b");
+  EXPECT_EQ(ablation.effects[1].changes, "aims_d+directional.ground_constraint.enabled=false");
   EXPECT_NEAR(*ablation.cases[0].rows[1].cells[2].median, 0.4, 1e-12);
   EXPECT_NEAR(*ablation.cases[0].rows[1].cells[2].ratio, 2.0, 1e-12);
-  EXPECT_FALSE(ablation.worth[1].ratios[0]) << "no run has M_list";
+  EXPECT_FALSE(ablation.effects[1].ratios[0]) << "no run has M_list";
 }
 
-TEST(Ablation, RunsAllVariantsOnOneStreamAndContinues) {
+TEST(Ablation, DoesAllVariantsOnOneSequenceAndContinues) {
   const TemporaryFolder folder;
-  AblationOptions options;
-  options.groups = {"directional.ground_constraint"};
-  options.others = {"lio"};
-  options.suite = options_for(folder.path() / "out", 2);
-  const auto first = run_ablation(one_walk(), options, keep_going);
-  ASSERT_TRUE(first) << first.error().message;
-  EXPECT_EQ(first->suite.runs_done, 2U) << "a seed is simulated once for all variants";
-  ASSERT_EQ(first->cases.at(0).rows.size(), 3U);
-  EXPECT_EQ(first->cases[0].rows[1].label, "no_ground_constraint");
-  for (const char* name : {"ablation.md", "ablation.csv", "ablation.json", "suite.json"}) {
-    EXPECT_TRUE(fs::exists(folder.path() / "out" / name)) << name;
+  const fs::path out = folder.path() / "out";
+  const AblationOptions variants = {"aims_d", {"directional.ground_constraint"}, {"lio"}};
+  std::optional<std::string> csv;
+  for (const int processes : {2, 1}) {
+    std::vector<ScenarioFile> scenarios = one_walk();
+    ASSERT_TRUE(set_variants(variants, scenarios));
+    const auto suite = run_suite(std::move(scenarios), options_for(out, processes), keep_going);
+    ASSERT_TRUE(suite) << suite.error().message;
+    EXPECT_EQ(suite->run.done, processes == 2 ? 6U : 0U) << "three variants on two seeds, once";
+    const Ablation ablation = ablation_of(*suite, "aims_d");
+    ASSERT_EQ(ablation.cases.at(0).rows.size(), 3U);
+    EXPECT_EQ(ablation.cases[0].rows[1].label, "no_ground_constraint");
+    ASSERT_TRUE(write_ablation(ablation, *suite, out));
+    for (const char* name : {"ablation.md", "ablation.json"}) EXPECT_TRUE(fs::exists(out / name));
+    const auto text = read_file(out / "ablation.csv");
+    ASSERT_TRUE(text);
+    EXPECT_EQ(csv.value_or(*text), *text);
+    csv = *text;
   }
-  const auto csv = read_file(folder.path() / "out" / "ablation.csv");
-  options.suite.jobs = 1;
-  const auto again = run_ablation(one_walk(), options, keep_going);
-  ASSERT_TRUE(again);
-  EXPECT_EQ(again->suite.runs_done, 0U);
-  EXPECT_EQ(*csv, *read_file(folder.path() / "out" / "ablation.csv"));
 }
 
-TEST(ConsistencyStudy, KeepsASeriesPerSeedAndRunsWhatLacksIt) {
+TEST(ConsistencyStudy, KeepsASeriesPerSeedAndDoesTheJobsThatLackIt) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
   ASSERT_TRUE(run_suite(one_walk(), options_for(out), keep_going));
-  const auto study = run_consistency(one_walk(), options_for(out), keep_going);
+  SuiteOptions options = options_for(out);
+  options.jobs.outputs.weak_axis = true;
+  const auto suite = run_suite(one_walk(), options, keep_going);
+  ASSERT_TRUE(suite) << suite.error().message;
+  EXPECT_EQ(suite->run.done, 4U) << "jobs without a series are no answer";
+  const auto study = consistency_study(*suite, out);
   ASSERT_TRUE(study) << study.error().message;
-  EXPECT_EQ(study->suite.runs_done, 2U) << "a suite without series is no answer";
-  ASSERT_EQ(study->cases.size(), 2U);
-  const ConsistencyCase& aims = study->cases[0];
+  ASSERT_EQ(study->size(), 2U);
+  const ConsistencyCase& aims = study->at(0);
   EXPECT_EQ(aims.estimator, "aims");
   EXPECT_EQ(aims.seeds, (std::vector<std::uint64_t>{1, 2}));
   ASSERT_GE(aims.runs[0].size(), 3U);
@@ -139,17 +144,15 @@ TEST(ConsistencyStudy, KeepsASeriesPerSeedAndRunsWhatLacksIt) {
   }
   EXPECT_TRUE(aims.runs[0].back().sigma_m);
   EXPECT_GE(aims.runs[0].back().leg_bound_m, aims.runs[0].back().bound_m);
-  EXPECT_FALSE(study->cases[1].runs[0].empty() || study->cases[1].runs[0][0].sigma_m)
+  EXPECT_FALSE(study->at(1).runs[0].empty() || study->at(1).runs[0][0].sigma_m)
       << "leg states no covariance";
+  ASSERT_TRUE(write_consistency(*study, *suite, out));
+  ASSERT_TRUE(draw_consistency(*study, out));
   for (const char* name : {"consistency.md", "consistency.csv", "consistency.json",
                            "short-aims-consistency.png", "short-leg-consistency.svg"}) {
     EXPECT_TRUE(fs::exists(out / name)) << name;
   }
-  const auto csv = read_file(out / "consistency.csv");
-  const auto again = run_consistency(one_walk(), options_for(out, 2), keep_going);
-  ASSERT_TRUE(again);
-  EXPECT_EQ(again->suite.runs_done, 0U);
-  EXPECT_EQ(*csv, *read_file(out / "consistency.csv"));
+  EXPECT_EQ(run_suite(one_walk(), options, keep_going)->run.done, 0U);
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ std::vector<double> shifted(double by) {
 TEST(Compare, SaysWhatIsWorseOrBetterBeyondNoise) {
   const auto worse = compare(results(kBefore), results(shifted(0.1)));
   EXPECT_EQ(ate_change(worse).verdict, ChangeVerdict::kWorse);
-  EXPECT_NEAR(ate_change(worse).change, 0.102, 1e-9);
-  EXPECT_EQ(ate_change(worse).seeds, 6U);
+  EXPECT_NEAR(ate_change(worse).pairs.change, 0.102, 1e-9);
+  EXPECT_EQ(ate_change(worse).pairs.count, 6U);
   const auto better = compare(results(shifted(0.1)), results(kBefore));
   EXPECT_EQ(ate_change(better).verdict, ChangeVerdict::kBetter);
 }
@@ -99,7 +99,7 @@ TEST(Compare, ExpectsAsManyFalseAlarmsAsThereAre) {
 TEST(Compare, WithOneCommonSeedKnowsNothingOfNoise) {
   const Comparison one = compare(results({0.2}), results({0.4, 0.1}));
   EXPECT_EQ(ate_change(one).verdict, ChangeVerdict::kUnknown);
-  EXPECT_EQ(ate_change(one).interval, Interval{});
+  EXPECT_EQ(ate_change(one).pairs.interval, Interval{});
   EXPECT_NE(summary_text(one).find("one seed"), std::string::npos);
   EXPECT_EQ(one.only_after, std::vector<std::string>({"walk, aims, seed 2"}));
 }

@@ -5,9 +5,11 @@
 
 #include <cmath>
 
-#include "bench/studies/detector_report.hpp"
+#include "bench/studies/detector_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/random.hpp"
+#include "render/results/detector_pictures.hpp"
+#include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -89,7 +91,8 @@ TEST(Detectors, SayWhichLevelsNeverChangeAndHaveNoNan) {
   study.scores = scores;
   study.warnings = lines;
   const TemporaryFolder folder;
-  ASSERT_TRUE(write_detectors(study, "aims", folder.path()));
+  ASSERT_TRUE(write_detectors(study, folder.path()));
+  ASSERT_TRUE(draw_detectors(study, folder.path()));
   for (const char* name : {"detectors.json", "detectors.csv", "detectors.md"}) {
     const std::string text = read_file(folder.path() / name).value();
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
@@ -153,23 +156,29 @@ Scenario short_walk(const std::string& name, double range) {
   return scenario;
 }
 
-TEST(RunDetectors, WritesTheSameBytesWithOneJobAndWithTwo) {
+/// The jobs of both ranges on two seeds, judged.
+Result<DetectorStudy> study_of(const std::string& estimator, int processes, const fs::path& out) {
+  std::vector<ScenarioFile> scenarios = {{"near.yaml", short_walk("near", 6.0)},
+                                         {"far.yaml", short_walk("far", 20.0)}};
+  for (ScenarioFile& each : scenarios) each.scenario->estimators = {estimator};
+  SuiteOptions options = test::options_for(out, processes);
+  options.jobs.outputs.trajectories = true;
+  const auto suite = run_suite(std::move(scenarios), options, test::keep_going);
+  if (!suite) return tl::unexpected(suite.error());
+  return detector_study(*suite, out);
+}
+
+TEST(DetectorStudy, WritesTheSameBytesWithOneJobAndWithTwo) {
   const TemporaryFolder folder;
-  const std::vector<Scenario> scenarios = {short_walk("near", 6.0), short_walk("far", 20.0)};
-  const auto study = [&](int jobs, const std::string& name) {
-    DetectorOptions options;
-    options.seeds = {1, 2};
-    options.jobs = jobs;
-    options.out = folder.path() / name;
-    return run_detectors(scenarios, options, [](const std::string&, int, int) { return true; });
-  };
-  const auto one = study(1, "one");
-  const auto two = study(2, "two");
+  const auto one = study_of("aims", 1, folder.path() / "one");
+  const auto two = study_of("aims", 2, folder.path() / "two");
   ASSERT_TRUE(one && two) << (one ? two.error().message : one.error().message);
   ASSERT_EQ(one->runs.size(), 4U);
   EXPECT_EQ(one->runs[1].scenario, "near");
   EXPECT_EQ(one->runs[1].seed, 2U);
-  for (const char* name : {"detectors.json", "detectors.csv", "detectors.md", "roc.png"}) {
+  ASSERT_TRUE(write_detectors(*one, folder.path() / "one"));
+  ASSERT_TRUE(write_detectors(*two, folder.path() / "two"));
+  for (const char* name : {"detectors.json", "detectors.csv", "detectors.md"}) {
     EXPECT_EQ(read_file(folder.path() / "one" / name).value(),
               read_file(folder.path() / "two" / name).value())
         << name;
@@ -177,17 +186,11 @@ TEST(RunDetectors, WritesTheSameBytesWithOneJobAndWithTwo) {
   EXPECT_TRUE(score_of(one->scores, "D", "n10").auc) << "the near sensor loses the end walls";
 }
 
-TEST(RunDetectors, RefusesAnEstimatorWithoutIndices) {
+TEST(DetectorStudy, RefusesAnEstimatorWithoutIndices) {
   const TemporaryFolder folder;
-  DetectorOptions options;
-  options.estimator = "leg";
-  options.out = folder.path() / "out";
-  const std::vector<Scenario> scenarios = {short_walk("near", 6.0)};
-  const auto study =
-      run_detectors(scenarios, options, [](const std::string&, int, int) { return true; });
+  const auto study = study_of("leg", 1, folder.path() / "out");
   ASSERT_FALSE(study);
   EXPECT_NE(study.error().message.find("leg"), std::string::npos);
-  EXPECT_FALSE(fs::exists(options.out));
 }
 
 }  // namespace

@@ -7,11 +7,10 @@
 #include <fstream>
 #include <map>
 
-#include "bench/jobs/job_id.hpp"
 #include "bench/studies/families.hpp"
+#include "bench/studies/suite_summary.hpp"
 #include "core/files/atomic_file.hpp"
-#include "core/files/folder_lock.hpp"
-#include "tests/bench/run/short_walk.hpp"
+#include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -34,16 +33,19 @@ std::vector<ScenarioFile> two_walks() {
   return {{"near.yaml", short_walk("near", 3.0)}, {"far.yaml", short_walk("far", 20.0)}};
 }
 
+/// Does the jobs and writes the views.
 Suite run_or_die(std::vector<ScenarioFile> scenarios, const SuiteOptions& options) {
   auto suite = run_suite(std::move(scenarios), options, keep_going);
   EXPECT_TRUE(suite) << suite.error().message;
-  return suite ? std::move(*suite) : Suite{};
+  if (!suite) return {};
+  EXPECT_TRUE(write_suite(*suite, options.jobs.out));
+  return std::move(*suite);
 }
 
-/// Everything that a suite reports, by file, but for the times.
-std::map<std::string, std::string> reports(const fs::path& folder) {
+/// The views of a suite, by file, but for the times.
+std::map<std::string, std::string> views(const fs::path& folder) {
   std::map<std::string, std::string> texts;
-  for (const char* name : {"suite.json", "suite.csv", "suite.md", "families/range.png"}) {
+  for (const char* name : {"suite.json", "suite.csv", "suite.md"}) {
     const auto text = read_file(folder / name);
     EXPECT_TRUE(text) << name;
     texts[name] = text.value_or("");
@@ -51,7 +53,7 @@ std::map<std::string, std::string> reports(const fs::path& folder) {
   return texts;
 }
 
-/// Expects equal reports without printing them.
+/// Expects equal texts without printing them.
 void expect_same(const std::map<std::string, std::string>& a,
                  const std::map<std::string, std::string>& b) {
   for (const auto& [name, text] : a) {
@@ -86,59 +88,50 @@ TemporaryFolder* SuiteRuns::shared_ = nullptr;
 
 TEST_F(SuiteRuns, GiveTheSameBytesForAnyNumberOfJobs) {
   const Suite suite = run_or_die(two_walks(), options_for(folder_.path() / "two", 2));
-  EXPECT_EQ(suite.runs_done, 4U);
-  expect_same(reports(shared_->path() / "done"), reports(folder_.path() / "two"));
+  EXPECT_EQ(suite.run.done, 8U);
+  expect_same(views(shared_->path() / "done"), views(folder_.path() / "two"));
 }
 
 TEST_F(SuiteRuns, AreNeverRepeated) {
   const fs::path out = copy();
-  const auto before = reports(out);
+  const auto before = views(out);
   const Suite again = run_or_die(two_walks(), options_for(out));
-  EXPECT_EQ(again.runs_done, 0U);
-  EXPECT_EQ(again.runs_reused, 4U);
-  expect_same(before, reports(out));
+  EXPECT_EQ(again.run.done, 0U);
+  EXPECT_EQ(again.run.reused, 8U);
+  expect_same(before, views(out));
 }
 
-TEST_F(SuiteRuns, ResumeToTheSameReportAfterALossOrABrokenFile) {
+TEST_F(SuiteRuns, ResumeToTheSameViewsAfterALossOrABrokenFile) {
   const fs::path out = copy();
-  const auto before = reports(out);
-  fs::remove_all(out / "runs" / "near" / "seed-2");
-  std::ofstream(out / "runs" / "far" / "seed-1" / "scores.json") << R"({"schema": "aims.sco)";
-  const Suite again = run_or_die(two_walks(), options_for(out, 2));
-  EXPECT_EQ(again.runs_done, 2U);
-  ASSERT_EQ(again.notes.size(), 1U);
-  EXPECT_NE(again.notes[0].find("far/seed-1"), std::string::npos) << again.notes[0];
-  expect_same(before, reports(out));
+  const auto before = views(out);
+  const auto jobs = JobStore(out).listed();
+  ASSERT_TRUE(jobs);
+  fs::remove(out / "jobs" / (jobs->front().id + ".json"));
+  std::ofstream(out / "jobs" / (jobs->back().id + ".json")) << R"({"schema": "aims.jo)";
+  EXPECT_EQ(run_or_die(two_walks(), options_for(out, 2)).run.done, 2U);
+  expect_same(before, views(out));
 }
 
 TEST_F(SuiteRuns, ContinueWhereTheyWereStopped) {
   const fs::path out = folder_.path() / "stopped";
   const auto stopped = run_suite(two_walks(), options_for(out),
-                                 [](const SuiteProgress& progress) { return progress.done < 2; });
+                                 [](const JobProgress& progress) { return progress.done < 2; });
   ASSERT_TRUE(stopped);
   EXPECT_FALSE(stopped->complete);
-  EXPECT_EQ(stopped->runs_done, 2U);
-  EXPECT_EQ(Json::parse(std::ifstream(out / "suite.json"))["complete"], false);
-  const Suite rest = run_or_die(two_walks(), options_for(out));
-  EXPECT_EQ(rest.runs_done, 2U);
-  expect_same(reports(out), reports(shared_->path() / "done"));
+  EXPECT_EQ(stopped->run.done, 2U);
+  EXPECT_EQ(suite_json(*stopped)["complete"], false);
+  EXPECT_EQ(run_or_die(two_walks(), options_for(out)).run.done, 6U);
+  expect_same(views(out), views(shared_->path() / "done"));
 }
 
-TEST_F(SuiteRuns, RunOnlyTheEstimatorsThatAreMissingOrOfAnotherConfiguration) {
+TEST_F(SuiteRuns, DoOnlyTheJobsThatAreMissingOrOfAnotherConfiguration) {
   const fs::path out = copy();
-  const auto before = reports(out);
-  const fs::path file = out / "runs" / "near" / "seed-1" / "scores.json";
-  Json scores = Json::parse(std::ifstream(file));
-  scores["estimators"]["leg"]["ate_m"] = 123.0;  // shows that it is kept
-  scores["units"]["aims"] = "0123456789abcdef";
-  std::ofstream(file) << scores;
-  const Suite again = run_or_die(two_walks(), options_for(out));
-  EXPECT_EQ(again.runs_done, 1U);
-  ASSERT_EQ(again.notes.size(), 1U);
-  EXPECT_NE(again.notes[0].find("near seed 1: aims of another"), std::string::npos);
-  const Json merged = Json::parse(std::ifstream(file));
-  EXPECT_EQ(merged["estimators"]["leg"]["ate_m"], 123.0);
-  EXPECT_TRUE(merged["times_s"]["estimators"].contains("leg"));
+  std::vector<ScenarioFile> scenarios = two_walks();
+  scenarios[0].scenario->estimators = {"aims+degeneracy.eta=1", "leg", "lio"};
+  const Suite again = run_or_die(std::move(scenarios), options_for(out));
+  EXPECT_EQ(again.run.done, 4U) << "two estimators on two seeds";
+  EXPECT_EQ(again.run.sequences, 0U);
+  EXPECT_EQ(run_or_die(two_walks(), options_for(out)).run.done, 0U) << "nothing was lost";
 }
 
 TEST_F(SuiteRuns, GoOnPastAScenarioThatCannotRun) {
@@ -150,58 +143,22 @@ TEST_F(SuiteRuns, GoOnPastAScenarioThatCannotRun) {
   scenarios.push_back({"broken.yaml", failure("broken.yaml:1: no")});
   const Suite suite = run_or_die(std::move(scenarios), options_for(out));
   EXPECT_TRUE(suite.complete);
-  EXPECT_EQ(suite.runs_reused, 4U);
+  EXPECT_EQ(suite.run.reused, 8U);
   ASSERT_EQ(suite.failures.size(), 3U);  // the broken file, and two seeds in the wall
   EXPECT_EQ(suite.failures[0].scenario, "broken");
   EXPECT_EQ(suite.failures[1].seed, 1U);
   EXPECT_EQ(Json::parse(std::ifstream(out / "suite.json"))["failures"].size(), 3U);
 }
 
-TEST_F(SuiteRuns, CheckTheGatesOverTheirSeeds) {
+TEST_F(SuiteRuns, CheckTheExpectationsOverTheirSeeds) {
   std::vector<ScenarioFile> scenarios = two_walks();
-  scenarios[0].scenario->expect = {{"aims", "success", kNoLimit, 1.0, GateStatistic::kMean},
-                                   {"leg", "ate_m", kNoLimit, 50.0, GateStatistic::kMedian}};
+  scenarios[0].scenario->expect = {{"aims", "success", kNoLimit, 1.0, ExpectationStatistic::kMean},
+                                   {"leg", "ate_m", kNoLimit, 50.0, ExpectationStatistic::kMedian}};
   const Suite suite = run_or_die(std::move(scenarios), options_for(copy()));
-  EXPECT_EQ(suite.runs_done, 0U) << "an expectation decides no run";
-  ASSERT_EQ(suite.cases[0].gates.size(), 2U);
-  EXPECT_TRUE(suite.cases[0].gates[0].holds);
-  EXPECT_FALSE(suite.cases[0].gates[1].holds);
-}
-
-TEST_F(SuiteRuns, RefuseAFolderOfSomethingElseAndOneInUse) {
-  std::ofstream(folder_.path() / "thesis.tex") << "years of work";
-  const auto other = run_suite(two_walks(), options_for(folder_.path()), keep_going);
-  ASSERT_FALSE(other);
-  EXPECT_NE(other.error().message.find("no suite's folder"), std::string::npos);
-  const fs::path out = copy();
-  const auto lock = FolderLock::take(out);
-  ASSERT_TRUE(lock);
-  const auto used = run_suite(two_walks(), options_for(out), keep_going);
-  ASSERT_FALSE(used);
-  EXPECT_NE(used.error().message.find("another suite"), std::string::npos);
-}
-
-TEST(JobId, DependsOnWhatDecidesARunAndOnNothingElse) {
-  const Scenario scenario = short_walk("a", 5.0);
-  const std::string id = job_id(scenario, 1, "aims");
-  EXPECT_EQ(id.size(), 16U);
-  EXPECT_NE(id, job_id(scenario, 2, "aims"));
-  EXPECT_NE(id, job_id(scenario, 1, "leg"));
-  EXPECT_NE(id, job_id(short_walk("a", 6.0), 1, "aims"));
-  Scenario same = scenario;
-  same.name = "b";
-  same.description = "other words";
-  same.tags = {"more"};
-  same.level = 7.0;
-  same.estimators = {"aims"};
-  same.expect = {{"aims", "ate_m", 1.0}};
-  same.file = "/elsewhere/b.yaml";
-  EXPECT_EQ(id, job_id(same, 1, "aims"));
-  same.estimator.degeneracy.eta += 1.0;
-  EXPECT_NE(id, job_id(same, 1, "aims"));
-  same = scenario;
-  same.scoring.max_error_offset += 1.0;
-  EXPECT_NE(id, job_id(same, 1, "aims"));
+  EXPECT_EQ(suite.run.done, 0U) << "an expectation decides no run";
+  ASSERT_EQ(suite.cases[0].expectations.size(), 2U);
+  EXPECT_TRUE(suite.cases[0].expectations[0].holds);
+  EXPECT_FALSE(suite.cases[0].expectations[1].holds);
 }
 
 /// A case of a family with one run per ATE.
@@ -220,7 +177,7 @@ SuiteCase family_case(double level, const std::vector<double>& ates, bool succes
   return each;
 }
 
-TEST(Families, BreakWhereTheErrorDoublesOrRunsAreLostOnEitherSideOfTheMildest) {
+TEST(Families, BreakWhereTheErrorDoublesOrRunsDivergeOnEitherSideOfTheMildest) {
   Suite suite;
   suite.cases = {family_case(20.0, {0.1, 0.12}, false), family_case(-10.0, {0.3, 0.25}, true),
                  family_case(0.0, {0.1, 0.1}, true), family_case(10.0, {0.19, 0.19}, true)};

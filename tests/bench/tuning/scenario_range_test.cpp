@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/sweep.hpp"
-#include "bench/jobs/sweep_folder.hpp"
+#include "bench/jobs/job_runner.hpp"
+#include "bench/jobs/job_store.hpp"
 #include "bench/tuning/range_key.hpp"
-#include "tests/bench/jobs/short_walk.hpp"
+#include "tests/bench/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "render/results/response_pictures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -45,7 +46,7 @@ MergedSweep sweep_over_eta(bool untuned) {
 
 std::string report_of(const MergedSweep& sweep, const std::filesystem::path& folder) {
   std::vector<std::string> warnings;
-  const auto written = write_sweep_summary(sweep, {}, folder, warnings);
+  const auto written = write_sweep_summary(sweep, {}, folder, draw_response, warnings);
   EXPECT_TRUE(written) << written.error().message;
   EXPECT_TRUE(warnings.empty());
   std::ifstream stream(folder / "sweep.md");

@@ -14,6 +14,7 @@
 #include "bench/tuning/tune_summary.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
+#include "render/results/response_pictures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -223,7 +224,7 @@ TEST(TuneReport, OverlayLoadsOnTopOfAScenario) {
   const auto result = tuned(small_plan());
   ASSERT_TRUE(result);
   std::vector<std::string> warnings;
-  ASSERT_TRUE(write_tuning(*result, folder.path(), warnings));
+  ASSERT_TRUE(write_tuning(*result, folder.path(), draw_response, warnings));
   EXPECT_TRUE(warnings.empty()) << warnings.front();
   for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "degeneracy.eta.png"}) {
     EXPECT_TRUE(fs::exists(folder.path() / name)) << name;
@@ -243,7 +244,7 @@ TEST(TuneReport, SaysWhetherTheGainHolds) {
   const auto report = [](const Bowl& bowl) {
     const TemporaryFolder folder;
     std::vector<std::string> warnings;
-    EXPECT_TRUE(write_tuning(*tuned(small_plan(), bowl), folder.path(), warnings));
+    EXPECT_TRUE(write_tuning(*tuned(small_plan(), bowl), folder.path(), draw_response, warnings));
     std::ifstream stream(folder.path() / "tune.md");
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/stored_results.hpp"
+#include "bench/jobs/results.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/suite.hpp"
 #include "render/page/json_access.hpp"
@@ -33,8 +33,8 @@ Json record(std::uint64_t seed, double ate, bool success = true) {
           {"estimators",
            {{"aims",
              {{"success", success},
-              {"lost_at_s", success ? Json() : Json(12.5)},
-              {"lost_reason", success ? "" : "error_limit"},
+              {"diverged_at_s", success ? Json() : Json(12.5)},
+              {"diverged_reason", success ? "" : "error_limit"},
               {"ate_m", ate},
               {"m_end_m", nullptr},
               {"m_list_percent", {{"all", 10.0 * ate}}}}}}}};
@@ -126,9 +126,9 @@ TEST(SuitePage, HoldsTheSuiteAndEachRunsScores) {
     EXPECT_DOUBLE_EQ(outcome["m_list_percent.all"], static_cast<double>(seed));
     EXPECT_TRUE(outcome["m_end_m"].is_null());
     EXPECT_EQ(outcome["success"], seed != 2);
-    EXPECT_EQ(outcome["lost_reason"], seed == 2 ? "error_limit" : "");
+    EXPECT_EQ(outcome["diverged_reason"], seed == 2 ? "error_limit" : "");
   }
-  EXPECT_EQ(runs[1]["estimators"]["aims"]["lost_at_s"], 12.5);
+  EXPECT_EQ(runs[1]["estimators"]["aims"]["diverged_at_s"], 12.5);
 }
 
 TEST(SuitePage, LinksToTheRunsThatHaveAPageFromWhereItLies) {

@@ -86,7 +86,7 @@ std::string scores_text(const WrittenRun& run) {
                  {"robot", {{"fell", false}, {"touched_wall", false}}},
                  {"segments", Json::array()}};
   for (const char* name : kMadeUpEstimators) {
-    scores["estimators"][name] = {{"success", true}, {"lost_at_s", nullptr}, {"ate_m", 0.125}};
+    scores["estimators"][name] = {{"success", true}, {"diverged_at_s", nullptr}, {"ate_m", 0.125}};
   }
   return scores.dump(2) + "\n";
 }

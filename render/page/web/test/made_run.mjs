@@ -165,7 +165,7 @@ function scoresOf(item, random) {
   const value = () => 0.3 * random();
   return {
     success: item.diverged_at === null,
-    lost_at_s: item.diverged_at,
+    diverged_at_s: item.diverged_at,
     m_list_percent: { "a-b": value(), "b-a": item.diverged_at === null ? value() : null, all: value() },
     m_end_m: value(),
     ate_m: value(),
@@ -175,7 +175,7 @@ function scoresOf(item, random) {
     rpe_1m: { translation_m: value(), rotation_rad: value() },
     rpe_10m: { translation_m: value(), rotation_rad: value() },
     drift_m: {
-      rmse: { along: value(), lateral: value(), vertical: value(), heading_rad: value() },
+      rmse: { longitudinal: value(), lateral: value(), vertical: value(), heading_rad: value() },
     },
     weak_axis: {
       all: { scans: 2000, error_rms_m: value(), bound_rms_m: 0.02, efficiency: 0.3, nees: 1.2 },
@@ -265,11 +265,11 @@ export function run({
       localizability: {
         scans: samples,
         median_equivalent_returns: 44,
-        degenerate_share: { n10: 0, n100: 0.74, n1000: 0.93 },
-        bound_end_m: { along: 0.02, lateral: 0.004, vertical: 0.005 },
+        degenerate_fraction: { n10: 0, n100: 0.74, n1000: 0.93 },
+        bound_end_m: { longitudinal: 0.02, lateral: 0.004, vertical: 0.005 },
       },
       estimators: Object.fromEntries(estimators.map((item) => [item.name, scoresOf(item, random)])),
-      gates: [],
+      expectations: [],
     },
     scene: scene(),
     waypoint_times: [

@@ -111,7 +111,7 @@ async function assertTablesEqual(page, scores) {
     near(cells["max m"], own.max_error_m, `${name} max`);
     near(cells["max z m"], own.max_error_z_m, `${name} max z`);
     near(cells["RPE 10 m m"], own.rpe_10m?.translation_m, `${name} RPE`);
-    near(cells["longitudinal m"], own.drift_m?.rmse?.along, `${name} longitudinal drift`);
+    near(cells["longitudinal m"], own.drift_m?.rmse?.longitudinal, `${name} longitudinal drift`);
     near(cells["heading rad"], own.drift_m?.rmse?.heading_rad, `${name} drift heading`);
     near(cells["p99 ms"], own.time_per_scan_ms?.p99, `${name} time`);
   }

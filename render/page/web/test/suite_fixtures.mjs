@@ -40,8 +40,8 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
   const runs = scenarios.flatMap((each) => each.seeds.map((seed) => ({
     scenario: each.name, seed, href: seed === 1 ? `runs/${encodeURIComponent(each.name)}/seed-1/page.html` : null,
     estimators: {
-      [first]: { success: true, lost_at_s: null, lost_reason: "", ate_m: 0.01 * seed, m_end_m: 0.02 },
-      b: { success: each !== scenarios[2], lost_at_s: each === scenarios[2] ? 12.5 : null, lost_reason: "error_limit", ate_m: 0.5 },
+      [first]: { success: true, diverged_at_s: null, diverged_reason: "", ate_m: 0.01 * seed, m_end_m: 0.02 },
+      b: { success: each !== scenarios[2], diverged_at_s: each === scenarios[2] ? 12.5 : null, diverged_reason: "error_limit", ate_m: 0.5 },
     },
   })));
   return {

@@ -83,7 +83,7 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
 
 function outcome(row: Row): string {
   if (row.scores === undefined) return kNone;
-  const divergedAt = at(row.scores, "lost_at_s");
+  const divergedAt = at(row.scores, "diverged_at_s");
   if (isNumber(divergedAt)) return `diverged at ${formatFixed(divergedAt, 1)} s`;
   return success(row) ? "success" : "failed";
 }
@@ -104,7 +104,7 @@ function errorTable(list: Row[]): HTMLElement {
         ["rpe_10m", "translation_m"],
         "Relative pose error over 10 m travelled",
       ),
-      score("longitudinal", "m", ["drift_m", "rmse", "along"], "RMSE along the true heading"),
+      score("longitudinal", "m", ["drift_m", "rmse", "longitudinal"], "RMSE along the true heading"),
       score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE across the true heading"),
       score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE of the height"),
       score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
@@ -167,7 +167,7 @@ function weakTable(list: Row[]): HTMLElement | null {
 }
 
 function gateTable(data: RunPayload): HTMLElement | null {
-  const gates = own<unknown>(data.scores, "gates");
+  const gates = own<unknown>(data.scores, "expectations");
   if (!Array.isArray(gates) || gates.length === 0) return null;
   const text = (row: unknown, key: string) => String(own(row, key) ?? "");
   const limit = (row: unknown, key: string) =>
@@ -195,7 +195,7 @@ function truthLine(data: RunPayload): HTMLElement | null {
   const truth = own<unknown>(data.scores, "localizability");
   if (truth === undefined || truth === null) return null;
   const fraction = (level: string) => {
-    const value = at(truth, "degenerate_share", level);
+    const value = at(truth, "degenerate_fraction", level);
     return isNumber(value) ? `${formatFixed(100 * value, 0)} %` : kNone;
   };
   const bound = (axis: string) => formatNumber(at(truth, "bound_end_m", axis));
@@ -205,7 +205,7 @@ function truthLine(data: RunPayload): HTMLElement | null {
     `From the truth: ${formatNumber(at(truth, "median_equivalent_returns"))} equivalent returns ` +
       `along the weakest axis (median); fewer than 10 in ${fraction("n10")} of the scans, ` +
       `fewer than 100 in ${fraction("n100")}, fewer than 1000 in ${fraction("n1000")}. Bound at the end, 1σ: ` +
-      `longitudinal ${bound("along")} m, lateral ${bound("lateral")} m, vertical ${bound("vertical")} m.`,
+      `longitudinal ${bound("longitudinal")} m, lateral ${bound("lateral")} m, vertical ${bound("vertical")} m.`,
   );
 }
 

@@ -26,8 +26,8 @@ function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string
         const found = outcome(run, estimator);
         if (found["success"] === true) return "success";
         if (found["success"] !== false) return "unknown";
-        const at = numberAt(found, "lost_at_s");
-        const why = typeof found["lost_reason"] === "string" ? found["lost_reason"] : "";
+        const at = numberAt(found, "diverged_at_s");
+        const why = typeof found["diverged_reason"] === "string" ? found["diverged_reason"] : "";
         return `✕ diverged${at === null ? "" : ` at ${at.toFixed(1)} s`}${why ? `: ${why}` : ""}`;
       },
     },

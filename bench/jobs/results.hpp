@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/jobs/job.hpp"
+#include "bench/run/score_record.hpp"
+#include "core/error.hpp"
+
+namespace aims {
+
+/// The result of a job under the label that its estimator has in tables.
+struct LabelledResult {
+  std::string label;
+  JobResult result;
+};
+
+/// What the finished jobs of one scenario and seed came to, as one record; those that failed are
+/// left out.
+RunRecord record_of(const std::string& scenario, std::uint64_t seed,
+                    std::span<const LabelledResult> results);
+
+/// Reads a scores.json; error when it is not one, e.g. cut short.
+Result<RunRecord> read_record(const std::filesystem::path& file);
+
+/// Records by scenario, in order of their seeds.
+using StoredResults = std::map<std::string, std::vector<RunRecord>>;
+
+/// Reads the results of the jobs that `folder` lists, or the scores.json of `aims score` and
+/// `aims estimate`. Error when the folder holds no finished results, or one that cannot be read.
+Result<StoredResults> read_results(const std::filesystem::path& folder);
+
+}  // namespace aims

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/estimate_summary.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/metrics/statistics.hpp"
+#include "bench/run/results.hpp"
+#include "bench/run/score_record.hpp"
+#include "bench/run/tables.hpp"
+#include "bench/run/trajectory_summary.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/config_dump.hpp"
+#include "core/files/tum.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+double displacement(const Trajectory& trajectory) {
+  if (trajectory.empty()) return 0.0;
+  return (trajectory.back().pose.translation - trajectory.front().pose.translation).norm();
+}
+
+double realtime_factor(const EstimateResult& result, const EstimatorOutcome& outcome) {
+  return outcome.wall_s > 0.0 ? result.recorded_s / outcome.wall_s : 0.0;
+}
+
+Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcome) {
+  const Trajectory& trajectory = outcome.result.trajectory;
+  const auto times = summarize(outcome.scan_times_ms);
+  Json json;
+  json["poses"] = trajectory.size();
+  json["scans"] = outcome.result.diagnostics.size();
+  json["path_m"] = json_of(path_length(trajectory));
+  json["displacement_m"] = json_of(displacement(trajectory));
+  json["wall_s"] = outcome.wall_s;
+  json["realtime_factor"] = realtime_factor(result, outcome);
+  json["time_per_scan_ms"] = {{"mean", times ? json_of(times->mean) : Json()},
+                              {"p99", times ? json_of(times->p99) : Json()}};
+  json["counts"] = outcome.result.counts;
+  return json;
+}
+
+Json pose_json(const Pose& pose) {
+  const Eigen::Vector3d& p = pose.translation;
+  const Eigen::Quaterniond& q = pose.rotation;
+  return {{"translation", {p.x(), p.y(), p.z()}},
+          {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+Json estimate_json(const EstimateResult& result) {
+  const TopicsConfig& topics = result.setup.topics;
+  Json json = {{"schema", "aims.estimate/1"},
+               {"version", AIMS_VERSION},
+               {"bag", result.bag.string()},
+               {"complete", result.complete && !result.broken},
+               {"error", result.broken ? Json(result.broken->message) : Json()},
+               {"recorded_s", result.recorded_s},
+               {"wall_s", result.wall_s},
+               {"topics",
+                {{"lidar", topics.lidar},
+                 {"imu", topics.imu},
+                 {"leg_odometry", topics.leg_odometry},
+                 {"joint_states", topics.joint_states},
+                 {"contacts", topics.contacts},
+                 {"truth", topics.truth}}},
+               {"T_body_lidar", pose_json(result.setup.rig.T_body_lidar)},
+               {"T_body_base", pose_json(result.setup.rig.T_body_base)},
+               {"notes", result.setup.notes},
+               {"counts", result.counts}};
+  for (const EstimatorOutcome& each : result.estimators) {
+    json["estimators"][each.name] = estimator_json(result, each);
+  }
+  return json;
+}
+
+/// The configuration as it was used, which repeats the estimate.
+std::string config_text(const EstimateConfig& config, const EstimateResult& result) {
+  EstimateConfig used = config;
+  used.estimator = result.estimator;
+  return dump_config(fields_of(used));
+}
+
+/// What `aims run` calls a run's record, with the times of this estimate.
+Result<void> write_scores(const EstimateResult& result, const fs::path& folder) {
+  RunRecord record = record_of(*result.scores);
+  for (const EstimatorOutcome& each : result.estimators) {
+    Json& json = record.scores["estimators"][each.name];
+    json["time_per_scan_ms"] = estimator_json(result, each)["time_per_scan_ms"];
+    json["counts"] = each.result.counts;
+  }
+  auto written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
+  if (written) {
+    written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");
+  }
+  return written;
+}
+
+}  // namespace
+
+TextTable estimate_table(const EstimateResult& result) {
+  TextTable table;
+  if (result.scores) table = trajectory_score_table(*result.scores);
+  if (table.rows.empty()) {
+    table.header = {"estimator"};
+    for (const EstimatorOutcome& each : result.estimators) table.rows.push_back({each.name});
+  }
+  for (const char* title : {"poses", "path m", "ms/scan", "x real time"}) {
+    table.header.emplace_back(title);
+  }
+  for (std::size_t i = 0; i < result.estimators.size(); ++i) {
+    const EstimatorOutcome& each = result.estimators[i];
+    const auto times = summarize(each.scan_times_ms);
+    table.rows[i].push_back(std::to_string(each.result.trajectory.size()));
+    table.rows[i].push_back(fmt::format("{:.2f}", path_length(each.result.trajectory)));
+    table.rows[i].push_back(times ? fmt::format("{:.2f}", times->mean) : "-");
+    table.rows[i].push_back(fmt::format("{:.1f}", realtime_factor(result, each)));
+  }
+  return table;
+}
+
+Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& result,
+                            const fs::path& folder) {
+  auto written = write_file_atomically(folder / "config.yaml", config_text(config, result));
+  if (written) {
+    written = write_file_atomically(folder / "estimate.json", estimate_json(result).dump(2) + "\n");
+  }
+  for (const EstimatorOutcome& each : result.estimators) {
+    if (written) written = write_estimator(each, folder, each.name);
+  }
+  if (written && !result.truth.empty()) {
+    written = write_tum(folder / "truth.tum", result.truth);
+  }
+  if (written && result.scores) written = write_scores(result, folder);
+  return written;
+}
+
+}  // namespace aims

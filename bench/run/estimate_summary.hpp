@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "bench/run/estimate.hpp"
+#include "core/error.hpp"
+#include "core/files/table.hpp"
+
+namespace aims {
+
+/// A row per estimator: what it walked, how fast it is; its scores when there is a truth.
+TextTable estimate_table(const EstimateResult& result);
+
+/// Writes per estimator NAME.tum and NAME.diagnostics.csv, the config that repeats the estimate
+/// (config.yaml) and estimate.json (schema aims.estimate/1, docs/results.md); with a truth also
+/// truth.tum and, as a run has them, scores.json and scores.csv.
+Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& result,
+                            const std::filesystem::path& folder);
+
+}  // namespace aims

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/metrics/bootstrap.hpp"
+#include "bench/run/score_record.hpp"
+
+namespace aims {
+
+/// A score that many runs are summed up by.
+struct HeadlineScore {
+  const char* key;
+  const char* title;
+  const char* unit;
+  int digits;
+  double floor;  ///< a change below this [unit] is of no interest
+};
+
+/// M_list over all segments, M_end, ATE and largest height error.
+inline constexpr std::array<HeadlineScore, 4> kHeadlineScores = {{
+    {"m_list_percent.all", "M_list", "%", 3, 0.02},
+    {"m_end_m", "M_end", "m", 3, 0.01},
+    {"ate_m", "ATE", "m", 3, 0.01},
+    {"max_error_z_m", "max |z|", "m", 3, 0.01},
+}};
+
+/// One score of one estimator over runs of the same scenario.
+struct ScoreStatistics {
+  std::optional<double> median;  ///< over the runs that have a value
+  std::optional<double> worst;   ///< largest
+  std::size_t count = 0;         ///< runs that have a value
+};
+
+ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string& estimator,
+                              const std::string& key);
+
+/// 95 % bootstrap interval of the median of a score over the runs that have it; coarse below about
+/// ten runs.
+Interval median_interval(std::span<const RunRecord> runs, const std::string& estimator,
+                         const std::string& key);
+
+/// Runs in which the estimator finished, and those in which it did not diverge.
+std::size_t finished(std::span<const RunRecord> runs, const std::string& estimator);
+std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator);
+
+/// Values of one score in pairs of runs on the same seed.
+struct ScorePairs {
+  std::vector<double> reference;
+  std::vector<double> value;
+
+  std::vector<double> differences() const;  ///< value - reference
+};
+
+/// One estimator in some runs.
+struct EstimatorRuns {
+  std::span<const RunRecord> runs;
+  std::string estimator;
+};
+
+ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
+                  const std::string& key);
+
+/// What pairs of runs say about a change of a score.
+struct PairedStatistics {
+  std::size_t count = 0;                   ///< pairs
+  std::optional<double> reference_median;  ///< none without pairs, like the next ones
+  std::optional<double> median;
+  std::optional<double> worst;  ///< largest
+  std::optional<double> ratio;  ///< of the medians; none unless the reference's is positive
+  double change = 0.0;          ///< mean of the differences
+  Interval interval;            ///< of the change: 95 %, bootstrap over pairs
+};
+
+PairedStatistics statistics_of(const ScorePairs& pairs);
+
+/// 95 % bootstrap interval of the mean.
+Interval mean_interval(const std::vector<double>& values);
+
+/// True for scores that depend on the machine and the moment.
+bool is_timing(const std::string& score_key);
+
+}  // namespace aims

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/sequence.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "bench/run/run_legs.hpp"
+#include "bench/run/tables.hpp"
+#include "core/files/csv_columns.hpp"
+#include "core/files/tum.hpp"
+
+namespace aims {
+namespace {
+
+CsvTable snapshots_table(const std::vector<RobotSnapshot>& snapshots) {
+  std::vector<std::string> header = {"stamp_s"};
+  const std::size_t size = snapshots.empty() ? 0 : snapshots.front().qpos.size();
+  for (std::size_t i = 0; i < size; ++i) header.push_back(fmt::format("q{}", i));
+  CsvTable table(header);
+  for (const RobotSnapshot& each : snapshots) {
+    table.add(to_seconds(each.stamp));
+    for (const double value : each.qpos) table.add(value);
+    table.end_row();
+  }
+  return table;
+}
+
+Result<std::vector<LegInterval>> legs_of(const Sequence& sequence, const Scenario& scenario,
+                                         const Truth& truth) {
+  LegPackets packets;
+  const auto replayed = sequence.reader.replay_without_points(
+      [&](const Delivery& delivery) { packets.count({&delivery, 1}); });
+  if (!replayed) return tl::unexpected(replayed.error());
+  return leg_intervals(scenario.simulation, packets, truth, sequence.end());
+}
+
+}  // namespace
+
+Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario) {
+  auto reader = SequenceReader::open(file);
+  if (!reader) return tl::unexpected(reader.error());
+  Truth truth = reader->truth();
+  Trajectory poses = body_trajectory(truth);
+  RunLocalizability localizability =
+      run_localizability(scenario.simulation, reader->rig(), truth, poses);
+  return Sequence{std::move(*reader),        std::move(poses), std::move(truth.waypoint_times),
+                  std::move(localizability), truth.fell,       truth.touched_wall};
+}
+
+Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
+                            const std::filesystem::path& folder) {
+  const Truth truth = sequence.reader.truth();
+  const auto legs = legs_of(sequence, scenario, truth);
+  if (!legs) return tl::unexpected(legs.error());
+  auto written =
+      write_tum(folder / "truth.tum", thinned(sequence.truth_trajectory, kTruthSpacing));
+  const auto write = [&](const char* name, const CsvTable& table) {
+    if (written) written = write_csv(folder / name, table);
+  };
+  write("waypoint_times.csv", waypoint_times_table(sequence.waypoint_times));
+  write("localizability.csv", localizability_table(sequence.localizability));
+  write("legs.csv", legs_table(*legs));
+  write("snapshots.csv", snapshots_table(truth.snapshots));
+  return written;
+}
+
+Result<std::vector<RobotSnapshot>> read_snapshots(const std::filesystem::path& file) {
+  const auto table = CsvColumns::read(file);
+  if (!table) return tl::unexpected(table.error());
+  std::vector<RobotSnapshot> snapshots(table->rows());
+  for (const std::string& column : table->header()) {
+    const auto values = table->numbers(column);
+    if (!values) return tl::unexpected(values.error());
+    for (std::size_t i = 0; i < snapshots.size(); ++i) {
+      if (column == "stamp_s") {
+        snapshots[i].stamp = from_seconds((*values)[i]);
+      } else {
+        snapshots[i].qpos.push_back((*values)[i]);
+      }
+    }
+  }
+  return snapshots;
+}
+
+}  // namespace aims

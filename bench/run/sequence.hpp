@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bench/run/run_localizability.hpp"
+#include "bench/run/scenario.hpp"
+#include "bench/run/sequence_file.hpp"
+#include "core/error.hpp"
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// Poses of the truth are written at this spacing; the simulation holds them at the physics rate.
+inline constexpr Duration kTruthSpacing = 10 * kMillisecond;
+
+/// A simulated sequence, open for any number of estimators, with what all their scores need.
+struct Sequence {
+  SequenceReader reader;         ///< the measurements stay in the file
+  Trajectory truth_trajectory;   ///< T_world_body at the physics rate
+  std::vector<WaypointTime> waypoint_times;
+  RunLocalizability localizability;
+  bool fell = false;
+  bool touched_wall = false;
+
+  Time end() const { return truth_trajectory.empty() ? 0 : truth_trajectory.back().stamp; }
+};
+
+/// Opens the file of the scenario's sequence (bench/jobs/sequence_cache.hpp).
+Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario);
+
+/// Writes what is known of the sequence whoever estimates: truth.tum, waypoint_times.csv,
+/// localizability.csv, legs.csv and snapshots.csv (the robot's joints at 10 Hz, for pictures).
+Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
+                            const std::filesystem::path& folder);
+
+/// Names of the files that `write_sequence` writes.
+inline constexpr const char* kSequenceFiles[] = {"truth.tum", "waypoint_times.csv",
+                                                 "localizability.csv", "legs.csv",
+                                                 "snapshots.csv"};
+
+/// Reads snapshots.csv.
+Result<std::vector<RobotSnapshot>> read_snapshots(const std::filesystem::path& file);
+
+}  // namespace aims

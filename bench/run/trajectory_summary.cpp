@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/trajectory_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "bench/run/tables.hpp"
+#include "core/files/atomic_file.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScoreColumn {
+  std::string title;
+  std::string key;  ///< of the record; the smaller its value the better
+  int digits = 3;
+};
+
+std::vector<ScoreColumn> score_columns(const RunRecord& record) {
+  std::vector<ScoreColumn> columns;
+  for (const Json& segment : record.scores["segments"]) {
+    const auto name = segment["name"].get<std::string>();
+    columns.push_back({fmt::format("M_list({}) %", name), "m_list_percent." + name});
+  }
+  if (columns.size() != 1) columns.push_back({"M_list %", "m_list_percent.all"});
+  columns.push_back({"M_end m", "m_end_m"});
+  columns.push_back({"ATE m", "ate_m"});
+  columns.push_back({"ATE yaw m", "ate_yaw_m"});
+  columns.push_back({"ATE SE(3) m", "ate_se3_m"});
+  columns.push_back({"RPE(10 m) m", "rpe_10m.translation_m"});
+  columns.push_back({"max |z| m", "max_error_z_m"});
+  return columns;
+}
+
+/// The smallest value of the column among estimates that did not diverge; none of a single estimate.
+std::optional<double> best(const TrajectoryScores& scores, const RunRecord& record,
+                           const ScoreColumn& column) {
+  if (scores.estimates.size() < 2) return std::nullopt;
+  std::optional<double> smallest;
+  for (const ScoredEstimate& each : scores.estimates) {
+    const auto value = find_score(record, each.given.name, column.key);
+    if (each.scores.success && value) smallest = std::min(*value, smallest.value_or(*value));
+  }
+  return smallest;
+}
+
+std::string cell(const ScoredEstimate& estimate, const RunRecord& record, const ScoreColumn& column,
+                 const std::optional<double>& smallest) {
+  const auto value = find_score(record, estimate.given.name, column.key);
+  if (!value) return "-";
+  const bool fell_back = column.key == "ate_se3_m" && estimate.scores.ate_se3_degenerate;
+  const bool is_best = estimate.scores.success && smallest && *value == *smallest;
+  return fmt::format("{:.{}f}{}{}", *value, column.digits, is_best ? "*" : "",
+                     fell_back ? " yaw" : "");
+}
+
+/// "yes", or why and when it diverged [s after the truth's start].
+std::string success_cell(const Scores& scores, const Trajectory& truth) {
+  if (scores.success) return "yes";
+  return fmt::format("{} at {:.1f} s", name_of(scores.failure_reason),
+                     to_seconds(*scores.diverged_at - truth.front().stamp));
+}
+
+Json estimate_json(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
+  const Scores& scores = estimate.scores;
+  Json json = scores_json(scores);
+  json["poses"] = scores.poses;
+  json["poses_invalid"] = scores.poses_invalid;
+  json["poses_compared"] = scores.poses_compared;
+  json["median_stamp_difference_s"] = json_of(estimate.median_stamp_difference_s);
+  json["alignment"] = {{"start", scoring.anchor == AlignmentKind::kStartPose ? "pose" : "heading"},
+                       {"se3", scores.ate_se3_degenerate ? "yaw" : "se3"}};
+  json["source"] = estimate.given.source;
+  json["kind"] = estimate.given.kind;
+  return json;
+}
+
+std::string markdown(const TrajectoryScores& scores) {
+  std::string text =
+      fmt::format("# Scores against {}\n\n{}\n{}\n{}\n", scores.truth.name,
+                  to_markdown(trajectory_score_table(scores)),
+                  to_markdown(trajectory_source_table(scores)), score_legend(scores));
+  for (const std::string& note : scores.notes) text += fmt::format("- {}\n", note);
+  return text;
+}
+
+}  // namespace
+
+TextTable trajectory_score_table(const TrajectoryScores& scores) {
+  const RunRecord record = record_of(scores);
+  const std::vector<ScoreColumn> columns = score_columns(record);
+  TextTable table;
+  table.header = {"estimate"};
+  for (const ScoreColumn& column : columns) table.header.push_back(column.title);
+  table.header.emplace_back("success");
+  for (const ScoredEstimate& each : scores.estimates) {
+    std::vector<std::string> row = {each.given.name};
+    for (const ScoreColumn& column : columns) {
+      row.push_back(cell(each, record, column, best(scores, record, column)));
+    }
+    row.push_back(success_cell(each.scores, scores.truth.trajectory));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+TextTable trajectory_source_table(const TrajectoryScores& scores) {
+  TextTable table;
+  table.header = {"trajectory", "poses", "matched", "stamps off by ms", "kind", "source"};
+  table.rows.push_back({"truth", std::to_string(scores.truth.trajectory.size()), "", "",
+                        scores.truth.kind, scores.truth.source});
+  for (const ScoredEstimate& each : scores.estimates) {
+    const auto& difference = each.median_stamp_difference_s;
+    table.rows.push_back({each.given.name, std::to_string(each.scores.poses),
+                          std::to_string(each.scores.poses_compared),
+                          difference ? fmt::format("{:.3f}", 1e3 * *difference) : "-",
+                          each.given.kind, each.given.source});
+  }
+  return table;
+}
+
+std::string score_legend(const TrajectoryScores& scores) {
+  const bool pose = scores.scoring.anchor == AlignmentKind::kStartPose;
+  std::string text = fmt::format(
+      "M_end, ATE, max |z|: aligned to the truth at the first pose, by position and {}. ATE yaw,\n"
+      "ATE SE(3): least squares over all positions, by translation and heading, and by translation\n"
+      "and rotation (Umeyama).\n",
+      pose ? "rotation" : "heading");
+  if (scores.estimates.size() > 1) text += "A star: smallest of those that did not diverge.\n";
+  return text;
+}
+
+RunRecord record_of(const TrajectoryScores& scores) {
+  RunRecord record;
+  const Trajectory& truth = scores.truth.trajectory;
+  record.scores = {{"schema", kScoresSchema},
+                   {"version", AIMS_VERSION},
+                   {"scenario", scores.truth.name},
+                   {"seed", record.seed},
+                   {"complete", true},
+                   {"truth",
+                    {{"source", scores.truth.source},
+                     {"kind", scores.truth.kind},
+                     {"poses", truth.size()},
+                     {"start_s", to_seconds(truth.front().stamp)},
+                     {"end_s", to_seconds(truth.back().stamp)},
+                     {"path_m", path_length(truth)}}},
+                   {"notes", scores.notes},
+                   {"segments", Json::array()},
+                   {"estimators", Json::object()},
+                   {"expectations", Json::array()}};
+  if (!scores.estimates.empty()) {
+    record.scores["segments"] = segments_json(scores.estimates.front().scores);
+  }
+  for (const ScoredEstimate& each : scores.estimates) {
+    record.scores["estimators"][each.given.name] = estimate_json(each, scores.scoring);
+  }
+  return record;
+}
+
+Result<void> write_trajectory_scores(const TrajectoryScores& scores, const fs::path& folder) {
+  const RunRecord record = record_of(scores);
+  auto written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");
+  if (written) written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
+  if (written) written = write_file_atomically(folder / "scores.md", markdown(scores));
+  return written;
+}
+
+}  // namespace aims

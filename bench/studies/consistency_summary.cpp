@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "bench/run/code_version.hpp"
+#include "bench/run/score_record.hpp"
+#include "bench/studies/consistency_study.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/csv.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kConsistencyIntroduction =
+    "# Do errors along the weak axis agree with the stated covariance?\n"
+    "\n"
+    "Error: estimated minus true position along each scan's weakest axis by the truth, the\n"
+    "estimate aligned to the truth at its first pose; one scan per second. NEES: its square over\n"
+    "the variance that the estimator states along that axis; the mean over seeds is 1 when that is\n"
+    "right, above 1 when it is overconfident. Inside: fraction of the instants at which that mean\n"
+    "lies within its 95 % chi-square bounds (N seeds, N degrees of freedom); above: fraction beyond\n"
+    "the upper bound. Instants that fewer than half of the runs reach are left out. 2 sigma:\n"
+    "fraction of runs whose error is within twice the stated deviation, over all instants and at\n"
+    "the end (with its 95 % Wilson interval). Bound over error: accumulated Cramer-Rao bound of all\n"
+    "sensors over the error, rms over seeds; 0.5 is an error of twice the bound. The leg bound is\n"
+    "that of IMU and legs alone; it models neither slip nor rolling feet, so that real legs are\n"
+    "worse.\n";
+
+std::string text_of(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+std::string with_interval(const std::optional<double>& value, const Interval& interval,
+                          int digits) {
+  std::string text = text_of(value, digits);
+  if (value && interval.low) {
+    text += fmt::format(" [{}, {}]", text_of(interval.low, digits), text_of(interval.high, digits));
+  }
+  return text;
+}
+
+std::string markdown_of(const ConsistencyStudy& study, const Suite& suite) {
+  std::string text = kConsistencyIntroduction;
+  if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
+  text += "\n## Over all instants\n\n" + to_markdown(consistency_table(study));
+  text += "\n## At the end\n\nRoot mean squares over seeds [m].\n\n" +
+          to_markdown(end_table(study));
+  for (const SuiteFailure& each : suite.failures) {
+    text += fmt::format("\n- failed: {}\n", text_of(each));
+  }
+  return text;
+}
+
+CsvTable csv_of(const ConsistencyStudy& study) {
+  CsvTable table({"scenario", "estimator", "t_s", "runs", "nees", "nees_low", "nees_high", "inside",
+                  "fraction_in_2_sigma", "error_rms_m", "sigma_rms_m", "bound_rms_m",
+                  "leg_bound_rms_m"});
+  for (const ConsistencyCase& each : study) {
+    for (const ConsistencyInstant& at : each.result.instants) {
+      table.add(each.scenario).add(each.estimator).add(at.time_s).add(at.covered.runs);
+      table.add(at.nees).add(at.bounds.low).add(at.bounds.high).add(at.inside());
+      table.add(at.covered.fraction);
+      table.add(at.error_rms_m).add(at.sigma_rms_m).add(at.bound_rms_m).add(at.leg_bound_rms_m);
+      table.end_row();
+    }
+  }
+  return table;
+}
+
+Json interval_json(const Interval& interval) {
+  return Json::array({json_of(interval.low), json_of(interval.high)});
+}
+
+Json coverage_json(const Coverage& coverage) {
+  return {{"inside", coverage.inside},
+          {"of", coverage.runs},
+          {"fraction", json_of(coverage.fraction)},
+          {"interval", interval_json(coverage.interval)}};
+}
+
+Json end_json(const ConsistencyInstant& end) {
+  return {{"nees", json_of(end.nees)},
+          {"nees_bounds", interval_json(end.bounds)},
+          {"two_sigma", coverage_json(end.covered)},
+          {"error_rms_m", json_of(end.error_rms_m)},
+          {"sigma_rms_m", json_of(end.sigma_rms_m)},
+          {"bound_rms_m", json_of(end.bound_rms_m)},
+          {"leg_bound_rms_m", json_of(end.leg_bound_rms_m)},
+          {"efficiency", json_of(end.efficiency)}};
+}
+
+Json case_json(const ConsistencyCase& each) {
+  const Consistency& r = each.result;
+  Json runs = Json::array();
+  for (std::size_t i = 0; i < each.runs.size(); ++i) {
+    if (each.runs[i].empty()) continue;
+    const ConsistencySample& end = each.runs[i].back();
+    runs.push_back({{"seed", each.seeds[i]},
+                    {"end_t_s", end.time_s},
+                    {"end_error_m", json_of(end.error_m)},
+                    {"end_sigma_m", json_of(end.sigma_m)}});
+  }
+  return {{"scenario", each.scenario},
+          {"estimator", each.estimator},
+          {"runs", r.runs},
+          {"instants", r.judged},
+          {"inside_fraction", json_of(r.inside_fraction)},
+          {"above_fraction", json_of(r.above_fraction)},
+          {"mean_nees", json_of(r.mean_nees)},
+          {"mean_nees_interval", interval_json(r.mean_nees_interval)},
+          {"two_sigma", coverage_json(r.two_sigma)},
+          {"error_rms_m", json_of(r.error_rms_m)},
+          {"efficiency", json_of(r.efficiency)},
+          {"end", end_json(r.end)},
+          {"seeds", std::move(runs)}};
+}
+
+Json study_json(const ConsistencyStudy& study, const Suite& suite) {
+  Json json = {{"schema", kConsistencySchema},
+               {"version", AIMS_VERSION},
+               {"code", code_version()},
+               {"complete", suite.complete},
+               {"cases", Json::array()}};
+  for (const ConsistencyCase& each : study) json["cases"].push_back(case_json(each));
+  return json;
+}
+
+}  // namespace
+
+TextTable consistency_table(const ConsistencyStudy& study) {
+  TextTable table;
+  table.header = {"scenario", "estimator", "seeds",   "mean NEES",       "inside",
+                  "above",    "2 sigma",   "error m", "bound over error"};
+  for (const ConsistencyCase& each : study) {
+    const Consistency& r = each.result;
+    table.rows.push_back({each.scenario, each.estimator, std::to_string(r.runs),
+                          with_interval(r.mean_nees, r.mean_nees_interval, 2),
+                          text_of(r.inside_fraction, 2), text_of(r.above_fraction, 2),
+                          text_of(r.two_sigma.fraction, 2), fmt::format("{:.3f}", r.error_rms_m),
+                          text_of(r.efficiency, 2)});
+  }
+  return table;
+}
+
+TextTable end_table(const ConsistencyStudy& study) {
+  TextTable table;
+  table.header = {"scenario",  "estimator", "error",   "stated",    "bound",
+                  "leg bound", "NEES",      "of 1 in", "in 2 sigma"};
+  for (const ConsistencyCase& each : study) {
+    const ConsistencyInstant& end = each.result.end;
+    std::string inside = fmt::format("{}/{}", end.covered.inside, end.covered.runs);
+    if (const Interval& of = end.covered.interval; of.low) {
+      inside += fmt::format(" [{:.2f}, {:.2f}]", *of.low, *of.high);
+    }
+    table.rows.push_back(
+        {each.scenario, each.estimator, fmt::format("{:.3f}", end.error_rms_m),
+         fmt::format("{:.3f}", end.sigma_rms_m), fmt::format("{:.3f}", end.bound_rms_m),
+         fmt::format("{:.3f}", end.leg_bound_rms_m), text_of(end.nees, 2),
+         end.bounds.low ? fmt::format("[{:.2f}, {:.2f}]", *end.bounds.low, *end.bounds.high) : "-",
+         inside});
+  }
+  return table;
+}
+
+Result<void> write_consistency(const ConsistencyStudy& study, const Suite& suite,
+                               const fs::path& folder) {
+  auto written = write_file_atomically(folder / "consistency.md", markdown_of(study, suite));
+  if (written) written = write_csv(folder / "consistency.csv", csv_of(study));
+  if (written) {
+    written = write_file_atomically(folder / "consistency.json",
+                                    study_json(study, suite).dump(2) + "\n");
+  }
+  return written;
+}
+
+}  // namespace aims

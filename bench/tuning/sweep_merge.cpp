@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "bench/tuning/sweep_store.hpp"
+#include "core/files/csv.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMissing = "missing";
+
+bool is_done(const MergedJob& job) { return job.outcome() == name_of(JobOutcome::kDone); }
+
+/// The file of a job; null when it is not there or no such file.
+Json file_of(const JobStore& folder, const std::string& id) {
+  auto json = folder.read(id);
+  return json && result_in(*json) ? std::move(*json) : Json();
+}
+
+/// Names in the order in which they first come, each once.
+class Columns {
+ public:
+  void add(const std::string& name) {
+    if (known_.insert(name).second) names_.push_back(name);
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::set<std::string> known_;
+  std::vector<std::string> names_;
+};
+
+void add_cell(CsvTable& table, const Json& value) {
+  if (value.is_number()) {
+    table.add(value.get<double>());
+  } else if (value.is_boolean()) {
+    table.add(value.get<bool>());
+  } else if (value.is_string()) {
+    table.add(value.get<std::string>());
+  } else {
+    table.add_empty();
+  }
+}
+
+}  // namespace
+
+std::string MergedJob::outcome() const {
+  return file.is_null() ? kMissing : file.value("outcome", kMissing);
+}
+
+std::size_t MergedSweep::count(std::string_view outcome) const {
+  return static_cast<std::size_t>(
+      std::count_if(jobs.begin(), jobs.end(),
+                    [&](const MergedJob& each) { return each.outcome() == outcome; }));
+}
+
+Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
+  MergedSweep sweep;
+  std::map<std::string, std::size_t> index;
+  std::set<std::string> others;
+  for (const fs::path& path : folders) {
+    const JobStore folder(path);
+    auto listed = folder.listed();
+    if (!listed) return tl::unexpected(listed.error());
+    const auto plan = folder.plan();
+    if (!plan) return tl::unexpected(plan.error());
+    if (std::find(sweep.plans.begin(), sweep.plans.end(), *plan) == sweep.plans.end()) {
+      sweep.plans.push_back(*plan);
+    }
+    for (ListedJob& job : *listed) {
+      const auto [at, added] = index.emplace(job.id, sweep.jobs.size());
+      if (added) sweep.jobs.push_back({std::move(job), Json()});
+    }
+    for (const std::string& id : folder.ids()) {
+      const auto at = index.find(id);
+      if (at == index.end()) {
+        others.insert(id);
+        continue;
+      }
+      MergedJob& job = sweep.jobs[at->second];
+      if (is_done(job)) continue;
+      if (Json file = file_of(folder, id); !file.is_null()) job.file = std::move(file);
+    }
+  }
+  // A later folder may list what an earlier one has a result of.
+  std::erase_if(others, [&](const std::string& id) { return index.contains(id); });
+  sweep.others = others.size();
+  return sweep;
+}
+
+Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
+  Columns parameters;
+  Columns scores;
+  for (const MergedJob& job : sweep.jobs) {
+    if (!is_done(job)) continue;
+    for (const auto& [key, unused] : job.file["settings"].items()) parameters.add(key);
+    visit_leaves(job.file["scores"], "",
+                 [&](const std::string& key, const Json&) { scores.add(key); });
+  }
+  std::vector<std::string> header = {"id", "scenario", "seed", "estimator", "outcome"};
+  for (const auto* columns : {&parameters, &scores}) {
+    header.insert(header.end(), columns->names().begin(), columns->names().end());
+  }
+  CsvTable table(header);
+  for (const MergedJob& job : sweep.jobs) {
+    table.add(job.listed.id).add(job.listed.scenario).add(job.listed.seed);
+    table.add(job.listed.estimator).add(job.outcome());
+    if (is_done(job)) {
+      std::map<std::string, Json> found;
+      visit_leaves(job.file["scores"], "",
+                   [&](const std::string& key, const Json& value) { found[key] = value; });
+      for (const std::string& key : parameters.names()) {
+        add_cell(table, job.file["settings"].value(key, Json()));
+      }
+      for (const std::string& key : scores.names()) add_cell(table, found[key]);
+    }
+    table.end_row();
+  }
+  return write_csv(file, table);
+}
+
+TextTable merge_table(const MergedSweep& sweep) {
+  const std::vector<std::string> outcomes = {"done", "failed", "crashed", "timed_out", kMissing};
+  TextTable table;
+  table.header = {"scenario", "jobs"};
+  table.header.insert(table.header.end(), outcomes.begin(), outcomes.end());
+  Columns scenarios;
+  std::map<std::string, std::map<std::string, std::size_t>> counts;
+  for (const MergedJob& job : sweep.jobs) {
+    scenarios.add(job.listed.scenario);
+    ++counts[job.listed.scenario]["jobs"];
+    ++counts[job.listed.scenario][job.outcome()];
+  }
+  for (const std::string& scenario : scenarios.names()) {
+    std::vector<std::string> row = {scenario};
+    for (std::size_t i = 1; i < table.header.size(); ++i) {
+      row.push_back(fmt::format("{}", counts[scenario][table.header[i]]));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace aims

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/jobs/job_store.hpp"
+#include "core/error.hpp"
+#include "core/files/table.hpp"
+
+namespace aims {
+
+/// Version of the layout of sweep.sqlite; see docs/scaling.md.
+inline constexpr std::string_view kSweepSchema = "aims.sweep/1";
+
+/// A job that a sweep was to do and its file, null when there is none.
+struct MergedJob {
+  ListedJob listed;
+  Json file;
+
+  /// "done", "failed", "crashed", "timed_out" or "missing".
+  std::string outcome() const;
+};
+
+/// Every job of one or several folders.
+struct MergedSweep {
+  std::vector<MergedJob> jobs;  ///< in the order of the plans; each id once
+  std::vector<std::string> plans;
+  std::size_t others = 0;  ///< results in the folders that are of no listed job, left out
+
+  std::size_t count(std::string_view outcome) const;
+};
+
+/// Reads the folders' jobs; of a job that several have, the one that is done. Works while sweeps
+/// fill them: what is not there yet is missing. Error when one is not the folder of a sweep.
+Result<MergedSweep> merge_sweeps(std::span<const std::filesystem::path> folders);
+
+/// Writes the jobs as an SQLite database with the tables jobs, parameters, scores and about. The
+/// file appears whole.
+Result<void> write_sqlite(const MergedSweep& sweep, const std::filesystem::path& file);
+
+/// Writes the jobs as one table: a row per job, a column per parameter and score.
+Result<void> write_sweep_csv(const MergedSweep& sweep, const std::filesystem::path& file);
+
+/// Jobs by scenario and outcome.
+TextTable merge_table(const MergedSweep& sweep);
+
+}  // namespace aims

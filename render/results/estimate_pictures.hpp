@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "bench/run/estimate.hpp"
+#include "core/error.hpp"
+
+namespace aims {
+
+/// Draws the maps and the degeneracy index; with a truth also the trajectories.
+Result<void> draw_estimate(const EstimateResult& result, const std::filesystem::path& folder);
+
+}  // namespace aims

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/tuning/analysis.hpp"
+#include "core/error.hpp"
+
+namespace aims {
+
+/// Draws the objective into `folder`: KEY.png, a curve along each parameter, a line per family of
+/// scenarios, and KEY-KEY.png, the map over the two that matter most (the first two, where nothing
+/// tells). What neither the design nor the surrogate tells is left out. points.png, every point
+/// over each parameter, where a curve is not measured. The files, by name.
+Result<std::vector<std::string>> draw_response(const ResponseTable& table,
+                                               const Objective& objective,
+                                               const std::filesystem::path& folder);
+
+}  // namespace aims

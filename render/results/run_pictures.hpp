@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+/// Draws a run into its folder (bench/studies/run_folder.hpp): the robot along the route, each
+/// estimator's map from above and from the side, every trajectory over the plan, and the degeneracy
+/// index over time.
+Result<void> draw_run(const std::filesystem::path& folder);
+
+/// The pictures in `folder` and below, by name.
+std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);
+
+}  // namespace aims
