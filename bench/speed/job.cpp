@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/run/evaluate.hpp"
 #include "bench/jobs/process_pool.hpp"
 #include "bench/jobs/sequence_cache.hpp"
+#include "bench/run/evaluate.hpp"
 
 namespace aims {
 namespace {
@@ -24,21 +24,21 @@ Scenario walk_of(double metres) {
 }
 
 /// A sequence in a folder that goes with the program; made once.
-class Sequence {
+class CachedSequence {
  public:
-  Sequence() : scenario_(walk_of(3.0)) {
+  CachedSequence() : scenario_(walk_of(3.0)) {
     std::string name = (fs::temp_directory_path() / "aims-bench-XXXXXX").string();
     folder_ = mkdtemp(name.data());
     const SequenceCache cache(folder_);
     if (!cache.make(scenario_, 1)) std::abort();
     file_ = cache.file_of(SequenceCache::id_of(scenario_, 1));
   }
-  Sequence(const Sequence&) = delete;
-  Sequence& operator=(const Sequence&) = delete;
-  ~Sequence() { fs::remove_all(folder_); }
+  CachedSequence(const CachedSequence&) = delete;
+  CachedSequence& operator=(const CachedSequence&) = delete;
+  ~CachedSequence() { fs::remove_all(folder_); }
 
-  static const Sequence& only() {
-    static const Sequence sequence;
+  static const CachedSequence& only() {
+    static const CachedSequence sequence;
     return sequence;
   }
   const fs::path& file() const { return file_; }
@@ -50,16 +50,16 @@ class Sequence {
   fs::path file_;
 };
 
-/// Truth and what the sweeps allow to know: once per sequence.
+/// Truth and localizability: once per sequence.
 void open_a_sequence(benchmark::State& state) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(open_sequence(Sequence::only().file(), Sequence::only().scenario()));
+    benchmark::DoNotOptimize(open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario()));
 }
 BENCHMARK(open_a_sequence)->Unit(benchmark::kMillisecond);
 
 /// All measurements: once per job.
 void replay_a_sequence(benchmark::State& state) {
-  const auto sequence = open_sequence(Sequence::only().file(), Sequence::only().scenario());
+  const auto sequence = open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario());
   std::int64_t scans = 0;
   for (auto _ : state) {
     const auto replayed = sequence->reader.replay(
@@ -74,17 +74,17 @@ BENCHMARK(replay_a_sequence)->Unit(benchmark::kMillisecond);
 
 /// One estimator over the sequence, scored: the job itself.
 void evaluate_a_job(benchmark::State& state) {
-  const auto sequence = open_sequence(Sequence::only().file(), Sequence::only().scenario());
-  for (auto _ : state) benchmark::DoNotOptimize(evaluate(*sequence, Sequence::only().scenario(), "aims"));
+  const auto sequence = open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario());
+  for (auto _ : state) benchmark::DoNotOptimize(evaluate(*sequence, CachedSequence::only().scenario(), "aims", [](double) {}));
 }
 BENCHMARK(evaluate_a_job)->Unit(benchmark::kMillisecond);
 
 /// A process that does nothing, beside an open sequence.
 void start_a_process(benchmark::State& state) {
-  const auto sequence = open_sequence(Sequence::only().file(), Sequence::only().scenario());
+  const auto sequence = open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario());
   ProcessPool pool(1);
   for (auto _ : state) {
-    if (!pool.start(0, 0.0, [] { return std::string(); })) state.SkipWithError("no process");
+    if (!pool.start(0, 0.0, [](auto&) { return std::string(); })) state.SkipWithError("no process");
     while (!pool.is_idle()) benchmark::DoNotOptimize(pool.wait(1.0));
   }
 }

@@ -2,7 +2,12 @@
 // Real-time factor of a whole run on one thread, and of its parts.
 #include <benchmark/benchmark.h>
 
-#include "bench/run/evaluate.hpp"
+#include <string>
+#include <vector>
+
+#include "bench/run/scenario.hpp"
+#include "bench/run/stream.hpp"
+#include "sim/simulation.hpp"
 
 namespace aims {
 namespace {
@@ -23,13 +28,21 @@ void whole_run(benchmark::State& state) {
   double aims_s = 0.0;
   std::size_t scans = 0;
   for (auto _ : state) {
-    const auto result =
-        run(ten_metres(), {.seed = 1, .jobs = 1}, [](const Progress&) { return true; });
-    simulated_s += result->simulated_s;
-    physics_s += result->simulation_times.physics;
-    lidar_s += result->simulation_times.lidar;
-    aims_s += result->estimators.front().wall_s;
-    scans += result->estimators.front().result.trajectory.size();
+    auto simulation = Simulation::create(ten_metres().simulation, 1);
+    const std::vector<std::string> specs = {"aims"};
+    auto estimators = make_estimators(specs, ten_metres().estimator, simulation->rig());
+    std::vector<Delivery> batch;
+    for (bool moving = true; moving;) {
+      batch.clear();
+      moving = simulation->advance(kStreamBatch, batch);
+      estimators->front().consume(batch);
+    }
+    estimators->front().finish();
+    simulated_s += to_seconds(simulation->now());
+    physics_s += simulation->times().physics;
+    lidar_s += simulation->times().lidar;
+    aims_s += estimators->front().total_seconds();
+    scans += estimators->front().estimator().result().trajectory.size();
   }
   state.counters["realtime_factor"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
   state.counters["physics_realtime_factor"] = simulated_s / physics_s;

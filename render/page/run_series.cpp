@@ -123,7 +123,7 @@ Result<Json> localizability_json(const RunFolder& run, double start, PageData& p
                             {"lambda_min", "lambda_min"},
                             {"crb_sigma", "crb_sigma_m"},
                             {"bound_weak_axis", "bound_weak_axis_m"},
-                            {"bound_longitudinal", "bound_along_m"},
+                            {"bound_longitudinal", "bound_longitudinal_m"},
                             {"bound_lateral", "bound_lateral_m"},
                             {"bound_vertical", "bound_vertical_m"}},
                            *stamps, page);

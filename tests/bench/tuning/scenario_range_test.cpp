@@ -143,9 +143,9 @@ TEST(ScenarioRange, IsInTheUnitsTextAndFile) {
 
 TEST(ScenarioRange, IsSwept) {
   const TemporaryFolder folder;
-  SweepOptions options;
+  JobOptions options;
   options.out = folder.path() / "sweep";
-  options.cache = folder.path() / "walks";
+  options.cache = folder.path() / "sequences";
   std::vector<Job> units;
   for (const char* loss : {"0", "0.9"}) {
     Scenario scenario = testing::short_walk();
@@ -155,11 +155,11 @@ TEST(ScenarioRange, IsSwept) {
       units.back().scenario_settings = {{"links.leg_odometry.loss", loss, "0.05"}};
     }
   }
-  const auto run = run_sweep({}, units, options, [](const JobProgress&) { return true; });
+  const auto run = run_jobs({units}, options, [](const JobProgress&) { return true; });
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->done, 4U);
-  EXPECT_EQ(run->walks, 2U) << "a walk per value, for both of its units";
-  const auto listed = SweepFolder(options.out).listed();
+  EXPECT_EQ(run->sequences, 2U) << "a sequence per value, for both of its jobs";
+  const auto listed = JobStore(options.out).listed();
   ASSERT_TRUE(listed);
   EXPECT_EQ(listed->back().estimator, "leg+leg.rate_hz=100+links.leg_odometry.loss=0.9");
 }

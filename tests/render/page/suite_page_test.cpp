@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/jobs/job.hpp"
 #include "bench/jobs/results.hpp"
 #include "bench/studies/comparison.hpp"
-#include "bench/studies/suite.hpp"
+#include "bench/studies/suite_summary.hpp"
+#include "core/files/csv.hpp"
 #include "render/page/json_access.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
@@ -52,11 +54,26 @@ void write_suite_json(const fs::path& folder, const Json& scenarios) {
   put(folder / "suite.json", suite.dump(2));
 }
 
+/// File of the job of `aims` on that seed.
+fs::path job_file(const fs::path& folder, std::uint64_t seed) {
+  return folder / "jobs" / fmt::format("{:016x}.json", seed);
+}
+
+/// Writes the scores as jobs; the folder of the run.
 fs::path write_record(const fs::path& folder, const std::string& name, const Json& scores) {
   const std::uint64_t seed = scores["seed"];
+  fs::create_directories(folder / "jobs");
+  const fs::path list = folder / "jobs.csv";
+  if (!fs::exists(list)) put(list, CsvTable({"id", "scenario", "seed", "label", "estimator"}).text());
+  CsvTable table({fmt::format("{:016x}", seed), name, fmt::format("{}", seed), "aims", "aims"});
+  put(list, testing::content(list) + table.text());
+  const Json job = {{"schema", kJobSchema},
+                    {"outcome", "done"},
+                    {"scores", scores["estimators"]["aims"]},
+                    {"sequence", Json::object()}};
+  put(job_file(folder, seed), job.dump());
   const fs::path run = folder / "runs" / name / fmt::format("seed-{}", seed);
   fs::create_directories(run);
-  put(run / "scores.json", scores.dump());
   return run;
 }
 
@@ -77,7 +94,7 @@ Json detectors(std::size_t points) {
   const Json pooled = {{"scenario", nullptr}, {"index", "D"}, {"auc", 0.75}, {"curve", curve}};
   Json single = pooled;
   single["scenario"] = "walk";
-  return {{"schema", "aims.detectors/1"}, {"estimator", "aims"}, {"scores", {pooled, single}}};
+  return {{"schema", "aims.detectors/2"}, {"estimator", "aims"}, {"scores", {pooled, single}}};
 }
 
 std::string message_of(const fs::path& folder, const PageOptions& options = {}) {
@@ -152,8 +169,8 @@ TEST(SuitePage, LinksCarryNothingThatMeansSomethingElse) {
 TEST(SuitePage, ARunThatCannotBeReadBecomesANote) {
   const TemporaryFolder folder;
   write_walk_suite(folder.path());
-  fs::remove(folder.path() / "runs/walk/seed-1/scores.json");
-  put(folder.path() / "runs/walk/seed-4/scores.json", R"({"schema": "aims.scores/1", "seed")");
+  fs::remove(job_file(folder.path(), 1));
+  put(job_file(folder.path(), 4), R"({"schema": "aims.job/1", "outc)");
   const auto page = suite_page(folder.path(), {});
   ASSERT_TRUE(page) << page.error().message;
   EXPECT_TRUE(page->json["runs"][0]["estimators"].empty());
@@ -192,9 +209,9 @@ TEST(SuitePage, DetectorsThatAreAskedForMustBeThereOthersNeedNot) {
   const auto page = suite_page(folder.path(), {});
   ASSERT_TRUE(page);
   EXPECT_TRUE(page->json["roc"].is_null());
-  EXPECT_TRUE(contains(page->json["notes"][0], "expected a document of schema aims.detectors/1"));
+  EXPECT_TRUE(contains(page->json["notes"][0], "expected a document of schema aims.detectors/2"));
   EXPECT_TRUE(
-      contains(message_of(folder.path(), with_detectors(folder.path())), "aims.detectors/1"));
+      contains(message_of(folder.path(), with_detectors(folder.path())), "aims.detectors/2"));
 }
 
 TEST(SuitePage, ComparesAsAimsCompareDoesTheOtherBeingBefore) {
@@ -228,11 +245,11 @@ TEST(SuitePage, AnythingElseSaysWhatWasExpected) {
   const fs::path file = folder.path() / "suite.json";
   EXPECT_TRUE(contains(message_of(folder.path()), "suite.json"));
   for (const char* text :
-       {"", "[1", "[]", "{}", R"({"schema": 5})", R"({"schema": "aims.suite/2"})",
-        R"({"schema": "aims.suite/1"})", R"({"schema": "aims.suite/1", "scenarios": {}})",
-        R"({"schema": "aims.suite/1", "scenarios": [3]})",
-        R"({"schema": "aims.suite/1", "scenarios": [{"name": "a"}]})",
-        R"({"schema": "aims.suite/1", "scenarios":
+       {"", "[1", "[]", "{}", R"({"schema": 5})", R"({"schema": "aims.suite/3"})",
+        R"({"schema": "aims.suite/2"})", R"({"schema": "aims.suite/2", "scenarios": {}})",
+        R"({"schema": "aims.suite/2", "scenarios": [3]})",
+        R"({"schema": "aims.suite/2", "scenarios": [{"name": "a"}]})",
+        R"({"schema": "aims.suite/2", "scenarios":
                               [{"name": "a", "seeds": [-1], "estimators": {}}]})"}) {
     put(file, text);
     const std::string message = message_of(folder.path());

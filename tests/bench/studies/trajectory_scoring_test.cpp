@@ -10,6 +10,7 @@
 
 #include "bench/jobs/results.hpp"
 #include "bench/run/trajectory_summary.hpp"
+#include "render/results/trajectory_pictures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -153,7 +154,7 @@ TEST(TrajectoryScoring, WithoutReferencePointsThereIsNoMList) {
   EXPECT_TRUE(says(result->notes, "M_list is n/a"));
 }
 
-TEST(TrajectoryReport, TheBestOfThoseNotLostCarriesTheStar) {
+TEST(TrajectorySummary, TheBestOfThoseThatDidNotDivergeCarriesTheStar) {
   ScoringInput input = input_of(straight);
   const auto scaled = [](double scale) {
     return [scale](double t) { return straight(scale * t); };
@@ -171,20 +172,19 @@ TEST(TrajectoryReport, TheBestOfThoseNotLostCarriesTheStar) {
   EXPECT_EQ(table.rows[2].back(), "ends_early at 9.9 s");
 }
 
-TEST(TrajectoryReport, ItsFolderReadsBackAsResults) {
+TEST(TrajectorySummary, ItsFolderReadsBackAsResults) {
   const TemporaryFolder folder;
   ScoringInput input = input_of(circle);
   input.estimates.push_back(named("mine", sampled(0.1, circle)));
   const auto scores = score_trajectories(input);
   ASSERT_TRUE(scores);
-  const auto report = write_trajectory_report(*scores, {folder.path() / "out", false, true});
-  ASSERT_TRUE(report) << report.error().message;
-  EXPECT_TRUE(report->warnings.empty());
+  ASSERT_TRUE(write_trajectory_scores(*scores, folder.path()));
+  ASSERT_TRUE(draw_trajectory_pictures(*scores, folder.path()));
   for (const char* file :
        {"scores.json", "scores.csv", "scores.md", "trajectories.png", "errors.png"}) {
-    EXPECT_TRUE(std::filesystem::exists(report->folder / file)) << file;
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
   }
-  const auto results = read_results(report->folder);
+  const auto results = read_results(folder.path());
   ASSERT_TRUE(results) << results.error().message;
   const auto value = find_score(results->at("truth").front(), "mine", "m_list_percent.a-b");
   ASSERT_TRUE(value);
