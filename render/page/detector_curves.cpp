@@ -11,7 +11,7 @@
 namespace aims {
 namespace {
 
-constexpr std::string_view kDetectorsSchema = "aims.detectors/1";
+constexpr std::string_view kDetectorsSchema = "aims.detectors/2";
 constexpr std::size_t kMostPooled = 400;
 constexpr std::size_t kMostOfScenario = 60;
 
