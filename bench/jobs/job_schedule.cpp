@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -37,8 +38,9 @@ Result<void> write_outputs(const JobStore& store, const JobOutputs& wanted, cons
                            const std::string& sequence_id, const Sequence& sequence,
                            const EstimatorOutcome& outcome) {
   Result<void> written;
-  if (wanted.trajectories && !store.has(job.id, sequence_id, wanted)) {
-    const fs::path shared = store.sequence_of(sequence_id);
+  const fs::path shared = store.sequence_of(sequence_id);
+  const bool is_there = fs::exists(shared / *std::rbegin(kSequenceFiles));  // written last
+  if (wanted.trajectories && !is_there) {
     fs::create_directories(shared);
     written = write_sequence(sequence, *job.scenario, shared);
   }
