@@ -10,7 +10,7 @@
 
 #include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/objective.hpp"
-#include "bench/tuning/response_report.hpp"
+#include "bench/tuning/response_summary.hpp"
 #include "core/error.hpp"
 
 namespace aims {

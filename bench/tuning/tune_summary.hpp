@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/tuning/response_report.hpp"
+#include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
