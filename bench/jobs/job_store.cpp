@@ -102,7 +102,7 @@ Result<void> JobStore::enter(std::span<const Job> jobs, const std::string& plan,
         mismatch(*plan_there, plan_here, list_there.value_or(list_here), list_here);
     if (!why.empty() && !force) {
       return failure(fmt::format(
-          "{}: {}; give another --out, or --force to go on here (what is still valid is kept)",
+          "{}: {}; give another --out, or --force to continue here (valid results stay)",
           folder_.string(), why));
     }
     if (why.empty() && list_there && *plan_there == plan_here) return {};
@@ -186,7 +186,7 @@ Result<StoreClaim> claim_store(const fs::path& folder, const Shard& shard) {
     return failure(fmt::format("{}: {}", folder.string(), why));
   };
   if (!is_store_or_empty(folder)) {
-    return refusal("exists and holds no results of jobs; give another --out");
+    return refusal("exists and is no folder of aims results; give another --out");
   }
   const bool alone = shard.count == 1;
   const fs::path own = folder / "shards" / fmt::format("{}-of-{}", shard.index, shard.count);
@@ -194,7 +194,7 @@ Result<StoreClaim> claim_store(const fs::path& folder, const Shard& shard) {
   fs::create_directories(alone ? folder : own, code);
   if (code) return refusal(code.message());
   auto lock = alone ? FolderLock::take(folder) : FolderLock::share(folder);
-  if (!lock) return refusal("another process works there, or it cannot be written");
+  if (!lock) return refusal("in use by another aims command, or it cannot be written");
   StoreClaim claim{std::move(*lock), std::nullopt};
   if (alone) return claim;
   if (auto taken = FolderLock::take(own)) claim.shard.emplace(std::move(*taken));

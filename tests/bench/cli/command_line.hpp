@@ -36,7 +36,8 @@ class CommandLine : public ::testing::Test {
   /// Any command line.
   Outcome shell(const std::string& line) const {
     const std::string command =
-        "cd '" + folder_.path().string() + "' && " + line + " 2>&1 </dev/null";
+        "cd '" + folder_.path().string() + "' && export XDG_CACHE_HOME=\"$PWD/.cache\" && " +
+        line + " 2>&1 </dev/null";
     Outcome outcome;
     FILE* pipe = popen(command.c_str(), "r");
     std::array<char, 4096> buffer{};

@@ -19,10 +19,11 @@ using testing::Outcome;
 
 /// Each command with the shared options that it has.
 const std::map<std::string, std::vector<std::string>> kCommands = {
-    {"run", {"--seeds", "--estimators", "--set", "--out", "--overwrite", "--jobs", "--quiet"}},
+    {"run",
+     {"--seeds", "--estimators", "--set", "--out", "--overwrite", "--cache", "--jobs", "--quiet"}},
     {"suite",
-     {"--scenarios", "--tags", "--folder", "--seeds", "--estimators", "--set", "--out", "--jobs",
-      "--quiet"}},
+     {"--scenarios", "--tags", "--folder", "--seeds", "--estimators", "--set", "--out", "--cache",
+      "--jobs", "--retry", "--quiet"}},
     {"sweep",
      {"--scenarios", "--tags", "--folder", "--seeds", "--estimators", "--param", "--set", "--out",
       "--cache", "--jobs", "--shard", "--retry", "--force", "--quiet"}},

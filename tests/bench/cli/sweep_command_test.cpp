@@ -111,7 +111,7 @@ TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
   expect_refused("--shard 3/2", {"--shard", "'3/2'"});
   expect_refused("--scenarios nowhere", {"nowhere"});
   expect_refused("--estimators legs", {"did you mean 'leg'"});
-  expect_refused("--out my.yaml", {"my.yaml", "no folder of aims sweep"});
+  expect_refused("--out my.yaml", {"my.yaml", "no folder of aims results"});
   write("plan.yaml", "scenarios: []\n");
   expect_refused("", {"no scenario is given"});
   write("plan.yaml", kPlan + "desing: grid\n");
@@ -125,7 +125,7 @@ TEST_F(Sweeps, AreRefusedBesideAnotherAndInAFolderOfAnotherPlan) {
   const Outcome beside =
       shell("flock out/.lock '" AIMS_COMMAND "' sweep plan.yaml --cache walks --quiet --out out");
   EXPECT_EQ(beside.exit_code, 2) << beside.output;
-  EXPECT_TRUE(holds(beside, "out: in use by another aims sweep")) << beside.output;
+  EXPECT_TRUE(holds(beside, "out: in use by another aims command")) << beside.output;
 }
 
 TEST_F(Sweeps, OverTheSimulationMakeASequencePerValue) {

@@ -92,7 +92,7 @@ TEST_F(Tunes, RefuseBadPlansWithOneLine) {
   expect_refused(kPlan + "generation: 3\n", out, "plan.yaml:7:1");
   expect_refused(kPlan, out + " --apply nowhere/tuned.yaml", "no folder");
   expect_refused(kPlan, out + " --cache-limit=-1", "not in range");
-  expect_refused(kPlan, "--out my.yaml", "my.yaml: exists and is no folder of aims tune");
+  expect_refused(kPlan, "--out my.yaml", "my.yaml: exists and is no folder of aims results");
 }
 
 TEST_F(Tunes, AreRefusedBesideAnother) {
@@ -100,7 +100,7 @@ TEST_F(Tunes, AreRefusedBesideAnother) {
   const Outcome beside =
       shell("flock out/.lock '" AIMS_COMMAND "' tune plan.yaml --cache walks --quiet --out out");
   EXPECT_EQ(beside.exit_code, 2) << beside.output;
-  EXPECT_TRUE(holds(beside, "out: in use by another aims tune")) << beside.output;
+  EXPECT_TRUE(holds(beside, "out: in use by another aims command")) << beside.output;
 }
 
 }  // namespace

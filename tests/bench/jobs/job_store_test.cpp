@@ -101,8 +101,8 @@ TEST_F(Store, RefusesAFolderInUseOrOfSomethingElse) {
   {
     const auto alone = claim_store(out_);
     ASSERT_TRUE(alone);
-    expect_refused("another process works there");
-    expect_refused("another process works there", {1, 2});
+    expect_refused("in use by another aims command");
+    expect_refused("in use by another aims command", {1, 2});
   }
   {
     const auto first = claim_store(out_, {1, 2});
@@ -113,7 +113,7 @@ TEST_F(Store, RefusesAFolderInUseOrOfSomethingElse) {
   out_ = folder_.path() / "thesis";
   fs::create_directories(out_);
   std::ofstream(out_ / "thesis.tex") << "years of work";
-  expect_refused("holds no results of jobs");
+  expect_refused("no folder of aims results");
 }
 
 }  // namespace
