@@ -21,7 +21,7 @@
 
 namespace aims {
 
-/// What a cache of sequences may hold unless told otherwise [bytes].
+/// What a cache of sequences may hold by default [bytes].
 inline constexpr std::uintmax_t kCacheLimit = 20'000'000'000;
 
 struct JobOptions {

@@ -57,7 +57,7 @@ std::string first_difference(const std::string& theirs, const std::string& ours)
   return "(fewer lines)";
 }
 
-/// Why the folder's jobs are not these; empty when they are, whatever else the plan says.
+/// Why the folder's jobs are not these; empty when they are, whatever else the plan holds.
 std::string mismatch(const std::string& plan_there, const std::string& plan_here,
                      const std::string& list_there, const std::string& list_here) {
   const std::string code_there = line_of(plan_there, kCodeLine);

@@ -39,7 +39,7 @@ struct ListedJob {
 ///   plan.yaml               of a sweep
 ///   shards/I-of-N/.lock     while a shard is worked on
 ///
-/// A file is there whole or not at all and is decided by the id in its name, so that any number of
+/// A file appears at once, complete, and is decided by the id in its name, so that any number of
 /// processes, on any machines, may fill one folder.
 class JobStore {
  public:
@@ -57,7 +57,7 @@ class JobStore {
 
   /// What the job came to; none when it is not there or its file cannot be read.
   std::optional<JobResult> find(const std::string& id) const;
-  /// The whole file of a job; none likewise.
+  /// The file of a job; none likewise.
   std::optional<Json> read(const std::string& id) const;
   /// Stores a result, over an earlier one of the same job. Error when it cannot be written.
   Result<void> put(const Job& job, const JobResult& result) const;

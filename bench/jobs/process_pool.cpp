@@ -23,7 +23,7 @@
 namespace aims {
 namespace {
 
-constexpr int kThrew = 70;  ///< exit status of a process whose work threw; the text says what
+constexpr int kThrew = 70;  ///< exit status of a process whose work threw; its text is the reason
 
 void send(int descriptor, std::string_view text) {
   while (!text.empty()) {

@@ -56,7 +56,7 @@ struct CachedSequence {
   fs::file_time_type used;
 };
 
-/// Every whole sequence of the folder, the one that was used longest ago first.
+/// Every complete sequence of the folder, the one that was used longest ago first.
 std::vector<CachedSequence> sequences_in(const fs::path& folder) {
   std::vector<CachedSequence> sequences;
   std::error_code code;

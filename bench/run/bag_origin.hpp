@@ -10,7 +10,7 @@
 
 namespace aims {
 
-/// What a simulated bag says of its walk, for scoring; nothing of it reaches an estimator.
+/// What a simulated bag holds of its own origin, for scoring; nothing of it reaches an estimator.
 struct BagOrigin {
   std::vector<WaypointTime> waypoint_times;  ///< of the reference points, in order of time
   std::vector<std::string> segments;         ///< over which its scenario takes M_list; empty: all

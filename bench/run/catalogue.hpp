@@ -32,7 +32,7 @@ struct ScenarioFile {
 };
 
 /// Every scenario file in `folder` and below, read with `overrides` on top. With tags, only
-/// scenarios that have any of them, and files that do not load: nobody knows their tags. Errors:
+/// scenarios that have any of them, and files that do not load, whose tags are unknown. Errors:
 /// two files of one name, a tag that no scenario has.
 Result<std::vector<ScenarioFile>> scenarios_in(const std::filesystem::path& folder,
                                                std::span<const std::string> tags,

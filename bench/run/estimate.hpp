@@ -36,7 +36,7 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
 
 struct EstimateOptions {
   std::filesystem::path bag;
-  bool recover = false;  ///< read what is whole in a broken bag
+  bool recover = false;  ///< read the intact part of a broken bag
   int jobs = 1;          ///< threads; the trajectories do not depend on it
 };
 

@@ -9,7 +9,7 @@
 
 namespace aims {
 
-/// A row per estimator: what it walked, how fast it is; its scores when there is a truth.
+/// A row per estimator: path length, speed, and its scores when there is a truth.
 TextTable estimate_table(const EstimateResult& result);
 
 /// Writes per estimator NAME.tum and NAME.diagnostics.csv, the config that repeats the estimate

@@ -80,7 +80,7 @@ class Recorder {
   Time truth_due_ = 0;
 };
 
-/// What the bag says of its origin: the configuration that repeats it.
+/// What the bag holds of its origin: the configuration that repeats it.
 std::string origin_text(const Scenario& scenario, std::uint64_t seed) {
   return fmt::format("# aims {}, code {}, scenario {}, seed {}\n{}", AIMS_VERSION, code_version(),
                      scenario.name, seed, effective_config(scenario, seed));
@@ -121,9 +121,9 @@ Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& opti
   outcome.complete = true;
   std::vector<Delivery> deliveries;
   const double expected_s = to_seconds(simulation->expected_duration());
-  for (bool walking = true; walking && outcome.complete;) {
+  for (bool moving = true; moving && outcome.complete;) {
     deliveries.clear();
-    walking = simulation->advance(kStreamBatch, deliveries);
+    moving = simulation->advance(kStreamBatch, deliveries);
     auto ok = recorder.write(deliveries, simulation->take_fast_imu(), simulation->truth());
     if (!ok) return tl::unexpected(ok.error());
     outcome.complete = observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});

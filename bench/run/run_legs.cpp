@@ -23,25 +23,25 @@ std::vector<LegInterval> leg_intervals(const SimulationConfig& config, const Leg
                                        const Truth& truth, Time end) {
   const Duration offset = from_seconds(config.links.leg_odometry.clock_offset);
   const double sent = config.leg_odometry.rate * to_seconds(kLegInterval);
-  std::vector<LegInterval> stretches;
+  std::vector<LegInterval> intervals;
   auto sample = truth.samples.begin();
   for (Time stamp = kLegInterval; stamp <= end; stamp += kLegInterval) {
     const auto came =
         static_cast<double>(packets.between(stamp - kLegInterval + offset, stamp + offset));
-    LegInterval stretch = {stamp, std::clamp(1.0 - came / sent, 0.0, 1.0), 0.0};
+    LegInterval interval = {stamp, std::clamp(1.0 - came / sent, 0.0, 1.0), 0.0};
     int samples = 0;
     for (; sample != truth.samples.end() && sample->stamp <= stamp; ++sample, ++samples) {
-      stretch.slip += *std::ranges::max_element(sample->slip_speed);
+      interval.slip += *std::ranges::max_element(sample->slip_speed);
     }
-    if (samples > 0) stretch.slip /= samples;
-    stretches.push_back(stretch);
+    if (samples > 0) interval.slip /= samples;
+    intervals.push_back(interval);
   }
-  return stretches;
+  return intervals;
 }
 
-CsvTable legs_table(std::span<const LegInterval> stretches) {
+CsvTable legs_table(std::span<const LegInterval> intervals) {
   CsvTable table({"stamp_s", "loss", "slip_mps"});
-  for (const LegInterval& each : stretches) {
+  for (const LegInterval& each : intervals) {
     table.add(to_seconds(each.stamp)).add(each.loss).add(each.slip).end_row();
   }
   return table;

@@ -12,13 +12,13 @@
 
 namespace aims {
 
-/// Length of the stretches of time that legs.csv has a row of.
+/// Length of the intervals of legs.csv.
 inline constexpr Duration kLegInterval = 100 * kMillisecond;
 
-/// What became of the leg odometry in one stretch of a run, and what the feet truly did.
+/// Lost packets of leg odometry in one interval of a run, and true slip of the feet.
 struct LegInterval {
-  Time stamp = 0;     ///< end of the stretch
-  double loss = 0.0;  ///< share of the packets that never came, in [0, 1]
+  Time stamp = 0;     ///< end of the interval
+  double loss = 0.0;  ///< fraction of lost packets, in [0, 1]
   double slip = 0.0;  ///< true speed of the fastest standing foot over the ground, mean [m/s]
 };
 
@@ -34,12 +34,12 @@ class LegPackets {
   std::set<Time> stamps_;
 };
 
-/// The whole stretches of a run that lasted until `end`, of packets sent at the configured rate.
-/// Stamps are taken as they came: where they jitter, a packet may fall into the next stretch.
+/// The complete intervals of a run that lasted until `end`, of packets sent at the configured rate.
+/// Stamps are taken as they came: where they jitter, a packet may fall into the next interval.
 std::vector<LegInterval> leg_intervals(const SimulationConfig& config, const LegPackets& packets,
                                        const Truth& truth, Time end);
 
-/// One row per stretch.
-CsvTable legs_table(std::span<const LegInterval> stretches);
+/// One row per interval.
+CsvTable legs_table(std::span<const LegInterval> intervals);
 
 }  // namespace aims

@@ -19,7 +19,7 @@ namespace aims {
 enum class ExpectationStatistic {
   kWorst,   ///< the largest against `max`, the smallest against `min`
   kMedian,  ///< the middle
-  kMean,    ///< of `success`: the share of seeds
+  kMean,    ///< of `success`: the fraction of seeds
 };
 
 /// A limit that is none.
@@ -37,7 +37,7 @@ struct Expectation {
   bool operator==(const Expectation&) const = default;
 };
 
-/// One experiment: the world, the walk, the sensors, who estimates, and what is expected.
+/// One experiment: the world, the route, the sensors, the estimators, and the expectations.
 struct Scenario {
   std::filesystem::path file;          ///< where it was read from, for messages; empty: nowhere
   std::vector<std::string> overrides;  ///< "key=value" that were applied on top of the file

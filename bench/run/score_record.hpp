@@ -48,7 +48,7 @@ void visit_leaves(const Json& json, const std::string& prefix,
                   const std::function<void(const std::string&, const Json&)>& visit);
 
 /// One number of an estimator in a record, by dotted key ("m_list_percent.a-b"); empty when it has
-/// no value (a segment not walked, an estimator that diverged) or does not exist.
+/// no value (a segment that was not reached, an estimator that diverged) or does not exist.
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
                                  const std::string& key);
 

@@ -127,7 +127,7 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
   return {};
 }
 
-/// The file of waypoint times, or what the truth's bag says of its own walk.
+/// The file of waypoint times, or what the truth's bag holds of its origin.
 Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag) {
   if (request.waypoint_times.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
   const auto text = read_file(request.waypoint_times);

@@ -78,14 +78,14 @@ void append_legs(std::vector<std::byte>& out, const LegOdometrySample& sample) {
 
 bool take_legs(ByteCursor& cursor, LegOdometrySample& sample) {
   std::array<std::uint8_t, kLegCount> contact{};
-  const bool whole =
+  const bool complete =
       take_number(cursor, sample.stamp) && take_pose(cursor, sample.T_odom_base) &&
       take_matrix(cursor, sample.linear_velocity) && take_matrix(cursor, sample.angular_velocity) &&
       take_numbers(cursor, contact.data(), contact.size()) &&
       take_numbers(cursor, sample.joint_position.data(), sample.joint_position.size()) &&
       take_numbers(cursor, sample.joint_velocity.data(), sample.joint_velocity.size());
   for (std::size_t i = 0; i < contact.size(); ++i) sample.contact[i] = contact[i] != 0;
-  return whole;
+  return complete;
 }
 
 void append_scan(std::vector<std::byte>& out, const LidarScan& scan) {

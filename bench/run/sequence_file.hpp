@@ -22,7 +22,7 @@ namespace aims {
 /// delivery in order of arrival, and of the truth what scores are made from (motion at the physics
 /// rate, slip of the feet, joints at 10 Hz, waypoint times, information of the scans; no biases). A
 /// bag holds the truth at 10 ms alone and nothing of the scans, so that scores would differ.
-/// Little-endian numbers, one after the other; 22 bytes per return. The file appears whole, on
+/// Little-endian numbers, one after the other; 22 bytes per return. The file appears at once, on
 /// finish().
 class SequenceWriter {
  public:
@@ -44,7 +44,7 @@ class SequenceWriter {
 };
 
 /// Reads what `SequenceWriter` wrote. Measurements are read as they are asked for: memory is that of
-/// one scan, and processes that read one sequence share the file's pages.
+/// one scan, and processes that read one sequence have its pages in common.
 class SequenceReader {
  public:
   /// Error when the file is no sequence, of another format, or cut short.

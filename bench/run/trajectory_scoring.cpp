@@ -15,7 +15,7 @@ namespace {
 /// onto the truth anyway.
 constexpr double kFar = 1e5;  ///< [m]
 
-/// Between true poses farther apart than this, the straight line is worth a word.
+/// Between true poses farther apart than this, the straight line becomes a note.
 constexpr Duration kLongTruthGap = kSecond;
 
 std::string span_text(const Trajectory& trajectory) {

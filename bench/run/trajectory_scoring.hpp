@@ -18,7 +18,7 @@ struct SourcedTrajectory {
   std::string source;  ///< as given: a file, or a bag and its topic
   std::string kind;    ///< "TUM", "KITTI poses", "nav_msgs/Odometry on /odom"
   Trajectory trajectory;
-  std::string body_frame = {};  ///< whose poses they are, where the file says; e.g. "lidar"
+  std::string body_frame = {};  ///< whose poses they are, where the file states it; e.g. "lidar"
 };
 
 /// Trajectories of any system, the truth, and over which ways M_list is taken.
@@ -50,7 +50,7 @@ struct TrajectoryScores {
 };
 
 /// Scores each estimate against the truth. Error when the truth has fewer than two poses, or when
-/// the stamps of an estimate do not overlap the truth's: a clock offset, which no score tells of.
+/// the stamps of an estimate do not overlap the truth's: a clock offset, which no score shows.
 Result<TrajectoryScores> score_trajectories(ScoringInput input);
 
 }  // namespace aims

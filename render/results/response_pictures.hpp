@@ -11,9 +11,9 @@
 namespace aims {
 
 /// Draws the objective into `folder`: KEY.png, a curve along each parameter, a line per family of
-/// scenarios, and KEY-KEY.png, the map over the two that matter most (the first two, where nothing
-/// tells). What neither the design nor the surrogate tells is left out. points.png, every point
-/// over each parameter, where a curve is not measured. The files, by name.
+/// scenarios, and KEY-KEY.png, the map over the two with the largest total indices (the first two
+/// without indices). What neither the design nor the surrogate covers is left out. points.png,
+/// every point over each parameter, where a curve is not measured. The files, by name.
 Result<std::vector<std::string>> draw_response(const ResponseTable& table,
                                                const Objective& objective,
                                                const std::filesystem::path& folder);
