@@ -75,7 +75,7 @@ Result<FilmOptions> options_of(const RenderArguments& arguments) {
   options.pdf = arguments.pdf;
   if (!options.still && options.video.empty() && !options.svg && !options.pdf) {
     options.still = true;
-    options.video = "walk.webp";
+    options.video = "film.webp";
   }
   if (auto used = check_use(arguments, options); !used) return tl::unexpected(used.error());
   if (!arguments.view.empty()) options.view = kViews.at(arguments.view);
@@ -187,7 +187,7 @@ void declare_render(Command command, const fs::path& scenarios) {
   add_jobs(command, shared);
   add_quiet(command, shared);
   command.footer(
-      "Without --still, --video, --svg or --pdf: --still --video walk.webp. Still and video are\n"
+      "Without --still, --video, --svg or --pdf: --still --video film.webp. Still and video are\n"
       "simulated, also from the folder of a run (its config.yaml); --svg and --pdf of such a\n"
       "folder are drawn from its files.\n"
       "Examples:\n"

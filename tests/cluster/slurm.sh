@@ -100,11 +100,11 @@ idle() { [ "$(sinfo -h -o %T 2>/dev/null)" = idle ]; }
 wait_for 60 idle
 
 cd "$work/sweep"
-cp "$tests"/{plan,walk}.yaml .
+cp "$tests"/{plan,sequence}.yaml .
 SEQUENCES=2 "$tests/../../scripts/slurm/submit.sh" plan.yaml out 3 --mem=400 -- --cache "$work/sequences" --quiet
 empty() { [ -z "$(squeue -h 2>/dev/null)" ] && [ -e out.log/merge.txt ]; }
 wait_for 120 empty
 tail -n +1 out.log/*.txt
 grep -q '^6 of 6 jobs done' out.log/merge.txt
-[ "$(ls out/jobs | wc -l)" -eq 6 ]
+[ "$(ls out/jobs/*.json | wc -l)" -eq 6 ]
 [ -s out/sweep.sqlite ]
