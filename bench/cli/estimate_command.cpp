@@ -112,7 +112,7 @@ void declare_estimate(Command command, const fs::path& /*scenarios*/) {
       "Examples:\n"
       "  aims estimate corridor.bag\n"
       "  aims estimate robot.bag --estimators aims,lio --topics lidar=/velodyne_points,imu=/imu\n"
-      "  aims estimate robot.bag --set recording.T_imu_lidar.given=true \\\n"
+      "  aims estimate robot.bag --set recording.T_imu_lidar.override_tf=true \\\n"
       "      --set recording.T_imu_lidar.translation=[0.2,0,0.1]");
   command.action([arguments] { return estimate_command(*arguments); });
 }

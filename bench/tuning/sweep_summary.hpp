@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "core/error.hpp"
