@@ -10,6 +10,7 @@
 
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/response_summary.hpp"
+#include "bench/tuning/sweep_store.hpp"
 #include "core/error.hpp"
 
 namespace aims {
