@@ -6,10 +6,10 @@ namespace aims {
 /// Exit codes of the `aims` command.
 enum ExitCode : int {
   kOk = 0,
-  kExpectationFailed = 1,     ///< an expectation of a scenario failed; jobs failed or are missing
-  kBadInput = 2,       ///< usage, configuration or files
-  kInternal = 3,       ///< a defect of this program
-  kInterrupted = 130,  ///< Ctrl-C; results so far are written
+  kExpectationFailed = 1,  ///< an expectation of a scenario failed; jobs failed or are missing
+  kBadInput = 2,           ///< usage, configuration or files
+  kInternal = 3,           ///< a defect of this program
+  kInterrupted = 130,      ///< Ctrl-C; results so far are written
 };
 
 }  // namespace aims

@@ -150,9 +150,17 @@ Result<std::uint64_t> seed_of(const SharedOptions& options, const Scenario& scen
                              options.seeds));
 }
 
-std::uintmax_t cache_limit(const SharedOptions& options) {
-  if (options.cache_limit_gb == 0.0) return 0;
-  return static_cast<std::uintmax_t>(std::max(1.0, 1e9 * options.cache_limit_gb));
+JobOptions job_options(const SharedOptions& options) {
+  JobOptions jobs;
+  jobs.out = options.out;
+  jobs.cache = options.cache;
+  jobs.cache_limit = 0;
+  if (options.cache_limit_gb > 0.0) {
+    jobs.cache_limit = static_cast<std::uintmax_t>(std::max(1.0, 1e9 * options.cache_limit_gb));
+  }
+  jobs.jobs = options.jobs;
+  jobs.retry = options.retry;
+  return jobs;
 }
 
 void print_pruned(const CachePruned& pruned, const SharedOptions& options) {

@@ -91,8 +91,8 @@ Result<std::vector<std::uint64_t>> seeds_of(const SharedOptions& options,
 /// The one seed of --seeds; the scenario's own without it. Error for several.
 Result<std::uint64_t> seed_of(const SharedOptions& options, const Scenario& scenario);
 
-/// The limit of the cache in bytes; 0: any.
-std::uintmax_t cache_limit(const SharedOptions& options);
+/// Folder, cache, number of jobs and --retry.
+JobOptions job_options(const SharedOptions& options);
 
 /// Prints what was removed from the cache, and when more is in use than it may hold; else nothing.
 void print_pruned(const CachePruned& pruned, const SharedOptions& options);

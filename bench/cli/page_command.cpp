@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostShown = 5;  ///< pages that are listed one by one
+constexpr std::size_t kMostPages = 5;  ///< pages that are listed one by one
 
 struct PageArguments {
   std::vector<std::string> folders;
@@ -26,7 +26,7 @@ struct PageArguments {
 void print_pages(const WrittenPages& written) {
   for (const std::string& warning : written.warnings) fmt::print("warning: {}\n", warning);
   const std::size_t count = written.pages.size();
-  const std::size_t left_out = count > kMostShown ? count - kMostShown : 0;
+  const std::size_t left_out = count > kMostPages ? count - kMostPages : 0;
   if (left_out > 0) fmt::print("page: {} pages of runs, and\n", left_out);
   for (std::size_t i = left_out; i < count; ++i) {
     fmt::print("page: {}\n", written.pages[i].string());

@@ -23,14 +23,14 @@ struct RunArguments {
   bool no_page = false;
 };
 
-Result<SuiteOptions> options_of(const RunArguments& arguments, const Scenario& scenario) {
-  const SharedOptions& shared = arguments.shared;
-  auto options = suite_options(shared, {static_cast<std::uint64_t>(scenario.seed)});
-  if (!options) return options;
+Result<SuiteOptions> options_of(const SharedOptions& given, const Scenario& scenario) {
+  SharedOptions shared = given;
   if (shared.out.empty()) {
     const std::string text = shared.seeds.empty() ? std::to_string(scenario.seed) : shared.seeds;
-    options->jobs.out = fs::path("out") / fmt::format("{}-seed-{}", scenario.name, text);
+    shared.out = (fs::path("out") / fmt::format("{}-seed-{}", scenario.name, text)).string();
   }
+  auto options = suite_options(shared, {});
+  if (!options) return options;
   options->jobs.redo = shared.overwrite;
   options->jobs.retry = true;
   options->jobs.outputs.trajectories = true;
@@ -43,20 +43,7 @@ std::string seeds_text(const SuiteCase& each) {
   return fmt::format("{}{}", fmt::join(seeds, ", "), seeds.size() > 1 ? ": median (worst)" : "");
 }
 
-void print_results(const Suite& suite, const RunArguments& arguments, const fs::path& out) {
-  const SuiteCase& each = suite.cases.front();
-  fmt::print("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
-             to_text(score_table(each.runs)));
-  for (const ExpectationCheck& check : failed(each.expectations)) {
-    fmt::print("EXPECTATION FAILED: {}\n  to repeat: {}\n", text_of(each.scenario, check),
-               reproducing_command(each.scenario, check));
-  }
-  print_outcome(suite, arguments.shared);
-  fmt::print("results: {}\n", (out / "").string());
-  for (const fs::path& picture : pictures_in(out)) fmt::print("  {}\n", picture.string());
-}
-
-/// Draws the runs; a picture that cannot be drawn costs no results.
+/// Draws the runs; a picture that cannot be drawn is a warning: the results are there.
 void draw(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     const auto drawn = draw_run(folder);
@@ -65,24 +52,28 @@ void draw(const std::vector<fs::path>& folders) {
 }
 
 int run_command(const RunArguments& arguments) {
-  const auto scenario = scenario_of(arguments.shared);
+  const SharedOptions& shared = arguments.shared;
+  const auto scenario = scenario_of(shared);
   if (!scenario) return bad_input("run", scenario.error());
-  const auto options = options_of(arguments, *scenario);
+  const auto options = options_of(shared, *scenario);
   if (!options) return bad_input("run", options.error());
-  const auto suite =
-      run_with_display({{scenario->file, *scenario}}, *options, arguments.shared.quiet);
+  const auto suite = run_with_display({{scenario->file, *scenario}}, *options, shared.quiet);
   if (!suite) return bad_input("run", suite.error());
-  const SuiteCase& only = suite->cases.front();
-  if (only.runs.empty() && !suite->failures.empty()) {
+  const SuiteCase& each = suite->cases.front();
+  if (each.runs.empty() && !suite->failures.empty()) {
     return bad_input("run", {suite->failures.front().message});
   }
   const fs::path& out = options->jobs.out;
   if (auto written = write_runs(*suite, out); !written) return bad_input("run", written.error());
   if (!arguments.no_pictures) draw(run_folders(*suite, out));
-  print_results(*suite, arguments, out);
-  if (!arguments.no_page && !only.runs.empty()) write_pages_of(out);
-  const int code = exit_code_of(*suite);
-  return code == kOk && !failed(only.expectations).empty() ? kExpectationFailed : code;
+  fmt::print("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
+             to_text(score_table(each.runs)));
+  print_expectations(*suite);
+  print_outcome(*suite, shared);
+  fmt::print("results: {}\n", (out / "").string());
+  for (const fs::path& picture : pictures_in(out)) fmt::print("  {}\n", picture.string());
+  if (!arguments.no_page && !each.runs.empty()) write_pages_of(out);
+  return exit_code_with_expectations(*suite);
 }
 
 }  // namespace

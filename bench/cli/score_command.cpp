@@ -23,7 +23,7 @@ struct ScoreArguments {
   bool no_pictures = false;
 };
 
-void print_results(const TrajectoryScores& scores, const fs::path& folder) {
+void print_scores(const TrajectoryScores& scores, const fs::path& folder) {
   fmt::print("{}\n{}\n{}", to_text(trajectory_source_table(scores)),
              to_text(trajectory_score_table(scores)), score_legend(scores));
   for (const std::string& note : scores.notes) fmt::print("note: {}\n", note);
@@ -48,7 +48,7 @@ int score_command(const ScoreArguments& arguments) {
     if (!drawn) fmt::print("warning: {}\n", drawn.error().message);
   }
   if (auto committed = folder->commit(); !committed) return bad_input("score", committed.error());
-  print_results(*scores, folder->final_path());
+  print_scores(*scores, folder->final_path());
   return kOk;
 }
 

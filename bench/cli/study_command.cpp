@@ -58,15 +58,15 @@ void print_ablation(const Ablation& ablation) {
 int ablation_command(const AblationArguments& arguments) {
   constexpr const char* kName = "study ablation";
   SharedOptions shared = arguments.shared;
-  AblationOptions variants;
-  auto estimator = one_estimator(shared, variants.estimator);
+  const auto estimator = one_estimator(shared, "aims_d");
   if (!estimator) return bad_input(kName, estimator.error());
-  variants = {*estimator, arguments.groups, joined_specs(arguments.baselines)};
   shared.estimators.clear();  // the study sets its own
   const auto options = suite_options(shared, {});
   if (!options) return bad_input(kName, options.error());
   auto scenarios = study_scenarios(shared);
   if (!scenarios) return bad_input(kName, scenarios.error());
+  const AblationOptions variants = {*estimator, arguments.groups,
+                                    joined_specs(arguments.baselines)};
   if (auto set = set_variants(variants, *scenarios); !set) return bad_input(kName, set.error());
   const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
   if (!suite) return bad_input(kName, suite.error());
@@ -100,7 +100,7 @@ void declare_ablation(Command command, const fs::path& scenarios) {
   command.action([arguments] { return ablation_command(*arguments); });
 }
 
-Result<void> write_views(const Suite& suite, const ConsistencyStudy& study, const fs::path& out) {
+Result<void> write_results(const Suite& suite, const ConsistencyStudy& study, const fs::path& out) {
   auto written = write_suite(suite, out);
   if (written) written = write_consistency(study, suite, out);
   return written ? draw_consistency(study, out) : written;
@@ -117,7 +117,7 @@ int consistency_command(const SharedOptions& shared) {
   if (!suite) return bad_input(kName, suite.error());
   const auto study = consistency_study(*suite, shared.out);
   if (!study) return bad_input(kName, study.error());
-  if (auto written = write_views(*suite, *study, shared.out); !written) {
+  if (auto written = write_results(*suite, *study, shared.out); !written) {
     return bad_input(kName, written.error());
   }
   fmt::print("Along the weak axis, over the sequence\n{}\n", to_text(consistency_table(*study)));
@@ -176,10 +176,9 @@ void declare_detectors(Command command, const fs::path& scenarios) {
   shared->folder = scenarios.string();
   add_suite_options(command, *shared, "out/detectors", "1-5");
   add_estimators(command, *shared, "aims; one");
-  command.footer(
-      std::string(kContinues) +
-      "Example:\n"
-      "  aims study detectors corridor corridor_smooth --seeds 1-5 --out out/detectors");
+  command.footer(std::string(kContinues) +
+                 "Example:\n"
+                 "  aims study detectors corridor corridor_smooth --seeds 1-5 --out out/detectors");
   command.action([shared] { return detectors_command(*shared); });
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "bench/cli/progress.hpp"
@@ -28,11 +29,7 @@ Result<SuiteOptions> suite_options(const SharedOptions& options,
   if (!seeds) return tl::unexpected(seeds.error());
   SuiteOptions suite;
   suite.seeds = std::move(*seeds);
-  suite.jobs.out = options.out;
-  suite.jobs.cache = options.cache;
-  suite.jobs.cache_limit = cache_limit(options);
-  suite.jobs.jobs = options.jobs;
-  suite.jobs.retry = options.retry;
+  suite.jobs = job_options(options);
   return suite;
 }
 
@@ -47,9 +44,16 @@ Result<Suite> run_with_display(std::vector<ScenarioFile> scenarios, const SuiteO
                                bool quiet) {
   watch_interrupt();
   JobDisplay display(quiet);
-  auto suite = run_suite(std::move(scenarios), options, display.observer());
-  display.close();
-  return suite;
+  return run_suite(std::move(scenarios), options, display.observer());
+}
+
+void print_expectations(const Suite& suite) {
+  for (const SuiteCase& each : suite.cases) {
+    for (const ExpectationCheck& check : failed(each.expectations)) {
+      fmt::print("EXPECTATION FAILED: {}\n  to repeat: {}\n", text_of(each.scenario, check),
+                 reproducing_command(each.scenario, check));
+    }
+  }
 }
 
 void print_outcome(const Suite& suite, const SharedOptions& options) {
@@ -63,6 +67,14 @@ void print_outcome(const Suite& suite, const SharedOptions& options) {
 int exit_code_of(const Suite& suite) {
   if (!suite.complete) return kInterrupted;
   return suite.failures.empty() ? kOk : kBadInput;
+}
+
+int exit_code_with_expectations(const Suite& suite) {
+  const int code = exit_code_of(suite);
+  const bool hold = std::all_of(suite.cases.begin(), suite.cases.end(), [](const SuiteCase& each) {
+    return failed(each.expectations).empty();
+  });
+  return code == kOk && !hold ? kExpectationFailed : code;
 }
 
 }  // namespace aims

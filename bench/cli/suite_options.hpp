@@ -10,26 +10,32 @@
 
 namespace aims {
 
-/// What `aims suite` and the studies on a suite have in common: scenarios, seeds, --set, --out,
+/// The options of `aims suite` and of the studies on a suite: scenarios, seeds, --set, --out,
 /// --cache, --jobs, --retry, --quiet.
 void add_suite_options(Command& command, SharedOptions& options, const std::string& folder,
                        const std::string& seeds);
 
-/// Seeds (without --seeds `absent`), folder and jobs.
+/// Seeds (without --seeds `absent`), folder, cache and jobs.
 Result<SuiteOptions> suite_options(const SharedOptions& options,
                                    const std::vector<std::uint64_t>& absent);
 
 /// The scenarios of a study, which must be named or have a tag.
 Result<std::vector<ScenarioFile>> study_scenarios(const SharedOptions& options);
 
-/// Does the jobs of the scenarios and shows how far they are; Ctrl-C ends it early.
+/// Runs the jobs with a line of progress, until Ctrl-C.
 Result<Suite> run_with_display(std::vector<ScenarioFile> scenarios, const SuiteOptions& options,
                                bool quiet);
 
-/// Prints how many jobs were done, what failed, and whether the suite was interrupted.
+/// Prints the expectations that failed, each with the command that repeats it.
+void print_expectations(const Suite& suite);
+
+/// Prints how many jobs were done, those that failed, and whether the suite was interrupted.
 void print_outcome(const Suite& suite, const SharedOptions& options);
 
-/// Of a suite whose expectations do not count.
+/// Interrupted, bad input for failed jobs, or success.
 int exit_code_of(const Suite& suite);
+
+/// The same, where a failed expectation counts.
+int exit_code_with_expectations(const Suite& suite);
 
 }  // namespace aims

@@ -8,6 +8,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
+#include "bench/jobs/job_runner.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "estimator/estimator_spec.hpp"
 
@@ -54,25 +55,16 @@ Result<SweepPlan> plan_of(const SweepArguments& arguments) {
   if (!arguments.shared.estimators.empty()) {
     plan.estimators = joined_specs(arguments.shared.estimators);
   }
-  if (!arguments.design.empty()) plan.design = *parse_design_kind(arguments.design);
+  if (!arguments.design.empty()) {
+    const auto assigned = assign(fields_of(plan), "design", arguments.design);
+    if (!assigned) return tl::unexpected(assigned.error());
+  }
   plan.samples = arguments.samples.value_or(plan.samples);
   plan.design_seed = arguments.design_seed.value_or(plan.design_seed);
   plan.timeout = arguments.timeout.value_or(plan.timeout);
   plan.include_defaults = plan.include_defaults || arguments.include_defaults;
   if (auto right = check_design(arguments, plan); !right) return tl::unexpected(right.error());
   return plan;
-}
-
-JobOptions options_of(const SweepArguments& arguments, const SweepPlan& plan) {
-  JobOptions options;
-  options.out = arguments.shared.out;
-  options.cache = arguments.shared.cache;
-  options.cache_limit = cache_limit(arguments.shared);
-  options.jobs = arguments.shared.jobs;
-  options.timeout_s = plan.timeout;
-  options.retry = arguments.shared.retry;
-  options.simulate_only = arguments.simulate_only;
-  return options;
 }
 
 void print_results(const JobRun& run, const SharedOptions& shared) {
@@ -100,10 +92,13 @@ int sweep_command(const SweepArguments& arguments) {
     }
     return kOk;
   }
+  JobOptions options = job_options(arguments.shared);
+  options.timeout_s = plan->timeout;
+  options.simulate_only = arguments.simulate_only;
   watch_interrupt();
   JobDisplay display(arguments.shared.quiet);
-  const auto run = run_jobs({*jobs, *shard, plan_text(*plan), arguments.force},
-                            options_of(arguments, *plan), display.observer());
+  const auto run =
+      run_jobs({*jobs, *shard, plan_text(*plan), arguments.force}, options, display.observer());
   display.close();
   if (!run) return bad_input("sweep", run.error());
   print_results(*run, arguments.shared);

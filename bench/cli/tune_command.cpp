@@ -24,8 +24,7 @@ struct TuneArguments {
   std::string apply;
 };
 
-/// Makes the folder, keeps others out and writes the plan. Error when it is something else or in
-/// use.
+/// Claims the folder and writes the plan. Error when it is something else or in use.
 Result<StoreClaim> claim(const fs::path& out, const TunePlan& plan) {
   auto claimed = claim_store(out);
   if (!claimed) return claimed;
@@ -54,13 +53,8 @@ Result<TunePlan> plan_of(const TuneArguments& arguments) {
 }
 
 Result<TuneResult> work(const SharedOptions& shared, const TuneTask& task) {
-  JobOptions options;
-  options.out = shared.out;
-  options.cache = shared.cache;
-  options.cache_limit = cache_limit(shared);
-  options.jobs = shared.jobs;
+  JobOptions options = job_options(shared);
   options.timeout_s = task.plan.timeout;
-  options.retry = shared.retry;
   watch_interrupt();
   JobRunner runner(std::move(options));
   JobDisplay display(shared.quiet);

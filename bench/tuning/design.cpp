@@ -149,6 +149,8 @@ Fractions latin_fractions(std::size_t points, std::size_t dimensions, RandomStre
 
 }  // namespace
 
+std::optional<double> number_in(std::string_view text) { return number_of<double>(text); }
+
 Result<ParameterRange> parse_range(std::string_view text) {
   const auto wrong = [&] { return failure(fmt::format("range '{}': {}", text, kForms)); };
   const std::size_t equals = text.find('=');
@@ -180,14 +182,6 @@ std::string text_of(const ParameterRange& range) {
   std::string values = fmt::format("{}{}{}", range.low, separator, range.high);
   if (range.count > 0) values += fmt::format("{}{}", separator, range.count);
   return fmt::format("{}={}", range.key, range.log ? "log(" + values + ")" : values);
-}
-
-Result<DesignKind> parse_design_kind(std::string_view text) {
-  if (text == "grid") return DesignKind::kGrid;
-  if (text == "random") return DesignKind::kRandom;
-  if (text == "sobol") return DesignKind::kSobol;
-  if (text == "lhs") return DesignKind::kLatinHypercube;
-  return failure(fmt::format("design '{}': expected one of grid, random, sobol, lhs", text));
 }
 
 Result<std::size_t> design_size(DesignKind kind, std::span<const ParameterRange> ranges,

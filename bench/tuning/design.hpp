@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,9 @@ enum class DesignKind {
 /// Most points of a design.
 inline constexpr std::size_t kMostPoints = 10'000'000;
 
+/// The number that the entire text is; none when it is no number.
+std::optional<double> number_in(std::string_view text);
+
 /// The range that `text` describes. Errors name the text and what was expected: no number, a
 /// reversed or empty range, fewer values than its ends need, the logarithm of what is not positive.
 /// `range_key` (bench/tuning/range_key.hpp) finds whose key it is.
@@ -45,9 +49,6 @@ Result<ParameterRange> parse_range(std::string_view text);
 
 /// The text that `parse_range` reads.
 std::string text_of(const ParameterRange& range);
-
-/// The kind of "grid", "random", "sobol" or "lhs".
-Result<DesignKind> parse_design_kind(std::string_view text);
 
 /// Points of that design: a grid's from its ranges alone, `samples` of every other. Error for no
 /// range, a grid's range without a count, no sample, and more than `kMostPoints` points.

@@ -55,9 +55,8 @@ std::string MergedJob::outcome() const {
 }
 
 std::size_t MergedSweep::count(std::string_view outcome) const {
-  return static_cast<std::size_t>(
-      std::count_if(jobs.begin(), jobs.end(),
-                    [&](const MergedJob& each) { return each.outcome() == outcome; }));
+  return static_cast<std::size_t>(std::count_if(
+      jobs.begin(), jobs.end(), [&](const MergedJob& each) { return each.outcome() == outcome; }));
 }
 
 Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -23,13 +22,6 @@ namespace fs = std::filesystem;
 
 using Values = std::vector<double>;  ///< of the ranges' keys; empty: the default setting
 using Cases = std::vector<ResponseCase>;
-
-std::optional<double> number_of(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// The runs of one estimator, by point and sequence.
 struct Collected {
@@ -131,7 +123,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     if (!job.file.is_object()) continue;
     const Json defaults = job.file.value("defaults", Json::object());
     for (const auto& [key, text] : defaults.items()) {
-      const auto value = text.is_string() ? number_of(text.get<std::string>()) : std::nullopt;
+      const auto value = text.is_string() ? number_in(text.get<std::string>()) : std::nullopt;
       if (value) varied.scenario_values.emplace(key, *value);
     }
   }
@@ -151,7 +143,7 @@ std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters
   for (const ParameterRange& range : varied.ranges) {
     const auto found = settings.find(range.key);
     if (found == settings.end()) continue;
-    const auto value = number_of(found->second);
+    const auto value = number_in(found->second);
     if (!value) return std::nullopt;
     placed.values.push_back(*value);
     settings.erase(found);
@@ -181,7 +173,7 @@ Result<std::vector<double>> default_values(const EstimatorSpec& estimator,
     }
     const Parameter* parameter = fields.find(range.key);
     if (parameter == nullptr) return failure(unknown_key_message(fields, range.key));
-    values.push_back(number_of(parameter->text()).value_or(range.low));
+    values.push_back(number_in(parameter->text()).value_or(range.low));
   }
   return values;
 }

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/response_summary.hpp"
+#include "bench/tuning/sweep_store.hpp"
 #include "core/error.hpp"
 
 namespace aims {

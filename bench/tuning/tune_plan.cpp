@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <utility>
 
 #include "bench/run/seeds.hpp"
@@ -27,10 +26,7 @@ Result<std::vector<double>> default_values(const TuneTask& task, const Scenario&
   const Fields fields = fields_of(*config);
   std::vector<double> values;
   for (const ParameterRange& range : task.ranges) {
-    const std::string text = fields.find(range.key)->text();
-    double value = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
-    values.push_back(value);
+    values.push_back(number_in(fields.find(range.key)->text()).value_or(0.0));
   }
   return values;
 }

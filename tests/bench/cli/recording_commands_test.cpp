@@ -118,7 +118,8 @@ TEST_F(Recordings, CheckNamesWhatASystemMisses) {
   const Outcome all = aims("check walk.bag");
   EXPECT_EQ(all.exit_code, 0) << all.output;
   EXPECT_NE(all.output.find("LIO-SAM: poor: IMU of 200 Hz"), std::string::npos) << all.output;
-  EXPECT_EQ(aims("check walk.bag --system LIO-SAM,Leg-KILO").exit_code, 0) << "poorly, but they run";
+  EXPECT_EQ(aims("check walk.bag --system LIO-SAM,Leg-KILO").exit_code, 0)
+      << "poorly, but they run";
   const Outcome unknown = aims("check walk.bag --system SLAM9000");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.output.find("FAST-LIO2"), std::string::npos) << unknown.output;

@@ -50,7 +50,8 @@ class Sweeps : public testing::CommandLine {
 TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
   const Outcome first = sweep("--out out --shard 1/3");
   ASSERT_EQ(first.exit_code, 0) << first.output;
-  EXPECT_TRUE(holds(first, "1 jobs done, 0 of them failed; 0 found finished; 1 sequences simulated"));
+  EXPECT_TRUE(
+      holds(first, "1 jobs done, 0 of them failed; 0 found finished; 1 sequences simulated"));
   const Outcome early = aims("merge out");
   EXPECT_EQ(early.exit_code, 1) << "jobs are missing";
   EXPECT_TRUE(holds(early, "1 of 3 jobs done")) << early.output;
@@ -100,7 +101,8 @@ TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
   expect_refused("--param 'leg.rate_hz=log(0,5,3)'", {"logarithm"});
   expect_refused("--param leg.rate_hz=-1:5:3", {"leg.rate_hz", "expected a number > 0"});
   expect_refused("--param leg.rate_hz=x", {"KEY=LOW:HIGH:COUNT"});
-  expect_refused("--param links.leg_odometry.los=0:1:2", {"did you mean 'links.leg_odometry.loss'"});
+  expect_refused("--param links.leg_odometry.los=0:1:2",
+                 {"did you mean 'links.leg_odometry.loss'"});
   expect_refused("--param links.leg_odometry.loss=0:2:3",
                  {"links.leg_odometry.loss=0:2:3", "a number in [0, 1]"});
   expect_refused("--param imu.gyro_bias_walk=0:1:3", {"expected 'estimator.imu.gyro_bias_walk'"});
@@ -140,7 +142,8 @@ TEST_F(Sweeps, OverTheSimulationMakeASequencePerValue) {
   EXPECT_NE(table->find("links.leg_odometry.loss"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "links.leg_odometry.loss.png"));
   const Outcome other = sweep("--out other --param scoring.max_error_offset=0.5:2:3");
-  EXPECT_TRUE(holds(other, "3 jobs done, 0 of them failed; 0 found finished; 1 sequences simulated"))
+  EXPECT_TRUE(
+      holds(other, "3 jobs done, 0 of them failed; 0 found finished; 1 sequences simulated"))
       << other.output;
 }
 

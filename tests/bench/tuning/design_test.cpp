@@ -102,14 +102,6 @@ TEST(ParameterRange, IsHeldAgainstTheConfiguration) {
   EXPECT_TRUE(says(check({"degeneracy.eta=0:6:13", "degeneracy.eta=0:1:2"}), "second"));
 }
 
-TEST(Design, KindsHaveNames) {
-  EXPECT_EQ(parse_design_kind("grid").value(), DesignKind::kGrid);
-  EXPECT_EQ(parse_design_kind("random").value(), DesignKind::kRandom);
-  EXPECT_EQ(parse_design_kind("sobol").value(), DesignKind::kSobol);
-  EXPECT_EQ(parse_design_kind("lhs").value(), DesignKind::kLatinHypercube);
-  EXPECT_TRUE(says(parse_design_kind("gird").error().message, "'gird': expected one of grid"));
-}
-
 TEST(Design, GridHoldsEveryCombinationAndItsEnds) {
   const auto ranges = ranges_of({"a=0:6:3", "b=log(1,100,3)", "c=5:5:1"});
   const Points expected = {{0, 1, 5},   {0, 10, 5}, {0, 100, 5}, {3, 1, 5},  {3, 10, 5},

@@ -11,6 +11,7 @@
 #include "bench/jobs/job_runner.hpp"
 #include "bench/jobs/job_store.hpp"
 #include "bench/tuning/range_key.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "tests/bench/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 

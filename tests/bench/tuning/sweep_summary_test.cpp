@@ -146,7 +146,7 @@ TEST(SweepReport, FailedUnitsCountAsLost) {
 TEST(SweepReport, KeepsEstimatorsWithOtherSettingsApart) {
   MergedSweep sweep = sweep_over_eta(false);
   const MergedSweep again = sweep;
-  for (MergedJob unit : again.units) {
+  for (MergedJob unit : again.jobs) {
     unit.file["settings"]["degeneracy.alpha"] = "0.5";
     sweep.jobs.push_back(unit);
   }
