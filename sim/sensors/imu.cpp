@@ -107,7 +107,7 @@ void describe(Fields& f, ImuConfig& c) {
            {.unit = "Hz",
             .range = in_range(1.0, 2000.0),
             .meaning = "Samples per second.",
-            .source = "paper, section IV"});
+            .source = "paper, III-A"});
   f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
            {.unit = "-", .meaning = "Mean over the sample interval, or the value at its end."});
   describe_errors(f, "gyro", c.gyro, "rad/s", "MEMS datasheets: 0.005-0.015 deg/s/sqrt(Hz)");

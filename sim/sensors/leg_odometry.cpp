@@ -145,7 +145,7 @@ void describe(Fields& f, LegOdometryConfig& c) {
            {.unit = "Hz",
             .range = in_range(1.0, 2000.0),
             .meaning = "Samples per second.",
-            .source = "paper, section IV"});
+            .source = "paper, III-A"});
   f.choice("foot_model", c.foot_model,
            {{"point", FootModel::kPoint}, {"rolling", FootModel::kRolling}},
            {.unit = "-",

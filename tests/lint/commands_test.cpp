@@ -187,6 +187,12 @@ TEST(ProgramHelp, ListsAndConfigurationUseTheFieldsTerms) {
   }
 }
 
+TEST(ShippedScenarios, AllLoad) {
+  for (const Line& line : split_lines("aims list", output_of("list"))) {
+    EXPECT_EQ(line.text.find("does not load"), std::string::npos) << line.text;
+  }
+}
+
 TEST(DocumentedCommands, NameCommandsAndOptionsOfTheProgram) {
   const std::regex option("(--?[a-zA-Z][a-z-]*).*");
   const std::vector<Line> lines = command_lines();
