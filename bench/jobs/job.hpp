@@ -15,7 +15,7 @@
 
 namespace aims {
 
-/// Version of the layout of a job's file; see docs/scaling.md.
+/// Version of the layout of a job's file; see docs/studies-and-tuning.md.
 inline constexpr std::string_view kJobSchema = "aims.job/1";
 
 /// A value that a job's scenario has instead of its own.

@@ -14,7 +14,7 @@
 
 namespace aims {
 
-/// Version of the layout of sweep.sqlite; see docs/scaling.md.
+/// Version of the layout of sweep.sqlite; see docs/studies-and-tuning.md.
 inline constexpr std::string_view kSweepSchema = "aims.sweep/1";
 
 /// A job that a sweep was to do and its file, null when there is none.

@@ -113,7 +113,7 @@ TEST(Gates, SayHowToRepeatThemWithTheSettingsGiven) {
   scenario.file = "my scenarios/paper/corridor.yaml";
   scenario.overrides = {"estimators=[aims]", "lidar.range_max=9", "scene.kind=it's"};
   EXPECT_EQ(reproducing_command(scenario, check_expectations(scenario, kThree).at(0)),
-            "aims run 'my scenarios/paper/corridor.yaml' --seed 2 --estimators aims "
+            "aims run 'my scenarios/paper/corridor.yaml' --seeds 2 --estimators aims "
             "--set lidar.range_max=9 --set 'scene.kind=it'\\''s'");
 }
 

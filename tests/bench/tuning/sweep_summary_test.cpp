@@ -31,7 +31,7 @@ MergedJob unit_of(const std::string& scenario, int seed, const Json& settings, d
 /// eta from 0 to 6 in 13 steps, best at 1; with the untuned estimator (eta 3) where asked for.
 MergedSweep sweep_over_eta(bool untuned) {
   MergedSweep sweep;
-  sweep.plans = {"# aims sweep\nover: [\"degeneracy.eta=0:6:13\"]\nscenarios: [corridor]\n"};
+  sweep.plans = {"# aims sweep\nparams: [\"degeneracy.eta=0:6:13\"]\nscenarios: [corridor]\n"};
   const auto ate = [](double eta, int seed) { return 0.1 * seed * (1.0 + std::abs(eta - 1.0)); };
   for (int seed = 1; seed <= 4; ++seed) {
     if (untuned) sweep.jobs.push_back(unit_of("corridor", seed, Json::object(), ate(3.0, seed)));

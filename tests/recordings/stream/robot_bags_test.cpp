@@ -172,7 +172,7 @@ TEST_F(RobotBags, DoublesByColumnWithMicroseconds) {
 
 TEST_F(RobotBags, HesaiTimesSinceTheEpoch) {
   expect_scans("hesai", 130);  // a double holds 240 ns since 1970
-  EXPECT_TRUE(noted("on the stamps' clock"));
+  EXPECT_TRUE(noted("on the clock of the stamps"));
   EXPECT_TRUE(noted("it marks the end of the scan"));
 }
 
@@ -183,7 +183,7 @@ TEST_F(RobotBags, PointTimesOnAnotherClockAreRelativeToTheFirst) {
 
 TEST_F(RobotBags, LivoxCloudWithNanosecondsInDoubles) {
   expect_scans("livox_pointcloud", 300);
-  EXPECT_TRUE(noted("field 'timestamp' in ns, on the stamps' clock"));
+  EXPECT_TRUE(noted("field 'timestamp' in ns, on the clock of the stamps"));
 }
 
 TEST_F(RobotBags, FloatMilliseconds) {

@@ -62,11 +62,11 @@ class Units {
   /// One that is not done yet.
   void list(const Json& unit) {
     id_ = fmt::format("{:04}", ++count_);
-    list_ += fmt::format("{},\"{}\",{},aims\n", id_, unit["scenario"].get<std::string>(),
+    list_ += fmt::format("{},\"{}\",{},aims,aims\n", id_, unit["scenario"].get<std::string>(),
                          unit["seed"].get<int>());
   }
 
-  void write_list() const { put(folder_ / "jobs.csv", "id,scenario,seed,estimator\n" + list_); }
+  void write_list() const { put(folder_ / "jobs.csv", "id,scenario,seed,label,estimator\n" + list_); }
   const fs::path& folder() const { return folder_; }
 
  private:
@@ -147,7 +147,7 @@ TEST(TuningPage, EveryUnitIsARowWithItsValuesAndScores) {
 TEST(TuningPage, AParameterOfTheSimulationHasItsUnitAndItsOwnDefault) {
   const TemporaryFolder folder;
   Units units(folder.path());
-  put(units.folder() / "plan.yaml", "# aims sweep\nover: [\"lidar.range_sigma=0.01:0.03:3\"]\n");
+  put(units.folder() / "plan.yaml", "# aims sweep\nparams: [\"lidar.range_sigma=0.01:0.03:3\"]\n");
   for (const char* sigma : {"0.01", "0.02", "0.03"}) {
     Json walked = unit("walk", 1, {}, 0.1);
     walked["settings"] = {{"lidar.range_sigma", sigma}};
@@ -231,7 +231,7 @@ TEST(TuningPage, UnitsThatFailedAreLostRowsWithoutScores) {
   Json lost = unit("walk", 1, {2.0, 1.0}, 0.3);
   lost["scores"]["success"] = false;
   units.add(lost);
-  put(folder.path() / "units/0003.json", "{\"schema\": \"aims.un");
+  put(folder.path() / "jobs/0003.json", "{\"schema\": \"aims.un");
   units.write_list();
   const DecodedPage page = page_of(folder.path());
   const auto& rows = page.json["estimators"][0]["rows"];
@@ -259,7 +259,7 @@ TEST(TuningPage, ATuningKeepsWhatWasHeldOutApart) {
   }
   units.add(unit("walk", 7, {}, 0.3));
   units.add(unit("other", 7, {1.0, 10.0}, 0.25));
-  put(folder.path() / "units/broken.json", "{");
+  put(folder.path() / "jobs/broken.json", "{");
   const DecodedPage page = page_of(folder.path());
   EXPECT_EQ(page.json["source"], "tune");
   EXPECT_EQ(page.json["jobs"]["done"], 4);
