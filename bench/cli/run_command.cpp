@@ -57,6 +57,9 @@ int run_command(const RunArguments& arguments) {
   if (!scenario) return bad_input("run", scenario.error());
   const auto options = options_of(shared, *scenario);
   if (!options) return bad_input("run", options.error());
+  const auto first_seed = options->seeds.empty() ? static_cast<std::uint64_t>(scenario->seed)
+                                                 : options->seeds.front();
+  if (auto ok = check_simulation(*scenario, first_seed); !ok) return bad_input("run", ok.error());
   const auto suite = run_with_display({{scenario->file, *scenario}}, *options, shared.quiet);
   if (!suite) return bad_input("run", suite.error());
   const SuiteCase& each = suite->cases.front();

@@ -11,6 +11,7 @@
 #include "core/files/yaml_position.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "estimator/registry.hpp"
+#include "sim/simulation.hpp"
 
 namespace aims {
 namespace {
@@ -104,6 +105,12 @@ void describe(Fields& f, Scenario& s) {
 Error located(const Scenario& scenario, const Error& error) {
   if (scenario.file.empty()) return error;
   return {with_position(scenario.file, error.message)};
+}
+
+Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed) {
+  const auto simulation = Simulation::create(scenario.simulation, seed);
+  if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
+  return {};
 }
 
 Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides) {

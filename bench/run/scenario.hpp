@@ -62,6 +62,10 @@ void describe(Fields& fields, Scenario& scenario);
 /// `error`, whose message begins with a key of the scenario, with the key's file, line and column.
 Error located(const Scenario& scenario, const Error& error);
 
+/// Error, with the line in the scenario's file, when the simulation cannot start on that seed: the
+/// robot would stand in a wall, or a route point lies inside an object.
+Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed);
+
 /// Reads a scenario and applies `overrides` ("key=value") on top of it. Checks everything that can
 /// be checked without simulating; errors are one line that names file, line, key and expectation.
 Result<Scenario> load_scenario(const std::filesystem::path& file,

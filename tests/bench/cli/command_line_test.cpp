@@ -169,7 +169,7 @@ TEST_F(CommandLine, ASuiteSaysWhatIsWrongWithItsArguments) {
   refused("suite --scenarios wlak", "did you mean 'walk'?");
   refused("suite --seeds 3-1", "'3-1' is not a seed");
   refused("suite --set lidar.range_mx=3", "did you mean 'lidar.range_max'?");
-  refused("suite --tags short --out scenarios", "holds no results of jobs");
+  refused("suite --tags short --out scenarios", "exists and is no folder of aims results");
   refused("suite --folder nowhere", "nowhere: holds no scenario");
   refused("study compare scenarios scenarios", "holds no finished results");
 }

@@ -99,7 +99,7 @@ TEST_F(Score, TakesTruthAndEstimatesFromABag) {
       "walk.bag:/leg_odometry --no-pictures --overwrite --out here";
   const Outcome score = aims(both);
   ASSERT_EQ(score.exit_code, 0) << score.output;
-  expect_says(score, {"/ground_truth/imu taken", "poses of 'lidar', while the truth's are of 'imu'",
+  expect_says(score, {"topic /ground_truth/imu chosen of several", "poses of 'lidar', while the truth's are of 'imu'",
                       "M_list(b-a) %", "walk/leg_odometry"});
   EXPECT_GT(scores_in("here")["estimators"]["walk/ground_truth/lidar"]["ate_m"], 1e-3);
   // The LiDAR on the IMU, as the bag's /tf_static has it.
