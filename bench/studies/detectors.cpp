@@ -109,9 +109,9 @@ const std::vector<DegeneracyIndex>& degeneracy_indices() {
        [](const Scan& s) { return s.smallest_eigenvalue; }},
       {"condition_number", true, "Hinduja, Ho and Kaess 2019",
        [](const Scan& s) { return s.condition_number; }},
-      {"weak_weight", false, "this project: fraction of the information of the weakest axis that is not noise-induced",
+      {"weak_weight", false, "this project: weight of the weakest axis",
        [](const Scan& s) { return s.weak_weight; }},
-      {"weak_ratio", false, "this project: smallest ratio of information to noise-induced information",
+      {"weak_ratio", false, "this project: smallest significance ratio of an axis",
        [](const Scan& s) { return s.weak_ratio; }},
       {"points_used", false, "usual practice",
        [](const Scan& s) { return static_cast<double>(s.points_used); }}};

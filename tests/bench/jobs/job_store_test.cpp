@@ -39,7 +39,7 @@ class Store : public ::testing::Test {
   std::vector<Job> two_jobs() const {
     const auto scenario = shared(short_walk());
     return {make_job(scenario, 1, parse_estimator_spec("leg").value()),
-            make_job(scenario, 1, parse_estimator_spec("fast=leg+leg.rate_hz=200").value())};
+            make_job(scenario, 1, parse_estimator_spec("slow=leg+leg.rate_hz=100").value())};
   }
 
   static JobResult done(double ate) {
@@ -71,13 +71,13 @@ TEST_F(Store, ReadsBackItsListAndResultsAsRecords) {
   ASSERT_TRUE(listed) << listed.error().message;
   ASSERT_EQ(listed->size(), 2U);
   EXPECT_EQ((*listed)[1].id, jobs[1].id);
-  EXPECT_EQ((*listed)[1].label, "fast");
-  EXPECT_EQ((*listed)[1].estimator, "leg+leg.rate_hz=200");
+  EXPECT_EQ((*listed)[1].label, "slow");
+  EXPECT_EQ((*listed)[1].estimator, "leg+leg.rate_hz=100");
   const auto results = read_results(out_);
   ASSERT_TRUE(results) << results.error().message;
   const RunRecord& record = results->at("short").at(0);
   EXPECT_EQ(find_score(record, "leg", "ate_m"), 0.1);
-  EXPECT_EQ(find_score(record, "fast", "ate_m"), 0.2);
+  EXPECT_EQ(find_score(record, "slow", "ate_m"), 0.2);
   EXPECT_EQ(record.scores["simulated_s"], 4.0);
 }
 

@@ -45,13 +45,13 @@ ExpectationCheck check(const Expectation& expectation) {
   return check(expectation, {&run, 1});
 }
 
-TEST(Gates, HoldWhenTheScoreIsWithinItsLimit) {
+TEST(Expectations, HoldWhenTheScoreIsWithinItsLimit) {
   EXPECT_TRUE(check({"aims", "m_end_m", 0.2}).holds);
   EXPECT_TRUE(check({"aims", "m_list_percent.a-b", 0.07}).holds);
   EXPECT_TRUE(check({"aims", "m_end_m", kNoLimit, 0.1}).holds);
 }
 
-TEST(Gates, FailWithScenarioSeedFigureAndLimit) {
+TEST(Expectations, FailWithScenarioSeedFigureAndLimit) {
   const Scenario scenario = expecting({"aims", "m_end_m", 0.1});
   const RunRecord run = record();
   const auto failures = failed(check_expectations(scenario, {&run, 1}));
@@ -60,26 +60,26 @@ TEST(Gates, FailWithScenarioSeedFigureAndLimit) {
             "corridor seed 7: aims m_end_m = 0.15, expected at most 0.1");
 }
 
-TEST(Gates, FailWhereAnErrorIsSmallerThanItMustBe) {
+TEST(Expectations, FailWhereAnErrorIsSmallerThanItMustBe) {
   const ExpectationCheck easy = check({"aims", "m_end_m", kNoLimit, 1.0});
   EXPECT_FALSE(easy.holds);
   EXPECT_EQ(text_of(expecting(easy.expectation), easy),
             "corridor seed 7: aims m_end_m = 0.15, expected at least 1");
 }
 
-TEST(Gates, FailWhereThereIsNoValue) {
+TEST(Expectations, FailWhereThereIsNoValue) {
   EXPECT_FALSE(check({"aims", "ate_m", 0.1}).holds);
   EXPECT_FALSE(check({"aims", "no_such_score", 0.1}).holds);
   EXPECT_FALSE(check({"aims", "ate_m", kNoLimit, 0.1}).holds) << "nothing is not much";
 }
 
-TEST(Gates, DoNotCountForEstimatorsThatDidNotRun) {
+TEST(Expectations, DoNotCountForEstimatorsThatDidNotRun) {
   Scenario scenario = expecting({"lio", "m_end_m", 0.1});
   scenario.estimators = {"aims"};
   EXPECT_TRUE(check_expectations(scenario, kThree).empty());
 }
 
-TEST(Gates, TakeTheWorstSeedUnlessAskedOtherwise) {
+TEST(Expectations, TakeTheWorstSeedUnlessAskedOtherwise) {
   const ExpectationCheck above = check({"aims", "ate_m", 0.5}, kThree);
   EXPECT_FALSE(above.holds);
   EXPECT_EQ(above.value, 0.6);
@@ -89,7 +89,7 @@ TEST(Gates, TakeTheWorstSeedUnlessAskedOtherwise) {
   EXPECT_EQ(below.seeds, std::vector<std::uint64_t>({1}));
 }
 
-TEST(Gates, TakeMedianAndMeanOverAllSeeds) {
+TEST(Expectations, TakeMedianAndMeanOverAllSeeds) {
   const ExpectationCheck median = check({"aims", "ate_m", 0.2, 0.2, ExpectationStatistic::kMedian}, kThree);
   EXPECT_TRUE(median.holds);
   EXPECT_EQ(median.seeds.size(), 3U);
@@ -100,7 +100,7 @@ TEST(Gates, TakeMedianAndMeanOverAllSeeds) {
             std::string::npos);
 }
 
-TEST(Gates, NameTheSeedsWithoutAValue) {
+TEST(Expectations, NameTheSeedsWithoutAValue) {
   std::vector<RunRecord> runs = kThree;
   runs[2].scores["estimators"]["aims"]["ate_m"] = nullptr;
   const ExpectationCheck lost = check({"aims", "ate_m", 9.0, -kNoLimit, ExpectationStatistic::kMedian}, runs);
@@ -108,7 +108,7 @@ TEST(Gates, NameTheSeedsWithoutAValue) {
   EXPECT_EQ(lost.seeds, std::vector<std::uint64_t>({3}));
 }
 
-TEST(Gates, SayHowToRepeatThemWithTheSettingsGiven) {
+TEST(Expectations, SayHowToRepeatThemWithTheSettingsGiven) {
   Scenario scenario = expecting({"aims", "ate_m", 0.5});
   scenario.file = "my scenarios/paper/corridor.yaml";
   scenario.overrides = {"estimators=[aims]", "lidar.range_max=9", "scene.kind=it's"};
@@ -117,7 +117,7 @@ TEST(Gates, SayHowToRepeatThemWithTheSettingsGiven) {
             "--set lidar.range_max=9 --set 'scene.kind=it'\\''s'");
 }
 
-TEST(Gates, WithoutALimitOrWithImpossibleOnesAreRefused) {
+TEST(Expectations, WithoutALimitOrWithImpossibleOnesAreRefused) {
   const TemporaryFolder folder;
   const auto load = [&](const char* expect) {
     std::ofstream(folder.path() / "s.yaml") << "expect: [{estimator: aims, score: ate_m" << expect;

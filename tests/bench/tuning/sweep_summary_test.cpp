@@ -146,9 +146,9 @@ TEST(SweepReport, FailedUnitsCountAsLost) {
 TEST(SweepReport, KeepsEstimatorsWithOtherSettingsApart) {
   MergedSweep sweep = sweep_over_eta(false);
   const MergedSweep again = sweep;
-  for (MergedJob unit : again.jobs) {
-    unit.file["settings"]["degeneracy.alpha"] = "0.5";
-    sweep.jobs.push_back(unit);
+  for (MergedJob job : again.jobs) {
+    job.file["settings"]["degeneracy.alpha"] = "0.5";
+    sweep.jobs.push_back(job);
   }
   const auto responses = sweep_responses(sweep, "ate_m");
   ASSERT_TRUE(responses);
