@@ -30,7 +30,7 @@ std::optional<Number> parse(std::string_view text) {
   return value;
 }
 
-/// Takes a double-quoted entry off the front of `rest`, or nothing when its quote never closes.
+/// Removes a double-quoted entry from the front of `rest`; nothing when its quote never closes.
 std::optional<std::string> take_quoted(std::string_view& rest) {
   std::string entry;
   for (std::size_t i = 1; i < rest.size(); ++i) {
@@ -44,7 +44,7 @@ std::optional<std::string> take_quoted(std::string_view& rest) {
   return std::nullopt;
 }
 
-/// Takes an unquoted entry off the front of `rest`, or nothing when it is empty.
+/// Removes an unquoted entry from the front of `rest`; nothing when it is empty.
 std::optional<std::string> take_plain(std::string_view& rest) {
   const auto end = std::min(rest.find(','), rest.size());
   const std::string entry(trimmed(rest.substr(0, end)));
@@ -102,7 +102,7 @@ std::vector<std::string> keys_of(const Fields& fields) {
   return keys;
 }
 
-/// The known key that a writer of the unknown `key` most likely meant, or empty.
+/// The known key most similar to the unknown `key`, or empty.
 std::string proposal_for(const Fields& fields, std::string_view key) {
   const std::vector<std::string> keys = keys_of(fields);
   const std::size_t name_start = key.rfind('.') + 1;  // npos + 1 = 0
@@ -116,12 +116,12 @@ std::string proposal_for(const Fields& fields, std::string_view key) {
   }
   const std::string sibling = near_match(name, siblings);
   if (!sibling.empty()) return prefix + sibling;
-  std::vector<std::string> of_that_name;
+  std::vector<std::string> same_name;
   for (const std::string& each : keys) {
-    if (each == name || each.ends_with("." + name)) of_that_name.push_back(each);
+    if (each == name || each.ends_with("." + name)) same_name.push_back(each);
   }
-  const std::string nearest = near_match(key, of_that_name.empty() ? keys : of_that_name);
-  return nearest.empty() && !of_that_name.empty() ? of_that_name.front() : nearest;
+  const std::string nearest = near_match(key, same_name.empty() ? keys : same_name);
+  return nearest.empty() && !same_name.empty() ? same_name.front() : nearest;
 }
 
 }  // namespace
@@ -144,30 +144,26 @@ std::string Range::text() const {
   return {};
 }
 
-void Fields::number(std::string_view name, double& value, Spec spec) {
+template <class Number>
+void Fields::add_number(std::string_view name, Number& value, Spec spec, std::string_view what) {
   const Range range = spec.range;
   auto assign = [&value, range](std::string_view text) {
-    const auto parsed = parse<double>(text);
+    const auto parsed = parse<Number>(text);
     if (!parsed || !range.contains(*parsed)) return false;
     value = *parsed;
     return true;
   };
   add(
-      name, std::move(spec), with_range("a number", range),
-      [&value] { return fmt::format("{}", value); }, std::move(assign));
+      name, std::move(spec), with_range(what, range), [&value] { return fmt::format("{}", value); },
+      std::move(assign));
+}
+
+void Fields::number(std::string_view name, double& value, Spec spec) {
+  add_number(name, value, std::move(spec), "a number");
 }
 
 void Fields::integer(std::string_view name, int& value, Spec spec) {
-  const Range range = spec.range;
-  auto assign = [&value, range](std::string_view text) {
-    const auto parsed = parse<int>(text);
-    if (!parsed || !range.contains(*parsed)) return false;
-    value = *parsed;
-    return true;
-  };
-  add(
-      name, std::move(spec), with_range("an integer", range),
-      [&value] { return fmt::format("{}", value); }, std::move(assign));
+  add_number(name, value, std::move(spec), "an integer");
 }
 
 void Fields::flag(std::string_view name, bool& value, Spec spec) {
@@ -202,20 +198,23 @@ void Fields::texts(std::string_view name, std::vector<std::string>& value, Spec 
       [&value] { return sequence_text(value); }, std::move(assign), true);
 }
 
-void Fields::vector(std::string_view name, Eigen::Vector3d& value, Spec spec) {
+template <class Vector>
+void Fields::add_vector(std::string_view name, Vector& value, Spec spec, std::string_view what) {
   const Range range = spec.range;
   add(
-      name, std::move(spec), with_range("three numbers like [x, y, z]", range),
-      [&value] { return fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()); },
+      name, std::move(spec), with_range(what, range),
+      [&value] {
+        return fmt::format("[{}]", fmt::join(value.data(), value.data() + value.size(), ", "));
+      },
       [&value, range](std::string_view text) { return assign_vector(value, range, text); }, true);
 }
 
+void Fields::vector(std::string_view name, Eigen::Vector3d& value, Spec spec) {
+  add_vector(name, value, std::move(spec), "three numbers like [x, y, z]");
+}
+
 void Fields::vector(std::string_view name, Eigen::Vector2d& value, Spec spec) {
-  const Range range = spec.range;
-  add(
-      name, std::move(spec), with_range("two numbers like [x, y]", range),
-      [&value] { return fmt::format("[{}, {}]", value.x(), value.y()); },
-      [&value, range](std::string_view text) { return assign_vector(value, range, text); }, true);
+  add_vector(name, value, std::move(spec), "two numbers like [x, y]");
 }
 
 const Parameter* Fields::find(std::string_view key) const {

@@ -33,7 +33,7 @@ constexpr Range in_half_open(double min, double max) {
   return {.min = min, .max = max, .max_included = false};
 }
 
-/// What the documentation of a parameter says of it.
+/// Documentation of a parameter.
 struct Spec {
   std::string unit = {};     ///< e.g. "m/s", "-" when dimensionless
   Range range = {};          ///< for numbers and each entry of a vector
@@ -60,8 +60,8 @@ struct ListField {
 };
 
 /// The field list of a configuration: one `describe(Fields&, Config&)` per struct drives loading,
-/// dumping, `--set`, validation, documentation and scans. Holds pointers into the configuration,
-/// so it must not outlive it; collect again after resizing a list.
+/// dumping, `--set`, validation, documentation and sweeps. It points into the configuration and
+/// must not outlive it; collect it again after resizing a list.
 class Fields {
  public:
   void number(std::string_view name, double& value, Spec spec);
@@ -96,6 +96,10 @@ class Fields {
 
  private:
   std::string full_key(std::string_view name) const;
+  template <class Number>
+  void add_number(std::string_view name, Number& value, Spec spec, std::string_view what);
+  template <class Vector>
+  void add_vector(std::string_view name, Vector& value, Spec spec, std::string_view what);
   void add(std::string_view name, Spec spec, std::string expected,
            std::function<std::string()> text, std::function<bool(std::string_view)> assign,
            bool sequence = false);

@@ -7,16 +7,16 @@
 
 namespace aims {
 
-/// Why something could not be done: what, where, and what was expected, in one line.
+/// Reason of a failure: what, where, and what was expected, in one line.
 struct Error {
   std::string message;
 };
 
-/// A value, or the reason why there is none.
+/// A value or an error.
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// The failed outcome with that message.
+/// An error with that message.
 inline tl::unexpected<Error> failure(std::string message) {
   return tl::unexpected<Error>(Error{std::move(message)});
 }

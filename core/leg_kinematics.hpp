@@ -13,8 +13,7 @@ namespace aims {
 /// One number per joint, leg by leg: abduction, hip, knee.
 using JointVector = Eigen::Matrix<double, kJointCount, 1>;
 
-/// Lengths of a quadruped [m]; by default of the model in `models/`, against which a test holds
-/// them.
+/// Dimensions of a quadruped [m]; a test compares the defaults with the model in `models/`.
 struct LegGeometry {
   double hip_x = 0.188;     ///< hip from the trunk's centre, forward or back
   double hip_y = 0.047;     ///< hip from the trunk's centre, to either side
@@ -28,9 +27,9 @@ inline constexpr LegGeometry kLegGeometry{};
 
 void describe(Fields& fields, LegGeometry& geometry);
 
-/// What a robot takes its feet for.
+/// Contact model of a foot.
 enum class FootModel {
-  kPoint,    ///< the centre of a standing foot rests: reads short, as the round foot rolls
+  kPoint,    ///< the centre of the foot is static: underestimates, since a round foot rolls
   kRolling,  ///< the foot rolls on its contact point
 };
 
@@ -40,7 +39,7 @@ inline constexpr std::array<std::string_view, kLegCount> kLegNames = {"FL", "FR"
 /// +1 for a leg on the left, -1 on the right.
 constexpr double side_of(int leg) { return leg % 2 == 0 ? 1.0 : -1.0; }
 
-/// Where the abduction axis of `leg` leaves the trunk, in the base frame [m].
+/// Position of the hip (abduction axis) of `leg` in the base frame [m].
 Eigen::Vector3d hip_in_base(int leg, const LegGeometry& geometry = kLegGeometry);
 
 /// Angles of the joints of one leg out of all twelve [rad].
@@ -57,24 +56,24 @@ Eigen::Matrix3d foot_jacobian(int leg, const Eigen::Vector3d& q,
 /// Angular velocity of the calf with respect to the base, in base axes [rad/s].
 Eigen::Vector3d calf_rate_in_base(const Eigen::Vector3d& q, const Eigen::Vector3d& rate);
 
-/// Joint angles [rad] that bring the foot's centre to `foot` in the base frame [m], knee backwards.
-/// A point out of reach is brought to the nearest reachable length of the leg.
+/// Joint angles [rad] that place the foot's centre at `foot` in the base frame [m], knee backwards.
+/// For a point out of reach the leg has the nearest possible length.
 Eigen::Vector3d leg_angles(int leg, const Eigen::Vector3d& foot,
                            const LegGeometry& geometry = kLegGeometry);
 
-/// How one leg and the trunk turn at an instant.
+/// Joint motion of one leg and rotation of the base at an instant.
 struct LegMotion {
   Eigen::Vector3d q;        ///< angles of the leg's joints [rad]
   Eigen::Vector3d rate;     ///< of these angles [rad/s]
   Eigen::Vector3d turning;  ///< angular velocity of the base, in base axes [rad/s]
 };
 
-/// Velocity of the base in base axes [m/s] if the centre of that leg's foot rests.
+/// Velocity of the base in base axes [m/s] if the centre of that leg's foot is static.
 Eigen::Vector3d velocity_from_foot(int leg, const LegMotion& motion,
                                    const LegGeometry& geometry = kLegGeometry);
 
-/// Velocity of the base in base axes [m/s] if the round foot rolls on a floor that faces `up`, a
-/// unit vector in base axes.
+/// Velocity of the base in base axes [m/s] if the round foot rolls on ground with the normal `up`,
+/// a unit vector in base axes.
 Eigen::Vector3d velocity_from_rolling_foot(int leg, const LegMotion& motion,
                                            const Eigen::Vector3d& up,
                                            const LegGeometry& geometry = kLegGeometry);

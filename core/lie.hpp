@@ -30,7 +30,7 @@ double yaw_of(const Eigen::Quaterniond& q);
 /// Angle [rad] wrapped to (-pi, pi].
 double wrap_angle(double angle);
 
-/// Rigid transform: `T_a_b * p_b` are the coordinates in frame a of a point given in frame b.
+/// Rigid transform: `T_a_b * p_b` are the coordinates in frame a of the point p_b in frame b.
 struct Pose {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< [m]
@@ -44,7 +44,7 @@ struct Pose {
   }
 };
 
-/// Pose a fraction of the way from `a` (0) to `b` (1): linear in position, slerp in rotation.
+/// Pose between `a` (fraction 0) and `b` (1): linear in position, slerp in rotation.
 Pose interpolate(const Pose& a, const Pose& b, double fraction);
 
 }  // namespace aims

@@ -13,17 +13,17 @@
 
 namespace aims {
 
-/// What one inertial sample stands for.
+/// What one inertial sample represents.
 enum class ImuSampling {
-  kMean,   ///< the mean over the interval that ends at its stamp, as a real IMU's filter gives
-  kPoint,  ///< the value at its stamp alone: footfalls alias into it
+  kMean,   ///< the mean over the interval that ends at its stamp, as with a real IMU's filter
+  kPoint,  ///< the value at its stamp: footfalls alias into it
 };
 
 /// One inertial sample in the body (IMU) frame.
 struct ImuSample {
   Time stamp = 0;  ///< end of the interval that the sample averages, or the instant sampled
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
-  Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< [m/s^2], +9.81 up at rest
+  Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< [m/s^2], +9.81 upwards when static
 };
 
 /// One LiDAR return in the LiDAR frame at the instant of its own firing (not deskewed).
@@ -51,7 +51,7 @@ struct LegOdometrySample {
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();  ///< of the base, in base axes [m/s]
   Eigen::Vector3d angular_velocity =
       Eigen::Vector3d::Zero();                       ///< of the base, in base axes [rad/s]
-  std::array<bool, kLegCount> contact{};             ///< feet judged to stand
+  std::array<bool, kLegCount> contact{};             ///< detected contacts
   std::array<double, kJointCount> joint_position{};  ///< encoders [rad]
   std::array<double, kJointCount> joint_velocity{};  ///< encoders [rad/s]
 };
@@ -65,10 +65,10 @@ struct Delivery {
   Measurement measurement;
 };
 
-/// When the measurement was complete: sample stamp, or the end of the scan.
+/// End of the measurement: sample stamp, or end of the scan.
 Time stamp_of(const Measurement& measurement);
 
-/// Where the sensors sit on the body, as a robot's calibration states it.
+/// Sensor extrinsics.
 /// The body frame is the IMU frame: x forward, y left, z up.
 struct SensorRig {
   Pose T_body_lidar;  ///< LiDAR frame in the body frame

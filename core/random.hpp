@@ -8,8 +8,8 @@
 
 namespace aims {
 
-/// Named stream of random numbers: what it yields depends on the run's seed and its name alone,
-/// so that a new sensor never shifts another's noise. Identical on every compiler.
+/// Named stream of random numbers. Its values depend only on the run's seed and its name, so that a
+/// new sensor never changes another's noise. Identical on every compiler.
 class RandomStream {
  public:
   RandomStream(std::uint64_t run_seed, std::string_view name);

@@ -5,7 +5,7 @@
 
 namespace aims {
 
-/// Wall time since it was made.
+/// Wall time since construction.
 class Stopwatch {
  public:
   double seconds() const {

@@ -19,7 +19,7 @@ struct StampedPose {
 /// Poses with strictly increasing stamps.
 using Trajectory = std::vector<StampedPose>;
 
-/// When the robot truly passed a named reference point.
+/// True time at which the robot passed a named waypoint.
 struct WaypointTime {
   std::string point;
   Time stamp = 0;
@@ -28,7 +28,7 @@ struct WaypointTime {
 /// Pose at `stamp`, interpolated between neighbours; empty outside the trajectory's span.
 std::optional<Pose> pose_at(const Trajectory& trajectory, Time stamp);
 
-/// The first pose, and then each that is at least `spacing` after the last one kept.
+/// The first pose, then each pose at least `spacing` after the last one kept.
 Trajectory thinned(const Trajectory& trajectory, Duration spacing);
 
 }  // namespace aims

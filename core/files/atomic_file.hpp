@@ -11,22 +11,21 @@
 
 namespace aims {
 
-/// A file that is written in pieces and appears whole or not at all: the pieces go to a temporary
-/// sibling, which takes the file's name on commit(). Errors name the file and the reason, e.g. that
-/// no space is left.
+/// A file that is written in parts and appears completely or not at all: a temporary sibling is
+/// renamed on commit(). Errors name the file and the reason, e.g. that no space is left.
 class AtomicFile {
  public:
-  /// The directory must exist; nothing of the file changes yet.
+  /// The directory must exist; an existing file is unchanged until commit().
   static Result<AtomicFile> create(const std::filesystem::path& file);
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&&) = delete;
-  /// Removes what was written when it was never committed.
+  /// Removes the temporary file without commit().
   ~AtomicFile();
 
   Result<void> write(std::string_view text);
   Result<void> write(std::span<const std::byte> bytes);
-  /// Puts the file in its place; before that flushes it to the disk, unless `flush` is false: then
-  /// a power failure soon after may leave it short or with zeros.
+  /// Flushes and renames the file. Without `flush`, a power failure soon after may leave it
+  /// truncated or with zeros.
   Result<void> commit(bool flush = true);
 
  private:
@@ -46,7 +45,7 @@ Result<void> write_file_atomically(const std::filesystem::path& file, std::strin
 Result<void> write_file_atomically(const std::filesystem::path& file,
                                    std::span<const std::byte> bytes);
 
-/// The whole content of a file.
+/// The content of a file.
 Result<std::string> read_file(const std::filesystem::path& file);
 
 }  // namespace aims

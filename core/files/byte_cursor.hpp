@@ -12,7 +12,7 @@
 
 namespace aims {
 
-static_assert(std::endian::native == std::endian::little, "recorded numbers are read as they lie");
+static_assert(std::endian::native == std::endian::little, "numbers are read without byte swapping");
 
 /// The little-endian number at `bytes`, aligned or not; `bytes` holds at least sizeof(T).
 template <class T>
@@ -22,7 +22,7 @@ requires std::is_arithmetic_v<T> T load_number(const std::byte* bytes) {
   return value;
 }
 
-/// Walks over bytes that somebody else wrote: nothing is handed out that is not there.
+/// Reads untrusted bytes from front to back, with bounds checks.
 class ByteCursor {
  public:
   explicit ByteCursor(std::span<const std::byte> bytes) : bytes_(bytes) {}

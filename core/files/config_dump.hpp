@@ -10,7 +10,7 @@ namespace aims {
 /// Nested YAML of every value; `load_config` reads it back to equal values.
 std::string dump_config(const Fields& fields);
 
-/// As `dump_config`, each value followed by a comment: unit, what is expected, meaning, source.
+/// As `dump_config`, each value followed by a comment: unit, allowed values, meaning, source.
 std::string dump_annotated_config(const Fields& fields);
 
 }  // namespace aims

@@ -13,7 +13,8 @@
 namespace aims {
 
 /// Builds a table as comma-separated values (RFC 4180 quoting, lines end in LF). Doubles are
-/// written with the shortest decimals that read back equal; no value and non-finite are empty.
+/// written with the shortest decimals that read back equal; missing and non-finite values are empty
+/// cells.
 class CsvTable {
  public:
   explicit CsvTable(const std::vector<std::string>& header);
@@ -28,7 +29,7 @@ class CsvTable {
   CsvTable& add(bool value);
   CsvTable& add_empty();
 
-  /// Ends the row; cells that the header has and the row has not are empty.
+  /// Ends the row; missing cells are empty.
   void end_row();
 
   /// The table so far, header included.

@@ -11,11 +11,11 @@
 
 namespace aims {
 
-/// A table of comma-separated values (as CsvTable writes them) by the names of its columns.
+/// A table of comma-separated values, as written by CsvTable, by column name.
 class CsvColumns {
  public:
-  /// Every row must have as many cells as the header and end in a line end, so that a file that was
-  /// cut short is noticed. Errors: "name:line: ...".
+  /// Every row must have as many cells as the header and end in a line end, so that a truncated
+  /// file is detected. Errors: "name:line: ...".
   static Result<CsvColumns> parse(std::string_view text, const std::string& name);
   /// Reads a file with `parse`.
   static Result<CsvColumns> read(const std::filesystem::path& file);
@@ -28,7 +28,7 @@ class CsvColumns {
   /// the table has no such column. Error for a cell that is neither.
   Result<std::vector<double>> numbers(std::string_view column) const;
 
-  /// The cells of a column as they are; none when the table has no such column.
+  /// The cells of a column; none when the table has no such column.
   std::vector<std::string> texts(std::string_view column) const;
 
  private:

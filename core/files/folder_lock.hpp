@@ -7,20 +7,18 @@
 
 namespace aims {
 
-/// Keeps other processes out of a folder as long as it lives; the system lets go when the process
-/// ends, however it ends. Leaves a file `.lock` in the folder.
+/// Exclusive or shared lock of a folder for the lifetime of the object; the system releases it when
+/// the process ends for any reason. Leaves a file `.lock` in the folder.
 class FolderLock {
  public:
   /// The lock, or nothing when another process holds it or the folder cannot be written.
   static std::optional<FolderLock> take(const std::filesystem::path& folder);
-  /// As `take`, together with others who share the folder; nothing when somebody has it alone.
+  /// A shared lock, or nothing when another process holds it exclusively.
   static std::optional<FolderLock> share(const std::filesystem::path& folder);
-  /// The lock by the file `name` in the folder, once nobody else holds it; nothing when it cannot
-  /// be written.
+  /// Waits for the lock on the file `name` in the folder; nothing when it cannot be written.
   static std::optional<FolderLock> wait(const std::filesystem::path& folder,
                                         const std::string& name);
-  /// The lock of a file itself, alone or together with others who share it; nothing when it is not
-  /// there or somebody has it otherwise.
+  /// An exclusive or shared lock of a file; nothing when it does not exist or is locked.
   static std::optional<FolderLock> take_file(const std::filesystem::path& file);
   static std::optional<FolderLock> share_file(const std::filesystem::path& file);
   FolderLock(FolderLock&& other) noexcept;

@@ -13,9 +13,8 @@
 namespace aims {
 
 /// Reads KITTI poses: twelve numbers a line, the first three rows of the 4x4 pose, row by row; '#'
-/// starts a comment line. The rotation must be orthonormal within 5e-3 (then it is made so); a pose
-/// with a number that is not finite is an error, unless the rules say as given. Errors:
-/// "name:line: ...".
+/// starts a comment line. The rotation must be orthonormal within 5e-3 (and is then
+/// orthonormalized) and all numbers finite, except under kAsGiven. Errors: "name:line: ...".
 Result<std::vector<Pose>> parse_kitti(std::string_view text, const std::string& name,
                                       PoseRules rules = PoseRules::kStrict);
 

@@ -9,8 +9,8 @@
 
 namespace aims {
 
-/// The bytes of a file, read as they are touched: several processes that read one file share its
-/// memory, and what is not touched costs nothing.
+/// A memory-mapped file: processes that map one file share its memory, and only the pages used are
+/// read.
 class MappedFile {
  public:
   /// Error when the file cannot be read. An empty file has no bytes.

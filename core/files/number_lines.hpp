@@ -12,19 +12,19 @@
 
 namespace aims {
 
-/// Goes through the lines of a text that are neither blank nor comments ('#').
+/// Iterates over the lines of a text that are neither blank nor comments ('#').
 class LineReader {
  public:
-  /// `name` is what errors call the text; both must outlive the reader.
+  /// Errors call the text `name`; both must outlive the reader.
   LineReader(std::string_view text, std::string_view name) : rest_(text), name_(name) {}
 
   /// The next such line, or nothing at the end.
   std::optional<std::string_view> next();
 
-  /// Number of the last line given, counted from 1 with blanks and comments.
+  /// Number of the last line returned, from 1, blank lines and comments included.
   int number() const { return number_; }
 
-  /// The error "name:line: message" about the last line given.
+  /// The error "name:line: message" for the last line returned.
   tl::unexpected<Error> error(std::string_view message) const;
 
  private:
@@ -33,10 +33,10 @@ class LineReader {
   int number_ = 0;
 };
 
-/// Words between blanks and tabs.
+/// The words of a line, separated by blanks and tabs.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// The number that fills the whole word; nan and inf only when `finite` is false.
+/// The word as a number; nan and inf only when `finite` is false.
 std::optional<double> parse_number(std::string_view word, bool finite = true);
 
 /// Seconds as nanoseconds: exact when written as plain decimals of at most nine digits; other

@@ -10,24 +10,24 @@
 
 namespace aims {
 
-/// A folder of results that appears whole or not at all: files are written into a sibling
-/// `NAME.partial`, which takes the final name on commit().
+/// A folder of results that appears completely or not at all: files are written to a sibling
+/// `NAME.partial`, which is renamed on commit().
 class OutputFolder {
  public:
   /// Claims the folder before any work starts. Error when `final_path` exists and `overwrite` is
-  /// false, when another run is writing it, or when it cannot be written. What a killed run left
-  /// behind is cleared away.
+  /// false, when another run is writing it, or when it cannot be written. Remains of a killed run
+  /// are removed.
   static Result<OutputFolder> create(const std::filesystem::path& final_path, bool overwrite);
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&&) = delete;
-  /// Removes what was written when it was never committed.
+  /// Removes the partial folder without commit().
   ~OutputFolder();
 
   /// Where to write files until commit().
   const std::filesystem::path& path() const { return partial_; }
   const std::filesystem::path& final_path() const { return final_; }
 
-  /// Puts the folder in its place; an overwritten one leaves only then.
+  /// Renames the folder; an overwritten one is removed only then.
   Result<void> commit();
 
  private:
@@ -35,8 +35,8 @@ class OutputFolder {
 
   std::filesystem::path final_;
   std::filesystem::path partial_;                   ///< empty once committed or moved from
-  std::optional<FolderLock> lock_;                  ///< keeps other runs out
-  std::vector<std::filesystem::path> new_parents_;  ///< made on the way, innermost first
+  std::optional<FolderLock> lock_;                  ///< against other runs
+  std::vector<std::filesystem::path> new_parents_;  ///< created for this folder, innermost first
 };
 
 }  // namespace aims

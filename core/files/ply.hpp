@@ -16,8 +16,8 @@ namespace aims {
 std::string ply_text(std::span<const Eigen::Vector3f> points);
 
 /// Reads binary little-endian PLY whose first element is `vertex` with float32 x, y, z, in that
-/// order and first; further properties of a vertex and further elements are passed over. Errors
-/// name the file and what was expected.
+/// order and first; other properties and elements are skipped. Errors name the file and what was
+/// expected.
 Result<std::vector<Eigen::Vector3f>> parse_ply(std::string_view text, const std::string& name);
 
 /// Writes `ply_text` atomically.

@@ -6,8 +6,8 @@
 
 namespace aims {
 
-/// A table of texts as it is shown on a terminal: a header and rows of equal length; the first
-/// column is flush left, the others flush right.
+/// A table of texts: a header and rows of equal length. The first column is left-aligned, the
+/// others right-aligned.
 struct TextTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;

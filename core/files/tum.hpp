@@ -10,10 +10,10 @@
 
 namespace aims {
 
-/// How poses of a file are taken.
+/// Validation of poses in a file.
 enum class PoseRules {
-  kStrict,   ///< a pose that is none, or a stamp that does not increase, is an error
-  kAsGiven,  ///< they stay, not finite, not of unit norm, out of order: for scoring to count
+  kStrict,   ///< an invalid pose, or a stamp that does not increase, is an error
+  kAsGiven,  ///< invalid and unordered poses are kept, for scoring to count
 };
 
 /// Lines "stamp x y z qx qy qz qw" of the TUM format: seconds with nine decimals, which keep the
@@ -21,7 +21,7 @@ enum class PoseRules {
 std::string tum_text(const Trajectory& trajectory);
 
 /// Reads TUM text ('#' starts a comment line). Stamps must increase strictly, numbers be finite
-/// and quaternions of unit norm within 1e-3 (then normalized), unless the rules say as given.
+/// and quaternions of unit norm within 1e-3 (then normalized), except under kAsGiven.
 /// Errors: "name:line: ...".
 Result<Trajectory> parse_tum(std::string_view text, const std::string& name,
                              PoseRules rules = PoseRules::kStrict);

@@ -10,8 +10,8 @@
 
 namespace aims {
 
-/// Reads the waypoint times that a run writes: a header line "point,stamp_s", then a row each; the
-/// stamps in seconds must not decrease. Names may be quoted as in RFC 4180. Errors: "name:line:
+/// Reads the waypoint times of a run: a header "point,stamp_s", then one row each; the stamps [s]
+/// must not decrease. Names may be quoted as in RFC 4180. Errors: "name:line:
 /// ...".
 Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text,
                                                        const std::string& name);

@@ -21,7 +21,7 @@ CollectFields collector_of(Config& config) {
   return [&config] { return fields_of(config); };
 }
 
-/// Reads a YAML file into a configuration; what the file does not name keeps its value.
+/// Reads a YAML file into a configuration; fields that the file does not name keep their values.
 /// `base: other.yaml` (relative to the file) is read first; a list replaces the base's list.
 /// Errors are one line, `file:line:column: key: ...`; the configuration is then partly changed.
 Result<void> load_config(const std::filesystem::path& file, const CollectFields& collect);

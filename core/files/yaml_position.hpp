@@ -6,7 +6,7 @@
 
 namespace aims {
 
-/// Puts the place in front of a message that begins with a dotted key ("route.points.0: ..."):
+/// Prepends the position to a message that begins with a dotted key ("route.points.0: ..."):
 /// "file:line:column: " of the key, or of the nearest group around it that the file or one of its
 /// bases has; "file: " when none has any part of it.
 std::string with_position(const std::filesystem::path& file, const std::string& message);
