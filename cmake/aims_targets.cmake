@@ -93,7 +93,8 @@ function(aims_library name)
 endfunction()
 
 # aims_test(NAME SOURCES file... [LINKS target...] [LABEL unit|scenario|stress])
-# A GoogleTest executable whose cases are registered with ctest under one label.
+# A GoogleTest executable whose cases are registered with ctest under one label. Its own sources compile
+# without costly optimisations; the libraries that it tests are those of the program.
 function(aims_test name)
   cmake_parse_arguments(arg "" "LABEL" "SOURCES;LINKS" ${ARGN})
   if(NOT arg_LABEL)
@@ -101,6 +102,7 @@ function(aims_test name)
   endif()
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE aims_flags ${arg_LINKS} GTest::gtest_main)
+  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(AIMS_UNITY)
     aims_batches(test_${name} FUNCTIONS)
   endif()
