@@ -16,7 +16,8 @@ struct ScanDiagnostics {
   Time stamp = 0;       ///< end of the scan
   int points_in = 0;    ///< finite points in range
   int points_used = 0;  ///< with an accepted plane in the final update
-  int iterations = 0;
+  int iterations = 0;      ///< of the update; 0: refused, too few planes
+  bool converged = false;  ///< the last iteration made a small step
   double residual_mean = 0.0;         ///< after the trial update [m], eq. (3)
   double residual_sigma = 0.0;        ///< after the trial update [m], eq. (3)
   double residual_sigma_prior = 0.0;  ///< before the trial update [m]

@@ -64,9 +64,6 @@ bool EskfEstimator::start() {
   if (!initial) return false;
   if (!initial->stood_still) ++result_.counts["initialization.moving"];
   belief_ = open_leg_states(initial->belief, config_.directional.leg_states);
-  if (config_.directional.ground_constraint.enabled) {
-    belief_ = correlate_tilt_and_bias(belief_, config_.imu.gravity);
-  }
   time_ = initial->stamp;
   started_ = true;
   return true;
@@ -186,7 +183,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
     if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
   }
-  extend_map();
+  if (!(getenv("X_NOEXT") && !map_.empty() && diagnostics.iterations == 0)) extend_map();
   record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   result_.diagnostics.push_back(diagnostics);
@@ -223,6 +220,11 @@ void EskfEstimator::fuse_ground_constraint() {
   if (ground_.status() == GroundStatus::kSettling) ++result_.counts["ground.settling"];
   if (!measurement) return;
   ++result_.counts["ground.used"];
+  if (getenv("X_NOFLOOR")) {
+    const Eigen::Vector3f n = plane->normal.cast<float>();
+    const float h = static_cast<float>(plane->height);
+    std::erase_if(match_points_, [&](const Eigen::Vector3f& p) { return std::abs(n.dot(p) - h) < 0.04F || std::abs(n.dot(p) + h) < 0.04F; });
+  }
   accept(fuse_ground(belief_, *measurement));
 }
 

@@ -46,12 +46,12 @@ bool LidarUpdate::considers_legs() const {
          axes_.position().significant().minCoeff() < leg_states_.min_axis_weight;
 }
 
-/// No correction along unobservable axes, whatever their correlation with the observable ones.
-ErrorMatrix LidarUpdate::gain_mask() const {
+/// No correction along unobservable axes, whatever their correlation with the observable ones;
+/// `R` is R_odom_body.
+ErrorMatrix LidarUpdate::gain_mask(const Eigen::Matrix3d& R) const {
   const ErrorMatrix mask = considers_legs() ? consider_legs(correct_all()) : correct_all();
-  const AxisWeights& position = axes_.position();
-  return limit_motion(mask,
-                      position.axes * position.acceptance.asDiagonal() * position.axes.transpose());
+  return limit_rotation(limit_motion(mask, axes_.position().gain_factor()),
+                        R.transpose() * axes_.rotation().gain_factor() * R);
 }
 
 void LidarUpdate::assess_axes(const ScanInformation& scan, const NominalState& state,
@@ -64,56 +64,48 @@ void LidarUpdate::assess_axes(const ScanInformation& scan, const NominalState& s
   diagnostics.weak_ratio = axes_.position().ratio.minCoeff();
 }
 
-/// The information of the scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar,
-/// multiplies it by gamma_lidar; the directional variant scales it per axis.
-Information LidarUpdate::scaled(const ScanInformation& scan, double gamma,
-                                const NominalState& state) const {
+/// The scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies its information
+/// by gamma_lidar; the directional variant reduces it to its real part per axis.
+Linearization<NominalState> LidarUpdate::fused(const ScanInformation& scan, double gamma,
+                                               const NominalState& state) const {
   if (!noise_information_.enabled) {
-    return pose_information(gamma * scan.matrix, gamma * scan.vector);
+    return {pose_information(gamma * scan.matrix, gamma * scan.vector), std::nullopt};
   }
-  const ScanScale scale = axes_.scale(state.rotation.toRotationMatrix());
-  return pose_information(scale.T * scan.matrix * scale.T, scale.P * scan.vector);
+  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
+  const Matrix6 F = axes_.real_fraction(R);
+  return {pose_information(gamma * F * scan.matrix * F.transpose(), gamma * F * scan.vector),
+          gain_mask(R)};
 }
 
-Belief LidarUpdate::correct(const Belief& predicted, const ErrorMatrix& prior_information,
-                            const NominalState& linearization, const ScanInformation& scan,
-                            double gamma) const {
-  const Information information = scaled(scan, gamma, linearization);
-  if (!noise_information_.enabled) {
-    return kalman_update(predicted.state, prior_information, linearization, information);
-  }
-  return kalman_update(predicted.state, prior_information, linearization, information, gain_mask());
-}
-
-Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_information,
-                          std::span<const Eigen::Vector3f> points, const VoxelMap& map,
-                          ScanDiagnostics& diagnostics) {
+IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
+                                                const ErrorMatrix& prior_information,
+                                                std::span<const Eigen::Vector3f> points,
+                                                const VoxelMap& map, ScanDiagnostics& diagnostics) {
   matcher_.reset();
-  Belief belief = predicted;
   NominalState matched_at = predicted.state;
   matcher_.match(matched_at, points, map);
-  for (int i = 0; i < lidar_.max_iterations; ++i) {
-    if (moved(belief.state, matched_at, lidar_.rematch_rotation, lidar_.rematch_position)) {
-      matched_at = belief.state;
+  bool first = true;
+  const auto linearize = [&](const NominalState& at) -> std::optional<Linearization<NominalState>> {
+    if (moved(at, matched_at, lidar_.rematch_rotation, lidar_.rematch_position)) {
+      matched_at = at;
       matcher_.match(matched_at, points, map);
     }
-    const ScanInformation scan = matcher_.linearize(belief.state);
-    if (i == 0) {
+    const ScanInformation scan = matcher_.linearize(at);
+    diagnostics.points_used = scan.used;
+    if (first) {
       diagnostics.residual_sigma_prior =
           std::sqrt(residual_statistics(matcher_.residuals()).variance);
     }
-    diagnostics.points_used = scan.used;
-    if (scan.used < lidar_.min_matches) return predicted;
-    const NominalState before = belief.state;
+    if (scan.used < lidar_.min_matches) return std::nullopt;
     matcher_.update_robust_scale();
-    if (i == 0 && variant_.directional) assess_axes(scan, before, diagnostics);
-    belief = correct(predicted, prior_information, before, scan, 1.0);
-    ++diagnostics.iterations;
-    if (!moved(belief.state, before, lidar_.convergence_rotation, lidar_.convergence_position)) {
-      break;
-    }
-  }
-  return belief;
+    if (first && variant_.directional) assess_axes(scan, at, diagnostics);
+    first = false;
+    return fused(scan, 1.0, at);
+  };
+  const auto converged = [&](const NominalState& before, const NominalState& after) {
+    return !moved(after, before, lidar_.convergence_rotation, lidar_.convergence_position);
+  };
+  return iterated_update(predicted, prior_information, lidar_.max_iterations, linearize, converged);
 }
 
 void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_information,
@@ -149,17 +141,23 @@ void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predi
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics) {
   const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
-  Belief belief = trial(predicted, prior_information, points, map, diagnostics);
-  const bool matched = diagnostics.points_used >= lidar_.min_matches;
-  if (matched) {
-    const ScanInformation scan = matcher_.linearize(belief.state);
+  const auto trial = this->trial(predicted, prior_information, points, map, diagnostics);
+  const NominalState& at = trial.belief.state;
+  ScanInformation scan;
+  if (!trial.refused) {
+    scan = matcher_.linearize(at);
     diagnostics.points_used = scan.used;
+  }
+  // The residual gate may leave fewer matches at the result of the trial than before it.
+  Belief belief = predicted;
+  if (scan.used >= lidar_.min_matches) {
+    diagnostics.iterations = trial.iterations;
+    diagnostics.converged = trial.converged;
     record_localizability(scan.matrix, diagnostics);
-    assess(predicted, prior_information, belief.state, diagnostics);
+    assess(predicted, prior_information, at, diagnostics);
     gamma_lidar_ = variant_.adaptive ? lidar_reliability(severity_.value(), degeneracy_) : 1.0;
     gamma_leg_ = variant_.adaptive ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
-    // The last linearization of the trial serves for the final update too.
-    belief = correct(predicted, prior_information, belief.state, scan, gamma_lidar_);
+    belief = kalman_update(predicted.state, prior_information, at, fused(scan, gamma_lidar_, at));
     if (variant_.directional) update_map_covariance(map, predicted, belief);
   }
   diagnostics.D_smoothed = severity_.value();

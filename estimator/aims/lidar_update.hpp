@@ -24,8 +24,8 @@ class LidarUpdate {
   LidarUpdate(const EstimatorConfig& config, const EstimatorVariant& variant);
 
   /// The belief after fusing `points` (body axes at the time of the belief) with `map`. Fills the
-  /// index, weights and statistics of `diagnostics`. With too few planes the belief and the index
-  /// are unchanged.
+  /// index, weights and statistics of `diagnostics`. With too few planes at any linearization, the
+  /// last included, the belief and the index are unchanged and `iterations` is 0.
   Belief update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                 const VoxelMap& map, ScanDiagnostics& diagnostics);
 
@@ -40,16 +40,14 @@ class LidarUpdate {
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 
  private:
-  Information scaled(const ScanInformation& scan, double gamma, const NominalState& state) const;
-  ErrorMatrix gain_mask() const;
-  Belief correct(const Belief& predicted, const ErrorMatrix& prior_information,
-                 const NominalState& linearization, const ScanInformation& scan,
-                 double gamma) const;
+  Linearization<NominalState> fused(const ScanInformation& scan, double gamma,
+                                    const NominalState& state) const;
+  ErrorMatrix gain_mask(const Eigen::Matrix3d& R) const;
   void assess_axes(const ScanInformation& scan, const NominalState& state,
                    ScanDiagnostics& diagnostics);
-  Belief trial(const Belief& predicted, const ErrorMatrix& prior_information,
-               std::span<const Eigen::Vector3f> points, const VoxelMap& map,
-               ScanDiagnostics& diagnostics);
+  IteratedUpdate<NominalState> trial(const Belief& predicted, const ErrorMatrix& prior_information,
+                                     std::span<const Eigen::Vector3f> points, const VoxelMap& map,
+                                     ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const ErrorMatrix& prior_information,
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
   void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);

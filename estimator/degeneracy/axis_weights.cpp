@@ -14,12 +14,12 @@ constexpr double kRegularization = 1e-9;
 
 }  // namespace
 
-Eigen::Matrix3d AxisWeights::matrix_scale() const {
-  return axes * acceptance.cwiseProduct(fraction).cwiseSqrt().asDiagonal() * axes.transpose();
+Eigen::Matrix3d AxisWeights::real_fraction() const {
+  return axes * fraction.asDiagonal() * axes.transpose();
 }
 
-Eigen::Matrix3d AxisWeights::vector_scale() const {
-  return axes * acceptance.cwiseProduct(gain).asDiagonal() * axes.transpose();
+Eigen::Matrix3d AxisWeights::gain_factor() const {
+  return axes * acceptance.asDiagonal() * axes.transpose();
 }
 
 AxisWeights weigh_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d& noise,
@@ -37,7 +37,6 @@ AxisWeights weigh_axes(const Eigen::Matrix3d& information, const Eigen::Matrix3d
     weights.ratio(i) = ratio;
     weights.probability(i) = acceptance_probability(ratio, threshold, config);
     weights.fraction(i) = ratio > 1.0 ? (ratio - 1.0) / ratio : 0.0;
-    weights.gain(i) = std::min(config.max_step_amplification * weights.fraction(i), 1.0);
   }
   weights.acceptance = weights.probability;
   return weights;
@@ -84,13 +83,11 @@ void AxisWeigher::assess(const Matrix6& A, const Matrix6& noise, const Eigen::Ma
          R * noise.topLeftCorner<3, 3>() * R.transpose(), gain);
 }
 
-ScanScale AxisWeigher::scale(const Eigen::Matrix3d& R) const {
-  ScanScale scale{Matrix6::Zero(), Matrix6::Zero()};
-  scale.T.topLeftCorner<3, 3>() = R.transpose() * rotation_.weights.matrix_scale() * R;
-  scale.T.bottomRightCorner<3, 3>() = position_.weights.matrix_scale();
-  scale.P.topLeftCorner<3, 3>() = R.transpose() * rotation_.weights.vector_scale() * R;
-  scale.P.bottomRightCorner<3, 3>() = position_.weights.vector_scale();
-  return scale;
+Matrix6 AxisWeigher::real_fraction(const Eigen::Matrix3d& R) const {
+  Matrix6 F = Matrix6::Zero();
+  F.topLeftCorner<3, 3>() = R.transpose() * rotation_.weights.real_fraction() * R;
+  F.bottomRightCorner<3, 3>() = position_.weights.real_fraction();
+  return F;
 }
 
 }  // namespace aims

@@ -6,13 +6,14 @@
 
 namespace aims {
 
-/// Three orthogonal axes of position or rotation, and how much of the information along each is
-/// used.
+/// Three orthogonal axes of position or rotation, and the real fraction of the information along
+/// each; derivation in docs/estimators.md.
 ///
 /// The information along an axis is the sum of a real and a noise-induced part, A = A_real +
-/// A_noise. A shift s of the body appears in the vector as b = A_real s: the errors of the normals
-/// are independent from place to place, add to A and have zero mean in b. So A is reduced to A_real
-/// and b is kept, and a scan corrects the full shift. Both are multiplied by the acceptance.
+/// A_noise. The errors of the normals are independent from place to place and add to A, but a shift
+/// s of the body appears in the vector through A_real alone: b = A_real s + w, cov(w) = A. With the
+/// fraction f = A_real / A the least-squares information about s is A_real A^-1 A_real = f A f and
+/// its vector A_real A^-1 b = f b: one factor on each side.
 struct AxisWeights {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< one unit axis per column, odometry frame
   Eigen::Vector3d ratio = Eigen::Vector3d::Zero();     ///< of information to noise
@@ -20,20 +21,13 @@ struct AxisWeights {
   /// Acceptance: the probability, or 1 within the bootstrap distance.
   Eigen::Vector3d acceptance = Eigen::Vector3d::Ones();
   Eigen::Vector3d fraction = Eigen::Vector3d::Ones();  ///< of the information beyond noise, [0, 1]
-  Eigen::Vector3d gain = Eigen::Vector3d::Ones();      ///< factor on the vector before acceptance
 
   /// Significant fraction of the information per axis, in [0, 1].
   Eigen::Vector3d significant() const { return probability.cwiseProduct(fraction); }
-  /// U diag(sqrt(acceptance fraction)) U^T, applied to both sides of the information.
-  Eigen::Matrix3d matrix_scale() const;
-  /// U diag(acceptance gain) U^T, applied to the vector.
-  Eigen::Matrix3d vector_scale() const;
-};
-
-/// Scaling of a scan's information: the matrix becomes T A T, the vector P b.
-struct ScanScale {
-  Matrix6 T;
-  Matrix6 P;
+  /// F = U diag(fraction) U^T: A becomes F A F^T, b becomes F b.
+  Eigen::Matrix3d real_fraction() const;
+  /// U diag(acceptance) U^T, by which the correction along the axes is multiplied.
+  Eigen::Matrix3d gain_factor() const;
 };
 
 /// The weights of one block of information `information` (the other block unknown), with the
@@ -59,10 +53,12 @@ class AxisWeigher {
   /// same noise in every scan. Without distance no information exceeds noise.
   void assess(const Matrix6& A, const Matrix6& noise, const Eigen::Matrix3d& R, double distance);
 
-  /// Scaling of the last scan, error-state axes at attitude R.
-  ScanScale scale(const Eigen::Matrix3d& R) const;
+  /// Real fraction F of the last scan's information, error-state axes at attitude R: the matrix
+  /// becomes F A F^T, the vector F b.
+  Matrix6 real_fraction(const Eigen::Matrix3d& R) const;
 
   const AxisWeights& position() const { return position_.weights; }
+  const AxisWeights& rotation() const { return rotation_.weights; }
 
  private:
   struct Block {

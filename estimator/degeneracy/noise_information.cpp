@@ -30,8 +30,6 @@ void describe(Fields& f, NoiseInformationConfig& c) {
            {"-", positive(), "deviation of the logarithm of the noise-induced information"});
   f.number("averaging_distance", c.averaging_distance,
            {"m", positive(), "distance over which information is averaged"});
-  f.number("max_step_amplification", c.max_step_amplification,
-           {"-", at_least(1), "largest factor on a step after noise information is removed"});
   f.number("axis_tolerance", c.axis_tolerance,
            {"rad", at_least(0), "rotation of the axes within which they are kept"});
 }

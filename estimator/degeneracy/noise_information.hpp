@@ -22,10 +22,7 @@ struct NoiseInformationConfig {
   double bootstrap_distance = 5.0;
   double log_sigma = 0.05;          ///< of the logarithm of the noise-induced information [-]
   double averaging_distance = 1.5;  ///< of the information [m]
-  /// A step along an axis is at most this many times the step of the unscaled information: at the
-  /// start the fraction beyond noise lags behind [-].
-  double max_step_amplification = 2.5;
-  double axis_tolerance = 0.02;  ///< within which the axes are kept [rad]
+  double axis_tolerance = 0.02;     ///< within which the axes are kept [rad]
 };
 
 void describe(Fields& fields, NoiseInformationConfig& config);

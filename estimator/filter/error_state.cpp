@@ -29,14 +29,14 @@ ErrorVector boxminus(const NominalState& state, const NominalState& origin) {
   return delta;
 }
 
-ErrorMatrix boxminus_jacobian(const ErrorVector& delta) {
+ErrorMatrix boxminus_jacobian(const NominalState& /*origin*/, const ErrorVector& delta) {
   ErrorMatrix jacobian = ErrorMatrix::Identity();
   block(jacobian, ErrorState::kRotation, ErrorState::kRotation) =
       so3_right_jacobian_inverse(segment(delta, ErrorState::kRotation));
   return jacobian;
 }
 
-ErrorMatrix reset_jacobian(const ErrorVector& delta) {
+ErrorMatrix reset_jacobian(const NominalState& /*state*/, const ErrorVector& delta) {
   ErrorMatrix jacobian = ErrorMatrix::Identity();
   block(jacobian, ErrorState::kRotation, ErrorState::kRotation) =
       so3_right_jacobian(segment(delta, ErrorState::kRotation));

@@ -68,6 +68,8 @@ auto pose_segment(Vector& vector) {
 
 /// State of the filter, eq. (1): x = [R, p, v, b_g, b_a], and scale and bias of the leg odometry.
 struct NominalState {
+  static constexpr int kErrorSize = ErrorState::kSize;
+
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< R_odom_body
   Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< p_odom_body [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< in odometry axes [m/s]
@@ -87,11 +89,11 @@ NominalState boxplus(const NominalState& state, const ErrorVector& delta);
 ErrorVector boxminus(const NominalState& state, const NominalState& origin);
 
 /// Jacobian of ((state [+] d) [-] origin) with respect to d at d = 0; delta = state [-] origin.
-ErrorMatrix boxminus_jacobian(const ErrorVector& delta);
+ErrorMatrix boxminus_jacobian(const NominalState& origin, const ErrorVector& delta);
 
-/// Jacobian from the error about a state to the error about state [+] delta: the covariance reset
+/// Jacobian from the error about `state` to the error about state [+] delta: the covariance reset
 /// of the right perturbation.
-ErrorMatrix reset_jacobian(const ErrorVector& delta);
+ErrorMatrix reset_jacobian(const NominalState& state, const ErrorVector& delta);
 
 /// True when every entry of the state is a finite number.
 bool is_finite(const NominalState& state);

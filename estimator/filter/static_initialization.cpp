@@ -14,8 +14,7 @@ constexpr int kMinSamples = 5;
 /// Variance of a state that is fixed; above zero so that the covariance stays invertible.
 constexpr double kFixedVariance = 1e-16;
 
-/// Error of the mean specific force of a standing start [m/s^2].
-constexpr double kMeanForceError = 5e-3;
+double variance_of(double sigma) { return sigma * sigma; }
 
 /// Averages over an interval without motion.
 struct StaticInterval {
@@ -113,39 +112,53 @@ Eigen::Quaterniond level(const Eigen::Vector3d& force) {
   return (yaw_rotation(-yaw_of(tilt)) * tilt).normalized();
 }
 
-/// Unmeasured states get ten times the configured deviation, an unmeasured velocity its own.
-ErrorMatrix initial_covariance(const InitializationConfig& config, bool stood_still,
-                               bool gyro_bias_measured) {
+/// A tilt from the mean specific force g up x d_rotation + b + error = 0 in the horizontal, with
+/// the accelerometer bias b: d_rotation = up x (b + error) / g; `up` in body axes, g = `gravity`.
+void set_tilt_and_bias(const InitializationConfig& config, const Eigen::Vector3d& up,
+                       double sigma_force, double gravity, ErrorMatrix& P) {
   using E = ErrorState;
-  const auto variance = [](double sigma, bool measured) {
-    return Eigen::Matrix3d((measured ? 1.0 : 100.0) * sigma * sigma * Eigen::Matrix3d::Identity());
-  };
+  const double bias = variance_of(config.sigma_accelerometer_bias);
+  const double tilt = (bias + variance_of(sigma_force)) / (gravity * gravity);
+  const Eigen::Matrix3d vertical = up * up.transpose();
+  block(P, E::kRotation, E::kRotation) =
+      tilt * (Eigen::Matrix3d::Identity() - vertical) + variance_of(config.sigma_yaw) * vertical;
+  block(P, E::kRotation, E::kAccelerometerBias) = bias / gravity * hat(up);
+  block(P, E::kAccelerometerBias, E::kRotation) = bias / gravity * hat(up).transpose();
+  block(P, E::kAccelerometerBias, E::kAccelerometerBias) = bias * Eigen::Matrix3d::Identity();
+}
+
+/// An unmeasured gyro bias gets ten times the configured deviation, an unmeasured velocity its own.
+ErrorMatrix initial_covariance(const InitializationConfig& config, const Eigen::Vector3d& up,
+                               bool stood_still, bool gyro_bias_measured, double gravity) {
+  using E = ErrorState;
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   ErrorMatrix P = ErrorMatrix::Zero();
-  block(P, E::kRotation, E::kRotation) = variance(config.sigma_tilt, stood_still);
-  block(P, E::kRotation, E::kRotation)(2, 2) = config.sigma_yaw * config.sigma_yaw;
-  block(P, E::kPosition, E::kPosition) =
-      Eigen::Matrix3d::Identity() * (config.sigma_position * config.sigma_position);
-  const double velocity = stood_still ? config.sigma_velocity : config.sigma_velocity_moving;
-  block(P, E::kVelocity, E::kVelocity) = Eigen::Matrix3d::Identity() * (velocity * velocity);
-  block(P, E::kGyroBias, E::kGyroBias) = variance(config.sigma_gyro_bias, gyro_bias_measured);
-  block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
-      variance(config.sigma_accelerometer_bias, stood_still);
+  set_tilt_and_bias(config, up,
+                    stood_still ? config.sigma_mean_force : config.sigma_mean_force_moving, gravity,
+                    P);
+  block(P, E::kPosition, E::kPosition) = I * variance_of(config.sigma_position);
+  block(P, E::kVelocity, E::kVelocity) =
+      I * variance_of(stood_still ? config.sigma_velocity : config.sigma_velocity_moving);
+  block(P, E::kGyroBias, E::kGyroBias) =
+      I * variance_of((gyro_bias_measured ? 1.0 : 10.0) * config.sigma_gyro_bias);
   // Variants that estimate the leg states raise these with `open_leg_states`.
-  block(P, E::kLegScale, E::kLegScale) = Eigen::Matrix3d::Identity() * kFixedVariance;
-  block(P, E::kLegBias, E::kLegBias) = Eigen::Matrix3d::Identity() * kFixedVariance;
+  block(P, E::kLegScale, E::kLegScale) = I * kFixedVariance;
+  block(P, E::kLegBias, E::kLegBias) = I * kFixedVariance;
   return P;
 }
 
 /// The belief at the end of `interval`, or at the newest sample when it is too short for a tilt.
 /// The mean rate is the gyro bias only with `gyro_bias_measured`: otherwise the body may sway.
 InitialBelief begin_with(const std::deque<ImuSample>& samples, const StaticInterval& interval,
-                         bool enough, bool gyro_bias_measured, const InitializationConfig& config) {
+                         bool enough, bool gyro_bias_measured, const InitializationConfig& config,
+                         double gravity) {
   InitialBelief initial;
   initial.stamp = enough ? interval.end : samples.back().stamp;
   initial.stood_still = enough;
   initial.belief.state.rotation = level(enough ? interval.force : mean_force(samples));
   if (gyro_bias_measured) initial.belief.state.gyro_bias = interval.rate;
-  initial.belief.covariance = initial_covariance(config, enough, gyro_bias_measured);
+  const Eigen::Vector3d up = initial.belief.state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  initial.belief.covariance = initial_covariance(config, up, enough, gyro_bias_measured, gravity);
   return initial;
 }
 
@@ -160,7 +173,10 @@ void describe(Fields& f, InitializationConfig& c) {
            {"rad/s", positive(), "angular rate above which the robot moves"});
   f.number("max_force_deviation", c.max_force_deviation,
            {"m/s^2", positive(), "deviation of the specific force from gravity that means motion"});
-  f.number("sigma_tilt", c.sigma_tilt, {"rad", positive(), "initial roll and pitch"});
+  f.number("sigma_mean_force", c.sigma_mean_force,
+           {"m/s^2", positive(), "error of the mean specific force of a standing start"});
+  f.number("sigma_mean_force_moving", c.sigma_mean_force_moving,
+           {"m/s^2", positive(), "error of the mean specific force of a start in motion"});
   f.number("sigma_yaw", c.sigma_yaw, {"rad", positive(), "initial yaw, defined by the frame"});
   f.number("sigma_position", c.sigma_position,
            {"m", positive(), "initial position, defined by the frame"});
@@ -194,7 +210,7 @@ std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
   if (span < from_seconds(config.duration) && !start.moved) return std::nullopt;
   if (start.count < kMinSamples) start = average_start(samples, 0.0, config, gravity);
   const bool enough = start.count >= kMinSamples;
-  return begin_with(samples, start, enough, enough, config);
+  return begin_with(samples, start, enough, enough, config, gravity);
 }
 
 std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samples,
@@ -215,23 +231,7 @@ std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samp
   if (span < from_seconds(config.duration) && still_standing) return std::nullopt;
   const bool enough = best.count >= kMinSamples && duration >= limits.min_duration;
   const bool gyro_bias_measured = enough && duration >= limits.min_duration_gyro_bias;
-  return begin_with(samples, best, enough, gyro_bias_measured, config);
-}
-
-Belief correlate_tilt_and_bias(Belief belief, double gravity) {
-  using E = ErrorState;
-  ErrorMatrix& P = belief.covariance;
-  const Eigen::Vector3d up = belief.state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  // The mean force is R^T g + b and was turned upward: b = -g (up x d_rotation), to first order.
-  const Eigen::Matrix3d J = -gravity * hat(up);
-  const Eigen::Matrix3d rotation = block(P, E::kRotation, E::kRotation);
-  const double vertical = up.dot(block(P, E::kAccelerometerBias, E::kAccelerometerBias) * up);
-  block(P, E::kAccelerometerBias, E::kRotation) = J * rotation;
-  block(P, E::kRotation, E::kAccelerometerBias) = rotation * J.transpose();
-  block(P, E::kAccelerometerBias, E::kAccelerometerBias) =
-      J * rotation * J.transpose() + vertical * up * up.transpose() +
-      kMeanForceError * kMeanForceError * Eigen::Matrix3d::Identity();
-  return belief;
+  return begin_with(samples, best, enough, gyro_bias_measured, config, gravity);
 }
 
 }  // namespace aims

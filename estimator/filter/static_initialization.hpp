@@ -12,11 +12,13 @@ namespace aims {
 
 /// Initialization of a robot that stands still at the start.
 struct InitializationConfig {
-  double duration = 2.0;                   ///< of the standing start [s]
-  double settling_time = 1.0;              ///< initial part that is not averaged [s]
-  double max_rate = 0.15;                  ///< a faster turn is motion [rad/s]
-  double max_force_deviation = 0.8;        ///< larger deviations from gravity are motion [m/s^2]
-  double sigma_tilt = 5e-3;                ///< [rad]
+  double duration = 2.0;             ///< of the standing start [s]
+  double settling_time = 1.0;        ///< initial part that is not averaged [s]
+  double max_rate = 0.15;            ///< a faster turn is motion [rad/s]
+  double max_force_deviation = 0.8;  ///< larger deviations from gravity are motion [m/s^2]
+  /// Error of the mean specific force of a standing start, besides the bias [m/s^2].
+  double sigma_mean_force = 5e-3;
+  double sigma_mean_force_moving = 0.5;    ///< of a start in motion [m/s^2]
   double sigma_yaw = 1e-4;                 ///< the odometry frame defines yaw [rad]
   double sigma_position = 1e-4;            ///< the odometry frame defines position [m]
   double sigma_velocity = 2e-2;            ///< [m/s]
@@ -47,10 +49,11 @@ struct InitialBelief {
 };
 
 /// The belief at the end of the standing start, i.e. once `samples` span it or the robot moves.
-/// The mean specific force gives the tilt, the mean rate the gyro bias. The odometry frame is the
-/// start pose with yaw 0 and roll and pitch relative to gravity. A robot that moves from the first
-/// sample on starts at the newest one, with the tilt of its mean specific force and an unknown
-/// velocity. Empty while more samples are needed.
+/// The mean specific force gives the tilt, the mean rate the gyro bias. The tilt takes the
+/// horizontal accelerometer bias b for gravity, d_rotation = up x (b + error) / g, so both are
+/// correlated. The odometry frame is the start pose with yaw 0 and roll and pitch relative to
+/// gravity. A robot that moves from the first sample on starts at the newest one, with the tilt of
+/// its mean specific force and an unknown velocity. Empty while more samples are needed.
 std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
                                         const InitializationConfig& config, double gravity);
 
@@ -61,10 +64,5 @@ std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samp
                                                const InitializationConfig& config,
                                                const StaticInitializationConfig& limits,
                                                double gravity);
-
-/// Correlates the errors of tilt and accelerometer bias after a start that took its tilt from the
-/// mean specific force: d_bias = -g (up x d_rotation). A later tilt correction then also estimates
-/// the bias. The covariance of the rotation and of the vertical bias is unchanged.
-Belief correlate_tilt_and_bias(Belief belief, double gravity);
 
 }  // namespace aims

@@ -18,10 +18,11 @@ constexpr double kHalfWidth = 1.2;    // of a square cross-section [m]
 constexpr double kRange = 6.0;        // of the LiDAR [m]
 constexpr double kNoise = 0.01;       // of a return [m]
 
-/// A square corridor along x, plain or with a pillar's face across it every two metres.
+/// A square corridor along x, with a pillar's face across it every two metres that takes the
+/// fraction `facing` of the points.
 class Corridor {
  public:
-  Corridor(bool pillars, RandomStream& random) : pillars_(pillars), random_(random) {}
+  Corridor(double facing, RandomStream& random) : facing_(facing), random_(random) {}
 
   /// A noisy point of its surfaces, between the given coordinates.
   Eigen::Vector3d point(double from, double to) {
@@ -30,7 +31,7 @@ class Corridor {
     const int wall = static_cast<int>(4.0 * random_.uniform());
     p(1 + wall % 2) = wall < 2 ? kHalfWidth : -kHalfWidth;
     p(2 - wall % 2) = kHalfWidth * (2.0 * random_.uniform() - 1.0);
-    if (pillars_ && random_.uniform() < 0.2) {
+    if (random_.uniform() < facing_) {
       p.x() = 2.0 * std::round(0.5 * p.x());
       p(1 + wall % 2) *= 0.6 + 0.4 * random_.uniform();
     }
@@ -38,7 +39,7 @@ class Corridor {
   }
 
  private:
-  bool pillars_;
+  double facing_;
   RandomStream& random_;
 };
 
@@ -53,7 +54,7 @@ EstimatorConfig config_with(bool gate_learning) {
 /// The directional LiDAR update after 6 m along a corridor with a known map.
 struct Sequence {
   explicit Sequence(bool pillars, bool gate_learning = true)
-      : corridor(pillars, random),
+      : corridor(pillars ? 0.2 : 0.0, random),
         map(MapConfig{}),
         update(config_with(gate_learning), {.adaptive = false, .directional = true}) {
     std::vector<Eigen::Vector3f> points;
@@ -124,6 +125,58 @@ TEST(LidarUpdate, PillarsCorrectTheLongitudinalDirectionAndTheLegs) {
   const Belief updated = sequence.fuse(predicted);
   EXPECT_LT((updated.state.position - sequence.truth).norm(), 0.02);
   EXPECT_GT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 0.03);
+}
+
+/// One scan against a noisy map of a corridor with shallow faces, from a prediction whose error
+/// along the corridor is drawn from its covariance; squared error after the update over its stated
+/// variance.
+double normalised_error_along(double facing, std::uint64_t seed) {
+  RandomStream random(seed, "wall_and_recess");
+  Corridor corridor(facing, random);
+  EstimatorConfig config = config_with(true);
+  config.directional.noise_information.bootstrap_distance = 1e3;  // no test of significance
+  config.directional.robust_kernel.enabled = false;
+  config.lidar.point_sigma = 1.15 * kNoise;  // of a return, and of a plane through five of the map
+  VoxelMap map(MapConfig{});
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 24000; ++i) points.push_back(corridor.point(-3.0, 3.0).cast<float>());
+  map.insert(points, Eigen::Vector3f::Zero());
+  LidarUpdate update(config, {.adaptive = false, .directional = true});
+  const auto fuse = [&](const Eigen::Vector3d& truth, const Belief& predicted) {
+    std::vector<Eigen::Vector3f> scan;
+    for (int i = 0; i < 300; ++i) {
+      scan.push_back((corridor.point(-2.8, 2.8) - truth).cast<float>());
+    }
+    ScanDiagnostics diagnostics;
+    return update.update(predicted, scan, map, diagnostics);
+  };
+  Belief belief;
+  belief.covariance = 1e-6 * ErrorMatrix::Identity();
+  for (double x = -1.0; x < -0.1; x += 0.1) {
+    belief.state.position.x() = x;
+    (void)fuse(belief.state.position, belief);
+  }
+  constexpr double kSigma = 0.01;  // of the prediction along the corridor [m]
+  const int x = E::kPosition.offset;
+  belief.state.position.setZero();
+  belief.covariance(x, x) = kSigma * kSigma;
+  const Eigen::Vector3d truth(kSigma * random.normal(), 0.0, 0.0);
+  const Belief updated = fuse(truth, belief);
+  const double error = updated.state.position.x() - truth.x();
+  return error * error / updated.covariance(x, x);
+}
+
+TEST(LidarUpdate, TheStatedVarianceIsTheRealOneBetweenWallsWithFaces) {
+  constexpr int kDraws = 100;
+  for (const double facing : {0.0, 0.01, 0.03}) {
+    double sum = 0.0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      sum += normalised_error_along(facing, static_cast<std::uint64_t>(1000 + draw));
+    }
+    // 200 draws: 99.9 % of chi-square lies within 0.70 and 1.36.
+    EXPECT_GT(sum / kDraws, 0.70) << "faces " << facing << ", seeds 1000 to 1199";
+    EXPECT_LT(sum / kDraws, 1.36) << "faces " << facing << ", seeds 1000 to 1199";
+  }
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(KalmanUpdate, EqualsTheGainForm) {
   const ErrorVector delta = -K * m.residual;
   const ErrorMatrix I_KH = ErrorMatrix::Identity() - K * m.jacobian;
   const ErrorMatrix joseph = I_KH * P * I_KH.transpose() + K * m.noise * K.transpose();
-  const ErrorMatrix G = reset_jacobian(delta);
+  const ErrorMatrix G = reset_jacobian(state, delta);
   EXPECT_LT((boxminus(updated.state, state) - delta).norm(), 1e-10);
   EXPECT_LT((updated.covariance - G * joseph * G.transpose()).cwiseAbs().maxCoeff(), 1e-10);
 }
@@ -114,12 +114,72 @@ TEST(KalmanUpdate, CovarianceOfAMaskedGainIsJosephsForm) {
   const Eigen::Matrix<double, ErrorState::kSize, 3> K =
       mask * P * m.jacobian.transpose() * S.inverse();
   const ErrorMatrix kept = ErrorMatrix::Identity() - K * m.jacobian;
-  const ErrorMatrix G = reset_jacobian(-K * m.residual);
+  const ErrorMatrix G = reset_jacobian(prior.state, -K * m.residual);
   const ErrorMatrix expected =
       G * (kept * P * kept.transpose() + K * m.noise * K.transpose()) * G.transpose();
   const Belief updated =
       kalman_update(prior.state, inverse_spd(P), prior.state, information_of(m), mask);
   EXPECT_LT((updated.covariance - expected).norm(), 1e-8 * expected.norm());
+}
+
+/// A state of another size: a position on a line.
+struct PointOnLine {
+  static constexpr int kErrorSize = 1;
+  double x = 0.0;
+};
+
+using Scalar = Eigen::Matrix<double, 1, 1>;
+
+PointOnLine boxplus(const PointOnLine& at, const Scalar& delta) { return {at.x + delta(0)}; }
+Scalar boxminus(const PointOnLine& at, const PointOnLine& origin) {
+  return Scalar(at.x - origin.x);
+}
+Scalar boxminus_jacobian(const PointOnLine& /*origin*/, const Scalar& /*delta*/) {
+  return Scalar(1.0);
+}
+Scalar reset_jacobian(const PointOnLine& /*at*/, const Scalar& /*delta*/) { return Scalar(1.0); }
+
+/// Measurement x^2 = 4 with the deviation 0.1, refused beyond `limit`.
+std::optional<Linearization<PointOnLine>> square_is_four(const PointOnLine& at, double limit) {
+  if (std::abs(at.x) > limit) return std::nullopt;
+  const double slope = 2.0 * at.x;
+  const double weight = 1.0 / (0.1 * 0.1);
+  return Linearization<PointOnLine>{
+      {Scalar(weight * slope * slope), Scalar(weight * slope * (at.x * at.x - 4.0))}, {}};
+}
+
+IteratedUpdate<PointOnLine> update_on_line(const BeliefOf<PointOnLine>& prior, int iterations,
+                                           double limit) {
+  return iterated_update(
+      prior, inverse_spd(prior.covariance), iterations,
+      [&](const PointOnLine& at) { return square_is_four(at, limit); },
+      [](const PointOnLine& before, const PointOnLine& after) {
+        return std::abs(after.x - before.x) < 1e-9;
+      });
+}
+
+TEST(IteratedUpdate, FindsTheMostProbableStateOfAnyStateType) {
+  const BeliefOf<PointOnLine> prior{{1.5}, Scalar(0.04)};
+  const auto update = update_on_line(prior, 50, 1e9);
+  EXPECT_TRUE(update.converged);
+  EXPECT_FALSE(update.refused);
+  const auto cost = [&](double x) {
+    return std::pow((x - 1.5) / 0.2, 2) + std::pow((x * x - 4.0) / 0.1, 2);
+  };
+  double best = 0.0;
+  for (double x = 1.0; x < 3.0; x += 1e-5) best = cost(x) < cost(best) ? x : best;
+  EXPECT_NEAR(update.belief.state.x, best, 2e-5);
+}
+
+TEST(IteratedUpdate, SaysWhetherItConvergedAndKeepsThePriorWhenRefused) {
+  const BeliefOf<PointOnLine> prior{{1.5}, Scalar(0.04)};
+  EXPECT_FALSE(update_on_line(prior, 1, 1e9).converged);
+  EXPECT_EQ(update_on_line(prior, 1, 1e9).iterations, 1);
+  const auto refused = update_on_line(prior, 50, 1.6);
+  EXPECT_TRUE(refused.refused);
+  EXPECT_EQ(refused.iterations, 1) << "the second linearization was refused";
+  EXPECT_EQ(refused.belief.state.x, 1.5);
+  EXPECT_EQ(refused.belief.covariance(0), 0.04);
 }
 
 /// One run of propagation, leg updates and updates by exact planes, all with noise drawn from their

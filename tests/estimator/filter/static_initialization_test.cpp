@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "core/random.hpp"
 
 namespace aims {
 namespace {
@@ -78,6 +81,47 @@ TEST(Initialization, MovingStartIsUncertain) {
   const auto initial = initialize(samples, InitializationConfig{}, kGravity);
   ASSERT_TRUE(initial.has_value());
   EXPECT_FALSE(initial->stood_still);
+}
+
+/// Normalised squared error of tilt and accelerometer bias (5 dof) of a start whose bias and error
+/// of the mean force are drawn from the configuration.
+double normalised_tilt_error(RandomStream& random, bool moving) {
+  using E = ErrorState;
+  const InitializationConfig config;
+  const Eigen::Quaterniond tilt =
+      so3_exp({0.0, 0.05 * random.normal(), 0.0}) * so3_exp({0.05 * random.normal(), 0.0, 0.0});
+  const Eigen::Vector3d bias = config.sigma_accelerometer_bias * random.normal3();
+  const double sigma = moving ? config.sigma_mean_force_moving : config.sigma_mean_force;
+  auto samples = standing(tilt, Eigen::Vector3d::Zero(), 110);
+  const Eigen::Vector3d error = bias + sigma * random.normal3();
+  for (ImuSample& sample : samples) {
+    sample.specific_force += error;
+    if (moving) sample.angular_velocity.z() = 1.0;
+  }
+  const Belief belief = initialize(samples, config, kGravity)->belief;
+  // The odometry frame has the yaw of the start; only the tilt has an error.
+  const Eigen::Vector3d up = belief.state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d true_up = tilt.conjugate() * Eigen::Vector3d::UnitZ();
+  // R_true = R_hat Exp(d): true_up = up + up x d for the horizontal part of d.
+  const Eigen::Vector3d d_rotation = true_up.cross(up);
+  Eigen::Matrix<double, 6, 1> d;
+  d << d_rotation, bias - belief.state.accelerometer_bias;
+  Matrix6 P;
+  P << block(belief.covariance, E::kRotation, E::kRotation),
+      block(belief.covariance, E::kRotation, E::kAccelerometerBias),
+      block(belief.covariance, E::kAccelerometerBias, E::kRotation),
+      block(belief.covariance, E::kAccelerometerBias, E::kAccelerometerBias);
+  return d.dot(P.llt().solve(d));
+}
+
+TEST(Initialization, TheCovarianceOfTiltAndBiasIsThatOfTheirErrors) {
+  constexpr int kDraws = 4000;
+  for (const bool moving : {false, true}) {
+    RandomStream random(21, "tilt_and_bias");
+    double sum = 0.0;
+    for (int draw = 0; draw < kDraws; ++draw) sum += normalised_tilt_error(random, moving);
+    EXPECT_NEAR(sum / kDraws, 5.0, 0.25) << (moving ? "moving" : "standing") << ", seed 21";
+  }
 }
 
 std::optional<InitialBelief> run_static(const std::deque<ImuSample>& samples) {
