@@ -31,18 +31,19 @@ bool moved(const NominalState& state, const NominalState& since, double rotation
 
 }  // namespace
 
-LidarUpdate::LidarUpdate(const EstimatorConfig& config, const EstimatorVariant& variant)
+LidarUpdate::LidarUpdate(const EskfConfig& config)
     : lidar_(config.lidar),
       degeneracy_(config.degeneracy),
-      noise_information_(config.directional.noise_information),
-      leg_states_(config.directional.leg_states),
-      variant_(variant),
-      matcher_(config.lidar, config.directional.robust_kernel, variant.directional),
-      axes_(config.directional.noise_information),
+      noise_information_(config.noise_information),
+      leg_states_(config.leg_states),
+      legs_enabled_(config.legs.enabled),
+      map_covariance_enabled_(config.map_covariance.enabled),
+      matcher_(config.lidar, config.robust_kernel, config.noise_information.enabled),
+      axes_(config.noise_information),
       severity_(config.degeneracy.alpha) {}
 
 bool LidarUpdate::considers_legs() const {
-  return leg_states_.gate_learning &&
+  return legs_enabled_ && leg_states_.gate_learning &&
          axes_.position().significant().minCoeff() < leg_states_.min_axis_weight;
 }
 
@@ -65,14 +66,15 @@ void LidarUpdate::assess_axes(const ScanInformation& scan, const NominalState& s
 }
 
 /// The information of the scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar,
-/// multiplies it by gamma_lidar; the directional variant scales it per axis.
+/// multiplies it by gamma_lidar; without the noise-induced part it is also scaled per axis.
 Information LidarUpdate::scaled(const ScanInformation& scan, double gamma,
                                 const NominalState& state) const {
   if (!noise_information_.enabled) {
     return pose_information(gamma * scan.matrix, gamma * scan.vector);
   }
   const ScanScale scale = axes_.scale(state.rotation.toRotationMatrix());
-  return pose_information(scale.T * scan.matrix * scale.T, scale.P * scan.vector);
+  return pose_information(gamma * (scale.T * scan.matrix * scale.T),
+                          gamma * (scale.P * scan.vector));
 }
 
 Belief LidarUpdate::correct(const Belief& predicted, const ErrorMatrix& prior_information,
@@ -106,7 +108,7 @@ Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_info
     if (scan.used < lidar_.min_matches) return predicted;
     const NominalState before = belief.state;
     matcher_.update_robust_scale();
-    if (i == 0 && variant_.directional) assess_axes(scan, before, diagnostics);
+    if (i == 0 && noise_information_.enabled) assess_axes(scan, before, diagnostics);
     belief = correct(predicted, prior_information, before, scan, 1.0);
     ++diagnostics.iterations;
     if (!moved(belief.state, before, lidar_.convergence_rotation, lidar_.convergence_position)) {
@@ -119,21 +121,27 @@ Belief LidarUpdate::trial(const Belief& predicted, const ErrorMatrix& prior_info
 void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_information,
                          const NominalState& trial_state, ScanDiagnostics& diagnostics) {
   const ResidualStatistics statistics = residual_statistics(matcher_.residuals());
-  const double prior_sigma = diagnostics.residual_sigma_prior;
   const ErrorVector y = boxminus(trial_state, predicted.state);  // eq. (5)
   diagnostics.residual_mean = statistics.mean;
   diagnostics.residual_sigma = std::sqrt(statistics.variance);
-  diagnostics.O_lidar = effective_observability(statistics.variance, degeneracy_.sigma_0);
-  diagnostics.O_lidar_prior =
-      effective_observability(prior_sigma * prior_sigma, degeneracy_.sigma_0);
   diagnostics.C_IL = consistency(pose_segment(y), pose_block(predicted.covariance));
   diagnostics.C_IL_full = consistency_full(y, prior_information);
   diagnostics.innovation_rotation = segment(y, ErrorState::kRotation);
   diagnostics.innovation_position = segment(y, ErrorState::kPosition);
+  if (degeneracy_.enabled) assess_degeneracy(statistics.variance, diagnostics);
+}
+
+void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics) {
+  const double prior_sigma = diagnostics.residual_sigma_prior;
+  diagnostics.O_lidar = effective_observability(residual_variance, degeneracy_.sigma_0);
+  diagnostics.O_lidar_prior =
+      effective_observability(prior_sigma * prior_sigma, degeneracy_.sigma_0);
   const double O_lidar =
       degeneracy_.prior_residuals ? diagnostics.O_lidar_prior : diagnostics.O_lidar;
   diagnostics.D = degeneracy_severity(O_lidar, diagnostics.C_IL, degeneracy_);  // eq. (7)
   severity_.update(diagnostics.D);                                              // eq. (12)
+  gamma_lidar_ = lidar_reliability(severity_.value(), degeneracy_);
+  gamma_leg_ = leg_reliability(severity_.value(), degeneracy_);
 }
 
 void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predicted,
@@ -156,11 +164,9 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     diagnostics.points_used = scan.used;
     record_localizability(scan.matrix, diagnostics);
     assess(predicted, prior_information, belief.state, diagnostics);
-    gamma_lidar_ = variant_.adaptive ? lidar_reliability(severity_.value(), degeneracy_) : 1.0;
-    gamma_leg_ = variant_.adaptive ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
     // The last linearization of the trial serves for the final update too.
     belief = correct(predicted, prior_information, belief.state, scan, gamma_lidar_);
-    if (variant_.directional) update_map_covariance(map, predicted, belief);
+    if (map_covariance_enabled_) update_map_covariance(map, predicted, belief);
   }
   diagnostics.D_smoothed = severity_.value();
   diagnostics.gamma_lidar = gamma_lidar_;

@@ -120,7 +120,7 @@ TEST_F(Help, OptionsWithoutEffectAreRefused) {
     EXPECT_TRUE(holds(outcome, expected)) << outcome.output;
   };
   scenario(testing::kMetreWalk);
-  refused("simulate my.yaml --out x.bag --set estimator.degeneracy.eta=3", "no effect");
+  refused("simulate my.yaml --out x.bag --set estimators.aims.degeneracy.eta=3", "no effect");
   refused("info x.bag --set scoring.anchor=pose", "no effect");
   refused("sweep --scenarios my.yaml --param leg.rate_hz=1:2:2 --samples 9", "no effect on a grid");
   refused("sweep --scenarios my.yaml --design sobol", "no effect without --param");

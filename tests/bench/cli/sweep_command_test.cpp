@@ -105,7 +105,7 @@ TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
                  {"did you mean 'links.leg_odometry.loss'"});
   expect_refused("--param links.leg_odometry.loss=0:2:3",
                  {"links.leg_odometry.loss=0:2:3", "a number in [0, 1]"});
-  expect_refused("--param imu.gyro_bias_walk=0:1:3", {"expected 'estimator.imu.gyro_bias_walk'"});
+  expect_refused("--param imu.gyro_bias_walk=0:1:3", {"expected 'estimators.*.imu.gyro_bias_walk'"});
   expect_refused("--param seed=1:5:5", {"'seeds'"});
   expect_refused("--cache-limit=-1", {"--cache-limit", "not in range"});
   expect_refused("--design sobbol", {"design", "sobol"});

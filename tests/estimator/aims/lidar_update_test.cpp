@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "estimator/aims/presets.hpp"
 
 namespace aims {
 namespace {
@@ -42,11 +43,11 @@ class Corridor {
   RandomStream& random_;
 };
 
-EstimatorConfig config_with(bool gate_learning) {
-  EstimatorConfig config;
-  config.directional.leg_states.gate_learning = gate_learning;
+EskfConfig config_with(bool gate_learning) {
+  EskfConfig config = eskf_preset("aims_d");
+  config.leg_states.gate_learning = gate_learning;
   // These walls have no edges: the residuals of the plane fits do not overstate the noise.
-  config.directional.noise_information.scale = 1.0;
+  config.noise_information.scale = 1.0;
   return config;
 }
 
@@ -55,7 +56,7 @@ struct Sequence {
   explicit Sequence(bool pillars, bool gate_learning = true)
       : corridor(pillars, random),
         map(MapConfig{}),
-        update(config_with(gate_learning), {.adaptive = false, .directional = true}) {
+        update(config_with(gate_learning)) {
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 30000; ++i) {
       points.push_back(corridor.point(-kHalfLength, kHalfLength).cast<float>());
