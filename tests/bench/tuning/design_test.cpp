@@ -98,7 +98,7 @@ TEST(ParameterRange, IsHeldAgainstTheConfiguration) {
   EXPECT_TRUE(says(check({"degeneracy.ete=0:6:13"}), "did you mean 'degeneracy.eta'"));
   EXPECT_TRUE(says(check({"degeneracy.alpha=0:2:3"}), "[0, 1)"));
   EXPECT_TRUE(says(check({"degeneracy.prior_residuals=0:1:2"}), "only numbers"));
-  EXPECT_TRUE(says(check({"leg.velocity_sigma=0:1:2"}), "only numbers"));
+  EXPECT_TRUE(says(check({"legs.velocity_sigma=0:1:2"}), "only numbers"));
   EXPECT_TRUE(says(check({"degeneracy.eta=0:6:13", "degeneracy.eta=0:1:2"}), "second"));
 }
 

@@ -157,7 +157,7 @@ TEST(ScenarioRange, IsSwept) {
   for (const char* loss : {"0", "0.9"}) {
     Scenario scenario = testing::short_walk();
     ASSERT_TRUE(assign(fields_of(scenario), "links.leg_odometry.loss", loss));
-    for (const char* spec : {"leg", "leg+leg.rate_hz=100"}) {
+    for (const char* spec : {"leg", "leg+max_speed=4"}) {
       units.push_back(make_job(testing::shared(scenario), 1, parse_estimator_spec(spec).value()));
       units.back().scenario_settings = {{"links.leg_odometry.loss", loss, "0.05"}};
     }
@@ -168,7 +168,7 @@ TEST(ScenarioRange, IsSwept) {
   EXPECT_EQ(run->sequences, 2U) << "a sequence per value, for both of its jobs";
   const auto listed = JobStore(options.out).listed();
   ASSERT_TRUE(listed);
-  EXPECT_EQ(listed->back().estimator, "leg+leg.rate_hz=100+links.leg_odometry.loss=0.9");
+  EXPECT_EQ(listed->back().estimator, "leg+max_speed=4+links.leg_odometry.loss=0.9");
 }
 
 }  // namespace

@@ -18,18 +18,21 @@ bool within(Time time, double from, double to) {
   return time >= from_seconds(from) && time < from_seconds(to);
 }
 
-SimulationConfig short_route() {
+SimulationConfig short_route(const RampConfig& ramp) {
   SimulationConfig config = straight_sequence(5.0, 150);
   config.route.points = {{"a", 0.0, 0.0}, {"b", 2.5, 0.0}, {"c", 5.0, 0.0}};
   config.route.stand_before = kSetOff;
   config.route.stand_at_points = 1.5;
-  config.scene.ramp = {.start = 3.2, .length = 0.8, .grade = 0.06};
+  config.scene.corridor.length = std::max(5.0, ramp.start + ramp.length + 1.0);
+  config.scene.ramp = ramp;
   return config;
 }
 
-/// The IMU is silent for 0.2 s and for 0.6 s, and two samples are impossible.
+/// The IMU is silent for 0.2 s and for 0.6 s, two samples are impossible, and one shakes the
+/// standing robot, which ends its standstill only without hysteresis.
 bool disturb(ImuSample& sample, Delivery&) {
   if (within(sample.stamp, 4.0, 4.2) || within(sample.stamp, 8.0, 8.6)) return false;
+  if (within(sample.stamp, 2.6, 2.62)) sample.angular_velocity.x() = 0.04;
   if (within(sample.stamp, 5.0, 5.02)) sample.angular_velocity.x() = 60.0;
   if (within(sample.stamp, 5.5, 5.52)) sample.specific_force.x() = 500.0;
   return true;
@@ -55,8 +58,8 @@ bool disturb(LidarScanPtr& scan, Delivery&) { return !within(scan->end, 5.8, 6.4
 
 }  // namespace
 
-RecordedStream eventful_sequence() {
-  SimulatedSequence sequence = simulate(short_route(), 3);
+RecordedStream eventful_sequence(const RampConfig& ramp) {
+  SimulatedSequence sequence = simulate(short_route(ramp), 3);
   RecordedStream stream{{}, sequence.rig};
   for (Delivery& delivery : sequence.deliveries) {
     const bool kept =

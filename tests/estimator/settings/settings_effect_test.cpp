@@ -144,14 +144,27 @@ std::vector<std::string> other_values(const Parameter& parameter) {
 /// The streams, simulated once per process.
 const std::vector<RecordedStream>& streams() {
   static const std::vector<RecordedStream> all = [] {
-    RecordedStream stream = testing::eventful_sequence();
-    return std::vector<RecordedStream>{stream, testing::started_in_motion(stream)};
+    const RecordedStream stream = testing::eventful_sequence(testing::kShortRamp);
+    return std::vector<RecordedStream>{stream, testing::started_in_motion(stream),
+                                       testing::eventful_sequence(testing::kGentleSlope)};
   }();
   return all;
 }
 
 std::unique_ptr<EstimatorConfig> config_of(const std::string& name) {
   return EstimatorConfigs().find(name)->clone();
+}
+
+/// Sets the other parameters of a group that a switch has turned on, which may need a long sequence
+/// to act at their defaults, to their least values.
+void shorten_group_of(const std::string& key, const Fields& fields) {
+  const std::size_t dot = key.rfind('.');
+  for (const Parameter& parameter : fields.parameters()) {
+    if (!key.ends_with(".enabled") || parameter.key == key) continue;
+    if (!parameter.key.starts_with(key.substr(0, dot + 1))) continue;
+    const double least = parameter.spec.range.min;
+    if (std::isfinite(least)) (void)parameter.assign(std::to_string(std::lround(least)));
+  }
 }
 
 bool has_effect(const std::string& key, const std::string& name,
@@ -164,6 +177,9 @@ bool has_effect(const std::string& key, const std::string& name,
       const Fields fields = fields_of(*changed);
       const Parameter* parameter = fields.find(key);
       if (!parameter->assign(value) || parameter->text() == text) continue;
+      if (reference.differs(*changed)) return true;
+      if (value != "true") continue;
+      shorten_group_of(key, fields);
       if (reference.differs(*changed)) return true;
     }
   }

@@ -36,7 +36,8 @@ TEST(World, StandingFeetCarryTheWeightAndRestOnTheFloor) {
   EXPECT_NEAR(load, world.body().mass * 9.81, 1.0);
   // Kinematics here and in the model agree: every foot sphere touches the floor.
   for (int leg = 0; leg < kLegCount; ++leg) {
-    const Eigen::Vector3d foot = state.T_world_base * foot_in_base(leg, joints_of(state.q, leg), kRobotGeometry);
+    const Eigen::Vector3d foot =
+        state.T_world_base * foot_in_base(leg, joints_of(state.q, leg), kRobotGeometry);
     EXPECT_NEAR(foot.z(), kRobotGeometry.foot_radius, 1.5e-3) << kLegNames[leg];
   }
   EXPECT_LT(state.velocity.norm(), 0.01);
