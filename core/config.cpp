@@ -95,6 +95,32 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// The reasons why parameters are idle, each once.
+std::string reasons_of(const std::vector<const Parameter*>& parameters) {
+  std::vector<std::string> reasons;
+  for (const Parameter* parameter : parameters) {
+    if (std::find(reasons.begin(), reasons.end(), parameter->idle) == reasons.end()) {
+      reasons.push_back(parameter->idle);
+    }
+  }
+  return fmt::format("{}", fmt::join(reasons, "; "));
+}
+
+/// The key with the first group that its first segment `*` can stand for, or the key itself, and
+/// where that segment begins.
+std::pair<std::string, std::size_t> without_star(const Fields& fields, std::string_view key) {
+  const std::size_t star = key.starts_with("*.") ? 0 : key.find(".*.") + 1;
+  if (star == 0 && !key.starts_with("*.")) return {std::string(key), std::string::npos};
+  const std::string_view before = key.substr(0, star);
+  for (const Parameter& parameter : fields.parameters()) {
+    if (!parameter.key.starts_with(before)) continue;
+    const std::string_view rest = std::string_view(parameter.key).substr(star);
+    return {fmt::format("{}{}{}", before, rest.substr(0, rest.find('.')), key.substr(star + 1)),
+            star};
+  }
+  return {std::string(key), std::string::npos};
+}
+
 std::vector<std::string> keys_of(const Fields& fields) {
   std::vector<std::string> keys;
   for (const Parameter& parameter : fields.parameters()) keys.push_back(parameter.key);
@@ -234,11 +260,82 @@ void Fields::add(std::string_view name, Spec spec, std::string expected,
                          std::move(assign), sequence});
 }
 
+void Fields::idle_below_switch() {
+  const Parameter* enabled = find(full_key("enabled"));
+  if (enabled == nullptr || enabled->text() != "false") return;
+  const std::string start = prefix_ + ".";
+  for (Parameter& parameter : parameters_) {
+    if (&parameter == enabled || !parameter.key.starts_with(start)) continue;
+    parameter.idle = enabled->key + " is false";
+  }
+}
+
+void Fields::group_of(std::string_view name, Fields fields) {
+  const std::string start = full_key(name) + ".";
+  for (Parameter& parameter : fields.parameters_) {
+    parameter.key = start + parameter.key;
+    parameters_.push_back(std::move(parameter));
+  }
+  for (ListField& list : fields.lists_) {
+    list.key = start + list.key;
+    lists_.push_back(std::move(list));
+  }
+}
+
+void Fields::set_idle(const std::function<std::string(const Parameter&)>& reason) {
+  for (Parameter& parameter : parameters_) parameter.idle = reason(parameter);
+}
+
+void Fields::idle_if(bool condition, std::string_view reason,
+                     std::initializer_list<std::string_view> names) {
+  if (!condition) return;
+  for (const std::string_view name : names) {
+    const std::string key = full_key(name);
+    for (Parameter& parameter : parameters_) {
+      if (parameter.key == key || parameter.key.starts_with(key + ".")) parameter.idle = reason;
+    }
+  }
+}
+
+std::vector<const Parameter*> Fields::matching(std::string_view key) const {
+  std::vector<const Parameter*> found;
+  for (const Parameter& parameter : parameters_) {
+    if (key_matches(key, parameter.key)) found.push_back(&parameter);
+  }
+  return found;
+}
+
+bool key_matches(std::string_view pattern, std::string_view key, bool prefix) {
+  while (true) {
+    const std::size_t end = std::min(pattern.find('.'), pattern.size());
+    const std::size_t key_end = std::min(key.find('.'), key.size());
+    const std::string_view name = pattern.substr(0, end);
+    if (name != "*" && name != key.substr(0, key_end)) return false;
+    if (end == pattern.size()) return (key_end < key.size()) == prefix;
+    if (key_end == key.size()) return false;
+    pattern.remove_prefix(end + 1);
+    key.remove_prefix(key_end + 1);
+  }
+}
+
 Result<void> assign(const Fields& fields, std::string_view key, std::string_view value) {
-  const Parameter* parameter = fields.find(key);
-  if (parameter == nullptr) return failure(unknown_key_message(fields, key));
-  if (!parameter->assign(value)) {
+  const std::vector<const Parameter*> parameters = fields.matching(key);
+  if (parameters.empty()) return failure(unknown_key_message(fields, key));
+  for (const Parameter* parameter : parameters) {
+    if (parameter->assign(value)) continue;
     return failure(fmt::format("{}: '{}' is not {}", key, value, parameter->expected));
+  }
+  return {};
+}
+
+Result<void> check_effect(const Fields& fields, std::span<const AssignedKey> assigned) {
+  for (const AssignedKey& each : assigned) {
+    const std::vector<const Parameter*> parameters = fields.matching(each.key);
+    const auto acts = [](const Parameter* parameter) { return parameter->idle.empty(); };
+    if (parameters.empty() || std::any_of(parameters.begin(), parameters.end(), acts)) continue;
+    const bool pattern = parameters.size() > 1 || parameters.front()->key != each.key;
+    return failure(fmt::format("{}{}: has no effect: {}", each.place, each.key,
+                               pattern ? reasons_of(parameters) : parameters.front()->idle));
   }
   return {};
 }
@@ -284,7 +381,9 @@ std::string sequence_text(const std::vector<std::string>& entries) {
 }
 
 std::string unknown_key_message(const Fields& fields, std::string_view key) {
-  const std::string near = proposal_for(fields, key);
+  const auto [concrete, star] = without_star(fields, key);
+  std::string near = proposal_for(fields, concrete);
+  if (star < near.size()) near.replace(star, std::min(near.find('.', star), near.size()) - star, "*");
   if (near == key) return fmt::format("{}: a group of settings; expected one of its keys", key);
   if (near.empty()) return fmt::format("unknown key '{}'", key);
   return fmt::format("unknown key '{}'; did you mean '{}'?", key, near);

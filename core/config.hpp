@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,12 +45,13 @@ struct Spec {
 
 /// One scalar (or short vector) of a configuration, with its documentation.
 struct Parameter {
-  std::string key;  ///< full dotted key, e.g. "estimator.degeneracy.eta"
+  std::string key;  ///< full dotted key, e.g. "estimators.aims.degeneracy.eta"
   Spec spec;
   std::string expected;               ///< e.g. "a number in [0, 1)", "one of point, rolling"
   std::function<std::string()> text;  ///< current value; of a sequence: "[a, b]"
   std::function<bool(std::string_view)> assign;  ///< false: not what was expected
   bool sequence = false;                         ///< holds several scalars, written "[a, b]"
+  std::string idle = {};  ///< why the value has no effect now, e.g. "legs.enabled is false"
 };
 
 /// A list of groups inside a configuration, e.g. the points of a route.
@@ -77,13 +80,25 @@ class Fields {
   void choice(std::string_view name, Enum& value, std::vector<std::pair<std::string, Enum>> options,
               Spec spec);
 
-  /// A nested configuration with its own `describe`.
+  /// A nested configuration with its own `describe`. With a switch `enabled` that is false, its
+  /// other parameters are idle.
   template <class Config>
   void group(std::string_view name, Config& config);
 
   /// A list of nested configurations; entry i has the keys `name.i.*`.
   template <class Config>
   void list(std::string_view name, std::vector<Config>& items, std::string meaning);
+
+  /// The fields of another configuration as the group `name`; reasons why they are idle stay.
+  void group_of(std::string_view name, Fields fields);
+
+  /// Marks each parameter as idle for the reason given; an empty one: it has an effect.
+  void set_idle(const std::function<std::string(const Parameter&)>& reason);
+
+  /// With `condition`, marks the parameters named (a group: all below it) as idle for that reason.
+  /// A later reason replaces an earlier one: state the narrow reasons first.
+  void idle_if(bool condition, std::string_view reason,
+               std::initializer_list<std::string_view> names);
 
   const std::vector<Parameter>& parameters() const& { return parameters_; }
   const std::vector<ListField>& lists() const& { return lists_; }
@@ -94,8 +109,12 @@ class Fields {
   /// The parameter with that full key, or nullptr.
   const Parameter* find(std::string_view key) const;
 
+  /// The parameters of a key in which a segment `*` stands for any name.
+  std::vector<const Parameter*> matching(std::string_view key) const;
+
  private:
   std::string full_key(std::string_view name) const;
+  void idle_below_switch();
   template <class Number>
   void add_number(std::string_view name, Number& value, Spec spec, std::string_view what);
   template <class Vector>
@@ -117,8 +136,24 @@ Fields fields_of(Config& config) {
   return fields;
 }
 
-/// Sets `key` to `value` (text as in YAML). Errors name the key, what was expected, a near match.
+/// Whether the key, or with `prefix` the group, has the names of `pattern`, in which a segment `*`
+/// stands for any name.
+bool key_matches(std::string_view pattern, std::string_view key, bool prefix = false);
+
+/// Sets `key` to `value` (text as in YAML); a segment `*` sets every parameter that matches. Errors
+/// name the key, what was expected, a near match.
 Result<void> assign(const Fields& fields, std::string_view key, std::string_view value);
+
+/// A key that was set, for the check that it has an effect.
+struct AssignedKey {
+  std::string key;         ///< as written, may hold `*`
+  std::string place;       ///< "file:line:column: ", "--set key=value: " or empty
+  bool from_file = false;  ///< in a YAML file
+};
+
+/// Error for a key that has no effect in the final configuration, with the reason. Of a key with
+/// `*`, one parameter with an effect is enough.
+Result<void> check_effect(const Fields& fields, std::span<const AssignedKey> assigned);
 
 /// Entries of the text "[a, b]"; an entry in double quotes may hold anything (\" and \\ escaped).
 /// Empty when it is not such a text.
@@ -163,6 +198,7 @@ void Fields::group(std::string_view name, Config& config) {
   const std::string outer = prefix_;
   prefix_ = full_key(name);
   describe(*this, config);
+  idle_below_switch();
   prefix_ = outer;
 }
 

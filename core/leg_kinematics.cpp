@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/config.hpp"
+
 namespace aims {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/leg_geometry.hpp"
 #include "core/lie.hpp"
 #include "core/time.hpp"
 
@@ -68,11 +69,14 @@ struct Delivery {
 /// End of the measurement: sample stamp, or end of the scan.
 Time stamp_of(const Measurement& measurement);
 
-/// Sensor extrinsics.
+/// What an estimator needs of the robot and its sensors.
 /// The body frame is the IMU frame: x forward, y left, z up.
 struct SensorRig {
-  Pose T_body_lidar;  ///< LiDAR frame in the body frame
-  Pose T_body_base;   ///< frame of the leg odometry (trunk centre) in the body frame
+  Pose T_body_lidar;          ///< LiDAR frame in the body frame
+  Pose T_body_base;           ///< frame of the leg odometry (trunk centre) in the body frame
+  LegGeometry leg_geometry;   ///< of the robot
+  double imu_rate_hz = 50.0;  ///< nominal sample rate [Hz]
+  double leg_rate_hz = 200.0;  ///< nominal packet rate of the leg odometry [Hz]
 };
 
 }  // namespace aims

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 
 #include "estimator/registry.hpp"
@@ -16,16 +17,7 @@ bool allowed_in_label(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
 }
 
-std::vector<std::string> registered() {
-  std::vector<std::string> names;
-  for (const EstimatorEntry& entry : estimator_registry()) names.emplace_back(entry.name);
-  return names;
-}
-
-bool is_registered(std::string_view name) {
-  const auto names = registered();
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+bool is_registered(std::string_view name) { return check_estimator_name(name).has_value(); }
 
 /// The text split at each '+' before a setting; a '+' inside a number ("1e+3") does not split.
 std::vector<std::string> pieces_of(std::string_view text) {
@@ -68,13 +60,49 @@ EstimatorSpec split(std::string_view text) {
   return spec;
 }
 
-Result<void> check_name(const EstimatorSpec& spec) {
-  if (is_registered(spec.name)) return {};
-  const auto known = registered();
-  const std::string near = near_match(spec.name, known);
-  return failure(fmt::format("no estimator '{}'; expected one of {}{}", spec.name,
-                             fmt::join(known, ", "),
-                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+/// The configuration with the settings of the spec, whether they have an effect or not.
+Result<std::unique_ptr<EstimatorConfig>> assigned_config(const EstimatorSpec& spec,
+                                                         const EstimatorConfigs& base) {
+  const EstimatorConfig* own = base.find(spec.name);
+  if (own == nullptr) return tl::unexpected(check_estimator_name(spec.name).error());
+  std::unique_ptr<EstimatorConfig> config = own->clone();
+  const Fields fields = fields_of(*config);
+  for (const auto& [key, value] : spec.settings) {
+    if (auto done = assign(fields, key, value); !done) return tl::unexpected(done.error());
+  }
+  return config;
+}
+
+/// Per key of the estimator `name`, why it is idle in all specs of `run`; empty: it is not.
+std::map<std::string, std::string> idle_keys(std::string_view name,
+                                             std::span<const std::string> run,
+                                             const EstimatorConfigs& base) {
+  std::map<std::string, std::string> idle;
+  for (const std::string& text : run) {
+    const EstimatorSpec spec = split(text);
+    if (spec.name != name) continue;
+    const auto config = assigned_config(spec, base);
+    if (!config) continue;
+    const Fields fields = fields_of(**config);
+    for (const Parameter& parameter : fields.parameters()) {
+      std::string& reason = idle.try_emplace(parameter.key, parameter.idle).first->second;
+      if (parameter.idle.empty()) reason.clear();
+    }
+  }
+  return idle;
+}
+
+constexpr std::string_view kDoesNotRun = " does not run";
+
+/// Whether the key of a file configures only estimators that do not run.
+bool of_others(const AssignedKey& assigned, const Fields& fields) {
+  if (!assigned.from_file || !assigned.key.starts_with("estimators.")) return false;
+  const std::vector<const Parameter*> parameters = fields.matching(assigned.key);
+  if (assigned.key.find('*') != std::string::npos) {
+    return std::all_of(parameters.begin(), parameters.end(),
+                       [](const Parameter* each) { return !each->idle.empty(); });
+  }
+  return !parameters.empty() && parameters.front()->idle.ends_with(kDoesNotRun);
 }
 
 Result<void> check_label(const EstimatorSpec& spec, std::string_view text) {
@@ -94,13 +122,13 @@ Result<void> check_label(const EstimatorSpec& spec, std::string_view text) {
 
 Result<EstimatorSpec> parse_estimator_spec(std::string_view text) {
   EstimatorSpec spec = split(text);
-  if (auto known = check_name(spec); !known) return tl::unexpected(known.error());
+  if (auto known = check_estimator_name(spec.name); !known) return tl::unexpected(known.error());
   if (auto fits = check_label(spec, text); !fits) return tl::unexpected(fits.error());
   for (const auto& [key, value] : spec.settings) {
     if (!key.empty() && !value.empty()) continue;
     return failure(fmt::format("'{}': expected key=value after each '+'", text));
   }
-  if (auto config = config_with(spec, {}); !config) {
+  if (auto config = assigned_config(spec, {}); !config) {
     return failure(fmt::format("'{}': {}", text, config.error().message));
   }
   return spec;
@@ -116,13 +144,48 @@ std::string unlabelled_text(const EstimatorSpec& spec) {
   return text;
 }
 
-Result<EstimatorConfig> config_with(const EstimatorSpec& spec, const EstimatorConfig& base) {
-  EstimatorConfig config = base;
-  const Fields fields = fields_of(config);
-  for (const auto& [key, value] : spec.settings) {
-    if (auto done = assign(fields, key, value); !done) return tl::unexpected(done.error());
+Result<std::unique_ptr<EstimatorConfig>> config_with(const EstimatorSpec& spec,
+                                                     const EstimatorConfigs& base) {
+  auto config = assigned_config(spec, base);
+  if (!config) return config;
+  std::vector<AssignedKey> assigned;
+  for (const auto& [key, value] : spec.settings) assigned.push_back({key, ""});
+  if (auto acts = check_effect(fields_of(**config), assigned); !acts) {
+    return tl::unexpected(acts.error());
   }
   return config;
+}
+
+Requirements requirements_of(std::string_view spec, const EstimatorConfigs& base) {
+  const auto config = assigned_config(split(spec), base);
+  return config ? (*config)->requirements() : Requirements();
+}
+
+void describe_estimators(Fields& fields, const std::vector<std::string>& run,
+                         EstimatorConfigs& configs) {
+  for (const std::string& name : estimator_names()) {
+    Fields own = fields_of(*configs.find(name));
+    const std::map<std::string, std::string> idle = idle_keys(name, run, configs);
+    own.set_idle([&](const Parameter& parameter) {
+      const auto found = idle.find(parameter.key);
+      return found == idle.end() ? name + std::string(kDoesNotRun) : found->second;
+    });
+    fields.group_of("estimators." + name, std::move(own));
+  }
+}
+
+Result<void> check_effects(const Fields& fields, std::vector<AssignedKey> assigned,
+                           bool run_chosen, std::span<const std::string> run,
+                           const EstimatorConfigs& configs) {
+  if (run_chosen) {
+    std::erase_if(assigned, [&](const AssignedKey& each) { return of_others(each, fields); });
+  }
+  if (auto acts = check_effect(fields, assigned); !acts) return acts;
+  for (const std::string& text : run) {
+    const auto config = config_with(split(text), configs);
+    if (!config) return failure(fmt::format("run: '{}': {}", text, config.error().message));
+  }
+  return {};
 }
 
 std::string label_of(std::string_view spec) { return split(spec).label; }
@@ -144,8 +207,8 @@ Result<void> check_estimator_specs(std::span<const std::string> specs) {
   return {};
 }
 
-std::string estimators_setting(std::span<const std::string> specs) {
-  return "estimators=" + sequence_text({specs.begin(), specs.end()});
+std::string run_setting(std::span<const std::string> specs) {
+  return "run=" + sequence_text({specs.begin(), specs.end()});
 }
 
 std::vector<std::string> joined_specs(std::span<const std::string> pieces) {

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/config.hpp"
 #include "core/error.hpp"
-#include "estimator/aims/config.hpp"
+#include "estimator/estimator_config.hpp"
 
 namespace aims {
 
 /// Specification of an estimator: its name, its label in the results, and settings that override
-/// the common configuration. Written `NAME`, `LABEL=NAME` or `LABEL=NAME+key=value+key=value`, keys
-/// relative to `estimator.`; e.g. `no_ground=aims_d+directional.ground_constraint.enabled=false`.
+/// its configuration. Written `NAME`, `LABEL=NAME` or `LABEL=NAME+key=value+key=value`, keys
+/// relative to `estimators.NAME.`; e.g. `no_ground=aims_d+ground_constraint.enabled=false`.
 struct EstimatorSpec {
   std::string label;  ///< of results and files: letters, digits, - and _
   std::string name;   ///< in the registry
@@ -32,8 +34,24 @@ std::string text_of(const EstimatorSpec& spec);
 /// The same without the label, `NAME+key=value`: identifies the run.
 std::string unlabelled_text(const EstimatorSpec& spec);
 
-/// `base` with the settings of the spec on top. Error for an unknown key or value.
-Result<EstimatorConfig> config_with(const EstimatorSpec& spec, const EstimatorConfig& base);
+/// The configuration of the spec's estimator in `base` with the settings of the spec on top. Error
+/// for an unknown key or value, and for a setting without effect.
+Result<std::unique_ptr<EstimatorConfig>> config_with(const EstimatorSpec& spec,
+                                                     const EstimatorConfigs& base);
+
+/// What the spec's estimator requires; nothing for a spec that cannot be read.
+Requirements requirements_of(std::string_view spec, const EstimatorConfigs& base);
+
+/// Adds the group `estimators` to `fields`. A setting is idle where it has no effect in any spec of
+/// `run`.
+void describe_estimators(Fields& fields, const std::vector<std::string>& run,
+                         EstimatorConfigs& configs);
+
+/// Error for a key that was set without effect, and for such a setting in a spec of `run`. With
+/// `run_chosen`, by the command line, files may hold settings of estimators that do not run.
+Result<void> check_effects(const Fields& fields, std::vector<AssignedKey> assigned,
+                           bool run_chosen, std::span<const std::string> run,
+                           const EstimatorConfigs& configs);
 
 /// The label of a spec, well-formed or not.
 std::string label_of(std::string_view spec);
@@ -44,8 +62,8 @@ std::vector<std::string> labels_of(std::span<const std::string> specs);
 /// Error for a malformed spec and for a repeated label.
 Result<void> check_estimator_specs(std::span<const std::string> specs);
 
-/// The setting "estimators=[...]" for a scenario or an estimate.
-std::string estimators_setting(std::span<const std::string> specs);
+/// The setting "run=[...]" for a scenario or an estimate.
+std::string run_setting(std::span<const std::string> specs);
 
 /// Specs of a command line split at commas, with the commas inside brackets restored:
 /// {"aims_d+x=[1", "2]"} is one spec.

@@ -1,74 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/registry.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <string>
-#include <vector>
 
 #include "estimator/aims/eskf_estimator.hpp"
 #include "estimator/aims/leg_dead_reckoning.hpp"
+#include "estimator/aims/presets.hpp"
 
 namespace aims {
 namespace {
 
-using Factory = std::unique_ptr<Estimator> (*)(const EstimatorConfig&, const SensorRig&);
-
-template <EstimatorVariant variant>
-std::unique_ptr<Estimator> eskf(const EstimatorConfig& config, const SensorRig& rig) {
-  return std::make_unique<EskfEstimator>(config, variant, rig);
+/// An entry whose estimator `Made` has the configuration that `config` returns.
+template <class Made, class MakeConfig>
+EstimatorEntry entry(std::string_view name, std::string_view description, MakeConfig config) {
+  using Config = decltype(config());
+  return {name, description, [config]() -> std::unique_ptr<EstimatorConfig> {
+            return std::make_unique<ConfigOf<Config, Made>>(config());
+          }};
 }
 
-std::unique_ptr<Estimator> dead_reckoning(const EstimatorConfig& config, const SensorRig& rig) {
-  return std::make_unique<LegDeadReckoning>(config, rig);
-}
-
-constexpr std::array kEntries = {
-    EstimatorEntry{"aims", "LiDAR, IMU and legs, weighted by the degeneracy index of the paper"},
-    EstimatorEntry{"aims_d", "beyond the paper: weights per axis, leg scale, ground constraint"},
-    EstimatorEntry{"tfs",
-                   "fixed weights, zero-order hold of lost leg packets: the paper's ablation"},
-    EstimatorEntry{"tfs_clean", "fixed weights, lost leg packets skipped"},
-    EstimatorEntry{"lio", "LiDAR and IMU only, fixed weights", false},
-    EstimatorEntry{"leg", "leg odometry alone, as the robot reports it"},
-};
-constexpr std::array<Factory, kEntries.size()> kFactories = {
-    eskf<EstimatorVariant{.adaptive = true}>,
-    eskf<EstimatorVariant{.adaptive = false, .directional = true}>,
-    eskf<EstimatorVariant{.repeat_lost = true, .adaptive = false}>,
-    eskf<EstimatorVariant{.adaptive = false}>,
-    eskf<EstimatorVariant{.leg = false, .adaptive = false}>,
-    dead_reckoning};
-
-std::string unknown_estimator_message(std::string_view name) {
-  std::vector<std::string> names;
-  std::string list;
-  for (const EstimatorEntry& entry : kEntries) {
-    names.emplace_back(entry.name);
-    list += (list.empty() ? "" : ", ") + names.back();
+std::vector<EstimatorEntry> entries() {
+  std::vector<EstimatorEntry> all;
+  for (const EskfPreset& preset : eskf_presets()) {
+    all.push_back(entry<EskfEstimator>(preset.name, preset.description, preset.config));
   }
-  const std::string near = near_match(name, names);
-  std::string message = "unknown estimator '" + std::string(name) + "'";
-  if (!near.empty()) message += "; did you mean '" + near + "'?";
-  return message + " (known: " + list + ")";
+  all.push_back(entry<LegDeadReckoning>("leg", "leg odometry alone, as the robot reports it",
+                                        [] { return LegDeadReckoningConfig(); }));
+  return all;
 }
 
 }  // namespace
 
-std::span<const EstimatorEntry> estimator_registry() { return kEntries; }
-
-bool needs_legs(std::string_view name) {
-  const auto entry = std::ranges::find(kEntries, name, &EstimatorEntry::name);
-  return entry != kEntries.end() && entry->needs_legs;
+std::span<const EstimatorEntry> estimator_registry() {
+  static const std::vector<EstimatorEntry> all = entries();
+  return all;
 }
 
-Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name,
-                                                  const EstimatorConfig& config,
-                                                  const SensorRig& rig) {
-  for (std::size_t i = 0; i < kEntries.size(); ++i) {
-    if (kEntries[i].name == name) return kFactories[i](config, rig);
-  }
-  return failure(unknown_estimator_message(name));
+std::vector<std::string> estimator_names() {
+  std::vector<std::string> names;
+  for (const EstimatorEntry& each : estimator_registry()) names.emplace_back(each.name);
+  return names;
+}
+
+Result<void> check_estimator_name(std::string_view name) {
+  const std::vector<std::string> known = estimator_names();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return {};
+  const std::string near = near_match(name, known);
+  return failure(fmt::format("no estimator '{}'; expected one of {}{}", name,
+                             fmt::join(known, ", "),
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name, const SensorRig& rig) {
+  if (auto known = check_estimator_name(name); !known) return tl::unexpected(known.error());
+  const EstimatorConfigs defaults;
+  return defaults.find(name)->create(rig);
 }
 
 }  // namespace aims

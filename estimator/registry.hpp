@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
-#include "estimator/aims/config.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/estimator_config.hpp"
 
 namespace aims {
 
@@ -15,18 +17,20 @@ namespace aims {
 struct EstimatorEntry {
   std::string_view name;
   std::string_view description;  ///< one line
-  bool needs_legs = true;        ///< leg odometry is a required input
+  /// Its default configuration, which states its requirements and creates it.
+  std::function<std::unique_ptr<EstimatorConfig>()> config;
 };
 
 /// All estimators, in the order of presentation.
 std::span<const EstimatorEntry> estimator_registry();
 
-/// Whether the estimator `name` requires leg odometry; an unknown name requires none.
-bool needs_legs(std::string_view name);
+/// Their names.
+std::vector<std::string> estimator_names();
 
-/// Creates the estimator `name`. Error for an unknown name, with a near match and the list.
-Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name,
-                                                  const EstimatorConfig& config,
-                                                  const SensorRig& rig);
+/// Error for a name that is not registered, with a near match and the list.
+Result<void> check_estimator_name(std::string_view name);
+
+/// Creates the estimator `name` with its default configuration. Error for an unknown name.
+Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name, const SensorRig& rig);
 
 }  // namespace aims

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "core/files/tum.hpp"
-#include "estimator/aims/sample_rates.hpp"
-#include "estimator/registry.hpp"
+#include "estimator/estimator_spec.hpp"
 #include "ros/live_recording.hpp"
 #include "ros/node_config.hpp"
 #include "ros/node_options.hpp"
@@ -66,18 +65,20 @@ void print_summary(const RecordingReader& reader, const Estimator& estimator, st
   print_line(fmt::format("{} poses", estimator.result().trajectory.size()));
 }
 
-Result<void> check_topics(const std::string& estimator, const RecordingSetup& setup) {
-  return needs_legs(estimator) ? check_legs(setup, estimator, "live topics") : Result<void>();
+Result<void> check_topics(const NodeConfig& config, const RecordingSetup& setup) {
+  if (!requirements_of(config.estimator, config.estimators).legs) return {};
+  return check_legs(setup, config.estimator, "live topics");
 }
 
-/// The estimator at the network's sample rates; prints what was assumed.
-Result<std::unique_ptr<Estimator>> make_live_estimator(const std::string& name,
-                                                       EstimatorConfig config,
+/// The estimator; prints what was assumed about the network.
+Result<std::unique_ptr<Estimator>> make_live_estimator(const NodeConfig& config,
                                                        const RecordingSetup& setup) {
-  const auto rates = adopt_sample_rates(setup.imu_rate_hz, setup.leg_rate_hz, config);
   for (const std::string& note : setup.notes) print_line("note: " + note);
-  for (const std::string& note : rates) print_line("note: " + note);
-  return make_estimator(name, config, setup.rig);
+  const auto spec = parse_estimator_spec(config.estimator);
+  if (!spec) return tl::unexpected(spec.error());
+  const auto own = config_with(*spec, config.estimators);
+  if (!own) return tl::unexpected(own.error());
+  return (*own)->create(setup.rig);
 }
 
 int run_node(RosTransport& transport, const NodeOptions& options) {
@@ -87,10 +88,10 @@ int run_node(RosTransport& transport, const NodeOptions& options) {
                                   .patience = options.patience};
   auto reader = open_live_recording(
       transport, config->recording, live,
-      [&](const RecordingSetup& setup) { return check_topics(options.estimator, setup); },
+      [&](const RecordingSetup& setup) { return check_topics(*config, setup); },
       [](const std::string& missing) { print_line("waiting: " + missing); });
   if (!reader) return bad_input(reader.error());
-  auto estimator = make_live_estimator(options.estimator, config->estimator, reader->setup());
+  auto estimator = make_live_estimator(*config, reader->setup());
   if (!estimator) return bad_input(estimator.error());
 
   OdometryPublisher publisher(transport, {options.odom_frame, options.body_frame, options.tf});

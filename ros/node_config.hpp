@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "core/config.hpp"
 #include "core/error.hpp"
-#include "estimator/aims/config.hpp"
+#include "estimator/estimator_config.hpp"
 #include "recordings/recording_config.hpp"
 #include "ros/node_options.hpp"
 
@@ -13,7 +15,8 @@ namespace aims {
 /// has no other groups.
 struct NodeConfig {
   RecordingConfig recording;
-  EstimatorConfig estimator;
+  EstimatorConfigs estimators;
+  std::string estimator = "aims";  ///< spec of who estimates; from the options
 };
 
 void describe(Fields& fields, NodeConfig& config);

@@ -13,6 +13,7 @@
 #include "sim/environment/scene_mjcf.hpp"
 #include "sim/links/arrivals.hpp"
 #include "sim/robot/quadruped_model.hpp"
+#include "sim/robot/robot_geometry.hpp"
 #include "sim/robot/walker.hpp"
 #include "sim/sensors/fisher_information.hpp"
 
@@ -133,7 +134,8 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene buil
       lidar_link(config.links.lidar, seed, "lidar"),
       T_base_body(walker.world().T_base_site("imu")) {
   const Pose T_body_base = T_base_body.inverse();
-  rig = {T_body_base * walker.world().T_base_site("lidar"), T_body_base};
+  rig = {T_body_base * walker.world().T_base_site("lidar"), T_body_base, kRobotGeometry,
+         config.imu.rate, config.leg_odometry.rate};
   record();
 }
 

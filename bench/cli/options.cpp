@@ -47,7 +47,7 @@ void add_seeds(Command& command, SharedOptions& options, const std::string& abse
 void add_estimators(Command& command, SharedOptions& options, const std::string& absent) {
   command.list("--estimators", options.estimators,
                fmt::format("Estimators, each NAME or LABEL=NAME+key=value with\n"
-                           "keys below estimator. ({})",
+                           "keys below estimators.NAME. ({})",
                            absent));
 }
 
@@ -59,7 +59,7 @@ void add_settings(Command& command, SharedOptions& options, const std::string& o
 void add_param(Command& command, SharedOptions& options, const std::string& forms) {
   command.repeatable("--param", options.param,
                      fmt::format("Parameter to vary, {},\n"
-                                 "a key below estimator. or of the scenario",
+                                 "a key of the estimator or of the scenario",
                                  forms));
 }
 
@@ -103,7 +103,7 @@ void add_quiet(Command& command, SharedOptions& options) {
 std::vector<std::string> overrides_of(const SharedOptions& options) {
   std::vector<std::string> overrides = options.settings;
   if (!options.estimators.empty()) {
-    overrides.push_back(estimators_setting(joined_specs(options.estimators)));
+    overrides.push_back(run_setting(joined_specs(options.estimators)));
   }
   return overrides;
 }

@@ -45,11 +45,11 @@ Result<Scenario> rendered_scenario(const SharedOptions& given) {
     shared.scenario = (fs::path(shared.scenario) / "config.yaml").string();
   }
   auto scenario = scenario_of(shared);
-  if (!scenario || !shared.estimators.empty() || scenario->estimators.empty()) return scenario;
-  const auto labels = labels_of(scenario->estimators);
+  if (!scenario || !shared.estimators.empty() || scenario->run.empty()) return scenario;
+  const auto labels = labels_of(scenario->run);
   const auto best = std::find(labels.begin(), labels.end(), "aims_d");
   const auto chosen = best == labels.end() ? 0 : best - labels.begin();
-  scenario->estimators = {scenario->estimators[static_cast<std::size_t>(chosen)]};
+  scenario->run = {scenario->run[static_cast<std::size_t>(chosen)]};
   return scenario;
 }
 

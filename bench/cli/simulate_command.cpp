@@ -42,7 +42,7 @@ void print_results(const RecordOutcome& outcome, const RecordOptions& options) {
 
 int simulate_command(const SimulateArguments& arguments) {
   SharedOptions shared = arguments.shared;
-  const auto read = check_settings(shared.settings, {"estimator", "estimators", "scoring"}, true);
+  const auto read = check_settings(shared.settings, {"estimators", "run", "scoring"}, true);
   if (!read) return bad_input("simulate", read.error());
   if (arguments.fast_imu_hz) {
     shared.settings.push_back(fmt::format("fast_imu_rate={}", *arguments.fast_imu_hz));

@@ -42,7 +42,7 @@ std::vector<std::uint64_t> first_seeds(std::uint64_t count) {
 
 struct AblationArguments {
   SharedOptions shared;
-  std::vector<std::string> groups = {"directional"};
+  std::vector<std::string> groups;
   std::vector<std::string> baselines;
 };
 
@@ -89,14 +89,14 @@ void declare_ablation(Command command, const fs::path& scenarios) {
   add_estimators(command, shared, "aims_d; one");
   command.list("--groups", arguments->groups,
                "Groups of keys below estimator. whose switches are inverted,\n"
-               "one at a time (directional)");
+               "one at a time (switches off each part that is on)");
   command.list("--baselines", arguments->baselines,
                "Estimators to compare with, e.g. lio,tfs_clean");
   command.footer(std::string(kContinues) +
                  "Examples:\n"
                  "  aims study ablation severity_3 severity_8 --seeds 1-3 --out out/ablation\n"
                  "  aims study ablation --tags severity --seeds 1-5 --baselines lio,tfs_clean\n"
-                 "  aims study ablation severity_5 --groups directional.leg_states");
+                 "  aims study ablation severity_5 --groups leg_states");
   command.action([arguments] { return ablation_command(*arguments); });
 }
 
@@ -139,7 +139,7 @@ void declare_consistency(Command command, const fs::path& scenarios) {
       "Examples:\n"
       "  aims study consistency severity_3 severity_8 --seeds 1-50 --estimators aims_d,lio\n"
       "  aims study consistency severity_9 --estimators aims_d,learning=aims_d+"
-      "directional.leg_states.hold=false");
+      "leg_states.gate_learning=false");
   command.action([shared] { return consistency_command(*shared); });
 }
 

@@ -82,7 +82,7 @@ void declare_suite(Command command, const fs::path& scenarios) {
       "Examples:\n"
       "  aims suite --tags severity --seeds 1-10 --out out/severity\n"
       "  aims suite corridor corridor_smooth --seeds 1-5 --estimators aims,lio\n"
-      "  aims suite --tags stress --seeds 1-3 --set estimator.degeneracy.eta=5 --out out/eta5\n"
+      "  aims suite --tags stress --seeds 1-3 --set estimators.aims.degeneracy.eta=5 --out out/eta5\n"
       "Exit codes: as of aims; 2 also when a job failed.");
   command.action([arguments] { return suite_command(*arguments); });
 }

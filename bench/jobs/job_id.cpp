@@ -19,26 +19,27 @@ std::uint64_t fnv1a(std::string_view text) {
   return hash;
 }
 
-std::string key_of(std::string_view name, EstimatorConfig config) {
-  return fmt::format("{}\n{}", name, text_hash(dump_config(fields_of(config))));
+std::string key_of(std::string_view name, std::string_view config) {
+  return fmt::format("{}\n{}", name, text_hash(config));
 }
 
 }  // namespace
 
 std::string text_hash(std::string_view text) { return fmt::format("{:016x}", fnv1a(text)); }
 
-JobIds::JobIds(const Scenario& scenario) : estimator_(scenario.estimator) {
-  // What does not change a run's numbers, and the estimator, are left out.
+JobIds::JobIds(const Scenario& scenario) : estimators_(scenario.estimators) {
+  // What does not change a run's numbers, and the estimators, are left out.
   Scenario bare;
+  bare.run.clear();
   bare.simulation = scenario.simulation;
   bare.scoring = scenario.scoring;
   scenario_key_ = text_hash(config_text(bare));
 }
 
 Result<std::string> JobIds::estimator_key(const EstimatorSpec& estimator) const {
-  auto config = config_with(estimator, estimator_);
+  auto config = config_with(estimator, estimators_);
   if (!config) return tl::unexpected(config.error());
-  return key_of(estimator.name, std::move(*config));
+  return key_of(estimator.name, dump_config(fields_of(**config)));
 }
 
 std::string JobIds::id(std::uint64_t seed, const std::string& estimator_key) const {
@@ -50,7 +51,7 @@ std::string job_id(const Scenario& scenario, std::uint64_t seed, const std::stri
   const JobIds ids(scenario);
   const auto spec = parse_estimator_spec(estimator);
   const auto key = spec ? ids.estimator_key(*spec) : tl::unexpected(spec.error());
-  return ids.id(seed, key ? *key : key_of(estimator, scenario.estimator));
+  return ids.id(seed, key ? *key : key_of(estimator, ""));
 }
 
 }  // namespace aims

@@ -25,15 +25,15 @@ class JobIds {
  public:
   explicit JobIds(const Scenario& scenario);
 
-  /// Stands for the estimator with its settings. Error for a setting that there is not, or a value
-  /// that it does not allow.
+  /// Stands for the estimator with its settings. Error for a setting that there is not or that has
+  /// no effect, or a value that it does not allow.
   Result<std::string> estimator_key(const EstimatorSpec& estimator) const;
 
   /// `job_id` of the scenario, the seed and the estimator of that key.
   std::string id(std::uint64_t seed, const std::string& estimator_key) const;
 
  private:
-  EstimatorConfig estimator_;
+  EstimatorConfigs estimators_;
   std::string scenario_key_;
 };
 

@@ -3,15 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "bench/run/bag_origin.hpp"
 #include "bench/run/stream.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
-#include "estimator/aims/sample_rates.hpp"
 #include "estimator/estimator_spec.hpp"
-#include "estimator/registry.hpp"
 
 namespace aims {
 namespace {
@@ -44,11 +43,9 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
 /// Error when an estimator needs legs and the recording has none.
 Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
                           const std::string& recording) {
-  for (const std::string& text : config.estimators) {
-    const auto spec = parse_estimator_spec(text);
-    const std::string name = spec ? spec->name : text;
-    if (!needs_legs(name)) continue;
-    if (auto ok = check_legs(setup, name, recording); !ok) return ok;
+  for (const std::string& text : config.run) {
+    if (!requirements_of(text, config.estimators).legs) continue;
+    if (auto ok = check_legs(setup, label_of(text), recording); !ok) return ok;
   }
   return {};
 }
@@ -57,24 +54,32 @@ Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& se
 
 void describe(Fields& fields, EstimateConfig& config) {
   fields.texts(
-      "estimators", config.estimators,
+      "run", config.run,
       {.unit = "-", .meaning = "who estimates, by name (`aims list`), or LABEL=NAME+key=value"});
   fields.group("recording", config.recording);
-  fields.group("estimator", config.estimator);
+  describe_estimators(fields, config.run, config.estimators);
   fields.group("scoring", config.scoring);
 }
 
 Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
                                             std::span<const std::string> overrides) {
   EstimateConfig config;
+  std::vector<AssignedKey> assigned;
   if (!file.empty()) {
-    if (auto ok = load_config(file, config); !ok) return tl::unexpected(ok.error());
+    if (auto ok = load_config(file, config, &assigned); !ok) return tl::unexpected(ok.error());
   }
-  if (auto ok = apply_overrides(config, overrides); !ok) return tl::unexpected(ok.error());
-  if (config.estimators.empty()) return failure("estimators: expected at least one name");
-  if (auto specs = check_estimator_specs(config.estimators); !specs) {
-    return failure("estimators: " + specs.error().message);
+  if (auto ok = apply_overrides(config, overrides, &assigned); !ok) {
+    return tl::unexpected(ok.error());
   }
+  if (config.run.empty()) return failure("run: expected at least one name");
+  if (auto specs = check_estimator_specs(config.run); !specs) {
+    return failure("run: " + specs.error().message);
+  }
+  const bool chosen = std::any_of(overrides.begin(), overrides.end(),
+                                  [](const auto& each) { return each.starts_with("run="); });
+  const auto acts =
+      check_effects(fields_of(config), std::move(assigned), chosen, config.run, config.estimators);
+  if (!acts) return tl::unexpected(acts.error());
   return config;
 }
 
@@ -89,13 +94,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.summary = reader->summary();
   if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)
     return tl::unexpected(ok.error());
-  result.estimator = config.estimator;
-  const RecordingSetup& setup = result.setup;
-  for (std::string& note :
-       adopt_sample_rates(setup.imu_rate_hz, setup.leg_rate_hz, result.estimator)) {
-    result.setup.notes.push_back(std::move(note));
-  }
-  auto estimators = make_estimators(config.estimators, result.estimator, result.setup.rig);
+  auto estimators = make_estimators(config.run, config.estimators, result.setup.rig);
   if (!estimators) return tl::unexpected(estimators.error());
 
   const double length_s = to_seconds(result.summary.end - result.summary.start);

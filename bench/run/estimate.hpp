@@ -14,17 +14,17 @@
 #include "bench/run/trajectory_scoring.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
-#include "estimator/aims/config.hpp"
+#include "estimator/estimator_config.hpp"
 #include "recordings/stream/recording_reader.hpp"
 
 namespace aims {
 
 /// How a recording is estimated: its topics, who estimates, and how the result is scored when the
-/// recording holds the truth. Scenarios have the same `estimator` and `scoring`.
+/// recording holds the truth. Scenarios have the same `run`, `estimators` and `scoring`.
 struct EstimateConfig {
-  std::vector<std::string> estimators = {"aims"};
+  std::vector<std::string> run = {"aims"};  ///< specs of who estimates
   RecordingConfig recording;
-  EstimatorConfig estimator;
+  EstimatorConfigs estimators;
   ScoreConfig scoring;
 };
 
@@ -46,7 +46,6 @@ struct EstimateResult {
   RecordingSetup setup;
   BagSummary summary;
   std::map<std::string, int> counts;  ///< of what was odd in the messages
-  EstimatorConfig estimator;          ///< as used: with the recording's own sample rates
   bool complete = false;              ///< false when the observer ended it early
   std::optional<Error> broken;        ///< the bag ended in an error; what came before is estimated
   double recorded_s = 0.0;            ///< of the recording that was read

@@ -67,6 +67,8 @@ Json estimate_json(const EstimateResult& result) {
                  {"truth", topics.truth}}},
                {"T_body_lidar", pose_json(result.setup.rig.T_body_lidar)},
                {"T_body_base", pose_json(result.setup.rig.T_body_base)},
+               {"imu_rate_hz", result.setup.rig.imu_rate_hz},
+               {"leg_rate_hz", result.setup.rig.leg_rate_hz},
                {"notes", result.setup.notes},
                {"counts", result.counts}};
   for (const EstimatorOutcome& each : result.estimators) {
@@ -75,10 +77,9 @@ Json estimate_json(const EstimateResult& result) {
   return json;
 }
 
-/// The configuration as it was used, which repeats the estimate.
-std::string config_text(const EstimateConfig& config, const EstimateResult& result) {
+/// The configuration, which repeats the estimate.
+std::string config_text(const EstimateConfig& config) {
   EstimateConfig used = config;
-  used.estimator = result.estimator;
   return dump_config(fields_of(used));
 }
 
@@ -122,7 +123,7 @@ TextTable estimate_table(const EstimateResult& result) {
 
 Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& result,
                             const fs::path& folder) {
-  auto written = write_file_atomically(folder / "config.yaml", config_text(config, result));
+  auto written = write_file_atomically(folder / "config.yaml", config_text(config));
   if (written) {
     written = write_file_atomically(folder / "estimate.json", estimate_json(result).dump(2) + "\n");
   }

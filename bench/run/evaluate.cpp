@@ -48,7 +48,7 @@ EstimatorOutcome outcome_of(const TimedEstimator& timed) {
 
 Result<EstimatorOutcome> evaluate(const Sequence& sequence, const Scenario& scenario,
                                   const std::string& estimator, const PartObserver& observer) {
-  auto estimators = make_estimators({&estimator, 1}, scenario.estimator, sequence.reader.rig());
+  auto estimators = make_estimators({&estimator, 1}, scenario.estimators, sequence.reader.rig());
   if (!estimators) return tl::unexpected(estimators.error());
   auto streamed = stream_into(sequence, estimators->front(), observer);
   if (!streamed) return tl::unexpected(streamed.error());

@@ -79,13 +79,23 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+/// Whether a setting of the scenario has an effect where `spec` alone runs.
+bool applies(const std::string& setting, const Scenario& scenario, const std::string& spec) {
+  if (setting.starts_with("run=")) return false;
+  if (!setting.starts_with("estimators.")) return true;
+  Scenario alone = scenario;
+  alone.run = {spec};
+  const std::string key = setting.substr(0, setting.find('='));
+  return check_effect(fields_of(alone), std::vector<AssignedKey>{{key, ""}}).has_value();
+}
+
 }  // namespace
 
 std::vector<ExpectationCheck> check_expectations(const Scenario& scenario, std::span<const RunRecord> runs) {
   std::vector<ExpectationCheck> checks;
   if (runs.empty()) return checks;
   for (const Expectation& expectation : scenario.expect) {
-    const auto ran = labels_of(scenario.estimators);
+    const auto ran = labels_of(scenario.run);
     if (std::find(ran.begin(), ran.end(), expectation.estimator) == ran.end()) continue;
     checks.push_back(check_one(expectation, runs));
   }
@@ -121,14 +131,16 @@ std::string text_of(const Scenario& scenario, const ExpectationCheck& check) {
 std::string reproducing_command(const Scenario& scenario, const ExpectationCheck& check) {
   const std::string file = scenario.file.empty() ? scenario.name : scenario.file.string();
   const auto asked =
-      std::find_if(scenario.estimators.begin(), scenario.estimators.end(),
+      std::find_if(scenario.run.begin(), scenario.run.end(),
                    [&](const auto& spec) { return label_of(spec) == check.expectation.estimator; });
-  const bool found = asked != scenario.estimators.end();
+  const bool found = asked != scenario.run.end();
   std::string command = fmt::format("aims run {} --seeds {} --estimators {}", quoted(file),
                                     fmt::join(check.seeds, ","),
                                     quoted(found ? *asked : check.expectation.estimator));
   for (const std::string& setting : scenario.overrides) {
-    if (!setting.starts_with("estimators=")) command += " --set " + quoted(setting);
+    if (applies(setting, scenario, found ? *asked : check.expectation.estimator)) {
+      command += " --set " + quoted(setting);
+    }
   }
   return command;
 }

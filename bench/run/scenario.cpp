@@ -21,9 +21,8 @@ namespace fs = std::filesystem;
 /// Error for an expectation of an estimator that there is not.
 Result<void> check_estimator(std::string_view key, const std::string& name,
                              const Scenario& scenario) {
-  std::vector<std::string> known;
-  for (const EstimatorEntry& entry : estimator_registry()) known.emplace_back(entry.name);
-  for (const std::string& label : labels_of(scenario.estimators)) {
+  std::vector<std::string> known = estimator_names();
+  for (const std::string& label : labels_of(scenario.run)) {
     if (std::find(known.begin(), known.end(), label) == known.end()) known.push_back(label);
   }
   if (std::find(known.begin(), known.end(), name) != known.end()) return {};
@@ -54,8 +53,8 @@ Result<void> check_segments(const Scenario& scenario) {
 
 Result<void> check(const Scenario& scenario) {
   if (auto segments = check_segments(scenario); !segments) return segments;
-  if (auto specs = check_estimator_specs(scenario.estimators); !specs) {
-    return failure("estimators: " + specs.error().message);
+  if (auto specs = check_estimator_specs(scenario.run); !specs) {
+    return failure("run: " + specs.error().message);
   }
   for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
     const std::string key = fmt::format("expect.{}.estimator", i);
@@ -69,6 +68,15 @@ Result<void> check(const Scenario& scenario) {
     }
   }
   return {};
+}
+
+/// Error for a setting without effect.
+Result<void> check_effects_in(Scenario& scenario, std::vector<AssignedKey> assigned) {
+  const auto& overrides = scenario.overrides;
+  const bool run_chosen = std::any_of(overrides.begin(), overrides.end(),
+                                      [](const auto& each) { return each.starts_with("run="); });
+  return check_effects(fields_of(scenario), std::move(assigned), run_chosen, scenario.run,
+                       scenario.estimators);
 }
 
 }  // namespace
@@ -94,10 +102,10 @@ void describe(Fields& f, Scenario& s) {
   f.text("level_unit", s.level_unit, {.meaning = "unit of the level"});
   f.integer("seed", s.seed,
             {.unit = "-", .range = at_least(0), .meaning = "seed of every random stream"});
-  f.texts("estimators", s.estimators,
+  f.texts("run", s.run,
           {.meaning = "estimators that run on the stream: NAME or LABEL=NAME+key=value"});
   describe(f, s.simulation);
-  f.group("estimator", s.estimator);
+  describe_estimators(f, s.run, s.estimators);
   f.group("scoring", s.scoring);
   f.list("expect", s.expect, "limits that a run must hold");
 }
@@ -118,12 +126,18 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
   scenario.file = file;
   scenario.overrides.assign(overrides.begin(), overrides.end());
   scenario.name = file.stem().string();
-  if (auto loaded = load_config(file, scenario); !loaded) return tl::unexpected(loaded.error());
-  if (auto applied = apply_overrides(scenario, overrides); !applied) {
+  std::vector<AssignedKey> assigned;
+  if (auto loaded = load_config(file, scenario, &assigned); !loaded) {
+    return tl::unexpected(loaded.error());
+  }
+  if (auto applied = apply_overrides(scenario, overrides, &assigned); !applied) {
     return tl::unexpected(applied.error());
   }
   if (auto valid = check(scenario); !valid) {
     return tl::unexpected(located(scenario, valid.error()));
+  }
+  if (auto acts = check_effects_in(scenario, std::move(assigned)); !acts) {
+    return tl::unexpected(acts.error());
   }
   return scenario;
 }
@@ -131,8 +145,13 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
 Result<Scenario> default_scenario(std::span<const std::string> overrides) {
   Scenario scenario;
   scenario.name = "default";
-  if (auto applied = apply_overrides(scenario, overrides); !applied) {
+  scenario.overrides.assign(overrides.begin(), overrides.end());
+  std::vector<AssignedKey> assigned;
+  if (auto applied = apply_overrides(scenario, overrides, &assigned); !applied) {
     return tl::unexpected(applied.error());
+  }
+  if (auto acts = check_effects_in(scenario, std::move(assigned)); !acts) {
+    return tl::unexpected(acts.error());
   }
   return scenario;
 }

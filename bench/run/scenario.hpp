@@ -10,7 +10,7 @@
 #include "bench/metrics/scores.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
-#include "estimator/aims/config.hpp"
+#include "estimator/estimator_config.hpp"
 #include "sim/simulation_config.hpp"
 
 namespace aims {
@@ -49,9 +49,9 @@ struct Scenario {
   std::string level_unit;  ///< e.g. "m", "%"
   int seed = 1;
   /// Specs (estimator/estimator_spec.hpp) of who runs.
-  std::vector<std::string> estimators = {"aims", "aims_d", "tfs", "tfs_clean", "lio", "leg"};
+  std::vector<std::string> run = {"aims", "aims_d", "tfs", "tfs_clean", "lio", "leg"};
   SimulationConfig simulation;
-  EstimatorConfig estimator;
+  EstimatorConfigs estimators;
   ScoreConfig scoring;
   std::vector<Expectation> expect;
 };
@@ -74,7 +74,7 @@ Result<Scenario> load_scenario(const std::filesystem::path& file,
 /// The scenario that an empty file describes, with `overrides` on top.
 Result<Scenario> default_scenario(std::span<const std::string> overrides);
 
-/// Every parameter of the scenario as YAML that loads again; `annotated` adds unit, range, meaning
+/// Every parameter of the scenario that has an effect, as YAML that loads again; `annotated` adds unit, range, meaning
 /// and source to each.
 std::string config_text(const Scenario& scenario, bool annotated = false);
 

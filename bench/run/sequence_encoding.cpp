@@ -181,6 +181,25 @@ bool take_pose(ByteCursor& cursor, Pose& pose) {
   return take_matrix(cursor, pose.rotation.coeffs()) && take_matrix(cursor, pose.translation);
 }
 
+bool take_rig(ByteCursor& cursor, SensorRig& rig) {
+  LegGeometry& legs = rig.leg_geometry;
+  return take_pose(cursor, rig.T_body_lidar) && take_pose(cursor, rig.T_body_base) &&
+         take_number(cursor, legs.hip_x) && take_number(cursor, legs.hip_y) &&
+         take_number(cursor, legs.abduction) && take_number(cursor, legs.thigh) &&
+         take_number(cursor, legs.calf) && take_number(cursor, legs.foot_radius) &&
+         take_number(cursor, rig.imu_rate_hz) && take_number(cursor, rig.leg_rate_hz);
+}
+
+void append_rig(std::vector<std::byte>& out, const SensorRig& rig) {
+  append_pose(out, rig.T_body_lidar);
+  append_pose(out, rig.T_body_base);
+  const LegGeometry& legs = rig.leg_geometry;
+  const std::array<double, 8> numbers = {legs.hip_x,       legs.hip_y,      legs.abduction,
+                                         legs.thigh,       legs.calf,       legs.foot_radius,
+                                         rig.imu_rate_hz, rig.leg_rate_hz};
+  append_numbers(out, numbers);
+}
+
 void append_text(std::vector<std::byte>& out, std::string_view text) {
   append_number(out, std::uint64_t{text.size()});
   append(out, bytes_of(text));

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kBegin = "aimsseqn";
 constexpr std::string_view kEnd = "seqndone";
-constexpr std::uint32_t kFormat = 2;
+constexpr std::uint32_t kFormat = 3;
 /// At the end of the file: where the truth begins, and `kEnd`.
 constexpr std::size_t kTrailerSize = sizeof(std::uint64_t) + kEnd.size();
 
@@ -29,8 +29,7 @@ Result<SequenceWriter> SequenceWriter::create(const fs::path& file, const Sensor
   SequenceWriter writer(std::move(*atomic));
   append(writer.buffer_, bytes_of(kBegin));
   append_number(writer.buffer_, kFormat);
-  append_pose(writer.buffer_, rig.T_body_lidar);
-  append_pose(writer.buffer_, rig.T_body_base);
+  append_rig(writer.buffer_, rig);
   append_text(writer.buffer_, origin);
   return writer;
 }
@@ -79,8 +78,7 @@ bool SequenceReader::read_header() {
   if (!magic || as_text(*magic) != kBegin || cursor.number<std::uint32_t>() != kFormat) {
     return false;
   }
-  if (!take_pose(cursor, rig_.T_body_lidar) || !take_pose(cursor, rig_.T_body_base)) return false;
-  if (!take_text(cursor, origin_)) return false;
+  if (!take_rig(cursor, rig_) || !take_text(cursor, origin_)) return false;
   const std::size_t begin = cursor.position();
   if (*truth_begin < begin || *truth_begin > all.size() - kTrailerSize) return false;
   deliveries_ = all.subspan(begin, *truth_begin - begin);

@@ -12,17 +12,15 @@
 namespace aims {
 
 Result<std::vector<TimedEstimator>> make_estimators(std::span<const std::string> specs,
-                                                    const EstimatorConfig& config,
+                                                    const EstimatorConfigs& configs,
                                                     const SensorRig& rig) {
   std::vector<TimedEstimator> estimators;
   for (const std::string& text : specs) {
     const auto spec = parse_estimator_spec(text);
     if (!spec) return tl::unexpected(spec.error());
-    const auto own = config_with(*spec, config);
+    const auto own = config_with(*spec, configs);
     if (!own) return tl::unexpected(own.error());
-    auto made = make_estimator(spec->name, *own, rig);
-    if (!made) return tl::unexpected(made.error());
-    estimators.emplace_back(spec->label, std::move(*made));
+    estimators.emplace_back(spec->label, (*own)->create(rig));
   }
   return estimators;
 }

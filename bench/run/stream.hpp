@@ -10,7 +10,7 @@
 #include "bench/run/timed_estimator.hpp"
 #include "core/error.hpp"
 #include "core/measurements.hpp"
-#include "estimator/aims/config.hpp"
+#include "estimator/estimator_config.hpp"
 
 namespace aims {
 
@@ -27,9 +27,9 @@ struct StreamEnd {
 };
 
 /// The estimators that the specs ask for (estimator/estimator_spec.hpp), each under its label and
-/// with its settings on top of `config`. Error for a spec that cannot be read.
+/// with its settings on top of `configs`. Error for a spec that cannot be read.
 Result<std::vector<TimedEstimator>> make_estimators(std::span<const std::string> specs,
-                                                    const EstimatorConfig& config,
+                                                    const EstimatorConfigs& configs,
                                                     const SensorRig& rig);
 
 /// Hands every batch to every estimator on `jobs` threads; while they work on one, the next is

@@ -68,7 +68,7 @@ void time_per_scan(benchmark::State& state) {
   world.advance(world.duration(), deliveries);
   std::size_t scans = 0;
   for (auto _ : state) {
-    auto estimator = make_estimator("aims", EstimatorConfig{}, world.rig());
+    auto estimator = make_estimator("aims", world.rig());
     for (const Delivery& delivery : deliveries) (*estimator)->consume(delivery);
     (*estimator)->finish();
     scans += (*estimator)->result().trajectory.size();

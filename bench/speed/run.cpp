@@ -30,7 +30,7 @@ void whole_run(benchmark::State& state) {
   for (auto _ : state) {
     auto simulation = Simulation::create(ten_metres().simulation, 1);
     const std::vector<std::string> specs = {"aims"};
-    auto estimators = make_estimators(specs, ten_metres().estimator, simulation->rig());
+    auto estimators = make_estimators(specs, ten_metres().estimators, simulation->rig());
     std::vector<Delivery> batch;
     for (bool moving = true; moving;) {
       batch.clear();

@@ -5,22 +5,41 @@
 
 #include <algorithm>
 #include <cmath>
-
+#include <utility>
 
 namespace aims {
 namespace {
 
 bool is_flag(const Parameter& parameter) { return parameter.expected == "true or false"; }
 
-/// "ground_constraint" of "directional.ground_constraint.enabled", "leg_states_scale" of
-/// "directional.leg_states.scale".
-std::string part_of(const std::string& key, const std::string& group) {
+/// "ground_constraint" of "ground_constraint.enabled", "leg_states_scale" of "leg_states.scale".
+std::string part_of(std::string key) {
   constexpr std::string_view kEnabled = ".enabled";
-  std::string part = key.substr(group.size() + 1);
-  if (key == group + std::string(kEnabled)) part = key.substr(group.rfind('.') + 1);
-  if (part.ends_with(kEnabled)) part.resize(part.size() - kEnabled.size());
-  std::replace(part.begin(), part.end(), '.', '_');
-  return part;
+  if (key.ends_with(kEnabled)) key.resize(key.size() - kEnabled.size());
+  std::replace(key.begin(), key.end(), '.', '_');
+  return key;
+}
+
+/// The estimator with that flag turned over; error when another of its settings then has no effect.
+Result<std::string> turned_over(const EstimatorSpec& spec, const Parameter& flag,
+                                const EstimatorConfigs& base) {
+  const bool on = flag.text() == "true";
+  EstimatorSpec variant = spec;
+  variant.label = (on ? "no_" : "with_") + part_of(flag.key);
+  variant.settings.emplace_back(flag.key, on ? "false" : "true");
+  if (auto works = config_with(variant, base); !works) return tl::unexpected(works.error());
+  return text_of(variant);
+}
+
+/// The estimator without each of its parts that can be switched off alone.
+std::vector<std::string> without_each_part(const EstimatorSpec& spec, const Fields& fields,
+                                           const EstimatorConfigs& base) {
+  std::vector<std::string> specs;
+  for (const Parameter& parameter : fields.parameters()) {
+    if (!is_flag(parameter) || !parameter.idle.empty() || parameter.text() != "true") continue;
+    if (auto variant = turned_over(spec, parameter, base)) specs.push_back(std::move(*variant));
+  }
+  return specs;
 }
 
 AblationRow row_of(const SuiteCase& each, const std::string& complete, const std::string& label) {
@@ -38,7 +57,7 @@ AblationRow row_of(const SuiteCase& each, const std::string& complete, const std
 AblationCase case_of(const SuiteCase& each, const std::string& complete) {
   AblationCase result{each.scenario.name, {}};
   if (each.runs.empty()) return result;
-  for (const std::string& label : labels_of(each.scenario.estimators)) {
+  for (const std::string& label : labels_of(each.scenario.run)) {
     result.rows.push_back(row_of(each, complete, label));
   }
   return result;
@@ -47,7 +66,7 @@ AblationCase case_of(const SuiteCase& each, const std::string& complete) {
 /// The settings that the label stands for in any case.
 std::string changes_of(const Suite& suite, const std::string& label) {
   for (const SuiteCase& each : suite.cases) {
-    for (const std::string& text : each.scenario.estimators) {
+    for (const std::string& text : each.scenario.run) {
       const auto spec = parse_estimator_spec(text);
       if (!spec || spec->label != label) continue;
       return unlabelled_text(*spec);
@@ -83,25 +102,28 @@ AblationEffect effect_of(const Ablation& ablation, const Suite& suite, const std
 
 Result<std::vector<std::string>> ablation_specs(const std::string& text,
                                                 const std::vector<std::string>& groups,
-                                                const EstimatorConfig& base) {
+                                                const EstimatorConfigs& base) {
   const auto spec = parse_estimator_spec(text);
   if (!spec) return tl::unexpected(spec.error());
   auto config = config_with(*spec, base);
   if (!config) return tl::unexpected(config.error());
+  const Fields fields = fields_of(**config);
   std::vector<std::string> specs = {text};
+  if (groups.empty()) {
+    const auto variants = without_each_part(*spec, fields, base);
+    specs.insert(specs.end(), variants.begin(), variants.end());
+  }
   for (const std::string& group : groups) {
     const std::size_t before = specs.size();
-    for (const Parameter& parameter : fields_of(*config).parameters()) {
+    for (const Parameter& parameter : fields.parameters()) {
       if (!is_flag(parameter) || !parameter.key.starts_with(group + ".")) continue;
-      const bool on = parameter.text() == "true";
-      EstimatorSpec variant = *spec;
-      variant.label = (on ? "no_" : "with_") + part_of(parameter.key, group);
-      variant.settings.emplace_back(parameter.key, on ? "false" : "true");
-      specs.push_back(text_of(variant));
+      if (!parameter.idle.empty()) continue;
+      auto variant = turned_over(*spec, parameter, base);
+      if (!variant) return tl::unexpected(variant.error());
+      specs.push_back(std::move(*variant));
     }
-    if (specs.size() == before) {
-      return failure(fmt::format("estimator.{}: has no flag to turn over", group));
-    }
+    if (specs.size() > before) continue;
+    return failure(fmt::format("{}: {} has no flag to turn over that has an effect", group, text));
   }
   return specs;
 }
@@ -127,11 +149,11 @@ Ablation ablation_of(const Suite& suite, const std::string& complete) {
 Result<void> set_variants(const AblationOptions& options, std::vector<ScenarioFile>& scenarios) {
   for (ScenarioFile& each : scenarios) {
     if (!each.scenario) continue;
-    auto specs = ablation_specs(options.estimator, options.groups, each.scenario->estimator);
+    auto specs = ablation_specs(options.estimator, options.groups, each.scenario->estimators);
     if (!specs) return tl::unexpected(specs.error());
     specs->insert(specs->end(), options.baselines.begin(), options.baselines.end());
     if (auto valid = check_estimator_specs(*specs); !valid) return valid;
-    each.scenario->estimators = std::move(*specs);
+    each.scenario->run = std::move(*specs);
   }
   return {};
 }

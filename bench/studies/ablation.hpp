@@ -35,9 +35,9 @@ inline constexpr std::array<AblationScore, 5> kAblationScores = {{
 }};
 
 struct AblationOptions {
-  std::string estimator = "aims_d";                   ///< spec of what is taken apart
-  std::vector<std::string> groups = {"directional"};  ///< below `estimator.`: their flags
-  std::vector<std::string> baselines;                 ///< specs that run beside it
+  std::string estimator = "aims_d";    ///< spec of what is taken apart
+  std::vector<std::string> groups;     ///< of its settings, whose flags are turned over; empty: all
+  std::vector<std::string> baselines;  ///< specs that run beside it
 };
 
 /// One variant on one scenario.
@@ -56,7 +56,7 @@ struct AblationCase {
 /// One variant over all scenarios.
 struct AblationEffect {
   std::string label;
-  std::string changes;  ///< its settings, e.g. "directional.ground_constraint.enabled=false"
+  std::string changes;  ///< its settings, e.g. "ground_constraint.enabled=false"
   /// Geometric means over scenarios of the ratios; none without any.
   std::array<std::optional<double>, kAblationScores.size()> ratios;
   std::optional<double> worst_ratio;  ///< of the ATE, over scenarios
@@ -70,11 +70,12 @@ struct Ablation {
 };
 
 /// The estimator `spec` and, for each flag of the groups, itself with that flag turned over:
-/// `no_...` where it was on, `with_...` where it was off in `base`. Error for a spec that cannot be
-/// read, and for a group without flags.
+/// `no_...` where it was on, `with_...` where it was off in `base`. Without groups, itself without
+/// each part that can be switched off alone. Error for a spec that cannot be read, and for a group
+/// without flags that have an effect.
 Result<std::vector<std::string>> ablation_specs(const std::string& spec,
                                                 const std::vector<std::string>& groups,
-                                                const EstimatorConfig& base);
+                                                const EstimatorConfigs& base);
 
 /// Sums up a suite that ran variants of the estimator with the label `complete`.
 Ablation ablation_of(const Suite& suite, const std::string& complete);

@@ -22,7 +22,7 @@ using Members = std::vector<const SuiteCase*>;
 FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
   FamilyPoint point;
   point.level = each.scenario.level;
-  const auto own = labels_of(each.scenario.estimators);
+  const auto own = labels_of(each.scenario.run);
   if (std::find(own.begin(), own.end(), estimator) == own.end()) return point;
   point.ate_m = statistics_of(each.runs, estimator, "ate_m").median;
   point.ate_interval = median_interval(each.runs, estimator, "ate_m");

@@ -55,7 +55,7 @@ Json case_json(const SuiteCase& each) {
     json["expectations"].push_back(check_json(check));
   }
   if (each.runs.empty()) return json;
-  for (const std::string& estimator : labels_of(each.scenario.estimators)) {
+  for (const std::string& estimator : labels_of(each.scenario.run)) {
     const std::size_t runs = finished(each.runs, estimator);
     const std::size_t count = successes(each.runs, estimator);
     if (runs == 0) continue;
@@ -74,13 +74,13 @@ std::vector<std::string> estimators_of(const Suite& suite) {
   std::vector<std::string> names;
   for (const EstimatorEntry& entry : estimator_registry()) {
     const bool ran = std::any_of(suite.cases.begin(), suite.cases.end(), [&](const auto& each) {
-      const auto own = labels_of(each.scenario.estimators);
+      const auto own = labels_of(each.scenario.run);
       return std::find(own.begin(), own.end(), entry.name) != own.end();
     });
     if (ran) names.emplace_back(entry.name);
   }
   for (const SuiteCase& each : suite.cases) {
-    for (const std::string& label : labels_of(each.scenario.estimators)) {
+    for (const std::string& label : labels_of(each.scenario.run)) {
       if (std::find(names.begin(), names.end(), label) == names.end()) names.push_back(label);
     }
   }

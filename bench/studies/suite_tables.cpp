@@ -129,7 +129,7 @@ CsvTable suite_csv(const Suite& suite) {
   CsvTable table({"scenario", "family", "level", "seed", "estimator", "score", "value"});
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
-      for (const std::string& estimator : labels_of(each.scenario.estimators)) {
+      for (const std::string& estimator : labels_of(each.scenario.run)) {
         for (const std::string& key : score_keys(run, estimator)) {
           if (is_timing(key)) continue;
           table.add(each.scenario.name).add(each.scenario.family);
@@ -151,7 +151,7 @@ CsvTable timings_csv(const Suite& suite) {
   CsvTable table({"scenario", "seed", "estimator", "simulated_s", "wall_s", "mean_per_scan_ms"});
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
-      for (const std::string& estimator : labels_of(each.scenario.estimators)) {
+      for (const std::string& estimator : labels_of(each.scenario.run)) {
         if (estimator_in(run, estimator).is_null()) continue;
         table.add(each.scenario.name).add(static_cast<std::int64_t>(run.seed)).add(estimator);
         table.add(run.scores.value("simulated_s", 0.0));

@@ -234,8 +234,9 @@ std::vector<std::vector<double>> design(DesignKind kind, std::span<const Paramet
 
 EstimatorSpec spec_at(const EstimatorSpec& base, std::span<const ParameterRange> ranges,
                       std::span<const double> point) {
-  EstimatorConfig config;
-  const Fields fields = fields_of(config);
+  EstimatorConfigs configs;
+  EstimatorConfig* config = configs.find(base.name);
+  const Fields fields = config == nullptr ? Fields() : fields_of(*config);
   EstimatorSpec spec = base;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     if (!ranges[i].of_estimator) continue;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "estimator/aims/config.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {
@@ -18,12 +17,13 @@ namespace aims {
 /// What a parameter is varied over. Written `KEY=LOW:HIGH:COUNT` or `KEY=log(LOW,HIGH,COUNT)`; the
 /// count, which a grid alone needs, may be left out.
 struct ParameterRange {
-  std::string key;    ///< below `estimator.`, e.g. "degeneracy.eta", or else the scenario's own
+  std::string key;    ///< of the estimator, e.g. "degeneracy.eta", or else the scenario's own
   double low = 0.0;   ///< in the parameter's own unit
   double high = 0.0;  ///< in the parameter's own unit, >= low
   int count = 0;      ///< values on a grid, both ends included; 0: not stated
   bool log = false;   ///< evenly spaced in the logarithm
   bool of_estimator = true;  ///< false: of the simulation or the scoring
+  std::string estimator = {};  ///< the only one that is varied; empty: any
 
   bool operator==(const ParameterRange&) const = default;
 };

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "estimator/registry.hpp"
+
 namespace aims {
 namespace {
 
-constexpr std::string_view kEstimator = "estimator.";
+constexpr std::string_view kEstimators = "estimators.";
 constexpr std::string_view kScenario = "scenario.";
 
 /// What decides a run's numbers, without the estimator: keys of a scenario that a range may have.
@@ -20,20 +24,16 @@ void describe(Fields& fields, Deciding& deciding) {
   fields.group("scoring", deciding.scoring);
 }
 
-/// Every key that a range may have, as it may be written.
-struct Written {
-  EstimatorConfig estimator;
-  Deciding deciding;
-};
-
-void describe(Fields& fields, Written& written) {
-  describe(fields, written.estimator);
-  describe(fields, written.deciding);
+/// The keys of all estimators, relative to each.
+Fields estimator_fields(EstimatorConfigs& configs) {
+  Fields fields;
+  for (const std::string& name : estimator_names()) describe(fields, *configs.find(name));
+  return fields;
 }
 
 bool estimator_has(std::string_view key) {
-  EstimatorConfig config;
-  return fields_of(config).find(key) != nullptr;
+  EstimatorConfigs configs;
+  return estimator_fields(configs).find(key) != nullptr;
 }
 
 bool scenario_has(std::string_view key) {
@@ -55,9 +55,10 @@ std::string absence(const ParameterRange& range, const Scenario& base) {
         "simulation or the scoring{}",
         text_of(range), range.key, range.key == "seed" ? "; seeds are listed by 'seeds'" : "");
   }
-  Written written{scenario.estimator, {scenario.simulation, scenario.scoring}};
-  return fmt::format("range '{}': {}", text_of(range),
-                     unknown_key_message(fields_of(written), range.key));
+  Fields written = estimator_fields(scenario.estimators);
+  Deciding deciding{scenario.simulation, scenario.scoring};
+  describe(written, deciding);
+  return fmt::format("range '{}': {}", text_of(range), unknown_key_message(written, range.key));
 }
 
 Result<void> check_range(const ParameterRange& range, const Parameter& parameter) {
@@ -73,27 +74,51 @@ Result<void> check_range(const ParameterRange& range, const Parameter& parameter
                                  : fmt::format(" [{}]", parameter.spec.unit)));
 }
 
+/// Error for a range that the estimator of `spec` cannot be varied over.
+Result<void> check_in_estimator(const ParameterRange& range, const Scenario& base,
+                                const EstimatorSpec& spec) {
+  if (!range.estimator.empty() && range.estimator != spec.name) {
+    return failure(fmt::format("range '{}': a key of {}, but {} is varied", text_of(range),
+                               range.estimator, spec.name));
+  }
+  const auto config = config_with(spec, base.estimators);
+  if (!config) return tl::unexpected(config.error());
+  const Fields fields = fields_of(**config);
+  const Parameter* parameter = fields.find(range.key);
+  if (parameter == nullptr && estimator_has(range.key)) {
+    return failure(fmt::format("range '{}': {} has no key '{}'", text_of(range), spec.name,
+                               range.key));
+  }
+  if (parameter == nullptr) return failure(absence(range, base));
+  if (parameter->idle.empty()) return check_range(range, *parameter);
+  return failure(fmt::format("range '{}': {} has no effect on {}: {}", text_of(range), range.key,
+                             text_of(spec), parameter->idle));
+}
+
 }  // namespace
 
 Result<RangeKey> range_key(std::string_view given) {
   const bool for_scenario = given.starts_with(kScenario);
   const std::string_view key = for_scenario ? given.substr(kScenario.size()) : given;
-  if (key.starts_with(kEstimator)) {
-    return RangeKey{std::string(key.substr(kEstimator.size())), true};
+  if (key.starts_with(kEstimators)) {
+    const std::string_view rest = key.substr(kEstimators.size());
+    const std::size_t dot = std::min(rest.find('.'), rest.size() - 1);
+    const std::string name(rest.substr(0, dot));
+    return RangeKey{std::string(rest.substr(dot + 1)), true, name == "*" ? "" : name};
   }
   const bool of_both = estimator_has(key) && scenario_has(key);
   if (of_both && !for_scenario) {
     return failure(
-        fmt::format("key '{0}': the estimator and the simulation have it; expected '{1}{0}' or "
-                    "'{2}{0}'",
-                    key, kEstimator, kScenario));
+        fmt::format("key '{0}': the estimator and the simulation have it; expected "
+                    "'{1}*.{0}' or '{2}{0}'",
+                    key, kEstimators, kScenario));
   }
   if (of_both) return RangeKey{std::string(given), false};
   return RangeKey{std::string(key), !for_scenario && estimator_has(key)};
 }
 
 std::string full_key(const ParameterRange& range) {
-  if (range.of_estimator) return std::string(kEstimator) + range.key;
+  if (range.of_estimator) return std::string(kEstimators) + "*." + range.key;
   return range.key.starts_with(kScenario) ? range.key.substr(kScenario.size()) : range.key;
 }
 
@@ -106,21 +131,27 @@ Result<std::vector<ParameterRange>> parse_ranges(std::span<const std::string> te
     if (!key) return failure(fmt::format("range '{}': {}", text, key.error().message));
     range->key = std::move(key->name);
     range->of_estimator = key->of_estimator;
+    range->estimator = std::move(key->estimator);
     ranges.push_back(std::move(*range));
   }
   return ranges;
 }
 
-Result<void> check_ranges(std::span<const ParameterRange> ranges, const Scenario& base) {
-  Written config{base.estimator, {base.simulation, base.scoring}};
-  const Fields estimator = fields_of(config.estimator);
-  const Fields deciding = fields_of(config.deciding);
+Result<void> check_ranges(std::span<const ParameterRange> ranges, const Scenario& base,
+                          std::span<const EstimatorSpec> estimators) {
+  Deciding deciding{base.simulation, base.scoring};
+  const Fields fields = fields_of(deciding);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const ParameterRange& range = ranges[i];
-    const Parameter* parameter =
-        range.of_estimator ? estimator.find(range.key) : deciding.find(full_key(range));
-    if (parameter == nullptr) return failure(absence(range, base));
-    if (auto right = check_range(range, *parameter); !right) return right;
+    if (range.of_estimator) {
+      for (const EstimatorSpec& spec : estimators) {
+        if (auto right = check_in_estimator(range, base, spec); !right) return right;
+      }
+    } else {
+      const Parameter* parameter = fields.find(full_key(range));
+      if (parameter == nullptr) return failure(absence(range, base));
+      if (auto right = check_range(range, *parameter); !right) return right;
+    }
     for (std::size_t k = 0; k < i; ++k) {
       if (full_key(ranges[k]) != full_key(range)) continue;
       return failure(fmt::format("range '{}': a second range of '{}'", text_of(range), range.key));

@@ -60,7 +60,7 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
   ScenarioVariants variants(scenario, ranges);
   std::vector<std::vector<double>> points;
   if (!ranges.empty()) {
-    if (auto right = check_ranges(ranges, *scenario); !right) return tl::unexpected(right.error());
+    if (auto right = check_ranges(ranges, *scenario, *estimators); !right) return tl::unexpected(right.error());
     const auto size = design_size(plan.design, ranges, plan.samples);
     if (!size) return tl::unexpected(size.error());
     points =
@@ -175,7 +175,11 @@ Result<Scenarios> plan_scenarios(std::span<const std::string> names,
 }
 
 Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder) {
-  const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, plan.set, folder);
+  const auto estimators = estimators_of(plan);
+  if (!estimators) return tl::unexpected(estimators.error());
+  std::vector<std::string> settings = plan.set;
+  settings.push_back(run_setting(plan.estimators));
+  const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, settings, folder);
   if (!scenarios) return tl::unexpected(scenarios.error());
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());

@@ -109,7 +109,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     }
     const Fields fields = fields_of(varied.base);
     for (const std::string& setting : plan.set) {
-      constexpr std::string_view kGroup = "estimator.";
+      constexpr std::string_view kGroup = "estimators.";
       if (!setting.starts_with(kGroup)) continue;
       const auto equals = setting.find('=');
       const std::string_view whole = setting;
@@ -163,7 +163,7 @@ Result<std::vector<double>> default_values(const EstimatorSpec& estimator,
                                            const VariedParameters& varied) {
   auto config = config_with(estimator, varied.base);
   if (!config) return tl::unexpected(config.error());
-  const Fields fields = fields_of(*config);
+  const Fields fields = fields_of(**config);
   std::vector<double> values;
   for (const ParameterRange& range : varied.ranges) {
     if (!range.of_estimator) {

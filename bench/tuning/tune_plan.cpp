@@ -21,14 +21,21 @@ using Scenarios = std::vector<std::shared_ptr<const Scenario>>;
 
 /// The estimator's own value of each range's key in that scenario.
 Result<std::vector<double>> default_values(const TuneTask& task, const Scenario& scenario) {
-  auto config = config_with(task.estimator, scenario.estimator);
+  auto config = config_with(task.estimator, scenario.estimators);
   if (!config) return tl::unexpected(config.error());
-  const Fields fields = fields_of(*config);
+  const Fields fields = fields_of(**config);
   std::vector<double> values;
   for (const ParameterRange& range : task.ranges) {
     values.push_back(number_in(fields.find(range.key)->text()).value_or(0.0));
   }
   return values;
+}
+
+/// Settings of every scenario, and who runs.
+std::vector<std::string> settings_of(const TunePlan& plan) {
+  std::vector<std::string> settings = plan.set;
+  settings.push_back(run_setting(std::vector<std::string>{plan.estimator}));
+  return settings;
 }
 
 Result<void> read_ranges(TuneTask& task, const Scenario& base) {
@@ -39,7 +46,7 @@ Result<void> read_ranges(TuneTask& task, const Scenario& base) {
   auto ranges = parse_ranges(task.plan.params);
   if (!ranges) return tl::unexpected(ranges.error());
   task.ranges = std::move(*ranges);
-  if (auto right = check_ranges(task.ranges, base); !right) return right;
+  if (auto right = check_ranges(task.ranges, base, {&task.estimator, 1}); !right) return right;
   for (const ParameterRange& range : task.ranges) {
     if (range.low == range.high) {
       return failure(fmt::format("range '{}': one value leaves nothing to tune", text_of(range)));
@@ -47,7 +54,7 @@ Result<void> read_ranges(TuneTask& task, const Scenario& base) {
     if (range.of_estimator) continue;
     return failure(
         fmt::format("range '{}': '{}' is no key of the estimator, and an optimizer that may change "
-                    "it would make the task easier; expected keys below estimator., or aims sweep "
+                    "it would make the task easier; expected keys of the estimator, or aims sweep "
                     "to vary such a key",
                     text_of(range), range.key));
   }
@@ -175,7 +182,7 @@ Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {
   if (!estimator) return failure("estimator: " + estimator.error().message);
   task.estimator = std::move(*estimator);
   if (auto checked = check_objectives(plan); !checked) return tl::unexpected(checked.error());
-  const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, plan.set, folder);
+  const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, settings_of(plan), folder);
   if (!scenarios) return tl::unexpected(scenarios.error());
   if (auto read = read_ranges(task, *scenarios->front()); !read)
     return tl::unexpected(read.error());

@@ -41,7 +41,7 @@ Entry& entry_at(Entry& root, const std::string& key) {
 Entry tree_of(const Fields& fields) {
   Entry root;
   for (const Parameter& parameter : fields.parameters()) {
-    entry_at(root, parameter.key).parameter = &parameter;
+    if (parameter.idle.empty()) entry_at(root, parameter.key).parameter = &parameter;
   }
   for (const ListField& list : fields.lists()) {
     entry_at(root, list.key).is_list = true;

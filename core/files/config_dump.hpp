@@ -7,7 +7,7 @@
 
 namespace aims {
 
-/// Nested YAML of every value; `load_config` reads it back to equal values.
+/// Nested YAML of every value that has an effect; `load_config` reads it back to equal values.
 std::string dump_config(const Fields& fields);
 
 /// As `dump_config`, each value followed by a comment: unit, allowed values, meaning, source.

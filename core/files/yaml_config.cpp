@@ -61,11 +61,17 @@ Result<YAML::Node> parse_document(const std::string& text, const std::string& fi
   return documents.front();
 }
 
+/// Where settings go, and the list of those that were set (none: null).
+struct Target {
+  const CollectFields& collect;
+  std::vector<AssignedKey>* assigned;
+};
+
 /// Writes the settings of one YAML map into a configuration.
 class Assigner {
  public:
-  Assigner(std::string file, const CollectFields& collect)
-      : file_(std::move(file)), collect_(collect), fields_(collect()) {}
+  Assigner(std::string file, const Target& target)
+      : file_(std::move(file)), target_(target), fields_(target.collect()) {}
 
   /// Assigns all entries of `map`, whose keys are below `prefix`; skips `base` at the top level.
   Result<void> assign_map(const YAML::Node& map, const std::string& prefix) {
@@ -93,8 +99,16 @@ class Assigner {
     if (name.Scalar().find('.') != std::string::npos) {
       return error(name, key, "expected nested maps, not a dotted key");
     }
-    const Parameter* parameter = fields_.find(key);
-    if (parameter != nullptr) return assign_value(*parameter, name, value);
+    const std::vector<const Parameter*> parameters = fields_.matching(key);
+    for (const Parameter* parameter : parameters) {
+      if (auto done = assign_value(*parameter, key, name, value); !done) return done;
+    }
+    if (!parameters.empty()) {
+      if (target_.assigned != nullptr) {
+        target_.assigned->push_back({key, place(file_, name.Mark()) + ": ", true});
+      }
+      return {};
+    }
     const auto& lists = fields_.lists();
     const auto list = std::find_if(lists.begin(), lists.end(),
                                    [&key](const ListField& each) { return each.key == key; });
@@ -108,10 +122,10 @@ class Assigner {
     return assign_map(value, key);
   }
 
-  Result<void> assign_value(const Parameter& parameter, const YAML::Node& name,
-                            const YAML::Node& value) {
+  Result<void> assign_value(const Parameter& parameter, const std::string& key,
+                            const YAML::Node& name, const YAML::Node& value) {
     const auto refuse = [&] {
-      return error(at(name, value), parameter.key,
+      return error(at(name, value), key,
                    fmt::format("expected {}, found {}", parameter.expected, shown(value)));
     };
     if (parameter.sequence != value.IsSequence()) return refuse();
@@ -128,7 +142,7 @@ class Assigner {
     }
     list.resize(0);
     list.resize(value.size());
-    fields_ = collect_();
+    fields_ = target_.collect();
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string item_key = fmt::format("{}.{}", key, i);
       if (!value[i].IsMap()) {
@@ -140,8 +154,7 @@ class Assigner {
   }
 
   bool is_group(const std::string& key) const {
-    const std::string start = key + ".";
-    const auto inside = [&start](const auto& each) { return each.key.starts_with(start); };
+    const auto inside = [&key](const auto& each) { return key_matches(key, each.key, true); };
     return std::any_of(fields_.parameters().begin(), fields_.parameters().end(), inside) ||
            std::any_of(fields_.lists().begin(), fields_.lists().end(), inside);
   }
@@ -173,16 +186,15 @@ class Assigner {
   }
 
   std::string file_;
-  const CollectFields& collect_;
+  Target target_;
   Fields fields_;
 };
 
-Result<void> load_file(const fs::path& file, const CollectFields& collect,
-                       std::vector<fs::path> chain);
+Result<void> load_file(const fs::path& file, const Target& target, std::vector<fs::path> chain);
 
 /// Loads the document's `base`, if any.
 Result<void> load_base(const YAML::Node& document, const std::string& name,
-                       const CollectFields& collect, const std::vector<fs::path>& chain) {
+                       const Target& target, const std::vector<fs::path>& chain) {
   for (const auto& entry : document) {
     if (!entry.first.IsScalar() || entry.first.Scalar() != kBaseKey) continue;
     const std::string here =
@@ -200,25 +212,24 @@ Result<void> load_base(const YAML::Node& document, const std::string& name,
     if (!fs::exists(base, ignored)) {
       return failure(fmt::format("{}: base: no such file '{}'", here, base.string()));
     }
-    return load_file(base, collect, chain);
+    return load_file(base, target, chain);
   }
   return {};
 }
 
 Result<void> load_document(const std::string& text, const std::string& name,
-                           const CollectFields& collect, const std::vector<fs::path>& chain) {
+                           const Target& target, const std::vector<fs::path>& chain) {
   const auto document = parse_document(text, name);
   if (!document) return tl::unexpected(document.error());
-  if (auto based = load_base(*document, name, collect, chain); !based) return based;
-  return Assigner(name, collect).assign_map(*document, "");
+  if (auto based = load_base(*document, name, target, chain); !based) return based;
+  return Assigner(name, target).assign_map(*document, "");
 }
 
-Result<void> load_file(const fs::path& file, const CollectFields& collect,
-                       std::vector<fs::path> chain) {
+Result<void> load_file(const fs::path& file, const Target& target, std::vector<fs::path> chain) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
   chain.push_back(fs::weakly_canonical(file));
-  return load_document(*text, file.string(), collect, chain);
+  return load_document(*text, file.string(), target, chain);
 }
 
 /// The outcome of `load`, with exceptions as errors and every message on one line.
@@ -237,22 +248,24 @@ Result<void> reported(const std::string& name, const Load& load) {
 
 }  // namespace
 
-Result<void> load_config(const fs::path& file, const CollectFields& collect) {
-  return reported(file.string(), [&] { return load_file(file, collect, {}); });
+Result<void> load_config(const fs::path& file, const CollectFields& collect,
+                         std::vector<AssignedKey>* assigned) {
+  return reported(file.string(), [&] { return load_file(file, {collect, assigned}, {}); });
 }
 
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect) {
   return reported(name, [&] {
-    return load_document(std::string(text), name, collect, {fs::weakly_canonical(name)});
+    return load_document(std::string(text), name, {collect, nullptr}, {fs::weakly_canonical(name)});
   });
 }
 
-Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings) {
+Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings,
+                             std::vector<AssignedKey>* assigned) {
   Fields fields = collect();
   for (const std::string& setting : settings) {
     if (setting.starts_with('@')) {
-      if (auto loaded = load_config(setting.substr(1), collect); !loaded) return loaded;
+      if (auto loaded = load_config(setting.substr(1), collect, assigned); !loaded) return loaded;
       fields = collect();
       continue;
     }
@@ -261,8 +274,10 @@ Result<void> apply_overrides(const CollectFields& collect, std::span<const std::
       return failure(fmt::format("--set {}: expected key=value or @FILE", setting));
     }
     const std::string_view whole = setting;
-    const auto assigned = assign(fields, whole.substr(0, equals), whole.substr(equals + 1));
-    if (!assigned) return failure(fmt::format("--set {}: {}", setting, assigned.error().message));
+    const auto done = assign(fields, whole.substr(0, equals), whole.substr(equals + 1));
+    if (!done) return failure(fmt::format("--set {}: {}", setting, done.error().message));
+    if (assigned == nullptr) continue;
+    assigned->push_back({setting.substr(0, equals), fmt::format("--set {}: ", setting)});
   }
   return {};
 }

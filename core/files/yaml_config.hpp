@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/config.hpp"
 #include "core/error.hpp"
@@ -24,21 +25,25 @@ CollectFields collector_of(Config& config) {
 /// Reads a YAML file into a configuration; fields that the file does not name keep their values.
 /// `base: other.yaml` (relative to the file) is read first; a list replaces the base's list.
 /// Errors are one line, `file:line:column: key: ...`; the configuration is then partly changed.
-Result<void> load_config(const std::filesystem::path& file, const CollectFields& collect);
+/// The keys that were set are appended to `assigned`.
+Result<void> load_config(const std::filesystem::path& file, const CollectFields& collect,
+                         std::vector<AssignedKey>* assigned = nullptr);
 
 /// As `load_config`, from YAML text; errors call it `name`, and a `base` is relative to it.
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect);
 
 /// Applies settings in order: "key=value", or "@FILE" for a YAML file as of `load_config`. Errors
-/// name the offending `--set`, or the file.
-Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings);
+/// name the offending `--set`, or the file. The keys that were set are appended to `assigned`.
+Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings,
+                             std::vector<AssignedKey>* assigned = nullptr);
 
 /// `load_config` into any configuration that has a `describe`.
 template <class Config>
 requires requires(Fields& fields, Config& config) { describe(fields, config); }
-Result<void> load_config(const std::filesystem::path& file, Config& config) {
-  return load_config(file, collector_of(config));
+Result<void> load_config(const std::filesystem::path& file, Config& config,
+                         std::vector<AssignedKey>* assigned = nullptr) {
+  return load_config(file, collector_of(config), assigned);
 }
 
 /// `load_config_text` into any configuration that has a `describe`.
@@ -51,8 +56,9 @@ Result<void> load_config_text(std::string_view text, const std::string& name, Co
 /// `apply_overrides` to any configuration that has a `describe`.
 template <class Config>
 requires requires(Fields& fields, Config& config) { describe(fields, config); }
-Result<void> apply_overrides(Config& config, std::span<const std::string> settings) {
-  return apply_overrides(collector_of(config), settings);
+Result<void> apply_overrides(Config& config, std::span<const std::string> settings,
+                             std::vector<AssignedKey>* assigned = nullptr) {
+  return apply_overrides(collector_of(config), settings, assigned);
 }
 
 }  // namespace aims

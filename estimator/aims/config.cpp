@@ -4,48 +4,45 @@
 namespace aims {
 namespace {
 
-DirectionalConfig without_parts() {
-  DirectionalConfig none;
-  none.noise_information.enabled = false;
-  none.leg_states.scale = false;
-  none.leg_states.bias = false;
-  none.leg_states.gate_learning = false;
-  none.leg_noise.enabled = false;
-  none.static_initialization.enabled = false;
-  none.zero_velocity.enabled = false;
-  none.ground_constraint.enabled = false;
-  none.robust_kernel.enabled = false;
-  none.map_memory.enabled = true;
-  return none;
+void state_dependencies(Fields& f, const EskfConfig& c) {
+  f.idle_if(c.leg_noise.enabled, "leg_noise.enabled is true",
+            {"legs.velocity_sigma", "legs.correlation_time", "legs.scale_sigma"});
+  f.idle_if(!c.leg_states.scale, "leg_states.scale is false",
+            {"leg_states.scale_sigma", "leg_states.scale_walk"});
+  f.idle_if(!c.leg_states.bias, "leg_states.bias is false",
+            {"leg_states.bias_sigma", "leg_states.bias_walk"});
+  f.idle_if(!c.leg_states.gate_learning, "leg_states.gate_learning is false",
+            {"leg_states.min_axis_weight"});
+  f.idle_if(!c.noise_information.enabled, "noise_information.enabled is false",
+            {"leg_states.gate_learning", "leg_states.min_axis_weight", "map.map_sigma"});
+  f.idle_if(!c.legs.enabled, "legs.enabled is false",
+            {"leg_noise", "leg_states", "zero_velocity", "degeneracy.gamma_min"});
 }
 
 }  // namespace
 
-void describe(Fields& f, DirectionalConfig& c) {
-  f.group("noise_information", c.noise_information);
-  f.group("leg_states", c.leg_states);
-  f.group("leg_noise", c.leg_noise);
-  f.group("static_initialization", c.static_initialization);
-  f.group("zero_velocity", c.zero_velocity);
-  f.group("ground_constraint", c.ground_constraint);
-  f.group("robust_kernel", c.robust_kernel);
-  f.group("map_memory", c.map_memory);
-}
-
-void describe(Fields& f, EstimatorConfig& c) {
+void describe(Fields& f, EskfConfig& c) {
   f.group("imu", c.imu);
   f.group("initialization", c.initialization);
-  f.group("leg", c.leg);
+  f.group("static_initialization", c.static_initialization);
+  f.group("legs", c.legs);
+  f.group("leg_noise", c.leg_noise);
+  f.group("leg_states", c.leg_states);
+  f.group("zero_velocity", c.zero_velocity);
+  f.group("ground_constraint", c.ground_constraint);
   f.group("lidar", c.lidar);
+  f.group("robust_kernel", c.robust_kernel);
   f.group("map", c.map);
+  f.group("map_covariance", c.map_covariance);
+  f.group("forgetting", c.forgetting);
   f.group("degeneracy", c.degeneracy);
-  f.group("directional", c.directional);
+  f.group("noise_information", c.noise_information);
   f.group("queue", c.queue);
+  state_dependencies(f, c);
 }
 
-EstimatorConfig config_for(const EstimatorVariant& variant, EstimatorConfig config) {
-  if (!variant.directional) config.directional = without_parts();
-  return config;
+Requirements requirements_of(const EskfConfig& config) {
+  return {.lidar = true, .imu = true, .legs = config.legs.enabled};
 }
 
 }  // namespace aims

@@ -4,6 +4,7 @@
 #include "core/config.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
 #include "estimator/degeneracy/noise_information.hpp"
+#include "estimator/estimator_config.hpp"
 #include "estimator/filter/imu_propagation.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 #include "estimator/filter/static_initialization.hpp"
@@ -16,42 +17,30 @@
 
 namespace aims {
 
-/// The parts that `aims_d` adds, each with its own switch.
-struct DirectionalConfig {
-  NoiseInformationConfig noise_information;
-  LegStatesConfig leg_states;
-  LegNoiseConfig leg_noise;
-  StaticInitializationConfig static_initialization;
-  ZeroVelocityConfig zero_velocity;
-  GroundConstraintConfig ground_constraint;
-  RobustKernelConfig robust_kernel;
-  MapMemoryConfig map_memory;
-};
-
-/// Configuration of all estimators.
-struct EstimatorConfig {
+/// Configuration of the error-state Kalman filter. Each part has a switch, off by default: the
+/// defaults fuse LiDAR, IMU and legs with fixed weights. Presets: estimator/aims/presets.hpp.
+struct EskfConfig {
   ImuPropagationConfig imu;
   InitializationConfig initialization;
-  LegConfig leg;
+  StaticInitializationConfig static_initialization;
+  LegConfig legs;
+  LegNoiseConfig leg_noise;
+  LegStatesConfig leg_states;
+  ZeroVelocityConfig zero_velocity;
+  GroundConstraintConfig ground_constraint;
   LidarUpdateConfig lidar;
+  RobustKernelConfig robust_kernel;
   MapConfig map;
+  MapCovarianceConfig map_covariance;
+  ForgettingConfig forgetting;
   DegeneracyConfig degeneracy;
-  DirectionalConfig directional;
+  NoiseInformationConfig noise_information;
   QueueConfig queue;
 };
 
-void describe(Fields& fields, DirectionalConfig& config);
-void describe(Fields& fields, EstimatorConfig& config);
+/// Also states which settings have no effect under which others.
+void describe(Fields& fields, EskfConfig& config);
 
-/// What distinguishes the variants of the filter.
-struct EstimatorVariant {
-  bool leg = true;           ///< fuse leg odometry
-  bool repeat_lost = false;  ///< repeat the last leg sample while packets are missing
-  bool adaptive = true;      ///< false: gamma = 1; the index is computed but not used
-  bool directional = false;  ///< use `EstimatorConfig::directional`
-};
-
-/// `config` with all directional parts switched off unless the variant uses them.
-EstimatorConfig config_for(const EstimatorVariant& variant, EstimatorConfig config);
+Requirements requirements_of(const EskfConfig& config);
 
 }  // namespace aims

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/aims/eskf_estimator.hpp"
 
+#include <limits>
+
 #include "estimator/filter/imu_propagation.hpp"
 #include "estimator/filter/static_initialization.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
@@ -20,20 +22,28 @@ void record_covariance(const Belief& belief, const Eigen::Matrix3d& map_covarian
   diagnostics.rotation_covariance = block(belief.covariance, E::kRotation, E::kRotation);
 }
 
+/// Without fusion, leg packets are only a clock: none is out of range.
+double max_leg_speed(const EskfConfig& config) {
+  return config.legs.enabled ? config.legs.max_speed : std::numeric_limits<double>::infinity();
+}
+
+/// Without fusion, the leg states stay fixed.
+LegStatesConfig leg_states_of(const EskfConfig& config) {
+  return config.legs.enabled ? config.leg_states : LegStatesConfig();
+}
+
 }  // namespace
 
-EskfEstimator::EskfEstimator(const EstimatorConfig& config, const EstimatorVariant& variant,
-                             const SensorRig& rig)
-    : config_(config_for(variant, config)),
-      variant_(variant),
+EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
+    : config_(config),
       rig_(rig),
-      queue_(config_.queue, config_.imu, config_.leg.max_speed),
+      queue_(config_.queue, config_.imu, rig.imu_rate_hz, max_leg_speed(config_)),
       selection_(config_.lidar),
-      lidar_update_(config_, variant),
+      lidar_update_(config_),
       map_(config_.map),
-      ground_(config_.directional.ground_constraint),
-      leg_noise_(config_.directional.leg_noise, config_.leg),
-      zero_velocity_(config_.directional.zero_velocity) {}
+      ground_(config_.ground_constraint),
+      leg_noise_(config_.leg_noise, rig),
+      zero_velocity_(config_.zero_velocity) {}
 
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -56,26 +66,26 @@ void EskfEstimator::process_ready() {
 
 bool EskfEstimator::start() {
   const auto& samples = queue_.imu().samples();
-  const StaticInitializationConfig& limits = config_.directional.static_initialization;
+  const StaticInitializationConfig& limits = config_.static_initialization;
   const auto initial =
       limits.enabled
           ? initialize_static(samples, config_.initialization, limits, config_.imu.gravity)
           : initialize(samples, config_.initialization, config_.imu.gravity);
   if (!initial) return false;
   if (!initial->stood_still) ++result_.counts["initialization.moving"];
-  belief_ = open_leg_states(initial->belief, config_.directional.leg_states);
+  belief_ = open_leg_states(initial->belief, leg_states_of(config_));
   time_ = initial->stamp;
   started_ = true;
   return true;
 }
 
 void EskfEstimator::correct(const LegOdometrySample& sample) {
-  if (!variant_.leg) return report_pose_without_scan(sample.stamp);
+  if (!config_.legs.enabled) return report_pose_without_scan(sample.stamp);
   if (sample.stamp < time_) {
     ++result_.counts["leg.before_start"];
     return;
   }
-  const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
+  const Duration period = from_seconds(1.0 / rig_.leg_rate_hz);
   if (last_leg_) {
     const auto lost = static_cast<int>((sample.stamp - last_leg_->stamp - period / 2) / period);
     if (lost > 0) result_.counts["leg.lost"] += lost;
@@ -97,8 +107,8 @@ void EskfEstimator::report_pose_without_scan(Time stamp) {
 
 /// Zero-order hold of lost leg packets, for the variant that does not notice the loss.
 void EskfEstimator::repeat_lost_legs(Time until) {
-  if (!variant_.repeat_lost || !last_leg_) return;
-  const Duration period = from_seconds(1.0 / config_.leg.rate_hz);
+  if (!config_.legs.repeat_lost || !last_leg_) return;
+  const Duration period = from_seconds(1.0 / rig_.leg_rate_hz);
   while (last_leg_->stamp + period + period / 2 < until) {
     last_leg_->stamp += period;
     fuse_leg_velocity(*last_leg_);
@@ -109,18 +119,18 @@ void EskfEstimator::repeat_lost_legs(Time until) {
 /// Covariance of one sample; `rate` is the gyro's reading in body axes [rad/s].
 Eigen::Matrix3d EskfEstimator::leg_covariance(const LegOdometrySample& sample,
                                               const Eigen::Vector3d& rate) {
-  if (config_.directional.leg_noise.enabled) {
-    const Eigen::Matrix3d R_base_body = rig_.T_body_base.R().transpose();
-    return leg_noise_.noise(sample, R_base_body * (rate - belief_.state.gyro_bias));
-  }
-  // eq. (11): R_leg' = R_leg / gamma_leg.
-  return leg_velocity_noise(config_.leg, sample.linear_velocity) / lidar_update_.gamma_leg();
+  const Eigen::Matrix3d R_base_body = rig_.T_body_base.R().transpose();
+  const Eigen::Matrix3d R_leg =
+      config_.leg_noise.enabled
+          ? leg_noise_.noise(sample, R_base_body * (rate - belief_.state.gyro_bias))
+          : leg_velocity_noise(config_.legs, rig_.leg_rate_hz, sample.linear_velocity);
+  return R_leg / lidar_update_.gamma_leg();  // eq. (11)
 }
 
 /// While the robot stands, zero velocity and zero rate replace the leg velocity; true then. The leg
 /// states are not corrected, since they describe walking.
 bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
-  const ZeroVelocityConfig& config = config_.directional.zero_velocity;
+  const ZeroVelocityConfig& config = config_.zero_velocity;
   if (!config.enabled) return false;
   const bool standing =
       zero_velocity_.update(sample, queue_.imu().samples(), belief_.state.gyro_bias);
@@ -147,7 +157,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
   LinearMeasurement measurement =
       leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_covariance(sample, rate));
-  if (config_.directional.leg_noise.enabled) {
+  if (config_.leg_noise.enabled) {
     const auto inflation = leg_noise_.inflation(measurement, belief_.covariance);
     if (!inflation) {
       ++result_.counts["leg.rejected"];
@@ -178,12 +188,12 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   diagnostics.leg_updates = leg_updates_;
   leg_updates_ = 0;
   prepare_points(*scan, diagnostics);
-  if (config_.directional.ground_constraint.enabled) fuse_ground_constraint();
+  if (config_.ground_constraint.enabled) fuse_ground_constraint();
   if (!map_.empty()) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
     if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
   }
-  if (!(getenv("X_NOEXT") && !map_.empty() && diagnostics.iterations == 0)) extend_map();
+  extend_map();
   record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   result_.diagnostics.push_back(diagnostics);
@@ -197,7 +207,7 @@ void EskfEstimator::predict_to(Time stamp) {
     accept(propagate(belief_, segment, dt, config_.imu));
     if (!segment.measured) ++result_.counts["imu.bridged"];
   }
-  walk_leg_states(belief_, config_.directional.leg_states, to_seconds(stamp - time_));
+  walk_leg_states(belief_, leg_states_of(config_), to_seconds(stamp - time_));
   time_ = stamp;
   queue_.imu().forget_before(stamp - kSecond);
 }
@@ -213,18 +223,13 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 }
 
 void EskfEstimator::fuse_ground_constraint() {
-  const auto plane = fit_ground(insert_points_, config_.directional.ground_constraint);
+  const auto plane = fit_ground(insert_points_, config_.ground_constraint);
   const auto measurement = ground_.measure(belief_, plane);
   if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];
   if (ground_.status() == GroundStatus::kNotLevel) ++result_.counts["ground.not_level"];
   if (ground_.status() == GroundStatus::kSettling) ++result_.counts["ground.settling"];
   if (!measurement) return;
   ++result_.counts["ground.used"];
-  if (getenv("X_NOFLOOR")) {
-    const Eigen::Vector3f n = plane->normal.cast<float>();
-    const float h = static_cast<float>(plane->height);
-    std::erase_if(match_points_, [&](const Eigen::Vector3f& p) { return std::abs(n.dot(p) - h) < 0.04F || std::abs(n.dot(p) + h) < 0.04F; });
-  }
   accept(fuse_ground(belief_, *measurement));
 }
 
@@ -235,8 +240,7 @@ void EskfEstimator::extend_map() {
   const Eigen::Matrix3d position =
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
   map_.insert(insert_points_, t, (position + lidar_update_.map_covariance()).cast<float>());
-  const MapMemoryConfig& memory = config_.directional.map_memory;
-  if (!memory.enabled) map_.forget_unseen(memory.forget_after);
+  if (config_.forgetting.enabled) map_.forget_unseen(config_.forgetting.after);
 }
 
 void EskfEstimator::accept(const Belief& updated) {

@@ -22,8 +22,7 @@ namespace aims {
 /// own stamps, the LiDAR at the end of each scan.
 class EskfEstimator : public Estimator {
  public:
-  EskfEstimator(const EstimatorConfig& config, const EstimatorVariant& variant,
-                const SensorRig& rig);
+  EskfEstimator(const EskfConfig& config, const SensorRig& rig);
 
   void consume(const Delivery& delivery) override;
   void finish() override;
@@ -50,8 +49,7 @@ class EskfEstimator : public Estimator {
   /// Takes the belief `updated`, unless it is not finite: then it is counted and rejected.
   void accept(const Belief& updated);
 
-  EstimatorConfig config_;
-  EstimatorVariant variant_;
+  EskfConfig config_;
   SensorRig rig_;
   MeasurementQueue queue_;
   ScanSelection selection_;

@@ -12,8 +12,15 @@ Pose start_transform(const Pose& T_odom_body) {
 
 }  // namespace
 
-LegDeadReckoning::LegDeadReckoning(const EstimatorConfig& config, const SensorRig& rig)
-    : rig_(rig), queue_(config.queue, config.imu, config.leg.max_speed) {}
+void describe(Fields& f, LegDeadReckoningConfig& c) {
+  f.number("max_speed", c.max_speed, {"m/s", positive(), "faster samples are rejected"});
+  f.group("queue", c.queue);
+}
+
+Requirements requirements_of(const LegDeadReckoningConfig&) { return {.legs = true}; }
+
+LegDeadReckoning::LegDeadReckoning(const LegDeadReckoningConfig& config, const SensorRig& rig)
+    : rig_(rig), queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, config.max_speed) {}
 
 void LegDeadReckoning::consume(const Delivery& delivery) {
   queue_.push(delivery);

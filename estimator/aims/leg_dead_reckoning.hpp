@@ -4,17 +4,27 @@
 #include <optional>
 #include <vector>
 
-#include "estimator/aims/config.hpp"
 #include "estimator/estimator.hpp"
+#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 
 namespace aims {
+
+/// Configuration of leg odometry alone.
+struct LegDeadReckoningConfig {
+  double max_speed = 5.0;  ///< faster samples are rejected [m/s]
+  QueueConfig queue;
+};
+
+void describe(Fields& fields, LegDeadReckoningConfig& config);
+
+Requirements requirements_of(const LegDeadReckoningConfig& config);
 
 /// Leg odometry alone, as the robot reports it: its poses in the body frame, transformed so that
 /// the first has zero position and yaw, and interpolated at the end of each scan.
 class LegDeadReckoning : public Estimator {
  public:
-  LegDeadReckoning(const EstimatorConfig& config, const SensorRig& rig);
+  LegDeadReckoning(const LegDeadReckoningConfig& config, const SensorRig& rig);
 
   void consume(const Delivery& delivery) override;
   void finish() override;

@@ -31,18 +31,19 @@ bool moved(const NominalState& state, const NominalState& since, double rotation
 
 }  // namespace
 
-LidarUpdate::LidarUpdate(const EstimatorConfig& config, const EstimatorVariant& variant)
+LidarUpdate::LidarUpdate(const EskfConfig& config)
     : lidar_(config.lidar),
       degeneracy_(config.degeneracy),
-      noise_information_(config.directional.noise_information),
-      leg_states_(config.directional.leg_states),
-      variant_(variant),
-      matcher_(config.lidar, config.directional.robust_kernel, variant.directional),
-      axes_(config.directional.noise_information),
+      noise_information_(config.noise_information),
+      leg_states_(config.leg_states),
+      legs_enabled_(config.legs.enabled),
+      map_covariance_enabled_(config.map_covariance.enabled),
+      matcher_(config.lidar, config.robust_kernel, config.noise_information.enabled),
+      axes_(config.noise_information),
       severity_(config.degeneracy.alpha) {}
 
 bool LidarUpdate::considers_legs() const {
-  return leg_states_.gate_learning &&
+  return legs_enabled_ && leg_states_.gate_learning &&
          axes_.position().significant().minCoeff() < leg_states_.min_axis_weight;
 }
 
@@ -65,7 +66,7 @@ void LidarUpdate::assess_axes(const ScanInformation& scan, const NominalState& s
 }
 
 /// The scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies its information
-/// by gamma_lidar; the directional variant reduces it to its real part per axis.
+/// by gamma_lidar; with `noise_information` it is reduced to its real part per axis.
 Linearization<NominalState> LidarUpdate::fused(const ScanInformation& scan, double gamma,
                                                const NominalState& state) const {
   if (!noise_information_.enabled) {
@@ -98,7 +99,7 @@ IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
     }
     if (scan.used < lidar_.min_matches) return std::nullopt;
     matcher_.update_robust_scale();
-    if (first && variant_.directional) assess_axes(scan, at, diagnostics);
+    if (first && noise_information_.enabled) assess_axes(scan, at, diagnostics);
     first = false;
     return fused(scan, 1.0, at);
   };
@@ -111,21 +112,27 @@ IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
 void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_information,
                          const NominalState& trial_state, ScanDiagnostics& diagnostics) {
   const ResidualStatistics statistics = residual_statistics(matcher_.residuals());
-  const double prior_sigma = diagnostics.residual_sigma_prior;
   const ErrorVector y = boxminus(trial_state, predicted.state);  // eq. (5)
   diagnostics.residual_mean = statistics.mean;
   diagnostics.residual_sigma = std::sqrt(statistics.variance);
-  diagnostics.O_lidar = effective_observability(statistics.variance, degeneracy_.sigma_0);
-  diagnostics.O_lidar_prior =
-      effective_observability(prior_sigma * prior_sigma, degeneracy_.sigma_0);
   diagnostics.C_IL = consistency(pose_segment(y), pose_block(predicted.covariance));
   diagnostics.C_IL_full = consistency_full(y, prior_information);
   diagnostics.innovation_rotation = segment(y, ErrorState::kRotation);
   diagnostics.innovation_position = segment(y, ErrorState::kPosition);
+  if (degeneracy_.enabled) assess_degeneracy(statistics.variance, diagnostics);
+}
+
+void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics) {
+  const double prior_sigma = diagnostics.residual_sigma_prior;
+  diagnostics.O_lidar = effective_observability(residual_variance, degeneracy_.sigma_0);
+  diagnostics.O_lidar_prior =
+      effective_observability(prior_sigma * prior_sigma, degeneracy_.sigma_0);
   const double O_lidar =
       degeneracy_.prior_residuals ? diagnostics.O_lidar_prior : diagnostics.O_lidar;
   diagnostics.D = degeneracy_severity(O_lidar, diagnostics.C_IL, degeneracy_);  // eq. (7)
   severity_.update(diagnostics.D);                                              // eq. (12)
+  gamma_lidar_ = lidar_reliability(severity_.value(), degeneracy_);
+  gamma_leg_ = leg_reliability(severity_.value(), degeneracy_);
 }
 
 void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predicted,
@@ -155,10 +162,8 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     diagnostics.converged = trial.converged;
     record_localizability(scan.matrix, diagnostics);
     assess(predicted, prior_information, at, diagnostics);
-    gamma_lidar_ = variant_.adaptive ? lidar_reliability(severity_.value(), degeneracy_) : 1.0;
-    gamma_leg_ = variant_.adaptive ? leg_reliability(severity_.value(), degeneracy_) : 1.0;
     belief = kalman_update(predicted.state, prior_information, at, fused(scan, gamma_lidar_, at));
-    if (variant_.directional) update_map_covariance(map, predicted, belief);
+    if (map_covariance_enabled_) update_map_covariance(map, predicted, belief);
   }
   diagnostics.D_smoothed = severity_.value();
   diagnostics.gamma_lidar = gamma_lidar_;

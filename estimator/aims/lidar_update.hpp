@@ -16,12 +16,11 @@
 namespace aims {
 
 /// The LiDAR correction: an iterated trial update with the nominal noise, the degeneracy index from
-/// its residuals and innovation, and the final update with the noise scaled by the index. The
-/// directional variant scales the information along the axes of the pose instead.
+/// its residuals and innovation, and the final update with the noise scaled by the index. With
+/// `noise_information` the information is also scaled along the axes of the pose.
 class LidarUpdate {
  public:
-  /// `config` is that of the variant (`config_for`).
-  LidarUpdate(const EstimatorConfig& config, const EstimatorVariant& variant);
+  explicit LidarUpdate(const EskfConfig& config);
 
   /// The belief after fusing `points` (body axes at the time of the belief) with `map`. Fills the
   /// index, weights and statistics of `diagnostics`. With too few planes at any linearization, the
@@ -50,13 +49,15 @@ class LidarUpdate {
                                      ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const ErrorMatrix& prior_information,
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
+  void assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics);
   void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);
 
   LidarUpdateConfig lidar_;
   DegeneracyConfig degeneracy_;
   NoiseInformationConfig noise_information_;
   LegStatesConfig leg_states_;
-  EstimatorVariant variant_;
+  bool legs_enabled_;
+  bool map_covariance_enabled_;
   ScanMatcher matcher_;
   AxisWeigher axes_;
   SeverityFilter severity_;

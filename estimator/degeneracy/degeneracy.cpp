@@ -8,6 +8,7 @@
 namespace aims {
 
 void describe(Fields& f, DegeneracyConfig& c) {
+  f.flag("enabled", c.enabled, {"", any(), "weigh LiDAR and legs by the degeneracy index"});
   f.flag("prior_residuals", c.prior_residuals,
          {"", any(), "O_lidar from the residuals before the trial update", "eq. (4)"});
   f.number("sigma_0", c.sigma_0, {"m", positive(), "nominal residual dispersion", "eq. (4)"});

@@ -10,6 +10,7 @@ namespace aims {
 
 /// Reliability assessment and adaptive weights, eqs. (3)-(12).
 struct DegeneracyConfig {
+  bool enabled = false;          ///< weigh LiDAR and legs by the index
   bool prior_residuals = false;  ///< O_lidar from the residuals before the trial update
   double sigma_0 = 0.008;        ///< nominal residual dispersion, eq. (4) [m]
   double kappa = 12.6;           ///< saturation of C_IL, eq. (7) [-]

@@ -8,7 +8,7 @@ namespace aims {
 
 /// Removal of the information that the noise of plane normals adds to a scan.
 struct NoiseInformationConfig {
-  bool enabled = true;
+  bool enabled = false;
   /// Factor on the noise-induced information from the plane fits, whose residuals at edges
   /// overstate it. 0.7 is the smallest ratio measured between walls without features [-].
   double scale = 0.7;

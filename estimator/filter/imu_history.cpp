@@ -13,8 +13,8 @@ bool before(const ImuSample& a, Time stamp) { return a.stamp < stamp; }
 
 }  // namespace
 
-ImuHistory::ImuHistory(const ImuPropagationConfig& config)
-    : config_(config), period_(from_seconds(1.0 / config.rate_hz)) {}
+ImuHistory::ImuHistory(const ImuPropagationConfig& config, double rate_hz)
+    : config_(config), period_(from_seconds(1.0 / rate_hz)) {}
 
 bool ImuHistory::insert(const ImuSample& sample) {
   const auto at = std::lower_bound(samples_.begin(), samples_.end(), sample.stamp, before);

@@ -13,7 +13,8 @@ namespace aims {
 /// Recent inertial samples in order of stamp; cuts any time span into segments.
 class ImuHistory {
  public:
-  explicit ImuHistory(const ImuPropagationConfig& config);
+  /// `rate_hz`: nominal sample rate [Hz].
+  ImuHistory(const ImuPropagationConfig& config, double rate_hz);
 
   /// Inserts a sample in order of stamp; false when its stamp is already present.
   bool insert(const ImuSample& sample);

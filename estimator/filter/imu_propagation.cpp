@@ -7,7 +7,6 @@ void describe(Fields& f, ImuPropagationConfig& c) {
   f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
            {"", any(), "a sample is the mean over its interval, or the value at its stamp",
             "design: 20 ms averages"});
-  f.number("rate_hz", c.rate_hz, {"Hz", positive(), "nominal sample rate", "paper, III-A"});
   f.number("gravity", c.gravity, {"m/s^2", positive(), "magnitude of gravity"});
   f.number("gyro_noise", c.gyro_noise,
            {"rad/s/sqrt(Hz)", positive(), "white noise of the gyro, vibration included"});

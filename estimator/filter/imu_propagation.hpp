@@ -12,7 +12,6 @@ namespace aims {
 /// Inertial prediction (sim has an ImuConfig of its own).
 struct ImuPropagationConfig {
   ImuSampling sampling = ImuSampling::kMean;
-  double rate_hz = 50.0;                    ///< nominal sample rate [Hz]
   double gravity = 9.81;                    ///< [m/s^2]
   double gyro_noise = 2e-3;                 ///< white noise density [rad/s/sqrt(Hz)]
   double accelerometer_noise = 5e-2;        ///< white noise density [m/s^2/sqrt(Hz)]

@@ -32,8 +32,8 @@ void describe(Fields& f, QueueConfig& c) {
 }
 
 MeasurementQueue::MeasurementQueue(const QueueConfig& config, const ImuPropagationConfig& imu,
-                                   double max_leg_speed)
-    : config_(config), imu_config_(imu), max_leg_speed_(max_leg_speed), imu_(imu) {}
+                                   double imu_rate_hz, double max_leg_speed)
+    : config_(config), imu_config_(imu), max_leg_speed_(max_leg_speed), imu_(imu, imu_rate_hz) {}
 
 void MeasurementQueue::push(const Delivery& delivery) {
   now_ = now_ ? std::max(*now_, delivery.arrival) : delivery.arrival;

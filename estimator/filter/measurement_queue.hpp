@@ -30,8 +30,9 @@ using Correction = std::variant<LegOdometrySample, LidarScanPtr>;
 /// measurements are dropped and counted, e.g. "leg.late".
 class MeasurementQueue {
  public:
-  /// Leg samples faster than `max_leg_speed` [m/s] are out of range.
-  MeasurementQueue(const QueueConfig& config, const ImuPropagationConfig& imu,
+  /// `imu_rate_hz`: nominal sample rate [Hz]. Leg samples faster than `max_leg_speed` [m/s] are out
+  /// of range.
+  MeasurementQueue(const QueueConfig& config, const ImuPropagationConfig& imu, double imu_rate_hz,
                    double max_leg_speed);
 
   void push(const Delivery& delivery);

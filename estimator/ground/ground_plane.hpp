@@ -11,7 +11,7 @@ namespace aims {
 
 /// Ground constraint: when the ground counts as level, and how accurate a level ground is.
 struct GroundConstraintConfig {
-  bool enabled = true;
+  bool enabled = false;
   double radius = 6.0;              ///< horizontal radius of the points used [m]
   double min_height = 0.15;         ///< of the body above the ground [m]
   double max_height = 1.2;          ///< of the body above the ground [m]

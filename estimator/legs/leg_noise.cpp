@@ -79,10 +79,11 @@ std::optional<double> gate_inflation(const LegNoiseConfig& config, double distan
   return std::max(1.0, factor);
 }
 
-LegNoiseModel::LegNoiseModel(const LegNoiseConfig& config, const LegConfig& leg)
+LegNoiseModel::LegNoiseModel(const LegNoiseConfig& config, const SensorRig& rig)
     : config_(config),
-      period_(1.0 / leg.rate_hz),
-      correlated_samples_(std::max(1.0, 2.0 * config.correlation_time * leg.rate_hz)) {}
+      geometry_(rig.leg_geometry),
+      period_(1.0 / rig.leg_rate_hz),
+      correlated_samples_(std::max(1.0, 2.0 * config.correlation_time * rig.leg_rate_hz)) {}
 
 Eigen::Matrix3d LegNoiseModel::noise(const LegOdometrySample& sample,
                                      const Eigen::Vector3d& angular_velocity) {
@@ -93,7 +94,8 @@ Eigen::Matrix3d LegNoiseModel::noise(const LegOdometrySample& sample,
   }
   last_ = sample.stamp;
   return correlated_samples_ *
-         sample_covariance(config_, compare_stance_feet(sample, angular_velocity), conditions);
+         sample_covariance(config_, compare_stance_feet(sample, angular_velocity, geometry_),
+                           conditions);
 }
 
 std::optional<double> LegNoiseModel::inflation(const LinearMeasurement& measurement,

@@ -13,7 +13,7 @@ namespace aims {
 
 /// Noise of each leg sample from its stance feet, the yaw rate, lost packets and its innovation.
 struct LegNoiseConfig {
-  bool enabled = true;
+  bool enabled = false;
   /// Of one sample with consistent stance feet, base axes [m/s]; the scale is a separate state.
   Eigen::Vector3d velocity_sigma{0.07, 0.07, 0.07};
   double correlation_time = 0.1;       ///< of that error, which consecutive samples share [s]
@@ -42,7 +42,7 @@ struct StanceFeet {
 /// lengths change all feet alike. `angular_velocity` is that of the base, base axes [rad/s].
 StanceFeet compare_stance_feet(const LegOdometrySample& sample,
                                const Eigen::Vector3d& angular_velocity,
-                               const LegGeometry& geometry = kLegGeometry);
+                               const LegGeometry& geometry);
 
 /// Further inputs of the leg noise model.
 struct LegConditions {
@@ -62,7 +62,7 @@ std::optional<double> gate_inflation(const LegNoiseConfig& config, double distan
 /// Leg noise model over a sequence of samples.
 class LegNoiseModel {
  public:
-  LegNoiseModel(const LegNoiseConfig& config, const LegConfig& leg);
+  LegNoiseModel(const LegNoiseConfig& config, const SensorRig& rig);
 
   /// Covariance of `sample` for the update [m^2/s^2], including the correlation of consecutive
   /// samples. `angular_velocity` is that of the base, base axes [rad/s].
@@ -76,6 +76,7 @@ class LegNoiseModel {
 
  private:
   LegNoiseConfig config_;
+  LegGeometry geometry_;
   double period_;              ///< of the packets [s]
   double correlated_samples_;  ///< that share one error
   std::optional<Time> last_;

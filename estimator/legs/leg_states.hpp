@@ -11,9 +11,9 @@ namespace aims {
 
 /// Scale and bias of the leg odometry as filter states.
 struct LegStatesConfig {
-  bool scale = true;             ///< estimate a scale per axis
-  bool bias = true;              ///< estimate a bias per axis
-  bool gate_learning = true;     ///< correct them only while the LiDAR constrains every axis
+  bool scale = false;            ///< estimate a scale per axis
+  bool bias = false;             ///< estimate a bias per axis
+  bool gate_learning = false;    ///< correct them only while the LiDAR constrains every axis
   double scale_sigma = 0.12;     ///< initial [-]
   double scale_walk = 1e-3;      ///< [1/sqrt(s)]
   double bias_sigma = 0.01;      ///< initial [m/s]

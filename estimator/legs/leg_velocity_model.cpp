@@ -6,7 +6,9 @@
 namespace aims {
 
 void describe(Fields& f, LegConfig& c) {
-  f.number("rate_hz", c.rate_hz, {"Hz", positive(), "nominal packet rate", "paper, III-A"});
+  f.flag("enabled", c.enabled, {"", any(), "fuse leg odometry"});
+  f.flag("repeat_lost", c.repeat_lost,
+         {"", any(), "repeat the last packet while packets are lost (zero-order hold)"});
   f.vector("velocity_sigma", c.velocity_sigma,
            {"m/s", positive(), "error of one sample along the base axes, R_leg"});
   f.number("correlation_time", c.correlation_time,
@@ -38,8 +40,9 @@ LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_bo
   return m;
 }
 
-Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, const Eigen::Vector3d& measured) {
-  const double repeats = std::max(1.0, 2.0 * config.correlation_time * config.rate_hz);
+Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
+                                   const Eigen::Vector3d& measured) {
+  const double repeats = std::max(1.0, 2.0 * config.correlation_time * rate_hz);
   const double scale_error = config.scale_sigma * measured.norm();
   const Eigen::Vector3d variance =
       config.velocity_sigma.cwiseAbs2() + Eigen::Vector3d::Constant(scale_error * scale_error);

@@ -9,7 +9,8 @@ namespace aims {
 
 /// Leg odometry.
 struct LegConfig {
-  double rate_hz = 200.0;                         ///< nominal packet rate [Hz]
+  bool enabled = true;
+  bool repeat_lost = false;  ///< zero-order hold of lost packets
   Eigen::Vector3d velocity_sigma{0.1, 0.1, 0.1};  ///< of one sample, base axes [m/s]
   double correlation_time = 0.1;  ///< of that error, which consecutive samples share [s]
   double scale_sigma = 0.05;      ///< error proportional to the speed [-]
@@ -33,9 +34,10 @@ LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_bo
                                      const Eigen::Vector3d& angular_velocity,
                                      const LegVelocity& legs, const Eigen::Matrix3d& noise);
 
-/// R_leg, the nominal covariance of one sample [m^2/s^2]. Consecutive samples share their error (a
-/// scale, a slipping stance), so the variance is multiplied by the samples per correlation time,
-/// 2 tau f.
-Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, const Eigen::Vector3d& measured);
+/// R_leg, the nominal covariance of one sample [m^2/s^2] at `rate_hz` [Hz]. Consecutive samples
+/// share their error (a scale, a slipping stance), so the variance is multiplied by the samples per
+/// correlation time, 2 tau f.
+Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
+                                   const Eigen::Vector3d& measured);
 
 }  // namespace aims

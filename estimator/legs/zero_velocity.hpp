@@ -12,7 +12,7 @@ namespace aims {
 
 /// Zero-velocity update (ZUPT).
 struct ZeroVelocityConfig {
-  bool enabled = true;
+  bool enabled = false;
   double window = 0.3;               ///< of the detection; one measurement per window [s]
   double max_rate = 0.03;            ///< mean angular rate, and deviation from the mean [rad/s]
   double max_force_deviation = 0.3;  ///< of the specific force from its mean [m/s^2]

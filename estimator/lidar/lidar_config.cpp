@@ -63,10 +63,15 @@ void describe(Fields& f, MapConfig& c) {
            {"m", positive(), "smallest error of a map point across its plane"});
 }
 
-void describe(Fields& f, MapMemoryConfig& c) {
-  f.flag("enabled", c.enabled, {"", any(), "keep the map for the whole run"});
-  f.integer("forget_after", c.forget_after,
-            {"-", at_least(1), "without it, voxels unseen for this many scans are dropped"});
+void describe(Fields& f, MapCovarianceConfig& c) {
+  f.flag("enabled", c.enabled,
+         {"", any(), "add the covariance of the map to the stated covariance of the position"});
+}
+
+void describe(Fields& f, ForgettingConfig& c) {
+  f.flag("enabled", c.enabled, {"", any(), "drop parts of the map that are no longer seen"});
+  f.integer("after", c.after,
+            {"-", at_least(1), "voxels unseen for this many scans are dropped"});
 }
 
 }  // namespace aims

@@ -27,7 +27,7 @@ void describe(Fields& fields, LidarUpdateConfig& config);
 
 /// Robust weight of each residual: a Cauchy kernel.
 struct RobustKernelConfig {
-  bool enabled = true;
+  bool enabled = false;
   double scale = 3.0;        ///< deviations of the residuals at which a weight is one half [-]
   double min_sigma = 0.015;  ///< lower bound on that deviation [m]
 };
@@ -52,12 +52,19 @@ struct MapConfig {
 
 void describe(Fields& fields, MapConfig& config);
 
-/// How long the map is kept.
-struct MapMemoryConfig {
-  bool enabled = true;     ///< false: voxels unseen for `forget_after` scans are dropped
-  int forget_after = 150;  ///< scans
+/// Covariance of the map, added to the stated covariance of the position.
+struct MapCovarianceConfig {
+  bool enabled = false;
 };
 
-void describe(Fields& fields, MapMemoryConfig& config);
+void describe(Fields& fields, MapCovarianceConfig& config);
+
+/// Forgetting of old parts of the map.
+struct ForgettingConfig {
+  bool enabled = false;  ///< false: the map is kept for the whole run
+  int after = 150;       ///< scans in which a voxel got no point
+};
+
+void describe(Fields& fields, ForgettingConfig& config);
 
 }  // namespace aims

@@ -23,6 +23,16 @@ bool all_zero(const std::vector<Time>& stamps) {
          std::all_of(stamps.begin(), stamps.end(), [](Time stamp) { return stamp == 0; });
 }
 
+/// Replaces the nominal rate of a sensor by the measured one where they differ by more than 10 %.
+void adopt_rate(std::optional<double> measured_hz, const char* sensor, double& nominal_hz,
+                std::vector<std::string>& notes) {
+  constexpr double kTolerance = 0.1;
+  if (!measured_hz || std::abs(*measured_hz - nominal_hz) <= kTolerance * nominal_hz) return;
+  nominal_hz = *measured_hz;
+  notes.push_back(
+      fmt::format("{}: {:.4g} Hz, the rate found in the recording", sensor, *measured_hz));
+}
+
 }  // namespace
 
 void RecordingSurvey::note_times(Role role, const MessageView& view, Time record_time) {
@@ -121,6 +131,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
 void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
   std::vector<std::string>& notes = plan.setup.notes;
   plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
+  adopt_rate(plan.setup.imu_rate_hz, "IMU", plan.setup.rig.imu_rate_hz, notes);
   const double force = upper_median(forces_).value_or(0.0);
   bool gravities = config_.imu_unit == ImuUnit::kGravities;
   if (config_.imu_unit == ImuUnit::kAuto && !forces_.empty()) {
@@ -153,6 +164,8 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) const {
   const bool kinematic = stream.source == LegSource::kKinematics;
   plan.setup.leg_rate_hz = sample_rate(kinematic ? seen(Role::kJoints).stamps : legs.stamps);
   plan.setup.has_legs = stream.source != LegSource::kNone;
+  plan.setup.rig.leg_geometry = config_.leg_geometry;
+  adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz, plan.setup.notes);
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);
   stream.half_period = from_seconds(std::clamp(0.5 / rate, 1e-9, 0.5));
 }

@@ -43,7 +43,7 @@ Result<FilmedSequence> film_sequence(const Scenario& scenario, const RunOptions&
   const Stopwatch stopwatch;
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
-  auto estimators = make_estimators(scenario.estimators, scenario.estimator, simulation->rig());
+  auto estimators = make_estimators(scenario.run, scenario.estimators, simulation->rig());
   if (!estimators) return tl::unexpected(estimators.error());
   if (estimators->empty()) return failure("estimators: expected at least one to make the map");
   const auto result = [&]() -> const EstimatorResult& {

@@ -76,7 +76,7 @@ Result<FilmedSequence> stored_sequence(const fs::path& folder, const std::string
   auto waypoint_times = parse_waypoint_times(*text, (folder / "waypoint_times.csv").string());
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
   sequence.waypoint_times = std::move(*waypoint_times);
-  std::vector<std::string> names = labels_of(scenario->estimators);
+  std::vector<std::string> names = labels_of(scenario->run);
   if (auto ordered = order(names, folder, mapped); !ordered) return tl::unexpected(ordered.error());
   sequence.truth = std::move(*truth);
   if (auto added = add_estimates(sequence, folder, names, scenario->scoring); !added) {

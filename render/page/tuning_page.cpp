@@ -118,7 +118,8 @@ Json parameters_json(const VariedParameters& varied, const std::vector<double>& 
   Json parameters = Json::array();
   for (std::size_t i = 0; i < varied.ranges.size(); ++i) {
     const ParameterRange& range = varied.ranges[i];
-    const Parameter* parameter = fields.find(full_key(range));
+    const auto found = fields.matching(full_key(range));
+    const Parameter* parameter = found.empty() ? nullptr : found.front();
     parameters.push_back({{"name", range.key},
                           {"unit", parameter == nullptr ? "" : parameter->spec.unit},
                           {"meaning", parameter == nullptr ? "" : parameter->spec.meaning},

@@ -58,7 +58,7 @@ Result<DrawnRun> read_run(const fs::path& folder) {
   auto snapshots = read_snapshots(folder / "snapshots.csv");
   if (!snapshots) return tl::unexpected(snapshots.error());
   run.snapshots = std::move(*snapshots);
-  for (const std::string& label : labels_of(run.scenario.estimators)) {
+  for (const std::string& label : labels_of(run.scenario.run)) {
     if (!fs::exists(folder / (label + ".tum"))) continue;  // it failed
     auto estimator = read_estimator(folder, label);
     if (!estimator) return tl::unexpected(estimator.error());

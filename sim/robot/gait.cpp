@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/robot/robot_geometry.hpp"
+
 namespace aims {
 namespace {
 
@@ -52,7 +54,7 @@ struct GaitController::View {
         velocity(state.velocity),
         turning(R_world_base * state.angular_velocity) {
     for (int leg = 0; leg < kLegCount; ++leg) {
-      feet[leg] = state.T_world_base * foot_in_base(leg, joints_of(state.q, leg));
+      feet[leg] = state.T_world_base * foot_in_base(leg, joints_of(state.q, leg), kRobotGeometry);
     }
   }
 
@@ -173,7 +175,7 @@ Eigen::Vector3d GaitController::touchdown(int leg, const View& now) const {
   const double time_left =
       (1.0 - swing_progress(leg)) * (1.0 - config_.duty_factor) * config_.period;
   const double stance_time = config_.duty_factor * config_.period;
-  Eigen::Vector3d under_hip = hip_in_base(leg);
+  Eigen::Vector3d under_hip = hip_in_base(leg, kRobotGeometry);
   under_hip.y() += side_of(leg) * config_.stance_width;
   const double yaw_then = now.yaw + now.turning.z() * time_left;
   const Eigen::Vector3d hip = yaw_rotation(yaw_then) * under_hip;
@@ -182,7 +184,7 @@ Eigen::Vector3d GaitController::touchdown(int leg, const View& now) const {
   const Eigen::Vector3d error = now.velocity - desired_velocity(now);
   Eigen::Vector3d foot = now.position + hip + now.velocity * time_left +
                          0.5 * stance_time * hip_velocity + kTouchdownFeedback * error;
-  foot.z() = ground_ + kLegGeometry.foot_radius - kTouchdownDepth;
+  foot.z() = ground_ + kRobotGeometry.foot_radius - kTouchdownDepth;
   return foot;
 }
 
@@ -195,7 +197,7 @@ Eigen::Vector3d GaitController::swing_torques(int leg, const RobotState& state,
   Eigen::Vector3d goal = from + blend(s) * (to - from);
   Eigen::Vector3d goal_velocity = blend_rate(s) / swing_time * (to - from);
   // Height: up to the apex in the first half, down in the second.
-  const double apex = ground_ + kLegGeometry.foot_radius + config_.swing_height;
+  const double apex = ground_ + kRobotGeometry.foot_radius + config_.swing_height;
   const bool rising = s < 0.5;
   const double half = rising ? 2.0 * s : 2.0 * s - 1.0;
   const double start = rising ? from.z() : apex;
@@ -208,10 +210,10 @@ Eigen::Vector3d GaitController::swing_torques(int leg, const RobotState& state,
   const Eigen::Vector3d rate_in_base =
       R * (goal_velocity - now.velocity) - state.angular_velocity.cross(in_base);
   const Eigen::Vector3d q = joints_of(state.q, leg);
-  const Eigen::Matrix3d J = foot_jacobian(leg, q);
+  const Eigen::Matrix3d J = foot_jacobian(leg, q, kRobotGeometry);
   const Eigen::Matrix3d damped = J.transpose() * J + 1e-4 * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d desired_rate = damped.inverse() * (J.transpose() * rate_in_base);
-  return kSwingStiffness * (leg_angles(leg, in_base) - q) +
+  return kSwingStiffness * (leg_angles(leg, in_base, kRobotGeometry) - q) +
          kSwingDamping * (desired_rate - joints_of(state.qd, leg));
 }
 
@@ -219,7 +221,7 @@ JointVector GaitController::torques(const RobotState& state, const VelocityComma
   const View now(state, body_);
   double foot_height = 0.0;
   for (int leg = 0; leg < kLegCount; ++leg) {
-    if (stands_[leg]) foot_height += now.feet[leg].z() - kLegGeometry.foot_radius;
+    if (stands_[leg]) foot_height += now.feet[leg].z() - kRobotGeometry.foot_radius;
   }
   foot_height /= std::max<double>(1.0, std::count(stands_.begin(), stands_.end(), true));
   if (!started_) {
@@ -234,7 +236,7 @@ JointVector GaitController::torques(const RobotState& state, const VelocityComma
   const auto forces = stance_forces(stance_problem(now), config_.forces);
   JointVector torques;
   for (int leg = 0; leg < kLegCount; ++leg) {
-    const Eigen::Matrix3d J = foot_jacobian(leg, joints_of(state.q, leg));
+    const Eigen::Matrix3d J = foot_jacobian(leg, joints_of(state.q, leg), kRobotGeometry);
     torques.segment<3>(3 * leg) =
         stands_[leg] ? Eigen::Vector3d(-J.transpose() * now.R_world_base.transpose() * forces[leg])
                      : swing_torques(leg, state, now);

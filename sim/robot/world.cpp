@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim/environment/mujoco_model.hpp"
+#include "sim/robot/robot_geometry.hpp"
 
 namespace aims {
 namespace {
@@ -31,8 +32,8 @@ JointVector standing_joints(double height, double lateral) {
   JointVector q;
   for (int leg = 0; leg < kLegCount; ++leg) {
     const Eigen::Vector3d foot =
-        hip_in_base(leg) + Eigen::Vector3d(0.0, side_of(leg) * lateral, -height);
-    q.segment<3>(3 * leg) = leg_angles(leg, foot);
+        hip_in_base(leg, kRobotGeometry) + Eigen::Vector3d(0.0, side_of(leg) * lateral, -height);
+    q.segment<3>(3 * leg) = leg_angles(leg, foot, kRobotGeometry);
   }
   return q;
 }
@@ -106,7 +107,7 @@ void World::Impl::put(double x, double y, double z, double yaw) {
   const std::array<double, 7> root = {x, y, z, q.w(), q.x(), q.y(), q.z()};
   std::copy(root.begin(), root.end(), data->qpos);
   const JointVector joints =
-      standing_joints(kNominalHeight - kLegGeometry.foot_radius, kNominalLateral);
+      standing_joints(kNominalHeight - kRobotGeometry.foot_radius, kNominalLateral);
   std::copy(joints.begin(), joints.end(), data->qpos + 7);
   mj_forward(model.get(), data.get());
 }
@@ -250,8 +251,9 @@ std::array<double, kLegCount> World::slip_speed() const {
     const Eigen::Vector3d rate = joints_of(s.qd, leg);
     const Eigen::Vector3d turning = s.angular_velocity + calf_rate_in_base(q, rate);
     const Eigen::Vector3d in_base =
-        s.angular_velocity.cross(foot_in_base(leg, q)) + foot_jacobian(leg, q) * rate;
-    const Eigen::Vector3d down(0.0, 0.0, -kLegGeometry.foot_radius);
+        s.angular_velocity.cross(foot_in_base(leg, q, kRobotGeometry)) +
+        foot_jacobian(leg, q, kRobotGeometry) * rate;
+    const Eigen::Vector3d down(0.0, 0.0, -kRobotGeometry.foot_radius);
     const Eigen::Quaterniond& R = s.T_world_base.rotation;
     const Eigen::Vector3d patch = s.velocity + R * in_base + (R * turning).cross(down);
     speed[leg] = patch.head<2>().norm();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/leg_kinematics.hpp"
+#include "sim/robot/robot_geometry.hpp"
 #include "sim/sensors/sampling.hpp"
 
 namespace aims {
@@ -89,9 +90,11 @@ void LegOdometry::measure_rotation(const RobotState& truth, LegOdometrySample& s
 Eigen::Vector3d LegOdometry::foot_velocity(int leg, const LegOdometrySample& sample) const {
   const LegMotion motion{joints_of(joints_in(sample.joint_position), leg),
                          joints_of(joints_in(sample.joint_velocity), leg), sample.angular_velocity};
-  if (config_.foot_model == FootModel::kPoint) return velocity_from_foot(leg, motion);
+  if (config_.foot_model == FootModel::kPoint) {
+    return velocity_from_foot(leg, motion, kRobotGeometry);
+  }
   const Eigen::Vector3d up = T_odom_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  return velocity_from_rolling_foot(leg, motion, up);
+  return velocity_from_rolling_foot(leg, motion, up, kRobotGeometry);
 }
 
 /// Mean over the standing feet; without any, the last velocity.

@@ -12,7 +12,7 @@ namespace aims::testing {
 inline Scenario short_walk(const std::string& name = "short") {
   Scenario scenario;
   scenario.name = name;
-  scenario.estimators = {"aims"};
+  scenario.run = {"aims"};
   scenario.simulation.scene.corridor.length = 10.0;
   scenario.simulation.route.points = {{"a", 0.0, 0.0}, {"b", 1.0, 0.0}};
   scenario.simulation.route.stand_before = 2.5;

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
   std::optional<aims::RecordingReader> recording;
   if (argc > 1) recording = or_exit(aims::RecordingReader::open(argv[1], {}));
   const aims::SensorRig rig = recording ? recording->setup().rig : aims::SensorRig();
-  const auto estimator = or_exit(aims::make_estimator("aims", aims::EstimatorConfig(), rig));
+  const auto estimator = or_exit(aims::make_estimator("aims", rig));
   recording ? replay(*recording, *estimator) : walk_straight(*estimator);
   estimator->finish();
   if (recording) print_end_error(estimator->result().trajectory, recording->truth());

@@ -8,7 +8,7 @@ namespace {
 
 TEST(Registry, CreatesEveryListedEstimator) {
   for (const EstimatorEntry& entry : estimator_registry()) {
-    const auto made = make_estimator(entry.name, EstimatorConfig{}, SensorRig{});
+    const auto made = make_estimator(entry.name, SensorRig{});
     ASSERT_TRUE(made.has_value()) << entry.name;
     EXPECT_TRUE((*made)->result().trajectory.empty());
     EXPECT_FALSE(entry.description.empty());
@@ -16,20 +16,56 @@ TEST(Registry, CreatesEveryListedEstimator) {
 }
 
 TEST(Registry, UnknownNameGetsANearMatchAndTheList) {
-  const auto made = make_estimator("amis", EstimatorConfig{}, SensorRig{});
+  const auto made = make_estimator("amis", SensorRig{});
   ASSERT_FALSE(made.has_value());
   EXPECT_NE(made.error().message.find("did you mean 'aims'"), std::string::npos);
   EXPECT_NE(made.error().message.find("tfs_clean"), std::string::npos);
 }
 
-TEST(EstimatorConfig, DefaultsLieInTheirRanges) {
-  EstimatorConfig config;
-  const Fields fields = fields_of(config);
+TEST(EstimatorConfigs, DefaultsLieInTheirRanges) {
+  EstimatorConfigs configs;
+  const Fields fields = fields_of(configs);
   EXPECT_GT(fields.parameters().size(), 50U);
   for (const Parameter& parameter : fields.parameters()) {
     EXPECT_TRUE(parameter.assign(parameter.text())) << parameter.key << " = " << parameter.text();
     EXPECT_FALSE(parameter.spec.meaning.empty()) << parameter.key;
   }
+}
+
+std::string text_of(const EstimatorConfigs& configs, const char* key) {
+  EstimatorConfigs copy = configs;
+  return fields_of(copy).find(key)->text();
+}
+
+TEST(EstimatorConfigs, CopiesAreDeep) {
+  EstimatorConfigs configs;
+  const EstimatorConfigs before = configs;
+  ASSERT_TRUE(assign(fields_of(configs), "aims.degeneracy.eta", "7"));
+  EXPECT_EQ(text_of(configs, "aims.degeneracy.eta"), "7");
+  EXPECT_EQ(text_of(before, "aims.degeneracy.eta"), "3");
+  EXPECT_EQ(text_of(configs, "aims_d.degeneracy.eta"), "3");
+}
+
+TEST(EstimatorConfigs, LegsAreRequiredOnlyWhereTheyAreFused) {
+  EstimatorConfigs configs;
+  EXPECT_TRUE(configs.find("aims")->requirements().legs);
+  EXPECT_FALSE(configs.find("lio")->requirements().legs);
+  EXPECT_FALSE(configs.find("leg")->requirements().lidar);
+  ASSERT_TRUE(assign(fields_of(configs), "aims.legs.enabled", "false"));
+  EXPECT_FALSE(configs.find("aims")->requirements().legs);
+}
+
+TEST(EstimatorConfigs, ReasonsOfIdleSettingsNameTheSwitch) {
+  EstimatorConfigs configs;
+  const Fields fields = fields_of(configs);
+  const auto idle = [&](const char* key) { return fields.find(key)->idle; };
+  EXPECT_EQ(idle("aims.degeneracy.eta"), "");
+  EXPECT_EQ(idle("tfs.degeneracy.eta"), "degeneracy.enabled is false");
+  EXPECT_EQ(idle("tfs.degeneracy.enabled"), "");
+  EXPECT_EQ(idle("lio.legs.max_speed"), "legs.enabled is false");
+  EXPECT_EQ(idle("lio.leg_noise.enabled"), "legs.enabled is false");
+  EXPECT_EQ(idle("aims_d.legs.velocity_sigma"), "leg_noise.enabled is true");
+  EXPECT_EQ(idle("tfs_plus.leg_states.gate_learning"), "noise_information.enabled is false");
 }
 
 }  // namespace

@@ -3,16 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/estimator_settings.hpp"
+
 namespace aims {
 namespace {
 
 TEST(NodeConfig, TakesSettingsOfTheRecordingAndTheEstimator) {
   NodeOptions options;
-  options.overrides = {"recording.topics.imu=/imu", "estimator.imu.rate_hz=400"};
+  options.overrides = {"recording.topics.imu=/imu", "estimators.aims.imu.gravity=9.8"};
   const auto config = load_node_config(options);
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->recording.topics.imu, "/imu");
-  EXPECT_EQ(config->estimator.imu.rate_hz, 400.0);
+  EXPECT_EQ(test::setting(config->estimators, "aims.imu.gravity"), "9.8");
   EXPECT_EQ(config->recording.topics.truth, "none");
 }
 
@@ -22,6 +24,17 @@ TEST(NodeConfig, RejectsWhatHasNoEffectInANode) {
   const auto config = load_node_config(options);
   ASSERT_FALSE(config);
   EXPECT_NE(config.error().message.find("scoring"), std::string::npos) << config.error().message;
+}
+
+TEST(NodeConfig, TakesASpecAndRejectsItsSettingsWithoutEffect) {
+  NodeOptions options;
+  options.estimator = "aims+ground_constraint.enabled=true";
+  options.overrides = {"estimators.aims.ground_constraint.radius=4"};
+  EXPECT_TRUE(load_node_config(options));
+  options.estimator = "aims";
+  const auto config = load_node_config(options);
+  ASSERT_FALSE(config);
+  EXPECT_NE(config.error().message.find("ground_constraint.enabled is false"), std::string::npos);
 }
 
 TEST(NodeConfig, RejectsAnUnknownEstimator) {

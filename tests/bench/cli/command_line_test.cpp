@@ -98,7 +98,7 @@ TEST_F(CommandLine, ImpossibleScenariosAreRefused) {
   expect_refused(scenario("route: {points: [{name: a, x: 0, y: 0}, {name: b, x: 0, y: 0}]}\n"),
                  "my.yaml:1:");
   expect_refused(scenario("scene: {corridor: {doors: {width: 3, spacing: 2}}}\n"), "my.yaml:1:");
-  expect_refused(scenario("estimators: [aims, lioo]\n"), "my.yaml:1:13: estimators: no estimator");
+  expect_refused(scenario("run: [aims, lioo]\n"), "my.yaml:1:6: run: no estimator");
   expect_refused(scenario("base: missing.yaml\n"), "missing.yaml");
 }
 
@@ -147,7 +147,7 @@ TEST_F(CommandLine, ASuiteRunsResumesChecksItsExpectationsAndIsCompared) {
       std::string::npos)
       << first.output;
   EXPECT_NE(aims(suite).output.find("0 jobs done, 2 found finished"), std::string::npos);
-  const Outcome changed = aims(suite + " --set estimator.degeneracy.eta=4");
+  const Outcome changed = aims(suite + " --set estimators.leg.queue.lag=0.1");
   EXPECT_NE(changed.output.find("2 jobs done, 0 found finished, 0 sequences simulated"),
             std::string::npos)
       << changed.output;

@@ -139,7 +139,7 @@ TEST_F(Recordings, BadInputIsRefusedWithFileAndOffset) {
   expect_refused("estimate walk.bag --topics lidars=/lidar/points", {"lidars", "lidar"});
   expect_refused("estimate walk.bag --topics /lidar/points", {"--topics", "SENSOR=TOPIC"});
   expect_refused("estimate walk.bag --estimators ames", {"ames", "aims"});
-  expect_refused("estimate walk.bag --set estimator.degeneracy.etta=3", {"etta", "eta"});
+  expect_refused("estimate walk.bag --set estimators.aims.degeneracy.etta=3", {"etta", "eta"});
   expect_refused("simulate my.yaml --out walk.bag", {"walk.bag"});
 }
 

@@ -22,7 +22,7 @@ const std::string kPlan =
     "scenarios: [my.yaml]\n"
     "seeds: 1\n"
     "estimators: [leg]\n"
-    "params: [\"leg.rate_hz=100:200:3\"]\n";
+    "params: [\"queue.max_ahead=100:200:3\"]\n";
 
 class Sweeps : public testing::CommandLine {
  protected:
@@ -70,7 +70,7 @@ TEST_F(Sweeps, ListTheIdsThatTheirFilesWillHave) {
   const Outcome list = sweep("--list");
   ASSERT_EQ(list.exit_code, 0) << list.output;
   EXPECT_EQ(std::count(list.output.begin(), list.output.end(), '\n'), 3);
-  EXPECT_TRUE(holds(list, "my seed 1 leg+leg.rate_hz=150")) << list.output;
+  EXPECT_TRUE(holds(list, "my seed 1 leg+queue.max_ahead=150")) << list.output;
   EXPECT_EQ(sweep("--list --shard 1/2").output + sweep("--list --shard 2/2").output, list.output);
   EXPECT_FALSE(fs::exists(folder_.path() / "out"));
   ASSERT_EQ(sweep("--out out --shard 3/3").exit_code, 0);
@@ -95,17 +95,17 @@ TEST_F(Sweeps, RecordJobsThatTakeTooLongAndDoThemAgainWhenAsked) {
 }
 
 TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
-  expect_refused("--param leg.rate_khz=1:2:2", {"unknown key 'leg.rate_khz'", "leg.rate_hz"});
-  expect_refused("--param leg.rate_hz=2:1:2", {"leg.rate_hz=2:1:2", "reversed"});
-  expect_refused("--param leg.rate_hz=5:5:3", {"empty"});
-  expect_refused("--param 'leg.rate_hz=log(0,5,3)'", {"logarithm"});
-  expect_refused("--param leg.rate_hz=-1:5:3", {"leg.rate_hz", "expected a number > 0"});
-  expect_refused("--param leg.rate_hz=x", {"KEY=LOW:HIGH:COUNT"});
+  expect_refused("--param queue.max_ahed=1:2:2", {"unknown key 'queue.max_ahed'", "queue.max_ahead"});
+  expect_refused("--param queue.max_ahead=2:1:2", {"queue.max_ahead=2:1:2", "reversed"});
+  expect_refused("--param queue.max_ahead=5:5:3", {"empty"});
+  expect_refused("--param 'queue.max_ahead=log(0,5,3)'", {"logarithm"});
+  expect_refused("--param queue.max_ahead=-1:5:3", {"queue.max_ahead", "expected a number > 0"});
+  expect_refused("--param queue.max_ahead=x", {"KEY=LOW:HIGH:COUNT"});
   expect_refused("--param links.leg_odometry.los=0:1:2",
                  {"did you mean 'links.leg_odometry.loss'"});
   expect_refused("--param links.leg_odometry.loss=0:2:3",
                  {"links.leg_odometry.loss=0:2:3", "a number in [0, 1]"});
-  expect_refused("--param imu.gyro_bias_walk=0:1:3", {"expected 'estimator.imu.gyro_bias_walk'"});
+  expect_refused("--param imu.gyro_bias_walk=0:1:3", {"expected 'estimators.*.imu.gyro_bias_walk'"});
   expect_refused("--param seed=1:5:5", {"'seeds'"});
   expect_refused("--cache-limit=-1", {"--cache-limit", "not in range"});
   expect_refused("--design sobbol", {"design", "sobol"});
@@ -132,7 +132,7 @@ TEST_F(Sweeps, AreRefusedBesideAnotherAndInAFolderOfAnotherPlan) {
 
 TEST_F(Sweeps, OverTheSimulationMakeASequencePerValue) {
   const Outcome done =
-      sweep("--out out --param links.leg_odometry.loss=0:0.9:3 --param leg.rate_hz=100:200:2");
+      sweep("--out out --param links.leg_odometry.loss=0:0.9:3 --param queue.max_ahead=100:200:2");
   ASSERT_EQ(done.exit_code, 0) << done.output;
   EXPECT_TRUE(holds(done, "6 jobs done, 0 of them failed; 0 found finished; 3 sequences simulated"))
       << done.output;
@@ -148,10 +148,10 @@ TEST_F(Sweeps, OverTheSimulationMakeASequencePerValue) {
 }
 
 TEST_F(Sweeps, KeepWhatIsFinishedAtCtrlCAndContinue) {
-  ASSERT_EQ(sweep("--out out --param leg.rate_hz=100:200:101 --simulate-only").exit_code, 0);
+  ASSERT_EQ(sweep("--out out --param queue.max_ahead=100:200:101 --simulate-only").exit_code, 0);
   const std::string command =
       "sweep plan.yaml --cache walks --quiet --jobs 1 --out out "
-      "--param leg.rate_hz=100:200:101";
+      "--param queue.max_ahead=100:200:101";
   const Outcome ended = shell(
       "{ '" AIMS_COMMAND "' " + command +
       " & pid=$!; until ls out/jobs/*.json >first 2>&1 || ! kill -0 $pid; do sleep 0.01; done; "
@@ -204,7 +204,7 @@ TEST_F(Sweeps, EndWithTheFileThatNoSpaceIsLeftFor) {
   }
   const Outcome full = shell(
       "unshare -rm sh -c 'mount -t tmpfs -o size=48k tmpfs small && \"$0\" sweep plan.yaml "
-      "--cache walks --quiet --param leg.rate_hz=100:200:40 --out small/out; code=$?; "
+      "--cache walks --quiet --param queue.max_ahead=100:200:40 --out small/out; code=$?; "
       "find small -name \"*.tmp\"; exit $code' '" AIMS_COMMAND "'");
   EXPECT_EQ(full.exit_code, 2) << full.output;
   EXPECT_TRUE(holds(full, "small/out/jobs/")) << full.output;

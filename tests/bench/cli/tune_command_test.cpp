@@ -18,7 +18,7 @@ using testing::Outcome;
 /// Neither range holds the default, so that values which are not taken over show.
 const std::string kPlan =
     "estimator: leg\n"
-    "params: [\"leg.rate_hz=60:150\", \"leg.max_speed=log(1,4)\"]\n"
+    "params: [\"queue.max_ahead=60:150\", \"max_speed=log(1,4)\"]\n"
     "scenarios: [my.yaml]\n"
     "seeds: 1\n"
     "held_out: {seeds: 2}\n"
@@ -61,7 +61,7 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
     EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
   }
   const std::string values = read_file(folder_.path() / "tuned.yaml").value();
-  const auto rate = values.find("    rate_hz: ");
+  const auto rate = values.find("      max_ahead: ");
   ASSERT_NE(rate, std::string::npos) << values;
   const Outcome run =
       aims("run my.yaml --estimators leg --no-pictures --out run --set @tuned.yaml");
@@ -78,13 +78,13 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
 
 TEST_F(Tunes, RefuseBadPlansWithOneLine) {
   const auto over = [](const std::string& range) {
-    return with(kPlan, "leg.rate_hz=60:150", range);
+    return with(kPlan, "queue.max_ahead=60:150", range);
   };
   const std::string out = "--out out";
-  expect_refused(over("leg.rate_khz=50:200"), out, "did you mean 'leg.rate_hz'");
-  expect_refused(over("leg.rate_hz=200:50"), out, "reversed");
-  expect_refused(over("leg.rate_hz=50:50"), out, "empty");
-  expect_refused(over("leg.rate_hz=log(0,50)"), out, "logarithm");
+  expect_refused(over("queue.max_ahed=50:200"), out, "did you mean 'queue.max_ahead'");
+  expect_refused(over("queue.max_ahead=200:50"), out, "reversed");
+  expect_refused(over("queue.max_ahead=50:50"), out, "empty");
+  expect_refused(over("queue.max_ahead=log(0,50)"), out, "logarithm");
   expect_refused(over("links.lidar.loss=0:0.5"), out, "would make the task easier");
   expect_refused(with(kPlan, "scenarios: [my.yaml]", "scenarios: []"), out,
                  "plan.yaml: no scenario is given");

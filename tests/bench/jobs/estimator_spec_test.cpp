@@ -5,6 +5,8 @@
 
 #include "bench/jobs/job_id.hpp"
 #include "bench/run/scenario.hpp"
+#include "core/files/yaml_config.hpp"
+#include "tests/support/estimator_settings.hpp"
 
 namespace aims {
 namespace {
@@ -25,6 +27,10 @@ void expect_contains(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << text << " lacks " << part;
 }
 
+std::string text_in(EstimatorConfig& config, const char* key) {
+  return fields_of(config).find(key)->text();
+}
+
 TEST(EstimatorSpec, AnEstimatorNameIsItsOwnLabel) {
   const EstimatorSpec spec = parsed("aims_d");
   EXPECT_EQ(spec.label, "aims_d");
@@ -34,21 +40,21 @@ TEST(EstimatorSpec, AnEstimatorNameIsItsOwnLabel) {
 
 TEST(EstimatorSpec, HoldsLabelNameAndSettingsInOrder) {
   const EstimatorSpec spec =
-      parsed("no_ground=aims_d+directional.ground_constraint.enabled=false+leg.scale_sigma=0.1");
+      parsed("no_ground=aims_d+ground_constraint.enabled=false+leg_noise.gate=10");
   EXPECT_EQ(spec.label, "no_ground");
   EXPECT_EQ(spec.name, "aims_d");
   ASSERT_EQ(spec.settings.size(), 2U);
   EXPECT_EQ(spec.settings[0],
-            std::pair(std::string("directional.ground_constraint.enabled"), std::string("false")));
-  const auto config = config_with(spec, EstimatorConfig{});
+            std::pair(std::string("ground_constraint.enabled"), std::string("false")));
+  const auto config = config_with(spec, {});
   ASSERT_TRUE(config);
-  EXPECT_FALSE(config->directional.ground_constraint.enabled);
-  EXPECT_EQ(config->leg.scale_sigma, 0.1);
+  EXPECT_EQ(text_in(**config, "ground_constraint.enabled"), "false");
+  EXPECT_EQ(text_in(**config, "leg_noise.gate"), "10");
 }
 
 TEST(EstimatorSpec, TextReadsBackAsTheSameSpec) {
   for (const std::string text :
-       {"lio", "x=aims", "x=aims+degeneracy.eta=5+leg.velocity_sigma=[0.1,0.2,0.3]"}) {
+       {"lio", "x=aims", "x=aims+degeneracy.eta=5+legs.velocity_sigma=[0.1,0.2,0.3]"}) {
     EXPECT_EQ(text_of(parsed(text)), text);
   }
   const EstimatorSpec made = parsed("aims+degeneracy.eta=5");
@@ -57,23 +63,23 @@ TEST(EstimatorSpec, TextReadsBackAsTheSameSpec) {
 }
 
 TEST(EstimatorSpec, APlusInsideANumberStartsNoSetting) {
-  const auto config = config_with(parsed("x=aims+leg.max_speed=1e+1+degeneracy.eta=5"), {});
+  const auto config = config_with(parsed("x=aims+legs.max_speed=1e+1+degeneracy.eta=5"), {});
   ASSERT_TRUE(config);
-  EXPECT_EQ(config->leg.max_speed, 10.0);
-  EXPECT_EQ(config->degeneracy.eta, 5.0);
+  EXPECT_EQ(text_in(**config, "legs.max_speed"), "10");
+  EXPECT_EQ(text_in(**config, "degeneracy.eta"), "5");
 }
 
 TEST(EstimatorSpec, AGeneratedLabelIsAValidFileName) {
-  const std::string label = parsed("aims+leg.velocity_sigma=[0.1,0.2,0.3]").label;
+  const std::string label = parsed("aims+legs.velocity_sigma=[0.1,0.2,0.3]").label;
   EXPECT_EQ(label.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-"), std::string::npos)
       << label;
 }
 
 TEST(EstimatorSpec, RejectsMalformedSpecsWithANearMatch) {
   expect_contains(error_of("amis"), "did you mean 'aims'");
-  expect_contains(error_of("x=aims_d+directional.ground_constrain.enabled=false"),
-                  "did you mean 'directional.ground_constraint.enabled'");
-  expect_contains(error_of("x=aims+leg.scale_sigma=wide"), "leg.scale_sigma");
+  expect_contains(error_of("x=aims_d+ground_constrain.enabled=false"),
+                  "did you mean 'ground_constraint.enabled'");
+  expect_contains(error_of("x=aims+legs.scale_sigma=wide"), "legs.scale_sigma");
   expect_contains(error_of("aims+ground"), "key=value");
   expect_contains(error_of("../x=aims"), "label");
   expect_contains(error_of("=aims"), "label");
@@ -92,27 +98,80 @@ TEST(EstimatorSpec, RepeatedLabelsAreRejected) {
 }
 
 TEST(EstimatorSpec, CommasInsideBracketsSurviveTheCommandLine) {
-  const std::vector<std::string> pieces = {"lio", "x=aims+leg.velocity_sigma=[0.1", "0.2", "0.3]",
+  const std::vector<std::string> pieces = {"lio", "x=aims+legs.velocity_sigma=[0.1", "0.2", "0.3]",
                                            "aims"};
   const auto specs = joined_specs(pieces);
   ASSERT_EQ(specs.size(), 3U);
-  EXPECT_EQ(specs[1], "x=aims+leg.velocity_sigma=[0.1,0.2,0.3]");
-  const std::vector<std::string> setting = {estimators_setting(specs)};
+  EXPECT_EQ(specs[1], "x=aims+legs.velocity_sigma=[0.1,0.2,0.3]");
+  const std::vector<std::string> setting = {run_setting(specs)};
   const auto scenario = default_scenario(setting);
   ASSERT_TRUE(scenario) << scenario.error().message;
-  EXPECT_EQ(scenario->estimators, specs);
+  EXPECT_EQ(scenario->run, specs);
 }
 
 TEST(EstimatorSpec, TheUnitIdDependsOnTheSettingsAndNotOnTheLabel) {
   const Scenario scenario;
   const std::string plain = job_id(scenario, 1, "aims_d");
   EXPECT_EQ(job_id(scenario, 1, "full=aims_d"), plain);
-  EXPECT_EQ(job_id(scenario, 1, "x=aims_d+directional.ground_constraint.enabled=true"), plain);
-  const std::string without =
-      job_id(scenario, 1, "x=aims_d+directional.ground_constraint.enabled=false");
+  EXPECT_EQ(job_id(scenario, 1, "x=aims_d+ground_constraint.enabled=true"), plain);
+  const std::string without = job_id(scenario, 1, "x=aims_d+ground_constraint.enabled=false");
   EXPECT_NE(without, plain);
-  EXPECT_EQ(job_id(scenario, 1, "y=aims_d+directional.ground_constraint.enabled=false"), without);
-  EXPECT_NE(job_id(scenario, 1, "y=aims+directional.ground_constraint.enabled=false"), without);
+  EXPECT_EQ(job_id(scenario, 1, "y=aims_d+ground_constraint.enabled=false"), without);
+  EXPECT_NE(job_id(scenario, 1, "y=aims+ground_constraint.enabled=false"), without);
+}
+
+std::string refusal_of(std::vector<std::string> settings) {
+  const auto scenario = default_scenario(settings);
+  return scenario ? "" : scenario.error().message;
+}
+
+TEST(SettingsWithoutEffect, AreRefusedWithTheReason) {
+  expect_contains(refusal_of({"estimators.lio.legs.max_speed=3"}),
+                  "estimators.lio.legs.max_speed: has no effect: legs.enabled is false");
+  expect_contains(refusal_of({"estimators.aims.ground_constraint.radius=3"}),
+                  "has no effect: ground_constraint.enabled is false");
+  expect_contains(refusal_of({"run=[lio]", "estimators.aims.degeneracy.eta=2"}),
+                  "estimators.aims.degeneracy.eta: has no effect: aims does not run");
+  expect_contains(refusal_of({"run=[x=lio+legs.max_speed=3]"}),
+                  "legs.max_speed: has no effect: legs.enabled is false");
+}
+
+TEST(SettingsWithoutEffect, AreFoundInTheFinalConfigurationWhateverTheOrder) {
+  const std::string on = "estimators.aims.ground_constraint.enabled=true";
+  const std::string radius = "estimators.aims.ground_constraint.radius=3";
+  EXPECT_EQ(refusal_of({on, radius}), "");
+  EXPECT_EQ(refusal_of({radius, on}), "");
+  EXPECT_EQ(refusal_of({radius, "run=[aims, x=aims+ground_constraint.enabled=true]"}), "");
+  EXPECT_NE(refusal_of({radius, on, "estimators.aims.ground_constraint.enabled=false"}), "");
+}
+
+TEST(SettingsWithoutEffect, AWildcardNeedsOneEstimatorThatRuns) {
+  EXPECT_EQ(refusal_of({"estimators.*.degeneracy.eta=2", "run=[aims, lio]"}), "");
+  expect_contains(refusal_of({"estimators.*.degeneracy.eta=2", "run=[tfs, lio]"}),
+                  "estimators.*.degeneracy.eta: has no effect");
+  expect_contains(refusal_of({"estimators.*.degeneracy.etta=2"}),
+                  "did you mean 'estimators.*.degeneracy.eta'");
+  const auto scenario = default_scenario(std::vector<std::string>{"estimators.*.imu.gravity=9.8"});
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  for (const char* name : {"aims", "tfs_plus", "lio"}) {
+    EXPECT_EQ(test::setting(scenario->estimators, std::string(name) + ".imu.gravity"), "9.8");
+  }
+}
+
+TEST(SettingsWithoutEffect, AreNotInTheTextOfAConfigurationThatLoadsBack) {
+  const auto scenario = default_scenario(
+      std::vector<std::string>{"run=[aims, x=lio+imu.gravity=9.8]", "estimators.lio.map.map_sigma"
+                                                                    "=0.001"});
+  EXPECT_FALSE(scenario) << "no noise information in lio";
+  const auto good = default_scenario(
+      std::vector<std::string>{"run=[aims, x=lio+imu.gravity=9.8]", "estimators.lio.queue.lag=0.1"});
+  ASSERT_TRUE(good) << good.error().message;
+  const std::string text = config_text(*good);
+  EXPECT_EQ(text.find("max_speed: 5\n"), text.rfind("max_speed: 5\n")) << "only that of aims";
+  EXPECT_EQ(text.find("tfs"), std::string::npos);
+  Scenario again;
+  ASSERT_TRUE(load_config_text(text, "again.yaml", again));
+  EXPECT_EQ(config_text(again), text);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/bench/short_walk.hpp"
+#include "tests/support/estimator_settings.hpp"
 
 namespace aims {
 namespace {
@@ -21,11 +22,11 @@ TEST(JobId, DependsOnWhatDecidesAResultAndOnNothingElse) {
   same.description = "other words";
   same.tags = {"more"};
   same.level = 7.0;
-  same.estimators = {"aims"};
+  same.run = {"aims"};
   same.expect = {{"aims", "ate_m", 1.0}};
   same.file = "/elsewhere/b.yaml";
   EXPECT_EQ(id, job_id(same, 1, "aims"));
-  same.estimator.degeneracy.eta += 1.0;
+  same.estimators = test::with(same.estimators, "aims.degeneracy.eta", "4");
   EXPECT_NE(id, job_id(same, 1, "aims"));
   same = scenario;
   same.scoring.max_error_offset += 1.0;

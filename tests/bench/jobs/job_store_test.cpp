@@ -39,7 +39,7 @@ class Store : public ::testing::Test {
   std::vector<Job> two_jobs() const {
     const auto scenario = shared(short_walk());
     return {make_job(scenario, 1, parse_estimator_spec("leg").value()),
-            make_job(scenario, 1, parse_estimator_spec("slow=leg+leg.rate_hz=100").value())};
+            make_job(scenario, 1, parse_estimator_spec("slow=leg+queue.max_ahead=100").value())};
   }
 
   static JobResult done(double ate) {
@@ -72,7 +72,7 @@ TEST_F(Store, ReadsBackItsListAndResultsAsRecords) {
   ASSERT_EQ(listed->size(), 2U);
   EXPECT_EQ((*listed)[1].id, jobs[1].id);
   EXPECT_EQ((*listed)[1].label, "slow");
-  EXPECT_EQ((*listed)[1].estimator, "leg+leg.rate_hz=100");
+  EXPECT_EQ((*listed)[1].estimator, "leg+queue.max_ahead=100");
   const auto results = read_results(out_);
   ASSERT_TRUE(results) << results.error().message;
   const RunRecord& record = results->at("short").at(0);

@@ -18,6 +18,7 @@
 #include "core/files/tum.hpp"
 #include "sim/simulation.hpp"
 #include "tests/bench/short_walk.hpp"
+#include "tests/support/estimator_settings.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -119,21 +120,21 @@ TEST_F(SequenceFile, ReadsBackTheTruthBitForBit) {
 
 TEST_F(SequenceFile, GivesEstimatorsWhatTheSimulationGives) {
   Scenario scenario = short_walk();
-  scenario.estimators = {"aims", "other=aims+degeneracy.eta=1", "leg"};
+  scenario.run = {"aims", "other=aims+degeneracy.eta=1", "leg"};
   auto simulation = Simulation::create(scenario.simulation, 1);
   ASSERT_TRUE(simulation);
-  auto direct = make_estimators(scenario.estimators, scenario.estimator, simulation->rig());
+  auto direct = make_estimators(scenario.run, scenario.estimators, simulation->rig());
   ASSERT_TRUE(direct);
   std::vector<Delivery> deliveries;
   while (simulation->advance(kSecond, deliveries)) continue;
   const auto sequence = open_sequence(file(), scenario);
   ASSERT_TRUE(sequence) << sequence.error().message;
-  for (std::size_t i = 0; i < scenario.estimators.size(); ++i) {
+  for (std::size_t i = 0; i < scenario.run.size(); ++i) {
     TimedEstimator& estimator = (*direct)[i];
     estimator.consume(deliveries);
     estimator.finish();
     const Trajectory& trajectory = estimator.estimator().result().trajectory;
-    const auto outcome = evaluate(*sequence, scenario, scenario.estimators[i], [](double) {});
+    const auto outcome = evaluate(*sequence, scenario, scenario.run[i], [](double) {});
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(tum_text(outcome->result.trajectory), tum_text(trajectory)) << estimator.name();
     const Truth& truth = simulation->truth();
@@ -178,9 +179,9 @@ TEST(SequenceCache, IdDependsOnWhatDecidesTheWalkAndOnNothingElse) {
   other.simulation.lidar.range_max = 5.0;
   EXPECT_NE(id, SequenceCache::id_of(other, 1));
   Scenario same = short_walk("another name");
-  same.estimator.degeneracy.eta += 1.0;
+  same.estimators = test::with(same.estimators, "aims.degeneracy.eta", "4");
   same.scoring.max_error_offset += 1.0;
-  same.estimators = {"lio"};
+  same.run = {"lio"};
   EXPECT_EQ(id, SequenceCache::id_of(same, 1));
 }
 

@@ -75,7 +75,7 @@ TEST(Expectations, FailWhereThereIsNoValue) {
 
 TEST(Expectations, DoNotCountForEstimatorsThatDidNotRun) {
   Scenario scenario = expecting({"lio", "m_end_m", 0.1});
-  scenario.estimators = {"aims"};
+  scenario.run = {"aims"};
   EXPECT_TRUE(check_expectations(scenario, kThree).empty());
 }
 
@@ -111,7 +111,7 @@ TEST(Expectations, NameTheSeedsWithoutAValue) {
 TEST(Expectations, SayHowToRepeatThemWithTheSettingsGiven) {
   Scenario scenario = expecting({"aims", "ate_m", 0.5});
   scenario.file = "my scenarios/paper/corridor.yaml";
-  scenario.overrides = {"estimators=[aims]", "lidar.range_max=9", "scene.kind=it's"};
+  scenario.overrides = {"run=[aims]", "lidar.range_max=9", "scene.kind=it's"};
   EXPECT_EQ(reproducing_command(scenario, check_expectations(scenario, kThree).at(0)),
             "aims run 'my scenarios/paper/corridor.yaml' --seeds 2 --estimators aims "
             "--set lidar.range_max=9 --set 'scene.kind=it'\\''s'");

@@ -10,6 +10,7 @@
 #include "core/files/atomic_file.hpp"
 #include "render/results/consistency_pictures.hpp"
 #include "tests/bench/studies/short_walk.hpp"
+#include "tests/support/estimator_settings.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -22,47 +23,50 @@ using test::short_walk;
 
 std::vector<ScenarioFile> one_walk() { return {{"short.yaml", short_walk("short")}}; }
 
-std::size_t flags_below(const std::string& group) {
-  EstimatorConfig config;
-  const auto parameters = fields_of(config).parameters();
-  return static_cast<std::size_t>(
-      std::count_if(parameters.begin(), parameters.end(), [&](const Parameter& parameter) {
-        return parameter.key.starts_with(group + ".") && parameter.expected == "true or false";
-      }));
-}
-
 bool contains(const std::vector<std::string>& texts, const std::string& text) {
   return std::find(texts.begin(), texts.end(), text) != texts.end();
 }
 
-TEST(AblationSpecs, AreTheWholeAndItselfWithEachFlagTurnedOver) {
-  const auto specs = ablation_specs("aims_d", {"directional"}, {});
+TEST(AblationSpecs, AreTheWholeAndItselfWithoutEachPartThatIsOn) {
+  const auto specs = ablation_specs("aims_d", {}, {});
   ASSERT_TRUE(specs) << specs.error().message;
-  EXPECT_EQ(specs->size(), 1U + flags_below("directional"));
   EXPECT_EQ(specs->front(), "aims_d");
-  EXPECT_TRUE(
-      contains(*specs, "no_ground_constraint=aims_d+directional.ground_constraint.enabled=false"));
-  EXPECT_TRUE(contains(*specs, "no_leg_states_scale=aims_d+directional.leg_states.scale=false"));
+  for (const char* spec :
+       {"no_ground_constraint=aims_d+ground_constraint.enabled=false",
+        "no_leg_states_scale=aims_d+leg_states.scale=false",
+        "no_noise_information=aims_d+noise_information.enabled=false",
+        "no_legs=aims_d+legs.enabled=false"}) {
+    EXPECT_TRUE(contains(*specs, spec)) << spec;
+  }
+  EXPECT_FALSE(contains(*specs, "with_degeneracy=aims_d+degeneracy.enabled=true"));
   EXPECT_TRUE(check_estimator_specs(*specs));
 }
 
-TEST(AblationSpecs, TurnOnWhatTheScenarioOrTheSpecTurnsOff) {
-  EstimatorConfig base;
-  base.directional.ground_constraint.enabled = false;
-  const auto specs =
-      ablation_specs("mine=aims_d+directional.zero_velocity.enabled=false", {"directional"}, base);
+TEST(AblationSpecs, APartThatItsOwnSettingsNeedStays) {
+  const auto specs = ablation_specs("mine=aims_d+leg_noise.gate=10", {}, {});
   ASSERT_TRUE(specs) << specs.error().message;
-  EXPECT_TRUE(contains(*specs,
-                       "with_ground_constraint=aims_d+directional.zero_velocity.enabled=false+"
-                       "directional.ground_constraint.enabled=true"));
-  EXPECT_TRUE(contains(*specs,
-                       "with_zero_velocity=aims_d+directional.zero_velocity.enabled=false+"
-                       "directional.zero_velocity.enabled=true"));
+  for (const std::string& spec : *specs) EXPECT_FALSE(spec.starts_with("no_leg_noise=")) << spec;
+  EXPECT_TRUE(contains(
+      *specs, "no_robust_kernel=aims_d+leg_noise.gate=10+robust_kernel.enabled=false"));
 }
 
-TEST(AblationSpecs, AGroupWithoutFlagsIsRefused) {
-  EXPECT_FALSE(ablation_specs("aims_d", {"directoinal"}, {}));
-  EXPECT_FALSE(ablation_specs("amis_d", {"directional"}, {}));
+TEST(AblationSpecs, TurnOnWhatTheScenarioOrTheSpecTurnsOff) {
+  const EstimatorConfigs base = test::with({}, "aims_d.ground_constraint.enabled", "false");
+  const auto specs = ablation_specs("mine=aims_d+zero_velocity.enabled=false",
+                                    {"ground_constraint", "zero_velocity"}, base);
+  ASSERT_TRUE(specs) << specs.error().message;
+  EXPECT_TRUE(contains(*specs,
+                       "with_ground_constraint=aims_d+zero_velocity.enabled=false+"
+                       "ground_constraint.enabled=true"));
+  EXPECT_TRUE(contains(*specs,
+                       "with_zero_velocity=aims_d+zero_velocity.enabled=false+"
+                       "zero_velocity.enabled=true"));
+}
+
+TEST(AblationSpecs, AGroupWithoutFlagsThatHaveAnEffectIsRefused) {
+  EXPECT_FALSE(ablation_specs("aims_d", {"leg_noize"}, {}));
+  EXPECT_FALSE(ablation_specs("amis_d", {"leg_noise"}, {}));
+  EXPECT_FALSE(ablation_specs("lio", {"leg_noise"}, {}));
 }
 
 /// A record whose scores are those of the labels.
@@ -79,8 +83,8 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
   for (const auto& [name, factor] : {std::pair("a", 2.0), std::pair("b", 8.0)}) {
     SuiteCase each;
     each.scenario.name = name;
-    each.scenario.estimators = {
-        "aims_d", "no_ground_constraint=aims_d+directional.ground_constraint.enabled=false"};
+    each.scenario.run = {
+        "aims_d", "no_ground_constraint=aims_d+ground_constraint.enabled=false"};
     for (const std::uint64_t seed : {1, 2, 3}) {
       const double ate = 0.1 * static_cast<double>(seed);
       each.runs.push_back(
@@ -94,7 +98,7 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
   EXPECT_NEAR(*ablation.effects[1].ratios[2], 4.0, 1e-12);
   EXPECT_NEAR(*ablation.effects[1].worst_ratio, 8.0, 1e-12);
   EXPECT_EQ(ablation.effects[1].worst_scenario, "b");
-  EXPECT_EQ(ablation.effects[1].changes, "aims_d+directional.ground_constraint.enabled=false");
+  EXPECT_EQ(ablation.effects[1].changes, "aims_d+ground_constraint.enabled=false");
   EXPECT_NEAR(*ablation.cases[0].rows[1].cells[2].median, 0.4, 1e-12);
   EXPECT_NEAR(*ablation.cases[0].rows[1].cells[2].ratio, 2.0, 1e-12);
   EXPECT_FALSE(ablation.effects[1].ratios[0]) << "no run has M_list";
@@ -103,7 +107,7 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
 TEST(Ablation, DoesAllVariantsOnOneSequenceAndContinues) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
-  const AblationOptions variants = {"aims_d", {"directional.ground_constraint"}, {"lio"}};
+  const AblationOptions variants = {"aims_d", {"ground_constraint"}, {"lio"}};
   std::optional<std::string> csv;
   for (const int processes : {2, 1}) {
     std::vector<ScenarioFile> scenarios = one_walk();

@@ -160,7 +160,7 @@ Scenario short_walk(const std::string& name, double range) {
 Result<DetectorStudy> study_of(const std::string& estimator, int processes, const fs::path& out) {
   std::vector<ScenarioFile> scenarios = {{"near.yaml", short_walk("near", 6.0)},
                                          {"far.yaml", short_walk("far", 20.0)}};
-  for (ScenarioFile& each : scenarios) each.scenario->estimators = {estimator};
+  for (ScenarioFile& each : scenarios) each.scenario->run = {estimator};
   SuiteOptions options = test::options_for(out, processes);
   options.jobs.outputs.trajectories = true;
   const auto suite = run_suite(std::move(scenarios), options, test::keep_going);

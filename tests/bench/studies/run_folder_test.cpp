@@ -125,7 +125,7 @@ TEST(RunFolder, TheSameRunAgainDoesNothingAndOtherEstimatorsReplaceTheirFiles) {
   ASSERT_TRUE(run(short_walk(), {1}, out));
   EXPECT_EQ(run(short_walk(), {1}, out)->run.done, 0U);
   Scenario other = short_walk();
-  other.estimators = {"aims"};
+  other.run = {"aims"};
   EXPECT_EQ(run(other, {1}, out)->run.done, 0U);
   EXPECT_TRUE(fs::exists(out / "aims.tum"));
   EXPECT_FALSE(fs::exists(out / "leg.tum"));

@@ -13,7 +13,7 @@ namespace aims::test {
 inline Scenario short_walk(const std::string& name = "short_walk") {
   Scenario scenario;
   scenario.name = name;
-  scenario.estimators = {"aims", "leg"};
+  scenario.run = {"aims", "leg"};
   scenario.simulation.scene.corridor.length = 10.0;
   scenario.simulation.route.points = {{"a", 0.0, 0.0}, {"b", 1.0, 0.0}};
   scenario.simulation.route.stand_before = 2.5;

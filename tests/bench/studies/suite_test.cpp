@@ -127,7 +127,7 @@ TEST_F(SuiteRuns, ContinueWhereTheyWereStopped) {
 TEST_F(SuiteRuns, DoOnlyTheJobsThatAreMissingOrOfAnotherConfiguration) {
   const fs::path out = copy();
   std::vector<ScenarioFile> scenarios = two_walks();
-  scenarios[0].scenario->estimators = {"aims+degeneracy.eta=1", "leg", "lio"};
+  scenarios[0].scenario->run = {"aims+degeneracy.eta=1", "leg", "lio"};
   const Suite again = run_or_die(std::move(scenarios), options_for(out));
   EXPECT_EQ(again.run.done, 4U) << "two estimators on two seeds";
   EXPECT_EQ(again.run.sequences, 0U);
@@ -167,7 +167,7 @@ SuiteCase family_case(double level, const std::vector<double>& ates, bool succes
   each.scenario.name = "case";
   each.scenario.family = "f";
   each.scenario.level = level;
-  each.scenario.estimators = {"aims"};
+  each.scenario.run = {"aims"};
   for (const double ate : ates) {
     RunRecord run;
     run.seed = each.runs.size() + 1;

@@ -43,7 +43,7 @@ bool says(const std::string& message, const std::string& part) {
 std::string check(const std::vector<std::string>& texts) {
   const auto ranges = parse_ranges(texts);
   if (!ranges) return ranges.error().message;
-  const auto checked = check_ranges(*ranges, {});
+  const auto checked = check_ranges(*ranges, {}, std::vector<EstimatorSpec>{*parse_estimator_spec("aims")});
   return checked ? "" : checked.error().message;
 }
 
@@ -98,7 +98,7 @@ TEST(ParameterRange, IsHeldAgainstTheConfiguration) {
   EXPECT_TRUE(says(check({"degeneracy.ete=0:6:13"}), "did you mean 'degeneracy.eta'"));
   EXPECT_TRUE(says(check({"degeneracy.alpha=0:2:3"}), "[0, 1)"));
   EXPECT_TRUE(says(check({"degeneracy.prior_residuals=0:1:2"}), "only numbers"));
-  EXPECT_TRUE(says(check({"leg.velocity_sigma=0:1:2"}), "only numbers"));
+  EXPECT_TRUE(says(check({"legs.velocity_sigma=0:1:2"}), "only numbers"));
   EXPECT_TRUE(says(check({"degeneracy.eta=0:6:13", "degeneracy.eta=0:1:2"}), "second"));
 }
 

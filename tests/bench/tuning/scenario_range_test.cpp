@@ -22,15 +22,17 @@ bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+const std::vector<EstimatorSpec> kAims = {*parse_estimator_spec("aims")};
+
 std::string refusal_of(const std::string& text) {
   const auto ranges = parse_ranges(std::vector{text});
   if (!ranges) return ranges.error().message;
-  const auto checked = check_ranges(*ranges, testing::short_walk());
+  const auto checked = check_ranges(*ranges, testing::short_walk(), kAims);
   return checked ? "accepted" : checked.error().message;
 }
 
 TEST(RangeKey, IsTheEstimatorsWithAndWithoutItsGroup) {
-  for (const char* given : {"degeneracy.eta", "estimator.degeneracy.eta"}) {
+  for (const char* given : {"degeneracy.eta", "estimators.aims.degeneracy.eta", "estimators.*.degeneracy.eta"}) {
     const auto key = range_key(given);
     ASSERT_TRUE(key);
     EXPECT_EQ(key->name, "degeneracy.eta");
@@ -50,14 +52,14 @@ TEST(RangeKey, IsTheScenariosWhereTheEstimatorHasNone) {
 TEST(RangeKey, ThatBothHaveNeedsAPrefix) {
   const auto bare = range_key("imu.gyro_bias_walk");
   ASSERT_FALSE(bare);
-  EXPECT_TRUE(says(bare.error().message, "'estimator.imu.gyro_bias_walk'"));
+  EXPECT_TRUE(says(bare.error().message, "'estimators.*.imu.gyro_bias_walk'"));
   EXPECT_TRUE(says(bare.error().message, "'scenario.imu.gyro_bias_walk'"));
-  EXPECT_EQ(range_key("estimator.imu.gyro_bias_walk")->name, "imu.gyro_bias_walk");
+  EXPECT_EQ(range_key("estimators.*.imu.gyro_bias_walk")->name, "imu.gyro_bias_walk");
   const auto both = parse_ranges(std::vector<std::string>{
-      "estimator.imu.gyro_bias_walk=0.0001:0.001:2", "scenario.imu.gyro_bias_walk=0:0.001:2"});
+      "estimators.*.imu.gyro_bias_walk=0.0001:0.001:2", "scenario.imu.gyro_bias_walk=0:0.001:2"});
   ASSERT_TRUE(both);
-  EXPECT_TRUE(check_ranges(*both, testing::short_walk()));
-  EXPECT_EQ(full_key((*both)[0]), "estimator.imu.gyro_bias_walk");
+  EXPECT_TRUE(check_ranges(*both, testing::short_walk(), kAims));
+  EXPECT_EQ(full_key((*both)[0]), "estimators.*.imu.gyro_bias_walk");
   EXPECT_EQ(full_key((*both)[1]), "imu.gyro_bias_walk");
 }
 
@@ -75,6 +77,10 @@ TEST(RangeKey, IsHeldAgainstTheScenario) {
   EXPECT_TRUE(says(refusal_of("leg_odometry.foot_model=0:1:2"), "only numbers"));
   EXPECT_TRUE(says(refusal_of("seed=1:5:5"), "seeds are listed by 'seeds'"));
   EXPECT_TRUE(says(refusal_of("level=1:5:5"), "decides no number of a run"));
+  EXPECT_TRUE(says(refusal_of("ground_constraint.radius=1:5:5"),
+                   "has no effect on aims: ground_constraint.enabled is false"));
+  EXPECT_TRUE(says(refusal_of("estimators.lio.lidar.point_sigma=0.1:0.5:5"),
+                   "a key of lio, but aims is varied"));
 }
 
 SweepPlan plan_over(std::vector<std::string> over) {
@@ -104,7 +110,7 @@ std::vector<std::string> walks_of(const std::vector<Job>& units) {
 
 TEST(ScenarioRange, OfTheSimulationMakesAWalkPerValueThatItsUnitsShare) {
   const auto units =
-      units_of(plan_over({"degeneracy.eta=0:6:3", "links.leg_odometry.loss=0:0.5:3"}));
+      units_of(plan_over({"queue.lag=0:0.1:3", "links.leg_odometry.loss=0:0.5:3"}));
   EXPECT_EQ(units.size(), 2U * 3U * 3U * 2U);
   const auto walks = walks_of(units);
   EXPECT_EQ(walks.size(), 3U * 2U) << "those on one walk stand together";
@@ -151,7 +157,7 @@ TEST(ScenarioRange, IsSwept) {
   for (const char* loss : {"0", "0.9"}) {
     Scenario scenario = testing::short_walk();
     ASSERT_TRUE(assign(fields_of(scenario), "links.leg_odometry.loss", loss));
-    for (const char* spec : {"leg", "leg+leg.rate_hz=100"}) {
+    for (const char* spec : {"leg", "leg+max_speed=4"}) {
       units.push_back(make_job(testing::shared(scenario), 1, parse_estimator_spec(spec).value()));
       units.back().scenario_settings = {{"links.leg_odometry.loss", loss, "0.05"}};
     }
@@ -162,7 +168,7 @@ TEST(ScenarioRange, IsSwept) {
   EXPECT_EQ(run->sequences, 2U) << "a sequence per value, for both of its jobs";
   const auto listed = JobStore(options.out).listed();
   ASSERT_TRUE(listed);
-  EXPECT_EQ(listed->back().estimator, "leg+leg.rate_hz=100+links.leg_odometry.loss=0.9");
+  EXPECT_EQ(listed->back().estimator, "leg+max_speed=4+links.leg_odometry.loss=0.9");
 }
 
 }  // namespace

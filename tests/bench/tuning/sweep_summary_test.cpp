@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "estimator/degeneracy/degeneracy.hpp"
 #include "render/results/response_pictures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -66,7 +67,7 @@ TEST(SweepReport, TableHasEveryPointAndTheUntunedRuns) {
   EXPECT_EQ(table.points.size(), 13U);
   EXPECT_EQ(table.cases.size(), 4U);
   EXPECT_EQ(table.default_runs.size(), 4U);
-  EXPECT_EQ(table.defaults, (std::vector<double>{EstimatorConfig{}.degeneracy.eta}));
+  EXPECT_EQ(table.defaults, (std::vector<double>{DegeneracyConfig{}.eta}));
   for (std::size_t k = 0; k < table.points.size(); ++k) {
     EXPECT_NEAR(*table.runs[k][2].value, 0.3 * (1.0 + std::abs(table.points[k][0] - 1.0)), 1e-12);
   }
@@ -101,7 +102,7 @@ TEST(SweepReport, LeavesOutPointsThatAreNotDoneOnAllWalks) {
 
 TEST(SweepReport, OneUnitIsBothTheUntunedOneAndAPointOfTheGrid) {
   MergedSweep sweep = sweep_over_eta(true);
-  const std::string own = fmt::format("{}", EstimatorConfig{}.degeneracy.eta);
+  const std::string own = fmt::format("{}", DegeneracyConfig{}.eta);
   std::erase_if(sweep.jobs, [&](const MergedJob& unit) {
     return unit.file["settings"].value(kEta, "") == own;
   });

@@ -113,7 +113,7 @@ class Sweep : public ::testing::Test {
   Sweep() {
     plan_.scenarios = {"short"};
     const auto scenario = shared(short_walk());
-    for (const char* spec : {"leg+leg.rate_hz=100", "leg+leg.rate_hz=200"}) {
+    for (const char* spec : {"leg+queue.max_ahead=100", "leg+queue.max_ahead=200"}) {
       jobs_.push_back(make_job(scenario, 1, parse_estimator_spec(spec).value()));
     }
     options_.out = folder_.path() / "sweep";
@@ -201,7 +201,7 @@ TEST_F(Sweep, MergesFoldersIntoOneDatabaseAndTable) {
   const SQLite::Database database(file.string());
   SQLite::Statement query(database,
                           "SELECT p.value, s.value, u.seed FROM jobs u JOIN parameters p "
-                          "USING (job) JOIN scores s USING (job) WHERE p.key = 'leg.rate_hz' "
+                          "USING (job) JOIN scores s USING (job) WHERE p.key = 'queue.max_ahead' "
                           "AND s.key = 'm_end_m' AND u.outcome = 'done' ORDER BY p.value");
   for (std::size_t i = 0; i < 2; ++i) {
     ASSERT_TRUE(query.executeStep());
@@ -215,7 +215,7 @@ TEST_F(Sweep, MergesFoldersIntoOneDatabaseAndTable) {
   const fs::path csv = folder_.path() / "sweep.csv";
   ASSERT_TRUE(write_sweep_csv(*merged, csv));
   const std::string text = read_file(csv).value();
-  EXPECT_NE(text.find("id,scenario,seed,estimator,outcome,leg.rate_hz,success"), std::string::npos);
+  EXPECT_NE(text.find("id,scenario,seed,estimator,outcome,queue.max_ahead,success"), std::string::npos);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
 }
 

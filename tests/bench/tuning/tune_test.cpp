@@ -15,6 +15,8 @@
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
 #include "render/results/response_pictures.hpp"
+#include "estimator/degeneracy/degeneracy.hpp"
+#include "tests/support/estimator_settings.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -117,14 +119,13 @@ TEST(TunePlan, FindsWalksAndUntunedValues) {
   const TuneTask task = task_of(plan);
   EXPECT_EQ(task.sequences.size(), 8U);
   EXPECT_EQ(task.held_out.size(), 12U);
-  const EstimatorConfig config;
-  EXPECT_EQ(task.defaults, (std::vector<double>{config.degeneracy.eta, config.degeneracy.kappa,
-                                                config.degeneracy.alpha}));
+  const DegeneracyConfig config;
+  EXPECT_EQ(task.defaults, (std::vector<double>{config.eta, config.kappa, config.alpha}));
 }
 
 TEST(TunePlan, TakesTheEstimatorsKeysInFullToo) {
   TunePlan plan = small_plan();
-  plan.params = {"estimator.degeneracy.eta=0:6"};
+  plan.params = {"estimators.aims.degeneracy.eta=0:6"};
   EXPECT_EQ(task_of(plan).ranges.front().key, "degeneracy.eta");
 }
 
@@ -234,10 +235,10 @@ TEST(TuneReport, OverlayLoadsOnTopOfAScenario) {
   const auto scenario = load_scenario(*file, std::vector<std::string>{overlay});
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& best = result->tables[0].points[result->chosen[0]];
-  EXPECT_EQ(scenario->estimator.degeneracy.eta, best[0]);
-  EXPECT_EQ(scenario->estimator.degeneracy.kappa, best[1]);
-  EXPECT_EQ(scenario->estimator.degeneracy.alpha, best[2]);
-  EXPECT_EQ(scenario->estimator.degeneracy.w1, EstimatorConfig{}.degeneracy.w1);
+  EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.eta"), best[0]);
+  EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.kappa"), best[1]);
+  EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.alpha"), best[2]);
+  EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.w1"), DegeneracyConfig{}.w1);
 }
 
 TEST(TuneReport, SaysWhetherTheGainHolds) {

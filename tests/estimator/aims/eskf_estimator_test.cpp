@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "estimator/aims/presets.hpp"
 #include "estimator/registry.hpp"
 #include "tests/support/kinematic_world.hpp"
 
@@ -32,8 +33,8 @@ std::vector<Delivery> record(KinematicWorld& world) {
 }
 
 EstimatorResult run(std::string_view name, const std::vector<Delivery>& deliveries,
-                    const SensorRig& rig, const EstimatorConfig& config = {}) {
-  auto estimator = make_estimator(name, config, rig);
+                    const SensorRig& rig) {
+  auto estimator = make_estimator(name, rig);
   for (const Delivery& delivery : deliveries) (*estimator)->consume(delivery);
   (*estimator)->finish();
   return (*estimator)->result();
@@ -155,9 +156,9 @@ TEST(Eskf, OnlyTfsRepeatsLostLegPackets) {
 
 TEST(Eskf, MapMemoryIsBounded) {
   KinematicWorld world(short_sequence());
-  EstimatorConfig config;
+  EskfConfig config = eskf_preset("aims");
   config.map.max_voxels = 300;
-  EskfEstimator estimator(config, EstimatorVariant{}, world.rig());
+  EskfEstimator estimator(config, world.rig());
   for (const Delivery& delivery : record(world)) {
     estimator.consume(delivery);
     ASSERT_LE(estimator.map_points().size(), 300U * 32U);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "estimator/aims/presets.hpp"
 
 namespace aims {
 namespace {
@@ -43,11 +44,11 @@ class Corridor {
   RandomStream& random_;
 };
 
-EstimatorConfig config_with(bool gate_learning) {
-  EstimatorConfig config;
-  config.directional.leg_states.gate_learning = gate_learning;
+EskfConfig config_with(bool gate_learning) {
+  EskfConfig config = eskf_preset("aims_d");
+  config.leg_states.gate_learning = gate_learning;
   // These walls have no edges: the residuals of the plane fits do not overstate the noise.
-  config.directional.noise_information.scale = 1.0;
+  config.noise_information.scale = 1.0;
   return config;
 }
 
@@ -56,7 +57,7 @@ struct Sequence {
   explicit Sequence(bool pillars, bool gate_learning = true)
       : corridor(pillars ? 0.2 : 0.0, random),
         map(MapConfig{}),
-        update(config_with(gate_learning), {.adaptive = false, .directional = true}) {
+        update(config_with(gate_learning)) {
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 30000; ++i) {
       points.push_back(corridor.point(-kHalfLength, kHalfLength).cast<float>());
@@ -133,15 +134,15 @@ TEST(LidarUpdate, PillarsCorrectTheLongitudinalDirectionAndTheLegs) {
 double normalised_error_along(double facing, std::uint64_t seed) {
   RandomStream random(seed, "wall_and_recess");
   Corridor corridor(facing, random);
-  EstimatorConfig config = config_with(true);
-  config.directional.noise_information.bootstrap_distance = 1e3;  // no test of significance
-  config.directional.robust_kernel.enabled = false;
+  EskfConfig config = config_with(true);
+  config.noise_information.bootstrap_distance = 1e3;  // no test of significance
+  config.robust_kernel.enabled = false;
   config.lidar.point_sigma = 1.15 * kNoise;  // of a return, and of a plane through five of the map
   VoxelMap map(MapConfig{});
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 24000; ++i) points.push_back(corridor.point(-3.0, 3.0).cast<float>());
   map.insert(points, Eigen::Vector3f::Zero());
-  LidarUpdate update(config, {.adaptive = false, .directional = true});
+  LidarUpdate update(config);
   const auto fuse = [&](const Eigen::Vector3d& truth, const Belief& predicted) {
     std::vector<Eigen::Vector3f> scan;
     for (int i = 0; i < 300; ++i) {

@@ -6,6 +6,7 @@
 namespace aims {
 namespace {
 
+constexpr double kRate = 50.0;  // [Hz]
 constexpr Duration kPeriod = 20 * kMillisecond;
 
 ImuSample sample(Time stamp, double rate) { return {stamp, {rate, 0.0, 0.0}, {0.0, 0.0, 9.81}}; }
@@ -14,7 +15,7 @@ ImuHistory history_of(std::initializer_list<int> periods,
                       ImuSampling sampling = ImuSampling::kMean) {
   ImuPropagationConfig config;
   config.sampling = sampling;
-  ImuHistory history(config);
+  ImuHistory history(config, kRate);
   for (int i : periods) history.insert(sample(i * kPeriod, i));
   return history;
 }
@@ -58,7 +59,7 @@ TEST(ImuHistory, ALostSampleIsReplacedByTheMeanOfItsNeighbours) {
 }
 
 TEST(ImuHistory, CoversASpanWithoutAnySample) {
-  const auto segments = segments_of(ImuHistory(ImuPropagationConfig{}), 0, kSecond);
+  const auto segments = segments_of(ImuHistory(ImuPropagationConfig{}, kRate), 0, kSecond);
   ASSERT_EQ(segments.size(), 1U);
   EXPECT_FALSE(segments[0].measured);
   EXPECT_EQ(segments[0].end, kSecond);

@@ -8,10 +8,11 @@
 namespace aims {
 namespace {
 
+constexpr double kImuRate = 50.0;     // [Hz]
 constexpr double kMaxLegSpeed = 5.0;  // [m/s]
 
 MeasurementQueue make_queue(const QueueConfig& config = {}) {
-  return {config, ImuPropagationConfig{}, kMaxLegSpeed};
+  return {config, ImuPropagationConfig{}, kImuRate, kMaxLegSpeed};
 }
 
 Delivery imu(int ms, int arrival_ms) {

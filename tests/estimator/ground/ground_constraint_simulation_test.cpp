@@ -8,7 +8,8 @@
 #include <limits>
 
 #include "core/trajectory.hpp"
-#include "estimator/registry.hpp"
+#include "estimator/aims/eskf_estimator.hpp"
+#include "estimator/aims/presets.hpp"
 #include "tests/estimator/simulated_sequence.hpp"
 
 namespace aims {
@@ -19,12 +20,18 @@ using testing::SimulatedSequence;
 constexpr int kColumns = 450;  ///< a quarter of the LiDAR's
 
 EstimatorResult estimate(const SimulatedSequence& sequence, const GroundConstraintConfig& ground) {
-  EstimatorConfig config;
-  config.directional.ground_constraint = ground;
-  const auto estimator = make_estimator("aims_d", config, sequence.rig).value();
-  for (const Delivery& delivery : sequence.deliveries) estimator->consume(delivery);
-  estimator->finish();
-  return estimator->result();
+  EskfConfig config = eskf_preset("aims_d");
+  config.ground_constraint = ground;
+  EskfEstimator estimator(config, sequence.rig);
+  for (const Delivery& delivery : sequence.deliveries) estimator.consume(delivery);
+  estimator.finish();
+  return estimator.result();
+}
+
+GroundConstraintConfig with_ground() {
+  GroundConstraintConfig ground;
+  ground.enabled = true;
+  return ground;
 }
 
 GroundConstraintConfig without_ground() {
@@ -35,7 +42,7 @@ GroundConstraintConfig without_ground() {
 
 /// Accepts any flat ground as level.
 GroundConstraintConfig without_level_test() {
-  GroundConstraintConfig ground;
+  GroundConstraintConfig ground = with_ground();
   ground.min_tilt_gate = 1.0;
   ground.max_tilt_gate = 1.0;
   ground.max_bend = 1.0;
@@ -73,7 +80,7 @@ TEST(GroundConstraintSimulation, LevelGroundKeepsTheHeightAfterATiltedStart) {
   double worst_without = 0.0;
   for (const std::uint64_t seed : {1, 2}) {
     const SimulatedSequence sequence = testing::simulate(config, seed);
-    const EstimatorResult with = estimate(sequence, {});
+    const EstimatorResult with = estimate(sequence, with_ground());
     worst_with = std::max(worst_with, largest_height_error(with, sequence.truth));
     worst_without = std::max(
         worst_without, largest_height_error(estimate(sequence, without_ground()), sequence.truth));
@@ -88,7 +95,7 @@ TEST(GroundConstraintSimulation, ARampIsRejectedAndItsHeightKept) {
   SimulationConfig config = testing::straight_sequence(10.0, kColumns);
   config.scene.ramp = {.start = 6.0, .length = 3.0, .grade = 0.06};
   const SimulatedSequence sequence = testing::simulate(config, 1);
-  const EstimatorResult tested = estimate(sequence, {});
+  const EstimatorResult tested = estimate(sequence, with_ground());
   const EstimatorResult without = estimate(sequence, without_ground());
   const EstimatorResult untested = estimate(sequence, without_level_test());
   const double error = largest_height_error(tested, sequence.truth);

@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <limits>
 
+#include "sim/robot/robot_geometry.hpp"
+
 namespace aims {
 namespace {
 
@@ -13,7 +15,7 @@ const Eigen::Vector3d kForward(0.7, 0.02, -0.01);
 const Eigen::Vector3d kTurning(0.05, -0.1, 0.3);
 
 /// A robot on four fixed feet with legs of `geometry`, its base moving at kForward and kTurning.
-LegOdometrySample fixed_stance(Time stamp, const LegGeometry& geometry = kLegGeometry) {
+LegOdometrySample fixed_stance(Time stamp, const LegGeometry& geometry = kRobotGeometry) {
   LegOdometrySample sample;
   sample.stamp = stamp;
   sample.linear_velocity = kForward;
@@ -35,16 +37,19 @@ LegOdometrySample fixed_stance(Time stamp, const LegGeometry& geometry = kLegGeo
 LegOdometrySample slipping(LegOdometrySample sample, int leg, const Eigen::Vector3d& velocity) {
   const Eigen::Map<const JointVector> position(sample.joint_position.data());
   Eigen::Map<JointVector> rate(sample.joint_velocity.data());
-  rate.segment<3>(3 * leg) += foot_jacobian(leg, joints_of(position, leg)).inverse() * velocity;
+  rate.segment<3>(3 * leg) +=
+      foot_jacobian(leg, joints_of(position, leg), kRobotGeometry).inverse() * velocity;
   return sample;
 }
+
+SensorRig rig() { return {.leg_geometry = kRobotGeometry}; }
 
 Eigen::Matrix3d nominal(const LegNoiseConfig& config) {
   return config.velocity_sigma.cwiseAbs2().asDiagonal();
 }
 
 TEST(LegNoise, FixedFeetGiveOneVelocity) {
-  const StanceFeet stance = compare_stance_feet(fixed_stance(0), kTurning);
+  const StanceFeet stance = compare_stance_feet(fixed_stance(0), kTurning, kRobotGeometry);
   EXPECT_TRUE(stance.measured);
   EXPECT_EQ(stance.count, 4);
   EXPECT_LT(stance.spread.norm(), 1e-6);
@@ -53,25 +58,25 @@ TEST(LegNoise, FixedFeetGiveOneVelocity) {
 TEST(LegNoise, ASlippingFootRaisesTheSpread) {
   LegOdometrySample sample = slipping(fixed_stance(0), 1, {0.3, 0.0, 0.0});
   // Deviations of {0.3, 0, 0, 0}: sqrt(3 (0.3 / 4)^2 + (0.9 / 4)^2) / sqrt(3) = 0.15.
-  EXPECT_NEAR(compare_stance_feet(sample, kTurning).spread.x(), 0.15, 1e-9);
-  EXPECT_NEAR(compare_stance_feet(sample, kTurning).spread.y(), 0.0, 1e-9);
+  EXPECT_NEAR(compare_stance_feet(sample, kTurning, kRobotGeometry).spread.x(), 0.15, 1e-9);
+  EXPECT_NEAR(compare_stance_feet(sample, kTurning, kRobotGeometry).spread.y(), 0.0, 1e-9);
   sample.contact[1] = false;
-  EXPECT_LT(compare_stance_feet(sample, kTurning).spread.norm(), 1e-6)
+  EXPECT_LT(compare_stance_feet(sample, kTurning, kRobotGeometry).spread.norm(), 1e-6)
       << "feet in the air are left out";
 }
 
 TEST(LegNoise, WrongLegLengthsDoNotRaiseTheSpread) {
-  LegGeometry longer;
+  LegGeometry longer = kRobotGeometry;
   longer.thigh *= 1.1;
   longer.calf *= 1.1;
   const LegNoiseConfig config;
-  const StanceFeet stance = compare_stance_feet(fixed_stance(0, longer), kTurning);
+  const StanceFeet stance = compare_stance_feet(fixed_stance(0, longer), kTurning, kRobotGeometry);
   EXPECT_LT(stance.spread.maxCoeff(), config.nominal_spread);
 }
 
 TEST(LegNoise, AFixedStanceHasNominalNoise) {
   const LegNoiseConfig config;
-  StanceFeet stance = compare_stance_feet(fixed_stance(0), kTurning);
+  StanceFeet stance = compare_stance_feet(fixed_stance(0), kTurning, kRobotGeometry);
   EXPECT_TRUE(sample_covariance(config, stance, {}).isApprox(nominal(config)));
   stance.count = 2;
   EXPECT_TRUE(sample_covariance(config, stance, {}).isApprox(nominal(config)))
@@ -80,19 +85,19 @@ TEST(LegNoise, AFixedStanceHasNominalNoise) {
 
 TEST(LegNoise, WithoutJointsTheNoiseIsNominal) {
   const LegNoiseConfig config;
-  const StanceFeet stance = compare_stance_feet(LegOdometrySample{}, kTurning);
+  const StanceFeet stance = compare_stance_feet(LegOdometrySample{}, kTurning, kRobotGeometry);
   EXPECT_FALSE(stance.measured);
   EXPECT_TRUE(sample_covariance(config, stance, {}).isApprox(nominal(config)));
   LegOdometrySample broken = fixed_stance(0);
   broken.joint_velocity[3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(compare_stance_feet(broken, kTurning).measured);
+  EXPECT_FALSE(compare_stance_feet(broken, kTurning, kRobotGeometry).measured);
 }
 
 TEST(LegNoise, NoiseGrowsWithSlipMissingFeetTurningAndGaps) {
   const LegNoiseConfig config;
-  const StanceFeet fixed = compare_stance_feet(fixed_stance(0), kTurning);
+  const StanceFeet fixed = compare_stance_feet(fixed_stance(0), kTurning, kRobotGeometry);
   const StanceFeet slip =
-      compare_stance_feet(slipping(fixed_stance(0), 2, {0.3, 0.0, 0.0}), kTurning);
+      compare_stance_feet(slipping(fixed_stance(0), 2, {0.3, 0.0, 0.0}), kTurning, kRobotGeometry);
   const Eigen::Vector3d growth = (sample_covariance(config, slip, {}) - nominal(config)).diagonal();
   EXPECT_NEAR(growth.x(), 0.15 * 0.15 - config.nominal_spread * config.nominal_spread, 1e-9);
   EXPECT_NEAR(growth.y(), 0.0, 1e-9) << "the foot slips forward only";
@@ -119,7 +124,7 @@ TEST(LegNoise, TheGateInflatesBeforeItRejects) {
 }
 
 TEST(LegNoise, APacketAfterAGapHasMoreNoise) {
-  LegNoiseModel model(LegNoiseConfig{}, LegConfig{});
+  LegNoiseModel model(LegNoiseConfig{}, rig());
   const Eigen::Matrix3d first = model.noise(fixed_stance(0), kTurning);
   const Eigen::Matrix3d next = model.noise(fixed_stance(5 * kMillisecond), kTurning);
   const Eigen::Matrix3d late = model.noise(fixed_stance(2 * kSecond), kTurning);
@@ -129,7 +134,7 @@ TEST(LegNoise, APacketAfterAGapHasMoreNoise) {
 
 TEST(LegNoise, AShortSlipIsInflatedAndALastingInnovationAccepted) {
   const LegNoiseConfig config;
-  LegNoiseModel model(config, LegConfig{});
+  LegNoiseModel model(config, rig());
   LinearMeasurement measurement;
   columns(measurement.jacobian, ErrorState::kVelocity).setIdentity();
   const ErrorMatrix covariance = 1e-4 * ErrorMatrix::Identity();

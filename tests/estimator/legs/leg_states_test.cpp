@@ -18,8 +18,8 @@ Belief fixed_legs() {
 
 TEST(LegStates, OnlyEnabledStatesGetVariance) {
   LegStatesConfig config;
+  config.scale = true;
   config.scale_sigma = 0.1;
-  config.bias = false;
   const Belief belief = open_leg_states(fixed_legs(), config);
   EXPECT_NEAR(block(belief.covariance, E::kLegScale, E::kLegScale)(1, 1), 0.01, 1e-12);
   EXPECT_LT(block(belief.covariance, E::kLegBias, E::kLegBias)(1, 1), 1e-15);
@@ -27,6 +27,8 @@ TEST(LegStates, OnlyEnabledStatesGetVariance) {
 
 TEST(LegStates, VarianceGrowsWithTime) {
   LegStatesConfig config;
+  config.scale = true;
+  config.bias = true;
   config.scale_walk = 1e-3;
   config.bias_walk = 2e-3;
   Belief belief = fixed_legs();

@@ -14,6 +14,7 @@
 
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/sweep_summary.hpp"
+#include "estimator/degeneracy/degeneracy.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -140,7 +141,7 @@ TEST(TuningPage, EveryUnitIsARowWithItsValuesAndScores) {
     EXPECT_NEAR(scores[row * width + ate], ate_of(values[at], values[at + 1], seed), 1e-6) << row;
     EXPECT_NEAR(scores[row * width + end], 2.0 * scores[row * width + ate], 1e-6);
   }
-  EXPECT_EQ(own["parameters"][0]["default"], EstimatorConfig{}.degeneracy.eta);
+  EXPECT_EQ(own["parameters"][0]["default"], DegeneracyConfig{}.eta);
   EXPECT_EQ(own["parameters"][1]["log"], true);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/leg_kinematics.hpp"
+#include "sim/robot/robot_geometry.hpp"
 #include "sim/simulation.hpp"
 #include "tests/sim/robot/walking.hpp"
 
@@ -32,10 +33,10 @@ TEST(RampWalk, ClimbsAndDescendsTenPercentWithItsFeetOnTheFloor) {
     for (int leg = 0; leg < kLegCount; ++leg) {
       if (state.foot_load[leg] < 30.0) continue;
       const Eigen::Vector3d q = joints_of(state.q, leg);
-      const Eigen::Vector3d foot = state.T_world_base * foot_in_base(leg, q);
+      const Eigen::Vector3d foot = state.T_world_base * foot_in_base(leg, q, kRobotGeometry);
       const double ground = floor_height(scene.floor, foot.x(), foot.y());
       // A loaded foot's sphere rests on the floor, within what the contact gives way.
-      ASSERT_NEAR(foot.z() - ground, kLegGeometry.foot_radius, 0.01) << state.stamp;
+      ASSERT_NEAR(foot.z() - ground, kRobotGeometry.foot_radius, 0.01) << state.stamp;
     }
   }
   EXPECT_NEAR(highest, 0.3 + 0.29, 0.03) << "trunk over the upper floor";

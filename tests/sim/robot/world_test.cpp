@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "sim/robot/gait.hpp"
+#include "sim/robot/robot_geometry.hpp"
 #include "tests/sim/robot/walking.hpp"
 
 namespace aims {
@@ -35,8 +36,9 @@ TEST(World, StandingFeetCarryTheWeightAndRestOnTheFloor) {
   EXPECT_NEAR(load, world.body().mass * 9.81, 1.0);
   // Kinematics here and in the model agree: every foot sphere touches the floor.
   for (int leg = 0; leg < kLegCount; ++leg) {
-    const Eigen::Vector3d foot = state.T_world_base * foot_in_base(leg, joints_of(state.q, leg));
-    EXPECT_NEAR(foot.z(), kLegGeometry.foot_radius, 1.5e-3) << kLegNames[leg];
+    const Eigen::Vector3d foot =
+        state.T_world_base * foot_in_base(leg, joints_of(state.q, leg), kRobotGeometry);
+    EXPECT_NEAR(foot.z(), kRobotGeometry.foot_radius, 1.5e-3) << kLegNames[leg];
   }
   EXPECT_LT(state.velocity.norm(), 0.01);
   for (const double slip : world.slip_speed()) EXPECT_LT(slip, 0.01);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sim/robot/robot_geometry.hpp"
 #include "tests/sim/robot/walking.hpp"
 
 namespace aims {
@@ -58,7 +59,7 @@ TEST(LegOdometry, RollingFeetMeasureTheDistanceWithinOnePercent) {
 }
 
 TEST(LegOdometry, PointFeetReadShortByFootRadiusOverHipHeight) {
-  const double expected = -kLegGeometry.foot_radius / GaitConfig{}.body_height;
+  const double expected = -kRobotGeometry.foot_radius / GaitConfig{}.body_height;
   EXPECT_NEAR(relative_error(measure(perfect(FootModel::kPoint))), expected, 0.015);
 }
 

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/config.hpp"
+#include "estimator/estimator.hpp"
+
+namespace aims {
+
+/// What an estimator needs of a stream.
+struct Requirements {
+  bool lidar = false;
+  bool imu = false;
+  bool legs = false;         ///< leg odometry
+  bool rings = false;        ///< of the LiDAR's returns
+  bool point_times = false;  ///< of the LiDAR's returns, within the scan
+  bool orientation = false;  ///< from the IMU
+};
+
+/// The configuration of one estimator, of whatever type it is, and the way to create it.
+class EstimatorConfig {
+ public:
+  virtual ~EstimatorConfig() = default;
+  virtual void describe(Fields& fields) = 0;
+  virtual Requirements requirements() const = 0;
+  virtual std::unique_ptr<Estimator> create(const SensorRig& rig) const = 0;
+  virtual std::unique_ptr<EstimatorConfig> clone() const = 0;
+};
+
+inline void describe(Fields& fields, EstimatorConfig& config) { config.describe(fields); }
+
+/// The free function `describe` where a member hides it.
+template <class Config>
+void describe_config(Fields& fields, Config& config) {
+  describe(fields, config);
+}
+
+/// Configuration `Config` of the estimator `Made`, which is constructed from it and the rig.
+/// `describe(Fields&, Config&)` and `requirements_of(const Config&)` belong to it.
+template <class Config, std::derived_from<Estimator> Made>
+class ConfigOf final : public EstimatorConfig {
+ public:
+  explicit ConfigOf(Config config) : config_(std::move(config)) {}
+
+  void describe(Fields& fields) override { describe_config(fields, config_); }
+  Requirements requirements() const override { return requirements_of(config_); }
+  std::unique_ptr<Estimator> create(const SensorRig& rig) const override {
+    return std::make_unique<Made>(config_, rig);
+  }
+  std::unique_ptr<EstimatorConfig> clone() const override {
+    return std::make_unique<ConfigOf>(config_);
+  }
+
+ private:
+  Config config_;
+};
+
+/// One configuration per registered estimator, by its name; copies are deep.
+class EstimatorConfigs {
+ public:
+  /// The defaults of every estimator.
+  EstimatorConfigs();
+  EstimatorConfigs(const EstimatorConfigs& other);
+  EstimatorConfigs(EstimatorConfigs&&) noexcept = default;
+  EstimatorConfigs& operator=(const EstimatorConfigs& other);
+  EstimatorConfigs& operator=(EstimatorConfigs&&) noexcept = default;
+  ~EstimatorConfigs() = default;
+
+  /// The configuration of the estimator `name`, or nullptr.
+  EstimatorConfig* find(std::string_view name);
+  const EstimatorConfig* find(std::string_view name) const;
+
+ private:
+  friend void describe(Fields& fields, EstimatorConfigs& configs);
+
+  std::map<std::string, std::unique_ptr<EstimatorConfig>, std::less<>> configs_;
+};
+
+/// Each configuration under its name, in the order of the registry.
+void describe(Fields& fields, EstimatorConfigs& configs);
+
+}  // namespace aims

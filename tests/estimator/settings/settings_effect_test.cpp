@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every setting that an estimator offers changes its result on some short sequence, and none that
+// it calls idle does.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "estimator/registry.hpp"
+#include "tests/estimator/settings/eventful_sequence.hpp"
+
+namespace aims {
+namespace {
+
+using testing::RecordedStream;
+
+/// Settings that change nothing on any short sequence, with the reason.
+const std::map<std::string, std::string> kNeedLongSequences = {};
+
+/// Deliveries between two comparisons.
+constexpr std::size_t kPart = 500;
+
+void append(std::vector<double>& numbers, const Eigen::MatrixXd& matrix) {
+  numbers.insert(numbers.end(), matrix.data(), matrix.data() + matrix.size());
+}
+
+/// Everything that an estimator yields, from entry `first` of its trajectory and diagnostics on.
+std::vector<double> numbers_of(const EstimatorResult& result, std::size_t first) {
+  std::vector<double> numbers = {static_cast<double>(result.trajectory.size())};
+  for (std::size_t i = first; i < result.trajectory.size(); ++i) {
+    const StampedPose& each = result.trajectory[i];
+    numbers.push_back(static_cast<double>(each.stamp));
+    append(numbers, each.pose.translation);
+    append(numbers, each.pose.rotation.coeffs());
+  }
+  for (std::size_t i = std::min(first, result.diagnostics.size()); i < result.diagnostics.size();
+       ++i) {
+    const ScanDiagnostics& each = result.diagnostics[i];
+    numbers.insert(numbers.end(),
+                   {double(each.points_in), double(each.points_used), double(each.iterations),
+                    each.O_lidar, each.C_IL, each.D, each.D_smoothed, each.gamma_lidar,
+                    each.gamma_leg, each.weak_weight, each.weak_ratio});
+    append(numbers, each.position_covariance);
+    append(numbers, each.rotation_covariance);
+  }
+  for (const auto& [name, count] : result.counts) numbers.push_back(count);
+  return numbers;
+}
+
+std::vector<double> numbers_of(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<double> numbers;
+  for (const Eigen::Vector3f& point : points) append(numbers, point.cast<double>());
+  return numbers;
+}
+
+/// The result of a configuration on a stream, part by part, to be compared with.
+class Reference {
+ public:
+  Reference(const RecordedStream& stream, const EstimatorConfig& config) : stream_(stream) {
+    (void)follow(config, [this](std::vector<double> numbers) {
+      parts_.push_back(std::move(numbers));
+      return true;
+    });
+  }
+
+  /// Whether another configuration yields anything else; ends at the first difference.
+  bool differs(const EstimatorConfig& config) const {
+    std::size_t next = 0;
+    return !follow(config, [&](const std::vector<double>& numbers) {
+      return next < parts_.size() && same(numbers, parts_[next++]);
+    });
+  }
+
+ private:
+  /// NaN equals NaN.
+  static bool same(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+      return x == y || (std::isnan(x) && std::isnan(y));
+    });
+  }
+
+  /// Runs the estimator and hands over what each part of the stream yields; false: not wanted.
+  template <class Take>
+  bool follow(const EstimatorConfig& config, const Take& take) const {
+    const auto estimator = config.create(stream_.rig);
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < stream_.deliveries.size(); ++i) {
+      estimator->consume(stream_.deliveries[i]);
+      if (i % kPart != 0) continue;
+      if (!take(numbers_of(estimator->result(), known))) return false;
+      known = estimator->result().trajectory.size();
+    }
+    estimator->finish();
+    return take(numbers_of(estimator->result(), 0)) && take(numbers_of(estimator->map_points()));
+  }
+
+  const RecordedStream& stream_;
+  std::vector<std::vector<double>> parts_;
+};
+
+/// "one of a, b": a and b.
+std::vector<std::string> options_of(const std::string& expected) {
+  std::vector<std::string> options;
+  std::size_t begin = std::string("one of ").size();
+  while (begin < expected.size()) {
+    const std::size_t end = std::min(expected.find(", ", begin), expected.size());
+    options.push_back(expected.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return options;
+}
+
+std::string times(const std::string& text, double factor, bool whole) {
+  const double value = factor * std::stod(text);
+  return whole ? std::to_string(std::lround(value)) : std::to_string(value);
+}
+
+/// Other values to try; those that the parameter does not allow are refused later.
+std::vector<std::string> other_values(const Parameter& parameter) {
+  const std::string text = parameter.text();
+  if (parameter.expected == "true or false") return {text == "true" ? "false" : "true"};
+  if (parameter.expected.starts_with("one of")) return options_of(parameter.expected);
+  const bool whole = parameter.expected.starts_with("an integer");
+  std::vector<std::string> values;
+  for (const double factor : {0.1, 10.0, 0.5, 2.0, 0.01, 100.0}) {
+    if (!parameter.sequence) {
+      values.push_back(times(text, factor, whole));
+      continue;
+    }
+    std::vector<std::string> entries = sequence_entries(text).value();
+    for (std::string& entry : entries) entry = times(entry, factor, false);
+    values.push_back(sequence_text(entries));
+  }
+  if (parameter.sequence) return values;
+  for (const double bound : {parameter.spec.range.min, parameter.spec.range.max}) {
+    if (std::isfinite(bound)) values.push_back(times("1", bound, whole));
+  }
+  return values;
+}
+
+/// The streams, simulated once per process.
+const std::vector<RecordedStream>& streams() {
+  static const std::vector<RecordedStream> all = [] {
+    const RecordedStream stream = testing::eventful_sequence(testing::kShortRamp);
+    return std::vector<RecordedStream>{stream, testing::started_in_motion(stream),
+                                       testing::eventful_sequence(testing::kGentleSlope)};
+  }();
+  return all;
+}
+
+std::unique_ptr<EstimatorConfig> config_of(const std::string& name) {
+  return EstimatorConfigs().find(name)->clone();
+}
+
+/// Sets the other parameters of a group that a switch has turned on, which may need a long sequence
+/// to act at their defaults, to their least values.
+void shorten_group_of(const std::string& key, const Fields& fields) {
+  const std::size_t dot = key.rfind('.');
+  for (const Parameter& parameter : fields.parameters()) {
+    if (!key.ends_with(".enabled") || parameter.key == key) continue;
+    if (!parameter.key.starts_with(key.substr(0, dot + 1))) continue;
+    const double least = parameter.spec.range.min;
+    if (std::isfinite(least)) (void)parameter.assign(std::to_string(std::lround(least)));
+  }
+}
+
+bool has_effect(const std::string& key, const std::string& name,
+                const std::vector<Reference>& references) {
+  const auto original = config_of(name);
+  const std::string text = fields_of(*original).find(key)->text();
+  for (const Reference& reference : references) {
+    for (const std::string& value : other_values(*fields_of(*original).find(key))) {
+      const auto changed = original->clone();
+      const Fields fields = fields_of(*changed);
+      const Parameter* parameter = fields.find(key);
+      if (!parameter->assign(value) || parameter->text() == text) continue;
+      if (reference.differs(*changed)) return true;
+      if (value != "true") continue;
+      shorten_group_of(key, fields);
+      if (reference.differs(*changed)) return true;
+    }
+  }
+  return false;
+}
+
+class Settings : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Settings, ThatAreOfferedHaveAnEffect) {
+  const auto config = config_of(GetParam());
+  std::vector<Reference> references;
+  for (const RecordedStream& stream : streams()) references.emplace_back(stream, *config);
+  for (const Parameter& parameter : fields_of(*config).parameters()) {
+    if (!parameter.idle.empty() || kNeedLongSequences.contains(parameter.key)) continue;
+    EXPECT_TRUE(has_effect(parameter.key, GetParam(), references))
+        << GetParam() << ": " << parameter.key << " = " << parameter.text();
+  }
+}
+
+TEST_P(Settings, ThatAreIdleHaveNone) {
+  const auto config = config_of(GetParam());
+  for (const RecordedStream& stream : streams()) {
+    const Reference reference(stream, *config);
+    for (const std::size_t attempt : {0, 1}) {
+      const auto changed = config->clone();
+      const Fields fields = fields_of(*changed);
+      for (const Parameter& parameter : fields.parameters()) {
+        if (parameter.idle.empty()) continue;
+        const std::vector<std::string> values = other_values(parameter);
+        (void)parameter.assign(values[std::min(attempt, values.size() - 1)]);
+      }
+      EXPECT_FALSE(reference.differs(*changed)) << GetParam() << ", attempt " << attempt;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Estimators, Settings, ::testing::ValuesIn(estimator_names()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace aims
