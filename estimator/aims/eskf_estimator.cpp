@@ -16,8 +16,8 @@ void record_covariance(const Belief& belief, const Eigen::Matrix3d& map_covarian
   const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
   const Eigen::Matrix3d position =
       block(belief.covariance, E::kPosition, E::kPosition) + map_covariance;
-  diagnostics.position_covariance = R.transpose() * position * R;
-  diagnostics.rotation_covariance = block(belief.covariance, E::kRotation, E::kRotation);
+  diagnostics.covariance.position = R.transpose() * position * R;
+  diagnostics.covariance.rotation = block(belief.covariance, E::kRotation, E::kRotation);
 }
 
 }  // namespace
@@ -33,7 +33,9 @@ EskfEstimator::EskfEstimator(const EstimatorConfig& config, const EstimatorVaria
       map_(config_.map),
       ground_(config_.directional.ground_constraint),
       leg_noise_(config_.directional.leg_noise, config_.leg),
-      zero_velocity_(config_.directional.zero_velocity) {}
+      zero_velocity_(config_.directional.zero_velocity) {
+  result_.diagnostics.series = scan_series();
+}
 
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -189,7 +191,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   extend_map();
   record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
-  result_.diagnostics.push_back(diagnostics);
+  result_.diagnostics.scans.push_back(row_of(diagnostics));
 }
 
 void EskfEstimator::predict_to(Time stamp) {

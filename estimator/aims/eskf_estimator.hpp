@@ -67,7 +67,7 @@ class EskfEstimator : public Estimator {
   Belief belief_;
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
   StrideMean stride_mean_;
-  double leg_innovation_ = 0.0;
+  double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]
   int leg_updates_ = 0;
 
   std::vector<InertialSegment> segments_;

@@ -6,9 +6,9 @@
 #include <span>
 
 #include "estimator/aims/config.hpp"
+#include "estimator/aims/scan_diagnostics.hpp"
 #include "estimator/degeneracy/axis_weights.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
-#include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/lidar/scan_matcher.hpp"
 #include "estimator/lidar/voxel_map.hpp"
