@@ -114,6 +114,8 @@ const std::vector<DegeneracyIndex>& degeneracy_indices() {
       {"O_lidar", false, "paper, eq. (4)"},
       {"O_lidar_prior", false, "paper, eq. (4)"},
       {"C_IL", true, "paper, eqs. (6), (7)"},
+      {"C_IL_imu", true, "paper, eq. (6), against the IMU alone"},
+      {"C_IL_imu_legs", true, "eq. (6) against IMU and legs"},
       {"smallest_eigenvalue", false, "Zhang, Kaess and Singh 2016"},
       {"condition_number", true, "Hinduja, Ho and Kaess 2019"},
       {"weak_weight", false, "this project: weight of the weakest axis"},

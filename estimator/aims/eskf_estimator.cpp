@@ -30,6 +30,7 @@ EskfEstimator::EskfEstimator(const EstimatorConfig& config, const EstimatorVaria
       queue_(config_.queue, config_.imu, config_.leg.max_speed),
       selection_(config_.lidar),
       lidar_update_(config_, variant),
+      leg_free_(config_.imu),
       map_(config_.map),
       ground_(config_.directional.ground_constraint),
       leg_noise_(config_.directional.leg_noise, config_.leg),
@@ -96,6 +97,7 @@ void EskfEstimator::report_pose_without_scan(Time stamp) {
   if (result_.trajectory.empty()) return;
   if (stamp - result_.trajectory.back().stamp < kMaxPoseInterval) return;
   predict_to(stamp);
+  leg_free_.predict_to(stamp, queue_.imu());
   result_.trajectory.push_back({stamp, belief_.state.T_odom_body()});
   ++result_.counts["pose.without_scan"];
 }
@@ -177,6 +179,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   }
   repeat_lost_legs(scan->end);
   predict_to(scan->end);
+  leg_free_.predict_to(scan->end, queue_.imu());
   ScanDiagnostics diagnostics;
   diagnostics.stamp = scan->end;
   diagnostics.leg_innovation = leg_innovation_;
@@ -185,9 +188,10 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   prepare_points(*scan, diagnostics);
   if (config_.directional.ground_constraint.enabled) fuse_ground_constraint();
   if (!map_.empty()) {
-    accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
+    accept(lidar_update_.update(belief_, match_points_, map_, diagnostics, leg_free_.belief()));
     if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
   }
+  leg_free_.restart(belief_, scan->end);
   extend_map();
   record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});

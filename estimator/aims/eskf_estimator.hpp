@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimator/aims/config.hpp"
+#include "estimator/aims/leg_free_prediction.hpp"
 #include "estimator/aims/lidar_update.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
@@ -56,6 +57,7 @@ class EskfEstimator : public Estimator {
   MeasurementQueue queue_;
   ScanSelection selection_;
   LidarUpdate lidar_update_;
+  LegFreePrediction leg_free_;
   VoxelMap map_;
   GroundConstraint ground_;
   LegNoiseModel leg_noise_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/aims/leg_free_prediction.hpp"
+
 namespace aims {
 namespace {
 
@@ -126,7 +128,10 @@ void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_infor
   diagnostics.O_lidar = effective_observability(statistics.variance, degeneracy_.sigma_0);
   diagnostics.O_lidar_prior =
       effective_observability(prior_sigma * prior_sigma, degeneracy_.sigma_0);
-  diagnostics.C_IL = consistency(pose_segment(y), pose_block(predicted.covariance));
+  diagnostics.C_IL_imu_legs = lidar_consistency(trial_state, predicted);
+  const bool imu_alone = degeneracy_.prediction == ConsistencyPrediction::kImu &&
+                         std::isfinite(diagnostics.C_IL_imu);
+  diagnostics.C_IL = imu_alone ? diagnostics.C_IL_imu : diagnostics.C_IL_imu_legs;
   diagnostics.C_IL_full = consistency_full(y, prior_information);
   diagnostics.innovation_rotation = segment(y, ErrorState::kRotation);
   diagnostics.innovation_position = segment(y, ErrorState::kPosition);
@@ -134,6 +139,17 @@ void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_infor
       degeneracy_.prior_residuals ? diagnostics.O_lidar_prior : diagnostics.O_lidar;
   diagnostics.D = degeneracy_severity(O_lidar, diagnostics.C_IL, degeneracy_);  // eq. (7)
   severity_.update(diagnostics.D);                                              // eq. (12)
+}
+
+/// C_IL of the prediction by the IMU alone. The LiDAR-updated state of eq. (5) is what the scan
+/// makes of that prediction, not of the filter's: the trial state is pulled towards the legs along
+/// axes that the scan hardly constrains, and the difference would show up as inconsistency of the
+/// LiDAR. The scan is linearized at the trial state, which both updates share when converged.
+double LidarUpdate::leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
+                                         const ScanInformation& scan) const {
+  const ErrorMatrix prior_information = inverse_spd(leg_free.covariance);
+  const Belief updated = correct(leg_free, prior_information, linearization, scan, 1.0);
+  return lidar_consistency(updated.state, leg_free);
 }
 
 void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predicted,
@@ -147,12 +163,16 @@ void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predi
 }
 
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
-                           const VoxelMap& map, ScanDiagnostics& diagnostics) {
+                           const VoxelMap& map, ScanDiagnostics& diagnostics,
+                           const Belief* leg_free) {
   const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
   Belief belief = trial(predicted, prior_information, points, map, diagnostics);
   const bool matched = diagnostics.points_used >= lidar_.min_matches;
   if (matched) {
     const ScanInformation scan = matcher_.linearize(belief.state);
+    if (leg_free != nullptr) {
+      diagnostics.C_IL_imu = leg_free_consistency(*leg_free, belief.state, scan);
+    }
     diagnostics.points_used = scan.used;
     record_localizability(scan.matrix, diagnostics);
     assess(predicted, prior_information, belief.state, diagnostics);

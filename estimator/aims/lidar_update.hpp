@@ -25,9 +25,11 @@ class LidarUpdate {
 
   /// The belief after fusing `points` (body axes at the time of the belief) with `map`. Fills the
   /// index, weights and statistics of `diagnostics`. With too few planes the belief and the index
-  /// are unchanged.
+  /// are unchanged. `leg_free` is the prediction of the IMU alone, for C_IL; null: not known, C_IL
+  /// then takes `predicted`.
   Belief update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
-                const VoxelMap& map, ScanDiagnostics& diagnostics);
+                const VoxelMap& map, ScanDiagnostics& diagnostics,
+                const Belief* leg_free = nullptr);
 
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
@@ -52,6 +54,8 @@ class LidarUpdate {
                ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const ErrorMatrix& prior_information,
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
+  double leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
+                              const ScanInformation& scan) const;
   void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);
 
   LidarUpdateConfig lidar_;

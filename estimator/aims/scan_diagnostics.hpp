@@ -24,7 +24,9 @@ struct ScanDiagnostics {
   double residual_sigma_prior = kNotComputed;  ///< before the trial update [m]
   double O_lidar = kNotComputed;               ///< eq. (4), post-fit residuals
   double O_lidar_prior = kNotComputed;         ///< eq. (4), pre-fit residuals
-  double C_IL = kNotComputed;                  ///< eq. (6), 6-D pose block
+  double C_IL = kNotComputed;                  ///< eq. (6), 6-D pose block, as D_k uses it
+  double C_IL_imu = kNotComputed;              ///< against the IMU alone since the last scan
+  double C_IL_imu_legs = kNotComputed;         ///< against the filter's prediction, legs included
   double C_IL_full = kNotComputed;             ///< eq. (6), 15-D
   double D = kNotComputed;                     ///< D_k, eq. (7)
   double D_smoothed = kNotComputed;            ///< eq. (12)
