@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/run/bag_origin.hpp"
+#include "bench/run/score_record.hpp"
 #include "bench/run/stream.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
@@ -24,6 +25,11 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
                  result.truth};
   for (const EstimatorOutcome& each : result.estimators) {
     input.estimates.push_back({each.name, each.name, "estimated here", each.result.trajectory});
+  }
+  for (const EstimatorOutcome& each : result.estimators) {
+    if (!each.result.optimized) continue;
+    const std::string label = optimized_label(each.name);
+    input.estimates.push_back({label, label, "estimated here", *each.result.optimized});
   }
   if (auto origin = bag_origin(result.bag)) {
     if (input.scoring.segments.empty()) input.scoring.segments = origin->segments;

@@ -52,7 +52,8 @@ struct EstimateResult {
   double wall_s = 0.0;
   std::vector<EstimatorOutcome> estimators;  ///< their scores are in `scores`
   Trajectory truth;                          ///< of the body; empty: the recording has none
-  std::optional<TrajectoryScores> scores;    ///< none without a truth
+  /// Of the online trajectories, then of the re-optimized ones; none without a truth.
+  std::optional<TrajectoryScores> scores;
 };
 
 /// Streams the recording through the estimators. Error when it cannot be opened, a topic is missing

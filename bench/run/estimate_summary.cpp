@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "bench/metrics/statistics.hpp"
 #include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
@@ -31,7 +33,7 @@ Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcom
   const auto times = summarize(outcome.scan_times_ms);
   Json json;
   json["poses"] = trajectory.size();
-  json["scans"] = outcome.result.diagnostics.size();
+  json["scans"] = outcome.result.diagnostics.scans.size();
   json["path_m"] = json_of(path_length(trajectory));
   json["displacement_m"] = json_of(displacement(trajectory));
   json["wall_s"] = outcome.wall_s;
@@ -90,6 +92,12 @@ Result<void> write_scores(const EstimateResult& result, const fs::path& folder) 
     Json& json = record.scores["estimators"][each.name];
     json["time_per_scan_ms"] = estimator_json(result, each)["time_per_scan_ms"];
     json["counts"] = each.result.counts;
+    Json& estimators = record.scores["estimators"];
+    const std::string label = optimized_label(each.name);
+    if (!estimators.contains(label)) continue;
+    Json optimized = std::move(estimators[label]);
+    estimators.erase(label);
+    estimators[each.name]["optimized"] = std::move(optimized);
   }
   auto written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
   if (written) {
@@ -117,6 +125,9 @@ TextTable estimate_table(const EstimateResult& result) {
     table.rows[i].push_back(fmt::format("{:.2f}", path_length(each.result.trajectory)));
     table.rows[i].push_back(times ? fmt::format("{:.2f}", times->mean) : "-");
     table.rows[i].push_back(fmt::format("{:.1f}", realtime_factor(result, each)));
+  }
+  for (std::size_t i = result.estimators.size(); i < table.rows.size(); ++i) {
+    table.rows[i].resize(table.header.size(), "-");  // of re-optimized trajectories
   }
   return table;
 }

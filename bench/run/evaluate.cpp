@@ -21,19 +21,6 @@ Result<void> stream_into(const Sequence& sequence, TimedEstimator& estimator,
   return replayed;
 }
 
-/// What the estimator came to, held against the truth.
-EstimatorOutcome scored(const TimedEstimator& estimator, const Sequence& sequence,
-                        const Scenario& scenario) {
-  EstimatorOutcome outcome = outcome_of(estimator);
-  outcome.scores = score(outcome.result.trajectory, sequence.truth_trajectory,
-                         sequence.waypoint_times, scenario.scoring);
-  outcome.weak_axis_errors =
-      weak_axis_errors_of(outcome.result, sequence.truth_trajectory, sequence.localizability,
-                          scenario.scoring, half_scan(scenario.simulation));
-  outcome.weak_axis = weak_axis_scores(outcome.weak_axis_errors);
-  return outcome;
-}
-
 }  // namespace
 
 EstimatorOutcome outcome_of(const TimedEstimator& timed) {
@@ -46,13 +33,28 @@ EstimatorOutcome outcome_of(const TimedEstimator& timed) {
   return outcome;
 }
 
+void add_scores(const Sequence& sequence, const Scenario& scenario, EstimatorOutcome& outcome) {
+  const auto scores_of = [&](const Trajectory& trajectory) {
+    return score(trajectory, sequence.truth_trajectory, sequence.waypoint_times, scenario.scoring);
+  };
+  const EstimatorResult& result = outcome.result;
+  outcome.scores = scores_of(result.trajectory);
+  if (result.optimized) outcome.optimized = scores_of(*result.optimized);
+  outcome.weak_axis_errors =
+      weak_axis_errors_of(result, sequence.truth_trajectory, sequence.localizability,
+                          scenario.scoring, half_scan(scenario.simulation));
+  outcome.weak_axis = weak_axis_scores(outcome.weak_axis_errors);
+}
+
 Result<EstimatorOutcome> evaluate(const Sequence& sequence, const Scenario& scenario,
                                   const std::string& estimator, const PartObserver& observer) {
   auto estimators = make_estimators({&estimator, 1}, scenario.estimators, sequence.reader.rig());
   if (!estimators) return tl::unexpected(estimators.error());
   auto streamed = stream_into(sequence, estimators->front(), observer);
   if (!streamed) return tl::unexpected(streamed.error());
-  return scored(estimators->front(), sequence, scenario);
+  EstimatorOutcome outcome = outcome_of(estimators->front());
+  add_scores(sequence, scenario, outcome);
+  return outcome;
 }
 
 }  // namespace aims

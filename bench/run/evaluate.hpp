@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct EstimatorOutcome {
   std::string name;
   EstimatorResult result;
   std::vector<Eigen::Vector3f> map;  ///< in its odometry frame [m]
-  Scores scores;
+  Scores scores;                     ///< of the online trajectory
+  std::optional<Scores> optimized;   ///< of the re-optimized one
   std::vector<WeakAxisError> weak_axis_errors;  ///< along what the LiDAR cannot see, by scan
   std::vector<WeakAxisScore> weak_axis;         ///< summary of them
   std::vector<double> scan_times_ms;
@@ -28,6 +30,10 @@ struct EstimatorOutcome {
 
 /// What an estimator that has finished came to, but for scores.
 EstimatorOutcome outcome_of(const TimedEstimator& timed);
+
+/// Scores an outcome against the truth of its sequence, the re-optimized trajectory by the same
+/// rules as the online one.
+void add_scores(const Sequence& sequence, const Scenario& scenario, EstimatorOutcome& outcome);
 
 /// Called with the part of the sequence that is done, in [0, 1].
 using PartObserver = std::function<void(double)>;

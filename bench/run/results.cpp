@@ -12,6 +12,9 @@ namespace fs = std::filesystem;
 Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder,
                              const std::string& name) {
   auto written = write_tum(folder / (name + ".tum"), outcome.result.trajectory);
+  if (written && outcome.result.optimized) {
+    written = write_tum(folder / (name + kOptimizedEnding), *outcome.result.optimized);
+  }
   if (written && !outcome.map.empty()) {
     written = write_ply(folder / (name + ".map.ply"), outcome.map);
   }
@@ -25,6 +28,11 @@ Result<EstimatorOutcome> read_estimator(const fs::path& folder, const std::strin
   auto trajectory = read_tum(folder / (name + ".tum"), PoseRules::kAsGiven);
   if (!trajectory) return tl::unexpected(trajectory.error());
   outcome.result.trajectory = std::move(*trajectory);
+  if (const fs::path file = folder / (name + kOptimizedEnding); fs::exists(file)) {
+    auto optimized = read_tum(file, PoseRules::kAsGiven);
+    if (!optimized) return tl::unexpected(optimized.error());
+    outcome.result.optimized = std::move(*optimized);
+  }
   auto diagnostics = read_diagnostics(folder / (name + ".diagnostics.csv"));
   if (!diagnostics) return tl::unexpected(diagnostics.error());
   outcome.result.diagnostics = std::move(*diagnostics);

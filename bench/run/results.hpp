@@ -9,8 +9,11 @@
 
 namespace aims {
 
-/// Writes what one estimator came to: NAME.tum, where it keeps one its map (NAME.map.ply), and
-/// NAME.diagnostics.csv, in this order.
+/// Ending of the file of a re-optimized trajectory.
+inline constexpr const char* kOptimizedEnding = ".optimized.tum";
+
+/// Writes what one estimator came to: NAME.tum, where it has them the re-optimized trajectory
+/// (NAME.optimized.tum) and its map (NAME.map.ply), and NAME.diagnostics.csv, in this order.
 Result<void> write_estimator(const EstimatorOutcome& outcome, const std::filesystem::path& folder,
                              const std::string& name);
 
@@ -19,6 +22,7 @@ Result<EstimatorOutcome> read_estimator(const std::filesystem::path& folder,
                                         const std::string& name);
 
 /// Endings of those files, with their dots.
-inline constexpr const char* kEstimatorFiles[] = {".tum", ".map.ply", ".diagnostics.csv"};
+inline constexpr const char* kEstimatorFiles[] = {".tum", kOptimizedEnding, ".map.ply",
+                                                 ".diagnostics.csv"};
 
 }  // namespace aims

@@ -89,8 +89,8 @@ std::vector<WeakAxisError> weak_axis_errors_of(const EstimatorResult& report,
       associate(valid_part(report.trajectory), truth_trajectory, scoring.association,
                 from_seconds(scoring.association_tolerance));
   std::vector<StatedCovariance> stated;
-  for (const ScanDiagnostics& scan : report.diagnostics) {
-    stated.push_back({scan.stamp, scan.position_covariance});
+  for (const ScanRow& scan : report.diagnostics.scans) {
+    if (scan.covariance) stated.push_back({scan.stamp, scan.covariance->position});
   }
   return weak_axis_errors(aligned(pairs, align_start(pairs, scoring.anchor)), stated,
                           localizability.scans, localizability.bounds, tolerance);

@@ -130,6 +130,10 @@ Json estimator_json(const EstimatorOutcome& outcome) {
   json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
   json["poses"] = outcome.scores.poses;
   json["counts"] = outcome.result.counts;
+  if (outcome.optimized) {
+    json["optimized"] = scores_json(*outcome.optimized);
+    json["optimized"]["poses"] = outcome.optimized->poses;
+  }
   return json;
 }
 
@@ -177,6 +181,13 @@ std::optional<double> find_score(const RunRecord& record, const std::string& est
                  if (value.is_boolean()) found = value.get<bool>() ? 1.0 : 0.0;
                });
   return found;
+}
+
+std::string optimized_label(const std::string& estimator) { return estimator + " (optimized)"; }
+
+bool has_optimized(const RunRecord& record, const std::string& estimator) {
+  const Json& json = estimator_in(record, estimator);
+  return json.is_object() && json.contains("optimized");
 }
 
 std::vector<std::string> score_keys(const RunRecord& record, const std::string& estimator) {

@@ -30,7 +30,8 @@ struct RunRecord {
 /// What scores.json holds of any estimate.
 Json scores_json(const Scores& scores);
 
-/// What scores.json holds of one estimator of a run.
+/// What scores.json holds of one estimator of a run; the scores of a re-optimized trajectory stand
+/// under `optimized`.
 Json estimator_json(const EstimatorOutcome& outcome);
 
 /// The segments with their true straight lengths, which are the same for every estimate.
@@ -51,6 +52,15 @@ void visit_leaves(const Json& json, const std::string& prefix,
 /// no value (a segment that was not reached, an estimator that diverged) or does not exist.
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
                                  const std::string& key);
+
+/// Of the keys of a re-optimized trajectory's scores.
+inline constexpr const char* kOptimizedPrefix = "optimized.";
+
+/// Name of that trajectory's row in a table.
+std::string optimized_label(const std::string& estimator);
+
+/// Whether the record scores a re-optimized trajectory of the estimator.
+bool has_optimized(const RunRecord& record, const std::string& estimator);
 
 /// Dotted keys of every number that an estimator of the record has.
 std::vector<std::string> score_keys(const RunRecord& record, const std::string& estimator);

@@ -56,10 +56,11 @@ std::size_t finished(std::span<const RunRecord> runs, const std::string& estimat
       }));
 }
 
-std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator) {
+std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator,
+                      const std::string& prefix) {
   return static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) {
-        return find_score(run, estimator, "success") == 1.0;
+        return find_score(run, estimator, prefix + "success") == 1.0;
       }));
 }
 

@@ -45,9 +45,11 @@ ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string
 Interval median_interval(std::span<const RunRecord> runs, const std::string& estimator,
                          const std::string& key);
 
-/// Runs in which the estimator finished, and those in which it did not diverge.
+/// Runs in which the estimator finished, and those in which it did not diverge; with the prefix
+/// `kOptimizedPrefix`, in which its re-optimized trajectory did not.
 std::size_t finished(std::span<const RunRecord> runs, const std::string& estimator);
-std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator);
+std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator,
+                      const std::string& prefix = "");
 
 /// Values of one score in pairs of runs on the same seed.
 struct ScorePairs {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/run/score_statistics.hpp"
 
 namespace aims {
@@ -33,10 +35,23 @@ std::string cell(const ScoreStatistics& summary, int digits, bool several) {
   return several ? fmt::format("{} ({:.{}f})", median, *summary.worst, digits) : median;
 }
 
-std::string success_cell(std::span<const RunRecord> runs, const std::string& estimator) {
-  const std::size_t count = successes(runs, estimator);
+std::string success_cell(std::span<const RunRecord> runs, const std::string& estimator,
+                         const std::string& prefix) {
+  const std::size_t count = successes(runs, estimator, prefix);
   if (runs.size() == 1) return count == 1 ? "yes" : "diverged";
   return fmt::format("{}/{}", count, finished(runs, estimator));
+}
+
+/// The row of a trajectory, whose scores have keys that begin with `prefix`.
+std::vector<std::string> row_of(std::span<const RunRecord> runs, std::span<const Column> columns,
+                                const std::string& estimator, const std::string& prefix) {
+  std::vector<std::string> row = {prefix.empty() ? estimator : optimized_label(estimator)};
+  for (const Column& column : columns) {
+    const ScoreStatistics statistics = statistics_of(runs, estimator, prefix + column.key);
+    row.push_back(cell(statistics, column.digits, runs.size() > 1));
+  }
+  row.push_back(success_cell(runs, estimator, prefix));
+  return row;
 }
 
 }  // namespace
@@ -49,12 +64,10 @@ TextTable score_table(std::span<const RunRecord> runs) {
   for (const Column& column : columns) table.header.push_back(column.title);
   table.header.emplace_back("success");
   for (const auto& [estimator, unused] : runs.front().scores.at("estimators").items()) {
-    std::vector<std::string> row = {estimator};
-    for (const Column& column : columns) {
-      row.push_back(cell(statistics_of(runs, estimator, column.key), column.digits, runs.size() > 1));
-    }
-    row.push_back(success_cell(runs, estimator));
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(row_of(runs, columns, estimator, ""));
+    const bool optimized = std::ranges::any_of(
+        runs, [&, &name = estimator](const RunRecord& run) { return has_optimized(run, name); });
+    if (optimized) table.rows.push_back(row_of(runs, columns, estimator, kOptimizedPrefix));
   }
   return table;
 }

@@ -1,100 +1,139 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/tables.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
-#include <type_traits>
 
 #include "core/files/csv_columns.hpp"
 
 namespace aims {
 namespace {
 
-/// The upper triangle of a symmetric matrix, row by row.
-template <class Matrix, class Visit>
-void visit_symmetric(const std::string& name, Matrix& m, const Visit& visit) {
-  constexpr const char* kAxes[] = {"x", "y", "z"};
+constexpr const char* kStamp = "stamp_s";
+constexpr const char* kTime = "time_ms";
+
+/// Columns of a covariance: the upper triangle, row by row.
+std::vector<std::string> covariance_columns(const std::string& name) {
+  std::vector<std::string> columns;
+  for (const char* axes : {"_xx", "_xy", "_xz", "_yy", "_yz", "_zz"})
+    columns.push_back(name + axes);
+  return columns;
+}
+
+const std::vector<std::string> kPositionColumns = covariance_columns("position_covariance");
+const std::vector<std::string> kRotationColumns = covariance_columns("rotation_covariance");
+
+std::vector<std::string> diagnostics_header(const Diagnostics& diagnostics) {
+  std::vector<std::string> header = {kStamp};
+  for (const SeriesInfo& info : diagnostics.series) header.push_back(info.name);
+  header.insert(header.end(), kPositionColumns.begin(), kPositionColumns.end());
+  header.insert(header.end(), kRotationColumns.begin(), kRotationColumns.end());
+  header.emplace_back(kTime);
+  return header;
+}
+
+void add_symmetric(const Eigen::Matrix3d& matrix, CsvTable& table) {
   for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column) {
-      visit(name + "_" + kAxes[row] + kAxes[column], m(row, column));
-    }
+    for (int column = row; column < 3; ++column) table.add(matrix(row, column));
   }
 }
 
-/// Calls `visit(column, number)` for every number of a scan but its stamp, in the columns' order.
-template <class Scan, class Visit>
-void visit_numbers(Scan& d, const Visit& visit) {
-  visit("points_in", d.points_in);
-  visit("points_used", d.points_used);
-  visit("iterations", d.iterations);
-  visit("residual_mean", d.residual_mean);
-  visit("residual_sigma", d.residual_sigma);
-  visit("residual_sigma_prior", d.residual_sigma_prior);
-  visit("O_lidar", d.O_lidar);
-  visit("O_lidar_prior", d.O_lidar_prior);
-  visit("C_IL", d.C_IL);
-  visit("C_IL_full", d.C_IL_full);
-  visit("D", d.D);
-  visit("D_smoothed", d.D_smoothed);
-  visit("gamma_lidar", d.gamma_lidar);
-  visit("gamma_leg", d.gamma_leg);
-  visit("innovation_rotation_x", d.innovation_rotation.x());
-  visit("innovation_rotation_y", d.innovation_rotation.y());
-  visit("innovation_rotation_z", d.innovation_rotation.z());
-  visit("innovation_position_x", d.innovation_position.x());
-  visit("innovation_position_y", d.innovation_position.y());
-  visit("innovation_position_z", d.innovation_position.z());
-  visit("smallest_eigenvalue", d.smallest_eigenvalue);
-  visit("condition_number", d.condition_number);
-  visit("weak_weight", d.weak_weight);
-  visit("weak_ratio", d.weak_ratio);
-  visit("leg_innovation", d.leg_innovation);
-  visit("leg_updates", d.leg_updates);
-  visit_symmetric("position_covariance", d.position_covariance, visit);
-  visit_symmetric("rotation_covariance", d.rotation_covariance, visit);
+void add_covariance(const std::optional<PoseCovariance>& covariance, CsvTable& table) {
+  const auto none = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  add_symmetric(covariance ? covariance->position : none, table);
+  add_symmetric(covariance ? covariance->rotation : none, table);
 }
 
-std::vector<std::string> diagnostics_header() {
-  std::vector<std::string> header = {"stamp_s"};
-  const ScanDiagnostics none;
-  visit_numbers(none, [&](const std::string& name, auto) { header.push_back(name); });
-  header.emplace_back("time_ms");
-  return header;
+/// Columns of a diagnostics file by name.
+using Columns = std::map<std::string, std::vector<double>>;
+
+/// The covariance in row `row`; none where a column is missing or a cell is empty.
+std::optional<Eigen::Matrix3d> symmetric_at(const Columns& columns,
+                                            const std::vector<std::string>& names,
+                                            std::size_t row) {
+  Eigen::Matrix3d matrix;
+  auto name = names.begin();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) {
+      const auto column = columns.find(*name++);
+      if (column == columns.end()) return std::nullopt;
+      matrix(i, j) = matrix(j, i) = column->second[row];
+    }
+  }
+  return matrix.allFinite() ? std::optional(matrix) : std::nullopt;
+}
+
+std::optional<PoseCovariance> covariance_at(const Columns& columns, std::size_t row) {
+  const auto position = symmetric_at(columns, kPositionColumns, row);
+  const auto rotation = symmetric_at(columns, kRotationColumns, row);
+  if (!position || !rotation) return std::nullopt;
+  return PoseCovariance{*position, *rotation};
+}
+
+/// The columns that are neither stamp, nor time, nor covariance.
+std::vector<SeriesInfo> series_in(const std::vector<std::string>& header) {
+  std::vector<SeriesInfo> series;
+  for (const std::string& name : header) {
+    const bool other = name == kStamp || name == kTime ||
+                       std::ranges::count(kPositionColumns, name) > 0 ||
+                       std::ranges::count(kRotationColumns, name) > 0;
+    if (!other) series.push_back({name, "", ""});
+  }
+  return series;
+}
+
+Result<Columns> columns_of(const CsvColumns& table) {
+  Columns columns;
+  for (const std::string& name : table.header()) {
+    auto numbers = table.numbers(name);
+    if (!numbers) return tl::unexpected(numbers.error());
+    columns[name] = std::move(*numbers);
+  }
+  return columns;
 }
 
 }  // namespace
 
 CsvTable diagnostics_table(const EstimatorOutcome& outcome) {
-  CsvTable table(diagnostics_header());
-  for (std::size_t i = 0; i < outcome.result.diagnostics.size(); ++i) {
-    const ScanDiagnostics& scan = outcome.result.diagnostics[i];
+  const Diagnostics& diagnostics = outcome.result.diagnostics;
+  CsvTable table(diagnostics_header(diagnostics));
+  for (std::size_t i = 0; i < diagnostics.scans.size(); ++i) {
+    const ScanRow& scan = diagnostics.scans[i];
+    assert(scan.values.size() == diagnostics.series.size());
     table.add(to_seconds(scan.stamp));
-    visit_numbers(scan, [&](const std::string&, auto number) { table.add(number); });
+    for (const double value : scan.values) table.add(value);
+    add_covariance(scan.covariance, table);
     if (i < outcome.scan_times_ms.size()) table.add(outcome.scan_times_ms[i]);
     table.end_row();
   }
   return table;
 }
 
-Result<std::vector<ScanDiagnostics>> read_diagnostics(const std::filesystem::path& file) {
+Result<Diagnostics> read_diagnostics(const std::filesystem::path& file) {
   const auto table = CsvColumns::read(file);
   if (!table) return tl::unexpected(table.error());
-  std::vector<ScanDiagnostics> scans(table->rows());
-  std::map<std::string, std::vector<double>> columns;
-  for (const std::string& name : table->header()) {
-    auto numbers = table->numbers(name);
-    if (!numbers) return tl::unexpected(numbers.error());
-    columns[name] = std::move(*numbers);
+  if (!table->has(kStamp)) {
+    return failure(fmt::format("{}:1: expected the column {}", file.string(), kStamp));
   }
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    scans[i].stamp = from_seconds(columns["stamp_s"][i]);
-    visit_numbers(scans[i], [&](const std::string& name, auto& number) {
-      const auto column = columns.find(name);
-      if (column == columns.end()) return;
-      number = static_cast<std::remove_reference_t<decltype(number)>>(column->second[i]);
-    });
+  const auto columns = columns_of(*table);
+  if (!columns) return tl::unexpected(columns.error());
+  Diagnostics diagnostics;
+  diagnostics.series = series_in(table->header());
+  for (std::size_t i = 0; i < table->rows(); ++i) {
+    ScanRow& scan = diagnostics.scans.emplace_back();
+    scan.stamp = from_seconds(columns->at(kStamp)[i]);
+    scan.covariance = covariance_at(*columns, i);
+    for (const SeriesInfo& info : diagnostics.series) {
+      scan.values.push_back(columns->at(info.name)[i]);
+    }
   }
-  return scans;
+  return diagnostics;
 }
 
 CsvTable waypoint_times_table(const std::vector<WaypointTime>& waypoint_times) {

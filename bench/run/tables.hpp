@@ -12,11 +12,14 @@
 
 namespace aims {
 
-/// One row per scan: everything in ScanDiagnostics and the time that the scan took [ms].
+/// One row per scan: stamp, the estimator's series by name, the stated covariance of the pose
+/// (upper triangles, body axes) and the time that the scan took [ms]. What is not computed is
+/// empty.
 CsvTable diagnostics_table(const EstimatorOutcome& outcome);
 
-/// Reads a file of that table, but for the times.
-Result<std::vector<ScanDiagnostics>> read_diagnostics(const std::filesystem::path& file);
+/// Reads a file of that table, but for the times; its series have no unit and no meaning. Error
+/// without the stamps.
+Result<Diagnostics> read_diagnostics(const std::filesystem::path& file);
 
 /// One row per passed reference point.
 CsvTable waypoint_times_table(const std::vector<WaypointTime>& waypoint_times);

@@ -10,7 +10,8 @@ namespace {
 
 /// Scans done so far; an estimator that looks at none is measured by its poses.
 std::size_t scans_in(const EstimatorResult& report) {
-  return report.diagnostics.empty() ? report.trajectory.size() : report.diagnostics.size();
+  const std::size_t scans = report.diagnostics.scans.size();
+  return scans == 0 ? report.trajectory.size() : scans;
 }
 
 }  // namespace

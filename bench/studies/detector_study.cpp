@@ -38,7 +38,7 @@ Result<DetectorRun> read_run(const Job& job, const JobStore& store) {
       store.outputs_of(job.id) / fmt::format("{}.diagnostics.csv", kEstimateName);
   const auto scans = read_diagnostics(diagnostics);
   if (!scans) return tl::unexpected(scans.error());
-  if (scans->empty()) {
+  if (scans->scans.empty()) {
     return failure(
         fmt::format("estimator {} records no diagnostics of scans", job.estimator.label));
   }
@@ -70,6 +70,9 @@ Result<DetectorStudy> detector_study(const Suite& suite, const fs::path& folder)
     return failure(fmt::format("estimator {} made no update with a scan", study.estimator));
   }
   study.scores = score_detectors(study.runs);
+  if (study.scores.empty()) {
+    return failure(fmt::format("estimator {} reports no index of degeneracy", study.estimator));
+  }
   study.warnings = undecided_levels(study.scores);
   return study;
 }

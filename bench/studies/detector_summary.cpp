@@ -54,6 +54,9 @@ Json study_json(const DetectorStudy& study) {
   }
   Json indices = Json::object();
   for (const DegeneracyIndex& index : degeneracy_indices()) {
+    const bool judged =
+        std::ranges::count(study.scores, index.name, &DetectorScore::index) > 0;
+    if (!judged) continue;
     indices[index.name] = {{"degenerate_when", index.high_is_degenerate ? "high" : "low"},
                            {"source", index.source}};
   }
@@ -119,7 +122,7 @@ TextTable table_of(std::span<const DetectorScore> scores) {
       row.push_back(score.median_delay_s ? fmt::format("{:.1f}", *score.median_delay_s) : "–");
       row.push_back(score.auc ? fmt::format("{}/{}", score.missed, score.onsets) : "–");
     }
-    table.rows.push_back(std::move(row));
+    if (row.size() > 1) table.rows.push_back(std::move(row));
   }
   return table;
 }

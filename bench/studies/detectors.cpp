@@ -85,10 +85,20 @@ DetectorScore score_one(std::span<const DetectorRun* const> runs, std::size_t in
   return score;
 }
 
+/// Whether any scan has a value of the index.
+bool is_computed(std::span<const DetectorRun* const> runs, std::size_t index) {
+  return std::ranges::any_of(runs, [index](const DetectorRun* run) {
+    return std::ranges::any_of(run->scans, [index](const DetectorScan& scan) {
+      return std::isfinite(scan.values[index]);
+    });
+  });
+}
+
 void score_set(std::span<const DetectorRun* const> runs, const std::string& scenario,
                std::vector<DetectorScore>& scores) {
   for (const DegeneracyLevel& level : kDegeneracyLevels) {
     for (std::size_t index = 0; index < degeneracy_indices().size(); ++index) {
+      if (!is_computed(runs, index)) continue;
       scores.push_back(score_one(runs, index, level));
       scores.back().scenario = scenario;
     }
@@ -98,46 +108,42 @@ void score_set(std::span<const DetectorRun* const> runs, const std::string& scen
 }  // namespace
 
 const std::vector<DegeneracyIndex>& degeneracy_indices() {
-  using Scan = ScanDiagnostics;
   static const std::vector<DegeneracyIndex> indices = {
-      {"D", true, "paper, eq. (7)", [](const Scan& s) { return s.D; }},
-      {"D_smoothed", true, "paper, eq. (12)", [](const Scan& s) { return s.D_smoothed; }},
-      {"O_lidar", false, "paper, eq. (4)", [](const Scan& s) { return s.O_lidar; }},
-      {"O_lidar_prior", false, "paper, eq. (4)", [](const Scan& s) { return s.O_lidar_prior; }},
-      {"C_IL", true, "paper, eqs. (6), (7)", [](const Scan& s) { return s.C_IL; }},
-      {"smallest_eigenvalue", false, "Zhang, Kaess and Singh 2016",
-       [](const Scan& s) { return s.smallest_eigenvalue; }},
-      {"condition_number", true, "Hinduja, Ho and Kaess 2019",
-       [](const Scan& s) { return s.condition_number; }},
-      {"weak_weight", false, "this project: weight of the weakest axis",
-       [](const Scan& s) { return s.weak_weight; }},
-      {"weak_ratio", false, "this project: smallest significance ratio of an axis",
-       [](const Scan& s) { return s.weak_ratio; }},
-      {"points_used", false, "usual practice",
-       [](const Scan& s) { return static_cast<double>(s.points_used); }}};
+      {"D", true, "paper, eq. (7)"},
+      {"D_smoothed", true, "paper, eq. (12)"},
+      {"O_lidar", false, "paper, eq. (4)"},
+      {"O_lidar_prior", false, "paper, eq. (4)"},
+      {"C_IL", true, "paper, eqs. (6), (7)"},
+      {"C_IL_imu", true, "paper, eq. (6), against the IMU alone"},
+      {"C_IL_imu_legs", true, "eq. (6) against IMU and legs"},
+      {"smallest_eigenvalue", false, "Zhang, Kaess and Singh 2016"},
+      {"condition_number", true, "Hinduja, Ho and Kaess 2019"},
+      {"weak_weight", false, "this project: weight of the weakest axis"},
+      {"weak_ratio", false, "this project: smallest significance ratio of an axis"},
+      {"points_used", false, "usual practice"}};
   return indices;
 }
 
-DetectorRun detector_run(const std::vector<ScanDiagnostics>& diagnostics,
-                         std::span<const Localizability> truth, Duration tolerance) {
+DetectorRun detector_run(const Diagnostics& diagnostics, std::span<const Localizability> truth,
+                         Duration tolerance) {
   std::vector<Time> stamps;
   for (const Localizability& scan : truth) stamps.push_back(scan.stamp);
   DetectorRun run;
-  for (const ScanDiagnostics& scan : diagnostics) {
-    if (scan.iterations == 0) {
+  for (std::size_t i = 0; i < diagnostics.scans.size(); ++i) {
+    if (!diagnostics.updated(i)) {
       ++run.without_update;
       continue;
     }
-    const auto nearest = nearest_stamp(stamps, scan.stamp, tolerance);
+    const auto nearest = nearest_stamp(stamps, diagnostics.scans[i].stamp, tolerance);
     if (!nearest) {
       ++run.without_truth;
       continue;
     }
     DetectorScan& each = run.scans.emplace_back();
-    each.stamp = scan.stamp;
+    each.stamp = diagnostics.scans[i].stamp;
     each.equivalent_returns = truth[*nearest].equivalent_returns;
     for (const DegeneracyIndex& index : degeneracy_indices()) {
-      each.values.push_back(index.value(scan));
+      each.values.push_back(diagnostics.value(i, index.name));
     }
   }
   return run;

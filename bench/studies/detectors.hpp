@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,22 +17,21 @@
 
 namespace aims {
 
-/// A quantity of ScanDiagnostics as a detector of degeneracy, in the direction that its source
-/// states; an AUC below 0.5 refutes that direction.
+/// A series of an estimator's diagnostics as a detector of degeneracy, in the direction that its
+/// source states; an AUC below 0.5 refutes that direction.
 struct DegeneracyIndex {
-  std::string name;
+  std::string name;  ///< of the series
   bool high_is_degenerate = true;
   std::string source;  ///< who states the direction
-  std::function<double(const ScanDiagnostics&)> value;
 };
 
-/// Every index that is judged.
+/// Every index that is judged, of the estimators that report its series.
 const std::vector<DegeneracyIndex>& degeneracy_indices();
 
 /// One scan with an update: each index' value and the truth.
 struct DetectorScan {
   Time stamp = 0;
-  std::vector<double> values;       ///< by index
+  std::vector<double> values;       ///< by index; NaN: not computed
   double equivalent_returns = 0.0;  ///< by the truth
 };
 
@@ -46,9 +44,10 @@ struct DetectorRun {
   int without_truth = 0;   ///< scans left out because no scan information is near their stamp
 };
 
-/// Pairs every scan's diagnostics with the true scan information nearest in time, at most `tolerance` away.
-DetectorRun detector_run(const std::vector<ScanDiagnostics>& diagnostics,
-                         std::span<const Localizability> truth, Duration tolerance);
+/// Pairs every scan's diagnostics with the true scan information nearest in time, at most
+/// `tolerance` away.
+DetectorRun detector_run(const Diagnostics& diagnostics, std::span<const Localizability> truth,
+                         Duration tolerance);
 
 /// How one index does as a detector of one degeneracy level over a set of runs.
 struct DetectorScore {
@@ -72,7 +71,8 @@ struct DetectorScore {
 inline constexpr double kFalseAlarms = 0.05;
 
 /// Scores of every index at every level, pooled and per scenario. Scores of one scenario follow
-/// those pooled; within each, levels and then indices in their order.
+/// those pooled; within each, levels and then indices in their order. An index that no scan has a
+/// value of is left out.
 std::vector<DetectorScore> score_detectors(std::span<const DetectorRun> runs);
 
 struct DetectorStudy {

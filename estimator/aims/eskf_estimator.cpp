@@ -18,8 +18,8 @@ void record_covariance(const Belief& belief, const Eigen::Matrix3d& map_covarian
   const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
   const Eigen::Matrix3d position =
       block(belief.covariance, E::kPosition, E::kPosition) + map_covariance;
-  diagnostics.position_covariance = R.transpose() * position * R;
-  diagnostics.rotation_covariance = block(belief.covariance, E::kRotation, E::kRotation);
+  diagnostics.covariance.position = R.transpose() * position * R;
+  diagnostics.covariance.rotation = block(belief.covariance, E::kRotation, E::kRotation);
 }
 
 /// Without fusion, leg packets are only a clock: none is out of range.
@@ -40,10 +40,13 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
       queue_(config_.queue, config_.imu, rig.imu_rate_hz, max_leg_speed(config_)),
       selection_(config_.lidar),
       lidar_update_(config_),
+      leg_free_(config_.imu),
       map_(config_.map),
       ground_(config_.ground_constraint),
       leg_noise_(config_.leg_noise, rig),
-      zero_velocity_(config_.zero_velocity) {}
+      zero_velocity_(config_.zero_velocity) {
+  result_.diagnostics.series = scan_series();
+}
 
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -101,6 +104,7 @@ void EskfEstimator::report_pose_without_scan(Time stamp) {
   if (result_.trajectory.empty()) return;
   if (stamp - result_.trajectory.back().stamp < kMaxPoseInterval) return;
   predict_to(stamp);
+  leg_free_.predict_to(stamp, queue_.imu());
   result_.trajectory.push_back({stamp, belief_.state.T_odom_body()});
   ++result_.counts["pose.without_scan"];
 }
@@ -182,6 +186,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   }
   repeat_lost_legs(scan->end);
   predict_to(scan->end);
+  leg_free_.predict_to(scan->end, queue_.imu());
   ScanDiagnostics diagnostics;
   diagnostics.stamp = scan->end;
   diagnostics.leg_innovation = leg_innovation_;
@@ -190,13 +195,14 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   prepare_points(*scan, diagnostics);
   if (config_.ground_constraint.enabled) fuse_ground_constraint();
   if (!map_.empty()) {
-    accept(lidar_update_.update(belief_, match_points_, map_, diagnostics));
+    accept(lidar_update_.update(belief_, match_points_, map_, diagnostics, leg_free_.belief()));
     if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
   }
+  leg_free_.restart(belief_, scan->end);
   extend_map();
   record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
-  result_.diagnostics.push_back(diagnostics);
+  result_.diagnostics.scans.push_back(row_of(diagnostics));
 }
 
 void EskfEstimator::predict_to(Time stamp) {

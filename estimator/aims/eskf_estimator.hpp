@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimator/aims/config.hpp"
+#include "estimator/aims/leg_free_prediction.hpp"
 #include "estimator/aims/lidar_update.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
@@ -54,6 +55,7 @@ class EskfEstimator : public Estimator {
   MeasurementQueue queue_;
   ScanSelection selection_;
   LidarUpdate lidar_update_;
+  LegFreePrediction leg_free_;
   VoxelMap map_;
   GroundConstraint ground_;
   LegNoiseModel leg_noise_;
@@ -65,7 +67,7 @@ class EskfEstimator : public Estimator {
   Belief belief_;
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
   StrideMean stride_mean_;
-  double leg_innovation_ = 0.0;
+  double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]
   int leg_updates_ = 0;
 
   std::vector<InertialSegment> segments_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/aims/leg_free_prediction.hpp"
+
 namespace aims {
 namespace {
 
@@ -115,7 +117,10 @@ void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_infor
   const ErrorVector y = boxminus(trial_state, predicted.state);  // eq. (5)
   diagnostics.residual_mean = statistics.mean;
   diagnostics.residual_sigma = std::sqrt(statistics.variance);
-  diagnostics.C_IL = consistency(pose_segment(y), pose_block(predicted.covariance));
+  diagnostics.C_IL_imu_legs = lidar_consistency(trial_state, predicted);
+  const bool imu_alone =
+      degeneracy_.prediction == ConsistencyPrediction::kImu && std::isfinite(diagnostics.C_IL_imu);
+  diagnostics.C_IL = imu_alone ? diagnostics.C_IL_imu : diagnostics.C_IL_imu_legs;
   diagnostics.C_IL_full = consistency_full(y, prior_information);
   diagnostics.innovation_rotation = segment(y, ErrorState::kRotation);
   diagnostics.innovation_position = segment(y, ErrorState::kPosition);
@@ -135,6 +140,18 @@ void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& d
   gamma_leg_ = leg_reliability(severity_.value(), degeneracy_);
 }
 
+/// C_IL of the prediction by the IMU alone. The LiDAR-updated state of eq. (5) is what the scan
+/// makes of that prediction, not of the filter's: the trial state is pulled towards the legs along
+/// axes that the scan hardly constrains, and the difference would show up as inconsistency of the
+/// LiDAR. The scan is linearized at the trial state, which both updates share when converged.
+double LidarUpdate::leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
+                                         const ScanInformation& scan) const {
+  const ErrorMatrix prior_information = inverse_spd(leg_free.covariance);
+  const Belief updated = kalman_update(leg_free.state, prior_information, linearization,
+                                       fused(scan, 1.0, linearization));
+  return lidar_consistency(updated.state, leg_free);
+}
+
 void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predicted,
                                         const Belief& updated) {
   const auto position = [](const Belief& belief) {
@@ -146,7 +163,8 @@ void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predi
 }
 
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
-                           const VoxelMap& map, ScanDiagnostics& diagnostics) {
+                           const VoxelMap& map, ScanDiagnostics& diagnostics,
+                           const Belief* leg_free) {
   const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
   const auto trial = this->trial(predicted, prior_information, points, map, diagnostics);
   const NominalState& at = trial.belief.state;
@@ -161,11 +179,12 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     diagnostics.iterations = trial.iterations;
     diagnostics.converged = trial.converged;
     record_localizability(scan.matrix, diagnostics);
+    if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at, scan);
     assess(predicted, prior_information, at, diagnostics);
     belief = kalman_update(predicted.state, prior_information, at, fused(scan, gamma_lidar_, at));
     if (map_covariance_enabled_) update_map_covariance(map, predicted, belief);
   }
-  diagnostics.D_smoothed = severity_.value();
+  if (degeneracy_.enabled) diagnostics.D_smoothed = severity_.value();
   diagnostics.gamma_lidar = gamma_lidar_;
   diagnostics.gamma_leg = gamma_leg_;
   return belief;

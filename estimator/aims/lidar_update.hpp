@@ -6,9 +6,9 @@
 #include <span>
 
 #include "estimator/aims/config.hpp"
+#include "estimator/aims/scan_diagnostics.hpp"
 #include "estimator/degeneracy/axis_weights.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
-#include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/lidar/scan_matcher.hpp"
 #include "estimator/lidar/voxel_map.hpp"
@@ -24,9 +24,11 @@ class LidarUpdate {
 
   /// The belief after fusing `points` (body axes at the time of the belief) with `map`. Fills the
   /// index, weights and statistics of `diagnostics`. With too few planes at any linearization, the
-  /// last included, the belief and the index are unchanged and `iterations` is 0.
+  /// last included, the belief and the index are unchanged and `iterations` is 0. `leg_free` is the
+  /// prediction of the IMU alone, for C_IL; null: not known, C_IL then takes `predicted`.
   Belief update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
-                const VoxelMap& map, ScanDiagnostics& diagnostics);
+                const VoxelMap& map, ScanDiagnostics& diagnostics,
+                const Belief* leg_free = nullptr);
 
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
@@ -50,6 +52,8 @@ class LidarUpdate {
   void assess(const Belief& predicted, const ErrorMatrix& prior_information,
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
   void assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics);
+  double leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
+                              const ScanInformation& scan) const;
   void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);
 
   LidarUpdateConfig lidar_;

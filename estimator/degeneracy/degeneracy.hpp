@@ -8,10 +8,18 @@
 
 namespace aims {
 
+/// The prediction that C_IL compares the LiDAR with.
+enum class ConsistencyPrediction {
+  kImu,         ///< of the IMU alone since the last scan, as the paper defines it
+  kImuAndLegs,  ///< of the filter, which also holds the leg updates since the last scan
+};
+
 /// Reliability assessment and adaptive weights, eqs. (3)-(12).
 struct DegeneracyConfig {
   bool enabled = false;          ///< weigh LiDAR and legs by the index
   bool prior_residuals = false;  ///< O_lidar from the residuals before the trial update
+  /// C_IL of D_k, eq. (7)
+  ConsistencyPrediction prediction = ConsistencyPrediction::kImuAndLegs;
   double sigma_0 = 0.008;        ///< nominal residual dispersion, eq. (4) [m]
   double kappa = 12.6;           ///< saturation of C_IL, eq. (7) [-]
   double w1 = 0.5;               ///< weight of 1 - O_lidar, eq. (7); w2 = 1 - w1 [-]

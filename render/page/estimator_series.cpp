@@ -17,7 +17,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// Stamps of one scan in two files differ by their rounding alone.
 constexpr Duration kSameScan = kMillisecond;
 
-/// Series of a page and their columns in diagnostics.csv.
+/// Series of a page and their columns in diagnostics.csv; one that is missing is not drawn.
 const ColumnNames kColumns = {{"D", "D"},
                               {"D_smoothed", "D_smoothed"},
                               {"O_lidar", "O_lidar"},
@@ -111,7 +111,7 @@ void add_errors(const Trajectory& poses, const Trajectory& truth, const Numbers&
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       errors[k].push_back(error[axis]);
-      // Estimators that state no covariance write zeros.
+      // Empty where the estimator states no covariance, zero in old files.
       sigmas[k].push_back(variances[axis] > 0.0 ? std::sqrt(variances[axis]) : kNone);
     }
   }

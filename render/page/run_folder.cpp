@@ -74,7 +74,8 @@ std::vector<std::string> estimator_names(const RunFolder& run) {
   std::vector<std::string> found;
   for (const auto& entry : fs::directory_iterator(run.path)) {
     const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() == ".tum" && stem != "truth") found.push_back(stem);
+    const bool estimate = stem != "truth" && !stem.ends_with(".optimized");
+    if (entry.path().extension() == ".tum" && estimate) found.push_back(stem);
   }
   std::sort(found.begin(), found.end());
   for (std::string& name : found) {

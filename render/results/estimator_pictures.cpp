@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "render/plots/map_picture.hpp"
 #include "render/plots/time_plot.hpp"
@@ -13,15 +15,73 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The quantity over the scans that made an update.
-TimeSeries series_of(std::string name, const EstimatorOutcome& outcome,
-                     double ScanDiagnostics::*quantity) {
-  TimeSeries series{std::move(name), {}};
-  for (const ScanDiagnostics& scan : outcome.result.diagnostics) {
-    const bool updated = scan.iterations > 0;
-    if (updated) series.points.emplace_back(to_seconds(scan.stamp), scan.*quantity);
+/// A curve: its label and the series that it shows.
+struct SeriesCurve {
+  const char* label;
+  const char* series;
+};
+
+/// The series over the scans that have a value of it.
+TimeSeries series_of(const SeriesCurve& curve, const Diagnostics& diagnostics) {
+  TimeSeries series{curve.label, {}};
+  const auto index = diagnostics.find(curve.series);
+  if (!index) return series;
+  for (std::size_t i = 0; i < diagnostics.scans.size(); ++i) {
+    const ScanRow& scan = diagnostics.scans[i];
+    const double value = scan.values[*index];
+    const bool shown = diagnostics.updated(i) && std::isfinite(value);
+    if (shown) series.points.emplace_back(to_seconds(scan.stamp), value);
   }
   return series;
+}
+
+/// A panel and its curves.
+struct SeriesPanel {
+  const char* title;
+  const char* label;  ///< of the value axis
+  std::vector<SeriesCurve> curves;
+  bool logarithmic;
+  bool from_zero;
+};
+
+const std::vector<SeriesPanel> kSeriesPanels = {
+    {"Index", "[-]", {{"D_k", "D"}, {"smoothed", "D_smoothed"}}, false, true},
+    {"Reliability",
+     "[-]",
+     {{"gamma_lidar", "gamma_lidar"}, {"gamma_leg", "gamma_leg"}},
+     false,
+     true},
+    {"Observability",
+     "[-]",
+     {{"O_lidar after the update", "O_lidar"}, {"before", "O_lidar_prior"}},
+     false,
+     true},
+    {"Consistency", "[-]", {{"C_IL", "C_IL"}}, true, false},
+    {"Smallest translation eigenvalue",
+     "[1/m²]",
+     {{"lambda_min", "smallest_eigenvalue"}},
+     true,
+     false},
+    {"Information over noise-induced information",
+     "[-]",
+     {{"smallest over axes", "weak_ratio"}},
+     true,
+     false},
+    {"Weight of the weakest axis", "[-]", {{"weak_weight", "weak_weight"}}, false, true},
+};
+
+/// The panels of those series that have values.
+std::vector<TimePanel> panels_of(const Diagnostics& diagnostics) {
+  std::vector<TimePanel> panels;
+  for (const SeriesPanel& panel : kSeriesPanels) {
+    TimePanel drawn{panel.title, panel.label, {}, panel.logarithmic, panel.from_zero};
+    for (const SeriesCurve& curve : panel.curves) {
+      TimeSeries series = series_of(curve, diagnostics);
+      if (!series.points.empty()) drawn.series.push_back(std::move(series));
+    }
+    if (!drawn.series.empty()) panels.push_back(std::move(drawn));
+  }
+  return panels;
 }
 
 }  // namespace
@@ -42,49 +102,14 @@ Result<void> draw_map(const std::string& title, const EstimatorOutcome& outcome,
 Result<void> draw_degeneracy(const std::string& title, const std::string& subtitle,
                              std::span<const EstimatorOutcome> outcomes,
                              std::span<const WaypointTime> waypoint_times, const fs::path& folder) {
-  const auto found = std::find_if(
-      outcomes.begin(), outcomes.end(),
-      [](const EstimatorOutcome& outcome) { return !outcome.result.diagnostics.empty(); });
-  if (found == outcomes.end()) return {};
-  using Scan = ScanDiagnostics;
   TimePlot plot;
-  plot.title = fmt::format("{}: degeneracy index of {}", title, found->name);
-  plot.subtitle = subtitle;
-  plot.panels = {
-      {"Index",
-       "[-]",
-       {series_of("D_k", *found, &Scan::D), series_of("smoothed", *found, &Scan::D_smoothed)},
-       false,
-       true},
-      {"Reliability",
-       "[-]",
-       {series_of("gamma_lidar", *found, &Scan::gamma_lidar),
-        series_of("gamma_leg", *found, &Scan::gamma_leg)},
-       false,
-       true},
-      {"Observability",
-       "[-]",
-       {series_of("O_lidar after the update", *found, &Scan::O_lidar),
-        series_of("before", *found, &Scan::O_lidar_prior)},
-       false,
-       true},
-      {"Consistency", "[-]", {series_of("C_IL", *found, &Scan::C_IL)}, true, false},
-      {"Smallest translation eigenvalue",
-       "[1/m²]",
-       {series_of("lambda_min", *found, &Scan::smallest_eigenvalue)},
-       true,
-       false}};
-  const TimeSeries ratio = series_of("least over axes", *found, &Scan::weak_ratio);
-  const bool judged = std::any_of(ratio.points.begin(), ratio.points.end(),
-                                  [](const Eigen::Vector2d& point) { return point.y() > 0.0; });
-  if (judged) {
-    plot.panels.push_back({"Information over what chance gives", "[-]", {ratio}, true, false});
-    plot.panels.push_back({"Weight of the weakest axis",
-                           "[-]",
-                           {series_of("weak_weight", *found, &Scan::weak_weight)},
-                           false,
-                           true});
+  for (const EstimatorOutcome& outcome : outcomes) {
+    plot.title = fmt::format("{}: degeneracy index of {}", title, outcome.name);
+    plot.panels = panels_of(outcome.result.diagnostics);
+    if (!plot.panels.empty()) break;
   }
+  if (plot.panels.empty()) return {};
+  plot.subtitle = subtitle;
   for (const WaypointTime& waypoint_time : waypoint_times) {
     plot.events.emplace_back(to_seconds(waypoint_time.stamp), waypoint_time.point);
   }

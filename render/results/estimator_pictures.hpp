@@ -16,7 +16,8 @@ Result<void> draw_map(const std::string& title, const EstimatorOutcome& outcome,
                       const std::filesystem::path& folder);
 
 /// Draws degeneracy.png: the index and what follows from it over time, of the first estimator that
-/// computes it; nothing when none does. `waypoint_times` are marked.
+/// reports one of its series; nothing when none does. A series that is missing leaves its curve
+/// out. `waypoint_times` are marked.
 Result<void> draw_degeneracy(const std::string& title, const std::string& subtitle,
                              std::span<const EstimatorOutcome> outcomes,
                              std::span<const WaypointTime> waypoint_times,

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bench/studies/detector_summary.hpp"
 #include "core/files/atomic_file.hpp"
@@ -128,11 +130,11 @@ TEST(DetectorRun, PairsByTheNearestStampAndLeavesOutWhatHasNoUpdateOrNoTruth) {
     truth[i].stamp = (i + 1) * 100 * kMillisecond;
     truth[i].equivalent_returns = i;
   }
-  std::vector<ScanDiagnostics> diagnostics(4);
+  Diagnostics diagnostics;
+  diagnostics.series = {{"iterations", "-", ""}, {"D", "-", ""}};
   for (int i = 0; i < 4; ++i) {
-    diagnostics[i].stamp = (i + 1) * 100 * kMillisecond + 20 * kMillisecond;  // a clock offset
-    diagnostics[i].iterations = i == 0 ? 0 : 2;
-    diagnostics[i].D = 0.1 * i;
+    const Time stamp = (i + 1) * 100 * kMillisecond + 20 * kMillisecond;  // a clock offset
+    diagnostics.scans.push_back({stamp, {}, {i == 0 ? 0.0 : 2.0, 0.1 * i}});
   }
   const DetectorRun run = detector_run(diagnostics, truth, 50 * kMillisecond);
   EXPECT_EQ(run.without_update, 1);
@@ -140,6 +142,39 @@ TEST(DetectorRun, PairsByTheNearestStampAndLeavesOutWhatHasNoUpdateOrNoTruth) {
   ASSERT_EQ(run.scans.size(), 2U);
   EXPECT_EQ(run.scans[0].equivalent_returns, 1.0);
   EXPECT_DOUBLE_EQ(run.scans[0].values[index_of("D")], 0.1);
+  EXPECT_TRUE(std::isnan(run.scans[0].values[index_of("C_IL")])) << "no such series: not zero";
+}
+
+TEST(DetectorRun, TakesEveryScanOfAnEstimatorWithoutIterationsAsAnUpdate) {
+  std::vector<Localizability> truth(1);
+  truth[0].stamp = kSecond;
+  Diagnostics diagnostics;
+  diagnostics.series = {{"condition_number", "-", ""}};
+  diagnostics.scans.push_back({kSecond, {}, {7.0}});
+  const DetectorRun run = detector_run(diagnostics, truth, kMillisecond);
+  EXPECT_EQ(run.without_update, 0);
+  ASSERT_EQ(run.scans.size(), 1U);
+  EXPECT_EQ(run.scans[0].values[index_of("condition_number")], 7.0);
+}
+
+TEST(Detectors, LeaveOutAnIndexWhoseSeriesIsMissing) {
+  std::vector<DetectorRun> runs = {run_with("x", 1, 1.0)};
+  for (DetectorScan& scan : runs[0].scans) {
+    scan.values[index_of("weak_ratio")] = std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto scores = score_detectors(runs);
+  EXPECT_TRUE(std::ranges::none_of(
+      scores, [](const DetectorScore& score) { return score.index == "weak_ratio"; }));
+  EXPECT_EQ(score_of(scores, "D", "n10").auc, 1.0);
+  DetectorStudy study;
+  study.runs = runs;
+  study.scores = scores;
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_detectors(study, folder.path()));
+  for (const char* name : {"detectors.json", "detectors.csv", "detectors.md"}) {
+    EXPECT_EQ(read_file(folder.path() / name).value().find("weak_ratio"), std::string::npos)
+        << name;
+  }
 }
 
 /// A few seconds in a corridor whose one end wall leaves the sensor's range on the way.

@@ -57,6 +57,18 @@ TEST(RunFolder, HoldsEveryFileAndPicture) {
   }
 }
 
+TEST(RunFolder, HoldsTheReoptimizedTrajectoryOfAnEstimatorThatHasOne) {
+  const TemporaryFolder temporary;
+  const fs::path out = temporary.path() / "run";
+  const auto suite = run(short_walk(), {1}, out);
+  ASSERT_TRUE(suite) << suite.error().message;
+  const fs::path own = JobStore(out).outputs_of(suite->jobs[0].id);
+  fs::copy_file(own / "estimate.tum", own / "estimate.optimized.tum");
+  ASSERT_TRUE(write_runs(*suite, out));
+  EXPECT_TRUE(read_tum(out / "aims.optimized.tum"));
+  EXPECT_FALSE(fs::exists(out / "leg.optimized.tum"));
+}
+
 TEST(RunFolder, ItsConfigurationReproducesTheRun) {
   const TemporaryFolder temporary;
   const fs::path first = temporary.path() / "first";

@@ -59,7 +59,7 @@ TEST(Eskf, TracksTheCorridorWithinCentimetres) {
   for (const char* name : {"aims", "tfs", "tfs_clean", "lio"}) {
     const EstimatorResult result = run(name, deliveries, world.rig());
     ASSERT_GT(result.trajectory.size(), 150U) << name;
-    EXPECT_EQ(result.trajectory.size(), result.diagnostics.size());
+    EXPECT_EQ(result.trajectory.size(), result.diagnostics.scans.size());
     EXPECT_LT(result.trajectory.front().pose.translation.norm(), 0.01);
     EXPECT_LT(largest_error(result, world), 0.05) << name;
   }
@@ -84,34 +84,55 @@ TEST(Eskf, LegOdometryAloneKeepsItsScaleError) {
 TEST(Eskf, FillsDiagnostics) {
   KinematicWorld world(short_sequence());
   const EstimatorResult result = run("aims", record(world), world.rig());
-  const ScanDiagnostics& d = result.diagnostics.at(100);
-  EXPECT_GT(d.points_in, 1000);
-  EXPECT_GT(d.points_used, 100);
-  EXPECT_GE(d.iterations, 1);
-  for (double value : {d.residual_sigma, d.residual_sigma_prior, d.C_IL, d.C_IL_full, d.D_smoothed,
-                       d.smallest_eigenvalue, d.condition_number, d.leg_innovation}) {
-    EXPECT_GT(value, 0.0);
+  const auto at = [&](const char* name) { return result.diagnostics.value(100, name); };
+  EXPECT_GT(at("points_in"), 1000);
+  EXPECT_GT(at("points_used"), 100);
+  EXPECT_GE(at("iterations"), 1);
+  for (const char* name : {"residual_sigma", "residual_sigma_prior", "C_IL", "C_IL_full",
+                           "D_smoothed", "smallest_eigenvalue", "condition_number",
+                           "leg_innovation"}) {
+    EXPECT_GT(at(name), 0.0) << name;
   }
-  EXPECT_GT(d.leg_updates, 10);
-  EXPECT_GT(d.gamma_lidar, 0.0);
-  EXPECT_LT(d.gamma_lidar, 1.0);
-  EXPECT_LT(d.gamma_leg, 1.0);
-  EXPECT_GE(d.O_lidar, 0.0);
-  EXPECT_LE(d.O_lidar, 1.0);
+  EXPECT_GT(at("leg_updates"), 10);
+  EXPECT_GT(at("gamma_lidar"), 0.0);
+  EXPECT_LT(at("gamma_lidar"), 1.0);
+  EXPECT_LT(at("gamma_leg"), 1.0);
+  EXPECT_GE(at("O_lidar"), 0.0);
+  EXPECT_LE(at("O_lidar"), 1.0);
+  EXPECT_TRUE(result.diagnostics.scans[100].covariance);
+}
+
+TEST(Eskf, LeavesOutOfItsSeriesWhatAVariantOrAScanDoesNotCompute) {
+  KinematicWorld world(short_sequence());
+  const auto deliveries = record(world);
+  const Diagnostics aims = run("aims", deliveries, world.rig()).diagnostics;
+  EXPECT_FALSE(aims.updated(0)) << "the first scan starts the map";
+  EXPECT_TRUE(aims.updated(100));
+  for (const char* name : {"C_IL", "D", "O_lidar", "smallest_eigenvalue"}) {
+    EXPECT_TRUE(std::isnan(aims.value(0, name))) << name;
+  }
+  EXPECT_TRUE(std::isnan(aims.value(100, "weak_ratio"))) << "no weights per axis";
+  const Diagnostics directional = run("aims_d", deliveries, world.rig()).diagnostics;
+  EXPECT_GT(directional.value(100, "weak_ratio"), 0.0);
+  const Diagnostics lio = run("lio", deliveries, world.rig()).diagnostics;
+  EXPECT_TRUE(std::isnan(lio.value(100, "leg_innovation")));
 }
 
 TEST(Eskf, WeightsEachScanByItsOwnSmoothedIndex) {
   KinematicWorld world(short_sequence());
   const EstimatorResult result = run("aims", record(world), world.rig());
   const DegeneracyConfig config;
-  double smoothed = result.diagnostics.at(1).D_smoothed;  // the first scan starts the map
-  for (std::size_t i = 1; i < result.diagnostics.size(); ++i) {
-    const ScanDiagnostics& scan = result.diagnostics[i];
-    if (i > 1) smoothed = config.alpha * smoothed + (1.0 - config.alpha) * scan.D;
-    EXPECT_NEAR(scan.D_smoothed, smoothed, 1e-12) << i;
-    EXPECT_NEAR(scan.gamma_lidar, std::exp(-config.eta * scan.D_smoothed), 1e-12) << i;
-    EXPECT_NEAR(scan.gamma_leg,
-                config.gamma_min + (1.0 - config.gamma_min) * (1.0 - scan.D_smoothed), 1e-12)
+  const Diagnostics& diagnostics = result.diagnostics;
+  double smoothed = diagnostics.value(1, "D_smoothed");  // the first scan starts the map
+  for (std::size_t i = 1; i < diagnostics.scans.size(); ++i) {
+    const double D = diagnostics.value(i, "D_smoothed");
+    if (i > 1) {
+      smoothed = config.alpha * smoothed + (1.0 - config.alpha) * diagnostics.value(i, "D");
+    }
+    EXPECT_NEAR(D, smoothed, 1e-12) << i;
+    EXPECT_NEAR(diagnostics.value(i, "gamma_lidar"), std::exp(-config.eta * D), 1e-12) << i;
+    EXPECT_NEAR(diagnostics.value(i, "gamma_leg"),
+                config.gamma_min + (1.0 - config.gamma_min) * (1.0 - D), 1e-12)
         << i;
   }
 }
@@ -222,8 +243,8 @@ TEST(Eskf, ReportsPosesWithoutLidar) {
   for (const char* name : {"aims", "lio", "leg"}) {
     const EstimatorResult result = run(name, kept, world.rig());
     EXPECT_LE(longest_gap(result.trajectory), kMaxPoseInterval + 10 * kMillisecond) << name;
-    if (result.diagnostics.empty()) continue;
-    const auto bridged = result.trajectory.size() - result.diagnostics.size();
+    if (result.diagnostics.scans.empty()) continue;
+    const auto bridged = result.trajectory.size() - result.diagnostics.scans.size();
     EXPECT_NEAR(static_cast<double>(bridged), 12.0, 1.0) << name;
   }
 }

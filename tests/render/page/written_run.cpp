@@ -11,6 +11,7 @@
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
 #include "core/random.hpp"
+#include "estimator/aims/scan_diagnostics.hpp"
 
 namespace aims::testing {
 namespace {
@@ -50,6 +51,7 @@ void write_estimator(const fs::path& folder, const WrittenRun& run, const std::s
   EstimatorOutcome outcome;
   outcome.name = name;
   outcome.result.trajectory = straight(run, Eigen::Vector3d::Zero(), step);
+  outcome.result.diagnostics.series = scan_series();
   for (const StampedPose& pose : outcome.result.trajectory) {
     ScanDiagnostics scan;
     scan.stamp = pose.stamp;
@@ -57,8 +59,8 @@ void write_estimator(const fs::path& folder, const WrittenRun& run, const std::s
     scan.C_IL = stream.uniform();
     scan.gamma_lidar = stream.uniform();
     scan.innovation_position = {3e-3, 4e-3, 0.0};
-    scan.position_covariance = kCovariance * Eigen::Matrix3d::Identity();
-    outcome.result.diagnostics.push_back(scan);
+    scan.covariance.position = kCovariance * Eigen::Matrix3d::Identity();
+    outcome.result.diagnostics.scans.push_back(row_of(scan));
     outcome.scan_times_ms.push_back(stream.uniform(1.0, 30.0));
   }
   put(folder / (name + ".tum"), tum_text(outcome.result.trajectory));
