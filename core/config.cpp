@@ -383,7 +383,9 @@ std::string sequence_text(const std::vector<std::string>& entries) {
 std::string unknown_key_message(const Fields& fields, std::string_view key) {
   const auto [concrete, star] = without_star(fields, key);
   std::string near = proposal_for(fields, concrete);
-  if (star < near.size()) near.replace(star, std::min(near.find('.', star), near.size()) - star, "*");
+  if (star < near.size()) {
+    near.replace(star, std::min(near.find('.', star), near.size()) - star, "*");
+  }
   if (near == key) return fmt::format("{}: a group of settings; expected one of its keys", key);
   if (near.empty()) return fmt::format("unknown key '{}'", key);
   return fmt::format("unknown key '{}'; did you mean '{}'?", key, near);

@@ -74,8 +74,8 @@ Result<Scenario> load_scenario(const std::filesystem::path& file,
 /// The scenario that an empty file describes, with `overrides` on top.
 Result<Scenario> default_scenario(std::span<const std::string> overrides);
 
-/// Every parameter of the scenario that has an effect, as YAML that loads again; `annotated` adds unit, range, meaning
-/// and source to each.
+/// Every parameter of the scenario that has an effect, as YAML that loads again; `annotated` adds
+/// unit, range, meaning and source to each.
 std::string config_text(const Scenario& scenario, bool annotated = false);
 
 /// The configuration that repeats a run with that seed.

@@ -60,7 +60,9 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
   ScenarioVariants variants(scenario, ranges);
   std::vector<std::vector<double>> points;
   if (!ranges.empty()) {
-    if (auto right = check_ranges(ranges, *scenario, *estimators); !right) return tl::unexpected(right.error());
+    if (auto right = check_ranges(ranges, *scenario, *estimators); !right) {
+      return tl::unexpected(right.error());
+    }
     const auto size = design_size(plan.design, ranges, plan.samples);
     if (!size) return tl::unexpected(size.error());
     points =

@@ -218,7 +218,8 @@ std::string overlay_text(const TuneResult& result) {
   text += fmt::format("# search: {}\n# code: {}\n# plan:\n{}", search_text(result), code_version(),
                       commented(plan_text(task.plan)));
   auto settings = settings_of(task, result.tables.front().points[result.chosen.front()]);
-  for (auto& [key, value] : settings) key = fmt::format("estimators.{}.{}", result.task.estimator.name, key);
+  const std::string& name = result.task.estimator.name;
+  for (auto& [key, value] : settings) key = fmt::format("estimators.{}.{}", name, key);
   std::sort(settings.begin(), settings.end());
   return text + nested_yaml(settings);
 }

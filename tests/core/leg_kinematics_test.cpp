@@ -31,7 +31,8 @@ TEST(LegKinematics, JacobianMatchesFiniteDifferences) {
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(i);
       const Eigen::Vector3d numeric =
-          (foot_in_base(leg, q + step, kGeometry) - foot_in_base(leg, q - step, kGeometry)) / (2.0 * h);
+          (foot_in_base(leg, q + step, kGeometry) - foot_in_base(leg, q - step, kGeometry)) /
+          (2.0 * h);
       EXPECT_LT((J.col(i) - numeric).norm(), 1e-8) << "trial " << trial << " joint " << i;
     }
   }
@@ -42,7 +43,8 @@ TEST(LegKinematics, InverseKinematicsInvertsForwardKinematics) {
   for (int trial = 0; trial < 40; ++trial) {
     const int leg = trial % kLegCount;
     const Eigen::Vector3d q = random_angles(random);
-    EXPECT_LT((leg_angles(leg, foot_in_base(leg, q, kGeometry), kGeometry) - q).norm(), 1e-9) << "trial " << trial;
+    const Eigen::Vector3d back = leg_angles(leg, foot_in_base(leg, q, kGeometry), kGeometry);
+    EXPECT_LT((back - q).norm(), 1e-9) << "trial " << trial;
   }
 }
 

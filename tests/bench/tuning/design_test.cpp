@@ -43,7 +43,8 @@ bool says(const std::string& message, const std::string& part) {
 std::string check(const std::vector<std::string>& texts) {
   const auto ranges = parse_ranges(texts);
   if (!ranges) return ranges.error().message;
-  const auto checked = check_ranges(*ranges, {}, std::vector<EstimatorSpec>{*parse_estimator_spec("aims")});
+  const std::vector<EstimatorSpec> aims = {*parse_estimator_spec("aims")};
+  const auto checked = check_ranges(*ranges, {}, aims);
   return checked ? "" : checked.error().message;
 }
 

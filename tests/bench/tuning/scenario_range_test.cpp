@@ -32,7 +32,8 @@ std::string refusal_of(const std::string& text) {
 }
 
 TEST(RangeKey, IsTheEstimatorsWithAndWithoutItsGroup) {
-  for (const char* given : {"degeneracy.eta", "estimators.aims.degeneracy.eta", "estimators.*.degeneracy.eta"}) {
+  for (const char* given :
+       {"degeneracy.eta", "estimators.aims.degeneracy.eta", "estimators.*.degeneracy.eta"}) {
     const auto key = range_key(given);
     ASSERT_TRUE(key);
     EXPECT_EQ(key->name, "degeneracy.eta");

@@ -74,6 +74,22 @@ TEST(LegNoise, WrongLegLengthsDoNotRaiseTheSpread) {
   EXPECT_LT(stance.spread.maxCoeff(), config.nominal_spread);
 }
 
+TEST(LegNoise, AnotherRobotNeedsItsOwnGeometryFromTheRig) {
+  SensorRig other = rig();
+  other.leg_geometry.thigh = 0.3;
+  other.leg_geometry.hip_y = 0.15;
+  const LegOdometrySample sample = fixed_stance(0, other.leg_geometry);
+  EXPECT_LT(compare_stance_feet(sample, kTurning, other.leg_geometry).spread.norm(), 1e-6);
+  EXPECT_GT(compare_stance_feet(sample, kTurning, kRobotGeometry).spread.norm(), 0.02);
+  const LegNoiseConfig config{.nominal_spread = 0.0};
+  const Eigen::Matrix3d own = LegNoiseModel(config, other).noise(sample, kTurning);
+  const Eigen::Matrix3d wrong = LegNoiseModel(config, rig()).noise(sample, kTurning);
+  const Eigen::Matrix3d nominal_noise =
+      LegNoiseModel(config, rig()).noise(fixed_stance(0), kTurning);
+  EXPECT_TRUE(own.isApprox(nominal_noise, 1e-6));
+  EXPECT_GT(wrong.trace(), 1.02 * own.trace());
+}
+
 TEST(LegNoise, AFixedStanceHasNominalNoise) {
   const LegNoiseConfig config;
   StanceFeet stance = compare_stance_feet(fixed_stance(0), kTurning, kRobotGeometry);

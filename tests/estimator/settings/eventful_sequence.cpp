@@ -18,13 +18,12 @@ bool within(Time time, double from, double to) {
   return time >= from_seconds(from) && time < from_seconds(to);
 }
 
-SimulationConfig short_route(const RampConfig& ramp) {
+SimulationConfig short_route() {
   SimulationConfig config = straight_sequence(5.0, 150);
   config.route.points = {{"a", 0.0, 0.0}, {"b", 2.5, 0.0}, {"c", 5.0, 0.0}};
   config.route.stand_before = kSetOff;
   config.route.stand_at_points = 1.5;
-  config.scene.corridor.length = std::max(5.0, ramp.start + ramp.length + 1.0);
-  config.scene.ramp = ramp;
+  config.scene.ramp = {.start = 3.2, .length = 0.8, .grade = 0.06};
   return config;
 }
 
@@ -58,8 +57,8 @@ bool disturb(LidarScanPtr& scan, Delivery&) { return !within(scan->end, 5.8, 6.4
 
 }  // namespace
 
-RecordedStream eventful_sequence(const RampConfig& ramp) {
-  SimulatedSequence sequence = simulate(short_route(ramp), 3);
+RecordedStream eventful_sequence() {
+  SimulatedSequence sequence = simulate(short_route(), 3);
   RecordedStream stream{{}, sequence.rig};
   for (Delivery& delivery : sequence.deliveries) {
     const bool kept =

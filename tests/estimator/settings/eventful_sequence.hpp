@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/measurements.hpp"
-#include "sim/environment/scene_config.hpp"
 
 namespace aims::testing {
 
@@ -14,13 +13,9 @@ struct RecordedStream {
   SensorRig rig;
 };
 
-/// A ramp and a slope so gentle that it may count as level.
-inline constexpr RampConfig kShortRamp{.start = 3.2, .length = 0.8, .grade = 0.06};
-inline constexpr RampConfig kGentleSlope{.start = 2.0, .length = 12.0, .grade = 0.006};
-
 /// A few metres with a stop in between, over a ramp, in which every kind of disturbance happens:
 /// lost, late, early and impossible packets of each sensor, slip, lost contacts.
-RecordedStream eventful_sequence(const RampConfig& ramp);
+RecordedStream eventful_sequence();
 
 /// The same stream from its first second of motion on.
 RecordedStream started_in_motion(const RecordedStream& stream);

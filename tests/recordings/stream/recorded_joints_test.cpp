@@ -70,6 +70,21 @@ TEST_F(RecordedJoints, KneeTorquesReplaceContacts) {
   EXPECT_LT((legs[0].linear_velocity - expected).norm(), 1e-12);
 }
 
+TEST_F(RecordedJoints, TheRigHasTheGeometryAndTheRatesOfTheRecording) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 20);
+  robot.add_clouds(kStart, 3);
+  robot.close();
+  RecordingConfig config;
+  config.leg_geometry.thigh = 0.3;
+  const auto reader = RecordingReader::open(bag(), config);
+  ASSERT_TRUE(reader) << reader.error().message;
+  const RecordingSetup& setup = reader->setup();
+  EXPECT_EQ(setup.rig.leg_geometry, config.leg_geometry);
+  EXPECT_NEAR(setup.rig.imu_rate_hz, setup.imu_rate_hz.value(), 0.1 * setup.rig.imu_rate_hz);
+  EXPECT_EQ(setup.rig.leg_rate_hz, SensorRig().leg_rate_hz) << "no packets: the nominal rate";
+}
+
 TEST_F(RecordedJoints, UnknownJointNamesAreNoted) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 20);
