@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct ImuSample {
   Time stamp = 0;  ///< end of the interval that the sample averages, or the instant sampled
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< [m/s^2], +9.81 upwards when static
+  /// R_world_body as the IMU reports it, a unit quaternion; none: it reports no orientation.
+  std::optional<Eigen::Quaterniond> orientation = std::nullopt;
 };
 
 /// One LiDAR return in the LiDAR frame at the instant of its own firing (not deskewed).

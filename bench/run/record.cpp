@@ -46,13 +46,16 @@ class Recorder {
   RecordingWriter& writer() { return writer_; }
 
  private:
-  Result<void> write_fast(const ImuSample& sample) {
-    return writer_.write_imu(ImuOutput::kFast, sample.stamp, sample, fast_attitude_.update(sample));
+  Result<void> write_fast(ImuSample sample) {
+    sample.orientation = fast_attitude_.update(sample);
+    return writer_.write_imu(ImuOutput::kFast, sample.stamp, sample);
   }
 
   Result<void> write_delivery(const Delivery& delivery) {
     if (const auto* imu = std::get_if<ImuSample>(&delivery.measurement)) {
-      return writer_.write_imu(ImuOutput::kMain, delivery.arrival, *imu, attitude_.update(*imu));
+      ImuSample sample = *imu;
+      sample.orientation = attitude_.update(sample);
+      return writer_.write_imu(ImuOutput::kMain, delivery.arrival, sample);
     }
     if (const auto* legs = std::get_if<LegOdometrySample>(&delivery.measurement)) {
       return writer_.write_legs(delivery.arrival, *legs);

@@ -49,7 +49,7 @@ struct Scenario {
   std::string level_unit;  ///< e.g. "m", "%"
   int seed = 1;
   /// Specs (estimator/estimator_spec.hpp) of who runs.
-  std::vector<std::string> run = {"aims", "aims_d", "tfs", "tfs_clean", "lio", "leg"};
+  std::vector<std::string> run = {"aims", "aims_d", "tfs", "tfs_clean", "tfs_plus", "lio", "leg"};
   SimulationConfig simulation;
   EstimatorConfigs estimators;
   ScoreConfig scoring;

@@ -55,6 +55,7 @@ bool take_count(ByteCursor& cursor, std::size_t size, std::size_t& count) {
   return true;
 }
 
+/// Without orientation: the simulated IMU reports none.
 void append_imu(std::vector<std::byte>& out, const ImuSample& sample) {
   append_number(out, sample.stamp);
   append_matrix(out, sample.angular_velocity);

@@ -48,7 +48,7 @@ std::int64_t write_robot(const std::filesystem::path& file, BagCompression compr
   static const MessageBytes cloud = sample_cloud();
   static const MessageBytes odometry = sample_odometry();
   static const MessageBytes imu =
-      imu_message({1, kSecond, "imu"}, ImuSample{}, Eigen::Quaterniond::Identity());
+      imu_message({1, kSecond, "imu"}, ImuSample{});
   auto bag = BagWriter::create(file, {compression}).value();
   const auto clouds = bag.add_connection("/lidar/points", point_cloud_type());
   const auto legs = bag.add_connection("/leg_odometry", odometry_type());

@@ -17,11 +17,22 @@ namespace {
 constexpr double kMinSuccessRate = 0.5;
 constexpr double kMaxGrowth = 2.0;  ///< of the ATE from the mildest level
 
+/// Length of the route of a scenario [m].
+double route_length(const Scenario& scenario) {
+  const auto& points = scenario.simulation.route.points;
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    length += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+  }
+  return length;
+}
+
 using Members = std::vector<const SuiteCase*>;
 
 FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
   FamilyPoint point;
   point.level = each.scenario.level;
+  point.distance_m = route_length(each.scenario);
   const auto own = labels_of(each.scenario.run);
   if (std::find(own.begin(), own.end(), estimator) == own.end()) return point;
   point.ate_m = statistics_of(each.runs, estimator, "ate_m").median;
@@ -70,7 +81,8 @@ std::size_t mildest_of(const std::vector<FamilyCurve>& curves, std::size_t level
 bool broken(const FamilyPoint& point, const FamilyPoint& mildest) {
   if (point.runs == 0) return false;
   if (point.success_rate < kMinSuccessRate || !point.ate_m) return true;
-  return mildest.ate_m && *point.ate_m > kMaxGrowth * *mildest.ate_m;
+  return mildest.ate_m && *point.ate_m > kMaxGrowth * *mildest.ate_m &&
+         *point.ate_m > kMinBreakError * point.distance_m;
 }
 
 std::vector<double> breaks_of(const std::vector<FamilyPoint>& points, std::size_t mildest) {

@@ -10,6 +10,9 @@
 
 namespace aims {
 
+/// Smallest ATE at which an estimator can break, as a fraction of the length of the route [-].
+inline constexpr double kMinBreakError = 0.005;
+
 /// One estimator at one level of a family, over seeds.
 struct FamilyPoint {
   double level = 0.0;
@@ -17,6 +20,7 @@ struct FamilyPoint {
   Interval ate_interval;         ///< of the median, 95 %
   std::optional<double> m_list;  ///< median over all segments [%]
   Interval m_list_interval;      ///< of the median, 95 %
+  double distance_m = 0.0;       ///< length of the route
   double success_rate = 0.0;     ///< in [0, 1]
   std::size_t runs = 0;
 };
@@ -42,7 +46,8 @@ struct FamilyResult {
 /// The mildest level is the one with the most successes over all estimators, and among equals that
 /// with the smallest median ATE (geometric mean over estimators). An estimator breaks at the first
 /// level, going away from the mildest on either side, where it succeeds in less than half of the
-/// runs or its median ATE exceeds twice that at the mildest level.
+/// runs, or where its median ATE exceeds both twice that at the mildest level and `kMinBreakError`
+/// of the distance: twice a few centimetres is no break.
 std::vector<FamilyResult> family_results(const Suite& suite);
 
 /// The families as suite.json holds them.

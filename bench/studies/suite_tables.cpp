@@ -117,8 +117,9 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
   if (!families.empty()) {
     text += fmt::format(
         "\n## Breaks at\n\nThe first level, going away from the mildest, where less than half of "
-        "the runs succeed or the median ATE exceeds twice that at the mildest.\n\n{}",
-        to_markdown(breaks_table(families)));
+        "the runs succeed or the median ATE exceeds both twice that at the mildest and {:g} % of "
+        "the route's length.\n\n{}",
+        100.0 * kMinBreakError, to_markdown(breaks_table(families)));
   }
   text += "\n## Expectations\n\n" + expectations_markdown(suite);
   text += "\n## Failures\n\n" + failures_markdown(suite);

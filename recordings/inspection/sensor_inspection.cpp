@@ -60,11 +60,14 @@ void ImuInspection::add(const MessageView& message, Time stamp) {
   const auto rate = vector_at(message, "angular_velocity");
   const auto force = vector_at(message, "linear_acceleration");
   if (!rate || !force || !force->allFinite()) return;
-  const ImuSample sample = {stamp, *rate, *force};
+  ImuSample sample;
+  sample.stamp = stamp;
+  sample.angular_velocity = *rate;
+  sample.specific_force = *force;
   if (unit_known_) return add_in_si(sample);
   first_.push_back(sample);
-  const auto orientation = quaternion_at(message, "orientation");
-  info_.oriented = orientation && std::abs(orientation->norm() - 1.0) < 1e-2;
+  EventCounts ignored;
+  info_.oriented = imu_orientation(message, ignored).has_value();
   if (first_.size() == kUnitSamples) decide_unit();
 }
 

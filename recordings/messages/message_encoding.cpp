@@ -9,6 +9,8 @@
 namespace aims {
 namespace {
 
+/// First entry of a covariance whose quantity is not estimated (sensor_msgs/Imu).
+constexpr double kNoEstimate = -1.0;
 constexpr std::size_t kPointStep = 22;
 constexpr std::uint8_t kPointUint16 = 4;
 constexpr std::uint8_t kPointFloat32 = 7;
@@ -77,12 +79,12 @@ MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan) {
   return out;
 }
 
-MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample,
-                         const Eigen::Quaterniond& orientation) {
+MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample) {
   MessageBytes out;
   put(out, header);
-  put(out, orientation);
-  put_unknown_covariance(out, 3);
+  put(out, sample.orientation.value_or(Eigen::Quaterniond::Identity()));
+  out.put(sample.orientation ? 0.0 : kNoEstimate);
+  for (int i = 1; i < 9; ++i) out.put(0.0);
   put(out, sample.angular_velocity);
   put_unknown_covariance(out, 3);
   put(out, sample.specific_force);

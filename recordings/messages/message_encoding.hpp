@@ -31,9 +31,9 @@ struct OdometryContent {
 /// uint16 at 16, time float32 [s] after the header's stamp at 18; in firing order, height 1.
 MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan);
 
-/// sensor_msgs/Imu; covariances unknown (zero).
-MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample,
-                         const Eigen::Quaterniond& orientation);
+/// sensor_msgs/Imu; covariances unknown (zero). Without an orientation the first entry of its
+/// covariance is -1 and the quaternion the identity.
+MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample);
 
 /// nav_msgs/Odometry; covariances unknown (zero).
 MessageBytes odometry_message(const MessageHeader& header, std::string_view child_frame,

@@ -50,6 +50,20 @@ bool is_off_unit(const Eigen::Quaterniond& rotation) {
   return !(std::abs(rotation.norm() - 1.0) <= 1e-9);
 }
 
+std::optional<Eigen::Quaterniond> imu_orientation(const MessageView& message, EventCounts& counts) {
+  auto rotation = quaternion_at(message, "orientation");
+  const auto covariance = message.numbers("orientation_covariance");
+  const bool estimated = !covariance || covariance->empty() || covariance->front() != -1.0;
+  if (!rotation || !estimated) return std::nullopt;
+  const double norm = rotation->norm();
+  if (!(norm > 0.5) || !(norm < 2.0)) {
+    ++counts["imu_orientation_invalid"];
+    return std::nullopt;
+  }
+  if (is_off_unit(*rotation)) rotation->normalize();
+  return rotation;
+}
+
 std::optional<Pose> message_pose(const MessageView& message, std::string_view path,
                                  EventCounts& counts) {
   const std::string prefix(path);

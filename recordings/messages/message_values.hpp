@@ -37,6 +37,11 @@ std::vector<FrameTransform> transforms_in(const MessageView& message);
 /// Quaternion "x", "y", "z", "w" below `path`, as recorded, or nothing.
 std::optional<Eigen::Quaterniond> quaternion_at(const MessageView& message, std::string_view path);
 
+/// Orientation of a sensor_msgs/Imu, normalized: R_world_body of the sensor. None where the first
+/// entry of its covariance is -1; a quaternion with a norm outside (0.5, 2), e.g. zero or
+/// not finite, is none too and counted as "imu_orientation_invalid".
+std::optional<Eigen::Quaterniond> imu_orientation(const MessageView& message, EventCounts& counts);
+
 /// Whether the norm differs from 1 by more than rounding.
 bool is_off_unit(const Eigen::Quaterniond& rotation);
 

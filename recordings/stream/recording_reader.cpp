@@ -109,6 +109,7 @@ void RecordingReader::Impl::take_imu(const MessageView& view, std::vector<Delive
   sample.stamp = stamp_of(Role::kImu, header_stamp(view, record_time), config.imu_delay);
   sample.angular_velocity = *turn;
   sample.specific_force = plan.force_scale == 1.0 ? *force : plan.force_scale * *force;
+  sample.orientation = imu_orientation(view, counts);
   if (!turn->allFinite() || !force->allFinite()) ++counts["imu_not_finite"];
   legs.add_imu(sample);
   deliver(Role::kImu, sample, sample.stamp, out);

@@ -81,12 +81,10 @@ Result<void> RecordingWriter::write(Topic topic, Time record_time, const Message
   return bag_.write(connection(topic), std::max<Time>(record_time, 1), message.view());
 }
 
-Result<void> RecordingWriter::write_imu(ImuOutput output, Time arrival, const ImuSample& sample,
-                                        const Eigen::Quaterniond& orientation) {
+Result<void> RecordingWriter::write_imu(ImuOutput output, Time arrival, const ImuSample& sample) {
   if (sample.stamp < 0) return ++dropped_, Result<void>{};
   const Topic topic = output == ImuOutput::kMain ? kImu : kFastImu;
-  return write(topic, arrival,
-               imu_message(header(topic, sample.stamp, kImuFrame), sample, orientation));
+  return write(topic, arrival, imu_message(header(topic, sample.stamp, kImuFrame), sample));
 }
 
 Result<void> RecordingWriter::write_scan(Time arrival, const LidarScan& scan) {

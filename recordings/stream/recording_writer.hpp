@@ -37,8 +37,7 @@ class RecordingWriter {
   static Result<RecordingWriter> create(const std::filesystem::path& file, const SensorRig& rig,
                                         std::string_view scenario, BagWriterOptions options = {});
 
-  Result<void> write_imu(ImuOutput output, Time arrival, const ImuSample& sample,
-                         const Eigen::Quaterniond& orientation);
+  Result<void> write_imu(ImuOutput output, Time arrival, const ImuSample& sample);
   Result<void> write_scan(Time arrival, const LidarScan& scan);
   /// Joint states, contacts, then odometry, with the same record time.
   Result<void> write_legs(Time arrival, const LegOdometrySample& sample);

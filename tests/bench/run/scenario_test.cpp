@@ -49,6 +49,19 @@ TEST_F(ScenarioFolder, RefusesTwoFilesOfOneName) {
   EXPECT_FALSE(scenarios_in(folder_.path(), {}));
 }
 
+TEST(ShippedScenarios, ExpectNoEstimatorToFail) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files) << files.error().message;
+  for (const auto& [file, scenario] : *files) {
+    ASSERT_TRUE(scenario) << scenario.error().message;
+    for (const Expectation& expectation : scenario->expect) {
+      if (expectation.score != "success" && expectation.score != "optimized.success") continue;
+      EXPECT_GE(expectation.max, 1.0)
+          << file << ": " << expectation.estimator << " must fail: a better one would break this";
+    }
+  }
+}
+
 TEST(ShippedScenarios, LoadAndAreCalledAsTheirFiles) {
   const auto files = scenarios_in(AIMS_SCENARIOS, {});
   ASSERT_TRUE(files) << files.error().message;

@@ -168,6 +168,7 @@ SuiteCase family_case(double level, const std::vector<double>& ates, bool succes
   each.scenario.family = "f";
   each.scenario.level = level;
   each.scenario.run = {"aims"};
+  each.scenario.simulation.route.points = {{"a", 0.0, 0.0}, {"b", 10.0, 0.0}, {"a", 0.0, 0.0}};
   for (const double ate : ates) {
     RunRecord run;
     run.seed = each.runs.size() + 1;
@@ -187,6 +188,16 @@ TEST(Families, BreakWhereTheErrorDoublesOrRunsDivergeOnEitherSideOfTheMildest) {
   ASSERT_EQ(families[0].curves.size(), 1U);
   EXPECT_EQ(families[0].curves[0].points.front().level, -10.0);
   EXPECT_EQ(families[0].curves[0].breaks_at, std::vector<double>({-10.0, 20.0}));
+}
+
+TEST(Families, DoNotBreakAtTwiceAFewCentimetres) {
+  Suite suite;
+  suite.cases = {family_case(0.0, {0.025}, true), family_case(1.0, {0.052}, true),
+                 family_case(2.0, {0.101}, true)};
+  EXPECT_EQ(family_results(suite)[0].curves[0].breaks_at, std::vector<double>{2.0})
+      << "0.5 % of 20 m are 0.1 m";
+  for (SuiteCase& each : suite.cases) each.scenario.simulation.route.points[1].x = 5.0;
+  EXPECT_EQ(family_results(suite)[0].curves[0].breaks_at, std::vector<double>{1.0});
 }
 
 TEST(Families, OfOneLevelAreNone) {

@@ -102,6 +102,36 @@ TEST(Eskf, FillsDiagnostics) {
   EXPECT_TRUE(result.diagnostics.scans[100].covariance);
 }
 
+TEST(Eskf, HasOneConsistencyWithoutLegsAndTwoWithThem) {
+  KinematicWorld world(short_sequence());
+  const auto deliveries = record(world);
+  const Diagnostics lio = run("lio", deliveries, world.rig()).diagnostics;
+  const Diagnostics aims = run("aims", deliveries, world.rig()).diagnostics;
+  int differ = 0;
+  for (std::size_t i = 1; i < lio.scans.size(); ++i) {
+    const double imu = lio.value(i, "C_IL_imu");
+    ASSERT_NEAR(imu, lio.value(i, "C_IL_imu_legs"), 0.02 + 0.02 * imu) << i;
+    ASSERT_EQ(aims.value(i, "C_IL"), aims.value(i, "C_IL_imu_legs")) << i;
+    differ += std::abs(aims.value(i, "C_IL_imu") / aims.value(i, "C_IL") - 1.0) > 0.01;
+  }
+  EXPECT_GT(differ, static_cast<int>(lio.scans.size() / 2));
+}
+
+TEST(Eskf, WeighsByTheConsistencyThatIsChosen) {
+  KinematicWorld world(short_sequence());
+  EstimatorConfig config;
+  config.degeneracy.prediction = ConsistencyPrediction::kImu;
+  const DegeneracyConfig& d = config.degeneracy;
+  const Diagnostics diagnostics = run("aims", record(world), world.rig(), config).diagnostics;
+  for (std::size_t i = 1; i < diagnostics.scans.size(); ++i) {
+    const double C_IL = diagnostics.value(i, "C_IL_imu");
+    ASSERT_EQ(diagnostics.value(i, "C_IL"), C_IL) << i;
+    ASSERT_NEAR(diagnostics.value(i, "D"),
+                degeneracy_severity(diagnostics.value(i, "O_lidar"), C_IL, d), 1e-12)
+        << i;
+  }
+}
+
 TEST(Eskf, LeavesOutOfItsSeriesWhatAVariantOrAScanDoesNotCompute) {
   KinematicWorld world(short_sequence());
   const auto deliveries = record(world);

@@ -44,20 +44,22 @@ class Corridor {
   RandomStream& random_;
 };
 
-EskfConfig config_with(bool gate_learning) {
+EskfConfig config_with(bool gate_learning, bool directional = true) {
   EskfConfig config = eskf_preset("aims_d");
+  config.noise_information.enabled = directional;
   config.leg_states.gate_learning = gate_learning;
   // These walls have no edges: the residuals of the plane fits do not overstate the noise.
   config.noise_information.scale = 1.0;
   return config;
 }
 
-/// The directional LiDAR update after 6 m along a corridor with a known map.
+/// The LiDAR update, directional unless that is switched off, after 6 m along a corridor with a
+/// known map.
 struct Sequence {
-  explicit Sequence(bool pillars, bool gate_learning = true)
+  explicit Sequence(bool pillars, bool gate_learning = true, bool directional = true)
       : corridor(pillars ? 0.2 : 0.0, random),
         map(MapConfig{}),
-        update(config_with(gate_learning)) {
+        update(config_with(gate_learning, directional)) {
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 30000; ++i) {
       points.push_back(corridor.point(-kHalfLength, kHalfLength).cast<float>());
@@ -73,20 +75,21 @@ struct Sequence {
   }
 
   /// The belief after a scan taken at `truth`, level and facing along x.
-  Belief fuse(const Belief& predicted) {
+  Belief fuse(const Belief& predicted, const Belief* leg_free = nullptr) {
     std::vector<Eigen::Vector3f> scan;
     for (int i = 0; i < 800; ++i) {
       const Eigen::Vector3d p = corridor.point(truth.x() - kRange, truth.x() + kRange);
       scan.push_back((p - truth).cast<float>());
     }
-    ScanDiagnostics diagnostics;
-    return update.update(predicted, scan, map, diagnostics);
+    diagnostics = ScanDiagnostics();
+    return update.update(predicted, scan, map, diagnostics, leg_free);
   }
 
   RandomStream random{1, "lidar_update.test"};
   Corridor corridor;
   VoxelMap map;
   LidarUpdate update;
+  ScanDiagnostics diagnostics;  ///< of the last scan
   Eigen::Vector3d truth = Eigen::Vector3d::Zero();
 };
 
@@ -118,6 +121,27 @@ TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
   EXPECT_LT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 1e-9);
   const int x = E::kPosition.offset;
   EXPECT_GT(updated.covariance(x, x), 0.8 * predicted.covariance(x, x));
+}
+
+TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {
+  Sequence sequence(true, true, false);
+  Belief predicted;
+  predicted.state.position = sequence.truth;
+  predicted.covariance = 1e-4 * ErrorMatrix::Identity();
+  Belief leg_free = predicted;
+  leg_free.state.position.y() += 0.05;
+  leg_free.covariance *= 2.0;
+  (void)sequence.fuse(predicted, &leg_free);
+  const ScanDiagnostics with_both = sequence.diagnostics;
+  EXPECT_EQ(with_both.C_IL, with_both.C_IL_imu_legs) << "the default";
+  EXPECT_GT(with_both.C_IL_imu, 3.0 * with_both.C_IL_imu_legs);
+
+  // The same scan as if the filter itself had predicted so.
+  Sequence same(true, true, false);
+  (void)same.fuse(leg_free);
+  EXPECT_NEAR(with_both.C_IL_imu, same.diagnostics.C_IL_imu_legs,
+              0.02 * same.diagnostics.C_IL_imu_legs);
+  EXPECT_TRUE(std::isnan(same.diagnostics.C_IL_imu)) << "without that prediction";
 }
 
 TEST(LidarUpdate, PillarsCorrectTheLongitudinalDirectionAndTheLegs) {

@@ -40,15 +40,12 @@ std::vector<double> numbers_of(const EstimatorResult& result, std::size_t first)
     append(numbers, each.pose.translation);
     append(numbers, each.pose.rotation.coeffs());
   }
-  for (std::size_t i = std::min(first, result.diagnostics.size()); i < result.diagnostics.size();
-       ++i) {
-    const ScanDiagnostics& each = result.diagnostics[i];
-    numbers.insert(numbers.end(),
-                   {double(each.points_in), double(each.points_used), double(each.iterations),
-                    each.O_lidar, each.C_IL, each.D, each.D_smoothed, each.gamma_lidar,
-                    each.gamma_leg, each.weak_weight, each.weak_ratio});
-    append(numbers, each.position_covariance);
-    append(numbers, each.rotation_covariance);
+  const std::vector<ScanRow>& scans = result.diagnostics.scans;
+  for (std::size_t i = std::min(first, scans.size()); i < scans.size(); ++i) {
+    numbers.insert(numbers.end(), scans[i].values.begin(), scans[i].values.end());
+    if (!scans[i].covariance) continue;
+    append(numbers, scans[i].covariance->position);
+    append(numbers, scans[i].covariance->rotation);
   }
   for (const auto& [name, count] : result.counts) numbers.push_back(count);
   return numbers;

@@ -62,11 +62,13 @@ Result<void> write_sample(BagWriter& bag, int count, int points) {
   for (int i = 0; i < count; ++i) {
     const Time time = kStart + i * 7 * kMillisecond;
     const MessageHeader header{sequence++, time, "some_frame"};
+    ImuSample sample;
+    sample.orientation = Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5);
     LegOdometrySample legs;
     OdometryContent content;
     content.pose.translation = {0.1 * i, -1.0, 1e-300};
     content.linear_velocity = {1.0, 2.0, 3.0};
-    put(imu, time, imu_message(header, ImuSample{}, Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5)));
+    put(imu, time, imu_message(header, sample));
     put(joints, time, joint_state_message(header, legs));
     put(contacts, time, foot_contacts_message(header, legs));
     put(odometry, time, odometry_message(header, "base", content));

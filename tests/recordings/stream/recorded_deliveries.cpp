@@ -19,6 +19,8 @@ bool same(const Pose& a, const Pose& b) {
 }
 
 bool same(const ImuSample& a, const ImuSample& b) {
+  if (a.orientation.has_value() != b.orientation.has_value()) return false;
+  if (a.orientation && !same_bits(a.orientation->coeffs(), b.orientation->coeffs())) return false;
   return a.stamp == b.stamp && same_bits(a.angular_velocity, b.angular_velocity) &&
          same_bits(a.specific_force, b.specific_force);
 }

@@ -159,7 +159,7 @@ TEST_F(RecordingReaderTest, TruncatedMessagesAreCounted) {
   robot.add_imu(kStart, 10);
   robot.add_clouds(kStart, 2);
   MessageBytes shorter;
-  shorter.append(imu_message({}, {}, Eigen::Quaterniond::Identity()).view().data(), 50);
+  shorter.append(imu_message({}, {}).view().data(), 50);
   robot.add("/imu", imu_type(), kStart + kSecond, shorter);
   robot.close();
   const Recording read = test::read_recording(bag());
@@ -200,7 +200,7 @@ TEST_F(RecordingReaderTest, TopicsWithoutStampsUseRecordTimes) {
   RobotRecording robot(bag());
   for (int k = 0; k < 10; ++k) {
     robot.add("/imu", imu_type(), kStart + k * 20 * kMillisecond,
-              imu_message({0, 0, "imu"}, {}, Eigen::Quaterniond::Identity()));
+              imu_message({0, 0, "imu"}, {}));
   }
   robot.add_clouds(kStart, 3);
   robot.close();
@@ -220,7 +220,7 @@ TEST_F(RecordingReaderTest, ArrivalsOfAnotherClockAreShiftedToTheSensors) {
     sample.stamp = kStart + k * 20 * kMillisecond;
     sample.specific_force.z() = 9.81;
     robot.add("/imu", imu_type(), sample.stamp + kAhead,
-              imu_message({0, sample.stamp, "imu"}, sample, Eigen::Quaterniond::Identity()));
+              imu_message({0, sample.stamp, "imu"}, sample));
   }
   robot.add_cloud(RawCloud::of(kStart, {{1, 2, 3, 0}, {1, 2, 3, 0.09F}}),
                   kStart + kAhead + 120 * kMillisecond);
@@ -254,7 +254,7 @@ TEST_F(RecordingReaderTest, NumbersThatAreNotFiniteAreCounted) {
   bad.stamp = kStart + kSecond;
   bad.angular_velocity.x() = std::nan("");
   robot.add("/imu", imu_type(), bad.stamp,
-            imu_message({0, bad.stamp, "imu"}, bad, Eigen::Quaterniond::Identity()));
+            imu_message({0, bad.stamp, "imu"}, bad));
   robot.add("/odom", odometry_type(), bad.stamp, odometry(bad.stamp, "base", std::nan("")));
   robot.close();
   const Recording read = test::read_recording(bag());

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 
 #include "recordings/stream/recording_reader.hpp"
 #include "recordings/stream/recording_writer.hpp"
@@ -56,11 +58,8 @@ void record(const std::filesystem::path& bag, const SensorRig& rig,
   for (const Delivery& each : deliveries) {
     Result<void> ok;
     if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) {
-      ok = writer->write_imu(ImuOutput::kMain, each.arrival, *imu, Eigen::Quaterniond::Identity());
-      if (ok) {
-        ok =
-            writer->write_imu(ImuOutput::kFast, each.arrival, *imu, Eigen::Quaterniond::Identity());
-      }
+      ok = writer->write_imu(ImuOutput::kMain, each.arrival, *imu);
+      if (ok) ok = writer->write_imu(ImuOutput::kFast, each.arrival, *imu);
     } else if (const auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
       ok = writer->write_legs(each.arrival, *legs);
     } else {
@@ -124,6 +123,49 @@ TEST_F(RecordingRoundTrip, TruthIsReadAndNotDelivered) {
   ASSERT_EQ(truth_.size(), 10U);
   EXPECT_EQ(truth_[3].stamp, 300 * kMillisecond);
   EXPECT_EQ(truth_[3].pose.translation.x(), to_seconds(300 * kMillisecond));
+}
+
+/// Gives every IMU sample an orientation made by `change`.
+void orient(std::vector<Delivery>& deliveries,
+            const std::function<std::optional<Eigen::Quaterniond>(int)>& change) {
+  int index = 0;
+  for (Delivery& each : deliveries) {
+    if (auto* imu = std::get_if<ImuSample>(&each.measurement)) imu->orientation = change(index++);
+  }
+}
+
+TEST_F(RecordingRoundTrip, AnOrientationOfTheImuIsReadBackWhereItHasOne) {
+  expect_the_same([](std::vector<Delivery>& deliveries) {
+    orient(deliveries, [](int i) -> std::optional<Eigen::Quaterniond> {
+      if (i % 3 == 0) return std::nullopt;
+      return so3_exp({0.01 * i, -0.2, 0.5});
+    });
+  });
+  EXPECT_TRUE(counts_.empty()) << counts_.begin()->first;
+}
+
+TEST_F(RecordingRoundTrip, AnOrientationThatIsNoRotationIsLeftOutAndCounted) {
+  test::KinematicWorld world(small_world());
+  std::vector<Delivery> deliveries = walk(world);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  orient(deliveries, [&](int i) {
+    return i % 2 == 0 ? Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0)
+                      : Eigen::Quaterniond(nan, 0.0, 0.0, 0.0);
+  });
+  record(folder_.path() / "walk.bag", world.rig(), deliveries);
+  auto reader = RecordingReader::open(folder_.path() / "walk.bag", {});
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto read = test::read_all(*reader);
+  ASSERT_TRUE(read) << read.error().message;
+  int samples = 0;
+  for (const Delivery& each : *read) {
+    if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) {
+      EXPECT_FALSE(imu->orientation);
+      ++samples;
+    }
+  }
+  EXPECT_GT(samples, 100);
+  EXPECT_EQ(reader->counts().at("imu_orientation_invalid"), samples);
 }
 
 TEST_F(RecordingRoundTrip, LostCloudsDoNotLengthenTheScan) {

@@ -74,7 +74,7 @@ void RobotRecording::add_imu(Time begin, int samples, double force, const std::s
     sample.stamp = begin + k * 20 * kMillisecond;
     sample.specific_force.z() = force;
     add(topic, imu_type(), sample.stamp + kMillisecond,
-        imu_message({0, sample.stamp, "imu"}, sample, Eigen::Quaterniond::Identity()));
+        imu_message({0, sample.stamp, "imu"}, sample));
   }
 }
 

@@ -86,7 +86,7 @@ function breaksText(family: Family, names: string[]): string {
     return `${name} ${breaks.length > 0 ? breaks.join(" and ") : "none"}`;
   }).filter((each) => each !== null);
   return `Breakdown levels: ${levels.join(", ")}. The breakdown level is the first one, counted from the mildest ` +
-    `(${family.mildest_level}), at which more than half of the runs diverge or the median ATE is over twice that of the mildest.`;
+    `(${family.mildest_level}), at which more than half of the runs diverge or the median ATE is over both twice that of the mildest and 0.5 % of the route's length.`;
 }
 
 /** The section; none without a family. */
