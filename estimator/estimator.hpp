@@ -34,8 +34,8 @@ class Estimator {
   /// Processes one measurement; call in order of arrival.
   virtual void consume(const Delivery& delivery) = 0;
 
-  /// Processes the measurements still held for reordering, and re-optimizes the trajectory where the
-  /// estimator does; call once, after the last delivery.
+  /// Processes the measurements still held for reordering, and re-optimizes the trajectory where
+  /// the estimator does; call once, after the last delivery.
   virtual void finish() = 0;
 
   virtual const EstimatorResult& result() const = 0;

@@ -10,8 +10,8 @@
 namespace aims {
 
 /// The paper's Table I over one or more runs: a row per estimator; over several runs each cell is
-/// "median (worst)", and success the fraction of runs. A re-optimized trajectory has a row of its own,
-/// "NAME (optimized)".
+/// "median (worst)", and success the fraction of runs. A re-optimized trajectory has a row of its
+/// own, "NAME (optimized)".
 TextTable score_table(std::span<const RunRecord> runs);
 
 }  // namespace aims

@@ -143,7 +143,8 @@ void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& d
 /// C_IL of the prediction by the IMU alone. The LiDAR-updated state of eq. (5) is what the scan
 /// makes of that prediction, not of the filter's: the trial state is pulled towards the legs along
 /// axes that the scan hardly constrains, and the difference would show up as inconsistency of the
-/// LiDAR. The scan is linearized at the trial state, which both updates share when converged.
+/// LiDAR. The scan is linearized at the trial state, which both updates share when converged; with
+/// the robust kernel its weights are those of the last iteration, one later than in the trial.
 double LidarUpdate::leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
                                          const ScanInformation& scan) const {
   const ErrorMatrix prior_information = inverse_spd(leg_free.covariance);
