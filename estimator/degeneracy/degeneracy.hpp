@@ -18,14 +18,13 @@ enum class ConsistencyPrediction {
 struct DegeneracyConfig {
   bool enabled = false;          ///< weigh LiDAR and legs by the index
   bool prior_residuals = false;  ///< O_lidar from the residuals before the trial update
-  /// C_IL of D_k, eq. (7)
-  ConsistencyPrediction prediction = ConsistencyPrediction::kImuAndLegs;
-  double sigma_0 = 0.008;        ///< nominal residual dispersion, eq. (4) [m]
-  double kappa = 12.6;           ///< saturation of C_IL, eq. (7) [-]
-  double w1 = 0.5;               ///< weight of 1 - O_lidar, eq. (7); w2 = 1 - w1 [-]
-  double eta = 3.0;              ///< LiDAR sensitivity, eq. (8) [-]
-  double gamma_min = 0.3;        ///< smallest leg reliability, eq. (10) [-]
-  double alpha = 0.9;            ///< smoothing of D_k per scan, eq. (12) [-]
+  ConsistencyPrediction prediction = ConsistencyPrediction::kImu;  ///< of C_IL, eq. (6)
+  double sigma_0 = 0.008;  ///< nominal residual dispersion, eq. (4) [m]
+  double kappa = 12.6;     ///< saturation of C_IL, eq. (7) [-]
+  double w1 = 0.5;         ///< weight of 1 - O_lidar, eq. (7); w2 = 1 - w1 [-]
+  double eta = 3.0;        ///< LiDAR sensitivity, eq. (8) [-]
+  double gamma_min = 0.3;  ///< smallest leg reliability, eq. (10) [-]
+  double alpha = 0.9;      ///< smoothing of D_k per scan, eq. (12) [-]
 };
 
 void describe(Fields& fields, DegeneracyConfig& config);
