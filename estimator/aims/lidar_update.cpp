@@ -57,7 +57,7 @@ ErrorMatrix LidarUpdate::gain_mask(const Eigen::Matrix3d& R) const {
                         R.transpose() * axes_.rotation().gain_factor() * R);
 }
 
-void LidarUpdate::assess_axes(const ScanInformation& scan, const NominalState& state,
+void LidarUpdate::assess_axes(const MatchInformation& scan, const NominalState& state,
                               ScanDiagnostics& diagnostics) {
   const double shift = last_position_ ? (state.position - *last_position_).norm() : 0.0;
   const bool shifted = !last_position_ || shift >= kMinShift;
@@ -69,7 +69,7 @@ void LidarUpdate::assess_axes(const ScanInformation& scan, const NominalState& s
 
 /// The scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies its information
 /// by gamma_lidar; with `noise_information` it is reduced to its real part per axis.
-Linearization<NominalState> LidarUpdate::fused(const ScanInformation& scan, double gamma,
+Linearization<NominalState> LidarUpdate::fused(const MatchInformation& scan, double gamma,
                                                const NominalState& state) const {
   if (!noise_information_.enabled) {
     return {pose_information(gamma * scan.matrix, gamma * scan.vector), std::nullopt};
@@ -93,7 +93,7 @@ IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
       matched_at = at;
       matcher_.match(matched_at, points, map);
     }
-    const ScanInformation scan = matcher_.linearize(at);
+    const MatchInformation scan = matcher_.linearize(at);
     diagnostics.points_used = scan.used;
     if (first) {
       diagnostics.residual_sigma_prior =
@@ -118,9 +118,6 @@ void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_infor
   diagnostics.residual_mean = statistics.mean;
   diagnostics.residual_sigma = std::sqrt(statistics.variance);
   diagnostics.C_IL_imu_legs = lidar_consistency(trial_state, predicted);
-  const bool imu_alone =
-      degeneracy_.prediction == ConsistencyPrediction::kImu && std::isfinite(diagnostics.C_IL_imu);
-  diagnostics.C_IL = imu_alone ? diagnostics.C_IL_imu : diagnostics.C_IL_imu_legs;
   diagnostics.C_IL_full = consistency_full(y, prior_information);
   diagnostics.innovation_rotation = segment(y, ErrorState::kRotation);
   diagnostics.innovation_position = segment(y, ErrorState::kPosition);
@@ -134,6 +131,9 @@ void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& d
       effective_observability(prior_sigma * prior_sigma, degeneracy_.sigma_0);
   const double O_lidar =
       degeneracy_.prior_residuals ? diagnostics.O_lidar_prior : diagnostics.O_lidar;
+  const bool imu_alone =
+      degeneracy_.prediction == ConsistencyPrediction::kImu && std::isfinite(diagnostics.C_IL_imu);
+  diagnostics.C_IL = imu_alone ? diagnostics.C_IL_imu : diagnostics.C_IL_imu_legs;
   diagnostics.D = degeneracy_severity(O_lidar, diagnostics.C_IL, degeneracy_);  // eq. (7)
   severity_.update(diagnostics.D);                                              // eq. (12)
   gamma_lidar_ = lidar_reliability(severity_.value(), degeneracy_);
@@ -146,7 +146,7 @@ void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& d
 /// LiDAR. The scan is linearized at the trial state, which both updates share when converged; with
 /// the robust kernel its weights are those of the last iteration, one later than in the trial.
 double LidarUpdate::leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
-                                         const ScanInformation& scan) const {
+                                         const MatchInformation& scan) const {
   const ErrorMatrix prior_information = inverse_spd(leg_free.covariance);
   const Belief updated = kalman_update(leg_free.state, prior_information, linearization,
                                        fused(scan, 1.0, linearization));
@@ -169,7 +169,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
   const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
   const auto trial = this->trial(predicted, prior_information, points, map, diagnostics);
   const NominalState& at = trial.belief.state;
-  ScanInformation scan;
+  MatchInformation scan;
   if (!trial.refused) {
     scan = matcher_.linearize(at);
     diagnostics.points_used = scan.used;

@@ -41,10 +41,10 @@ class LidarUpdate {
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 
  private:
-  Linearization<NominalState> fused(const ScanInformation& scan, double gamma,
+  Linearization<NominalState> fused(const MatchInformation& scan, double gamma,
                                     const NominalState& state) const;
   ErrorMatrix gain_mask(const Eigen::Matrix3d& R) const;
-  void assess_axes(const ScanInformation& scan, const NominalState& state,
+  void assess_axes(const MatchInformation& scan, const NominalState& state,
                    ScanDiagnostics& diagnostics);
   IteratedUpdate<NominalState> trial(const Belief& predicted, const ErrorMatrix& prior_information,
                                      std::span<const Eigen::Vector3f> points, const VoxelMap& map,
@@ -53,7 +53,7 @@ class LidarUpdate {
               const NominalState& trial_state, ScanDiagnostics& diagnostics);
   void assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics);
   double leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
-                              const ScanInformation& scan) const;
+                              const MatchInformation& scan) const;
   void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);
 
   LidarUpdateConfig lidar_;

@@ -41,7 +41,8 @@ StanceFeet compare_stance_feet(const LegOdometrySample& sample,
   StanceFeet feet;
   const Eigen::Map<const JointVector> position(sample.joint_position.data());
   const Eigen::Map<const JointVector> rate(sample.joint_velocity.data());
-  feet.measured = position.allFinite() && rate.allFinite() && !position.isZero(0.0);
+  feet.measured = position.allFinite() && rate.allFinite() && !position.isZero(0.0) &&
+                  geometry != LegGeometry();
   if (!feet.measured) return feet;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();

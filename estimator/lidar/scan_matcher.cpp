@@ -23,8 +23,8 @@ void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector
   }
 }
 
-ScanInformation ScanMatcher::linearize(const NominalState& state) {
-  ScanInformation sum;
+MatchInformation ScanMatcher::linearize(const NominalState& state) {
+  MatchInformation sum;
   residuals_.clear();
   const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
   for (const Match& match : matches_) {

@@ -14,7 +14,7 @@
 namespace aims {
 
 /// The rows of all accepted matches at one pose, nominal noise.
-struct ScanInformation {
+struct MatchInformation {
   Matrix6 matrix = Matrix6::Zero();  ///< A = H^T R^-1 H
   Vector6 vector = Vector6::Zero();  ///< b = H^T R^-1 r
   Matrix6 noise = Matrix6::Zero();   ///< expected part of A from the noise of the normals
@@ -35,7 +35,7 @@ class ScanMatcher {
              const VoxelMap& map);
 
   /// Sums the rows of the matches within the residual gate at `state`.
-  ScanInformation linearize(const NominalState& state);
+  MatchInformation linearize(const NominalState& state);
 
   /// Sets the scale of the Cauchy kernel from the residuals of the last linearization: their robust
   /// deviation, from the median magnitude, times `RobustKernelConfig::scale`.

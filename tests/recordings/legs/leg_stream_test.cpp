@@ -10,6 +10,7 @@ LegStreamConfig kinematic() {
   LegStreamConfig config;
   config.source = LegSource::kKinematics;
   config.half_period = 2 * kMillisecond;
+  config.geometry = {0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
   return config;
 }
 
