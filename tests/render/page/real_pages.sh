@@ -18,7 +18,7 @@ route:
   stand_before: 2.5
   points: [{name: a, x: 0, y: 0}, {name: b, x: 3, y: 0}, {name: a, x: 0, y: 0}]
 YAML
-"$aims" run "$out/run.yaml" --estimators aims_d,lio,leg --quiet --jobs 2 --out "$out/run" >"$out/run.log"
+"$aims" run "$out/run.yaml" --estimators aims,lio,leg --quiet --jobs 2 --out "$out/run" >"$out/run.log"
 if ! [ -s "$out/run/page.html" ]; then
   grep -q "built without the page" "$out/run.log" || { cat "$out/run.log" >&2; exit 1; }
   echo "skipped: the program was built without the page (npm)"
