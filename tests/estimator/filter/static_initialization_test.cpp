@@ -83,9 +83,14 @@ TEST(Initialization, MovingStartIsUncertain) {
   EXPECT_FALSE(initial->stood_still);
 }
 
-/// Normalised squared error of tilt and accelerometer bias (5 dof) of a start whose bias and error
-/// of the mean force are drawn from the configuration.
-double normalised_tilt_error(RandomStream& random, bool moving) {
+/// Squared errors of a start over their stated variances.
+struct TiltErrors {
+  double tilt_and_bias = 0.0;   ///< of tilt and accelerometer bias, 5 dof
+  double corrected_tilt = 0.0;  ///< of the tilt once the bias is known, 2 dof
+};
+
+/// A start whose bias and error of the mean force are drawn from the configuration.
+TiltErrors errors_of_a_start(RandomStream& random, bool moving) {
   using E = ErrorState;
   const InitializationConfig config;
   const Eigen::Quaterniond tilt =
@@ -99,28 +104,37 @@ double normalised_tilt_error(RandomStream& random, bool moving) {
     if (moving) sample.angular_velocity.z() = 1.0;
   }
   const Belief belief = initialize(samples, config, kGravity)->belief;
-  // The odometry frame has the yaw of the start; only the tilt has an error.
+  // R_true = R_hat Exp(d): true_up = up + up x d for the horizontal part of d; yaw has no error.
   const Eigen::Vector3d up = belief.state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d true_up = tilt.conjugate() * Eigen::Vector3d::UnitZ();
-  // R_true = R_hat Exp(d): true_up = up + up x d for the horizontal part of d.
-  const Eigen::Vector3d d_rotation = true_up.cross(up);
-  Eigen::Matrix<double, 6, 1> d;
-  d << d_rotation, bias - belief.state.accelerometer_bias;
+  Vector6 d;
+  d << true_up.cross(up), bias - belief.state.accelerometer_bias;
   Matrix6 P;
   P << block(belief.covariance, E::kRotation, E::kRotation),
       block(belief.covariance, E::kRotation, E::kAccelerometerBias),
       block(belief.covariance, E::kAccelerometerBias, E::kRotation),
       block(belief.covariance, E::kAccelerometerBias, E::kAccelerometerBias);
-  return d.dot(P.llt().solve(d));
+  Eigen::Matrix<double, 3, 6> correction;
+  correction << Eigen::Matrix3d::Identity(), -hat(up) / kGravity;
+  const Eigen::Vector3d corrected = correction * d;
+  const Eigen::Matrix3d covariance = correction * P * correction.transpose();
+  return {d.dot(P.llt().solve(d)), corrected.dot(covariance.llt().solve(corrected))};
 }
 
 TEST(Initialization, TheCovarianceOfTiltAndBiasIsThatOfTheirErrors) {
   constexpr int kDraws = 4000;
   for (const bool moving : {false, true}) {
     RandomStream random(21, "tilt_and_bias");
-    double sum = 0.0;
-    for (int draw = 0; draw < kDraws; ++draw) sum += normalised_tilt_error(random, moving);
-    EXPECT_NEAR(sum / kDraws, 5.0, 0.25) << (moving ? "moving" : "standing") << ", seed 21";
+    TiltErrors sum;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const TiltErrors errors = errors_of_a_start(random, moving);
+      sum.tilt_and_bias += errors.tilt_and_bias;
+      sum.corrected_tilt += errors.corrected_tilt;
+    }
+    EXPECT_NEAR(sum.tilt_and_bias / kDraws, 5.0, 0.25)
+        << (moving ? "moving" : "standing") << ", seed 21";
+    EXPECT_NEAR(sum.corrected_tilt / kDraws, 2.0, 0.15)
+        << (moving ? "moving" : "standing") << ", seed 21";
   }
 }
 
