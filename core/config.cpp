@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 namespace aims {
@@ -80,74 +79,6 @@ bool assign_vector(Vector& value, const Range& range, std::string_view text) {
 std::string with_range(std::string_view what, const Range& range) {
   const std::string bounds = range.text();
   return bounds.empty() ? std::string(what) : fmt::format("{} {}", what, bounds);
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
-    }
-  }
-  return row.back();
-}
-
-/// The reasons why parameters are idle, each once.
-std::string reasons_of(const std::vector<const Parameter*>& parameters) {
-  std::vector<std::string> reasons;
-  for (const Parameter* parameter : parameters) {
-    if (std::find(reasons.begin(), reasons.end(), parameter->idle) == reasons.end()) {
-      reasons.push_back(parameter->idle);
-    }
-  }
-  return fmt::format("{}", fmt::join(reasons, "; "));
-}
-
-/// The key with the first group that its first segment `*` can stand for, or the key itself, and
-/// where that segment begins.
-std::pair<std::string, std::size_t> without_star(const Fields& fields, std::string_view key) {
-  const std::size_t star = key.starts_with("*.") ? 0 : key.find(".*.") + 1;
-  if (star == 0 && !key.starts_with("*.")) return {std::string(key), std::string::npos};
-  const std::string_view before = key.substr(0, star);
-  for (const Parameter& parameter : fields.parameters()) {
-    if (!parameter.key.starts_with(before)) continue;
-    const std::string_view rest = std::string_view(parameter.key).substr(star);
-    return {fmt::format("{}{}{}", before, rest.substr(0, rest.find('.')), key.substr(star + 1)),
-            star};
-  }
-  return {std::string(key), std::string::npos};
-}
-
-std::vector<std::string> keys_of(const Fields& fields) {
-  std::vector<std::string> keys;
-  for (const Parameter& parameter : fields.parameters()) keys.push_back(parameter.key);
-  for (const ListField& list : fields.lists()) keys.push_back(list.key);
-  return keys;
-}
-
-/// The known key most similar to the unknown `key`, or empty.
-std::string proposal_for(const Fields& fields, std::string_view key) {
-  const std::vector<std::string> keys = keys_of(fields);
-  const std::size_t name_start = key.rfind('.') + 1;  // npos + 1 = 0
-  const std::string prefix(key.substr(0, name_start));
-  const std::string name(key.substr(name_start));
-  std::vector<std::string> siblings;
-  for (const std::string& each : keys) {
-    if (!each.starts_with(prefix)) continue;
-    const std::string rest = each.substr(prefix.size());
-    siblings.push_back(rest.substr(0, rest.find('.')));
-  }
-  const std::string sibling = near_match(name, siblings);
-  if (!sibling.empty()) return prefix + sibling;
-  std::vector<std::string> same_name;
-  for (const std::string& each : keys) {
-    if (each == name || each.ends_with("." + name)) same_name.push_back(each);
-  }
-  const std::string nearest = near_match(key, same_name.empty() ? keys : same_name);
-  return nearest.empty() && !same_name.empty() ? same_name.front() : nearest;
 }
 
 }  // namespace
@@ -297,63 +228,6 @@ void Fields::idle_if(bool condition, std::string_view reason,
   }
 }
 
-std::vector<const Parameter*> Fields::matching(std::string_view key) const {
-  std::vector<const Parameter*> found;
-  for (const Parameter& parameter : parameters_) {
-    if (key_matches(key, parameter.key)) found.push_back(&parameter);
-  }
-  return found;
-}
-
-bool key_matches(std::string_view pattern, std::string_view key, bool prefix) {
-  while (true) {
-    const std::size_t end = std::min(pattern.find('.'), pattern.size());
-    const std::size_t key_end = std::min(key.find('.'), key.size());
-    const std::string_view name = pattern.substr(0, end);
-    if (name != "*" && name != key.substr(0, key_end)) return false;
-    if (end == pattern.size()) return (key_end < key.size()) == prefix;
-    if (key_end == key.size()) return false;
-    pattern.remove_prefix(end + 1);
-    key.remove_prefix(key_end + 1);
-  }
-}
-
-Result<void> assign(const Fields& fields, std::string_view key, std::string_view value) {
-  const std::vector<const Parameter*> parameters = fields.matching(key);
-  if (parameters.empty()) return failure(unknown_key_message(fields, key));
-  for (const Parameter* parameter : parameters) {
-    if (parameter->assign(value)) continue;
-    return failure(fmt::format("{}: '{}' is not {}", key, value, parameter->expected));
-  }
-  return {};
-}
-
-Result<void> check_effect(const Fields& fields, std::span<const AssignedKey> assigned) {
-  for (const AssignedKey& each : assigned) {
-    const std::vector<const Parameter*> parameters = fields.matching(each.key);
-    const auto acts = [](const Parameter* parameter) { return parameter->idle.empty(); };
-    if (parameters.empty() || std::any_of(parameters.begin(), parameters.end(), acts)) continue;
-    const bool pattern = parameters.size() > 1 || parameters.front()->key != each.key;
-    return failure(fmt::format("{}{}: has no effect: {}", each.place, each.key,
-                               pattern ? reasons_of(parameters) : parameters.front()->idle));
-  }
-  return {};
-}
-
-std::string near_match(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::size_t tolerance = word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);
-  std::string nearest;
-  std::size_t nearest_distance = tolerance + 1;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < nearest_distance) {
-      nearest_distance = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest;
-}
-
 std::optional<std::vector<std::string>> sequence_entries(std::string_view text) {
   text = trimmed(text);
   if (text.size() < 2 || text.front() != '[' || text.back() != ']') return std::nullopt;
@@ -378,17 +252,6 @@ std::string sequence_text(const std::vector<std::string>& entries) {
     text += quoted_if_needed(entry);
   }
   return text + "]";
-}
-
-std::string unknown_key_message(const Fields& fields, std::string_view key) {
-  const auto [concrete, star] = without_star(fields, key);
-  std::string near = proposal_for(fields, concrete);
-  if (star < near.size()) {
-    near.replace(star, std::min(near.find('.', star), near.size()) - star, "*");
-  }
-  if (near == key) return fmt::format("{}: a group of settings; expected one of its keys", key);
-  if (near.empty()) return fmt::format("unknown key '{}'", key);
-  return fmt::format("unknown key '{}'; did you mean '{}'?", key, near);
 }
 
 }  // namespace aims
