@@ -211,6 +211,8 @@ std::string run_setting(std::span<const std::string> specs) {
   return "run=" + sequence_text({specs.begin(), specs.end()});
 }
 
+bool is_run_setting(std::string_view setting) { return setting.starts_with("run="); }
+
 std::vector<std::string> joined_specs(std::span<const std::string> pieces) {
   std::vector<std::string> specs;
   bool open = false;

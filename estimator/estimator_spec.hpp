@@ -65,6 +65,9 @@ Result<void> check_estimator_specs(std::span<const std::string> specs);
 /// The setting "run=[...]" for a scenario or an estimate.
 std::string run_setting(std::span<const std::string> specs);
 
+/// Whether `setting` ("key=value") is such a one.
+bool is_run_setting(std::string_view setting);
+
 /// Specs of a command line split at commas, with the commas inside brackets restored:
 /// {"aims_d+x=[1", "2]"} is one spec.
 std::vector<std::string> joined_specs(std::span<const std::string> pieces);

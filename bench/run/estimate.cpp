@@ -81,8 +81,7 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
   if (auto specs = check_estimator_specs(config.run); !specs) {
     return failure("run: " + specs.error().message);
   }
-  const bool chosen = std::any_of(overrides.begin(), overrides.end(),
-                                  [](const auto& each) { return each.starts_with("run="); });
+  const bool chosen = std::ranges::any_of(overrides, is_run_setting);
   const auto acts =
       check_effects(fields_of(config), std::move(assigned), chosen, config.run, config.estimators);
   if (!acts) return tl::unexpected(acts.error());

@@ -81,7 +81,7 @@ std::string quoted(const std::string& word) {
 
 /// Whether a setting of the scenario has an effect where `spec` alone runs.
 bool applies(const std::string& setting, const Scenario& scenario, const std::string& spec) {
-  if (setting.starts_with("run=")) return false;
+  if (is_run_setting(setting)) return false;
   if (!setting.starts_with("estimators.")) return true;
   Scenario alone = scenario;
   alone.run = {spec};

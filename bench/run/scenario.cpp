@@ -72,9 +72,7 @@ Result<void> check(const Scenario& scenario) {
 
 /// Error for a setting without effect.
 Result<void> check_effects_in(Scenario& scenario, std::vector<AssignedKey> assigned) {
-  const auto& overrides = scenario.overrides;
-  const bool run_chosen = std::any_of(overrides.begin(), overrides.end(),
-                                      [](const auto& each) { return each.starts_with("run="); });
+  const bool run_chosen = std::ranges::any_of(scenario.overrides, is_run_setting);
   return check_effects(fields_of(scenario), std::move(assigned), run_chosen, scenario.run,
                        scenario.estimators);
 }

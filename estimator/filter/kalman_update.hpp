@@ -55,6 +55,25 @@ Matrix inverse_spd(const Matrix& matrix) {
   return 0.5 * (inverse + inverse.transpose());
 }
 
+/// A prior about another state than its mean.
+template <class State>
+struct ShiftedPrior {
+  ErrorVectorOf<State> offset;       ///< from the prior's mean
+  ErrorVectorOf<State> pull;         ///< J^T P^-1 offset, with J of boxminus_jacobian()
+  ErrorMatrixOf<State> information;  ///< J^T P^-1 J
+};
+
+/// The prior with the mean `prior` and the inverse covariance `prior_information`, about
+/// `linearization`.
+template <class State>
+ShiftedPrior<State> shifted_prior(const State& prior, const ErrorMatrixOf<State>& prior_information,
+                                  const State& linearization) {
+  const ErrorVectorOf<State> offset = boxminus(linearization, prior);
+  const ErrorMatrixOf<State> J = boxminus_jacobian(prior, offset);
+  const ErrorMatrixOf<State> weighted = J.transpose() * prior_information;
+  return {offset, weighted * offset, weighted * J};
+}
+
 /// The Kalman update in information form: the belief after fusing `measurements`, linearized at
 /// `linearization`, with the prior mean `prior` and inverse prior covariance `prior_information`.
 /// With linearization == prior it is the standard update, otherwise one step of the iterated
@@ -64,13 +83,9 @@ BeliefOf<State> kalman_update(const State& prior, const ErrorMatrixOf<State>& pr
                               const State& linearization,
                               const InformationOf<State>& measurements) {
   using Matrix = ErrorMatrixOf<State>;
-  using Vector = ErrorVectorOf<State>;
-  const Vector offset = boxminus(linearization, prior);
-  const Matrix J = boxminus_jacobian(prior, offset);
-  const Matrix weighted = J.transpose() * prior_information;
-  const Matrix posterior_information = weighted * J + measurements.matrix;
-  const Matrix covariance = inverse_spd(posterior_information);
-  const Vector delta = -covariance * (weighted * offset + measurements.vector);
+  const auto at = shifted_prior(prior, prior_information, linearization);
+  const Matrix covariance = inverse_spd(Matrix(at.information + measurements.matrix));
+  const ErrorVectorOf<State> delta = -covariance * (at.pull + measurements.vector);
   const Matrix G = reset_jacobian(linearization, delta);
   return {boxplus(linearization, delta), G * covariance * G.transpose()};
 }
@@ -83,18 +98,15 @@ BeliefOf<State> kalman_update(const State& prior, const ErrorMatrixOf<State>& pr
                               const ErrorMatrixOf<State>& gain_mask) {
   using Matrix = ErrorMatrixOf<State>;
   using Vector = ErrorVectorOf<State>;
-  const Vector offset = boxminus(linearization, prior);
-  const Matrix J = boxminus_jacobian(prior, offset);
-  const Matrix weighted = J.transpose() * prior_information;
-  const Matrix information = weighted * J;
-  const Matrix full = inverse_spd(Matrix(information + measurements.matrix));
-  const Vector step = -full * (weighted * offset + measurements.vector);
-  // The mask applies to the total correction from the prior; `offset` of it is already applied.
-  const Vector delta = gain_mask * (offset + step) - offset;
+  const auto at = shifted_prior(prior, prior_information, linearization);
+  const Matrix full = inverse_spd(Matrix(at.information + measurements.matrix));
+  const Vector step = -full * (at.pull + measurements.vector);
+  // The mask applies to the total correction from the prior; the offset of it is already applied.
+  const Vector delta = gain_mask * (at.offset + step) - at.offset;
   // Joseph's form with K H = C A and K R K^T = C A C^T, C = gain.
   const Matrix gain = gain_mask * full;
   const Matrix kept = Matrix::Identity() - gain * measurements.matrix;
-  const Matrix covariance = kept * inverse_spd(information) * kept.transpose() +
+  const Matrix covariance = kept * inverse_spd(at.information) * kept.transpose() +
                             gain * measurements.matrix * gain.transpose();
   const Matrix G = reset_jacobian(linearization, delta);
   return {boxplus(linearization, delta),
