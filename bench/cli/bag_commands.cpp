@@ -8,6 +8,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/run/estimate.hpp"
 #include "recordings/inspection/bag_check.hpp"
 #include "recordings/inspection/bag_info.hpp"
@@ -38,7 +39,7 @@ Result<BagInfo> info_of(const BagArguments& arguments) {
 int info_command(const BagArguments& arguments) {
   const auto info = info_of(arguments);
   if (!info) return bad_input("info", info.error());
-  fmt::print("{}", info_text(*info));
+  print_out("{}", info_text(*info));
   return kOk;
 }
 
@@ -67,7 +68,7 @@ int check_command(const BagArguments& arguments) {
   if (!info) return bad_input("check", info.error());
   const auto checks = checks_of(arguments.systems, check_bag(*info));
   if (!checks) return bad_input("check", checks.error());
-  fmt::print("{}\n{}\n{}", info->file.string(), to_text(check_table(*checks)), check_text(*checks));
+  print_out("{}\n{}\n{}", info->file.string(), to_text(check_table(*checks)), check_text(*checks));
   const bool missing = std::any_of(checks->begin(), checks->end(), [](const auto& each) {
     return each.fulfilment == Fulfilment::kMissing;
   });

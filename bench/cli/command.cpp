@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/cli/exit_code.hpp"
+#include "bench/cli/terminal.hpp"
 #include "core/config.hpp"
 
 namespace aims {
@@ -97,7 +98,7 @@ std::string unknown_argument(const CLI::App& command, const std::vector<std::str
 }
 
 int usage_error(const std::string& path, const std::string& message) {
-  fmt::print(stderr, "{}: {} (see {} --help)\n", path, message, path);
+  print_error(fmt::format("{}: {} (see {} --help)", path, message, path));
   return kBadInput;
 }
 
@@ -199,7 +200,7 @@ int run_program(const Program& program, int argc, char** argv) {
   }
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   if (const std::string wrong = unknown_command(app, words.subspan(1)); !wrong.empty()) {
-    fmt::print(stderr, "{}: {}\n", program.name, wrong);
+    print_error(fmt::format("{}: {}", program.name, wrong));
     return kBadInput;
   }
   const int parsed = parse(app, argc, argv);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/run/scenario.hpp"
 #include "core/files/config_dump.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -33,7 +32,7 @@ int config_command(SharedOptions shared, const std::string& estimator, bool plai
   const auto text = estimator.empty() ? config_text(*scenario, !plain)
                                       : estimator_text(*scenario, estimator, plain);
   if (!text) return bad_input("config", text.error());
-  fmt::print("{}", *text);
+  print_out("{}", *text);
   return kOk;
 }
 

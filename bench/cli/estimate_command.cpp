@@ -8,6 +8,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/run/estimate.hpp"
 #include "bench/run/estimate_summary.hpp"
 #include "core/files/output_folder.hpp"
@@ -50,14 +51,14 @@ fs::path folder_of(const EstimateArguments& arguments) {
 
 void print_results(const EstimateResult& result, const fs::path& folder,
                    const std::vector<std::string>& warnings) {
-  for (const std::string& note : result.setup.notes) fmt::print("note: {}\n", note);
-  for (const auto& [event, count] : result.counts) fmt::print("note: {}: {}\n", event, count);
-  fmt::print("{}, {:.1f} s\n{}\n", result.bag.string(), result.recorded_s,
-             to_text(estimate_table(result)));
-  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
-  if (!result.complete) fmt::print("interrupted: the results end where reading was stopped\n");
-  fmt::print("results: {}\n", (folder / "").string());
-  for (const fs::path& picture : pictures_in(folder)) fmt::print("  {}\n", picture.string());
+  for (const std::string& note : result.setup.notes) print_out("note: {}\n", note);
+  for (const auto& [event, count] : result.counts) print_out("note: {}: {}\n", event, count);
+  print_out("{}, {:.1f} s\n{}\n", result.bag.string(), result.recorded_s,
+            to_text(estimate_table(result)));
+  for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
+  if (!result.complete) print_out("interrupted: the results end where reading was stopped\n");
+  print_out("results: {}\n", (folder / "").string());
+  for (const fs::path& picture : pictures_in(folder)) print_out("  {}\n", picture.string());
 }
 
 int estimate_command(const EstimateArguments& arguments) {

@@ -7,6 +7,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/run/catalogue.hpp"
 
 namespace aims {
@@ -15,21 +16,21 @@ namespace {
 void print_entry(const CatalogueEntry& entry) {
   const std::string tags =
       entry.tags.empty() ? "" : fmt::format("  [{}]", fmt::join(entry.tags, ", "));
-  fmt::print("  {:<16} {}{}\n", entry.name, entry.description, tags);
+  print_out("  {:<16} {}{}\n", entry.name, entry.description, tags);
 }
 
 int list_command(const SharedOptions& shared) {
   const auto files = scenarios_in(shared.folder, shared.tags);
   if (!files) return bad_input("list", files.error());
-  fmt::print("Scenarios in {} [tags]:\n", shared.folder);
+  print_out("Scenarios in {} [tags]:\n", shared.folder);
   for (const CatalogueEntry& entry : scenario_catalogue(*files)) print_entry(entry);
   const std::vector<Family> families = families_of(*files);
-  if (!families.empty()) fmt::print("Families of scenarios, which differ in one quantity:\n");
+  if (!families.empty()) print_out("Families of scenarios, which differ in one quantity:\n");
   for (const Family& family : families) {
-    fmt::print("  {:<16} [{}], {} scenarios: {}\n", family.name, family.level_unit,
-               family.cases.size(), fmt::join(family.cases, ", "));
+    print_out("  {:<16} [{}], {} scenarios: {}\n", family.name, family.level_unit,
+              family.cases.size(), fmt::join(family.cases, ", "));
   }
-  fmt::print("Estimators:\n");
+  print_out("Estimators:\n");
   for (const CatalogueEntry& entry : estimator_catalogue()) print_entry(entry);
   return kOk;
 }

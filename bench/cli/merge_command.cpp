@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "render/results/response_pictures.hpp"
@@ -31,7 +30,7 @@ void write_summary(const MergedSweep& sweep, const std::string& score, const fs:
   std::vector<std::string> warnings;
   const auto written = write_sweep_summary(sweep, objective, out, draw_response, warnings);
   if (!written) warnings.push_back("no sweep.md: " + written.error().message);
-  for (const std::string& warning : warnings) fmt::print("note: {}\n", warning);
+  for (const std::string& warning : warnings) print_out("note: {}\n", warning);
 }
 
 /// Lists jobs that failed or are missing, up to a number.
@@ -41,10 +40,10 @@ void print_open(const MergedSweep& sweep) {
     const std::string outcome = job.outcome();
     if (outcome == "done" || ++open > kMostShown) continue;
     const std::string why = job.file.is_object() ? job.file.value("message", "") : "";
-    fmt::print("{}: {} {} seed {} {}{}{}\n", outcome, job.listed.id, job.listed.scenario,
-               job.listed.seed, job.listed.estimator, why.empty() ? "" : ": ", why);
+    print_out("{}: {} {} seed {} {}{}{}\n", outcome, job.listed.id, job.listed.scenario,
+              job.listed.seed, job.listed.estimator, why.empty() ? "" : ": ", why);
   }
-  if (open > kMostShown) fmt::print("and {} more\n", open - kMostShown);
+  if (open > kMostShown) print_out("and {} more\n", open - kMostShown);
 }
 
 int merge_command(const MergeArguments& arguments) {
@@ -62,14 +61,14 @@ int merge_command(const MergeArguments& arguments) {
   if (written) written = write_sweep_csv(*sweep, out / "sweep.csv");
   if (!written) return bad_input("merge", written.error());
   write_summary(*sweep, arguments.score, out);
-  fmt::print("{}\n", to_text(merge_table(*sweep)));
+  print_out("{}\n", to_text(merge_table(*sweep)));
   print_open(*sweep);
   if (sweep->others > 0) {
-    fmt::print("note: {} results of another plan, code or scenario version are left out\n",
-               sweep->others);
+    print_out("note: {} results of another plan, code or scenario version are left out\n",
+              sweep->others);
   }
-  fmt::print("{} of {} jobs done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
-             sweep->jobs.size(), (out / "sweep.sqlite").string());
+  print_out("{} of {} jobs done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
+            sweep->jobs.size(), (out / "sweep.sqlite").string());
   return sweep->count("done") == sweep->jobs.size() ? kOk : kExpectationFailed;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "bench/cli/terminal.hpp"
 #include "bench/run/seeds.hpp"
 #include "estimator/estimator_spec.hpp"
 
@@ -168,17 +169,17 @@ void print_pruned(const CachePruned& pruned, const SharedOptions& options) {
       options.cache.empty() ? SequenceCache::default_folder() : fs::path(options.cache);
   const double limit_gb = options.cache_limit_gb;
   if (pruned.sequences > 0) {
-    fmt::print("{}: removed {} sequences, {:.3g} GB (--cache-limit {})\n", folder.string(),
-               pruned.sequences, 1e-9 * static_cast<double>(pruned.bytes), limit_gb);
+    print_out("{}: removed {} sequences, {:.3g} GB (--cache-limit {})\n", folder.string(),
+              pruned.sequences, 1e-9 * static_cast<double>(pruned.bytes), limit_gb);
   }
   const double left_gb = 1e-9 * static_cast<double>(pruned.left);
   if (limit_gb == 0.0 || left_gb <= limit_gb) return;
-  fmt::print("{}: {:.3g} GB of sequences are in use, more than --cache-limit {}\n", folder.string(),
-             left_gb, limit_gb);
+  print_out("{}: {:.3g} GB of sequences are in use, more than --cache-limit {}\n", folder.string(),
+            left_gb, limit_gb);
 }
 
 int bad_input(const char* command, const Error& error) {
-  fmt::print(stderr, "aims {}: {}\n", command, error.message);
+  print_error(fmt::format("aims {}: {}", command, error.message));
   return kBadInput;
 }
 

@@ -7,6 +7,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "render/page/page.hpp"
 
 namespace aims {
@@ -24,12 +25,12 @@ struct PageArguments {
 };
 
 void print_pages(const WrittenPages& written) {
-  for (const std::string& warning : written.warnings) fmt::print("warning: {}\n", warning);
+  for (const std::string& warning : written.warnings) print_out("warning: {}\n", warning);
   const std::size_t count = written.pages.size();
   const std::size_t left_out = count > kMostPages ? count - kMostPages : 0;
-  if (left_out > 0) fmt::print("page: {} pages of runs, and\n", left_out);
+  if (left_out > 0) print_out("page: {} pages of runs, and\n", left_out);
   for (std::size_t i = left_out; i < count; ++i) {
-    fmt::print("page: {}\n", written.pages[i].string());
+    print_out("page: {}\n", written.pages[i].string());
   }
 }
 
@@ -41,7 +42,7 @@ int write_one(const PageArguments& arguments, const PageOptions& options) {
   }
   const auto written = write_page(arguments.folders.front(), arguments.out, options);
   if (!written) return bad_input("page", written.error());
-  fmt::print("page: {}\n", arguments.out);
+  print_out("page: {}\n", arguments.out);
   return kOk;
 }
 
@@ -63,7 +64,7 @@ void write_pages_of(const fs::path& folder) {
   if (written) {
     print_pages(*written);
   } else {
-    fmt::print("warning: no page: {}\n", written.error().message);
+    print_out("warning: no page: {}\n", written.error().message);
   }
 }
 

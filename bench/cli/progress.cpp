@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
 
@@ -64,11 +66,12 @@ bool ProgressDisplay::show(std::optional<std::uint64_t> seed, const Progress& pr
   const std::string label = seed ? fmt::format("{} seed {}", label_, *seed) : label_;
   const double fraction = std::clamp(progress.simulated_s / progress.expected_s, 0.0, 1.0);
   if (terminal_) {
-    fmt::print(stderr, "\r{} [{}] {} ", label, bar(fraction), figures(progress, done_));
+    fmt::print(stderr, "\r{} [{}] {} ", terminal_text(label), bar(fraction),
+               figures(progress, done_));
     bar_open_ = true;
   } else if (const int tenths = static_cast<int>(10.0 * fraction); tenths > tenths_shown_) {
     tenths_shown_ = tenths;
-    fmt::print(stderr, "{}: {}\n", label, figures(progress, done_));
+    fmt::print(stderr, "{}: {}\n", terminal_text(label), figures(progress, done_));
   }
   std::fflush(stderr);
   return !interrupted();

@@ -12,6 +12,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress.hpp"
+#include "bench/cli/terminal.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "render/film/film_files.hpp"
 #include "render/film/stored_sequence.hpp"
@@ -149,8 +150,8 @@ int render_command(const RenderArguments& arguments) {
   });
   if (interrupted()) return kInterrupted;
   if (!files) return bad_input("render", files.error());
-  if (sequence->map.empty()) fmt::print("no map: {} has none\n", shared.scenario);
-  for (const fs::path& file : *files) fmt::print("{}\n", file.string());
+  if (sequence->map.empty()) print_out("no map: {} has none\n", shared.scenario);
+  for (const fs::path& file : *files) print_out("{}\n", file.string());
   return kOk;
 }
 

@@ -8,6 +8,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/studies/run_folder.hpp"
 #include "render/results/run_pictures.hpp"
@@ -47,7 +48,7 @@ std::string seeds_text(const SuiteCase& each) {
 void draw(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     const auto drawn = draw_run(folder);
-    if (!drawn) fmt::print("warning: {}\n", drawn.error().message);
+    if (!drawn) print_out("warning: {}\n", drawn.error().message);
   }
 }
 
@@ -69,12 +70,12 @@ int run_command(const RunArguments& arguments) {
   const fs::path& out = options->jobs.out;
   if (auto written = write_runs(*suite, out); !written) return bad_input("run", written.error());
   if (!arguments.no_pictures) draw(run_folders(*suite, out));
-  fmt::print("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
-             to_text(score_table(each.runs)));
+  print_out("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
+            to_text(score_table(each.runs)));
   print_expectations(*suite);
   print_outcome(*suite, shared);
-  fmt::print("results: {}\n", (out / "").string());
-  for (const fs::path& picture : pictures_in(out)) fmt::print("  {}\n", picture.string());
+  print_out("results: {}\n", (out / "").string());
+  for (const fs::path& picture : pictures_in(out)) print_out("  {}\n", picture.string());
   if (!arguments.no_page && !each.runs.empty()) write_pages_of(out);
   return exit_code_with_expectations(*suite);
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <memory>
 #include <string>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/run/scoring_input.hpp"
 #include "bench/run/trajectory_summary.hpp"
 #include "core/files/output_folder.hpp"
@@ -24,11 +23,11 @@ struct ScoreArguments {
 };
 
 void print_scores(const TrajectoryScores& scores, const fs::path& folder) {
-  fmt::print("{}\n{}\n{}", to_text(trajectory_source_table(scores)),
-             to_text(trajectory_score_table(scores)), score_legend(scores));
-  for (const std::string& note : scores.notes) fmt::print("note: {}\n", note);
-  fmt::print("results: {}\n", (folder / "").string());
-  for (const auto& picture : pictures_in(folder)) fmt::print("  {}\n", picture.string());
+  print_out("{}\n{}\n{}", to_text(trajectory_source_table(scores)),
+            to_text(trajectory_score_table(scores)), score_legend(scores));
+  for (const std::string& note : scores.notes) print_out("note: {}\n", note);
+  print_out("results: {}\n", (folder / "").string());
+  for (const auto& picture : pictures_in(folder)) print_out("  {}\n", picture.string());
 }
 
 int score_command(const ScoreArguments& arguments) {
@@ -45,7 +44,7 @@ int score_command(const ScoreArguments& arguments) {
   if (!written) return bad_input("score", written.error());
   if (!arguments.no_pictures) {
     const auto drawn = draw_trajectory_pictures(*scores, folder->path());
-    if (!drawn) fmt::print("warning: {}\n", drawn.error().message);
+    if (!drawn) print_out("warning: {}\n", drawn.error().message);
   }
   if (auto committed = folder->commit(); !committed) return bad_input("score", committed.error());
   print_scores(*scores, folder->final_path());

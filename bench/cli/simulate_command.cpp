@@ -9,6 +9,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/run/record.hpp"
 
 namespace aims {
@@ -26,17 +27,17 @@ const std::map<std::string, BagCompression> kCompressions = {
     {"none", BagCompression::kNone}, {"lz4", BagCompression::kLz4}, {"bz2", BagCompression::kBz2}};
 
 void print_results(const RecordOutcome& outcome, const RecordOptions& options) {
-  fmt::print("{}: {:.1f} MB, {:.1f} s simulated in {:.1f} s\n", options.bag.string(),
-             static_cast<double>(outcome.bag_bytes) / 1e6, outcome.simulated_s, outcome.wall_s);
-  fmt::print("  {}\n  {}\n", outcome.truth.string(), outcome.waypoint_times.string());
-  if (outcome.fell) fmt::print("warning: the robot fell\n");
-  if (outcome.touched_wall) fmt::print("warning: the robot touched a wall\n");
+  print_out("{}: {:.1f} MB, {:.1f} s simulated in {:.1f} s\n", options.bag.string(),
+            static_cast<double>(outcome.bag_bytes) / 1e6, outcome.simulated_s, outcome.wall_s);
+  print_out("  {}\n  {}\n", outcome.truth.string(), outcome.waypoint_times.string());
+  if (outcome.fell) print_out("warning: the robot fell\n");
+  if (outcome.touched_wall) print_out("warning: the robot touched a wall\n");
   if (outcome.left_out > 0) {
-    fmt::print("warning: {} messages from before time 0 were left out: ROS has no negative time\n",
-               outcome.left_out);
+    print_out("warning: {} messages from before time 0 were left out: ROS has no negative time\n",
+              outcome.left_out);
   }
   if (!outcome.complete) {
-    fmt::print("interrupted: the bag ends where the simulation was stopped\n");
+    print_out("interrupted: the bag ends where the simulation was stopped\n");
   }
 }
 

@@ -8,6 +8,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/studies/ablation.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/consistency_study.hpp"
@@ -49,10 +50,10 @@ struct AblationArguments {
 void print_ablation(const Ablation& ablation) {
   for (const AblationCase& each : ablation.cases) {
     if (each.rows.empty()) continue;
-    fmt::print("{}, median over {} seeds (ratio to {})\n{}\n", each.scenario,
-               each.rows.front().runs, ablation.complete, to_text(case_table(each)));
+    print_out("{}, median over {} seeds (ratio to {})\n{}\n", each.scenario, each.rows.front().runs,
+              ablation.complete, to_text(case_table(each)));
   }
-  fmt::print("Geometric mean of the ratios over scenarios\n{}\n", to_text(effect_table(ablation)));
+  print_out("Geometric mean of the ratios over scenarios\n{}\n", to_text(effect_table(ablation)));
 }
 
 int ablation_command(const AblationArguments& arguments) {
@@ -76,8 +77,8 @@ int ablation_command(const AblationArguments& arguments) {
   if (!written) return bad_input(kName, written.error());
   print_ablation(ablation);
   print_outcome(*suite, shared);
-  fmt::print("results: {}, ablation.json, ablation.csv\n",
-             (fs::path(shared.out) / "ablation.md").string());
+  print_out("results: {}, ablation.json, ablation.csv\n",
+            (fs::path(shared.out) / "ablation.md").string());
   return exit_code_of(*suite);
 }
 
@@ -120,12 +121,12 @@ int consistency_command(const SharedOptions& shared) {
   if (auto written = write_results(*suite, *study, shared.out); !written) {
     return bad_input(kName, written.error());
   }
-  fmt::print("Along the weak axis, over the sequence\n{}\n", to_text(consistency_table(*study)));
-  fmt::print("At the end of the sequence, root mean square over seeds [m]\n{}\n",
-             to_text(end_table(*study)));
+  print_out("Along the weak axis, over the sequence\n{}\n", to_text(consistency_table(*study)));
+  print_out("At the end of the sequence, root mean square over seeds [m]\n{}\n",
+            to_text(end_table(*study)));
   print_outcome(*suite, shared);
-  fmt::print("results: {}, consistency.json, consistency.csv, pictures\n",
-             (fs::path(shared.out) / "consistency.md").string());
+  print_out("results: {}, consistency.json, consistency.csv, pictures\n",
+            (fs::path(shared.out) / "consistency.md").string());
   return exit_code_of(*suite);
 }
 
@@ -161,13 +162,13 @@ int detectors_command(const SharedOptions& given) {
   auto written = write_detectors(*study, shared.out);
   if (written) written = draw_detectors(*study, shared.out);
   if (!written) return bad_input(kName, written.error());
-  fmt::print(
+  print_out(
       "{} runs; AUC with 95 % interval over runs, detection rate at {:.0f} % false alarms, "
       "median delay, onsets missed\n{}\n",
       study->runs.size(), 100.0 * kFalseAlarms, to_text(detector_table(study->scores)));
-  for (const std::string& warning : study->warnings) fmt::print("note: {}\n", warning);
+  for (const std::string& warning : study->warnings) print_out("note: {}\n", warning);
   print_outcome(*suite, shared);
-  fmt::print("results: {}\n", (fs::path(shared.out) / "detectors.md").string());
+  print_out("results: {}\n", (fs::path(shared.out) / "detectors.md").string());
   return exit_code_of(*suite);
 }
 
@@ -191,7 +192,7 @@ struct CompareArguments {
 
 void print_changes(const char* title, const Comparison& comparison, ChangeVerdict verdict) {
   if (count(comparison, verdict) == 0) return;
-  fmt::print("\n{}\n{}", title, to_text(change_table(comparison, verdict)));
+  print_out("\n{}\n{}", title, to_text(change_table(comparison, verdict)));
 }
 
 int compare_command(const CompareArguments& arguments) {
@@ -201,12 +202,12 @@ int compare_command(const CompareArguments& arguments) {
   const auto after = read_results(arguments.after);
   if (!after) return bad_input(kName, after.error());
   const Comparison comparison = compare(*before, *after);
-  fmt::print("{}\n", summary_text(comparison));
+  print_out("{}\n", summary_text(comparison));
   print_changes("worse", comparison, ChangeVerdict::kWorse);
   print_changes("better", comparison, ChangeVerdict::kBetter);
   print_changes("different, on one seed", comparison, ChangeVerdict::kUnknown);
-  for (const std::string& run : comparison.only_before) fmt::print("only before: {}\n", run);
-  for (const std::string& run : comparison.only_after) fmt::print("only after: {}\n", run);
+  for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
+  for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
   if (!arguments.shared.out.empty()) {
     const auto written =
         write_comparison(comparison, arguments.before, arguments.after, arguments.shared.out);

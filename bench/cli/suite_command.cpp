@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <memory>
 #include <string>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
@@ -25,11 +24,11 @@ struct SuiteArguments {
 };
 
 void print_matrix(const char* title, const TextTable& table) {
-  fmt::print("{}\n{}\n", title, to_text(table));
+  print_out("{}\n{}\n", title, to_text(table));
 }
 
 void print_suite(const Suite& suite, const SharedOptions& shared) {
-  fmt::print("Median [95 % bootstrap interval] worst, over seeds\n\n");
+  print_out("Median [95 % bootstrap interval] worst, over seeds\n\n");
   print_matrix("M_list over all segments [%]", headline_table(suite, kHeadlineScores[0]));
   print_matrix("M_end [m]", headline_table(suite, kHeadlineScores[1]));
   print_matrix("Success", success_table(suite));
@@ -37,7 +36,7 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
   if (!families.empty()) print_matrix("Level of failure", breaks_table(families));
   print_expectations(suite);
   print_outcome(suite, shared);
-  fmt::print("results: {}, suite.json, suite.csv\n", (fs::path(shared.out) / "suite.md").string());
+  print_out("results: {}, suite.json, suite.csv\n", (fs::path(shared.out) / "suite.md").string());
 }
 
 Result<void> write_results(const Suite& suite, const SuiteArguments& arguments) {

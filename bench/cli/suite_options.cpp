@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/cli/suite_options.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "bench/cli/progress.hpp"
+#include "bench/cli/terminal.hpp"
 
 namespace aims {
 
@@ -50,18 +49,18 @@ Result<Suite> run_with_display(std::vector<ScenarioFile> scenarios, const SuiteO
 void print_expectations(const Suite& suite) {
   for (const SuiteCase& each : suite.cases) {
     for (const ExpectationCheck& check : failed(each.expectations)) {
-      fmt::print("EXPECTATION FAILED: {}\n  to repeat: {}\n", text_of(each.scenario, check),
-                 reproducing_command(each.scenario, check));
+      print_out("EXPECTATION FAILED: {}\n  to repeat: {}\n", text_of(each.scenario, check),
+                reproducing_command(each.scenario, check));
     }
   }
 }
 
 void print_outcome(const Suite& suite, const SharedOptions& options) {
-  fmt::print("{} jobs done, {} found finished, {} sequences simulated\n", suite.run.done,
-             suite.run.reused, suite.run.sequences);
+  print_out("{} jobs done, {} found finished, {} sequences simulated\n", suite.run.done,
+            suite.run.reused, suite.run.sequences);
   print_pruned(suite.run.pruned, options);
-  for (const SuiteFailure& each : suite.failures) fmt::print("FAILED: {}\n", text_of(each));
-  if (!suite.complete) fmt::print("interrupted: the same command continues\n");
+  for (const SuiteFailure& each : suite.failures) print_out("FAILED: {}\n", text_of(each));
+  if (!suite.complete) print_out("interrupted: the same command continues\n");
 }
 
 int exit_code_of(const Suite& suite) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +6,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/jobs/job_runner.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -68,15 +67,15 @@ Result<SweepPlan> plan_of(const SweepArguments& arguments) {
 }
 
 void print_results(const JobRun& run, const SharedOptions& shared) {
-  fmt::print("{} jobs done, {} of them failed; {} found finished; {} sequences simulated\n",
-             run.done, run.failed, run.reused, run.sequences);
+  print_out("{} jobs done, {} of them failed; {} found finished; {} sequences simulated\n",
+            run.done, run.failed, run.reused, run.sequences);
   print_pruned(run.pruned, shared);
-  if (!run.complete) fmt::print("interrupted: the same command continues\n");
+  if (!run.complete) print_out("interrupted: the same command continues\n");
   if (run.failed > 0) {
-    fmt::print("why jobs failed: aims merge {0}; to repeat them: --retry\n", shared.out);
+    print_out("why jobs failed: aims merge {0}; to repeat them: --retry\n", shared.out);
   }
-  fmt::print("results: {}; to collect them: aims merge {}\n",
-             (fs::path(shared.out) / "jobs").string(), shared.out);
+  print_out("results: {}; to collect them: aims merge {}\n",
+            (fs::path(shared.out) / "jobs").string(), shared.out);
 }
 
 int sweep_command(const SweepArguments& arguments) {
@@ -88,7 +87,7 @@ int sweep_command(const SweepArguments& arguments) {
   if (!jobs) return bad_input("sweep", jobs.error());
   if (arguments.list) {
     for (const Job& job : part_of(*jobs, *shard)) {
-      fmt::print("{}\t{}\n", job.id, text_of(job));
+      print_out("{}\t{}\n", job.id, text_of(job));
     }
     return kOk;
   }

@@ -8,6 +8,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
+#include "bench/cli/terminal.hpp"
 #include "bench/tuning/tune.hpp"
 #include "bench/tuning/tune_summary.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -70,19 +71,19 @@ int finish(const TuneArguments& arguments, const TuneResult& result) {
   if (auto written = write_tuning(result, out, draw_response, warnings); !written) {
     return bad_input("tune", written.error());
   }
-  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
-  if (!result.complete) fmt::print("interrupted: the same command continues\n");
+  for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
+  if (!result.complete) print_out("interrupted: the same command continues\n");
   if (!result.chosen.empty()) {
     const bool front = result.tables.size() > 1;
-    fmt::print("{}", to_text(front ? front_table(result) : outcome_table(result)));
+    print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
   }
-  fmt::print("results: {}\n", (out / "tune.md").string());
+  print_out("results: {}\n", (out / "tune.md").string());
   if (!result.complete) return kInterrupted;
   if (arguments.apply.empty()) return kOk;
   if (auto written = write_overlay(result, arguments.apply); !written) {
     return bad_input("tune", written.error());
   }
-  fmt::print("tuned values: {0}; to use them: --set @{0}\n", arguments.apply);
+  print_out("tuned values: {0}; to use them: --set @{0}\n", arguments.apply);
   return kOk;
 }
 

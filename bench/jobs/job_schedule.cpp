@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "bench/run/json_text.hpp"
 #include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/weak_axis_series.hpp"
@@ -20,9 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr double kPatience = 0.2;  ///< between looks at the observer [s]
 
-std::string text_of_reply(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of_reply(const Json& json) { return json_text(json, -1); }
 
 /// In a process of its own: simulates a sequence.
 std::string simulate(const SequenceCache& cache, const Scenario& scenario, std::uint64_t seed,

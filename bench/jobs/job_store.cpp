@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "bench/run/code_version.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/sequence.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
@@ -141,9 +142,8 @@ Result<std::string> JobStore::plan() const { return read_file(folder_ / kPlanFil
 std::optional<Json> JobStore::read(const std::string& id) const {
   const auto text = read_file(file_of(id));
   if (!text) return std::nullopt;
-  Json json = Json::parse(*text, nullptr, false);
-  if (json.is_discarded()) return std::nullopt;
-  return json;
+  auto json = parse_json(*text, id);
+  return json ? std::optional<Json>(std::move(*json)) : std::nullopt;
 }
 
 std::optional<JobResult> JobStore::find(const std::string& id) const {
@@ -154,10 +154,7 @@ std::optional<JobResult> JobStore::find(const std::string& id) const {
 Result<void> JobStore::put(const Job& job, const JobResult& result) const {
   std::error_code code;
   fs::create_directories(folder_ / "jobs", code);
-  // Messages may hold what is no UTF-8, e.g. of a file's name.
-  const std::string text =
-      job_json(job, result).dump(1, ' ', false, Json::error_handler_t::replace);
-  return write_file_atomically(file_of(job.id), text + "\n");
+  return write_file_atomically(file_of(job.id), json_text(job_json(job, result), 1) + "\n");
 }
 
 std::vector<std::string> JobStore::ids() const {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bench/jobs/job_store.hpp"
+#include "bench/run/json_text.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {
@@ -75,8 +76,9 @@ RunRecord record_of(const std::string& scenario, std::uint64_t seed,
 Result<RunRecord> read_record(const fs::path& file) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
-  Json json = Json::parse(*text, nullptr, false);
-  if (json.is_discarded()) return failure(fmt::format("{}: is not whole JSON", file.string()));
+  auto parsed = parse_json(*text, file.string());
+  if (!parsed) return tl::unexpected(parsed.error());
+  Json& json = *parsed;
   const bool known = json.is_object() && json.value("schema", "") == kScoresSchema &&
                      json.contains("seed") && json["seed"].is_number_unsigned() &&
                      json.contains("estimators") && json["estimators"].is_object();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/tables.hpp"
@@ -101,7 +102,7 @@ Result<void> write_scores(const EstimateResult& result, const fs::path& folder) 
   }
   auto written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
   if (written) {
-    written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");
+    written = write_file_atomically(folder / "scores.json", json_text(record.scores, 2) + "\n");
   }
   return written;
 }
@@ -136,7 +137,8 @@ Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& 
                             const fs::path& folder) {
   auto written = write_file_atomically(folder / "config.yaml", config_text(config));
   if (written) {
-    written = write_file_atomically(folder / "estimate.json", estimate_json(result).dump(2) + "\n");
+    written =
+        write_file_atomically(folder / "estimate.json", json_text(estimate_json(result), 2) + "\n");
   }
   for (const EstimatorOutcome& each : result.estimators) {
     if (written) written = write_estimator(each, folder, each.name);

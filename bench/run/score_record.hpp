@@ -2,18 +2,16 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bench/run/evaluate.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/scenario.hpp"
 
 namespace aims {
-
-using Json = nlohmann::ordered_json;
 
 /// Version of the layout of scores.json; see docs/results.md.
 inline constexpr std::string_view kScoresSchema = "aims.scores/2";

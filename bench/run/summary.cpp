@@ -2,6 +2,7 @@
 #include "bench/run/summary.hpp"
 
 #include "bench/run/expectations.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/run/tables.hpp"
@@ -38,8 +39,8 @@ Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> 
     written = write_file_atomically(folder / "summary.md", to_markdown(score_table(runs)));
   }
   if (written) {
-    written =
-        write_file_atomically(folder / "summary.json", summary_json(scenario, runs).dump(2) + "\n");
+    written = write_file_atomically(folder / "summary.json",
+                                    json_text(summary_json(scenario, runs), 2) + "\n");
   }
   return written;
 }

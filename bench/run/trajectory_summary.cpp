@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "bench/run/json_text.hpp"
 #include "bench/run/tables.hpp"
 #include "core/files/atomic_file.hpp"
 
@@ -165,7 +166,7 @@ RunRecord record_of(const TrajectoryScores& scores) {
 
 Result<void> write_trajectory_scores(const TrajectoryScores& scores, const fs::path& folder) {
   const RunRecord record = record_of(scores);
-  auto written = write_file_atomically(folder / "scores.json", record.scores.dump(2) + "\n");
+  auto written = write_file_atomically(folder / "scores.json", json_text(record.scores, 2) + "\n");
   if (written) written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
   if (written) written = write_file_atomically(folder / "scores.md", markdown(scores));
   return written;

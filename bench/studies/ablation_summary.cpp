@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "bench/run/code_version.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/studies/ablation.hpp"
 #include "core/files/atomic_file.hpp"
@@ -146,7 +147,7 @@ Result<void> write_ablation(const Ablation& ablation, const Suite& suite,
   if (written) written = write_csv(folder / "ablation.csv", csv_of(ablation));
   if (written) {
     written = write_file_atomically(folder / "ablation.json",
-                                    ablation_json(ablation, suite).dump(2) + "\n");
+                                    json_text(ablation_json(ablation, suite), 2) + "\n");
   }
   return written;
 }

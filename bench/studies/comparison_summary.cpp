@@ -3,6 +3,7 @@
 
 #include <system_error>
 
+#include "bench/run/json_text.hpp"
 #include "bench/studies/comparison.hpp"
 #include "core/files/atomic_file.hpp"
 
@@ -117,8 +118,8 @@ Result<void> write_comparison(const Comparison& comparison, const std::string& b
   std::error_code code;
   fs::create_directories(folder, code);
   if (code) return failure(fmt::format("{}: {}", folder.string(), code.message()));
-  auto written = write_file_atomically(folder / "compare.json",
-                                       comparison_json(comparison, before, after).dump(2) + "\n");
+  auto written = write_file_atomically(
+      folder / "compare.json", json_text(comparison_json(comparison, before, after), 2) + "\n");
   if (!written) return written;
   return write_file_atomically(folder / "compare.md",
                                comparison_markdown(comparison, before, after));

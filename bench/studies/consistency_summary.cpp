@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "bench/run/code_version.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/studies/consistency_study.hpp"
 #include "core/files/atomic_file.hpp"
@@ -169,7 +170,7 @@ Result<void> write_consistency(const ConsistencyStudy& study, const Suite& suite
   if (written) written = write_csv(folder / "consistency.csv", csv_of(study));
   if (written) {
     written = write_file_atomically(folder / "consistency.json",
-                                    study_json(study, suite).dump(2) + "\n");
+                                    json_text(study_json(study, suite), 2) + "\n");
   }
   return written;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/run/json_text.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
@@ -178,7 +179,7 @@ std::vector<std::string> undecided_levels(std::span<const DetectorScore> scores)
 
 Result<void> write_detectors(const DetectorStudy& study, const fs::path& folder) {
   auto written =
-      write_file_atomically(folder / "detectors.json", study_json(study).dump(2) + "\n");
+      write_file_atomically(folder / "detectors.json", json_text(study_json(study), 2) + "\n");
   if (written) written = write_csv(folder / "detectors.csv", study_csv(study));
   if (written) {
     written = write_file_atomically(folder / "detectors.md", study_markdown(study));

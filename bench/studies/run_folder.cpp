@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "bench/jobs/sequence_cache.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/sequence.hpp"
@@ -83,7 +84,8 @@ Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCas
   written =
       write_file_atomically(folder / "config.yaml", effective_config(each.scenario, record.seed));
   if (written) written = write_csv(folder / "scores.csv", scores_csv({&own, 1}));
-  if (written) written = write_file_atomically(folder / "scores.json", own.scores.dump(2) + "\n");
+  if (written)
+    written = write_file_atomically(folder / "scores.json", json_text(own.scores, 2) + "\n");
   return written;
 }
 

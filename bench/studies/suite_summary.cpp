@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bench/run/code_version.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/suite_tables.hpp"
 #include "core/files/atomic_file.hpp"
@@ -108,8 +109,8 @@ Json suite_json(const Suite& suite) {
 bool holds_suite(const std::filesystem::path& folder) {
   const auto text = read_file(folder / "suite.json");
   if (!text) return false;
-  const Json json = Json::parse(*text, nullptr, false);
-  return json.is_object() && json.value("schema", "") == kSuiteSchema;
+  const auto json = parse_json(*text, "suite.json");
+  return json && json->is_object() && json->value("schema", "") == kSuiteSchema;
 }
 
 Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder) {
@@ -121,7 +122,7 @@ Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder
   if (written) {
     written = write_file_atomically(folder / "suite.md", suite_markdown(suite, families));
   }
-  if (written) written = write_file_atomically(folder / "suite.json", json.dump(2) + "\n");
+  if (written) written = write_file_atomically(folder / "suite.json", json_text(json, 2) + "\n");
   return written;
 }
 

@@ -5,8 +5,17 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
+
+/// The cells as one line each: names in them may hold anything.
+std::vector<std::string> shown(const std::vector<std::string>& cells) {
+  std::vector<std::string> texts;
+  for (const std::string& cell : cells) texts.push_back(name_text(cell));
+  return texts;
+}
 
 std::vector<std::size_t> column_widths(const TextTable& table) {
   std::vector<std::size_t> widths;
@@ -28,7 +37,7 @@ std::string line(const std::vector<std::string>& cells, const std::vector<std::s
 /// A cell of a Markdown table, with bars escaped.
 std::string escaped(const std::string& cell) {
   std::string text;
-  for (const char c : cell) text += c == '|' ? std::string("\\|") : std::string(1, c);
+  for (const char c : name_text(cell)) text += c == '|' ? std::string("\\|") : std::string(1, c);
   return text;
 }
 
@@ -40,7 +49,9 @@ std::string markdown_row(const std::vector<std::string>& cells) {
 
 }  // namespace
 
-std::string to_text(const TextTable& table) {
+std::string to_text(const TextTable& given) {
+  TextTable table = {shown(given.header), {}};
+  for (const auto& row : given.rows) table.rows.push_back(shown(row));
   const std::vector<std::size_t> widths = column_widths(table);
   std::size_t total = 2 * (widths.size() - 1);
   for (const std::size_t width : widths) total += width;

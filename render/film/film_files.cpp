@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/json_text.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/output_folder.hpp"
 #include "render/film/ffmpeg.hpp"
@@ -136,7 +137,7 @@ Result<std::vector<std::string>> write_all(const FilmedSequence& sequence,
   if (!vectors) return tl::unexpected(vectors.error());
   files.insert(files.end(), vectors->begin(), vectors->end());
   record["files"] = files;
-  written = write_file_atomically(folder / "render.json", record.dump(2) + "\n");
+  written = write_file_atomically(folder / "render.json", json_text(record, 2) + "\n");
   if (!written) return tl::unexpected(written.error());
   return files;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "bench/run/json_text.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {
@@ -34,10 +35,9 @@ std::optional<double> number_in(const Json& json, const std::string& key) {
 Result<Json> read_json_of(const fs::path& file, std::string_view schema) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
-  Json json = Json::parse(*text, nullptr, false);
-  if (json.is_discarded())
-    return failure(fmt::format("{}: is incomplete or not JSON", file.string()));
-  if (text_in(json, "schema") == schema) return json;
+  auto json = parse_json(*text, file.string());
+  if (!json) return json;
+  if (text_in(*json, "schema") == schema) return json;
   return failure(fmt::format("{}: expected a document of schema {}", file.string(), schema));
 }
 

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <vector>
 
+#include "bench/run/json_text.hpp"
+
 namespace aims {
 namespace {
 
@@ -61,7 +63,7 @@ PageData::Json PageData::u8(std::span<const std::uint8_t> values) {
 }
 
 std::string payload_bytes(const PageData& page) {
-  const std::string text = page.json.dump(-1, ' ', false, PageData::Json::error_handler_t::replace);
+  const std::string text = json_text(page.json, -1);
   const auto length = static_cast<std::uint32_t>(text.size());
   std::string bytes(sizeof(length), '\0');
   std::memcpy(bytes.data(), &length, sizeof(length));

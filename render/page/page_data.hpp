@@ -37,7 +37,7 @@ class PageData {
 };
 
 /// The payload before compression: length of the JSON text (u32, little-endian), the text in UTF-8
-/// (what is not UTF-8 becomes U+FFFD, numbers that are not finite become null), zeros up to a
+/// (what is not UTF-8 becomes \xNN, numbers that are not finite become null), zeros up to a
 /// multiple of eight, the block.
 std::string payload_bytes(const PageData& page);
 

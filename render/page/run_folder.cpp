@@ -12,6 +12,7 @@
 #include "bench/jobs/results.hpp"
 #include "bench/metrics/association.hpp"
 #include "bench/run/estimate.hpp"
+#include "bench/run/json_text.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
@@ -134,9 +135,11 @@ Result<void> read_records(RunFolder& run) {
   if (!fs::exists(file)) return {};
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
-  run.estimate = Json::parse(*text, nullptr, false);
+  auto estimate = parse_json(*text, file.string());
+  if (!estimate) return tl::unexpected(estimate.error());
+  run.estimate = std::move(*estimate);
   if (run.estimate.is_object()) return {};
-  return failure(fmt::format("{}: expected a complete JSON object", file.string()));
+  return failure(fmt::format("{}: expected a JSON object", file.string()));
 }
 
 /// Takes a configuration that was read, or the note why it was not.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+/// Writes text of the program to a standard stream: names in it may hold any bytes, and reach the
+/// terminal as `terminal_text`. A failure to write shows in `finish_output`.
+void write_terminal(std::FILE* stream, std::string_view text);
+
+/// As fmt::print, through `write_terminal`. Commands print in no other way.
+template <class... Arguments>
+void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  write_terminal(stdout, fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// An error or a note on standard error, in one line.
+void print_error(std::string_view message);
+
+/// Flushes standard output. Error when not all of it could be written.
+Result<void> finish_output();
+
+}  // namespace aims

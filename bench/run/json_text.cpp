@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/json_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/text.hpp"
+
+namespace aims {
+namespace {
+
+constexpr int kDeepest = 64;
+
+Json with_utf8(const Json& json) {
+  if (json.is_string()) return utf8_text(json.get_ref<const std::string&>());
+  if (json.is_array()) {
+    Json result = Json::array();
+    for (const Json& each : json) result.push_back(with_utf8(each));
+    return result;
+  }
+  if (!json.is_object()) return json;
+  Json result = Json::object();
+  for (const auto& [key, value] : json.items()) result[utf8_text(key)] = with_utf8(value);
+  return result;
+}
+
+}  // namespace
+
+std::string json_text(const Json& json, int indent) {
+  try {
+    return json.dump(indent);
+  } catch (const Json::type_error&) {  // a text that is not UTF-8
+    return with_utf8(json).dump(indent);
+  }
+}
+
+Result<Json> parse_json(std::string_view text, const std::string& name) {
+  int deepest = 0;
+  const auto within = [&deepest](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+    deepest = std::max(deepest, depth);
+    return depth <= kDeepest;
+  };
+  Json json = Json::parse(text, within, false);
+  if (deepest > kDeepest) {
+    return failure(fmt::format("{}: is nested more than {} deep", name, kDeepest));
+  }
+  if (json.is_discarded()) return failure(fmt::format("{}: is incomplete or not JSON", name));
+  return json;
+}
+
+}  // namespace aims

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace aims {
+
+/// The bytes as valid UTF-8: what is not UTF-8 becomes \xNN, so that a name stays recognizable.
+std::string utf8_text(std::string_view bytes);
+
+/// `utf8_text` that a terminal shows and never obeys: control characters except line end and tab
+/// become \xNN too.
+std::string terminal_text(std::string_view bytes);
+
+/// `terminal_text` on one line: line ends and tabs become \xNN too.
+std::string name_text(std::string_view bytes);
+
+/// A message that names values of any length and content, as one line that a terminal can show:
+/// control characters become \xNN, words of more than 511 bytes their first 80 and the length,
+/// and of a message of more than 4000 bytes the middle is left out.
+std::string line_text(std::string_view message);
+
+}  // namespace aims
