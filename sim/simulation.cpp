@@ -14,6 +14,7 @@
 #include "sim/links/arrivals.hpp"
 #include "sim/robot/quadruped_model.hpp"
 #include "sim/robot/robot_geometry.hpp"
+#include "sim/robot/walk_monitor.hpp"
 #include "sim/robot/walker.hpp"
 #include "sim/sensors/fisher_information.hpp"
 
@@ -86,9 +87,9 @@ Result<void> check_route(const SimulationConfig& config, const Scene& scene, con
 }  // namespace
 
 struct Simulation::Impl {
-  Impl(const SimulationConfig& config, std::uint64_t seed, Scene built_scene, Walker ready_walker);
+  Impl(const SimulationConfig& config, std::uint64_t seed, Scene built_scene, Walker ready_walker,
+       WalkMonitor ready_monitor);
 
-  bool finished() const;
   void step();
   void record();
   void send_inertial(const TruthSample& motion);
@@ -99,6 +100,7 @@ struct Simulation::Impl {
   SimulationConfig config;
   Scene scene;
   Walker walker;
+  WalkMonitor monitor;
   Pushes pushes;
   RayCaster caster;
   Lidar lidar;
@@ -119,10 +121,11 @@ struct Simulation::Impl {
 };
 
 Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene built_scene,
-                       Walker ready_walker)
+                       Walker ready_walker, WalkMonitor ready_monitor)
     : config(c),
       scene(std::move(built_scene)),
       walker(std::move(ready_walker)),
+      monitor(ready_monitor),
       pushes(config.push, seed),
       caster(scene),
       lidar(config.lidar, caster, seed),
@@ -137,11 +140,6 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene buil
   rig = {T_body_base * walker.world().T_base_site("lidar"), T_body_base, kRobotGeometry,
          config.imu.rate, config.leg_odometry.rate};
   record();
-}
-
-bool Simulation::Impl::finished() const {
-  return truth.fell || walker.route().done() ||
-         walker.world().state().stamp >= from_seconds(config.max_duration);
 }
 
 void Simulation::Impl::deliver(Time now, Measurement measurement, Link& link) {
@@ -198,8 +196,8 @@ void Simulation::Impl::record() {
   if (state.stamp % kSnapshotPeriod == 0) {
     truth.snapshots.push_back({state.stamp, walker.world().qpos()});
   }
-  truth.fell = truth.fell || walker.fallen();
-  truth.touched_wall = truth.touched_wall || state.touches_wall;
+  monitor.update(walker, scene.floor);
+  truth.walk = monitor.outcome();
   send_inertial(sample);
   send_legs();
   send_scan();
@@ -225,10 +223,13 @@ Result<Simulation> Simulation::create(const SimulationConfig& config, std::uint6
   }
   walker->settle();
   const Pushes pushes(config.push, seed);
-  while (to_seconds(walker->world().state().stamp) < config.recording_start) {
+  WalkMonitor monitor(config.route, config.robot.gait.period, config.max_duration);
+  while (to_seconds(walker->world().state().stamp) < config.recording_start && !monitor.ended()) {
     step_pushed(*walker, pushes);
+    monitor.update(*walker, scene.floor);
   }
-  return Simulation(std::make_unique<Impl>(config, seed, std::move(scene), std::move(*walker)));
+  return Simulation(
+      std::make_unique<Impl>(config, seed, std::move(scene), std::move(*walker), monitor));
 }
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -238,10 +239,10 @@ Simulation::~Simulation() = default;
 
 bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
   const Time until = now() + span;
-  while (now() < until && !impl_->finished()) impl_->step();
+  while (now() < until && !impl_->monitor.ended()) impl_->step();
   impl_->truth.waypoint_times =
       waypoint_times_since(impl_->walker.route(), impl_->truth.samples.front().stamp);
-  const bool finished = impl_->finished();
+  const bool finished = impl_->monitor.ended();
   // At the end all pending packets arrive.
   impl_->arrivals.take(finished ? std::numeric_limits<Time>::max() : now(), deliveries);
   return !finished;

@@ -30,7 +30,7 @@ class Simulation {
   ~Simulation();
 
   /// Simulates `span` further and appends the deliveries that arrived, in order of arrival.
-  /// False once the route is done, the robot has fallen, or the time limit is reached.
+  /// False once the walk has ended; `truth().walk.end` says how.
   bool advance(Duration span, std::vector<Delivery>& deliveries);
 
   /// Returns the samples of the second IMU output (`fast_imu_rate`) since the last call: the same

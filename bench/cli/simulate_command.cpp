@@ -30,8 +30,11 @@ void print_results(const RecordOutcome& outcome, const RecordOptions& options) {
   print_out("{}: {:.1f} MB, {:.1f} s simulated in {:.1f} s\n", options.bag.string(),
             static_cast<double>(outcome.bag_bytes) / 1e6, outcome.simulated_s, outcome.wall_s);
   print_out("  {}\n  {}\n", outcome.truth.string(), outcome.waypoint_times.string());
-  if (outcome.fell) print_out("warning: the robot fell\n");
-  if (outcome.touched_wall) print_out("warning: the robot touched a wall\n");
+  const WalkEnd end = outcome.walk.end;
+  if (outcome.complete && end != WalkEnd::kRouteDone) {
+    print_out("warning: the walk ended before its route: {}\n", name_of(end));
+  }
+  if (outcome.walk.touched_wall) print_out("warning: the robot touched a wall\n");
   if (outcome.left_out > 0) {
     print_out("warning: {} messages from before time 0 were left out: ROS has no negative time\n",
               outcome.left_out);

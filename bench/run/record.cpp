@@ -141,8 +141,7 @@ Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& opti
   if (ok) ok = write_csv(outcome.waypoint_times, waypoint_times);
   if (!ok) return tl::unexpected(ok.error());
   outcome.simulated_s = to_seconds(simulation->now());
-  outcome.fell = truth.fell;
-  outcome.touched_wall = truth.touched_wall;
+  outcome.walk = truth.walk;
   outcome.left_out = recorder.writer().dropped();
   outcome.bag_bytes = fs::file_size(options.bag);
   outcome.wall_s = stopwatch.seconds();

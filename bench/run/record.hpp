@@ -8,6 +8,7 @@
 #include "bench/run/scenario.hpp"
 #include "core/error.hpp"
 #include "recordings/bag/bag_writer.hpp"
+#include "sim/robot/walk_outcome.hpp"
 
 namespace aims {
 
@@ -23,8 +24,7 @@ struct RecordOutcome {
   bool complete = false;  ///< false when the observer ended it early
   double simulated_s = 0.0;
   double wall_s = 0.0;
-  bool fell = false;
-  bool touched_wall = false;
+  WalkOutcome walk;
   int left_out = 0;  ///< messages that would have needed a negative time
   std::uintmax_t bag_bytes = 0;
   std::filesystem::path truth;           ///< NAME.truth.tum: true poses of the body

@@ -145,9 +145,16 @@ Json segments_json(const Scores& scores) {
   return segments;
 }
 
+Json robot_json(const WalkOutcome& walk) {
+  return {{"fell", walk.end == WalkEnd::kFell},
+          {"end", name_of(walk.end)},
+          {"touched_wall", walk.touched_wall},
+          {"wall_contact_fraction", walk.wall_contact_fraction}};
+}
+
 Json sequence_json(const Sequence& sequence, const Scores& scores) {
   return {{"simulated_s", to_seconds(sequence.end())},
-          {"robot", {{"fell", sequence.fell}, {"touched_wall", sequence.touched_wall}}},
+          {"robot", robot_json(sequence.walk)},
           {"segments", segments_json(scores)},
           {"localizability", localizability_json(sequence.localizability)}};
 }

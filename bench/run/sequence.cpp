@@ -44,8 +44,8 @@ Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario
   Trajectory poses = body_trajectory(truth);
   RunLocalizability localizability =
       run_localizability(scenario.simulation, reader->rig(), truth, poses);
-  return Sequence{std::move(*reader),        std::move(poses), std::move(truth.waypoint_times),
-                  std::move(localizability), truth.fell,       truth.touched_wall};
+  return Sequence{std::move(*reader), std::move(poses), std::move(truth.waypoint_times),
+                  std::move(localizability), truth.walk};
 }
 
 Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,

@@ -21,8 +21,7 @@ struct Sequence {
   Trajectory truth_trajectory;   ///< T_world_body at the physics rate
   std::vector<WaypointTime> waypoint_times;
   RunLocalizability localizability;
-  bool fell = false;
-  bool touched_wall = false;
+  WalkOutcome walk;
 
   Time end() const { return truth_trajectory.empty() ? 0 : truth_trajectory.back().stamp; }
 };

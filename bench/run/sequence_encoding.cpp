@@ -129,6 +129,24 @@ bool take_scan(ByteCursor& cursor, LidarScan& scan, bool with_points) {
   return true;
 }
 
+void append_outcome(std::vector<std::byte>& out, const WalkOutcome& walk) {
+  append_number(out, static_cast<std::uint8_t>(walk.end));
+  append_number(out, std::uint8_t{walk.touched_wall});
+  append_number(out, walk.wall_contact_fraction);
+}
+
+bool take_outcome(ByteCursor& cursor, WalkOutcome& walk) {
+  std::uint8_t end = 0;
+  std::uint8_t touched_wall = 0;
+  if (!take_number(cursor, end) || !take_number(cursor, touched_wall) ||
+      end > static_cast<std::uint8_t>(WalkEnd::kUnstablePhysics)) {
+    return false;
+  }
+  walk.end = static_cast<WalkEnd>(end);
+  walk.touched_wall = touched_wall != 0;
+  return take_number(cursor, walk.wall_contact_fraction);
+}
+
 bool take_sample(ByteCursor& cursor, TruthSample& sample) {
   return take_number(cursor, sample.stamp) && take_pose(cursor, sample.T_world_body) &&
          take_matrix(cursor, sample.velocity) && take_matrix(cursor, sample.angular_velocity) &&
@@ -253,8 +271,7 @@ std::optional<Delivery> take_delivery(ByteCursor& cursor, bool with_points) {
 }
 
 void append_truth(std::vector<std::byte>& out, const Truth& truth) {
-  append_number(out, std::uint8_t{truth.fell});
-  append_number(out, std::uint8_t{truth.touched_wall});
+  append_outcome(out, truth.walk);
   append_number(out, std::uint64_t{truth.samples.size()});
   for (const TruthSample& sample : truth.samples) {
     append_number(out, sample.stamp);
@@ -284,12 +301,8 @@ void append_truth(std::vector<std::byte>& out, const Truth& truth) {
 }
 
 bool take_truth(ByteCursor& cursor, Truth& truth) {
-  std::uint8_t fell = 0;
-  std::uint8_t touched_wall = 0;
-  if (!take_number(cursor, fell) || !take_number(cursor, touched_wall)) return false;
-  truth.fell = fell != 0;
-  truth.touched_wall = touched_wall != 0;
-  return take_entries(cursor, kTruthSampleSize, truth.samples, take_sample) &&
+  return take_outcome(cursor, truth.walk) &&
+         take_entries(cursor, kTruthSampleSize, truth.samples, take_sample) &&
          take_entries(cursor, kLeastSnapshotSize, truth.snapshots, take_snapshot) &&
          take_entries(cursor, sizeof(std::uint64_t) + sizeof(Time), truth.waypoint_times,
                       take_waypoint_time) &&

@@ -105,6 +105,10 @@ void RouteFollower::settle(Time now, bool resting) {
   pause(now, at_last() ? route_.stand_after : route_.stand_at_points);
 }
 
+double RouteFollower::distance_left(const Pose& T_world_base) const {
+  return at_last() ? 0.0 : (point(next_) - T_world_base.translation.head<2>()).norm();
+}
+
 RouteFollower::Pursuit RouteFollower::pursue(const Pose& T_world_base) const {
   const Eigen::Vector2d from = point(next_ - 1);
   const Eigen::Vector2d leg = point(next_) - from;

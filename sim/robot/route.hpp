@@ -54,6 +54,13 @@ class RouteFollower {
   const std::vector<WaypointTime>& waypoint_times() const { return waypoint_times_; }
   bool done() const { return stage_ == Stage::kDone; }
 
+  /// The robot is on its way to a point: it turns, walks, or comes to rest there.
+  bool under_way() const { return stage_ != Stage::kPausing && stage_ != Stage::kDone; }
+  /// Index of the point it walks to next; the number of points after the last.
+  std::size_t next_point() const { return next_; }
+  /// Distance to that point [m]; zero after the last.
+  double distance_left(const Pose& T_world_base) const;
+
  private:
   enum class Stage { kPausing, kTurning, kWalking, kStopping, kDone };
 

@@ -8,6 +8,7 @@
 #include "core/measurements.hpp"
 #include "core/scan_information.hpp"
 #include "core/trajectory.hpp"
+#include "sim/robot/walk_outcome.hpp"
 
 namespace aims {
 
@@ -34,8 +35,7 @@ struct Truth {
   std::vector<RobotSnapshot> snapshots;      ///< at 10 Hz
   std::vector<WaypointTime> waypoint_times;  ///< of the route's named points, in order
   std::vector<ScanInformation> scans;        ///< of the scans that were delivered
-  bool fell = false;
-  bool touched_wall = false;
+  WalkOutcome walk;
 };
 
 /// The true poses of the body alone.

@@ -70,8 +70,9 @@ std::string bytes_of(const Recording& recording) {
 
 TEST(Simulation, WalksItsRouteAndDeliversEverySensorInOrderOfArrival) {
   const Recording result = record(short_walk(), 1);
-  EXPECT_FALSE(result.truth.fell);
-  EXPECT_FALSE(result.truth.touched_wall);
+  EXPECT_EQ(result.truth.walk.end, WalkEnd::kRouteDone);
+  EXPECT_FALSE(result.truth.walk.touched_wall);
+  EXPECT_EQ(result.truth.walk.wall_contact_fraction, 0.0);
   ASSERT_EQ(result.truth.waypoint_times.size(), 2U);
   EXPECT_EQ(result.truth.waypoint_times[1].point, "b");
   std::array<std::size_t, 3> counts{};
@@ -158,7 +159,9 @@ TEST(Simulation, RefusesARouteWithoutLengthAndAStepThatDividesNoPeriod) {
 TEST(Simulation, EndsAtItsTimeLimit) {
   SimulationConfig config = short_walk();
   config.max_duration = 0.5;
-  EXPECT_EQ(record(config, 1).truth.samples.back().stamp, 500 * kMillisecond);
+  const Truth truth = record(config, 1).truth;
+  EXPECT_EQ(truth.samples.back().stamp, 500 * kMillisecond);
+  EXPECT_EQ(truth.walk.end, WalkEnd::kTimeLimit);
 }
 
 TEST(Simulation, ALaterRecordingStartShowsTheSameMotion) {
