@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "core/file_name.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
@@ -201,6 +202,9 @@ Result<void> check_estimator_specs(std::span<const std::string> specs) {
   for (const std::string& text : specs) {
     const auto spec = parse_estimator_spec(text);
     if (!spec) return tl::unexpected(spec.error());
+    if (auto right = check_file_name(fmt::format("'{}': the label", text), spec->label); !right) {
+      return right;
+    }
     if (labels.insert(spec->label).second) continue;
     return failure(fmt::format("'{}': the label '{}' is used twice", text, spec->label));
   }

@@ -24,6 +24,11 @@ void add_number(CLI::App& app, const std::string& names, Value& value, Limits li
       ->check(CLI::Range(static_cast<Number>(limits.low), static_cast<Number>(limits.high)));
 }
 
+/// Refuses a value that was given as ''.
+CLI::Validator not_empty() {
+  return {[](std::string& value) { return value.empty() ? "expected a value, got ''" : ""; }, ""};
+}
+
 /// "run", "study ablation": every command below `app`, or those alone of that last word.
 std::vector<std::string> paths_below(const CLI::App& app, const std::string& prefix = "") {
   std::vector<std::string> paths;
@@ -127,12 +132,12 @@ void Command::arguments(const std::string& name, std::vector<std::string>& value
 
 void Command::option(const std::string& names, std::string& value, const std::string& help,
                      Presence presence) {
-  require(app_->add_option(names, value, help), presence);
+  require(app_->add_option(names, value, help), presence)->check(not_empty());
 }
 
 void Command::option(const std::string& names, std::filesystem::path& value,
                      const std::string& help, Presence presence) {
-  require(app_->add_option(names, value, help), presence);
+  require(app_->add_option(names, value, help), presence)->check(not_empty());
 }
 
 void Command::option(const std::string& names, int& value, Limits limits, const std::string& help) {
@@ -161,7 +166,10 @@ void Command::choice(const std::string& names, std::string& value,
 
 void Command::list(const std::string& names, std::vector<std::string>& values,
                    const std::string& help) {
-  app_->add_option(names, values, help)->delimiter(',')->allow_extra_args(false);
+  app_->add_option(names, values, help)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(not_empty());
 }
 
 void Command::repeatable(const std::string& names, std::vector<std::string>& values,

@@ -65,9 +65,9 @@ int estimate_command(const EstimateArguments& arguments) {
   const SharedOptions& shared = arguments.shared;
   const auto config = config_of(arguments);
   if (!config) return bad_input("estimate", config.error());
+  watch_interrupt();
   auto folder = OutputFolder::create(folder_of(arguments), shared.overwrite);
   if (!folder) return bad_input("estimate", folder.error());
-  watch_interrupt();
   ProgressDisplay display(arguments.bag, shared.quiet, "read");
   const EstimateOptions options = {arguments.bag, arguments.recover, shared.jobs};
   const auto result = estimate(*config, options, [&](const Progress& progress) {
@@ -87,7 +87,7 @@ int estimate_command(const EstimateArguments& arguments) {
   if (auto ok = folder->commit(); !ok) return bad_input("estimate", ok.error());
   print_results(*result, folder->final_path(), warnings);
   if (result->broken) return bad_input("estimate", *result->broken);
-  return result->complete ? kOk : kInterrupted;
+  return result->complete ? kOk : interrupted_code();
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "bench/cli/exit_code.hpp"
 #include "core/text.hpp"
 
 namespace aims {
@@ -16,11 +17,12 @@ namespace {
 
 constexpr double kLineEvery = 10.0;  ///< where standard error is no terminal [s]
 
-volatile std::sig_atomic_t noted = 0;
+volatile std::sig_atomic_t noted = 0;  ///< the signal that came first
 
+/// `timeout` and schedulers may send SIGTERM twice at once, so that only Ctrl-C ends it then.
 void on_interrupt(int signal) {
-  noted = 1;
-  std::signal(signal, SIG_DFL);
+  if (noted == 0) noted = signal;
+  if (signal == SIGINT) std::signal(SIGINT, SIG_DFL);
 }
 
 bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
@@ -49,9 +51,14 @@ std::string bar(double fraction) {
 
 }  // namespace
 
-void watch_interrupt() { std::signal(SIGINT, on_interrupt); }
+void watch_interrupt() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
 
 bool interrupted() { return noted != 0; }
+
+int interrupted_code() { return noted == SIGTERM ? kTerminated : kInterrupted; }
 
 ProgressDisplay::ProgressDisplay(std::string label, bool quiet, std::string done)
     : label_(std::move(label)), done_(std::move(done)), quiet_(quiet), terminal_(is_terminal()) {}

@@ -10,11 +10,14 @@
 
 namespace aims {
 
-/// From now on Ctrl-C is noted; a second Ctrl-C ends the program at once.
+/// From now on Ctrl-C and SIGTERM are noted; a second Ctrl-C ends the program at once.
 void watch_interrupt();
 
-/// True after Ctrl-C.
+/// True after Ctrl-C or SIGTERM.
 bool interrupted();
+
+/// The exit code after it: `kInterrupted` or `kTerminated`.
+int interrupted_code();
 
 /// Shows the progress of one sequence on standard error: a bar on a terminal, plain lines
 /// elsewhere.
@@ -26,7 +29,7 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// Shows the seed that is being run, if any; false after Ctrl-C.
+  /// Shows the seed that is being run, if any; false once `interrupted`.
   bool show(std::optional<std::uint64_t> seed, const Progress& progress);
   /// Ends the bar's line.
   void close();
@@ -49,7 +52,7 @@ class JobDisplay {
   JobDisplay(const JobDisplay&) = delete;
   JobDisplay& operator=(const JobDisplay&) = delete;
 
-  /// Shows each step and returns false after Ctrl-C; must not outlive the display.
+  /// Shows each step and returns false once `interrupted`; must not outlive the display.
   JobObserver observer();
   /// Ends the line.
   void close();

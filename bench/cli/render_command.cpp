@@ -140,7 +140,7 @@ int render_command(const RenderArguments& arguments) {
   watch_interrupt();
   const auto sequence = sequence_of(shared, *options);
   if (!sequence) return bad_input("render", sequence.error());
-  if (interrupted()) return kInterrupted;
+  if (interrupted()) return interrupted_code();
   if (options->out.empty()) {
     options->out =
         fs::path("out") / fmt::format("{}-seed-{}-render", sequence->scenario, sequence->seed);
@@ -148,7 +148,7 @@ int render_command(const RenderArguments& arguments) {
   const auto files = write_film(*sequence, *options, [&](int done, int frames) {
     return show_frame(shared.quiet, done, frames);
   });
-  if (interrupted()) return kInterrupted;
+  if (interrupted()) return interrupted_code();
   if (!files) return bad_input("render", files.error());
   if (sequence->map.empty()) print_out("no map: {} has none\n", shared.scenario);
   for (const fs::path& file : *files) print_out("{}\n", file.string());

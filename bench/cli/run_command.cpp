@@ -70,8 +70,10 @@ int run_command(const RunArguments& arguments) {
   const fs::path& out = options->jobs.out;
   if (auto written = write_runs(*suite, out); !written) return bad_input("run", written.error());
   if (!arguments.no_pictures) draw(run_folders(*suite, out));
-  print_out("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
-            to_text(score_table(each.runs)));
+  if (!each.runs.empty()) {
+    print_out("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
+              to_text(score_table(each.runs)));
+  }
   print_expectations(*suite);
   print_outcome(*suite, shared);
   print_out("results: {}\n", (out / "").string());

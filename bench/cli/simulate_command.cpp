@@ -68,7 +68,7 @@ int simulate_command(const SimulateArguments& arguments) {
   display.close();
   if (!outcome) return bad_input("simulate", outcome.error());
   print_results(*outcome, options);
-  return outcome->complete ? kOk : kInterrupted;
+  return outcome->complete ? kOk : interrupted_code();
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ void print_outcome(const Suite& suite, const SharedOptions& options) {
 }
 
 int exit_code_of(const Suite& suite) {
-  if (!suite.complete) return kInterrupted;
+  if (!suite.complete) return interrupted_code();
   return suite.failures.empty() ? kOk : kBadInput;
 }
 

@@ -101,7 +101,7 @@ int sweep_command(const SweepArguments& arguments) {
   display.close();
   if (!run) return bad_input("sweep", run.error());
   print_results(*run, arguments.shared);
-  if (!run->complete) return kInterrupted;
+  if (!run->complete) return interrupted_code();
   return run->failed == 0 ? kOk : kExpectationFailed;
 }
 

@@ -78,7 +78,7 @@ int finish(const TuneArguments& arguments, const TuneResult& result) {
     print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
   }
   print_out("results: {}\n", (out / "tune.md").string());
-  if (!result.complete) return kInterrupted;
+  if (!result.complete) return interrupted_code();
   if (arguments.apply.empty()) return kOk;
   if (auto written = write_overlay(result, arguments.apply); !written) {
     return bad_input("tune", written.error());

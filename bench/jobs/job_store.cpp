@@ -88,6 +88,13 @@ bool is_store_or_empty(const fs::path& folder) {
   return true;
 }
 
+/// True while another process holds the lock that a claim leaves in the folder.
+bool is_claimed(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path lock = folder / ".lock";
+  return fs::exists(lock, ignored) && !FolderLock::take_file(lock);
+}
+
 }  // namespace
 
 Result<void> JobStore::enter(std::span<const Job> jobs, const std::string& plan,
@@ -182,7 +189,9 @@ Result<StoreClaim> claim_store(const fs::path& folder, const Shard& shard) {
   const auto refusal = [&](const std::string& why) {
     return failure(fmt::format("{}: {}", folder.string(), why));
   };
+  constexpr const char* kInUse = "in use by another aims command, which is writing there";
   if (!is_store_or_empty(folder)) {
+    if (is_claimed(folder)) return refusal(kInUse);
     return refusal("exists and is no folder of aims results; give another --out");
   }
   const bool alone = shard.count == 1;
@@ -191,7 +200,7 @@ Result<StoreClaim> claim_store(const fs::path& folder, const Shard& shard) {
   fs::create_directories(alone ? folder : own, code);
   if (code) return refusal(code.message());
   auto lock = alone ? FolderLock::take(folder) : FolderLock::share(folder);
-  if (!lock) return refusal("in use by another aims command, or it cannot be written");
+  if (!lock) return refusal(is_claimed(folder) ? kInUse : "cannot be written");
   StoreClaim claim{std::move(*lock), std::nullopt};
   if (alone) return claim;
   if (auto taken = FolderLock::take(own)) claim.shard.emplace(std::move(*taken));

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "bench/run/score_keys.hpp"
+#include "core/file_name.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/files/yaml_position.hpp"
@@ -51,7 +53,16 @@ Result<void> check_segments(const Scenario& scenario) {
   return {};
 }
 
+/// Error for names that cannot be those of files and folders of results.
+Result<void> check_names(const Scenario& scenario) {
+  if (auto name = check_file_name("name", scenario.name); !name) return name;
+  if (scenario.family.empty()) return {};
+  return check_file_name("family", scenario.family);
+}
+
 Result<void> check(const Scenario& scenario) {
+  if (auto names = check_names(scenario); !names) return names;
+  if (scenario.run.empty()) return failure("run: expected at least one estimator");
   if (auto segments = check_segments(scenario); !segments) return segments;
   if (auto specs = check_estimator_specs(scenario.run); !specs) {
     return failure("run: " + specs.error().message);
@@ -60,6 +71,8 @@ Result<void> check(const Scenario& scenario) {
     const std::string key = fmt::format("expect.{}.estimator", i);
     const Expectation& expectation = scenario.expect[i];
     if (auto known = check_estimator(key, expectation.estimator, scenario); !known) return known;
+    const std::string score = fmt::format("expect.{}.score", i);
+    if (auto known = check_score(score, expectation.score, scenario); !known) return known;
     if (expectation.min == -kNoLimit && expectation.max == kNoLimit) {
       return failure(fmt::format("expect.{}: expected a limit, max or min", i));
     }

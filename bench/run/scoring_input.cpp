@@ -11,6 +11,7 @@
 #include "bench/run/bag_origin.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/segment_list.hpp"
+#include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
@@ -172,6 +173,9 @@ Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
   if (!request.names.empty() && request.names.size() != request.estimates.size()) {
     return failure(fmt::format("--name: expected one for each of {} estimates, found {}",
                                request.estimates.size(), request.names.size()));
+  }
+  for (const std::string& name : request.names) {
+    if (auto right = check_file_name("--name", name); !right) return tl::unexpected(right.error());
   }
   ScoringInput input;
   auto scoring = scoring_of(request);

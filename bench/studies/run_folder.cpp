@@ -14,6 +14,7 @@
 #include "bench/run/summary.hpp"
 #include "bench/run/tables.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/manifest.hpp"
 
 namespace aims {
 namespace {
@@ -31,40 +32,43 @@ Result<void> link_or_copy(const fs::path& from, const fs::path& to) {
   return failure(fmt::format("{}: {}", to.string(), code.message()));
 }
 
-/// Removes what an earlier invocation left of estimators.
+/// Removes what an earlier invocation wrote of estimators, and nothing else.
 void remove_estimators(const fs::path& folder) {
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
+  for (const std::string& name : listed_files(folder).value_or(FileList())) {
     const bool is_estimator =
         std::any_of(std::begin(kEstimatorFiles), std::end(kEstimatorFiles),
                     [&](const char* ending) { return name.ends_with(ending); });
-    if (is_estimator && name != "truth.tum") fs::remove(entry.path(), ignored);
+    const bool is_here = name.find('/') == std::string::npos;
+    if (is_estimator && is_here && name != "truth.tum") fs::remove(folder / name, ignored);
   }
 }
 
-/// Links the outputs of the run's jobs under the labels of their estimators.
-Result<void> link_outputs(const JobStore& store, const Suite& suite, const std::string& scenario,
-                          std::uint64_t seed, const fs::path& folder) {
+/// Links the outputs of the run's jobs under the labels of their estimators; their names.
+Result<FileList> link_outputs(const JobStore& store, const Suite& suite,
+                              const std::string& scenario, std::uint64_t seed,
+                              const fs::path& folder) {
   remove_estimators(folder);
+  FileList files;
   for (const Job& job : suite.jobs) {
     if (job.scenario->name != scenario || job.seed != seed) continue;
     const auto link = [&](const fs::path& from, const std::string& name) -> Result<void> {
       std::error_code ignored;
       if (!fs::exists(from, ignored)) return {};
+      files.insert(name);
       return link_or_copy(from, folder / name);
     };
     for (const char* ending : kEstimatorFiles) {
       auto linked = link(store.outputs_of(job.id) / (std::string(kEstimateName) + ending),
                          job.estimator.label + ending);
-      if (!linked) return linked;
+      if (!linked) return tl::unexpected(linked.error());
     }
     const fs::path shared = store.sequence_of(SequenceCache::id_of(*job.scenario, seed));
     for (const char* name : kSequenceFiles) {
-      if (auto linked = link(shared / name, name); !linked) return linked;
+      if (auto linked = link(shared / name, name); !linked) return tl::unexpected(linked.error());
     }
   }
-  return {};
+  return files;
 }
 
 }  // namespace
@@ -74,19 +78,20 @@ Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCas
   std::error_code code;
   fs::create_directories(folder, code);
   if (code) return failure(fmt::format("{}: {}", folder.string(), code.message()));
-  auto written = link_outputs(store, suite, each.scenario.name, record.seed, folder);
-  if (!written) return written;
+  auto files = link_outputs(store, suite, each.scenario.name, record.seed, folder);
+  if (!files) return tl::unexpected(files.error());
+  files->insert({"config.yaml", "scores.csv", "scores.json"});
   RunRecord own = record;
   own.scores["expectations"] = Json::array();
   for (const ExpectationCheck& check : check_expectations(each.scenario, {&own, 1})) {
     own.scores["expectations"].push_back(check_json(check));
   }
-  written =
+  auto written =
       write_file_atomically(folder / "config.yaml", effective_config(each.scenario, record.seed));
   if (written) written = write_csv(folder / "scores.csv", scores_csv({&own, 1}));
   if (written)
     written = write_file_atomically(folder / "scores.json", json_text(own.scores, 2) + "\n");
-  return written;
+  return written ? write_manifest(folder, *files) : written;
 }
 
 std::vector<fs::path> run_folders(const Suite& suite, const fs::path& out) {

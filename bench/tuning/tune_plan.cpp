@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "bench/run/score_keys.hpp"
 #include "bench/run/seeds.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_plan.hpp"
@@ -61,10 +62,11 @@ Result<void> read_ranges(TuneTask& task, const Scenario& base) {
   return {};
 }
 
-Result<void> check_objectives(const TunePlan& plan) {
+Result<void> check_objectives(const TunePlan& plan, const Scenarios& scenarios) {
   for (std::size_t i = 0; i < plan.objectives.size(); ++i) {
-    if (!plan.objectives[i].score.empty()) continue;
-    return failure(fmt::format("objectives.{}.score: expected a score, e.g. ate_m", i));
+    const std::string key = fmt::format("objectives.{}.score", i);
+    const auto known = check_score(key, plan.objectives[i].score, *scenarios.front());
+    if (!known) return known;
   }
   return check_optimizer(plan.optimizer, plan.objectives.size());
 }
@@ -181,9 +183,11 @@ Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {
   auto estimator = parse_estimator_spec(plan.estimator);
   if (!estimator) return failure("estimator: " + estimator.error().message);
   task.estimator = std::move(*estimator);
-  if (auto checked = check_objectives(plan); !checked) return tl::unexpected(checked.error());
   const auto scenarios = plan_scenarios(plan.scenarios, plan.tags, settings_of(plan), folder);
   if (!scenarios) return tl::unexpected(scenarios.error());
+  if (auto checked = check_objectives(plan, *scenarios); !checked) {
+    return tl::unexpected(checked.error());
+  }
   if (auto read = read_ranges(task, *scenarios->front()); !read)
     return tl::unexpected(read.error());
   auto defaults = default_values(task, *scenarios->front());

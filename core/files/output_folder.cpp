@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <system_error>
 #include <utility>
+
+#include "core/files/manifest.hpp"
 
 namespace aims {
 namespace {
@@ -22,19 +25,59 @@ tl::unexpected<Error> file_failure(const fs::path& path, const char* what,
   return failure(fmt::format("{}: {}: {}", path.string(), what, code.message()));
 }
 
-/// A folder without results is never replaced, even with --overwrite.
-Result<void> check_replaceable(const fs::path& path, bool overwrite) {
-  if (!fs::exists(path)) return {};
-  if (!overwrite) {
-    return failure(fmt::format(
-        "{}: exists already; choose another --out, or --overwrite to replace it", path.string()));
+/// "a, b, c and 4 more"
+std::string first_of(const FileList& files) {
+  constexpr std::size_t kMostNamed = 5;
+  std::vector<std::string> named;
+  for (const std::string& file : files) {
+    if (named.size() < kMostNamed) named.push_back(file);
   }
-  const bool holds_results =
-      fs::exists(path / "scores.json") || fs::exists(path / "summary.json") ||
-      fs::exists(path / "detectors.json") || fs::exists(path / "render.json");
-  if (holds_results || (fs::is_directory(path) && fs::is_empty(path))) return {};
-  return failure(fmt::format("{}: holds no results (no scores.json), so it is not overwritten",
-                             path.string()));
+  const std::size_t more = files.size() - named.size();
+  return fmt::format("{}{}", fmt::join(named, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+/// Error unless the folder is new or empty, or may be overwritten: then aims knows what it wrote.
+Result<void> check_replaceable(const fs::path& path, bool overwrite) {
+  std::error_code code;
+  if (!fs::exists(path, code)) return {};
+  const auto refusal = [&](const std::string& why) {
+    return failure(fmt::format("{}: {}", path.string(), why));
+  };
+  if (!fs::is_directory(path, code)) return refusal("is no folder; choose another --out");
+  if (fs::is_empty(path, code)) return {};
+  if (!overwrite) {
+    return refusal("exists already; choose another --out, or --overwrite to replace it");
+  }
+  if (fs::exists(path / "jobs.csv", code)) {
+    return refusal("holds jobs of another aims command; choose another --out");
+  }
+  if (listed_files(path)) return {};
+  return refusal(fmt::format(
+      "has no {}, so that it is not known which of its files are results, and none is removed; "
+      "choose another --out, or remove them: {}",
+      kManifestFile, first_of(files_below(path))));
+}
+
+/// A path that does not exist: `path` itself, or with ".kept" at its end, as often as it takes.
+fs::path free_path(fs::path path) {
+  std::error_code ignored;
+  while (fs::symlink_status(path, ignored).type() != fs::file_type::not_found) path += ".kept";
+  return path;
+}
+
+/// Moves what aims did not write from the replaced folder into the new one.
+Result<void> keep_foreign(const fs::path& replaced, const fs::path& folder) {
+  const FileList written = listed_files(replaced).value_or(FileList());
+  for (const std::string& file : files_below(replaced)) {
+    if (written.contains(file)) continue;
+    const fs::path to = free_path(folder / file);
+    std::error_code code;
+    fs::create_directories(to.parent_path(), code);
+    if (!code) fs::rename(replaced / file, to, code);
+    if (code) return file_failure(replaced / file, "is kept there, since it cannot be moved", code);
+  }
+  return {};
 }
 
 /// Folders above `path` that do not exist yet, innermost first.
@@ -95,16 +138,19 @@ Result<OutputFolder> OutputFolder::create(const fs::path& given, bool overwrite)
 
 Result<void> OutputFolder::commit() {
   const fs::path replaced = sibling(final_, ".replaced");
+  if (auto listed = write_manifest(partial_, files_below(partial_)); !listed) return listed;
   std::error_code code;
-  const bool replaces = fs::exists(final_);
+  const bool replaces = fs::exists(final_) && !fs::is_empty(final_);
   if (replaces) fs::rename(final_, replaced, code);
   if (code) return file_failure(final_, "cannot be replaced", code);
   fs::remove(partial_ / ".lock", code);
   fs::rename(partial_, final_, code);
   if (code) return file_failure(final_, "cannot be written", code);
   partial_.clear();
-  if (replaces) fs::remove_all(replaced, code);
-  return {};
+  if (!replaces) return {};
+  auto kept = keep_foreign(replaced, final_);
+  if (kept) fs::remove_all(replaced, code);
+  return kept;
 }
 
 }  // namespace aims

@@ -50,6 +50,7 @@ std::string markdown_row(const std::vector<std::string>& cells) {
 }  // namespace
 
 std::string to_text(const TextTable& given) {
+  if (given.header.empty()) return "";
   TextTable table = {shown(given.header), {}};
   for (const auto& row : given.rows) table.rows.push_back(shown(row));
   const std::vector<std::size_t> widths = column_widths(table);
@@ -61,6 +62,7 @@ std::string to_text(const TextTable& given) {
 }
 
 std::string to_markdown(const TextTable& table) {
+  if (table.header.empty()) return "";
   std::string text = markdown_row(table.header) + "|---|";
   for (std::size_t i = 1; i < table.header.size(); ++i) text += "---:|";
   text += "\n";

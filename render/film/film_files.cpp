@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/json_text.hpp"
+#include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/output_folder.hpp"
 #include "render/film/ffmpeg.hpp"
@@ -35,6 +36,7 @@ Result<VideoKind> kind_of(const std::string& video) {
                     "the folder",
                     video));
   }
+  if (auto name = check_file_name("--video", video); !name) return tl::unexpected(name.error());
   const std::string ending = file.extension().string();
   if (ending == ".webp") return VideoKind::kWebp;
   if (ending == ".mp4" || ending == ".webm") return VideoKind::kFfmpeg;

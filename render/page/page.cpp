@@ -7,6 +7,7 @@
 
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/manifest.hpp"
 #include "render/page/page_template.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_page.hpp"
@@ -73,7 +74,9 @@ Result<void> write_page(const fs::path& folder, const fs::path& file, PageOption
   if (!page) return tl::unexpected(page.error());
   const auto html = page_html(*page);
   if (!html) return tl::unexpected(html.error());
-  return write_file_atomically(file, *html);
+  auto written = write_file_atomically(file, *html);
+  if (written && file.filename() == kPageFile) add_to_manifest(file);
+  return written;
 }
 
 Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& options) {

@@ -21,5 +21,10 @@ TEST(TextTable, MarkdownHasOneCellPerColumn) {
             "| name | m |\n|---|---:|\n| aims | 0.1 |\n| tfs_clean | 12.3 |\n");
 }
 
+TEST(TextTable, WithoutColumnsIsEmptyText) {
+  EXPECT_EQ(to_text({}), "");
+  EXPECT_EQ(to_markdown({}), "");
+}
+
 }  // namespace
 }  // namespace aims

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/score_keys.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/bench/studies/short_walk.hpp"
+
+namespace aims {
+namespace {
+
+std::set<std::string> without(std::vector<std::string> keys, const char* prefix) {
+  std::erase_if(keys, [&](const std::string& key) { return key.starts_with(prefix); });
+  return {keys.begin(), keys.end()};
+}
+
+TEST(ScoreKeys, AreThoseOfARealRun) {
+  const TemporaryFolder folder;
+  Scenario scenario = test::short_walk();
+  scenario.run = {"aims"};
+  scenario.simulation.route.points.back().x = 2.0;  // beyond scoring.min_segment_length
+  SuiteOptions options = test::options_for(folder.path());
+  options.seeds = {1};
+  const auto suite = run_suite({{"short_walk.yaml", scenario}}, options, test::keep_going);
+  ASSERT_TRUE(suite) << suite.error().message;
+  const RunRecord& run = suite->cases.at(0).runs.at(0);
+  std::vector<std::string> possible = possible_score_keys(scenario);
+  EXPECT_TRUE(std::ranges::find(possible, "optimized.ate_m") != possible.end());
+  EXPECT_EQ(without(possible, "optimized."), without(score_keys(run, "aims"), "counts."));
+}
+
+TEST(ScoreKeys, FollowTheSegmentsOfTheScenario) {
+  Scenario scenario = test::short_walk();
+  EXPECT_TRUE(check_score("it", "m_list_signed_percent.a-b", scenario));
+  EXPECT_TRUE(check_score("it", "counts.leg.rejected", scenario));
+  const auto unknown = check_score("it", "m_list_percent.b-a", scenario);
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("it: no score 'm_list_percent.b-a'"), std::string::npos);
+  scenario.simulation.route.points.push_back({"a", 0.0, 0.0});
+  EXPECT_TRUE(check_score("it", "m_list_percent.b-a", scenario));
+  scenario.scoring.segments = {"a-b"};
+  EXPECT_FALSE(check_score("it", "m_list_percent.b-a", scenario));
+}
+
+}  // namespace
+}  // namespace aims
