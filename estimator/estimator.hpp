@@ -10,10 +10,11 @@
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
 #include "estimator/diagnostics.hpp"
+#include "estimator/health.hpp"
 
 namespace aims {
 
-/// Longest time between reported poses while scans are missing.
+/// Longest time between reported poses while scans are missing, also at the start.
 inline constexpr Duration kMaxPoseInterval = 250 * kMillisecond;
 
 /// Estimate so far.
@@ -24,6 +25,7 @@ struct EstimatorResult {
   std::optional<Trajectory> optimized;
   Diagnostics diagnostics;            ///< one row per scan (empty for `leg`)
   std::map<std::string, int> counts;  ///< e.g. late, duplicate, non-finite measurements
+  std::vector<HealthRow> health;      ///< in order of time
 };
 
 /// Turns a stream of deliveries into a trajectory. Never throws on data, never reads a clock.

@@ -11,6 +11,7 @@
 #include "bench/cli/terminal.hpp"
 #include "bench/run/estimate.hpp"
 #include "bench/run/estimate_summary.hpp"
+#include "bench/run/health_summary.hpp"
 #include "core/files/output_folder.hpp"
 #include "render/results/estimate_pictures.hpp"
 #include "render/results/run_pictures.hpp"
@@ -55,10 +56,28 @@ void print_results(const EstimateResult& result, const fs::path& folder,
   for (const auto& [event, count] : result.counts) print_out("note: {}: {}\n", event, count);
   print_out("{}, {:.1f} s\n{}\n", result.bag.string(), result.recorded_s,
             to_text(estimate_table(result)));
+  for (const EstimatorOutcome& each : result.estimators) {
+    const std::string health = text_of(health_summary(each.result.health));
+    if (!health.empty()) print_out("health: {}: {}\n", each.name, health);
+  }
   for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
   if (!result.complete) print_out("interrupted: the results end where reading was stopped\n");
   print_out("results: {}\n", (folder / "").string());
   for (const fs::path& picture : pictures_in(folder)) print_out("  {}\n", picture.string());
+}
+
+/// Error code when an estimate must not be used: it has no poses, or was invalid at some time.
+int exit_code_of(const EstimateResult& result) {
+  int code = kOk;
+  for (const EstimatorOutcome& each : result.estimators) {
+    const bool no_poses = each.result.trajectory.empty();
+    if (!no_poses && health_summary(each.result.health).worst != HealthState::kInvalid) continue;
+    code = kInvalidRun;
+    print_error(fmt::format("aims estimate: {}: {}", each.name,
+                            no_poses ? "no poses; see the counts and the health above"
+                                     : "invalid at some time; see " + each.name + ".health.csv"));
+  }
+  return code;
 }
 
 int estimate_command(const EstimateArguments& arguments) {
@@ -87,7 +106,7 @@ int estimate_command(const EstimateArguments& arguments) {
   if (auto ok = folder->commit(); !ok) return bad_input("estimate", ok.error());
   print_results(*result, folder->final_path(), warnings);
   if (result->broken) return bad_input("estimate", *result->broken);
-  return result->complete ? kOk : interrupted_code();
+  return result->complete ? exit_code_of(*result) : interrupted_code();
 }
 
 }  // namespace

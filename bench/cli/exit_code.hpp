@@ -9,7 +9,7 @@ enum ExitCode : int {
   kExpectationFailed = 1,  ///< an expectation of a scenario failed; jobs failed or are missing
   kBadInput = 2,           ///< usage, configuration or files
   kInternal = 3,           ///< a defect of this program
-  kInvalidRun = 4,         ///< a run is invalid, e.g. the robot fell (bench/run/validity.hpp)
+  kInvalidRun = 4,         ///< a run is invalid (bench/run/validity.hpp), or an estimate
   kInterrupted = 130,      ///< Ctrl-C; results so far are written
   kTerminated = 143,       ///< SIGTERM; likewise
 };

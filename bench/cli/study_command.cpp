@@ -246,6 +246,8 @@ void declare_study(Command command, const fs::path& scenarios) {
       command.subcommand("detectors",
                          "ROC of the degeneracy indices of an estimator against the truth"),
       scenarios);
+  declare_faults(command.subcommand("faults", "Estimators under every fault of their input"),
+                 scenarios);
   declare_compare(
       command.subcommand("compare", "Scores that got better or worse between two folders"));
   command.footer(

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/run/health_summary.hpp"
 #include "bench/run/json_text.hpp"
 #include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
@@ -42,6 +43,7 @@ Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcom
   json["time_per_scan_ms"] = {{"mean", times ? json_of(times->mean) : Json()},
                               {"p99", times ? json_of(times->p99) : Json()}};
   json["counts"] = outcome.result.counts;
+  json["health"] = health_json(health_summary(outcome.result.health));
   return json;
 }
 
@@ -93,6 +95,7 @@ Result<void> write_scores(const EstimateResult& result, const fs::path& folder) 
     Json& json = record.scores["estimators"][each.name];
     json["time_per_scan_ms"] = estimator_json(result, each)["time_per_scan_ms"];
     json["counts"] = each.result.counts;
+    json["health"] = health_json(health_summary(each.result.health));
     Json& estimators = record.scores["estimators"];
     const std::string label = optimized_label(each.name);
     if (!estimators.contains(label)) continue;

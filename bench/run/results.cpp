@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/results.hpp"
 
+#include "bench/run/health_summary.hpp"
 #include "bench/run/tables.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
@@ -18,8 +19,11 @@ Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& fo
   if (written && !outcome.map.empty()) {
     written = write_ply(folder / (name + ".map.ply"), outcome.map);
   }
+  if (written) {
+    written = write_csv(folder / (name + ".diagnostics.csv"), diagnostics_table(outcome));
+  }
   if (!written) return written;
-  return write_csv(folder / (name + ".diagnostics.csv"), diagnostics_table(outcome));
+  return write_csv(folder / (name + ".health.csv"), health_table(outcome.result.health));
 }
 
 Result<EstimatorOutcome> read_estimator(const fs::path& folder, const std::string& name) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/run/health_summary.hpp"
 
 namespace aims {
 namespace {
@@ -130,6 +131,7 @@ Json estimator_json(const EstimatorOutcome& outcome) {
   json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
   json["poses"] = outcome.scores.poses;
   json["counts"] = outcome.result.counts;
+  json["health"] = health_json(health_summary(outcome.result.health));
   if (outcome.optimized) {
     json["optimized"] = scores_json(*outcome.optimized);
     json["optimized"]["poses"] = outcome.optimized->poses;

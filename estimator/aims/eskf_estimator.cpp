@@ -22,6 +22,9 @@ void record_covariance(const Belief& belief, const Eigen::Matrix3d& map_covarian
   diagnostics.covariance.rotation = block(belief.covariance, E::kRotation, E::kRotation);
 }
 
+/// Without corrections for longer, the IMU is the clock of the poses.
+constexpr Duration kCoastAfter = kSecond;
+
 /// Without fusion, leg packets are only a clock: none is out of range.
 double max_leg_speed(const EskfConfig& config) {
   return config.legs.enabled ? config.legs.max_speed : std::numeric_limits<double>::infinity();
@@ -44,25 +47,30 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
       map_(config_.map),
       ground_(config_.ground_constraint),
       leg_noise_(config_.leg_noise, rig),
-      zero_velocity_(config_.zero_velocity) {
+      zero_velocity_(config_.zero_velocity),
+      health_({.lidar = true, .legs = config_.legs.enabled, .imu = true}, config_.imu.gravity) {
   result_.diagnostics.series = scan_series();
 }
 
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
   process_ready();
+  if (!judged_ || *queue_.now() - *judged_ >= HealthMonitor::kInterval) judge_health();
 }
 
 void EskfEstimator::finish() {
   queue_.close();
   process_ready();
+  if (queue_.now()) judge_health();
 }
 
 void EskfEstimator::process_ready() {
   if (started_ || start()) {
     while (const std::optional<Correction> next = queue_.pop()) {
+      last_correction_ = std::visit([](const auto& each) { return stamp_of(each); }, *next);
       std::visit([this](const auto& each) { correct(each); }, *next);
     }
+    coast();
   }
   for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
 }
@@ -78,6 +86,8 @@ bool EskfEstimator::start() {
   if (!initial->stood_still) ++result_.counts["initialization.moving"];
   belief_ = open_leg_states(initial->belief, leg_states_of(config_));
   time_ = initial->stamp;
+  last_pose_ = time_;
+  last_correction_ = time_;
   started_ = true;
   return true;
 }
@@ -101,12 +111,24 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
 
 /// Appends a predicted pose after `kMaxPoseInterval` without a scan; leg packets are the clock.
 void EskfEstimator::report_pose_without_scan(Time stamp) {
-  if (result_.trajectory.empty()) return;
-  if (stamp - result_.trajectory.back().stamp < kMaxPoseInterval) return;
+  if (stamp - last_pose_ < kMaxPoseInterval) return;
   predict_to(stamp);
   leg_free_.predict_to(stamp, queue_.imu());
   result_.trajectory.push_back({stamp, belief_.state.T_odom_body()});
+  last_pose_ = stamp;
   ++result_.counts["pose.without_scan"];
+}
+
+/// While neither legs nor scans arrive, IMU samples are the clock of the predicted poses.
+void EskfEstimator::coast() {
+  const std::optional<Time> newest = queue_.imu().newest();
+  if (newest && *newest - last_correction_ >= kCoastAfter) report_pose_without_scan(*newest);
+}
+
+void EskfEstimator::judge_health() {
+  judged_ = queue_.now();
+  const auto estimate = started_ ? std::optional(health_estimate(belief_)) : std::nullopt;
+  append_health(result_.health, health_.judge(*judged_, queue_.inputs(), estimate));
 }
 
 /// Zero-order hold of lost leg packets, for the variant that does not notice the loss.
@@ -170,6 +192,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
     measurement.noise *= *inflation;
   }
   leg_innovation_ = measurement.residual.norm();
+  health_.leg_residual(measurement.residual);
   ++leg_updates_;
   const ErrorMatrix prior_information = inverse_spd(belief_.covariance);
   const Information information = information_of(measurement);
@@ -198,10 +221,12 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics, leg_free_.belief()));
     if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
   }
+  health_.scan(diagnostics, match_points_.size());
   leg_free_.restart(belief_, scan->end);
   extend_map();
   record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
+  last_pose_ = scan->end;
   result_.diagnostics.scans.push_back(row_of(diagnostics));
 }
 
@@ -256,6 +281,7 @@ void EskfEstimator::accept(const Belief& updated) {
     belief_ = updated;
   } else {
     ++result_.counts["filter.rejected"];
+    health_.not_finite();
   }
 }
 

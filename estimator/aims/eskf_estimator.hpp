@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimator/aims/config.hpp"
+#include "estimator/aims/health_monitor.hpp"
 #include "estimator/aims/leg_free_prediction.hpp"
 #include "estimator/aims/lidar_update.hpp"
 #include "estimator/estimator.hpp"
@@ -40,6 +41,8 @@ class EskfEstimator : public Estimator {
   void correct(const LidarScanPtr& scan);
   void predict_to(Time stamp);
   void report_pose_without_scan(Time stamp);
+  void coast();
+  void judge_health();
   void repeat_lost_legs(Time until);
   void fuse_leg_velocity(const LegOdometrySample& sample);
   Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
@@ -60,10 +63,14 @@ class EskfEstimator : public Estimator {
   GroundConstraint ground_;
   LegNoiseModel leg_noise_;
   ZeroVelocityDetector zero_velocity_;
+  HealthMonitor health_;
   EstimatorResult result_;
 
   bool started_ = false;
-  Time time_ = 0;  ///< of the belief
+  Time time_ = 0;             ///< of the belief
+  Time last_pose_ = 0;        ///< of the newest pose, or of the start
+  Time last_correction_ = 0;  ///< stamp of the newest, or of the start
+  std::optional<Time> judged_;  ///< arrival
   Belief belief_;
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
   StrideMean stride_mean_;

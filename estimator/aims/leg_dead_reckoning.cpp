@@ -20,7 +20,9 @@ void describe(Fields& f, LegDeadReckoningConfig& c) {
 Requirements requirements_of(const LegDeadReckoningConfig&) { return {.legs = true}; }
 
 LegDeadReckoning::LegDeadReckoning(const LegDeadReckoningConfig& config, const SensorRig& rig)
-    : rig_(rig), queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, config.max_speed) {}
+    : rig_(rig),
+      queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, config.max_speed),
+      health_({.legs = true}, ImuPropagationConfig().gravity) {}
 
 void LegDeadReckoning::consume(const Delivery& delivery) {
   queue_.push(delivery);
@@ -41,6 +43,16 @@ void LegDeadReckoning::process_ready() {
     std::visit([this](const auto& each) { process(each); }, *next);
   }
   for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
+  judge_health();
+}
+
+void LegDeadReckoning::judge_health() {
+  const std::optional<Time> now = queue_.now();
+  if (!now || (judged_ && *now - *judged_ < HealthMonitor::kInterval)) return;
+  judged_ = now;
+  std::optional<HealthEstimate> estimate;
+  if (last_) estimate = {last_->pose.translation, speed_, kNotComputed};
+  append_health(result_.health, health_.judge(*now, queue_.inputs(), estimate));
 }
 
 void LegDeadReckoning::process(const LegOdometrySample& sample) {
@@ -55,10 +67,11 @@ void LegDeadReckoning::process(const LegOdometrySample& sample) {
     result_.trajectory.push_back({stamp, pose});
   }
   waiting_.clear();
-  const bool no_scan = !result_.trajectory.empty() &&
-                       now.stamp - result_.trajectory.back().stamp >= kMaxPoseInterval;
-  if (no_scan) result_.trajectory.push_back(now);
+  if (!start_) start_ = now.stamp;
+  const Time last_pose = result_.trajectory.empty() ? *start_ : result_.trajectory.back().stamp;
+  if (now.stamp - last_pose >= kMaxPoseInterval) result_.trajectory.push_back(now);
   last_ = now;
+  speed_ = sample.linear_velocity.norm();
   queue_.imu().forget_before(sample.stamp);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "estimator/aims/health_monitor.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
@@ -35,10 +36,15 @@ class LegDeadReckoning : public Estimator {
   void process_ready();
   void process(const LegOdometrySample& sample);
   void process(const LidarScanPtr& scan);
+  void judge_health();
 
   SensorRig rig_;
   MeasurementQueue queue_;
+  HealthMonitor health_;
   EstimatorResult result_;
+  std::optional<Time> start_;   ///< stamp of the first sample
+  std::optional<Time> judged_;  ///< arrival
+  double speed_ = 0.0;          ///< of the last sample [m/s]
   std::optional<Pose> T_start_odom_;
   std::optional<StampedPose> last_;  ///< T_start_body
   std::vector<Time> waiting_;        ///< scan ends after the last sample

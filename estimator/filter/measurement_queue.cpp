@@ -35,28 +35,53 @@ MeasurementQueue::MeasurementQueue(const QueueConfig& config, const ImuPropagati
                                    double imu_rate_hz, double max_leg_speed)
     : config_(config), imu_config_(imu), max_leg_speed_(max_leg_speed), imu_(imu, imu_rate_hz) {}
 
-void MeasurementQueue::push(const Delivery& delivery) {
-  now_ = now_ ? std::max(*now_, delivery.arrival) : delivery.arrival;
-  std::visit([this](const auto& each) { accept(each); }, delivery.measurement);
+/// "imu", "leg" or "lidar": how the names of the counts begin.
+void MeasurementQueue::count(Sensor sensor, const char* what, int times) {
+  constexpr const char* kNames[kSensorCount] = {"imu.", "leg.", "lidar."};
+  if (times > 0) counts_[std::string(kNames[static_cast<int>(sensor)]) + what] += times;
 }
 
-bool MeasurementQueue::plausible_stamp(Time stamp, const std::string& name) {
+void MeasurementQueue::reject(Sensor sensor, const char* reason) {
+  inputs_.rejected(sensor, *now_);
+  count(sensor, reason);
+}
+
+void MeasurementQueue::push(const Delivery& delivery) {
+  now_ = now_ ? std::max(*now_, delivery.arrival) : delivery.arrival;
+  const auto sensor = static_cast<Sensor>(delivery.measurement.index());
+  const auto* scan = std::get_if<LidarScanPtr>(&delivery.measurement);
+  if (scan != nullptr && *scan == nullptr) return reject(sensor, "out_of_range");
+  if (!plausible_stamp(stamp_of(delivery.measurement), sensor)) return;
+  StampJumps& jumps = stamp_jumps_[static_cast<std::size_t>(sensor)];
+  const int dropped = jumps.dropped();
+  const int clock_jumps = jumps.clock_jumps();
+  good_.clear();
+  jumps.take(delivery, good_);
+  count(sensor, "stamp_jump", jumps.dropped() - dropped);
+  count(sensor, "clock_jump", jumps.clock_jumps() - clock_jumps);
+  for (const Delivery& each : good_) {
+    std::visit([this](const auto& measurement) { accept(measurement); }, each.measurement);
+  }
+}
+
+bool MeasurementQueue::plausible_stamp(Time stamp, Sensor sensor) {
   if (stamp <= *now_ + from_seconds(config_.max_ahead)) return true;
-  count(name + ".ahead");
+  reject(sensor, "ahead");
   return false;
 }
 
 void MeasurementQueue::accept(const ImuSample& sample) {
   if (!sample.angular_velocity.allFinite() || !sample.specific_force.allFinite()) {
-    return count("imu.non_finite");
+    return reject(Sensor::kImu, "non_finite");
   }
   if (sample.angular_velocity.norm() > imu_config_.max_rate ||
       sample.specific_force.norm() > imu_config_.max_force) {
-    return count("imu.out_of_range");
+    return reject(Sensor::kImu, "out_of_range");
   }
-  if (!plausible_stamp(sample.stamp, "imu")) return;
-  if (last_popped_ && sample.stamp <= last_popped_->first) return count("imu.late");
-  if (!imu_.insert(sample)) return count("imu.duplicate");
+  if (last_popped_ && sample.stamp <= last_popped_->first) return reject(Sensor::kImu, "late");
+  if (!imu_.insert(sample)) return count(Sensor::kImu, "duplicate");
+  inputs_.accepted(Sensor::kImu, *now_);
+  inputs_.accepted_force(sample.specific_force);
   if (imu_.samples().size() > static_cast<std::size_t>(config_.max_held)) {
     imu_.forget_before(imu_.samples()[1].stamp + 1);
   }
@@ -65,27 +90,27 @@ void MeasurementQueue::accept(const ImuSample& sample) {
 void MeasurementQueue::accept(const LegOdometrySample& sample) {
   if (!sample.linear_velocity.allFinite() || !sample.angular_velocity.allFinite() ||
       !is_finite(sample.T_odom_base)) {
-    return count("leg.non_finite");
+    return reject(Sensor::kLegs, "non_finite");
   }
-  if (sample.linear_velocity.norm() > max_leg_speed_) return count("leg.out_of_range");
-  if (plausible_stamp(sample.stamp, "leg")) hold({sample.stamp, kLegKind}, "leg", sample);
+  if (sample.linear_velocity.norm() > max_leg_speed_) return reject(Sensor::kLegs, "out_of_range");
+  hold({sample.stamp, kLegKind}, Sensor::kLegs, sample);
 }
 
 void MeasurementQueue::accept(const LidarScanPtr& scan) {
-  if (!scan || scan->end < scan->stamp || scan->end - scan->stamp > kMaxScanDuration) {
-    return count("lidar.out_of_range");
+  if (scan->end < scan->stamp || scan->end - scan->stamp > kMaxScanDuration) {
+    return reject(Sensor::kLidar, "out_of_range");
   }
-  if (plausible_stamp(scan->end, "lidar")) hold({scan->end, kLidarKind}, "lidar", scan);
+  hold({scan->end, kLidarKind}, Sensor::kLidar, scan);
 }
 
-void MeasurementQueue::hold(const Key& key, const std::string& name, Correction correction) {
-  if (last_popped_ && key <= *last_popped_) {
-    return count(name + (key == *last_popped_ ? ".duplicate" : ".late"));
-  }
-  if (!held_.try_emplace(key, std::move(correction)).second) return count(name + ".duplicate");
+void MeasurementQueue::hold(const Key& key, Sensor sensor, Correction correction) {
+  if (last_popped_ && key == *last_popped_) return count(sensor, "duplicate");
+  if (last_popped_ && key < *last_popped_) return reject(sensor, "late");
+  if (!held_.try_emplace(key, std::move(correction)).second) return count(sensor, "duplicate");
+  inputs_.accepted(sensor, *now_);
   if (held_.size() > static_cast<std::size_t>(config_.max_held)) {
     held_.erase(held_.begin());
-    count("queue.overflow");
+    ++counts_["queue.overflow"];
   }
 }
 

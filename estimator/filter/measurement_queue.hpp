@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/config.hpp"
 #include "core/measurements.hpp"
 #include "estimator/filter/imu_history.hpp"
+#include "estimator/filter/input_monitor.hpp"
+#include "estimator/filter/stamp_jumps.hpp"
 
 namespace aims {
 
@@ -27,7 +31,7 @@ void describe(Fields& fields, QueueConfig& config);
 using Correction = std::variant<LegOdometrySample, LidarScanPtr>;
 
 /// Sorts measurements by stamp within a fixed lag. Late, duplicate, non-finite and out-of-range
-/// measurements are dropped and counted, e.g. "leg.late".
+/// measurements and those whose stamps jump are dropped and counted, e.g. "leg.late".
 class MeasurementQueue {
  public:
   /// `imu_rate_hz`: nominal sample rate [Hz]. Leg samples faster than `max_leg_speed` [m/s] are out
@@ -46,6 +50,9 @@ class MeasurementQueue {
 
   ImuHistory& imu() { return imu_; }
   const std::map<std::string, int>& counts() const { return counts_; }
+  const InputMonitor& inputs() const { return inputs_; }
+  /// Latest arrival; empty before the first.
+  std::optional<Time> now() const { return now_; }
 
  private:
   /// Stamp, then kind (leg before LiDAR), so that equal stamps have one order.
@@ -54,10 +61,11 @@ class MeasurementQueue {
   void accept(const ImuSample& sample);
   void accept(const LegOdometrySample& sample);
   void accept(const LidarScanPtr& scan);
-  void hold(const Key& key, const std::string& name, Correction correction);
+  void hold(const Key& key, Sensor sensor, Correction correction);
   bool ready(Time stamp) const;
-  bool plausible_stamp(Time stamp, const std::string& name);
-  void count(const std::string& what) { ++counts_[what]; }
+  bool plausible_stamp(Time stamp, Sensor sensor);
+  void reject(Sensor sensor, const char* reason);
+  void count(Sensor sensor, const char* what, int times = 1);
 
   QueueConfig config_;
   ImuPropagationConfig imu_config_;
@@ -67,6 +75,10 @@ class MeasurementQueue {
   std::optional<Key> last_popped_;
   std::optional<Time> now_;  ///< latest arrival
   bool closed_ = false;
+  InputMonitor inputs_;
+  std::array<StampJumps, kSensorCount> stamp_jumps_ = {StampJumps(true), StampJumps(false),
+                                                       StampJumps(false)};
+  std::vector<Delivery> good_;  ///< of the present delivery
   std::map<std::string, int> counts_;
 };
 

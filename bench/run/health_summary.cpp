@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/health_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace aims {
+namespace {
+
+/// Time [s] of the summary in that state.
+double& time_in(HealthState state, HealthSummary& summary) {
+  if (state == HealthState::kInvalid) return summary.invalid_s;
+  return state == HealthState::kDegraded ? summary.degraded_s : summary.healthy_s;
+}
+
+/// The reasons that lasted longest, at most three.
+std::string reasons_text(const HealthSummary& summary) {
+  std::vector<std::pair<double, std::string>> longest;
+  for (const auto& [reason, seconds] : summary.reasons) longest.emplace_back(seconds, reason);
+  std::ranges::sort(longest, std::greater<>());
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, longest.size()); ++i) {
+    texts.push_back(fmt::format("{} {:.1f} s", longest[i].second, longest[i].first));
+  }
+  if (longest.size() > texts.size()) texts.emplace_back("...");
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+}  // namespace
+
+HealthSummary health_summary(const std::vector<HealthRow>& rows) {
+  HealthSummary summary;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const HealthRow& row = rows[i];
+    summary.worst = std::max(summary.worst, row.state);
+    if (row.state == HealthState::kStarting || i + 1 == rows.size()) continue;
+    const double seconds = to_seconds(rows[i + 1].stamp - row.stamp);
+    time_in(row.state, summary) += seconds;
+    for (const std::string& reason : row.reasons) summary.reasons[reason] += seconds;
+  }
+  return summary;
+}
+
+Json health_json(const HealthSummary& summary) {
+  return {{"worst", name_of(summary.worst)},
+          {"healthy_s", summary.healthy_s},
+          {"degraded_s", summary.degraded_s},
+          {"invalid_s", summary.invalid_s},
+          {"reasons", reasons_text(summary)}};
+}
+
+std::string text_of(const HealthSummary& summary) {
+  if (summary.worst == HealthState::kHealthy) return {};
+  if (summary.worst == HealthState::kStarting) return "never started";
+  std::vector<std::string> states;
+  if (summary.invalid_s > 0.0 || summary.worst == HealthState::kInvalid) {
+    states.push_back(fmt::format("INVALID for {:.1f} s", summary.invalid_s));
+  }
+  if (summary.degraded_s > 0.0) {
+    states.push_back(fmt::format("degraded for {:.1f} s", summary.degraded_s));
+  }
+  return fmt::format("{} ({})", fmt::join(states, ", "), reasons_text(summary));
+}
+
+CsvTable health_table(const std::vector<HealthRow>& rows) {
+  CsvTable table({"stamp_s", "state", "reasons", "position_sigma_m"});
+  for (const HealthRow& row : rows) {
+    table.add(to_seconds(row.stamp)).add(name_of(row.state));
+    table.add(fmt::format("{}", fmt::join(row.reasons, "; "))).add(row.position_sigma);
+    table.end_row();
+  }
+  return table;
+}
+
+}  // namespace aims

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "estimator/aims/scan_diagnostics.hpp"
+#include "estimator/filter/input_monitor.hpp"
+#include "estimator/filter/kalman_update.hpp"
+#include "estimator/health.hpp"
+
+namespace aims {
+
+/// What an estimator draws on: what it does not use cannot be missing.
+struct HealthSources {
+  bool lidar = false;
+  bool legs = false;
+  bool imu = false;
+};
+
+/// What is judged of the present estimate.
+struct HealthEstimate {
+  Eigen::Vector3d position;     ///< odometry frame [m]
+  double speed = 0.0;           ///< [m/s]
+  double position_sigma = 0.0;  ///< stated, along the least certain axis [m]; NaN: none stated
+};
+
+/// The same of a belief.
+HealthEstimate health_estimate(const Belief& belief);
+
+/// Judges an estimate by what arrives and by how well the sources agree. It never sees the truth:
+/// errors in which all sources agree stay unnoticed.
+class HealthMonitor {
+ public:
+  /// Time between judgements.
+  static constexpr Duration kInterval = 100 * kMillisecond;
+
+  HealthMonitor(const HealthSources& sources, double gravity)
+      : sources_(sources), gravity_(gravity) {}
+
+  /// Difference between the velocity of the legs and that of the filter, base axes [m/s].
+  void leg_residual(const Eigen::Vector3d& residual);
+  /// The result of a scan, of which `points` were to be matched.
+  void scan(const ScanDiagnostics& scan, std::size_t points);
+  /// The filter refused a result that is not finite.
+  void not_finite() { not_finite_ = true; }
+
+  /// State and reasons at `now` (arrival); `estimate` is empty before the estimate starts.
+  HealthRow judge(Time now, const InputMonitor& inputs,
+                  const std::optional<HealthEstimate>& estimate);
+
+ private:
+  struct Findings;
+  void judge_inputs(Time now, const InputMonitor& inputs, Findings& findings) const;
+  void judge_agreement(Findings& findings) const;
+  void judge_estimate(const HealthEstimate& estimate, Findings& findings);
+  bool lidar_corrects(Time now, const InputMonitor& inputs) const;
+
+  HealthSources sources_;
+  double gravity_;
+  Eigen::Vector3d leg_residual_ = Eigen::Vector3d::Zero();  ///< moving average [m/s]
+  double rotation_residual_ = 0.0;  ///< moving average, scans against prediction [rad]
+  double matched_ = 1.0;            ///< moving average of the fraction of matched points
+  int scans_without_update_ = 0;    ///< in a row
+  int weak_scans_ = 0;              ///< in a row, which constrain an axis no better than noise does
+  double path_ = 0.0;               ///< [m]
+  std::optional<Eigen::Vector3d> last_position_;
+  bool not_finite_ = false;  ///< since the last judgement
+};
+
+}  // namespace aims
