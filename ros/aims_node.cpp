@@ -37,10 +37,23 @@ void print_line(const std::string& text) {
   std::fflush(stdout);  // roslaunch reads from a pipe
 }
 
+/// Prints state and reasons of the rows from `next` on that differ from those before.
+void print_health(const std::vector<HealthRow>& rows, std::size_t& next) {
+  for (; next < rows.size(); ++next) {
+    const HealthRow& row = rows[next];
+    if (next > 0 && row.state == rows[next - 1].state && row.reasons == rows[next - 1].reasons) {
+      continue;
+    }
+    print_line(fmt::format("health at {:.1f} s: {}{}{}", to_seconds(row.stamp), name_of(row.state),
+                           row.reasons.empty() ? "" : ": ", fmt::join(row.reasons, "; ")));
+  }
+}
+
 /// Estimates until the node is asked to end, then processes what the estimator has queued.
 Result<void> estimate_live(RecordingReader& reader, Estimator& estimator,
                            OdometryPublisher& publisher) {
   std::vector<Delivery> deliveries;
+  std::size_t health_printed = 0;
   bool more = true;
   while (more) {
     const auto advanced = reader.advance(kBatch, deliveries);
@@ -48,6 +61,7 @@ Result<void> estimate_live(RecordingReader& reader, Estimator& estimator,
     more = *advanced;
     for (const Delivery& delivery : deliveries) estimator.consume(delivery);
     publisher.publish(estimator.result().trajectory);
+    print_health(estimator.result().health, health_printed);
     deliveries.clear();
   }
   estimator.finish();

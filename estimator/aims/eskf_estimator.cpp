@@ -183,6 +183,8 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
   LinearMeasurement measurement =
       leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_covariance(sample, rate));
+  health_.leg_residual(measurement.residual - belief_.state.leg_scale.cwiseProduct(legs.stride_mean) -
+                       belief_.state.leg_bias);
   if (config_.leg_noise.enabled) {
     const auto inflation = leg_noise_.inflation(measurement, belief_.covariance);
     if (!inflation) {
@@ -192,7 +194,6 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
     measurement.noise *= *inflation;
   }
   leg_innovation_ = measurement.residual.norm();
-  health_.leg_residual(measurement.residual);
   ++leg_updates_;
   const ErrorMatrix prior_information = inverse_spd(belief_.covariance);
   const Information information = information_of(measurement);

@@ -22,7 +22,8 @@ constexpr double kForceTolerance = 0.2;   ///< of the mean specific force, relat
 // Limits on how sources disagree.
 constexpr double kLegDisagreement = 0.15;       ///< several times a usual scale error [m/s]
 constexpr double kLargeLegDisagreement = 0.5;   ///< about the speed of a walk [m/s]
-constexpr double kRotationDisagreement = 0.03;  ///< per scan [rad]
+constexpr double kRotationDisagreement = 5e-3;  ///< of scan and prediction [rad]; usual: 2e-4
+constexpr double kPositionDisagreement = 0.01;  ///< of scan and prediction [m]; usual: 2e-3
 constexpr double kMinMatched = 0.3;             ///< fraction of a scan's points
 constexpr int kScansWithoutUpdate = 5;
 constexpr int kLongWithoutUpdate = 50;
@@ -37,7 +38,7 @@ constexpr double kSigmaPerPath = 0.05;      ///< SuccessLimits::error_per_path [
 
 // Moving averages.
 constexpr double kLegSamples = 200.0;
-constexpr double kScans = 10.0;
+constexpr double kScans = 20.0;
 
 }  // namespace
 
@@ -62,8 +63,11 @@ void HealthMonitor::scan(const ScanDiagnostics& scan, std::size_t points) {
   const double matched = points == 0 ? 0.0 : scan.points_used / static_cast<double>(points);
   matched_ += (matched - matched_) / kScans;
   if (scan.iterations == 0) return;
-  const double rotation = scan.innovation_rotation.norm();
-  if (std::isfinite(rotation)) rotation_residual_ += (rotation - rotation_residual_) / kScans;
+  const auto average = [](double value, double& mean) {
+    if (std::isfinite(value)) mean += (value - mean) / kScans;
+  };
+  average(scan.innovation_rotation.norm(), rotation_residual_);
+  average(scan.innovation_position.norm(), position_residual_);
   weak_scans_ = scan.weak_ratio < kNoiseRatio ? weak_scans_ + 1 : 0;
 }
 
@@ -111,7 +115,10 @@ void HealthMonitor::judge_agreement(Findings& findings) const {
     findings.degraded.emplace_back("legs disagree with the estimate");
   }
   if (rotation_residual_ > kRotationDisagreement) {
-    findings.degraded.emplace_back("IMU and LiDAR disagree in rotation");
+    findings.degraded.emplace_back("scans disagree with the predicted rotation");
+  }
+  if (position_residual_ > kPositionDisagreement) {
+    findings.degraded.emplace_back("scans disagree with the predicted position");
   }
   if (not_finite_) findings.degraded.emplace_back("an update was not finite");
 }

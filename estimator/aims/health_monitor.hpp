@@ -38,7 +38,8 @@ class HealthMonitor {
   HealthMonitor(const HealthSources& sources, double gravity)
       : sources_(sources), gravity_(gravity) {}
 
-  /// Difference between the velocity of the legs and that of the filter, base axes [m/s].
+  /// Difference between the velocity that the legs report, uncorrected, and that of the filter,
+  /// base axes [m/s]. A learned scale would explain away what contradicts.
   void leg_residual(const Eigen::Vector3d& residual);
   /// The result of a scan, of which `points` were to be matched.
   void scan(const ScanDiagnostics& scan, std::size_t points);
@@ -60,6 +61,7 @@ class HealthMonitor {
   double gravity_;
   Eigen::Vector3d leg_residual_ = Eigen::Vector3d::Zero();  ///< moving average [m/s]
   double rotation_residual_ = 0.0;  ///< moving average, scans against prediction [rad]
+  double position_residual_ = 0.0;  ///< likewise [m]
   double matched_ = 1.0;            ///< moving average of the fraction of matched points
   int scans_without_update_ = 0;    ///< in a row
   int weak_scans_ = 0;              ///< in a row, which constrain an axis no better than noise does

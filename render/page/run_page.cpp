@@ -89,6 +89,12 @@ Json diverged_at_json(const RunFolder& run, const std::string& name, double star
   return diverged_at.is_number() ? Json(diverged_at.get<double>() - start) : Json();
 }
 
+/// How healthy the estimator called itself; null in folders without it.
+Json health_json(const RunFolder& run, const std::string& name) {
+  const Json& record = run.estimate.is_object() ? run.estimate : run.scores;
+  return member(member(member(record, "estimators"), name), "health");
+}
+
 Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surface, double start,
                              PageData& page) {
   Json list = Json::array();
@@ -98,6 +104,7 @@ Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surfac
     list.push_back(
         {{"name", each.name},
          {"diverged_at", diverged_at_json(run, each.name, start)},
+         {"health", health_json(run, each.name)},
          {"colour_index", list.size()},
          {"series", std::move(*series)},
          {"map", map_json(each.map, start_anchor(each.trajectory, run.truth, run.scoring), surface,

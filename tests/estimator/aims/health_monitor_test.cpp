@@ -120,12 +120,12 @@ TEST(HealthMonitor, NoticesScansThatDoNotMatchAndTheirReturn) {
   EXPECT_EQ(monitor.judge(kNow, good_inputs(), kStill).state, HealthState::kHealthy);
 }
 
-TEST(HealthMonitor, NoticesRotationsThatDisagree) {
+TEST(HealthMonitor, NoticesScansThatContradictThePrediction) {
   HealthMonitor monitor = full_monitor();
   ScanDiagnostics scan = good_scan();
   scan.innovation_rotation << 0.0, 0.0, 0.1;
   for (int i = 0; i < 30; ++i) monitor.scan(scan, 1000);
-  EXPECT_TRUE(has(monitor.judge(kNow, good_inputs(), kStill), "disagree in rotation"));
+  EXPECT_TRUE(has(monitor.judge(kNow, good_inputs(), kStill), "predicted rotation"));
 }
 
 TEST(HealthMonitor, RefusesASpeedThatNoRobotWalks) {

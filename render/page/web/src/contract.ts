@@ -92,9 +92,19 @@ export interface CloudMap {
   error: Uint8Array | null;
 }
 
+/** How long an estimator called itself what, after its start. */
+export interface Health {
+  worst: string;
+  healthy_s: number;
+  degraded_s: number;
+  invalid_s: number;
+  reasons: string;
+}
+
 export interface Estimator {
   name: string;
   diverged_at: Maybe;
+  health?: Health | null;
   colour_index: number;
   series: EstimatorSeries | null;
   map: CloudMap | null;

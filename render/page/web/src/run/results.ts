@@ -166,6 +166,31 @@ function weakTable(list: Row[]): HTMLElement | null {
   });
 }
 
+/** What each estimator reported of itself, without the truth. */
+function healthTable(data: RunPayload): HTMLElement | null {
+  const list = data.estimators.filter((item) => item.health);
+  if (list.length === 0) return null;
+  const seconds = (title: string, key: string, hint: string): Column<Estimator> => ({
+    title,
+    unit: "s",
+    hint,
+    value: (item) => numberAt(item.health, key),
+    show: (item) => formatFixed(Number(at(item.health, key)), 1),
+  });
+  return sortableTable(
+    list,
+    [
+      { title: "Method", value: (item) => item.name },
+      { title: "worst", value: (item) => String(at(item.health, "worst") ?? "") },
+      seconds("healthy", "healthy_s", "Every source arrives and agrees with the others"),
+      seconds("degraded", "degraded_s", "A source is missing or contradicts another"),
+      seconds("invalid", "invalid_s", "The estimate must not be used"),
+      { title: "reasons", value: (item) => String(at(item.health, "reasons") ?? "") || kNone },
+    ],
+    { caption: "Health, as each estimator reports it", rowName: (item) => item.name },
+  );
+}
+
 function gateTable(data: RunPayload): HTMLElement | null {
   const gates = own<unknown>(data.scores, "expectations");
   if (!Array.isArray(gates) || gates.length === 0) return null;
@@ -212,7 +237,12 @@ function truthLine(data: RunPayload): HTMLElement | null {
 export function resultsSection(data: RunPayload): HTMLElement {
   const list = rows(data);
   if (list.length === 0)
-    return section("results", "Results", h("p", { class: "nothing" }, "No estimator was scored."));
+    return section(
+      "results",
+      "Results",
+      h("p", { class: "nothing" }, "No estimator was scored."),
+      healthTable(data),
+    );
   return section(
     "results",
     "Results",
@@ -223,6 +253,7 @@ export function resultsSection(data: RunPayload): HTMLElement {
       h("div", { "data-table": "paper" }, paperTable(data, list)),
       h("div", { "data-table": "errors" }, errorTable(list)),
       weakTable(list),
+      healthTable(data),
       gateTable(data),
     ),
   );

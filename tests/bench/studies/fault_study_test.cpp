@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/fault_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bench/jobs/sequence_cache.hpp"
+#include "tests/bench/studies/short_walk.hpp"
+
+namespace aims {
+namespace {
+
+Delivery imu_at(Time stamp) {
+  ImuSample sample;
+  sample.stamp = stamp;
+  sample.specific_force = {0.0, 0.0, 9.81};
+  return {stamp, sample};
+}
+
+/// What comes out of the fault for IMU samples at 10 Hz over 30 s; it lasts from 10 to 20 s.
+std::vector<Delivery> through(const std::string& name) {
+  const auto faults = stream_faults();
+  const auto fault = std::ranges::find(faults, name, &StreamFault::name);
+  EXPECT_NE(fault, faults.end()) << name;
+  const FaultTransform transform = fault->make({10 * kSecond, 20 * kSecond}, 1);
+  std::vector<Delivery> out;
+  for (int i = 0; i < 300; ++i) transform(imu_at(i * 100 * kMillisecond), out);
+  return out;
+}
+
+double force_at(const std::vector<Delivery>& deliveries, double seconds) {
+  for (const Delivery& each : deliveries) {
+    if (each.arrival >= from_seconds(seconds)) {
+      return std::get<ImuSample>(each.measurement).specific_force.z();
+    }
+  }
+  return 0.0;
+}
+
+TEST(StreamFaults, HaveNamesOfTheirOwn) {
+  std::set<std::string> names;
+  for (const StreamFault& fault : stream_faults()) {
+    EXPECT_TRUE(names.insert(fault.name).second) << fault.name;
+    EXPECT_FALSE(fault.meaning.empty());
+  }
+  EXPECT_GT(names.size(), 70U);
+}
+
+TEST(StreamFaults, HitTheirWindowAlone) {
+  EXPECT_EQ(through("none").size(), 300U);
+  EXPECT_EQ(through("imu.dead_10s").size(), 200U);
+  EXPECT_EQ(through("imu.dead").size(), 100U);
+  EXPECT_EQ(through("legs.dead").size(), 300U);
+  EXPECT_EQ(through("all.twice").size(), 500U);
+  const auto nan = through("imu.specific_force_nan");
+  EXPECT_TRUE(std::isfinite(force_at(nan, 9.0)));
+  EXPECT_TRUE(std::isnan(force_at(nan, 15.0)));
+  EXPECT_TRUE(std::isfinite(force_at(nan, 21.0)));
+}
+
+TEST(StreamFaults, LoseAsManyAsTheySay) {
+  const auto left = static_cast<double>(through("imu.loss_50").size());
+  EXPECT_NEAR(left, 100.0 + 100.0, 30.0);
+}
+
+TEST(StreamFaults, ShiftStamps) {
+  const auto jumped = through("imu.clock_+1s");
+  EXPECT_EQ(stamp_of(jumped[50].measurement), jumped[50].arrival);
+  EXPECT_EQ(stamp_of(jumped[250].measurement), jumped[250].arrival + kSecond);
+  int ahead = 0;
+  for (const Delivery& each : through("imu.stamp_+3s")) {
+    ahead += stamp_of(each.measurement) > each.arrival ? 1 : 0;
+  }
+  EXPECT_EQ(ahead, 1);
+}
+
+class FaultStudy : public ::testing::Test {
+ protected:
+  FaultStudy() : cache_(folder_.path()) {
+    scenario_.simulation.lidar.columns = 300;
+    EXPECT_TRUE(cache_.make(scenario_, 1));
+  }
+  std::vector<FaultCase> study(std::vector<std::string> faults, int jobs = 1) const {
+    const auto sequence =
+        open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_);
+    EXPECT_TRUE(sequence);
+    const auto cases = fault_study(*sequence, scenario_,
+                                   {{"aims_d", "leg"}, std::move(faults), 1, jobs},
+                                   [](std::size_t, std::size_t) { return true; });
+    EXPECT_TRUE(cases) << cases.error().message;
+    return cases.value_or(std::vector<FaultCase>());
+  }
+
+  TemporaryFolder folder_;
+  SequenceCache cache_;
+  Scenario scenario_ = test::short_walk();
+};
+
+TEST_F(FaultStudy, CallsAnUndisturbedSequenceHealthy) {
+  const auto cases = study({"none"});
+  ASSERT_EQ(cases.size(), 2U);
+  for (const FaultCase& each : cases) {
+    EXPECT_TRUE(each.success);
+    EXPECT_EQ(each.worst, HealthState::kHealthy) << each.estimator << each.reasons;
+  }
+}
+
+TEST_F(FaultStudy, NamesADeadSensorAndDoesNotDependOnTheThreads) {
+  const auto cases = study({"legs.dead"}, 2);
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_EQ(cases[0].estimator, "aims_d");
+  EXPECT_EQ(cases[0].worst, HealthState::kDegraded);
+  EXPECT_EQ(cases[0].reasons, "no leg odometry");
+  EXPECT_EQ(cases[1].estimator, "leg");
+  EXPECT_FALSE(cases[1].success);
+  EXPECT_FALSE(cases[1].silent);
+}
+
+TEST_F(FaultStudy, RefusesAFaultThatDoesNotExist) {
+  const auto sequence =
+      open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_);
+  const auto cases = fault_study(*sequence, scenario_, {{"leg"}, {"imu.fire"}, 1, 1},
+                                 [](std::size_t, std::size_t) { return true; });
+  ASSERT_FALSE(cases);
+  EXPECT_NE(cases.error().message.find("imu.fire"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace aims
