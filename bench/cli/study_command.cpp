@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -190,9 +192,12 @@ struct CompareArguments {
   bool fail_on_worse = false;
 };
 
-void print_changes(const char* title, const Comparison& comparison, ChangeVerdict verdict) {
-  if (count(comparison, verdict) == 0) return;
-  print_out("\n{}\n{}", title, to_text(change_table(comparison, verdict)));
+/// The largest number of common seeds, when results differ and no score has enough of them.
+std::optional<std::size_t> too_few_seeds(const Comparison& comparison) {
+  std::size_t most = 0;
+  for (const ScoreChange& each : comparison.changes) most = std::max(most, each.pairs);
+  const bool differ = count(comparison, ChangeVerdict::kTooFew) > 0;
+  return differ && most < kFewestPairs ? std::optional(most) : std::nullopt;
 }
 
 int compare_command(const CompareArguments& arguments) {
@@ -202,10 +207,8 @@ int compare_command(const CompareArguments& arguments) {
   const auto after = read_results(arguments.after);
   if (!after) return bad_input(kName, after.error());
   const Comparison comparison = compare(*before, *after);
-  print_out("{}\n", summary_text(comparison));
-  print_changes("worse", comparison, ChangeVerdict::kWorse);
-  print_changes("better", comparison, ChangeVerdict::kBetter);
-  print_changes("different, on one seed", comparison, ChangeVerdict::kUnknown);
+  print_out("{}\n{}\n{}\n", to_text(change_table(comparison)), rule_text(comparison),
+             summary_text(comparison));
   for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
   for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
   if (!arguments.shared.out.empty()) {
@@ -213,8 +216,14 @@ int compare_command(const CompareArguments& arguments) {
         write_comparison(comparison, arguments.before, arguments.after, arguments.shared.out);
     if (!written) return bad_input(kName, written.error());
   }
-  const bool worse = count(comparison, ChangeVerdict::kWorse) > 0;
-  return arguments.fail_on_worse && worse ? kExpectationFailed : kOk;
+  if (!arguments.fail_on_worse) return kOk;
+  if (count(comparison, ChangeVerdict::kWorse) > 0) return kExpectationFailed;
+  if (const auto seeds = too_few_seeds(comparison)) {
+    return bad_input(kName, Error{fmt::format("--fail-on-worse: expected at least {} common seeds, "
+                                              "found at most {}: no change can be told from noise",
+                                              kFewestPairs, *seeds)});
+  }
+  return kOk;
 }
 
 void declare_compare(Command command) {
@@ -223,7 +232,8 @@ void declare_compare(Command command) {
   command.argument("after", arguments->after, "Folder of aims run or aims suite");
   add_out(command, arguments->shared, "nowhere: the result is only printed");
   command.flag("--fail-on-worse", arguments->fail_on_worse,
-               "Exit with 1 when a score got significantly worse");
+               "Exit with 1 when a score got significantly worse, with 2\n"
+               "when there are too few common seeds to tell");
   command.footer(
       "Runs are paired by scenario, seed and estimator.\n"
       "Examples:\n"

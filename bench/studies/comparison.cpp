@@ -6,72 +6,43 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <set>
 
 #include "bench/metrics/statistics.hpp"
-#include "core/random.hpp"
+#include "bench/run/score_statistics.hpp"
 
 namespace aims {
 namespace {
 
 constexpr double kMinChange = 0.05;  ///< fraction of the value before
-constexpr std::size_t kMaxSignings = 64;
 
 const HeadlineScore kSuccess = {"success", "success", "-", 2, 0.0};
 
-/// The rule for better or worse.
-bool is_significant(const std::vector<double>& differences, double floor) {
-  if (std::abs(*mean(differences)) <= floor) return false;
-  const Interval interval = mean_interval(differences);
-  return interval.low && (*interval.low > 0.0 || *interval.high < 0.0);
-}
-
-/// Fraction of all signings of the differences (or of 64 draws, when there are more) that the rule
-/// finds significant.
-double false_alarm(const std::vector<double>& differences, double floor) {
-  if (differences.size() < 2) return 0.0;
-  const double largest =
-      std::abs(*std::max_element(differences.begin(), differences.end(),
-                                 [](double a, double b) { return std::abs(a) < std::abs(b); }));
-  if (largest <= floor) return 0.0;
-  const bool all = differences.size() <= 6;
-  const std::size_t signings = all ? std::size_t{1} << differences.size() : kMaxSignings;
-  RandomStream random = rng(1, "compare.signs");
-  std::size_t found = 0;
-  for (std::size_t signing = 0; signing < signings; ++signing) {
-    std::vector<double> signed_differences = differences;
-    for (std::size_t i = 0; i < differences.size(); ++i) {
-      const bool flip = all ? (signing >> i & 1U) != 0 : random.chance(0.5);
-      if (flip) signed_differences[i] = -signed_differences[i];
-    }
-    found += is_significant(signed_differences, floor);
+ChangeVerdict verdict_of(const std::vector<double>& differences, const PairedTest& test,
+                         double floor, bool more_is_better) {
+  if (std::ranges::all_of(differences, [](double each) { return each == 0.0; })) {
+    return ChangeVerdict::kSame;
   }
-  return static_cast<double>(found) / static_cast<double>(signings);
-}
-
-ChangeVerdict verdict_of(const std::vector<double>& differences, double floor,
-                         bool more_is_better) {
-  const double change = *mean(differences);
-  if (differences.size() == 1) {
-    return std::abs(change) > floor ? ChangeVerdict::kUnknown : ChangeVerdict::kNone;
-  }
-  if (!is_significant(differences, floor)) return ChangeVerdict::kNone;
-  return (change > 0.0) == more_is_better ? ChangeVerdict::kBetter : ChangeVerdict::kWorse;
+  if (differences.size() < kFewestPairs) return ChangeVerdict::kTooFew;
+  if (!test.found()) return ChangeVerdict::kNone;
+  if (std::abs(test.change) <= floor) return ChangeVerdict::kSmall;
+  return (test.change > 0.0) == more_is_better ? ChangeVerdict::kBetter : ChangeVerdict::kWorse;
 }
 
 ScoreChange change_of(const ScorePairs& pairs, const HeadlineScore& score) {
   const bool success = score.key == kSuccess.key;
+  const std::vector<double> differences = pairs.differences();
   ScoreChange change;
   change.score = score.key;
-  change.pairs = statistics_of(pairs);
-  change.before = success ? *mean(pairs.reference) : *change.pairs.reference_median;
-  change.after = success ? *mean(pairs.value) : *change.pairs.median;
-  const std::vector<double> differences = pairs.differences();
-  const double floor = success ? 0.0 : std::max(score.floor, kMinChange * std::abs(change.before));
-  change.verdict = verdict_of(differences, floor, success);
-  change.false_alarm = false_alarm(differences, floor);
+  change.pairs = differences.size();
+  change.before = *mean(pairs.reference);
+  change.after = *mean(pairs.value);
+  change.worst_after = *std::ranges::max_element(pairs.value);
+  change.floor = success ? 0.0 : std::max(score.floor, kMinChange * std::abs(change.before));
+  change.test = paired_test(differences);
+  change.verdict = verdict_of(differences, change.test, change.floor, success);
+  change.false_alarm = false_alarm_rate(differences, change.floor);
   return change;
 }
 

@@ -2,34 +2,41 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/jobs/results.hpp"
-#include "bench/run/score_statistics.hpp"
+#include "bench/metrics/paired_test.hpp"
+#include "bench/run/score_record.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {
 
 enum class ChangeVerdict {
-  kNone,  ///< within noise, or too small to matter
-  kBetter,
   kWorse,
-  kUnknown,  ///< one common seed: a difference, and no measure of noise
+  kBetter,
+  kTooFew,  ///< they differ, but fewer than kFewestPairs can show nothing
+  kSmall,   ///< beyond noise, but too small to matter
+  kNone,    ///< within noise
+  kSame,    ///< equal in every pair
 };
 
-/// One score of one estimator in one scenario, before and after.
+/// One score of one estimator in one scenario, before and after, over the seeds that have it on
+/// both sides.
 struct ScoreChange {
   std::string scenario;
   std::string estimator;
   std::string score;
-  PairedStatistics pairs;  ///< over the seeds that have it on both sides, before as the reference
-  double before = 0.0;     ///< median over them; of `success` the mean
+  std::size_t pairs = 0;
+  double before = 0.0;  ///< mean over them; test.change is after - before
   double after = 0.0;
+  double worst_after = 0.0;  ///< largest
+  double floor = 0.0;        ///< a change of at most this is too small to matter
+  PairedTest test;
   ChangeVerdict verdict = ChangeVerdict::kNone;
-  /// Probability of the verdict better or worse when the signs of the differences are random.
-  double false_alarm = 0.0;
+  double false_alarm = 0.0;  ///< probability of better or worse with random signs
 };
 
 struct Comparison {
@@ -40,25 +47,30 @@ struct Comparison {
 };
 
 /// Pairs the runs of the same scenario, seed and estimator. A change is better or worse when the
-/// bootstrap interval of its mean excludes zero and it exceeds both the score's own floor
-/// (kHeadlineScores) and 5 % of the value before. Its rate of false alarms is counted by giving the
-/// same differences all other signs (at most 64 draws of them).
+/// interval of `paired_test` excludes zero and the change exceeds both the score's own floor
+/// (kHeadlineScores) and 5 % of the value before.
 Comparison compare(const StoredResults& before, const StoredResults& after);
+
+/// "better", "worse", "too few", "small", "none", "same".
+std::string_view name_of(ChangeVerdict verdict);
 
 /// Number of changes with that verdict.
 std::size_t count(const Comparison& comparison, ChangeVerdict verdict);
 
+/// Every change, the worse ones first, then in the order of the verdicts.
+TextTable change_table(const Comparison& comparison);
+
 /// One line: how many were compared, better, worse, and false alarms that are expected.
 std::string summary_text(const Comparison& comparison);
 
-/// What got better, worse, or differs on one seed, as a table; empty rows when nothing.
-TextTable change_table(const Comparison& comparison, ChangeVerdict verdict);
+/// How the verdicts come about, and what the numbers of pairs at hand can show.
+std::string rule_text(const Comparison& comparison);
 
 /// What compare.json holds; `before` and `after` name the two.
 Json comparison_json(const Comparison& comparison, const std::string& before,
                      const std::string& after);
 
-/// Writes compare.json (schema aims.compare/2) and compare.md into `folder`, which is made.
+/// Writes compare.json (schema aims.compare/3) and compare.md into `folder`, which is made.
 Result<void> write_comparison(const Comparison& comparison, const std::string& before,
                               const std::string& after, const std::filesystem::path& folder);
 

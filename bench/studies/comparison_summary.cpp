@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <set>
 #include <system_error>
 
 #include "bench/run/json_text.hpp"
@@ -12,36 +15,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kComparisonSchema = "aims.compare/2";
-
-std::string_view name_of(ChangeVerdict verdict) {
-  switch (verdict) {
-    case ChangeVerdict::kBetter:
-      return "better";
-    case ChangeVerdict::kWorse:
-      return "worse";
-    case ChangeVerdict::kUnknown:
-      return "one seed";
-    case ChangeVerdict::kNone:
-      break;
-  }
-  return "none";
+/// The smallest change that would have been better or worse.
+std::optional<double> detectable(const ScoreChange& change) {
+  if (!change.test.detectable) return std::nullopt;
+  return std::max(*change.test.detectable, change.floor);
 }
+
+constexpr std::string_view kComparisonSchema = "aims.compare/3";
 
 Json change_json(const ScoreChange& change) {
   return {{"scenario", change.scenario},
           {"estimator", change.estimator},
           {"score", change.score},
-          {"seeds", change.pairs.count},
+          {"seeds", change.pairs},
           {"before", change.before},
           {"after", change.after},
-          {"worst_after", json_of(change.pairs.worst)},
-          {"ratio", json_of(change.pairs.ratio)},
-          {"change", change.pairs.change},
-          {"change_low", json_of(change.pairs.interval.low)},
-          {"change_high", json_of(change.pairs.interval.high)},
+          {"worst_after", change.worst_after},
+          {"ratio", change.before > 0.0 ? Json(change.after / change.before) : Json()},
+          {"change", change.test.change},
+          {"change_low", json_of(change.test.interval.low)},
+          {"change_high", json_of(change.test.interval.high)},
+          {"p", change.test.p},
+          {"detectable", json_of(detectable(change))},
+          {"floor", change.floor},
           {"verdict", name_of(change.verdict)},
           {"false_alarm", change.false_alarm}};
+}
+
+std::vector<std::string> change_row(const ScoreChange& change) {
+  std::string size = fmt::format("{:+.4f}", change.test.change);
+  if (const Interval& range = change.test.interval; range.low) {
+    size += fmt::format(" [{:+.4f}, {:+.4f}]", *range.low, *range.high);
+  }
+  const auto smallest = detectable(change);
+  return {change.scenario,
+          change.estimator,
+          change.score,
+          std::to_string(change.pairs),
+          fmt::format("{:.4f}", change.before),
+          fmt::format("{:.4f}", change.after),
+          size,
+          fmt::format("{:.3f}", change.test.p),
+          smallest ? fmt::format("{:.4f}", *smallest) : "-",
+          std::string(name_of(change.verdict))};
 }
 
 std::string list_markdown(const char* title, const std::vector<std::string>& runs) {
@@ -53,17 +69,30 @@ std::string comparison_markdown(const Comparison& comparison, const std::string&
                                 const std::string& after) {
   std::string text =
       fmt::format("# {} against {}\n\n{}\n", after, before, summary_text(comparison));
-  for (const ChangeVerdict verdict :
-       {ChangeVerdict::kWorse, ChangeVerdict::kBetter, ChangeVerdict::kUnknown}) {
-    if (count(comparison, verdict) == 0) continue;
-    text += fmt::format("\n## {}\n\n{}", name_of(verdict),
-                        to_markdown(change_table(comparison, verdict)));
-  }
+  text += fmt::format("\n{}\n{}", to_markdown(change_table(comparison)), rule_text(comparison));
   text += list_markdown("Only before", comparison.only_before);
   return text + list_markdown("Only after", comparison.only_after);
 }
 
 }  // namespace
+
+std::string_view name_of(ChangeVerdict verdict) {
+  switch (verdict) {
+    case ChangeVerdict::kBetter:
+      return "better";
+    case ChangeVerdict::kWorse:
+      return "worse";
+    case ChangeVerdict::kTooFew:
+      return "too few";
+    case ChangeVerdict::kSmall:
+      return "small";
+    case ChangeVerdict::kNone:
+      return "none";
+    case ChangeVerdict::kSame:
+      break;
+  }
+  return "same";
+}
 
 Json comparison_json(const Comparison& comparison, const std::string& before,
                      const std::string& after) {
@@ -74,6 +103,7 @@ Json comparison_json(const Comparison& comparison, const std::string& before,
                {"better", count(comparison, ChangeVerdict::kBetter)},
                {"worse", count(comparison, ChangeVerdict::kWorse)},
                {"expected_false_alarms", comparison.expected_false_alarms},
+               {"rule", rule_text(comparison)},
                {"changes", Json::array()},
                {"only_before", comparison.only_before},
                {"only_after", comparison.only_after}};
@@ -89,27 +119,39 @@ std::string summary_text(const Comparison& comparison) {
       "alarms are expected.",
       comparison.changes.size(), count(comparison, ChangeVerdict::kBetter),
       count(comparison, ChangeVerdict::kWorse), comparison.expected_false_alarms);
-  if (const std::size_t unknown = count(comparison, ChangeVerdict::kUnknown); unknown > 0) {
-    text += fmt::format(
-        " {} differ on the one seed that is common, without a measure of noise: run more seeds.",
-        unknown);
+  if (const std::size_t few = count(comparison, ChangeVerdict::kTooFew); few > 0) {
+    text += fmt::format(" {} differ on too few common seeds to tell: run {} or more.", few,
+                        kFewestPairs);
   }
   return text;
 }
 
-TextTable change_table(const Comparison& comparison, ChangeVerdict verdict) {
-  TextTable table;
-  table.header = {"scenario", "estimator", "score", "seeds", "before", "after", "change [95 %]"};
-  for (const ScoreChange& change : comparison.changes) {
-    if (change.verdict != verdict) continue;
-    std::string interval = fmt::format("{:+.4f}", change.pairs.change);
-    if (const Interval& range = change.pairs.interval; range.low) {
-      interval += fmt::format(" [{:+.4f}, {:+.4f}]", *range.low, *range.high);
-    }
-    table.rows.push_back({change.scenario, change.estimator, change.score,
-                          std::to_string(change.pairs.count), fmt::format("{:.4f}", change.before),
-                          fmt::format("{:.4f}", change.after), interval});
+std::string rule_text(const Comparison& comparison) {
+  std::string text =
+      "before, after: means over the seeds. change: mean of the paired differences, with the 95 %\n"
+      "interval of the sign-flip test; it excludes zero exactly when p <= 0.05. better, worse: it\n"
+      "excludes zero, and the change exceeds 5 % of before and 0.01 m (M_list: 0.02 %); small: "
+      "the\n"
+      "change does not. detectable: the smallest change that this scatter would have shown.\n";
+  std::set<std::size_t> few;
+  for (const ScoreChange& each : comparison.changes) {
+    if (each.verdict == ChangeVerdict::kTooFew) few.insert(each.pairs);
   }
+  for (const std::size_t pairs : few) {
+    text +=
+        fmt::format("{} pair{}: the smallest p that this test can reach is {:.4g}: no verdict.\n",
+                    pairs, pairs == 1 ? "" : "s", smallest_p(pairs));
+  }
+  return text;
+}
+
+TextTable change_table(const Comparison& comparison) {
+  TextTable table;
+  table.header = {"scenario", "estimator",     "score", "seeds",      "before",
+                  "after",    "change [95 %]", "p",     "detectable", "verdict"};
+  std::vector<ScoreChange> changes = comparison.changes;
+  std::ranges::stable_sort(changes, {}, &ScoreChange::verdict);
+  std::ranges::transform(changes, std::back_inserter(table.rows), change_row);
   return table;
 }
 

@@ -35,6 +35,10 @@ const ScoreChange& ate_change(const Comparison& comparison) {
 
 const std::vector<double> kBefore = {0.20, 0.35, 0.28, 0.22, 0.31, 0.40};
 
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
 std::vector<double> shifted(double by) {
   std::vector<double> after = kBefore;
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -46,8 +50,8 @@ std::vector<double> shifted(double by) {
 TEST(Compare, SaysWhatIsWorseOrBetterBeyondNoise) {
   const auto worse = compare(results(kBefore), results(shifted(0.1)));
   EXPECT_EQ(ate_change(worse).verdict, ChangeVerdict::kWorse);
-  EXPECT_NEAR(ate_change(worse).pairs.change, 0.102, 1e-9);
-  EXPECT_EQ(ate_change(worse).pairs.count, 6U);
+  EXPECT_NEAR(ate_change(worse).test.change, 0.102, 1e-9);
+  EXPECT_EQ(ate_change(worse).pairs, 6U);
   const auto better = compare(results(shifted(0.1)), results(kBefore));
   EXPECT_EQ(ate_change(better).verdict, ChangeVerdict::kBetter);
 }
@@ -60,8 +64,8 @@ TEST(Compare, PairsSeedsSoThatTheirSpreadDoesNotHideAChange) {
 
 TEST(Compare, PassesOverSmallChangesAndNoise) {
   EXPECT_EQ(ate_change(compare(results(kBefore), results(shifted(0.004)))).verdict,
-            ChangeVerdict::kNone)
-      << "below the floor of 1 cm";
+            ChangeVerdict::kSmall)
+      << "below the floor of 1 cm, though in every pair";
   std::vector<double> noisy = kBefore;
   noisy[0] += 0.5;
   noisy[1] -= 0.2;
@@ -71,7 +75,8 @@ TEST(Compare, PassesOverSmallChangesAndNoise) {
 
 TEST(Compare, OfTheSameResultsFindsNothingAndExpectsNothing) {
   const Comparison same = compare(results(kBefore), results(kBefore));
-  EXPECT_EQ(count(same, ChangeVerdict::kNone), same.changes.size());
+  EXPECT_EQ(count(same, ChangeVerdict::kSame), same.changes.size());
+  EXPECT_EQ(change_table(same).rows.size(), same.changes.size());
   EXPECT_EQ(same.expected_false_alarms, 0.0);
   EXPECT_TRUE(same.only_before.empty());
 }
@@ -82,31 +87,78 @@ TEST(Compare, ExpectsAsManyFalseAlarmsAsThereAre) {
   double expected = 0.0;
   std::size_t found = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    std::vector<double> before(5);
-    std::vector<double> after(5);
+    std::vector<double> before(8);
+    std::vector<double> after(8);
     for (std::size_t i = 0; i < before.size(); ++i) {
       before[i] = 1.0 + 0.1 * random.normal();
       after[i] = before[i] + 0.2 * random.normal();
     }
     const Comparison comparison = compare(results(before), results(after));
     expected += ate_change(comparison).false_alarm;
-    found += ate_change(comparison).verdict != ChangeVerdict::kNone;
+    const ChangeVerdict verdict = ate_change(comparison).verdict;
+    found += verdict == ChangeVerdict::kBetter || verdict == ChangeVerdict::kWorse;
   }
-  EXPECT_GT(expected, 10.0) << "five seeds cannot keep chance out";
+  EXPECT_GT(expected, 10.0);
+  EXPECT_LE(expected, 0.05 * 300) << "one in twenty at most";
   EXPECT_NEAR(static_cast<double>(found), expected, 4.0 * std::sqrt(expected));
+}
+
+TEST(Compare, OfTooFewSeedsHasATableThatSaysWhatTheTestCanReach) {
+  const Comparison three =
+      compare(results({0.0077, 0.0070, 0.0080}), results({0.0201, 0.02, 0.03}));
+  const ScoreChange& change = ate_change(three);
+  EXPECT_EQ(change.verdict, ChangeVerdict::kTooFew);
+  EXPECT_EQ(change.test.interval, Interval{}) << "an interval would claim what the test cannot";
+  EXPECT_NEAR(change.after - change.before, change.test.change, 1e-12);
+  const TextTable table = change_table(three);
+  ASSERT_EQ(table.rows.size(), three.changes.size());
+  EXPECT_EQ(table.rows[0][7], "0.250");
+  EXPECT_EQ(table.rows[0].back(), "too few");
+  EXPECT_TRUE(has(rule_text(three), "3 pairs: the smallest p that this test can reach is 0.25"));
+  EXPECT_TRUE(has(summary_text(three), "1 differ on too few common seeds to tell: run 6 or more"));
 }
 
 TEST(Compare, WithOneCommonSeedKnowsNothingOfNoise) {
   const Comparison one = compare(results({0.2}), results({0.4, 0.1}));
-  EXPECT_EQ(ate_change(one).verdict, ChangeVerdict::kUnknown);
-  EXPECT_EQ(ate_change(one).pairs.interval, Interval{});
-  EXPECT_NE(summary_text(one).find("one seed"), std::string::npos);
+  EXPECT_EQ(ate_change(one).verdict, ChangeVerdict::kTooFew);
+  EXPECT_EQ(ate_change(one).test.interval, Interval{});
   EXPECT_EQ(one.only_after, std::vector<std::string>({"walk, aims, seed 2"}));
 }
 
+TEST(Compare, VerdictIntervalAndTableAgreeInEveryRow) {
+  RandomStream random = rng(8, "test.compare");
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> before(7);
+    std::vector<double> after(7);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      before[i] = 0.3 + 0.02 * random.normal();
+      after[i] = before[i] + 0.015 + 0.015 * random.normal();
+    }
+    const ScoreChange change = ate_change(compare(results(before), results(after)));
+    const Interval& interval = change.test.interval;
+    const bool excludes_zero = *interval.low > 0.0 || *interval.high < 0.0;
+    EXPECT_EQ(change.verdict == ChangeVerdict::kNone, !excludes_zero);
+    EXPECT_EQ(change.verdict == ChangeVerdict::kSmall,
+              excludes_zero && std::abs(change.test.change) <= change.floor);
+    EXPECT_NEAR(change.after - change.before, change.test.change, 1e-12);
+  }
+}
+
+TEST(Compare, TheTableHasEveryScoreTheWorseOnesFirst) {
+  StoredResults before = results(kBefore);
+  StoredResults after = results(kBefore);
+  before["other"] = runs(kBefore);
+  after["other"] = runs(shifted(0.1));
+  const TextTable table = change_table(compare(before, after));
+  EXPECT_EQ(table.rows.size(), 4U);
+  EXPECT_EQ(table.rows[0][0], "other");
+  EXPECT_EQ(table.rows[0].back(), "worse");
+  EXPECT_EQ(table.rows[1].back(), "same");
+}
+
 TEST(Compare, MoreSuccessIsBetter) {
-  const auto lost = results({9.0, 9.0, 9.0, 9.0});
-  const auto found = results({0.1, 0.1, 0.1, 0.1});
+  const auto lost = results(std::vector<double>(6, 9.0));
+  const auto found = results(std::vector<double>(6, 0.1));
   for (const ScoreChange& change : compare(lost, found).changes) {
     EXPECT_EQ(change.verdict, ChangeVerdict::kBetter) << change.score;
   }

@@ -70,10 +70,10 @@ export function detectors(name = "D") {
 }
 
 export function comparison(scenario = "severity_1") {
-  const change = (score, verdict, value, low, high) => ({ scenario, estimator: "a", score, seeds: 3, before: 0.2, after: 0.2 + value, change: value,
+  const change = (score, verdict, value, low, high) => ({ scenario, estimator: "a", score, seeds: 6, before: 0.2, after: 0.2 + value, change: value,
     change_low: low, change_high: high, verdict, false_alarm: 0.125 });
   return {
-    schema: "aims.compare/1", before: "old", after: "new", summary: "3 scores compared.", only_before: [], only_after: ["alone, b, seed 4"],
+    schema: "aims.compare/3", before: "old", after: "new", summary: "3 scores compared.", only_before: [], only_after: ["alone, b, seed 4"],
     changes: [change("ate_m", "better", -0.11, -0.13, -0.09), change("m_end_m", "none", 0.001, -0.02, 0.03), change("success", "worse", -0.5, -0.9, -0.1)],
   };
 }

@@ -7,9 +7,10 @@ import { sortableTable } from "../table";
 import { titleOf, type Comparison, type ScoreChange, type SuitePayload } from "./model";
 
 const kVerdicts: Record<string, string> = {
-  better: "▲ better", worse: "▼ worse", "one seed": "? one seed", none: "= no significant change",
+  better: "▲ better", worse: "▼ worse", "too few": "? too few seeds", small: "= below the relevant change",
+  none: "= within noise", same: "= same",
 };
-const kRank = ["worse", "better", "one seed", "none"];
+const kRank = ["worse", "better", "too few", "small", "none", "same"];
 
 function verdictText(verdict: string): string {
   return Object.hasOwn(kVerdicts, verdict) ? kVerdicts[verdict]! : verdict;
@@ -42,7 +43,7 @@ function changeTable(data: SuitePayload, rows: ScoreChange[], caption: string): 
     {
       title: "verdict", value: (row) => kRank.indexOf(row.verdict),
       show: (row) => h("span", { class: `verdict-${row.verdict === "better" || row.verdict === "worse" ? row.verdict : "none"}` },
-        row.verdict === "none" && row.seeds === 1 ? "= below the relevant change" : verdictText(row.verdict)),
+        verdictText(row.verdict)),
     },
     {
       title: "false alarm", hint: "probability of such a verdict when the signs of the paired differences are random",
@@ -62,7 +63,7 @@ export function compareSection(data: SuitePayload): HTMLElement | null {
   if (!compare) return null;
   const decided = (row: ScoreChange) => row.verdict === "better" || row.verdict === "worse";
   let verdict = compare.changes.some(decided) ? "decided"
-    : compare.changes.some((row) => row.verdict === "one seed") ? "one seed" : "all";
+    : compare.changes.some((row) => row.verdict === "too few") ? "too few" : "all";
   let score = "";
   const place = h("div", {});
   const scores = [...new Set(compare.changes.map((row) => row.score))];
