@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -38,6 +39,7 @@ int score_command(const ScoreArguments& arguments) {
   if (!input) return bad_input("score", input.error());
   const auto scores = score_trajectories(std::move(*input));
   if (!scores) return bad_input("score", scores.error());
+  if (auto ok = check_compared(*scores); !ok) return bad_input("score", ok.error());
   auto folder = OutputFolder::create(shared.out, shared.overwrite);
   if (!folder) return bad_input("score", folder.error());
   auto written = write_trajectory_scores(*scores, folder->path());
@@ -48,7 +50,10 @@ int score_command(const ScoreArguments& arguments) {
   }
   if (auto committed = folder->commit(); !committed) return bad_input("score", committed.error());
   print_scores(*scores, folder->final_path());
-  return kOk;
+  const auto too_little = [&](const ScoredEstimate& each) {
+    return covers_too_little(each, scores->scoring);
+  };
+  return std::ranges::any_of(scores->estimates, too_little) ? kInvalidRun : kOk;
 }
 
 void add_inputs(Command& command, ScoringRequest& request) {
@@ -83,6 +88,7 @@ void declare_score(Command command, const fs::path& /*scenarios*/) {
   command.footer(
       "A trajectory is a file of TUM lines, of KITTI poses, or BAG:/TOPIC (nav_msgs/Odometry,\n"
       "nav_msgs/Path, geometry_msgs/PoseStamped and others with poses).\n"
+      "Exit code 4: an estimate covers less of the truth than scoring.min_coverage (0.5).\n"
       "Examples:\n"
       "  aims score --truth truth.tum --estimate mine.tum --waypoint-times waypoint_times.csv\n"
       "  aims score --truth run.bag:/ground_truth/lidar --estimate loam.txt --estimate lio.tum \\\n"

@@ -26,10 +26,13 @@ struct SimulateArguments {
 const std::map<std::string, BagCompression> kCompressions = {
     {"none", BagCompression::kNone}, {"lz4", BagCompression::kLz4}, {"bz2", BagCompression::kBz2}};
 
-void print_results(const RecordOutcome& outcome, const RecordOptions& options) {
-  print_out("{}: {:.1f} MB, {:.1f} s simulated in {:.1f} s\n", options.bag.string(),
-            static_cast<double>(outcome.bag_bytes) / 1e6, outcome.simulated_s, outcome.wall_s);
-  print_out("  {}\n  {}\n", outcome.truth.string(), outcome.waypoint_times.string());
+/// What was written, and what is wrong with it; `quiet` leaves the first out.
+void print_results(const RecordOutcome& outcome, const RecordOptions& options, bool quiet) {
+  if (!quiet) {
+    print_out("{}: {:.1f} MB, {:.1f} s simulated in {:.1f} s\n", options.bag.string(),
+              static_cast<double>(outcome.bag_bytes) / 1e6, outcome.simulated_s, outcome.wall_s);
+    print_out("  {}\n  {}\n", outcome.truth.string(), outcome.waypoint_times.string());
+  }
   const WalkEnd end = outcome.walk.end;
   if (outcome.complete && end != WalkEnd::kRouteDone) {
     print_out("warning: the walk ended before its route: {}\n", name_of(end));
@@ -67,7 +70,7 @@ int simulate_command(const SimulateArguments& arguments) {
   });
   display.close();
   if (!outcome) return bad_input("simulate", outcome.error());
-  print_results(*outcome, options);
+  print_results(*outcome, options, shared.quiet);
   return outcome->complete ? kOk : interrupted_code();
 }
 

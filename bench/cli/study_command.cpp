@@ -233,7 +233,7 @@ void declare_compare(Command command) {
   add_out(command, arguments->shared, "nowhere: the result is only printed");
   command.flag("--fail-on-worse", arguments->fail_on_worse,
                "Exit with 1 when a score got significantly worse, with 2\n"
-               "when there are too few common seeds to tell");
+               "when there are too few common seeds");
   command.footer(
       "Runs are paired by scenario, seed and estimator.\n"
       "Examples:\n"

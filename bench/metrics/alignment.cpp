@@ -3,6 +3,7 @@
 
 #include <Eigen/SVD>
 #include <cmath>
+#include <limits>
 
 namespace aims {
 namespace {
@@ -32,16 +33,62 @@ Pose about_means(const Moments& m, const Eigen::Quaterniond& rotation) {
   return {rotation, m.mean_truth - rotation * m.mean_estimate};
 }
 
+/// The rotation nearest to those of truth against estimate (chordal mean; they are alike).
+Eigen::Quaterniond mean_rotation(std::span<const PosePair> pairs) {
+  const auto rotation_of = [](const PosePair& each) {
+    return each.truth.rotation * each.estimate.rotation.conjugate();
+  };
+  const Eigen::Quaterniond first = rotation_of(pairs.front());
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (const PosePair& each : pairs) {
+    const Eigen::Quaterniond rotation = rotation_of(each);
+    sum += rotation.dot(first) < 0.0 ? -rotation.coeffs() : rotation.coeffs();
+  }
+  return Eigen::Quaterniond(sum).normalized();
+}
+
+/// The pairs of the second half of a span of time.
+std::span<const PosePair> second_half(std::span<const PosePair> pairs) {
+  const Time middle = pairs.front().stamp + (pairs.back().stamp - pairs.front().stamp) / 2;
+  while (pairs.front().stamp < middle) pairs = pairs.subspan(1);
+  return pairs;
+}
+
+/// The rotation nearest to `start` that turns the line of the estimate onto that of the truth.
+Eigen::Quaterniond along_line(const Eigen::Quaterniond& start, const Eigen::Vector3d& line_truth,
+                              const Eigen::Vector3d& line_estimate) {
+  return Eigen::Quaterniond::FromTwoVectors(start * line_estimate, line_truth) * start;
+}
+
 }  // namespace
 
+std::span<const PosePair> standing_start(std::span<const PosePair> pairs) {
+  constexpr double kDistance = 0.05;  // [m]
+  constexpr double kAngle = 0.05;     // [rad]
+  constexpr Duration kLongest = 10 * kSecond;
+  constexpr Duration kShortest = 500 * kMillisecond;
+  const auto stands = [&first = pairs.front()](const PosePair& each) {
+    return each.stamp - first.stamp <= kLongest &&
+           (each.truth.translation - first.truth.translation).norm() <= kDistance &&
+           each.truth.rotation.angularDistance(first.truth.rotation) <= kAngle;
+  };
+  std::size_t count = 1;
+  while (count < pairs.size() && stands(pairs[count])) ++count;
+  const bool long_enough = pairs[count - 1].stamp - pairs.front().stamp >= kShortest;
+  return pairs.first(long_enough ? count : 1);
+}
+
 Alignment align_start(std::span<const PosePair> pairs, AlignmentKind kind) {
-  Alignment alignment{.T_truth_estimate = Pose(), .kind = kind, .degenerate = pairs.empty()};
+  Alignment alignment{.T_truth_estimate = Pose(),
+                      .kind = kind,
+                      .spread = pairs.empty() ? PositionSpread::kPoint : PositionSpread::kFull};
   if (pairs.empty()) return alignment;
-  const PosePair& first = pairs.front();
   if (kind == AlignmentKind::kStartPose) {
-    alignment.T_truth_estimate = first.truth * first.estimate.inverse();
+    const auto start = second_half(standing_start(pairs));
+    alignment.T_truth_estimate = about_means(moments_of(start), mean_rotation(start));
     return alignment;
   }
+  const PosePair& first = pairs.front();
   const Eigen::Quaterniond rotation =
       yaw_rotation(yaw_of(first.truth.rotation) - yaw_of(first.estimate.rotation));
   alignment.T_truth_estimate = {rotation,
@@ -49,36 +96,39 @@ Alignment align_start(std::span<const PosePair> pairs, AlignmentKind kind) {
   return alignment;
 }
 
-Alignment align_se3(std::span<const PosePair> pairs, double straightness) {
-  if (pairs.size() < 3) {
-    Alignment fallback = align_yaw(pairs);
-    fallback.degenerate = true;
-    return fallback;
-  }
+Alignment align_se3(std::span<const PosePair> pairs) {
+  Alignment alignment{Pose(), AlignmentKind::kSe3, PositionSpread::kPoint};
+  if (pairs.empty()) return alignment;
+  constexpr double kZero = std::numeric_limits<double>::epsilon();  // of evo [m^2]
   const Moments m = moments_of(pairs);
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d& singular = svd.singularValues();
-  if (!(singular[1] > straightness * singular[0])) {
-    Alignment fallback = align_yaw(pairs);
-    fallback.degenerate = true;
-    return fallback;
+  const Eigen::Matrix3d& U = svd.matrixU();
+  const Eigen::Matrix3d& V = svd.matrixV();
+  Eigen::Quaterniond rotation = mean_rotation(pairs.first(1));
+  if (svd.singularValues()[1] > kZero) {
+    Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+    if (U.determinant() * V.determinant() < 0.0) signs.z() = -1.0;
+    rotation = Eigen::Quaterniond(Eigen::Matrix3d(U * signs.asDiagonal() * V.transpose()));
+    alignment.spread = PositionSpread::kFull;
+  } else if (svd.singularValues()[0] > kZero) {
+    rotation = along_line(rotation, U.col(0), V.col(0));
+    alignment.spread = PositionSpread::kLine;
   }
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) signs.z() = -1.0;
-  const Eigen::Matrix3d R = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  return {about_means(m, Eigen::Quaterniond(R).normalized()), AlignmentKind::kSe3, false};
+  alignment.T_truth_estimate = about_means(m, rotation.normalized());
+  return alignment;
 }
 
 Alignment align_yaw(std::span<const PosePair> pairs) {
-  Alignment alignment{.T_truth_estimate = Pose(), .kind = AlignmentKind::kYaw, .degenerate = true};
+  Alignment alignment{Pose(), AlignmentKind::kYaw, PositionSpread::kPoint};
   if (pairs.empty()) return alignment;
   const Moments m = moments_of(pairs);
   // Maximizes the trace of R(yaw) against the horizontal cross-covariance.
   const double sine = m.covariance(1, 0) - m.covariance(0, 1);
   const double cosine = m.covariance(0, 0) + m.covariance(1, 1);
-  alignment.degenerate = !(std::hypot(sine, cosine) > 1e-12);
-  const double yaw = alignment.degenerate ? 0.0 : std::atan2(sine, cosine);
+  const bool spreads = std::hypot(sine, cosine) > 1e-12;
+  if (spreads) alignment.spread = PositionSpread::kFull;
+  const double yaw = spreads ? std::atan2(sine, cosine) : 0.0;
   alignment.T_truth_estimate = about_means(m, yaw_rotation(yaw));
   return alignment;
 }

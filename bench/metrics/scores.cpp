@@ -16,15 +16,11 @@ void describe_association(Fields& f, ScoreConfig& c) {
             .range = at_least(0.0),
             .meaning = "Largest difference of stamps for the nearest association.",
             .source = "evo's default"});
-  f.choice("anchor", c.anchor,
-           {{"pose", AlignmentKind::kStartPose}, {"heading", AlignmentKind::kStartHeading}},
-           {.meaning = "Alignment at the first pose: position and heading, or the whole pose."});
-  f.number("straightness", c.straightness,
-           {.unit = "-",
-            .range = in_half_open(0.0, 1.0),
-            .meaning = "Ratio of the second to the first singular value of the positions' "
-                       "covariance below which SE(3) alignment is degenerate; 1e-6 is a sideways "
-                       "spread of a thousandth of the length."});
+  f.choice(
+      "anchor", c.anchor,
+      {{"pose", AlignmentKind::kStartPose}, {"heading", AlignmentKind::kStartHeading}},
+      {.meaning = "Alignment at the start: position and heading of the first pose, or the whole "
+                  "pose, the mean over the second half of the standing start."});
   f.number("edge_tolerance", c.edge_tolerance,
            {.unit = "s",
             .range = at_least(0.0),
@@ -32,6 +28,11 @@ void describe_association(Fields& f, ScoreConfig& c) {
                        "standing start in which estimators initialize."});
   f.number("max_gap", c.max_gap,
            {.unit = "s", .range = positive(), .meaning = "Longest time without an estimate."});
+  f.number("min_coverage", c.min_coverage,
+           {.unit = "-",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Least fraction of the truth's time with estimates; below half, most of the "
+                       "route is unknown and no score is one of the route."});
 }
 
 void describe_metrics(Fields& f, ScoreConfig& c) {
@@ -75,8 +76,8 @@ void score_pairs(Scores& scores, std::span<const PosePair> pairs, const ScoreCon
   scores.max_error_m = max_error(anchored);
   scores.max_abs_z_error_m = max_abs_z_error(anchored);
   scores.ate_yaw_m = ate_rmse(aligned(pairs, align_yaw(pairs)));
-  const Alignment se3 = align_se3(pairs, config.straightness);
-  scores.ate_se3_degenerate = se3.degenerate;
+  const Alignment se3 = align_se3(pairs);
+  scores.se3_spread = se3.spread;
   scores.ate_se3_m = ate_rmse(aligned(pairs, se3));
 }
 
@@ -118,13 +119,15 @@ Scores score_over(const Trajectory& estimate, const Trajectory& truth,
                                        {.error_offset = config.max_error_offset,
                                         .error_per_path = config.max_error_per_path,
                                         .edge = edge,
-                                        .gap = from_seconds(config.max_gap)});
+                                        .gap = from_seconds(config.max_gap),
+                                        .coverage = config.min_coverage});
   scores.success = verdict.reason == FailureReason::kNone;
   scores.failure_reason = verdict.reason;
   scores.diverged_at = verdict.diverged_at;
   scores.poses = static_cast<int>(estimate.size());
   scores.poses_invalid = static_cast<int>(estimate.size() - valid.size());
   scores.poses_compared = static_cast<int>(pairs.size());
+  scores.coverage = coverage_of(pairs, valid_truth, from_seconds(config.max_gap));
   scores.true_path_m = path_length(valid_truth);
   scores.segments =
       segment_distances(valid, valid_truth, segments, config.min_segment_length, edge);

@@ -23,9 +23,9 @@ struct ScoreConfig {
   Association association = Association::kInterpolated;
   double association_tolerance = 0.01;                  ///< [s]
   AlignmentKind anchor = AlignmentKind::kStartHeading;  ///< or kStartPose
-  double straightness = 1e-6;                           ///< [-]
   double edge_tolerance = 3.0;                          ///< [s]
   double max_gap = 2.0;                                 ///< [s]
+  double min_coverage = 0.5;                            ///< [-]
   double min_segment_length = 1.0;                      ///< [m]
   std::vector<std::string> segments;  ///< "a-d"; empty: from each named point to the next
   bool rpe_all_pairs = false;
@@ -45,18 +45,19 @@ struct Scores {
   int poses = 0;             ///< given by the estimator
   int poses_invalid = 0;     ///< not finite, not a rigid transform, or out of order
   int poses_compared = 0;    ///< associated with a true pose
+  double coverage = 0.0;     ///< fraction of the truth's time with estimates
   double true_path_m = 0.0;  ///< length of the true path
 
   std::vector<SegmentDistance> segments;  ///< M_list of each, in order
   std::optional<double> m_list_percent;   ///< over all segments
   std::optional<EndError> m_end;          ///< none when the estimate does not reach the end
 
-  std::optional<double> ate_m;              ///< aligned at the start
-  std::optional<double> ate_se3_m;          ///< after the best SE(3) alignment
-  std::optional<double> ate_yaw_m;          ///< after the best heading and translation
-  bool ate_se3_degenerate = false;          ///< path too straight: ate_se3_m is ate_yaw_m
-  std::optional<double> max_error_m;        ///< aligned at the start
-  std::optional<double> max_abs_z_error_m;  ///< aligned at the start
+  std::optional<double> ate_m;                         ///< aligned at the start
+  std::optional<double> ate_se3_m;                     ///< after the best SE(3) alignment
+  std::optional<double> ate_yaw_m;                     ///< after the best heading and translation
+  PositionSpread se3_spread = PositionSpread::kPoint;  ///< less than kFull: evo gives no number
+  std::optional<double> max_error_m;                   ///< aligned at the start
+  std::optional<double> max_abs_z_error_m;             ///< aligned at the start
 
   std::vector<RpeScore> rpe;          ///< over 1 m and over 10 m
   std::optional<DriftSummary> drift;  ///< aligned at the start

@@ -66,6 +66,8 @@ std::string_view name_of(FailureReason reason) {
       return "ends_early";
     case FailureReason::kErrorLimit:
       return "error_limit";
+    case FailureReason::kCoverage:
+      return "low_coverage";
   }
   return "";
 }
@@ -82,7 +84,20 @@ SuccessVerdict judge(const Trajectory& estimate, const Trajectory& truth,
   }
   note_missing_poses(verdict, truth, pairs, limits);
   note_large_errors(verdict, truth, pairs, limits);
+  if (coverage_of(pairs, truth, limits.gap) < limits.coverage) {
+    note(verdict, FailureReason::kCoverage, pairs.back().stamp);
+  }
   return verdict;
+}
+
+double coverage_of(std::span<const PosePair> pairs, const Trajectory& truth, Duration gap) {
+  if (truth.size() < 2) return 0.0;
+  Duration covered = 0;
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    const Duration step = pairs[i].stamp - pairs[i - 1].stamp;
+    if (step <= gap) covered += step;
+  }
+  return to_seconds(covered) / to_seconds(truth.back().stamp - truth.front().stamp);
 }
 
 double path_length(const Trajectory& trajectory) {

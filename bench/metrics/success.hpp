@@ -18,6 +18,7 @@ enum class FailureReason {
   kGap,         ///< a gap without estimates that is too long
   kEndsEarly,   ///< no estimate near the end of the truth
   kErrorLimit,  ///< position error beyond the limit
+  kCoverage,    ///< too little of the truth's time has an estimate
 };
 
 /// Identifier for result files: "", "no_overlap", "invalid_pose", "starts_late", "gap", ...
@@ -29,6 +30,7 @@ struct SuccessLimits {
   double error_per_path = 0.05;  ///< allowed position error per metre of path [-]
   Duration edge = 3 * kSecond;   ///< allowed time without estimates at either end
   Duration gap = 2 * kSecond;    ///< allowed time without estimates in between
+  double coverage = 0.5;         ///< least fraction of the truth's time with estimates [-]
 };
 
 /// When and why an estimate failed; `diverged_at` has a value exactly when there is a reason.
@@ -40,9 +42,12 @@ struct SuccessVerdict {
 /// The earliest failure of an estimate. `estimate` is the output of the estimator, `pairs` are its
 /// valid poses aligned at the start. An estimate fails when its position error exceeds
 /// error_offset + error_per_path * (true path so far), when it is missing at either end or for
-/// longer than `gap`, or when it contains an invalid pose.
+/// longer than `gap`, when it contains an invalid pose, or when it covers too little of the truth.
 SuccessVerdict judge(const Trajectory& estimate, const Trajectory& truth,
                      std::span<const PosePair> pairs, const SuccessLimits& limits);
+
+/// Fraction of the truth's time that lies between estimates at most `gap` apart.
+double coverage_of(std::span<const PosePair> pairs, const Trajectory& truth, Duration gap);
 
 /// Length [m] of the polygon through the positions.
 double path_length(const Trajectory& trajectory);

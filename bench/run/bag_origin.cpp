@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+#include <system_error>
+
 #include "bench/run/scenario.hpp"
+#include "core/files/atomic_file.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "core/files/yaml_config.hpp"
 #include "recordings/topics/recording_topics.hpp"
@@ -19,6 +23,12 @@ std::vector<std::string> segments_of_scenario(const std::string& yaml) {
   return scenario.scoring.segments;
 }
 
+/// The scenario's choice as a bag holds it.
+std::vector<std::string> segments_in_bag(const std::filesystem::path& bag) {
+  const auto scenario = read_bag_text(bag, std::string(kScenarioTopic));
+  return scenario && *scenario ? segments_of_scenario(**scenario) : std::vector<std::string>();
+}
+
 }  // namespace
 
 Result<BagOrigin> bag_origin(const std::filesystem::path& bag) {
@@ -31,9 +41,26 @@ Result<BagOrigin> bag_origin(const std::filesystem::path& bag) {
     if (!parsed) return tl::unexpected(parsed.error());
     origin.waypoint_times = std::move(*parsed);
   }
-  const auto scenario = read_bag_text(bag, std::string(kScenarioTopic));
-  if (scenario && *scenario) origin.segments = segments_of_scenario(**scenario);
+  origin.segments = segments_in_bag(bag);
   return origin;
+}
+
+StatedSegments segments_beside(const std::filesystem::path& waypoint_times) {
+  namespace fs = std::filesystem;
+  constexpr std::string_view kName = "waypoint_times.csv";
+  const std::string name = waypoint_times.filename().string();
+  const fs::path folder = waypoint_times.parent_path();
+  std::error_code code;
+  if (name == kName) {
+    const fs::path config = folder / "config.yaml";
+    if (!fs::is_regular_file(config, code)) return {};
+    const auto text = read_file(config);
+    return {text ? segments_of_scenario(*text) : std::vector<std::string>(), config};
+  }
+  if (!name.ends_with(fmt::format(".{}", kName))) return {};
+  const fs::path bag = folder / (name.substr(0, name.size() - kName.size()) + "bag");
+  if (!fs::is_regular_file(bag, code)) return {};
+  return {segments_in_bag(bag), bag};
 }
 
 }  // namespace aims

@@ -19,4 +19,15 @@ struct BagOrigin {
 /// Empty for a bag that was not simulated here. Error for waypoint times that cannot be read.
 Result<BagOrigin> bag_origin(const std::filesystem::path& bag);
 
+/// Over which segments the scenario takes M_list whose run wrote this file of waypoint times, and
+/// the file that says so; neither when nothing beside it does.
+struct StatedSegments {
+  std::vector<std::string> names;
+  std::filesystem::path source;
+};
+
+/// As stated by `config.yaml` beside `waypoint_times.csv` of a run, or by NAME.bag beside
+/// NAME.waypoint_times.csv.
+StatedSegments segments_beside(const std::filesystem::path& waypoint_times);
+
 }  // namespace aims

@@ -32,7 +32,6 @@ double realtime_factor(const EstimateResult& result, const EstimatorOutcome& out
 
 Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcome) {
   const Trajectory& trajectory = outcome.result.trajectory;
-  const auto times = summarize(outcome.scan_times_ms);
   Json json;
   json["poses"] = trajectory.size();
   json["scans"] = outcome.result.diagnostics.scans.size();
@@ -40,8 +39,8 @@ Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcom
   json["displacement_m"] = json_of(displacement(trajectory));
   json["wall_s"] = outcome.wall_s;
   json["realtime_factor"] = realtime_factor(result, outcome);
-  json["time_per_scan_ms"] = {{"mean", times ? json_of(times->mean) : Json()},
-                              {"p99", times ? json_of(times->p99) : Json()}};
+  json["time_per_scan_ms"] = time_json(outcome.scan_times.wall_ms);
+  json["cpu_per_scan_ms"] = time_json(outcome.scan_times.cpu_ms);
   json["counts"] = outcome.result.counts;
   json["health"] = health_json(health_summary(outcome.result.health));
   return json;
@@ -93,7 +92,8 @@ Result<void> write_scores(const EstimateResult& result, const fs::path& folder) 
   RunRecord record = record_of(*result.scores);
   for (const EstimatorOutcome& each : result.estimators) {
     Json& json = record.scores["estimators"][each.name];
-    json["time_per_scan_ms"] = estimator_json(result, each)["time_per_scan_ms"];
+    json["time_per_scan_ms"] = time_json(each.scan_times.wall_ms);
+    json["cpu_per_scan_ms"] = time_json(each.scan_times.cpu_ms);
     json["counts"] = each.result.counts;
     json["health"] = health_json(health_summary(each.result.health));
     Json& estimators = record.scores["estimators"];
@@ -119,12 +119,12 @@ TextTable estimate_table(const EstimateResult& result) {
     table.header = {"estimator"};
     for (const EstimatorOutcome& each : result.estimators) table.rows.push_back({each.name});
   }
-  for (const char* title : {"poses", "path m", "ms/scan", "x real time"}) {
+  for (const char* title : {"poses", "path m", "CPU ms/scan", "x real time"}) {
     table.header.emplace_back(title);
   }
   for (std::size_t i = 0; i < result.estimators.size(); ++i) {
     const EstimatorOutcome& each = result.estimators[i];
-    const auto times = summarize(each.scan_times_ms);
+    const auto times = summarize(each.scan_times.cpu_ms);
     table.rows[i].push_back(std::to_string(each.result.trajectory.size()));
     table.rows[i].push_back(fmt::format("{:.2f}", path_length(each.result.trajectory)));
     table.rows[i].push_back(times ? fmt::format("{:.2f}", times->mean) : "-");

@@ -28,7 +28,7 @@ EstimatorOutcome outcome_of(const TimedEstimator& timed) {
   outcome.name = timed.name();
   outcome.result = timed.estimator().result();
   outcome.map = timed.estimator().map_points();
-  outcome.scan_times_ms = timed.scan_times_ms();
+  outcome.scan_times = timed.scan_times();
   outcome.wall_s = timed.total_seconds();
   return outcome;
 }

@@ -24,7 +24,7 @@ struct EstimatorOutcome {
   std::optional<Scores> optimized;   ///< of the re-optimized one
   std::vector<WeakAxisError> weak_axis_errors;  ///< along what the LiDAR cannot see, by scan
   std::vector<WeakAxisScore> weak_axis;         ///< summary of them
-  std::vector<double> scan_times_ms;
+  ScanTimes scan_times;
   double wall_s = 0.0;
 };
 

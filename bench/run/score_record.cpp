@@ -32,13 +32,6 @@ Json drift_json(const std::optional<DriftSummary>& drift) {
           {"end", axis_json(drift->end)}};
 }
 
-Json time_json(const std::vector<double>& scan_times_ms) {
-  const auto summary = summarize(scan_times_ms);
-  return {{"mean", json_of(summary, &Summary::mean)},
-          {"p50", json_of(summary, &Summary::p50)},
-          {"p99", json_of(summary, &Summary::p99)}};
-}
-
 /// M_list of each segment and, as "all", of their sum.
 void add_segments(Json& json, const Scores& scores) {
   Json percent = Json::object();
@@ -105,18 +98,26 @@ Json json_of(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json();
 }
 
+Json time_json(const std::vector<double>& times_ms) {
+  const auto summary = summarize(times_ms);
+  return {{"mean", json_of(summary, &Summary::mean)},
+          {"p50", json_of(summary, &Summary::p50)},
+          {"p99", json_of(summary, &Summary::p99)}};
+}
+
 Json scores_json(const Scores& scores) {
   Json json;
   json["success"] = scores.success;
   json["diverged_reason"] = name_of(scores.failure_reason);
   json["diverged_at_s"] = scores.diverged_at ? Json(to_seconds(*scores.diverged_at)) : Json();
+  json["coverage"] = scores.coverage;
   add_segments(json, scores);
   json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
   json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);
   json["m_end_z_m"] = json_of(scores.m_end, &EndError::z_m);
   json["ate_m"] = json_of(scores.ate_m);
   json["ate_se3_m"] = json_of(scores.ate_se3_m);
-  json["ate_se3_degenerate"] = scores.ate_se3_degenerate;
+  json["ate_se3_degenerate"] = scores.se3_spread != PositionSpread::kFull;
   json["ate_yaw_m"] = json_of(scores.ate_yaw_m);
   json["max_error_m"] = json_of(scores.max_error_m);
   json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
@@ -128,7 +129,8 @@ Json scores_json(const Scores& scores) {
 Json estimator_json(const EstimatorOutcome& outcome) {
   Json json = scores_json(outcome.scores);
   json["weak_axis"] = weak_axis_json(outcome.weak_axis);
-  json["time_per_scan_ms"] = time_json(outcome.scan_times_ms);
+  json["time_per_scan_ms"] = time_json(outcome.scan_times.wall_ms);
+  json["cpu_per_scan_ms"] = time_json(outcome.scan_times.cpu_ms);
   json["poses"] = outcome.scores.poses;
   json["counts"] = outcome.result.counts;
   json["health"] = health_json(health_summary(outcome.result.health));

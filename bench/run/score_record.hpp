@@ -25,6 +25,9 @@ struct RunRecord {
   Json scores;
 };
 
+/// Mean, median and 99th percentile of the times per scan [ms].
+Json time_json(const std::vector<double>& times_ms);
+
 /// What scores.json holds of any estimate.
 Json scores_json(const Scores& scores);
 

@@ -25,7 +25,7 @@ std::vector<Column> columns_of(const RunRecord& run) {
   columns.push_back({"M_end m", "m_end_m", 3});
   columns.push_back({"ATE m", "ate_m", 3});
   columns.push_back({"max |z| m", "max_error_z_m", 3});
-  columns.push_back({"ms/scan", "time_per_scan_ms.mean", 2});
+  columns.push_back({"CPU ms/scan", "cpu_per_scan_ms.mean", 2});
   return columns;
 }
 

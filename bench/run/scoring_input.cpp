@@ -128,14 +128,22 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
   return {};
 }
 
-/// The file of waypoint times, or what the truth's bag holds of its origin.
-Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag) {
+/// The file of waypoint times with the segments that its run states, or what the truth's bag holds
+/// of its origin.
+Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag,
+                            std::vector<std::string>& notes) {
   if (request.waypoint_times.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
   const auto text = read_file(request.waypoint_times);
   if (!text) return tl::unexpected(text.error());
   auto waypoint_times = parse_waypoint_times(*text, request.waypoint_times.string());
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
-  return BagOrigin{std::move(*waypoint_times), {}};
+  const bool asked = !request.segments.empty() || !request.config.empty();
+  const StatedSegments stated = asked ? StatedSegments() : segments_beside(request.waypoint_times);
+  if (!stated.names.empty()) {
+    notes.push_back(fmt::format("segments {}: as {} states", fmt::join(stated.names, ", "),
+                                stated.source.string()));
+  }
+  return BagOrigin{std::move(*waypoint_times), stated.names};
 }
 
 Result<std::vector<Segment>> segments_of_request(const ScoringRequest& request,
@@ -185,7 +193,7 @@ Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
   if (!stamps) return tl::unexpected(stamps.error());
   const auto bag = read_truth(request, *stamps, input);
   if (!bag) return tl::unexpected(bag.error());
-  auto origin = origin_of(request, *bag);
+  auto origin = origin_of(request, *bag, input.notes);
   if (!origin) return tl::unexpected(origin.error());
   input.waypoint_times = std::move(origin->waypoint_times);
   if (input.scoring.segments.empty()) input.scoring.segments = std::move(origin->segments);

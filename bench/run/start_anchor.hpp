@@ -7,7 +7,7 @@
 
 namespace aims {
 
-/// T_world_odom that lays the estimate's first pose onto the truth, as the scores do.
+/// T_world_odom that lays the estimate's start onto the truth, as the scores do.
 Pose start_anchor(const Trajectory& estimate, const Trajectory& truth, const ScoreConfig& scoring);
 
 /// The valid poses of the estimate, laid onto the truth by `start_anchor`.

@@ -109,7 +109,8 @@ CsvTable diagnostics_table(const EstimatorOutcome& outcome) {
     table.add(to_seconds(scan.stamp));
     for (const double value : scan.values) table.add(value);
     add_covariance(scan.covariance, table);
-    if (i < outcome.scan_times_ms.size()) table.add(outcome.scan_times_ms[i]);
+    const std::vector<double>& times = outcome.scan_times.wall_ms;
+    if (i < times.size()) table.add(times[i]);
     table.end_row();
   }
   return table;

@@ -13,7 +13,7 @@
 namespace aims {
 
 /// One row per scan: stamp, the estimator's series by name, the stated covariance of the pose
-/// (upper triangles, body axes) and the time that the scan took [ms]. What is not computed is
+/// (upper triangles, body axes) and the wall time that the scan took [ms]. What is not computed is
 /// empty.
 CsvTable diagnostics_table(const EstimatorOutcome& outcome);
 

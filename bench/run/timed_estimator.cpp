@@ -33,16 +33,19 @@ template <class Work>
 void TimedEstimator::timed(const Work& work) {
   const EstimatorResult& result = estimator_->result();
   const std::size_t scans_before = scans_in(result);
-  const Stopwatch stopwatch;
+  const Stopwatch wall;
+  const ThreadStopwatch cpu;
   work();
-  const double seconds = stopwatch.seconds();
+  cpu_since_scan_ += cpu.seconds();
+  const double seconds = wall.seconds();
   total_seconds_ += seconds;
-  seconds_since_scan_ += seconds;
+  wall_since_scan_ += seconds;
   const std::size_t scans = scans_in(result);
   if (scans <= scans_before) return;
   const auto done = static_cast<double>(scans - scans_before);
-  scan_times_ms_.resize(scans, 1e3 * seconds_since_scan_ / done);
-  seconds_since_scan_ = 0.0;
+  scan_times_.wall_ms.resize(scans, 1e3 * wall_since_scan_ / done);
+  scan_times_.cpu_ms.resize(scans, 1e3 * cpu_since_scan_ / done);
+  wall_since_scan_ = cpu_since_scan_ = 0.0;
 }
 
 }  // namespace aims

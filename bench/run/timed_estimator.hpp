@@ -10,7 +10,14 @@
 
 namespace aims {
 
-/// An estimator and the wall time that it takes: estimators themselves never read a clock.
+/// What the scans of an estimator took, from one scan to the next: the scan and all samples since
+/// the scan before [ms].
+struct ScanTimes {
+  std::vector<double> wall_ms;  ///< grows on a busy machine
+  std::vector<double> cpu_ms;   ///< of the thread; an estimator runs on one
+};
+
+/// An estimator and the time that it takes: estimators themselves never read a clock.
 class TimedEstimator {
  public:
   TimedEstimator(std::string name, std::unique_ptr<Estimator> estimator);
@@ -20,9 +27,9 @@ class TimedEstimator {
 
   const std::string& name() const { return name_; }
   const Estimator& estimator() const { return *estimator_; }
+  /// Wall time.
   double total_seconds() const { return total_seconds_; }
-  /// Time from one scan to the next: the scan and all samples since the scan before [ms].
-  const std::vector<double>& scan_times_ms() const { return scan_times_ms_; }
+  const ScanTimes& scan_times() const { return scan_times_; }
 
  private:
   template <class Work>
@@ -31,8 +38,9 @@ class TimedEstimator {
   std::string name_;
   std::unique_ptr<Estimator> estimator_;
   double total_seconds_ = 0.0;
-  double seconds_since_scan_ = 0.0;
-  std::vector<double> scan_times_ms_;
+  double wall_since_scan_ = 0.0;  ///< [s]
+  double cpu_since_scan_ = 0.0;   ///< [s]
+  ScanTimes scan_times_;
 };
 
 }  // namespace aims

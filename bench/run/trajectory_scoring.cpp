@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bench/metrics/alignment.hpp"
+#include "bench/run/start_anchor.hpp"
 
 namespace aims {
 namespace {
@@ -87,7 +87,16 @@ void note_estimates(const TrajectoryScores& result, std::vector<std::string>& no
   std::vector<std::string> straight;
   for (const ScoredEstimate& each : result.estimates) {
     const Scores& scores = each.scores;
-    if (scores.ate_se3_m && scores.ate_se3_degenerate) straight.push_back(each.given.name);
+    if (scores.ate_se3_m && scores.se3_spread != PositionSpread::kFull) {
+      straight.push_back(each.given.name);
+    }
+    if (covers_too_little(each, result.scoring)) {
+      notes.push_back(fmt::format(
+          "{}: covers {:.1f} % of the truth's time with poses at most {:g} s apart, less than "
+          "scoring.min_coverage, {:g} %: its scores are not of the whole route",
+          each.given.name, 100.0 * scores.coverage, result.scoring.max_gap,
+          100.0 * result.scoring.min_coverage));
+    }
     if (scores.poses_invalid == 0) continue;
     notes.push_back(
         fmt::format("{}: {} of {} poses left out: not finite, not a pose, or stamped "
@@ -96,9 +105,9 @@ void note_estimates(const TrajectoryScores& result, std::vector<std::string>& no
   }
   if (straight.empty()) return;
   notes.push_back(
-      fmt::format("{}: too straight (or too few poses) for SE(3) alignment: Umeyama's "
-                  "covariance lacks rank, so that the rotation about the line of motion "
-                  "cannot be told; ATE SE(3) falls back to heading and translation",
+      fmt::format("{}: too straight (or too few poses) for evo's SE(3) alignment: Umeyama's "
+                  "covariance lacks rank; ATE SE(3) takes the angles that the positions tell by "
+                  "least squares, and the rotation about their line from the first pose",
                   fmt::join(straight, ", ")));
 }
 
@@ -106,19 +115,33 @@ ScoredEstimate score_one(SourcedTrajectory estimate, const ScoringInput& input) 
   const Trajectory& truth = input.truth.trajectory;
   ScoredEstimate scored;
   scored.scores = score_over(estimate.trajectory, truth, input.segments, input.scoring);
-  scored.in_truth_frame = valid_part(estimate.trajectory);
+  scored.in_truth_frame = anchored(estimate.trajectory, truth, input.scoring);
   if (const auto difference = median_stamp_difference(scored.in_truth_frame, truth)) {
     scored.median_stamp_difference_s = to_seconds(*difference);
   }
-  const auto pairs = associate(scored.in_truth_frame, truth, input.scoring.association,
-                               from_seconds(input.scoring.association_tolerance));
-  const Pose T_truth_estimate = align_start(pairs, input.scoring.anchor).T_truth_estimate;
-  for (StampedPose& each : scored.in_truth_frame) each.pose = T_truth_estimate * each.pose;
   scored.given = std::move(estimate);
   return scored;
 }
 
 }  // namespace
+
+bool covers_too_little(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
+  return estimate.scores.coverage < scoring.min_coverage;
+}
+
+Result<void> check_compared(const TrajectoryScores& scores) {
+  for (const ScoredEstimate& each : scores.estimates) {
+    const Scores& of = each.scores;
+    if (of.poses_compared >= 2) continue;
+    return failure(fmt::format(
+        "{}: expected at least two poses to compare with the truth, found {}: of {} poses, {} are "
+        "valid (finite, with a unit quaternion and increasing stamps), {} of them within the "
+        "truth's stamps",
+        each.given.source, of.poses_compared, of.poses, of.poses - of.poses_invalid,
+        of.poses_compared));
+  }
+  return {};
+}
 
 Result<TrajectoryScores> score_trajectories(ScoringInput input) {
   TrajectoryScores result;
@@ -136,11 +159,11 @@ Result<TrajectoryScores> score_trajectories(ScoringInput input) {
     move_near(estimate, result.notes);
     result.estimates.push_back(score_one(std::move(estimate), input));
   }
-  note_estimates(result, result.notes);
   result.truth = std::move(input.truth);
   result.waypoint_times = std::move(input.waypoint_times);
   result.segments = std::move(input.segments);
   result.scoring = std::move(input.scoring);
+  note_estimates(result, result.notes);
   return result;
 }
 

@@ -49,6 +49,13 @@ struct TrajectoryScores {
   std::vector<std::string> notes;  ///< what a reader of the numbers must know, a sentence each
 };
 
+/// Whether the estimate covers less of the truth than `scoring.min_coverage`: its scores are not of
+/// the route.
+bool covers_too_little(const ScoredEstimate& estimate, const ScoreConfig& scoring);
+
+/// Error for the first estimate with fewer than two poses that can be compared: it has no scores.
+Result<void> check_compared(const TrajectoryScores& scores);
+
 /// Scores each estimate against the truth. Error when the truth has fewer than two poses, or when
 /// the stamps of an estimate do not overlap the truth's: a clock offset, which no score shows.
 Result<TrajectoryScores> score_trajectories(ScoringInput input);

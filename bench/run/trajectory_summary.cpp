@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "bench/run/json_text.hpp"
@@ -15,6 +16,19 @@ namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What least squares determined of the rotation.
+std::string_view name_of(PositionSpread spread) {
+  switch (spread) {
+    case PositionSpread::kFull:
+      break;
+    case PositionSpread::kLine:
+      return "line";
+    case PositionSpread::kPoint:
+      return "point";
+  }
+  return "se3";
+}
 
 struct ScoreColumn {
   std::string title;
@@ -38,7 +52,8 @@ std::vector<ScoreColumn> score_columns(const RunRecord& record) {
   return columns;
 }
 
-/// The smallest value of the column among estimates that did not diverge; none of a single estimate.
+/// The smallest value of the column among estimates that did not diverge; none of a single
+/// estimate.
 std::optional<double> best(const TrajectoryScores& scores, const RunRecord& record,
                            const ScoreColumn& column) {
   if (scores.estimates.size() < 2) return std::nullopt;
@@ -54,10 +69,11 @@ std::string cell(const ScoredEstimate& estimate, const RunRecord& record, const 
                  const std::optional<double>& smallest) {
   const auto value = find_score(record, estimate.given.name, column.key);
   if (!value) return "-";
-  const bool fell_back = column.key == "ate_se3_m" && estimate.scores.ate_se3_degenerate;
   const bool is_best = estimate.scores.success && smallest && *value == *smallest;
+  const bool marked =
+      column.key == "ate_se3_m" && estimate.scores.se3_spread != PositionSpread::kFull;
   return fmt::format("{:.{}f}{}{}", *value, column.digits, is_best ? "*" : "",
-                     fell_back ? " yaw" : "");
+                     marked ? fmt::format(" {}", name_of(estimate.scores.se3_spread)) : "");
 }
 
 /// "yes", or why and when it diverged [s after the truth's start].
@@ -75,7 +91,7 @@ Json estimate_json(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
   json["poses_compared"] = scores.poses_compared;
   json["median_stamp_difference_s"] = json_of(estimate.median_stamp_difference_s);
   json["alignment"] = {{"start", scoring.anchor == AlignmentKind::kStartPose ? "pose" : "heading"},
-                       {"se3", scores.ate_se3_degenerate ? "yaw" : "se3"}};
+                       {"se3", name_of(scores.se3_spread)}};
   json["source"] = estimate.given.source;
   json["kind"] = estimate.given.kind;
   return json;
@@ -98,12 +114,14 @@ TextTable trajectory_score_table(const TrajectoryScores& scores) {
   TextTable table;
   table.header = {"estimate"};
   for (const ScoreColumn& column : columns) table.header.push_back(column.title);
+  table.header.emplace_back("covers");
   table.header.emplace_back("success");
   for (const ScoredEstimate& each : scores.estimates) {
     std::vector<std::string> row = {each.given.name};
     for (const ScoreColumn& column : columns) {
       row.push_back(cell(each, record, column, best(scores, record, column)));
     }
+    row.push_back(fmt::format("{:.0f} %", 100.0 * each.scores.coverage));
     row.push_back(success_cell(each.scores, scores.truth.trajectory));
     table.rows.push_back(std::move(row));
   }
@@ -128,10 +146,14 @@ TextTable trajectory_source_table(const TrajectoryScores& scores) {
 std::string score_legend(const TrajectoryScores& scores) {
   const bool pose = scores.scoring.anchor == AlignmentKind::kStartPose;
   std::string text = fmt::format(
-      "M_end, ATE, max |z|: aligned to the truth at the first pose, by position and {}. ATE yaw,\n"
-      "ATE SE(3): least squares over all positions, by translation and heading, and by translation\n"
-      "and rotation (Umeyama).\n",
-      pose ? "rotation" : "heading");
+      "M_end, ATE, max |z|: aligned to the truth at {}. ATE yaw,\n"
+      "ATE SE(3): least squares over all positions, by translation and heading, and by "
+      "translation\n"
+      "and rotation (Umeyama, as evo). covers: of the truth's time, with poses at most {:g} s "
+      "apart.\n",
+      pose ? "the standing start, by position and rotation"
+           : "the first pose, by position and heading",
+      scores.scoring.max_gap);
   if (scores.estimates.size() > 1) text += "A star: smallest of those that did not diverge.\n";
   return text;
 }

@@ -92,6 +92,7 @@ TEST_F(Score, OfARunsOwnFilesIsWhatTheRunScored) {
 TEST_F(Score, TakesTruthAndEstimatesFromABag) {
   const Outcome made = aims("simulate " + scenario(kShortWalk) + " --quiet --out walk.bag");
   ASSERT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_EQ(made.output, "") << "--quiet";
   expect_refused("--truth walk.bag --estimate walk.bag:/nope",
                  {"no topic /nope; there are", "/ground_truth/lidar (nav_msgs/Odometry)"});
   const std::string both =
@@ -99,29 +100,30 @@ TEST_F(Score, TakesTruthAndEstimatesFromABag) {
       "walk.bag:/leg_odometry --no-pictures --overwrite --out here";
   const Outcome score = aims(both);
   ASSERT_EQ(score.exit_code, 0) << score.output;
-  expect_says(score, {"topic /ground_truth/imu chosen of several", "poses of 'lidar', while the truth's are of 'imu'",
-                      "M_list(b-a) %", "walk/leg_odometry"});
+  expect_says(score, {"topic /ground_truth/imu chosen of several",
+                      "poses of 'lidar', while the truth's are of 'imu'", "M_list(b-a) %",
+                      "walk/leg_odometry"});
   EXPECT_GT(scores_in("here")["estimators"]["walk/ground_truth/lidar"]["ate_m"], 1e-3);
   // The LiDAR on the IMU, as the bag's /tf_static has it.
   ASSERT_EQ(aims(both + " --extrinsic '0.03 0 0.16 0 0 0 1'").exit_code, 0);
   EXPECT_LT(scores_in("here")["estimators"]["walk/ground_truth/lidar"]["ate_m"], 1e-9);
 }
 
-TEST_F(Score, StraightMotionSaysThatItFellBack) {
+TEST_F(Score, StraightMotionSaysThatEvoGivesNoSe3) {
   write("truth.tum", line(0.0, 1.0));
   write("mine.tum", line(0.0, 1.1));
   const Outcome outcome = aims(
       "score --truth truth.tum --estimate mine.tum --name yours "
       "--segments there=0:20 --out here");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  expect_says(outcome, {"M_list(there) %", "10.000", " yaw", "note: yours: too straight",
-                        "falls back to heading and translation"});
+  expect_says(outcome, {"M_list(there) %", "10.000", " line", "note: yours: too straight",
+                        "the rotation about their line from the first pose"});
   const json scores = scores_in("here");
-  EXPECT_EQ(scores["estimators"]["yours"]["alignment"]["se3"], "yaw");
+  EXPECT_EQ(scores["estimators"]["yours"]["alignment"]["se3"], "line");
   EXPECT_EQ(scores["notes"].size(), 1U);
   std::ifstream markdown(folder_.path() / "here" / "scores.md");
   const std::string text((std::istreambuf_iterator<char>(markdown)), {});
-  EXPECT_NE(text.find("falls back to heading and translation"), std::string::npos) << text;
+  EXPECT_NE(text.find("about their line from the first pose"), std::string::npos) << text;
 }
 
 TEST_F(Score, BadInputIsOneLineThatNamesIt) {
@@ -141,6 +143,56 @@ TEST_F(Score, BadInputIsOneLineThatNamesIt) {
   expect_refused(truth + "--estimate truth.tum --set scoring.ancor=pose", {"scoring.anchor"});
   expect_refused(truth + "--estimate truth.tum --config none.yaml", {"none.yaml"});
   EXPECT_EQ(aims("score --truth truth.tum").exit_code, 2);
+}
+
+TEST_F(Score, NothingToCompareIsAnErrorThatSaysWhatIsMissing) {
+  write("truth.tum", line(0.0, 1.0));
+  std::string invalid;
+  for (int i = 0; i <= 200; ++i) invalid += fmt::format("{:.1f} nan 0 0 0 0 0 1\n", 0.1 * i);
+  write("invalid.tum", invalid);
+  write("one.tum", "3 1 0 0 0 0 0 1\n");
+  expect_refused("--truth truth.tum --estimate truth.tum --estimate invalid.tum",
+                 {"invalid.tum: expected at least two poses", "of 201 poses, 0 are valid"});
+  expect_refused("--truth truth.tum --estimate one.tum", {"one.tum", "found 1: of 1 poses, 1 are"});
+}
+
+TEST_F(Score, AnEstimateOfASmallPartIsLoudAndNoSuccess) {
+  write("truth.tum", line(0.0, 1.0));
+  std::string few;
+  for (int i = 0; i <= 200; ++i) {
+    few +=
+        fmt::format("{:.1f} {} 0 0 0 0 0 1\n", 0.1 * i, i < 5 ? fmt::format("{}", 0.1 * i) : "nan");
+  }
+  write("few.tum", few);
+  const std::string score = "score --truth truth.tum --estimate few.tum --no-pictures --out here";
+  const Outcome outcome = aims(score);
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.output;
+  expect_says(outcome, {"few: covers 2.0 % of the truth's time", "less than scoring.min_coverage",
+                        "196 of 201 poses left out", " 2 % "});
+  const json scores = scores_in("here")["estimators"]["few"];
+  EXPECT_FALSE(scores["success"]);
+  EXPECT_NEAR(scores["coverage"].get<double>(), 0.02, 1e-9);
+  const Outcome asked = aims(score + " --overwrite --set scoring.min_coverage=0");
+  EXPECT_EQ(asked.exit_code, 0) << "a part on purpose\n" << asked.output;
+}
+
+TEST_F(Score, ComparedOnOneSeedHasATableAndNoVerdict) {
+  write("truth.tum", line(0.0, 1.0));
+  write("mine.tum", line(0.0, 1.01));
+  const std::string score = "score --truth truth.tum --no-pictures --name mine --estimate ";
+  ASSERT_EQ(aims(score + "truth.tum --out before").exit_code, 0);
+  ASSERT_EQ(aims(score + "mine.tum --out after").exit_code, 0);
+  const Outcome compared = aims("study compare before after --out compared");
+  EXPECT_EQ(compared.exit_code, 0) << compared.output;
+  expect_says(compared, {"change [95 %]", "too few",
+                         "1 pair: the smallest p that this test can "
+                         "reach is 1: no verdict",
+                         "0 better, 0 worse"});
+  std::ifstream stream(folder_.path() / "compared" / "compare.json");
+  EXPECT_EQ(json::parse(stream)["schema"], "aims.compare/3");
+  const Outcome gate = aims("study compare before after --fail-on-worse");
+  EXPECT_EQ(gate.exit_code, 2) << "a gate that cannot fail is none";
+  expect_says(gate, {"expected at least 6 common seeds, found at most 1"});
 }
 
 TEST_F(Score, ResultsAreNotReplacedUnasked) {

@@ -58,7 +58,7 @@ TEST(Scores, OfAPerfectEstimateAreZeroInAnyFrame) {
   EXPECT_NEAR(s.ate_m.value(), 0.0, 1e-9);
   EXPECT_NEAR(s.ate_yaw_m.value(), 0.0, 1e-9);
   EXPECT_NEAR(s.ate_se3_m.value(), 0.0, 1e-9);
-  EXPECT_TRUE(s.ate_se3_degenerate) << "a straight corridor does not tell the roll";
+  EXPECT_EQ(s.se3_spread, PositionSpread::kLine) << "a straight corridor does not tell the roll";
   ASSERT_EQ(s.rpe.size(), 2U);
   EXPECT_NEAR(s.rpe[1].translation_rmse_m.value(), 0.0, 1e-9);
 }
@@ -96,6 +96,14 @@ TEST(Scores, AnInitialHeadingErrorSwingsTheFarEndAside) {
   EXPECT_NEAR(s.m_list_percent.value(), 0.0, 1e-6);
   EXPECT_NEAR(s.drift.value().max.lateral_m, test::kLength * std::sin(psi), 1e-9);
   EXPECT_NEAR(s.drift->end.heading_rad, psi, 1e-9);
+}
+
+TEST(Scores, OfATiltedEstimateOfAStraightWalkHaveNoErrorAfterSe3Alignment) {
+  const Pose tilt = {so3_exp({0.005, 0.01, 0.0}), Eigen::Vector3d::Zero()};
+  const Scores s =
+      scores_of(test::estimated_walk([&tilt](double, const Pose& pose) { return tilt * pose; }));
+  EXPECT_GT(*s.ate_yaw_m, 0.05);
+  EXPECT_NEAR(s.ate_se3_m.value(), 0.0, 1e-9);
 }
 
 TEST(Scores, OfPoorDataAreMarkedAndFinite) {

@@ -11,8 +11,7 @@
 namespace aims {
 namespace {
 
-SuccessVerdict verdict_of(const Trajectory& estimate) {
-  const Trajectory truth = test::true_walk();
+SuccessVerdict verdict_of(const Trajectory& estimate, const Trajectory& truth = test::true_walk()) {
   const auto pairs = associate(valid_part(estimate), truth, Association::kInterpolated, 0);
   return judge(estimate, truth, aligned(pairs, align_start(pairs)), SuccessLimits());
 }
@@ -86,6 +85,25 @@ TEST(Success, EveryReasonHasAName) {
     EXPECT_FALSE(name_of(reason).empty());
   }
   EXPECT_EQ(name_of(FailureReason::kNone), "");
+}
+
+TEST(Success, OfAnEstimateOfLessThanHalfTheTruthIsNone) {
+  const Trajectory truth = test::sampled(0.0, 8.0, 0.01, test::there_and_back);
+  const Trajectory part = test::sampled(2.5, 5.5, 0.1, test::there_and_back);
+  // Within three seconds of either end, so that no other limit is passed.
+  EXPECT_EQ(verdict_of(part, truth).reason, FailureReason::kCoverage);
+  EXPECT_EQ(verdict_of(test::sampled(1.5, 6.5, 0.1, test::there_and_back), truth).reason,
+            FailureReason::kNone);
+}
+
+TEST(Coverage, LeavesOutLongGaps) {
+  const Trajectory truth = test::sampled(0.0, 10.0, 0.1, test::there_and_back);
+  std::vector<PosePair> pairs;
+  for (const double t : {0.0, 1.0, 2.0, 7.0, 8.0}) pairs.push_back({from_seconds(t), {}, {}});
+  EXPECT_DOUBLE_EQ(coverage_of(pairs, truth, 2 * kSecond), 0.3);
+  EXPECT_DOUBLE_EQ(coverage_of(pairs, truth, 5 * kSecond), 0.8);
+  EXPECT_EQ(coverage_of({}, truth, kSecond), 0.0);
+  EXPECT_EQ(coverage_of(pairs, {}, kSecond), 0.0);
 }
 
 }  // namespace

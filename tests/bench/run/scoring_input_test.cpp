@@ -87,6 +87,34 @@ class ScoringInputs : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(ScoringInputs, WaypointTimesOfARunAreScoredOverItsScenariosSegments) {
+  // As on the garage: from a to d and from d to h, past the points between.
+  const std::string times = "point,stamp_s\na,0\nb,2\nd,4\nf,5\nh,7\nd,8\na,9\n";
+  const std::string config = "scoring: {segments: [a-d, d-h, h-d, d-a]}\n";
+  ScoringRequest request = plain();
+  request.waypoint_times = file("waypoint_times.csv", times);
+  const auto names_of = [](const ScoringInput& input) {
+    std::vector<std::string> names;
+    for (const Segment& each : input.segments) names.push_back(each.name);
+    return names;
+  };
+  EXPECT_EQ(names_of(*read_scoring_input(request)).size(), 6U) << "nothing states other segments";
+  file("config.yaml", config);
+  const auto stated = read_scoring_input(request);
+  ASSERT_TRUE(stated) << stated.error().message;
+  EXPECT_EQ(names_of(*stated), (std::vector<std::string>{"a-d", "d-h", "h-d", "d-a"}));
+  ASSERT_EQ(stated->notes.size(), 1U);
+  EXPECT_NE(stated->notes[0].find("segments a-d, d-h, h-d, d-a: as "), std::string::npos);
+  request.overrides = {"scoring.segments=[a-d]"};
+  EXPECT_EQ(names_of(*read_scoring_input(request)), std::vector<std::string>{"a-d"});
+  request.overrides.clear();
+  request.segments = "d-h";
+  EXPECT_EQ(names_of(*read_scoring_input(request)), std::vector<std::string>{"d-h"});
+  request.segments.clear();
+  file("config.yaml", "of: another version\n");
+  EXPECT_EQ(names_of(*read_scoring_input(request)).size(), 6U);
+}
+
 TEST_F(ScoringInputs, TumKittiAndBagGiveTheSameScores) {
   Trajectory drifting = bend();
   for (StampedPose& each : drifting) each.pose.translation *= 1.03;

@@ -26,7 +26,7 @@ EstimatorOutcome outcome() {
   outcome.result.diagnostics.series = {{"spread", "m", "of particles"}, {"count", "-", "of them"}};
   outcome.result.diagnostics.scans = {{kSecond, covariance, {0.1, 30.0}},
                                       {2 * kSecond, std::nullopt, {kNone, 40.0}}};
-  outcome.scan_times_ms = {1.5, 2.5};
+  outcome.scan_times.wall_ms = {1.5, 2.5};
   return outcome;
 }
 

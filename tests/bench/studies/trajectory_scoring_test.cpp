@@ -74,17 +74,17 @@ TEST(TrajectoryScoring, AScaledStraightLineHasTheErrorsOfItsFormula) {
   EXPECT_TRUE(last.translation.isApprox(Eigen::Vector3d(61.2, 0.0, 0.3), 1e-9));
 }
 
-TEST(TrajectoryScoring, StraightMotionFallsBackToYawAndSaysSo) {
+TEST(TrajectoryScoring, StraightMotionSaysThatEvoGivesNoSe3) {
   ScoringInput input = input_of(straight);
   input.estimates.push_back(named("mine", sampled(0.1, straight)));
   const auto result = score_trajectories(input);
   ASSERT_TRUE(result);
-  EXPECT_TRUE(result->estimates[0].scores.ate_se3_degenerate);
+  EXPECT_EQ(result->estimates[0].scores.se3_spread, PositionSpread::kLine);
   EXPECT_TRUE(says(result->notes, "mine: too straight"));
-  EXPECT_TRUE(says(result->notes, "falls back to heading and translation"));
-  EXPECT_NE(trajectory_score_table(*result).rows[0][5].find("yaw"), std::string::npos);
+  EXPECT_TRUE(says(result->notes, "the rotation about their line from the first pose"));
+  EXPECT_NE(trajectory_score_table(*result).rows[0][5].find("line"), std::string::npos);
   const Json record = record_of(*result).scores;
-  EXPECT_EQ(record["estimators"]["mine"]["alignment"]["se3"], "yaw");
+  EXPECT_EQ(record["estimators"]["mine"]["alignment"]["se3"], "line");
 }
 
 TEST(TrajectoryScoring, MotionInThePlaneNeedsNoFallback) {
@@ -92,7 +92,7 @@ TEST(TrajectoryScoring, MotionInThePlaneNeedsNoFallback) {
   input.estimates.push_back(named("mine", sampled(0.1, circle)));
   const auto result = score_trajectories(input);
   ASSERT_TRUE(result);
-  EXPECT_FALSE(result->estimates[0].scores.ate_se3_degenerate);
+  EXPECT_EQ(result->estimates[0].scores.se3_spread, PositionSpread::kFull);
   EXPECT_TRUE(result->notes.empty()) << result->notes.front();
 }
 

@@ -61,7 +61,7 @@ void write_estimator(const fs::path& folder, const WrittenRun& run, const std::s
     scan.innovation_position = {3e-3, 4e-3, 0.0};
     scan.covariance.position = kCovariance * Eigen::Matrix3d::Identity();
     outcome.result.diagnostics.scans.push_back(row_of(scan));
-    outcome.scan_times_ms.push_back(stream.uniform(1.0, 30.0));
+    outcome.scan_times.wall_ms.push_back(stream.uniform(1.0, 30.0));
   }
   put(folder / (name + ".tum"), tum_text(outcome.result.trajectory));
   put(folder / (name + ".diagnostics.csv"), diagnostics_table(outcome).text());

@@ -182,6 +182,7 @@ function scoresOf(item, random) {
       n100: { scans: 900, error_rms_m: value(), bound_rms_m: 0.02, efficiency: 0.3, nees: 1.4 },
     },
     time_per_scan_ms: { mean: 5 + value(), p50: 5, p99: 8 + value() },
+    cpu_per_scan_ms: { mean: 4 + value(), p50: 4, p99: 6 + value() },
   };
 }
 
