@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -12,6 +13,8 @@
 
 namespace aims {
 namespace {
+
+constexpr std::size_t kMostProposals = 3;  ///< for an unknown key
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -59,19 +62,26 @@ std::vector<std::string> keys_of(const Fields& fields) {
   return keys;
 }
 
-/// The known key most similar to the unknown `key`, or empty.
-std::string proposal_for(const Fields& fields, std::string_view key) {
-  const std::vector<std::string> keys = keys_of(fields);
-  const std::size_t name_start = key.rfind('.') + 1;  // npos + 1 = 0
-  const std::string prefix(key.substr(0, name_start));
-  const std::string name(key.substr(name_start));
-  std::vector<std::string> siblings;
+/// Names in the group `prefix` ("lidar."), each once, in the order of description.
+std::vector<std::string> names_in(const std::vector<std::string>& keys, std::string_view prefix) {
+  std::vector<std::string> names;
   for (const std::string& each : keys) {
     if (!each.starts_with(prefix)) continue;
     const std::string rest = each.substr(prefix.size());
-    siblings.push_back(rest.substr(0, rest.find('.')));
+    std::string name = rest.substr(0, rest.find('.'));
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(std::move(name));
+    }
   }
-  const std::string sibling = near_match(name, siblings);
+  return names;
+}
+
+/// The known key most similar to the unknown `key`, or empty.
+std::string proposal_for(const std::vector<std::string>& keys, std::string_view key,
+                         std::size_t name_start) {
+  const std::string prefix(key.substr(0, name_start));
+  const std::string name(key.substr(name_start));
+  const std::string sibling = near_match(name, names_in(keys, prefix));
   if (!sibling.empty()) return prefix + sibling;
   std::vector<std::string> same_name;
   for (const std::string& each : keys) {
@@ -79,6 +89,55 @@ std::string proposal_for(const Fields& fields, std::string_view key) {
   }
   const std::string nearest = near_match(key, same_name.empty() ? keys : same_name);
   return nearest.empty() && !same_name.empty() ? same_name.front() : nearest;
+}
+
+/// What may be meant by the unknown `key`: keys of its group that begin with its name, then the
+/// most similar key.
+std::vector<std::string> proposals_for(const Fields& fields, std::string_view key) {
+  const std::vector<std::string> keys = keys_of(fields);
+  const std::size_t name_start = key.rfind('.') + 1;  // npos + 1 = 0
+  const std::string_view prefix = key.substr(0, name_start);
+  const std::string_view name = key.substr(name_start);
+  const std::string nearest = proposal_for(keys, key, name_start);
+  std::vector<std::string> proposals;
+  for (const std::string& each : names_in(keys, prefix)) {
+    if (name.size() < 2 || !each.starts_with(name)) continue;
+    proposals.push_back(std::string(prefix) + each);
+  }
+  const bool known = std::find(proposals.begin(), proposals.end(), nearest) != proposals.end();
+  if (!nearest.empty() && !known) {
+    proposals.resize(std::min(proposals.size(), kMostProposals - 1));
+    proposals.push_back(nearest);
+  }
+  proposals.resize(std::min(proposals.size(), kMostProposals));
+  return proposals;
+}
+
+/// "'a'", "'a' or 'b'", "'a', 'b' or 'c'".
+std::string alternatives(const std::vector<std::string>& keys) {
+  std::string text;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i > 0) text += i + 1 < keys.size() ? ", " : " or ";
+    text += fmt::format("'{}'", keys[i]);
+  }
+  return text;
+}
+
+/// An entry that the list of `key` does not have, e.g. "route.points.7.x" of three points; empty
+/// when the key names no entry of a list.
+std::string missing_entry_message(const Fields& fields, std::string_view key) {
+  for (const ListField& list : fields.lists()) {
+    if (!key.starts_with(list.key + ".")) continue;
+    const std::string_view rest = key.substr(list.key.size() + 1);
+    const std::string_view index = rest.substr(0, rest.find('.'));
+    if (index.empty() || index.find_first_not_of("0123456789") != std::string_view::npos) continue;
+    std::size_t entry = 0;
+    const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), entry);
+    if (error == std::errc() && entry < list.size()) continue;
+    return fmt::format("{}: no entry {}; {} has {}, counted from 0", key, index, list.key,
+                       list.size());
+  }
+  return "";
 }
 
 }  // namespace
@@ -141,14 +200,19 @@ std::string near_match(std::string_view word, const std::vector<std::string>& ca
 }
 
 std::string unknown_key_message(const Fields& fields, std::string_view key) {
+  if (std::string missing = missing_entry_message(fields, key); !missing.empty()) return missing;
   const auto [concrete, star] = without_star(fields, key);
-  std::string near = proposal_for(fields, concrete);
-  if (star < near.size()) {
-    near.replace(star, std::min(near.find('.', star), near.size()) - star, "*");
+  std::vector<std::string> near = proposals_for(fields, concrete);
+  for (std::string& each : near) {
+    if (star < each.size()) {
+      each.replace(star, std::min(each.find('.', star), each.size()) - star, "*");
+    }
   }
-  if (near == key) return fmt::format("{}: a group of settings; expected one of its keys", key);
+  if (std::find(near.begin(), near.end(), key) != near.end()) {
+    return fmt::format("{}: a group of settings; expected one of its keys", key);
+  }
   if (near.empty()) return fmt::format("unknown key '{}'", key);
-  return fmt::format("unknown key '{}'; did you mean '{}'?", key, near);
+  return fmt::format("unknown key '{}'; did you mean {}?", key, alternatives(near));
 }
 
 }  // namespace aims

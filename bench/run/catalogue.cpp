@@ -45,7 +45,7 @@ Result<std::vector<ScenarioFile>> scenarios_in(const fs::path& folder,
   const auto paths = scenario_files(folder);
   if (!paths) return tl::unexpected(paths.error());
   std::vector<ScenarioFile> files;
-  for (const fs::path& path : *paths) files.push_back({path, load_scenario(path, overrides)});
+  for (const fs::path& path : *paths) files.push_back({path, load_scenario(path, overrides, folder)});
   if (tags.empty()) return files;
   if (auto known = check_tags(files, tags); !known) return tl::unexpected(known.error());
   std::erase_if(files, [&](const ScenarioFile& each) {
@@ -68,7 +68,7 @@ Result<std::vector<ScenarioFile>> select_scenarios(std::span<const std::string> 
   for (const std::string& name : names) {
     const auto file = find_scenario(name, folder);
     if (!file) return tl::unexpected(file.error());
-    add({*file, load_scenario(*file, overrides)});
+    add({*file, load_scenario(*file, overrides, folder)});
   }
   if (!names.empty() && tags.empty()) return selected;
   auto files = scenarios_in(folder, tags, overrides);

@@ -123,7 +123,7 @@ void describe(Fields& f, Scenario& s) {
 
 Error located(const Scenario& scenario, const Error& error) {
   if (scenario.file.empty()) return error;
-  return {with_position(scenario.file, error.message)};
+  return {with_position(scenario.file, error.message, scenario.folder)};
 }
 
 Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed) {
@@ -132,16 +132,18 @@ Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed) {
   return {};
 }
 
-Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides) {
+Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides,
+                               const fs::path& folder) {
   Scenario scenario;
   scenario.file = file;
+  scenario.folder = folder;
   scenario.overrides.assign(overrides.begin(), overrides.end());
   scenario.name = file.stem().string();
   std::vector<AssignedKey> assigned;
-  if (auto loaded = load_config(file, scenario, &assigned); !loaded) {
+  if (auto loaded = load_config(file, scenario, &assigned, folder); !loaded) {
     return tl::unexpected(loaded.error());
   }
-  if (auto applied = apply_overrides(scenario, overrides, &assigned); !applied) {
+  if (auto applied = apply_overrides(scenario, overrides, &assigned, folder); !applied) {
     return tl::unexpected(applied.error());
   }
   if (auto valid = check(scenario); !valid) {

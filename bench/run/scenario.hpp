@@ -40,6 +40,7 @@ struct Expectation {
 /// One experiment: the world, the route, the sensors, the estimators, and the expectations.
 struct Scenario {
   std::filesystem::path file;          ///< where it was read from, for messages; empty: nowhere
+  std::filesystem::path folder;        ///< where bare names of `base` are looked up; may be empty
   std::vector<std::string> overrides;  ///< "key=value" that were applied on top of the file
   std::string name;
   std::string description;
@@ -68,8 +69,10 @@ Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed);
 
 /// Reads a scenario and applies `overrides` ("key=value") on top of it. Checks everything that can
 /// be checked without simulating; errors are one line that names file, line, key and expectation.
+/// `folder` is where a bare name of `base` is looked up that is not beside the file.
 Result<Scenario> load_scenario(const std::filesystem::path& file,
-                               std::span<const std::string> overrides);
+                               std::span<const std::string> overrides,
+                               const std::filesystem::path& folder = {});
 
 /// The scenario that an empty file describes, with `overrides` on top.
 Result<Scenario> default_scenario(std::span<const std::string> overrides);

@@ -23,27 +23,32 @@ CollectFields collector_of(Config& config) {
 }
 
 /// Reads a YAML file into a configuration; fields that the file does not name keep their values.
-/// `base: other.yaml` (relative to the file) is read first; a list replaces the base's list.
-/// Errors are one line, `file:line:column: key: ...`; the configuration is then partly changed.
-/// The keys that were set are appended to `assigned`.
+/// `base: other.yaml` (relative to the file) or `base: name` (beside the file, else in the folder
+/// `named` and below) is read first; a list replaces the base's list. Errors are one line,
+/// `file:line:column: key: ...`; the configuration is then partly changed. The keys that were set
+/// are appended to `assigned`.
 Result<void> load_config(const std::filesystem::path& file, const CollectFields& collect,
-                         std::vector<AssignedKey>* assigned = nullptr);
+                         std::vector<AssignedKey>* assigned = nullptr,
+                         const std::filesystem::path& named = {});
 
 /// As `load_config`, from YAML text; errors call it `name`, and a `base` is relative to it.
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect);
 
-/// Applies settings in order: "key=value", or "@FILE" for a YAML file as of `load_config`. Errors
-/// name the offending `--set`, or the file. The keys that were set are appended to `assigned`.
+/// Applies settings in order: "key=value", "list=[...]" in YAML's form, which replaces the list, or
+/// "@FILE" for a YAML file as of `load_config`. Errors name the offending `--set`, or the file. The
+/// keys that were set are appended to `assigned`.
 Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings,
-                             std::vector<AssignedKey>* assigned = nullptr);
+                             std::vector<AssignedKey>* assigned = nullptr,
+                             const std::filesystem::path& named = {});
 
 /// `load_config` into any configuration that has a `describe`.
 template <class Config>
 requires requires(Fields& fields, Config& config) { describe(fields, config); }
 Result<void> load_config(const std::filesystem::path& file, Config& config,
-                         std::vector<AssignedKey>* assigned = nullptr) {
-  return load_config(file, collector_of(config), assigned);
+                         std::vector<AssignedKey>* assigned = nullptr,
+                         const std::filesystem::path& named = {}) {
+  return load_config(file, collector_of(config), assigned, named);
 }
 
 /// `load_config_text` into any configuration that has a `describe`.
@@ -57,8 +62,9 @@ Result<void> load_config_text(std::string_view text, const std::string& name, Co
 template <class Config>
 requires requires(Fields& fields, Config& config) { describe(fields, config); }
 Result<void> apply_overrides(Config& config, std::span<const std::string> settings,
-                             std::vector<AssignedKey>* assigned = nullptr) {
-  return apply_overrides(collector_of(config), settings, assigned);
+                             std::vector<AssignedKey>* assigned = nullptr,
+                             const std::filesystem::path& named = {}) {
+  return apply_overrides(collector_of(config), settings, assigned, named);
 }
 
 }  // namespace aims

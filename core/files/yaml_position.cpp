@@ -8,6 +8,8 @@
 #include <sstream>
 #include <vector>
 
+#include "core/files/yaml_document.hpp"
+
 namespace aims {
 namespace {
 
@@ -51,7 +53,7 @@ Position deepest(const fs::path& file, const YAML::Node& root,
 }
 
 /// The deepest match in the file or its bases; the file itself wins a tie.
-Position search(fs::path file, const std::vector<std::string>& parts) {
+Position search(fs::path file, const std::vector<std::string>& parts, const fs::path& named) {
   Position best{file, YAML::Mark::null_mark(), 0};
   for (int i = 0; i < kMaxBases; ++i) {
     const YAML::Node root = YAML::LoadFile(file.string());
@@ -59,16 +61,19 @@ Position search(fs::path file, const std::vector<std::string>& parts) {
     const Position here = deepest(file, root, parts);
     if (here.depth > best.depth) best = here;
     if (!root["base"]) break;
-    file = file.parent_path() / root["base"].as<std::string>();
+    const auto base = find_base(file, root["base"].as<std::string>(), named);
+    if (!base) break;
+    file = *base;
   }
   return best;
 }
 
 }  // namespace
 
-std::string with_position(const fs::path& file, const std::string& message) {
+std::string with_position(const fs::path& file, const std::string& message,
+                          const fs::path& named) {
   try {
-    const Position at = search(file, parts_of(message.substr(0, message.find(": "))));
+    const Position at = search(file, parts_of(message.substr(0, message.find(": "))), named);
     if (at.depth > 0) {
       return fmt::format("{}:{}:{}: {}", at.file.string(), at.mark.line + 1, at.mark.column + 1,
                          message);

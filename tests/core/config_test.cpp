@@ -32,6 +32,19 @@ struct Sample {
   std::vector<Item> items = std::vector<Item>(2);
 };
 
+/// Keys that begin alike, and one that is spelled alike.
+struct Ranges {
+  double range_min = 0.0;
+  double range_max = 1.0;
+  double rangs = 2.0;
+};
+
+void describe(Fields& f, Ranges& c) {
+  f.number("range_min", c.range_min, {});
+  f.number("range_max", c.range_max, {});
+  f.number("rangs", c.rangs, {});
+}
+
 void describe(Fields& f, Item& c) { f.number("width", c.width, {.range = positive()}); }
 
 void describe(Fields& f, Nested& c) {
@@ -151,6 +164,24 @@ TEST(Fields, UnknownKeysComeWithTheNearestOne) {
             "unknown key 'items.0.widht'; did you mean 'items.0.width'?");
   EXPECT_EQ(message_of("nothing_like_it", "1"), "unknown key 'nothing_like_it'");
   EXPECT_EQ(message_of("nested", "1"), "nested: a group of settings; expected one of its keys");
+}
+
+TEST(Fields, KeysThatBeginWithTheGivenNameAreProposedToo) {
+  EXPECT_EQ(message_of("items.0.wid", "1"),
+            "unknown key 'items.0.wid'; did you mean 'items.0.width'?");
+  EXPECT_EQ(message_of("nested.al", "1"), "unknown key 'nested.al'; did you mean 'nested.alpha'?");
+  Ranges ranges;
+  const auto message = [&ranges](std::string_view key) {
+    return assign(fields_of(ranges), key, "1").error().message;
+  };
+  EXPECT_EQ(message("range"),
+            "unknown key 'range'; did you mean 'range_min', 'range_max' or 'rangs'?");
+  EXPECT_EQ(message("r"), "unknown key 'r'");
+}
+
+TEST(Fields, AnEntryThatAListDoesNotHaveIsNamed) {
+  EXPECT_EQ(message_of("items.7.width", "1"),
+            "items.7.width: no entry 7; items has 2, counted from 0");
 }
 
 TEST(Fields, ListsResizeAndAreCollectedAgain) {

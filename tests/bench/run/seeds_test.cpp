@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace aims {
 namespace {
 
@@ -20,6 +22,18 @@ TEST(Seeds, AnythingElseIsRefusedWithTheTextGiven) {
     ASSERT_FALSE(parsed) << bad;
     EXPECT_NE(parsed.error().message.find(std::string("'") + bad + "'"), std::string::npos);
   }
+}
+
+TEST(Seeds, LimitsAreNamed) {
+  const std::string limits = "; allowed are up to 10000 seeds, each at most 2147483647";
+  EXPECT_EQ(parse_seeds("1-99999999999").error().message,
+            "--seeds: '1-99999999999': 99999999999 is too large" + limits);
+  EXPECT_EQ(parse_seeds("0-10000").error().message, "--seeds: '0-10000': too many seeds" + limits);
+  EXPECT_EQ(parse_seeds("0-9999,10000-10000").error().message,
+            "--seeds: '0-9999,10000-10000': too many seeds" + limits);
+  EXPECT_EQ(parse_seeds("1-10000").value().size(), 10000U);
+  EXPECT_EQ(parse_seeds("2147483647").value(), Seeds({2147483647}));
+  EXPECT_FALSE(parse_seeds("2147483648"));
 }
 
 }  // namespace

@@ -149,7 +149,11 @@ TEST(YamlConfig, RefusesTheWrongShape) {
             "s.yaml:1:10: gravity: expected three numbers like [x, y, z], found '[1, 2, 3]'");
   EXPECT_EQ(message_of("points: {a: 1}\n"),
             "s.yaml:1:9: points: expected a list of maps, found a map");
-  EXPECT_EQ(message_of("points: [a]\n"), "s.yaml:1:10: points.0: expected a map, found 'a'");
+  EXPECT_EQ(message_of("points: [a]\n"), "s.yaml:1:10: points.0: expected a map or a list [name, position, tags], found 'a'");
+  EXPECT_EQ(message_of("points: [[a, [1, 2]]]\n"),
+            "s.yaml:1:10: points.0: expected a map or a list [name, position, tags], found 2 values");
+  EXPECT_EQ(message_of("points: [[a, 1, [x]]]\n"),
+            "s.yaml:1:14: points.0.position: expected two numbers like [x, y], found '1'");
   EXPECT_EQ(message_of("points:\n  - nam: a\n"),
             "s.yaml:2:5: unknown key 'points.0.nam'; did you mean 'points.0.name'?");
   EXPECT_EQ(message_of("inner.eta: 1\n"),
@@ -168,6 +172,62 @@ TEST(YamlConfig, RefusesWhatIsNotOneDocument) {
   EXPECT_TRUE(message_of("a: b: c\n").starts_with("s.yaml:1:5: not valid YAML: "));
   EXPECT_NE(message_of("inner: &x {inner: *x}\n"), "");
   EXPECT_NE(message_of(std::string(5000, '[')), "");
+}
+
+TEST(YamlConfig, ATabThatIndentsIsCalledATab) {
+  const std::string tab = ": a tab; YAML indents by spaces";
+  EXPECT_EQ(message_of("inner:\n\teta: 1\n"), "s.yaml:2:1" + tab);
+  EXPECT_EQ(message_of("inner:\n\teta: 1\n\tcount: 2\n"), "s.yaml:2:1" + tab);
+  EXPECT_EQ(message_of("inner:\n  eta: 1\n  \tcount: 2\n"), "s.yaml:3:3" + tab);
+  EXPECT_EQ(message_of("points:\n\t- name: a\n"), "s.yaml:2:1" + tab);
+  EXPECT_EQ(message_of("name:\ta\n"), "") << "a tab between key and value is YAML";
+  EXPECT_EQ(message_of("inner: {\n\teta: 1}\n"), "") << "and so is one inside braces";
+  EXPECT_EQ(message_of("name: a\n\t\nname: b\n"), "s.yaml:2:1" + tab);
+  EXPECT_TRUE(message_of("inner: {\n\teta: 1}\n\na: b: c\n").starts_with("s.yaml:4:5: not valid"))
+      << "a tab elsewhere is not the cause";
+}
+
+TEST(YamlConfig, AnEntryOfAListMayBeItsValuesInOrder) {
+  Sample c;
+  const auto loaded =
+      load_config_text("points: [[a, [1, 2], [x]], {name: b}]\n", "s.yaml", c);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(c.points.size(), 2U);
+  EXPECT_EQ(c.points[0].name, "a");
+  EXPECT_EQ(c.points[0].position, Eigen::Vector2d(1.0, 2.0));
+  EXPECT_EQ(c.points[0].tags, std::vector<std::string>{"x"});
+  EXPECT_EQ(c.points[1].name, "b");
+}
+
+TEST(YamlConfig, ABaseMayBeABareName) {
+  const TemporaryFolder directory;
+  const fs::path shipped = directory.path() / "shipped";
+  fs::create_directories(shipped / "deep");
+  fs::create_directories(directory.path() / "own");
+  write(shipped / "deep" / "plain.yaml", "inner: {eta: 7}\n");
+  write(shipped / "deep" / "beside.yaml", "inner: {eta: 8}\n");
+  write(directory.path() / "own" / "beside.yaml", "inner: {eta: 9}\n");
+  const auto eta_of = [&](const char* name, const char* text) {
+    Sample c;
+    const auto file = write(directory.path() / "own" / name, text);
+    const auto loaded = load_config(file, c, nullptr, shipped);
+    EXPECT_TRUE(loaded) << loaded.error().message;
+    return c.inner.eta;
+  };
+  EXPECT_EQ(eta_of("child.yaml", "base: plain\n"), 7.0);
+  EXPECT_EQ(eta_of("child.yaml", "base: beside\n"), 9.0) << "a file beside comes first";
+  EXPECT_EQ(eta_of("plain.yaml", "base: plain\n"), 7.0) << "not the file itself";
+  Sample c;
+  const auto child = write(directory.path() / "own" / "child.yaml", "base: plan\n");
+  EXPECT_EQ(load_config(child, c, nullptr, shipped).error().message,
+            fmt::format("{0}/child.yaml:1:7: base: no such file '{0}/plan', and no plan.yaml in {1}",
+                        (directory.path() / "own").string(), shipped.string()));
+  write(shipped / "plain.yaml", "inner: {eta: 7}\n");
+  write(child, "base: plain\n");
+  EXPECT_FALSE(eta_of("beside.yaml", "name: x\n") == 9.0);
+  fs::remove(directory.path() / "own" / "plain.yaml");
+  EXPECT_NE(load_config(child, c, nullptr, shipped).error().message.find("expected the path of one"),
+            std::string::npos);
 }
 
 TEST(YamlConfig, MissingFileIsNamed) {
@@ -246,6 +306,42 @@ TEST(Overrides, FilesGoOnTopInOrder) {
   const auto missing = apply_overrides(c, std::vector<std::string>{"@gone.yaml"});
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("gone.yaml"), std::string::npos);
+}
+
+TEST(Overrides, AListIsReplacedByItsYamlForm) {
+  Sample c;
+  const std::vector<std::string> settings = {"points=[[a, [0, 0], []], {name: b}, {name: c}]",
+                                             "points.2.name=d"};
+  std::vector<AssignedKey> assigned;
+  const auto applied = apply_overrides(c, settings, &assigned);
+  ASSERT_TRUE(applied) << applied.error().message;
+  ASSERT_EQ(c.points.size(), 3U);
+  EXPECT_EQ(c.points[0].name, "a");
+  EXPECT_EQ(c.points[2].name, "d");
+  ASSERT_FALSE(assigned.empty());
+  EXPECT_EQ(assigned.front().key, "points.0.name");
+  EXPECT_EQ(assigned.front().place, "--set " + settings[0] + ": ");
+  Sample again;
+  ASSERT_TRUE(load_config_text(dump_config(fields_of(c)), "dump.yaml", again));
+  EXPECT_EQ(dump_config(fields_of(again)), dump_config(fields_of(c)));
+  ASSERT_TRUE(apply_overrides(c, std::vector<std::string>{"points=[]"}));
+  EXPECT_TRUE(c.points.empty());
+}
+
+TEST(Overrides, ErrorsNameTheEntryOfAList) {
+  const auto message = [](const std::string& setting) {
+    Sample c;
+    return apply_overrides(c, std::vector<std::string>{setting}).error().message;
+  };
+  EXPECT_EQ(message("points=3"), "--set points=3: points: expected a list of maps, found '3'");
+  EXPECT_EQ(message("points=[[a]]"),
+            "--set points=[[a]]: points.0: expected a map or a list [name, position, tags], found 1 "
+            "values");
+  EXPECT_EQ(message("points=[{nam: a}]"),
+            "--set points=[{nam: a}]: unknown key 'points.0.nam'; did you mean 'points.0.name'?");
+  EXPECT_TRUE(message("points=[[a").starts_with("--set points=[[a:1:")) << message("points=[[a");
+  EXPECT_EQ(message("points.4.name=a"),
+            "--set points.4.name=a: points.4.name: no entry 4; points has 1, counted from 0");
 }
 
 TEST(Overrides, ErrorsNameTheSetting) {
