@@ -5,6 +5,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/sweep_points.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/sweep_summary.hpp"
@@ -62,6 +63,7 @@ int merge_command(const MergeArguments& arguments) {
   if (!written) return bad_input("merge", written.error());
   write_summary(*sweep, arguments.score, out);
   print_out("{}\n", to_text(merge_table(*sweep)));
+  print_points(*sweep, arguments.score);
   print_open(*sweep);
   if (sweep->others > 0) {
     print_out("note: {} results of another plan, code or scenario version are left out\n",

@@ -6,9 +6,12 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
+#include "bench/cli/sweep_points.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/jobs/job_runner.hpp"
+#include "bench/tuning/objective.hpp"
 #include "bench/tuning/sweep_plan.hpp"
+#include "bench/tuning/sweep_store.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {
@@ -78,6 +81,12 @@ void print_results(const JobRun& run, const SharedOptions& shared) {
             (fs::path(shared.out) / "jobs").string(), shared.out);
 }
 
+/// The points that are done in the folder.
+void print_points_of(const fs::path& folder) {
+  const std::vector<fs::path> folders = {folder};
+  if (const auto sweep = merge_sweeps(folders)) print_points(*sweep, Objective{}.score);
+}
+
 int sweep_command(const SweepArguments& arguments) {
   const auto plan = plan_of(arguments);
   if (!plan) return bad_input("sweep", plan.error());
@@ -100,6 +109,8 @@ int sweep_command(const SweepArguments& arguments) {
       run_jobs({*jobs, *shard, plan_text(*plan), arguments.force}, options, display.observer());
   display.close();
   if (!run) return bad_input("sweep", run.error());
+  const bool whole = shard->count == 1 && !options.simulate_only;  // else `aims merge` prints them
+  if (whole) print_points_of(arguments.shared.out);
   print_results(*run, arguments.shared);
   if (!run->complete) return interrupted_code();
   return run->failed == 0 ? kOk : kExpectationFailed;

@@ -10,6 +10,7 @@
 #include "bench/jobs/job_id.hpp"
 #include "bench/run/catalogue.hpp"
 #include "bench/run/seeds.hpp"
+#include "bench/tuning/plan_paths.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/scenario_variants.hpp"
 #include "core/files/config_dump.hpp"
@@ -150,6 +151,8 @@ void describe(Fields& f, SweepPlan& p) {
 Result<SweepPlan> load_plan(const fs::path& file) {
   SweepPlan plan;
   if (auto loaded = load_config(file, plan); !loaded) return tl::unexpected(loaded.error());
+  resolve_scenarios(file, plan.scenarios);
+  resolve_settings(file, plan.set);
   return plan;
 }
 

@@ -7,6 +7,7 @@
 
 #include "bench/run/score_keys.hpp"
 #include "bench/run/seeds.hpp"
+#include "bench/tuning/plan_paths.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "core/files/atomic_file.hpp"
@@ -165,6 +166,9 @@ void describe(Fields& f, TunePlan& p) {
 Result<TunePlan> load_tune_plan(const fs::path& file) {
   TunePlan plan;
   if (auto loaded = load_config(file, plan); !loaded) return tl::unexpected(loaded.error());
+  resolve_scenarios(file, plan.scenarios);
+  resolve_scenarios(file, plan.held_out.scenarios);
+  resolve_settings(file, plan.set);
   return plan;
 }
 

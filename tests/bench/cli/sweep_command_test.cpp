@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 
 #include "core/files/atomic_file.hpp"
@@ -62,6 +63,16 @@ TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
   const Outcome merged = aims("merge out");
   EXPECT_EQ(merged.exit_code, 0) << merged.output;
   EXPECT_TRUE(holds(merged, "3 of 3 jobs done: out/sweep.sqlite")) << merged.output;
+  for (const Outcome& each : {rest, merged}) {
+    EXPECT_TRUE(holds(each, "estimator  queue.max_ahead  ate_m, median  largest  diverged"))
+        << each.output;
+    for (const char* point : {"100", "150", "200"}) {
+      EXPECT_TRUE(std::regex_search(each.output, std::regex(std::string("\nleg +") + point +
+                                                            " .* 0 of 1\n")))
+          << point << "\n"
+          << each.output;
+    }
+  }
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "sweep.sqlite"));
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "sweep.csv"));
 }
