@@ -15,6 +15,10 @@ install(DIRECTORY scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPON
   USE_SOURCE_PERMISSIONS)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/aims RENAME copyright
   COMPONENT runtime)
+install(FILES ${PROJECT_BINARY_DIR}/completions/aims
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
+install(FILES ${PROJECT_BINARY_DIR}/completions/_aims
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT runtime)
 
 # Includes are written from the root of the sources, "core/lie.hpp"; include/aims is that root.
 foreach(library ${exported_libraries})

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/estimate.hpp"
@@ -24,6 +25,7 @@ struct BagArguments {
   std::string config;
   std::vector<std::string> systems;
   bool recover = false;
+  bool json = false;
 };
 
 Result<BagInfo> info_of(const BagArguments& arguments) {
@@ -39,7 +41,11 @@ Result<BagInfo> info_of(const BagArguments& arguments) {
 int info_command(const BagArguments& arguments) {
   const auto info = info_of(arguments);
   if (!info) return bad_input("info", info.error());
-  print_out("{}", info_text(*info));
+  if (arguments.json) {
+    print_json(info_json(*info));
+  } else {
+    print_out("{}", info_text(*info));
+  }
   return kOk;
 }
 
@@ -68,7 +74,12 @@ int check_command(const BagArguments& arguments) {
   if (!info) return bad_input("check", info.error());
   const auto checks = checks_of(arguments.systems, check_bag(*info));
   if (!checks) return bad_input("check", checks.error());
-  print_out("{}\n{}\n{}", info->file.string(), to_text(check_table(*checks)), check_text(*checks));
+  if (arguments.json) {
+    print_json(check_json(info->file, *checks));
+  } else {
+    print_out("{}\n{}\n{}", info->file.string(), to_text(check_table(*checks)),
+              check_text(*checks));
+  }
   const bool missing = std::any_of(checks->begin(), checks->end(), [](const auto& each) {
     return each.fulfilment == Fulfilment::kMissing;
   });
@@ -81,6 +92,7 @@ std::shared_ptr<BagArguments> add_bag_options(Command& command) {
   command.option("--config", arguments->config, "YAML file; its group recording is used");
   add_settings(command, arguments->shared, "the configuration, e.g. recording.topics.imu=/imu");
   command.flag("--recover", arguments->recover, "Read the intact part of a damaged bag");
+  add_json(command, arguments->json);
   return arguments;
 }
 

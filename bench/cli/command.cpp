@@ -160,8 +160,9 @@ void Command::option(const std::string& names, std::optional<double>& value, Lim
 }
 
 void Command::choice(const std::string& names, std::string& value,
-                     const std::vector<std::string>& choices, const std::string& help) {
-  app_->add_option(names, value, help)->check(CLI::IsMember(choices));
+                     const std::vector<std::string>& choices, const std::string& help,
+                     Presence presence) {
+  require(app_->add_option(names, value, help), presence)->check(CLI::IsMember(choices));
 }
 
 void Command::list(const std::string& names, std::vector<std::string>& values,
@@ -195,6 +196,12 @@ void Command::action(std::function<int()> run) {
 Command Command::subcommand(const std::string& name, const std::string& summary) {
   app_->require_subcommand(1);
   return Command(*app_->add_subcommand(name, summary), *exit_code_);
+}
+
+const CLI::App& Command::program() const {
+  const CLI::App* app = app_;
+  while (app->get_parent() != nullptr) app = app->get_parent();
+  return *app;
 }
 
 int run_program(const Program& program, int argc, char** argv) {

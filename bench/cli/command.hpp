@@ -48,7 +48,7 @@ class Command {
               const std::string& help);
   /// One of `choices`.
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
-              const std::string& help);
+              const std::string& help, Presence presence = Presence::kOptional);
   /// Values separated by commas.
   void list(const std::string& names, std::vector<std::string>& values, const std::string& help);
   /// One value each time; may be given several times.
@@ -64,6 +64,8 @@ class Command {
   void action(std::function<int()> run);
   /// A command below this one, which then expects one of them.
   Command subcommand(const std::string& name, const std::string& summary);
+  /// The whole program with all its declarations.
+  const CLI::App& program() const;
 
  private:
   CLI::App* app_;

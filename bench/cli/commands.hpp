@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "bench/cli/command.hpp"
+#include "core/error.hpp"
 
 namespace aims {
 
@@ -24,9 +25,14 @@ void declare_render(Command command, const std::filesystem::path& scenarios);
 void declare_page(Command command, const std::filesystem::path& scenarios);
 void declare_config(Command command, const std::filesystem::path& scenarios);
 void declare_list(Command command, const std::filesystem::path& scenarios);
+void declare_completion(Command command, const std::filesystem::path& scenarios);
 
-/// Writes the pages of a folder that was just filled and prints where they are. A page that cannot
-/// be written is a warning: the results are there.
-void write_pages_of(const std::filesystem::path& folder);
+/// Writes the pages of a folder that was just filled and prints where they are; unless `quiet`,
+/// shows which one is being written. A page that cannot be written is a warning: the results are
+/// there.
+void write_pages_of(const std::filesystem::path& folder, bool quiet);
+
+/// Writes the page of one folder whose results are still to appear; prints nothing.
+Result<void> write_page_of(const std::filesystem::path& folder, bool quiet);
 
 }  // namespace aims

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/draw_display.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
@@ -13,6 +14,7 @@
 #include "bench/run/estimate_summary.hpp"
 #include "bench/run/health_summary.hpp"
 #include "core/files/output_folder.hpp"
+#include "render/page/page.hpp"
 #include "render/results/estimate_pictures.hpp"
 #include "render/results/run_pictures.hpp"
 
@@ -28,6 +30,7 @@ struct EstimateArguments {
   std::vector<std::string> topics;
   bool recover = false;
   bool no_pictures = false;
+  bool no_page = false;
 };
 
 Result<EstimateConfig> config_of(const EstimateArguments& arguments) {
@@ -64,6 +67,7 @@ void print_results(const EstimateResult& result, const fs::path& folder,
   if (!result.complete) print_out("interrupted: the results end where reading was stopped\n");
   print_out("results: {}\n", (folder / "").string());
   for (const fs::path& picture : pictures_in(folder)) print_out("  {}\n", picture.string());
+  if (fs::exists(folder / kPageFile)) print_out("page: {}\n", (folder / kPageFile).string());
 }
 
 /// Error code when an estimate must not be used: it has no poses, or was invalid at some time.
@@ -100,8 +104,13 @@ int estimate_command(const EstimateArguments& arguments) {
   }
   std::vector<std::string> warnings;
   if (!arguments.no_pictures) {
-    const auto drawn = draw_estimate(*result, folder->path());
+    DrawDisplay drawing(shared.quiet);
+    const auto drawn = draw_estimate(*result, folder->path(), drawing.observer());
     if (!drawn) warnings.push_back(drawn.error().message);
+  }
+  if (!arguments.no_page) {
+    const auto page = write_page_of(folder->path(), shared.quiet);
+    if (!page) warnings.push_back(page.error().message);
   }
   if (auto ok = folder->commit(); !ok) return bad_input("estimate", ok.error());
   print_results(*result, folder->final_path(), warnings);
@@ -128,6 +137,7 @@ void declare_estimate(Command command, const fs::path& /*scenarios*/) {
   add_quiet(command, shared);
   command.flag("--recover", arguments->recover, "Read the intact part of a damaged bag");
   command.flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
+  command.flag("--no-page", arguments->no_page, "Write no HTML page");
   command.footer(
       "Examples:\n"
       "  aims estimate corridor.bag\n"

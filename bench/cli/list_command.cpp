@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/catalogue.hpp"
@@ -19,9 +20,13 @@ void print_entry(const CatalogueEntry& entry) {
   print_out("  {:<16} {}{}\n", entry.name, entry.description, tags);
 }
 
-int list_command(const SharedOptions& shared) {
+int list_command(const SharedOptions& shared, bool json) {
   const auto files = scenarios_in(shared.folder, shared.tags);
   if (!files) return bad_input("list", files.error());
+  if (json) {
+    print_json(list_json(shared.folder, *files));
+    return kOk;
+  }
   print_out("Scenarios in {} [tags]:\n", shared.folder);
   for (const CatalogueEntry& entry : scenario_catalogue(*files)) print_entry(entry);
   const std::vector<Family> families = families_of(*files);
@@ -38,12 +43,17 @@ int list_command(const SharedOptions& shared) {
 }  // namespace
 
 void declare_list(Command command, const std::filesystem::path& scenarios) {
-  auto shared = std::make_shared<SharedOptions>();
-  shared->folder = scenarios.string();
-  add_tags(command, *shared);
-  add_folder(command, *shared);
+  struct Arguments {
+    SharedOptions shared;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  arguments->shared.folder = scenarios.string();
+  add_tags(command, arguments->shared);
+  add_folder(command, arguments->shared);
+  add_json(command, arguments->json);
   command.footer("Examples:\n  aims list\n  aims list --tags stress,severity");
-  command.action([shared] { return list_command(*shared); });
+  command.action([arguments] { return list_command(arguments->shared, arguments->json); });
 }
 
 }  // namespace aims

@@ -40,6 +40,8 @@ constexpr std::array kCommands = {
     CommandEntry{"config", "Every parameter with value, unit, range, meaning and source",
                  aims::declare_config},
     CommandEntry{"list", "Scenarios, families of scenarios and estimators", aims::declare_list},
+    CommandEntry{"completion", "Completion of commands, options and names by bash or zsh",
+                 aims::declare_completion},
 };
 
 constexpr const char* kDescription =

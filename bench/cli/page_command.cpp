@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/draw_display.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "render/page/page.hpp"
@@ -22,6 +23,7 @@ struct PageArguments {
   std::string out;
   std::string against;
   std::string detectors;
+  SharedOptions shared;
 };
 
 void print_pages(const WrittenPages& written) {
@@ -49,8 +51,10 @@ int write_one(const PageArguments& arguments, const PageOptions& options) {
 int page_command(const PageArguments& arguments) {
   const PageOptions options = {arguments.against, arguments.detectors, {}};
   if (!arguments.out.empty()) return write_one(arguments, options);
+  DrawDisplay display(arguments.shared.quiet);
   for (const std::string& folder : arguments.folders) {
-    const auto written = write_pages(folder, options);
+    const auto written = write_pages(folder, options, display.observer());
+    display.close();
     if (!written) return bad_input("page", written.error());
     print_pages(*written);
   }
@@ -59,13 +63,23 @@ int page_command(const PageArguments& arguments) {
 
 }  // namespace
 
-void write_pages_of(const fs::path& folder) {
-  const auto written = write_pages(folder);
+void write_pages_of(const fs::path& folder, bool quiet) {
+  DrawDisplay display(quiet);
+  const auto written = write_pages(folder, {}, display.observer());
+  display.close();
   if (written) {
     print_pages(*written);
   } else {
     print_out("warning: no page: {}\n", written.error().message);
   }
+}
+
+Result<void> write_page_of(const fs::path& folder, bool quiet) {
+  DrawDisplay display(quiet);
+  announce(display.observer(), folder / kPageFile);
+  const auto written = write_page(folder, folder / kPageFile);
+  if (!written) return failure("no page: " + written.error().message);
+  return {};
 }
 
 void declare_page(Command command, const fs::path& /*scenarios*/) {
@@ -78,6 +92,7 @@ void declare_page(Command command, const fs::path& /*scenarios*/) {
                  "Folder of earlier results to compare a suite with");
   command.option("--detectors", arguments->detectors,
                  "Folder of aims study detectors to show with a suite");
+  add_quiet(command, arguments->shared);
   command.footer(
       "Several seeds get a page each; of a suite, so do the runs that kept trajectories. A page\n"
       "is one file that opens without a network or server.\n"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/draw_display.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
@@ -45,9 +46,10 @@ std::string seeds_text(const SuiteCase& each) {
 }
 
 /// Draws the runs; a picture that cannot be drawn is a warning: the results are there.
-void draw(const std::vector<fs::path>& folders) {
+void draw(const std::vector<fs::path>& folders, bool quiet) {
+  DrawDisplay display(quiet);
   for (const fs::path& folder : folders) {
-    const auto drawn = draw_run(folder);
+    const auto drawn = draw_run(folder, display.observer());
     if (!drawn) print_out("warning: {}\n", drawn.error().message);
   }
 }
@@ -69,7 +71,7 @@ int run_command(const RunArguments& arguments) {
   }
   const fs::path& out = options->jobs.out;
   if (auto written = write_runs(*suite, out); !written) return bad_input("run", written.error());
-  if (!arguments.no_pictures) draw(run_folders(*suite, out));
+  if (!arguments.no_pictures) draw(run_folders(*suite, out), shared.quiet);
   if (!each.runs.empty()) {
     print_out("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
               to_text(score_table(each.runs)));
@@ -78,7 +80,7 @@ int run_command(const RunArguments& arguments) {
   print_outcome(*suite, shared);
   print_out("results: {}\n", (out / "").string());
   for (const fs::path& picture : pictures_in(out)) print_out("  {}\n", picture.string());
-  if (!arguments.no_page && !each.runs.empty()) write_pages_of(out);
+  if (!arguments.no_page && !each.runs.empty()) write_pages_of(out, shared.quiet);
   return exit_code_with_expectations(*suite);
 }
 

@@ -4,11 +4,16 @@
 #include <string>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/draw_display.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/scoring_input.hpp"
 #include "bench/run/trajectory_summary.hpp"
+#include "core/file_name.hpp"
 #include "core/files/output_folder.hpp"
+#include "core/files/tum.hpp"
+#include "render/page/page.hpp"
 #include "render/results/run_pictures.hpp"
 #include "render/results/trajectory_pictures.hpp"
 
@@ -21,6 +26,8 @@ struct ScoreArguments {
   SharedOptions shared;
   ScoringRequest request;
   bool no_pictures = false;
+  bool no_page = false;
+  bool json = false;
 };
 
 void print_scores(const TrajectoryScores& scores, const fs::path& folder) {
@@ -29,6 +36,33 @@ void print_scores(const TrajectoryScores& scores, const fs::path& folder) {
   for (const std::string& note : scores.notes) print_out("note: {}\n", note);
   print_out("results: {}\n", (folder / "").string());
   for (const auto& picture : pictures_in(folder)) print_out("  {}\n", picture.string());
+  if (fs::exists(folder / kPageFile)) print_out("page: {}\n", (folder / kPageFile).string());
+}
+
+/// The trajectories as they were compared, for the page and for other tools: those whose names can
+/// be names of files.
+Result<void> write_trajectories(const TrajectoryScores& scores, const fs::path& folder) {
+  constexpr const char* kTruth = "truth";
+  auto written = write_tum(folder / "truth.tum", scores.truth.trajectory);
+  for (const ScoredEstimate& each : scores.estimates) {
+    const std::string& name = each.given.name;  // of a topic, "bag/odom"
+    if (name == kTruth || !check_file_name("--name", name)) continue;
+    if (written) written = write_tum(folder / (name + ".tum"), each.in_truth_frame);
+  }
+  return written;
+}
+
+/// Pictures and page; what cannot be drawn is a warning: the scores are there.
+void draw(const TrajectoryScores& scores, const fs::path& folder, const ScoreArguments& arguments) {
+  Result<void> drawn;
+  if (!arguments.no_pictures) {
+    DrawDisplay display(arguments.shared.quiet);
+    drawn = draw_trajectory_pictures(scores, folder, display.observer());
+  }
+  if (!drawn) print_error("warning: " + drawn.error().message);
+  if (arguments.no_page) return;
+  const auto page = write_page_of(folder, arguments.shared.quiet);
+  if (!page) print_error("warning: " + page.error().message);
 }
 
 int score_command(const ScoreArguments& arguments) {
@@ -43,13 +77,15 @@ int score_command(const ScoreArguments& arguments) {
   auto folder = OutputFolder::create(shared.out, shared.overwrite);
   if (!folder) return bad_input("score", folder.error());
   auto written = write_trajectory_scores(*scores, folder->path());
+  if (written) written = write_trajectories(*scores, folder->path());
   if (!written) return bad_input("score", written.error());
-  if (!arguments.no_pictures) {
-    const auto drawn = draw_trajectory_pictures(*scores, folder->path());
-    if (!drawn) print_out("warning: {}\n", drawn.error().message);
-  }
+  draw(*scores, folder->path(), arguments);
   if (auto committed = folder->commit(); !committed) return bad_input("score", committed.error());
-  print_scores(*scores, folder->final_path());
+  if (arguments.json) {
+    print_json(record_of(*scores).scores);
+  } else {
+    print_scores(*scores, folder->final_path());
+  }
   const auto too_little = [&](const ScoredEstimate& each) {
     return covers_too_little(each, scores->scoring);
   };
@@ -85,6 +121,9 @@ void declare_score(Command command, const fs::path& /*scenarios*/) {
   add_out(command, shared, "out/score");
   add_overwrite(command, shared);
   command.flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
+  command.flag("--no-page", arguments->no_page, "Write no HTML page");
+  add_json(command, arguments->json);
+  add_quiet(command, shared);
   command.footer(
       "A trajectory is a file of TUM lines, of KITTI poses, or BAG:/TOPIC (nav_msgs/Odometry,\n"
       "nav_msgs/Path, geometry_msgs/PoseStamped and others with poses).\n"

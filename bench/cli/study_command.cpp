@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
@@ -190,6 +191,7 @@ struct CompareArguments {
   std::string after;
   SharedOptions shared;
   bool fail_on_worse = false;
+  bool json = false;
 };
 
 /// The largest number of common seeds, when results differ and no score has enough of them.
@@ -200,6 +202,13 @@ std::optional<std::size_t> too_few_seeds(const Comparison& comparison) {
   return differ && most < kFewestPairs ? std::optional(most) : std::nullopt;
 }
 
+void print_comparison(const Comparison& comparison) {
+  print_out("{}\n{}\n{}\n", to_text(change_table(comparison)), rule_text(comparison),
+            summary_text(comparison));
+  for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
+  for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
+}
+
 int compare_command(const CompareArguments& arguments) {
   constexpr const char* kName = "study compare";
   const auto before = read_results(arguments.before);
@@ -207,10 +216,11 @@ int compare_command(const CompareArguments& arguments) {
   const auto after = read_results(arguments.after);
   if (!after) return bad_input(kName, after.error());
   const Comparison comparison = compare(*before, *after);
-  print_out("{}\n{}\n{}\n", to_text(change_table(comparison)), rule_text(comparison),
-             summary_text(comparison));
-  for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
-  for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
+  if (arguments.json) {
+    print_json(comparison_json(comparison, arguments.before, arguments.after));
+  } else {
+    print_comparison(comparison);
+  }
   if (!arguments.shared.out.empty()) {
     const auto written =
         write_comparison(comparison, arguments.before, arguments.after, arguments.shared.out);
@@ -234,6 +244,7 @@ void declare_compare(Command command) {
   command.flag("--fail-on-worse", arguments->fail_on_worse,
                "Exit with 1 when a score got significantly worse, with 2\n"
                "when there are too few common seeds");
+  add_json(command, arguments->json);
   command.footer(
       "Runs are paired by scenario, seed and estimator.\n"
       "Examples:\n"

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/draw_display.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
@@ -43,8 +44,9 @@ Result<void> write_results(const Suite& suite, const SuiteArguments& arguments) 
   const fs::path out = arguments.shared.out;
   auto written = write_suite(suite, out);
   if (written && arguments.trajectories) written = write_suite_runs(suite, out);
-  if (written) written = draw_families(family_results(suite), out / "families");
-  return written;
+  if (!written) return written;
+  DrawDisplay display(arguments.shared.quiet);
+  return draw_families(family_results(suite), out / "families", display.observer());
 }
 
 int suite_command(const SuiteArguments& arguments) {
@@ -60,7 +62,7 @@ int suite_command(const SuiteArguments& arguments) {
     return bad_input("suite", written.error());
   }
   print_suite(*suite, shared);
-  if (!arguments.no_page) write_pages_of(shared.out);
+  if (!arguments.no_page) write_pages_of(shared.out, shared.quiet);
   return exit_code_with_expectations(*suite);
 }
 
@@ -81,7 +83,8 @@ void declare_suite(Command command, const fs::path& scenarios) {
       "Examples:\n"
       "  aims suite --tags severity --seeds 1-10 --out out/severity\n"
       "  aims suite corridor corridor_smooth --seeds 1-5 --estimators aims,lio\n"
-      "  aims suite --tags stress --seeds 1-3 --set estimators.aims.degeneracy.eta=5 --out out/eta5\n"
+      "  aims suite --tags stress --seeds 1-3 --set estimators.aims.degeneracy.eta=5 --out "
+      "out/eta5\n"
       "Exit codes: as of aims; 2 also when a job failed.");
   command.action([arguments] { return suite_command(*arguments); });
 }

@@ -79,12 +79,14 @@ Result<void> write_page(const fs::path& folder, const fs::path& file, PageOption
   return written;
 }
 
-Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& options) {
+Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& options,
+                                 const DrawObserver& observer) {
   WrittenPages written_pages;
   const bool suite = holds_suite(folder);
   const std::vector<fs::path> runs = suite ? runs_of_suite(folder) : runs_in(folder);
   for (const fs::path& run : runs) {
     if (suite && is_up_to_date(run)) continue;
+    announce(observer, run / kPageFile);
     if (auto written = write_page(run, run / kPageFile); written) {
       written_pages.pages.push_back(run / kPageFile);
     } else if (suite) {
@@ -95,6 +97,7 @@ Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& opti
   }
   const bool only_seeds = !suite && !runs.empty() && !holds_run(folder);
   if (only_seeds) return written_pages;
+  announce(observer, folder / kPageFile);
   auto written = write_page(folder, folder / kPageFile, options);
   if (!written) return tl::unexpected(written.error());
   written_pages.pages.push_back(folder / kPageFile);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/draw_observer.hpp"
 #include "core/error.hpp"
 #include "render/page/page_options.hpp"
 
@@ -28,6 +29,7 @@ Result<void> write_page(const std::filesystem::path& folder, const std::filesyst
 /// run; each seed of `aims run`; a suite and, before it, those of its runs that kept trajectories,
 /// unless their page is newer than their scores; a sweep. Runs of a suite stop nothing else.
 Result<WrittenPages> write_pages(const std::filesystem::path& folder,
-                                 const PageOptions& options = {});
+                                 const PageOptions& options = {},
+                                 const DrawObserver& observer = {});
 
 }  // namespace aims

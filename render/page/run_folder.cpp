@@ -13,6 +13,7 @@
 #include "bench/metrics/association.hpp"
 #include "bench/run/estimate.hpp"
 #include "bench/run/json_text.hpp"
+#include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
@@ -54,11 +55,9 @@ std::vector<ConfigChange> changes_between(Config used, Config defaults) {
   return changes;
 }
 
-/// Names come from JSON: only those that a program of ours gives are names of files.
+/// Names come from JSON: only those that a program of ours gives are names of files in the folder.
 bool is_file_name(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
+  return check_file_name("name", name).has_value();
 }
 
 void take_names(const Json& document, std::vector<std::string>& names) {
@@ -156,7 +155,9 @@ void take_config(const Result<Config>& config, const Result<Config>& defaults, R
 Result<void> read_config(RunFolder& run) {
   const fs::path file = run.path / "config.yaml";
   if (!fs::exists(file)) {
-    run.notes.emplace_back("Without scene and settings: the folder has no config.yaml.");
+    if (!is_foreign(run)) {
+      run.notes.emplace_back("Without scene and settings: the folder has no config.yaml.");
+    }
     return {};
   }
   auto text = read_file(file);
@@ -184,6 +185,10 @@ Result<void> read_waypoint_times(RunFolder& run) {
 }
 
 }  // namespace
+
+bool is_foreign(const RunFolder& run) {
+  return run.scores.is_object() && run.scores.contains("truth") && !run.estimate.is_object();
+}
 
 bool holds_run(const fs::path& folder) {
   return fs::exists(folder / "scores.json") || fs::exists(folder / "estimate.json") ||

@@ -50,6 +50,9 @@ struct RunFolder {
   std::vector<std::string> notes;          ///< what could not be used, a sentence each
 };
 
+/// Whether it holds scores of foreign trajectories (`aims score`): without configuration and seed.
+bool is_foreign(const RunFolder& run);
+
 /// Whether the folder holds one run: scores.json, estimate.json or the truth.tum of a run that
 /// keeps no scores.
 bool holds_run(const std::filesystem::path& folder);

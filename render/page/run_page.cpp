@@ -66,7 +66,7 @@ Json scenario_json(const RunFolder& run) {
   const Json& record = recorded ? run.estimate : run.scores;
   return {{"name", name_of(run)},
           {"description", run.scenario ? Json(run.scenario->description) : Json()},
-          {"seed", recorded ? Json() : member(run.scores, "seed")},
+          {"seed", recorded || is_foreign(run) ? Json() : member(run.scores, "seed")},
           {"simulated_s", member(record, recorded ? "recorded_s" : "simulated_s")},
           {"complete", member(record, "complete")},
           {"robot", member(run.scores, "robot")}};

@@ -3,12 +3,14 @@
 
 #include <filesystem>
 
+#include "bench/run/draw_observer.hpp"
 #include "bench/run/estimate.hpp"
 #include "core/error.hpp"
 
 namespace aims {
 
 /// Draws the maps and the degeneracy index; with a truth also the trajectories.
-Result<void> draw_estimate(const EstimateResult& result, const std::filesystem::path& folder);
+Result<void> draw_estimate(const EstimateResult& result, const std::filesystem::path& folder,
+                           const DrawObserver& observer = {});
 
 }  // namespace aims

@@ -78,10 +78,12 @@ Result<void> draw_family(const fs::path& folder, const FamilyResult& family) {
 
 }  // namespace
 
-Result<void> draw_families(const std::vector<FamilyResult>& families, const fs::path& folder) {
+Result<void> draw_families(const std::vector<FamilyResult>& families, const fs::path& folder,
+                           const DrawObserver& observer) {
   std::error_code ignored;
   fs::create_directories(folder, ignored);
   for (const FamilyResult& family : families) {
+    announce(observer, folder / (family.name + ".png"));
     if (auto drawn = draw_family(folder, family); !drawn) return drawn;
   }
   return {};

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "bench/run/draw_observer.hpp"
 #include "bench/studies/families.hpp"
 #include "core/error.hpp"
 
@@ -12,6 +13,7 @@ namespace aims {
 /// Draws each family's scores over its levels into `folder`: NAME.png and NAME.svg, and of the
 /// severity levels also over the equivalent returns along the weak axis.
 Result<void> draw_families(const std::vector<FamilyResult>& families,
-                           const std::filesystem::path& folder);
+                           const std::filesystem::path& folder,
+                           const DrawObserver& observer = {});
 
 }  // namespace aims

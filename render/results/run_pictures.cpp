@@ -84,25 +84,32 @@ Result<void> draw_trajectories(const DrawnRun& run, const fs::path& folder) {
 }
 
 Result<void> draw_robot(const DrawnRun& run, const fs::path& folder) {
-  const auto drawn = write_robot_pictures(folder, run.scenario.name, run.scene, quadruped_mjcf(),
-                                          run.snapshots);
+  const auto drawn =
+      write_robot_pictures(folder, run.scenario.name, run.scene, quadruped_mjcf(), run.snapshots);
   if (!drawn) return tl::unexpected(drawn.error());
   return {};
 }
 
 }  // namespace
 
-Result<void> draw_run(const fs::path& folder) {
+Result<void> draw_run(const fs::path& folder, const DrawObserver& observer) {
   const auto run = read_run(folder);
   if (!run) return tl::unexpected(run.error());
+  announce(observer, folder / "robot_start.png");
   auto drawn = draw_robot(*run, folder);
-  if (drawn) drawn = draw_trajectories(*run, folder);
   if (drawn) {
-    drawn = draw_degeneracy(run->scenario.name, run->subtitle, run->estimators,
-                            run->waypoint_times, folder);
+    announce(observer, folder / "trajectories.png");
+    drawn = draw_trajectories(*run, folder);
+  }
+  if (drawn) {
+    announce(observer, folder / "degeneracy.png");
+    drawn = draw_degeneracy(run->scenario.name, run->subtitle, run->estimators, run->waypoint_times,
+                            folder);
   }
   for (const EstimatorOutcome& outcome : run->estimators) {
-    if (drawn) drawn = draw_map(run->scenario.name, outcome, folder);
+    if (!drawn) break;
+    announce(observer, folder / (outcome.name + "-map-top.png"));
+    drawn = draw_map(run->scenario.name, outcome, folder);
   }
   return drawn;
 }

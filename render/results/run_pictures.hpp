@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "bench/run/draw_observer.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -11,7 +12,7 @@ namespace aims {
 /// Draws a run into its folder (bench/studies/run_folder.hpp): the robot along the route, each
 /// estimator's map from above and from the side, every trajectory over the plan, and the degeneracy
 /// index over time.
-Result<void> draw_run(const std::filesystem::path& folder);
+Result<void> draw_run(const std::filesystem::path& folder, const DrawObserver& observer = {});
 
 /// The pictures in `folder` and below, by name.
 std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);

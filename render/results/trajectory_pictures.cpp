@@ -102,10 +102,13 @@ Result<void> draw_errors(const TrajectoryScores& scores, const std::filesystem::
 }  // namespace
 
 Result<void> draw_trajectory_pictures(const TrajectoryScores& scores,
-                                      const std::filesystem::path& folder) {
+                                      const std::filesystem::path& folder,
+                                      const DrawObserver& observer) {
+  announce(observer, folder / "trajectories.png");
   auto drawn = draw_trajectories(scores, folder / "trajectories.png");
-  if (drawn) drawn = draw_errors(scores, folder / "errors.png");
-  return drawn;
+  if (!drawn) return drawn;
+  announce(observer, folder / "errors.png");
+  return draw_errors(scores, folder / "errors.png");
 }
 
 }  // namespace aims

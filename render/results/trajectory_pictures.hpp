@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "bench/run/draw_observer.hpp"
 #include "bench/run/trajectory_scoring.hpp"
 #include "core/error.hpp"
 
@@ -11,6 +12,7 @@ namespace aims {
 /// Draws trajectories.png (plan, height and error along the way) and errors.png (position, height
 /// and heading error over time) into `folder`.
 Result<void> draw_trajectory_pictures(const TrajectoryScores& scores,
-                                      const std::filesystem::path& folder);
+                                      const std::filesystem::path& folder,
+                                      const DrawObserver& observer = {});
 
 }  // namespace aims

@@ -29,16 +29,16 @@ TEST_F(Overwrite, EstimateReplacesItsOwnResultsAlone) {
   EXPECT_EQ(first.exit_code, 0) << "an empty folder is as good as none: " << first.output;
   EXPECT_FALSE(exists("est/scores.json")) << "there was no truth";
   EXPECT_EQ(aims(command).exit_code, 2);
-  write("est/notes.txt", "mine");
+  write("est/a-note.txt", "mine");
   const Outcome again = aims(command + " --overwrite");
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_TRUE(exists("est/notes.txt"));
+  EXPECT_TRUE(exists("est/a-note.txt"));
   fs::remove(folder_.path() / "est" / ".aims-files");
   const Outcome refused = aims(command + " --overwrite");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_TRUE(holds(refused, "est: has no .aims-files")) << refused.output;
-  EXPECT_TRUE(holds(refused, "notes.txt")) << refused.output;
-  EXPECT_TRUE(exists("est/notes.txt"));
+  EXPECT_TRUE(holds(refused, "a-note.txt")) << refused.output;
+  EXPECT_TRUE(exists("est/a-note.txt"));
 }
 
 TEST_F(Overwrite, RunRemovesOnlyTheTrajectoriesThatItWrote) {

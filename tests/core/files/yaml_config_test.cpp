@@ -149,9 +149,11 @@ TEST(YamlConfig, RefusesTheWrongShape) {
             "s.yaml:1:10: gravity: expected three numbers like [x, y, z], found '[1, 2, 3]'");
   EXPECT_EQ(message_of("points: {a: 1}\n"),
             "s.yaml:1:9: points: expected a list of maps, found a map");
-  EXPECT_EQ(message_of("points: [a]\n"), "s.yaml:1:10: points.0: expected a map or a list [name, position, tags], found 'a'");
-  EXPECT_EQ(message_of("points: [[a, [1, 2]]]\n"),
-            "s.yaml:1:10: points.0: expected a map or a list [name, position, tags], found 2 values");
+  EXPECT_EQ(message_of("points: [a]\n"),
+            "s.yaml:1:10: points.0: expected a map or a list [name, position, tags], found 'a'");
+  EXPECT_EQ(
+      message_of("points: [[a, [1, 2]]]\n"),
+      "s.yaml:1:10: points.0: expected a map or a list [name, position, tags], found 2 values");
   EXPECT_EQ(message_of("points: [[a, 1, [x]]]\n"),
             "s.yaml:1:14: points.0.position: expected two numbers like [x, y], found '1'");
   EXPECT_EQ(message_of("points:\n  - nam: a\n"),
@@ -189,8 +191,7 @@ TEST(YamlConfig, ATabThatIndentsIsCalledATab) {
 
 TEST(YamlConfig, AnEntryOfAListMayBeItsValuesInOrder) {
   Sample c;
-  const auto loaded =
-      load_config_text("points: [[a, [1, 2], [x]], {name: b}]\n", "s.yaml", c);
+  const auto loaded = load_config_text("points: [[a, [1, 2], [x]], {name: b}]\n", "s.yaml", c);
   ASSERT_TRUE(loaded) << loaded.error().message;
   ASSERT_EQ(c.points.size(), 2U);
   EXPECT_EQ(c.points[0].name, "a");
@@ -219,15 +220,17 @@ TEST(YamlConfig, ABaseMayBeABareName) {
   EXPECT_EQ(eta_of("plain.yaml", "base: plain\n"), 7.0) << "not the file itself";
   Sample c;
   const auto child = write(directory.path() / "own" / "child.yaml", "base: plan\n");
-  EXPECT_EQ(load_config(child, c, nullptr, shipped).error().message,
-            fmt::format("{0}/child.yaml:1:7: base: no such file '{0}/plan', and no plan.yaml in {1}",
-                        (directory.path() / "own").string(), shipped.string()));
+  EXPECT_EQ(
+      load_config(child, c, nullptr, shipped).error().message,
+      fmt::format("{0}/child.yaml:1:7: base: no such file '{0}/plan', and no plan.yaml in {1}",
+                  (directory.path() / "own").string(), shipped.string()));
   write(shipped / "plain.yaml", "inner: {eta: 7}\n");
   write(child, "base: plain\n");
   EXPECT_FALSE(eta_of("beside.yaml", "name: x\n") == 9.0);
   fs::remove(directory.path() / "own" / "plain.yaml");
-  EXPECT_NE(load_config(child, c, nullptr, shipped).error().message.find("expected the path of one"),
-            std::string::npos);
+  EXPECT_NE(
+      load_config(child, c, nullptr, shipped).error().message.find("expected the path of one"),
+      std::string::npos);
 }
 
 TEST(YamlConfig, MissingFileIsNamed) {
@@ -334,9 +337,10 @@ TEST(Overrides, ErrorsNameTheEntryOfAList) {
     return apply_overrides(c, std::vector<std::string>{setting}).error().message;
   };
   EXPECT_EQ(message("points=3"), "--set points=3: points: expected a list of maps, found '3'");
-  EXPECT_EQ(message("points=[[a]]"),
-            "--set points=[[a]]: points.0: expected a map or a list [name, position, tags], found 1 "
-            "values");
+  EXPECT_EQ(
+      message("points=[[a]]"),
+      "--set points=[[a]]: points.0: expected a map or a list [name, position, tags], found 1 "
+      "values");
   EXPECT_EQ(message("points=[{nam: a}]"),
             "--set points=[{nam: a}]: unknown key 'points.0.nam'; did you mean 'points.0.name'?");
   EXPECT_TRUE(message("points=[[a").starts_with("--set points=[[a:1:")) << message("points=[[a");

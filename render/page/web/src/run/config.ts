@@ -35,7 +35,9 @@ export function copyButton(text: string, source: HTMLElement): HTMLElement {
   return button;
 }
 
-export function configSection(data: RunPayload): HTMLElement {
+/** Null for scores of foreign trajectories, which have no configuration. */
+export function configSection(data: RunPayload): HTMLElement | null {
+  if (!data.command && !data.config_yaml) return null;
   const command = h("code", { "data-command": true }, data.command ?? kNone);
   const yaml = h("code", {}, data.config_yaml ?? "");
   const changes = data.config_changes ?? [];
@@ -59,13 +61,17 @@ export function configSection(data: RunPayload): HTMLElement {
   return section(
     "config",
     "Configuration",
-    h("p", { class: "soft" }, "The command that repeats this run:"),
-    h(
-      "div",
-      { class: "command" },
-      h("pre", { tabindex: 0 }, command),
-      copyButton(data.command ?? "", command),
-    ),
+    ...(data.command
+      ? [
+          h("p", { class: "soft" }, "The command that repeats this run:"),
+          h(
+            "div",
+            { class: "command" },
+            h("pre", { tabindex: 0 }, command),
+            copyButton(data.command, command),
+          ),
+        ]
+      : []),
     table,
     data.config_yaml
       ? h(

@@ -140,8 +140,8 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
   );
   const view = viewCard(data, store);
   const strips = timeline(data, store);
-  const results = h("div", {}, resultsSection(data));
-  onTheme(() => results.replaceChildren(resultsSection(data)));
+  const results = h("div", {}, resultsSection(data) ?? "");
+  onTheme(() => results.replaceChildren(resultsSection(data) ?? ""));
   const pictures = picturesSection(data);
   root.append(
     header(data),
@@ -152,7 +152,7 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
       strips.element,
     ),
     results,
-    configSection(data),
+    configSection(data) ?? "",
     ...(pictures ? [pictures] : []),
   );
   keyboard(store);

@@ -88,37 +88,38 @@ function outcome(row: Row): string {
   return success(row) ? "success" : "failed";
 }
 
+/** Columns in which at least one estimator has a value. */
 function errorTable(list: Row[]): HTMLElement {
-  return sortableTable(
-    list,
-    [
-      nameColumn,
-      score("ATE", "m", ["ate_m"], "RMSE of position, anchored at the start"),
-      score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
-      score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
-      score("max z", "m", ["max_error_z_m"], "Largest height error"),
-      score("RPE 1 m", "m", ["rpe_1m", "translation_m"], "Relative pose error over 1 m travelled"),
-      score(
-        "RPE 10 m",
-        "m",
-        ["rpe_10m", "translation_m"],
-        "Relative pose error over 10 m travelled",
-      ),
-      score("longitudinal", "m", ["drift_m", "rmse", "longitudinal"], "RMSE along the true heading"),
-      score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE across the true heading"),
-      score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE of the height"),
-      score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
-      score("CPU", "ms", ["cpu_per_scan_ms", "mean"], "Processor time from one scan to the next"),
-      score("CPU p99", "ms", ["cpu_per_scan_ms", "p99"], "99th percentile of the processor time"),
-      score(
-        "wall p99",
-        "ms",
-        ["time_per_scan_ms", "p99"],
-        "99th percentile of the wall time, which grows on a busy machine",
-      ),
-    ],
-    { caption: "Errors against the truth and time per scan", rowName: (row) => row.name },
-  );
+  const scores: Column<Row>[] = [
+    score("ATE", "m", ["ate_m"], "RMSE of position, anchored at the start"),
+    score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
+    score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
+    score("max z", "m", ["max_error_z_m"], "Largest height error"),
+    score("RPE 1 m", "m", ["rpe_1m", "translation_m"], "Relative pose error over 1 m travelled"),
+    score(
+      "RPE 10 m",
+      "m",
+      ["rpe_10m", "translation_m"],
+      "Relative pose error over 10 m travelled",
+    ),
+    score("longitudinal", "m", ["drift_m", "rmse", "longitudinal"], "RMSE along the true heading"),
+    score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE across the true heading"),
+    score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE of the height"),
+    score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
+    score("CPU", "ms", ["cpu_per_scan_ms", "mean"], "Processor time from one scan to the next"),
+    score("CPU p99", "ms", ["cpu_per_scan_ms", "p99"], "99th percentile of the processor time"),
+    score(
+      "wall p99",
+      "ms",
+      ["time_per_scan_ms", "p99"],
+      "99th percentile of the wall time, which grows on a busy machine",
+    ),
+  ];
+  const known = scores.filter((column) => list.some((row) => column.value(row) !== null));
+  return sortableTable(list, [nameColumn, ...known], {
+    caption: "Errors against the truth and time per scan",
+    rowName: (row) => row.name,
+  });
 }
 
 function weakTable(list: Row[]): HTMLElement | null {
@@ -235,7 +236,12 @@ function truthLine(data: RunPayload): HTMLElement | null {
   );
 }
 
-export function resultsSection(data: RunPayload): HTMLElement {
+/** Without scores, as of an estimate without a truth: the health alone, or null. */
+export function resultsSection(data: RunPayload): HTMLElement | null {
+  if (!data.scores) {
+    const health = healthTable(data);
+    return health ? section("results", "Results", health) : null;
+  }
   const list = rows(data);
   if (list.length === 0)
     return section(

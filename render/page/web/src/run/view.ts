@@ -161,9 +161,9 @@ function readout(data: RunPayload, state: Readonly<State>): HTMLElement {
   return h(
     "div",
     { class: "readout" },
-    item("truth", "truth", `${place(truth)} m`),
+    data.truth ? item("truth", "truth", `${place(truth)} m`) : null,
     chosen ? item("estimate", "estimate", `${place(estimate)} m`) : null,
-    chosen ? item("error", "error", `${formatNumber(error)} m`) : null,
+    chosen && data.truth ? item("error", "error", `${formatNumber(error)} m`) : null,
     returns
       ? item("equivalent returns", "returns", formatNumber(valueAt(returns, state.cursor)))
       : null,

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/cli/command.hpp"
+#include "bench/run/catalogue.hpp"
+#include "bench/run/json_text.hpp"
+#include "core/config.hpp"
+#include "recordings/inspection/bag_check.hpp"
+#include "recordings/inspection/bag_info.hpp"
+
+namespace aims {
+
+/// --json: one JSON document on standard output and nothing else. Its keys are in
+/// docs/result-files.md.
+void add_json(Command& command, bool& json);
+
+/// Prints the document.
+void print_json(const Json& json);
+
+/// What `aims list` shows; schema aims.list/1.
+Json list_json(const std::filesystem::path& folder, std::span<const ScenarioFile> files);
+
+/// Parameters with value, documentation and whether they have an effect; schema aims.config/1.
+Json config_json(const std::string& name, const Fields& fields);
+
+/// What `aims info` shows; schema aims.info/1.
+Json info_json(const BagInfo& info);
+
+/// What `aims check` shows; schema aims.check/1.
+Json check_json(const std::filesystem::path& bag, const std::vector<RequirementCheck>& checks);
+
+}  // namespace aims
