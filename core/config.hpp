@@ -24,12 +24,18 @@ struct Range {
   bool max_included = true;
 
   bool contains(double value) const;
-  std::string text() const;  ///< e.g. "> 0", "in [0, 1)"; empty when unbounded
+  std::string text() const;  ///< e.g. "in [0, 1)"; empty when unbounded
 };
 
+/// Least of the values that must not be zero: its square and their inverses are still numbers.
+inline constexpr double kLeastPositive = 1e-12;
+
+/// For what is no number. Every number needs two finite bounds (a test looks at each of them): ones
+/// that no user meets, but within which no conversion or product overflows.
 constexpr Range any() { return {}; }
-constexpr Range at_least(double min) { return {.min = min}; }
-constexpr Range positive() { return {.min = 0.0, .min_included = false}; }
+constexpr Range up_to(double max) { return {.min = 0.0, .max = max}; }
+constexpr Range positive_up_to(double max) { return {.min = kLeastPositive, .max = max}; }
+constexpr Range within(double magnitude) { return {.min = -magnitude, .max = magnitude}; }
 constexpr Range in_range(double min, double max) { return {.min = min, .max = max}; }
 constexpr Range in_half_open(double min, double max) {
   return {.min = min, .max = max, .max_included = false};

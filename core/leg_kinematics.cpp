@@ -79,7 +79,7 @@ Eigen::Vector3d velocity_from_rolling_foot(int leg, const LegMotion& motion,
 
 void describe(Fields& f, LegGeometry& g) {
   const auto length = [](std::string meaning) {
-    return Spec{.unit = "m", .range = at_least(0), .meaning = std::move(meaning)};
+    return Spec{.unit = "m", .range = up_to(10.0), .meaning = std::move(meaning)};
   };
   f.number("hip_x", g.hip_x, length("hip from the trunk's centre, forward or back"));
   f.number("hip_y", g.hip_y, length("hip from the trunk's centre, to either side"));

@@ -46,7 +46,9 @@ void describe_legs(Fields& f, RecordingConfig& c) {
   f.text("contacts_field", c.contacts_field,
          dimensionless("path of the array of contacts; empty: the first array of numbers"));
   f.number("contact_threshold", c.contact_threshold,
-           {.unit = "N", .meaning = "smallest value of a foot in contact; of flags: 0.5"});
+           {.unit = "N",
+            .range = within(1e6),
+            .meaning = "smallest value of a foot in contact; of flags: 0.5"});
   f.texts(
       "foot_names", c.foot_names,
       dimensionless("names of the array's entries, e.g. [FR, FL, RR, RL]; empty: FL, FR, RL, RR"));

@@ -30,7 +30,7 @@ Fields fields_of_options(NodeOptions& options) {
   fields.text("body_frame", options.body_frame, {});
   fields.flag("tf", options.tf, {});
   fields.number("settle", options.settle, {.unit = "s", .range = in_range(0.1, 60.0)});
-  fields.number("patience", options.patience, {.unit = "s", .range = at_least(0.0)});
+  fields.number("patience", options.patience, {.unit = "s", .range = up_to(1e6)});
   return fields;
 }
 

@@ -6,6 +6,12 @@
 #include "sim/sensors/sampling.hpp"
 
 namespace aims {
+namespace {
+
+/// Of the physics in a run: each leaves a sample of the truth, of about 200 bytes.
+constexpr int kMaxSteps = 40'000'000;
+
+}  // namespace
 
 void describe(Fields& f, PhysicsConfig& c) {
   f.number("timestep", c.timestep,
@@ -52,12 +58,12 @@ void describe(Fields& f, SimulationConfig& c) {
        .source = "other systems need 200 Hz or more"});
   f.number("recording_start", c.recording_start,
            {.unit = "s",
-            .range = at_least(0),
+            .range = up_to(1e5),
             .meaning = "Time at which the sensors are switched on; the robot walks from time 0."});
   f.number(
       "max_duration", c.max_duration,
       {.unit = "s",
-       .range = positive(),
+       .range = positive_up_to(1e5),
        .meaning = "Simulated time after which the run ends, whether or not the route is done."});
 }
 
@@ -75,6 +81,13 @@ Result<void> validate(const SimulationConfig& config) {
   }
   const auto scan = steps_per_sample("lidar.rate", config.lidar.rate, timestep);
   if (!scan) return tl::unexpected(scan.error());
+  if (config.max_duration > kMaxSteps * config.physics.timestep) {
+    return failure(
+        fmt::format("max_duration: expected at most {} s ({} steps of {} s, whose truth is kept in "
+                    "memory), got {}",
+                    kMaxSteps * config.physics.timestep, kMaxSteps, config.physics.timestep,
+                    config.max_duration));
+  }
   if (config.recording_start >= config.max_duration) {
     return failure(fmt::format("recording_start: expected less than {} s (max_duration), got {}",
                                config.max_duration, config.recording_start));

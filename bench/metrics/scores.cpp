@@ -13,7 +13,7 @@ void describe_association(Fields& f, ScoreConfig& c) {
             .source = "evo, core/sync"});
   f.number("association_tolerance", c.association_tolerance,
            {.unit = "s",
-            .range = at_least(0.0),
+            .range = up_to(1e6),
             .meaning = "Largest difference of stamps for the nearest association.",
             .source = "evo's default"});
   f.choice(
@@ -23,11 +23,12 @@ void describe_association(Fields& f, ScoreConfig& c) {
                   "pose, the mean over the second half of the standing start."});
   f.number("edge_tolerance", c.edge_tolerance,
            {.unit = "s",
-            .range = at_least(0.0),
+            .range = up_to(1e6),
             .meaning = "Longest time without an estimate at the start and at the end; covers the "
                        "standing start in which estimators initialize."});
-  f.number("max_gap", c.max_gap,
-           {.unit = "s", .range = positive(), .meaning = "Longest time without an estimate."});
+  f.number(
+      "max_gap", c.max_gap,
+      {.unit = "s", .range = positive_up_to(1e6), .meaning = "Longest time without an estimate."});
   f.number("min_coverage", c.min_coverage,
            {.unit = "-",
             .range = in_range(0.0, 1.0),
@@ -40,8 +41,9 @@ void describe_metrics(Fields& f, ScoreConfig& c) {
           {.meaning = "Segments for M_list, as [a-d, d-h]; empty: from each named point to the "
                       "next.",
            .source = "table II"});
-  f.number("min_segment_length", c.min_segment_length,
-           {.unit = "m", .range = positive(), .meaning = "Shortest segment with an M_list."});
+  f.number(
+      "min_segment_length", c.min_segment_length,
+      {.unit = "m", .range = positive_up_to(1e4), .meaning = "Shortest segment with an M_list."});
   f.flag("rpe_all_pairs", c.rpe_all_pairs,
          {.meaning = "Relative pose error from every pose instead of consecutive pairs.",
           .source = "evo, core/filters"});
@@ -50,12 +52,12 @@ void describe_metrics(Fields& f, ScoreConfig& c) {
                      "for every estimator; the default of evo is the estimate."});
   f.number("max_error_offset", c.max_error_offset,
            {.unit = "m",
-            .range = at_least(0.0),
+            .range = up_to(1e4),
             .meaning = "Largest position error of a success at the start; half the width of a "
                        "narrow corridor."});
   f.number("max_error_per_path", c.max_error_per_path,
            {.unit = "-",
-            .range = at_least(0.0),
+            .range = up_to(1e6),
             .meaning = "Growth of the largest position error of a success per metre of path; "
                        "about the drift of leg odometry alone.",
             .source = "table I, legged odometry"});

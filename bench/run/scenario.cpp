@@ -95,8 +95,11 @@ Result<void> check_effects_in(Scenario& scenario, std::vector<AssignedKey> assig
 void describe(Fields& f, Expectation& e) {
   f.text("estimator", e.estimator, {.meaning = "estimator whose score is limited"});
   f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
-  f.number("max", e.max, {.unit = "as the score", .meaning = "largest value that passes"});
-  f.number("min", e.min, {.unit = "as the score", .meaning = "smallest value that passes"});
+  f.number("max", e.max,
+           {.unit = "as the score", .range = within(1e12), .meaning = "largest value that passes"});
+  f.number(
+      "min", e.min,
+      {.unit = "as the score", .range = within(1e12), .meaning = "smallest value that passes"});
   f.choice("statistic", e.statistic,
            {{"worst", ExpectationStatistic::kWorst},
             {"median", ExpectationStatistic::kMedian},
@@ -109,10 +112,13 @@ void describe(Fields& f, Scenario& s) {
   f.text("description", s.description, {.meaning = "one line for listings"});
   f.texts("tags", s.tags, {.meaning = "sets that the scenario belongs to, for --tags"});
   f.text("family", s.family, {.meaning = "scenarios that differ in one quantity; empty: none"});
-  f.number("level", s.level, {.unit = "level_unit", .meaning = "that quantity in this scenario"});
+  f.number(
+      "level", s.level,
+      {.unit = "level_unit", .range = within(1e9), .meaning = "that quantity in this scenario"});
   f.text("level_unit", s.level_unit, {.meaning = "unit of the level"});
-  f.integer("seed", s.seed,
-            {.unit = "-", .range = at_least(0), .meaning = "seed of every random stream"});
+  f.integer(
+      "seed", s.seed,
+      {.unit = "-", .range = in_range(0, 2147483647), .meaning = "seed of every random stream"});
   f.texts("run", s.run,
           {.meaning = "estimators that run on the stream: NAME or LABEL=NAME+key=value"});
   describe(f, s.simulation);

@@ -57,7 +57,7 @@ void describe(Fields& fields, Objective& objective) {
   fields.flag("relative", objective.relative,
               {.meaning = "divide each score by that of the default setting on the same sequence"});
   fields.number("divergence_penalty", objective.divergence_penalty,
-                {.range = positive(),
+                {.range = positive_up_to(1e9),
                  .meaning = "value of a diverged run; added times the fraction of diverged runs"});
 }
 

@@ -140,12 +140,13 @@ void describe(Fields& f, SweepPlan& p) {
             {"sobol", DesignKind::kSobol},
             {"lhs", DesignKind::kLatinHypercube}},
            {.meaning = "how points are laid into the ranges"});
-  f.integer("samples", p.samples,
-            {.unit = "-", .range = at_least(1), .meaning = "points of every design but a grid"});
+  f.integer(
+      "samples", p.samples,
+      {.unit = "-", .range = in_range(1, 1000000), .meaning = "points of every design but a grid"});
   f.integer("design_seed", p.design_seed,
-            {.unit = "-", .range = at_least(0), .meaning = "of those points"});
+            {.unit = "-", .range = in_range(0, 2147483647), .meaning = "of those points"});
   f.number("timeout", p.timeout,
-           {.unit = "s", .range = at_least(0), .meaning = "wall time of a job; 0: any"});
+           {.unit = "s", .range = up_to(1e7), .meaning = "wall time of a job; 0: any"});
 }
 
 Result<SweepPlan> load_plan(const fs::path& file) {

@@ -138,14 +138,15 @@ void describe(Fields& f, OptimizerOptions& o) {
             {"nsga2", OptimizerKind::kNsga2}},
            {.meaning = "of pagmo; auto: cmaes for one objective, nsga2 for several"});
   f.integer("generations", o.generations,
-            {.unit = "-", .range = at_least(0), .meaning = "after the first population"});
+            {.unit = "-", .range = up_to(100000), .meaning = "after the first population"});
   f.integer("population", o.population,
-            {.unit = "-", .range = at_least(5), .meaning = "points of a generation"});
+            {.unit = "-", .range = in_range(5, 100000), .meaning = "points of a generation"});
   f.number("step", o.step,
            {.unit = "-",
             .range = {.min = 0.0, .max = 1.0, .min_included = false},
             .meaning = "first standard deviation of cmaes, in widths of the ranges"});
-  f.integer("seed", o.seed, {.unit = "-", .range = at_least(0), .meaning = "of its points"});
+  f.integer("seed", o.seed,
+            {.unit = "-", .range = in_range(0, 2147483647), .meaning = "of its points"});
 }
 
 void describe(Fields& f, TunePlan& p) {
@@ -160,7 +161,7 @@ void describe(Fields& f, TunePlan& p) {
   f.list("objectives", p.objectives, "minimized; two or more give a Pareto front");
   f.group("optimizer", p.optimizer);
   f.number("timeout", p.timeout,
-           {.unit = "s", .range = at_least(0), .meaning = "wall time of a job; 0: any"});
+           {.unit = "s", .range = up_to(1e7), .meaning = "wall time of a job; 0: any"});
 }
 
 Result<TunePlan> load_tune_plan(const fs::path& file) {

@@ -13,7 +13,7 @@ Pose start_transform(const Pose& T_odom_body) {
 }  // namespace
 
 void describe(Fields& f, LegDeadReckoningConfig& c) {
-  f.number("max_speed", c.max_speed, {"m/s", positive(), "faster samples are rejected"});
+  f.number("max_speed", c.max_speed, {"m/s", positive_up_to(1e3), "faster samples are rejected"});
   f.group("queue", c.queue);
 }
 

@@ -15,11 +15,13 @@ void describe(Fields& f, DegeneracyConfig& c) {
            {{"imu", ConsistencyPrediction::kImu},
             {"imu_and_legs", ConsistencyPrediction::kImuAndLegs}},
            {"", any(), "what C_IL compares the LiDAR with", "eq. (6): imu"});
-  f.number("sigma_0", c.sigma_0, {"m", positive(), "nominal residual dispersion", "eq. (4)"});
-  f.number("kappa", c.kappa,
-           {"-", positive(), "saturation of C_IL; chi-square of 6 dof at 95 %", "eq. (7)"});
+  f.number("sigma_0", c.sigma_0,
+           {"m", positive_up_to(1e4), "nominal residual dispersion", "eq. (4)"});
+  f.number(
+      "kappa", c.kappa,
+      {"-", positive_up_to(1e6), "saturation of C_IL; chi-square of 6 dof at 95 %", "eq. (7)"});
   f.number("w1", c.w1, {"-", in_range(0.0, 1.0), "weight of 1 - O_lidar; w2 = 1 - w1", "eq. (7)"});
-  f.number("eta", c.eta, {"-", at_least(0), "LiDAR sensitivity to degeneration", "eq. (8)"});
+  f.number("eta", c.eta, {"-", up_to(1e6), "LiDAR sensitivity to degeneration", "eq. (8)"});
   f.number("gamma_min", c.gamma_min,
            {"-", in_range(0.01, 1.0), "smallest reliability of the legs", "eq. (10)"});
   f.number("alpha", c.alpha,

@@ -15,23 +15,26 @@ constexpr double kRegularization = 1e-9;
 void describe(Fields& f, NoiseInformationConfig& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "remove the information that the noise of plane normals adds to a scan"});
-  f.number("scale", c.scale,
-           {"-", positive(), "factor on the noise-induced information from the plane fits"});
-  f.number("significance_ratio", c.significance_ratio,
-           {"-", at_least(1), "ratio of information to noise with half acceptance probability"});
+  f.number(
+      "scale", c.scale,
+      {"-", positive_up_to(1e6), "factor on the noise-induced information from the plane fits"});
+  f.number(
+      "significance_ratio", c.significance_ratio,
+      {"-", in_range(1.0, 1e6), "ratio of information to noise with half acceptance probability"});
   f.number("warmup_excess", c.warmup_excess,
-           {"-", at_least(0), "fraction by which that ratio is larger at the start"});
+           {"-", up_to(1e6), "fraction by which that ratio is larger at the start"});
   f.number("warmup_distance", c.warmup_distance,
-           {"m", positive(), "distance over which the excess decays"});
+           {"m", positive_up_to(1e4), "distance over which the excess decays"});
   f.number(
       "bootstrap_distance", c.bootstrap_distance,
-      {"m", at_least(0), "distance from the start over which information need not be significant"});
-  f.number("log_sigma", c.log_sigma,
-           {"-", positive(), "deviation of the logarithm of the noise-induced information"});
+      {"m", up_to(1e4), "distance from the start over which information need not be significant"});
+  f.number(
+      "log_sigma", c.log_sigma,
+      {"-", positive_up_to(1e6), "deviation of the logarithm of the noise-induced information"});
   f.number("averaging_distance", c.averaging_distance,
-           {"m", positive(), "distance over which information is averaged"});
+           {"m", positive_up_to(1e4), "distance over which information is averaged"});
   f.number("axis_tolerance", c.axis_tolerance,
-           {"rad", at_least(0), "rotation of the axes within which they are kept"});
+           {"rad", up_to(100.0), "rotation of the axes within which they are kept"});
 }
 
 Matrix6 noise_information(const Eigen::Matrix3d& normal_covariance, const Eigen::Vector3d& p_body,

@@ -7,22 +7,25 @@ void describe(Fields& f, ImuPropagationConfig& c) {
   f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
            {"", any(), "a sample is the mean over its interval, or the value at its stamp",
             "design: 20 ms averages"});
-  f.number("gravity", c.gravity, {"m/s^2", positive(), "magnitude of gravity"});
+  f.number("gravity", c.gravity, {"m/s^2", positive_up_to(1e5), "magnitude of gravity"});
   f.number("gyro_noise", c.gyro_noise,
-           {"rad/s/sqrt(Hz)", positive(), "white noise of the gyro, vibration included"});
+           {"rad/s/sqrt(Hz)", positive_up_to(1e3), "white noise of the gyro, vibration included"});
   f.number("accelerometer_noise", c.accelerometer_noise,
-           {"m/s^2/sqrt(Hz)", positive(), "white noise of the specific force, vibration included"});
+           {"m/s^2/sqrt(Hz)", positive_up_to(1e3),
+            "white noise of the specific force, vibration included"});
   f.number("gyro_bias_walk", c.gyro_bias_walk,
-           {"rad/s^2/sqrt(Hz)", positive(), "random walk of the gyro bias"});
+           {"rad/s^2/sqrt(Hz)", positive_up_to(1e3), "random walk of the gyro bias"});
   f.number("accelerometer_bias_walk", c.accelerometer_bias_walk,
-           {"m/s^3/sqrt(Hz)", positive(), "random walk of the accelerometer bias"});
+           {"m/s^3/sqrt(Hz)", positive_up_to(1e3), "random walk of the accelerometer bias"});
   f.number("bridge_gyro_noise", c.bridge_gyro_noise,
-           {"rad/s/sqrt(Hz)", positive(), "gyro noise while samples are missing"});
-  f.number("bridge_accelerometer_noise", c.bridge_accelerometer_noise,
-           {"m/s^2/sqrt(Hz)", positive(), "specific-force noise while samples are missing"});
-  f.number("max_rate", c.max_rate, {"rad/s", positive(), "samples above this rate are rejected"});
+           {"rad/s/sqrt(Hz)", positive_up_to(1e3), "gyro noise while samples are missing"});
+  f.number(
+      "bridge_accelerometer_noise", c.bridge_accelerometer_noise,
+      {"m/s^2/sqrt(Hz)", positive_up_to(1e3), "specific-force noise while samples are missing"});
+  f.number("max_rate", c.max_rate,
+           {"rad/s", positive_up_to(1e4), "samples above this rate are rejected"});
   f.number("max_force", c.max_force,
-           {"m/s^2", positive(), "samples above this specific force are rejected"});
+           {"m/s^2", positive_up_to(1e5), "samples above this specific force are rejected"});
 }
 
 namespace {

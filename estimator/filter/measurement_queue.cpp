@@ -27,8 +27,9 @@ void describe(Fields& f, QueueConfig& c) {
   f.number("imu_wait", c.imu_wait,
            {"s", in_range(0.0, kMaxWait), "corrections wait this long for the IMU"});
   f.number("max_ahead", c.max_ahead,
-           {"s", positive(), "a stamp further ahead of its arrival is rejected"});
-  f.integer("max_held", c.max_held, {"-", at_least(100), "bound on measurements held back"});
+           {"s", positive_up_to(1e6), "a stamp further ahead of its arrival is rejected"});
+  f.integer("max_held", c.max_held,
+            {"-", in_range(100, 1000000), "bound on measurements held back"});
 }
 
 MeasurementQueue::MeasurementQueue(const QueueConfig& config, const ImuPropagationConfig& imu,

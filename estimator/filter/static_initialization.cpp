@@ -170,36 +170,40 @@ void describe(Fields& f, InitializationConfig& c) {
   f.number("settling_time", c.settling_time,
            {"s", in_range(0.0, kMaxDuration), "initial part of it that is not averaged"});
   f.number("max_rate", c.max_rate,
-           {"rad/s", positive(), "angular rate above which the robot moves"});
+           {"rad/s", positive_up_to(1e4), "angular rate above which the robot moves"});
   f.number("max_force_deviation", c.max_force_deviation,
-           {"m/s^2", positive(), "deviation of the specific force from gravity that means motion"});
+           {"m/s^2", positive_up_to(1e5),
+            "deviation of the specific force from gravity that means motion"});
   f.number("sigma_mean_force", c.sigma_mean_force,
-           {"m/s^2", positive(), "error of the mean specific force of a standing start"});
+           {"m/s^2", positive_up_to(1e5), "error of the mean specific force of a standing start"});
   f.number("sigma_mean_force_moving", c.sigma_mean_force_moving,
-           {"m/s^2", positive(), "error of the mean specific force of a start in motion"});
-  f.number("sigma_yaw", c.sigma_yaw, {"rad", positive(), "initial yaw, defined by the frame"});
+           {"m/s^2", positive_up_to(1e5), "error of the mean specific force of a start in motion"});
+  f.number("sigma_yaw", c.sigma_yaw,
+           {"rad", positive_up_to(100.0), "initial yaw, defined by the frame"});
   f.number("sigma_position", c.sigma_position,
-           {"m", positive(), "initial position, defined by the frame"});
-  f.number("sigma_velocity", c.sigma_velocity, {"m/s", positive(), "initial velocity"});
+           {"m", positive_up_to(1e4), "initial position, defined by the frame"});
+  f.number("sigma_velocity", c.sigma_velocity, {"m/s", positive_up_to(1e3), "initial velocity"});
   f.number("sigma_velocity_moving", c.sigma_velocity_moving,
-           {"m/s", positive(), "initial velocity after a start in motion"});
+           {"m/s", positive_up_to(1e3), "initial velocity after a start in motion"});
   f.number("sigma_gyro_bias", c.sigma_gyro_bias,
-           {"rad/s", positive(), "gyro bias after averaging"});
-  f.number("sigma_accelerometer_bias", c.sigma_accelerometer_bias,
-           {"m/s^2", positive(), "accelerometer bias, inseparable from tilt while standing"});
+           {"rad/s", positive_up_to(1e4), "gyro bias after averaging"});
+  f.number(
+      "sigma_accelerometer_bias", c.sigma_accelerometer_bias,
+      {"m/s^2", positive_up_to(1e5), "accelerometer bias, inseparable from tilt while standing"});
 }
 
 void describe(Fields& f, StaticInitializationConfig& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "initialize from the longest undisturbed interval of the start"});
   f.number("max_rate_deviation", c.max_rate_deviation,
-           {"rad/s", positive(), "deviation from the mean rate that ends an interval"});
+           {"rad/s", positive_up_to(1e4), "deviation from the mean rate that ends an interval"});
   f.number("max_force_deviation", c.max_force_deviation,
-           {"m/s^2", positive(), "deviation from the mean specific force that ends an interval"});
+           {"m/s^2", positive_up_to(1e5),
+            "deviation from the mean specific force that ends an interval"});
   f.number("min_duration", c.min_duration,
-           {"s", at_least(0.05), "shortest interval that gives the tilt"});
+           {"s", in_range(0.05, 1e4), "shortest interval that gives the tilt"});
   f.number("min_duration_gyro_bias", c.min_duration_gyro_bias,
-           {"s", at_least(0.05), "shortest interval that gives the gyro bias"});
+           {"s", in_range(0.05, 1e4), "shortest interval that gives the gyro bias"});
 }
 
 std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,

@@ -183,32 +183,38 @@ GroundPlane plane_of(const HeightFit& fit) {
 
 void describe(Fields& f, GroundConstraintConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "constrain height and tilt by level ground"});
-  f.number("radius", c.radius, {"m", positive(), "horizontal radius of the points used"});
-  f.number("min_height", c.min_height, {"m", positive(), "smallest height above the ground"});
-  f.number("max_height", c.max_height, {"m", positive(), "largest height above the ground"});
+  f.number("radius", c.radius, {"m", positive_up_to(1e4), "horizontal radius of the points used"});
+  f.number("min_height", c.min_height,
+           {"m", positive_up_to(1e4), "smallest height above the ground"});
+  f.number("max_height", c.max_height,
+           {"m", positive_up_to(1e4), "largest height above the ground"});
   f.number("max_slope", c.max_slope,
-           {"-", positive(), "slope of the ground in body axes, for candidate points"});
-  f.number("band", c.band, {"m", positive(), "inliers are this close to the plane"});
-  f.integer("min_points", c.min_points, {"-", at_least(3), "inliers of a ground plane"});
+           {"-", positive_up_to(1e6), "slope of the ground in body axes, for candidate points"});
+  f.number("band", c.band, {"m", positive_up_to(1e4), "inliers are this close to the plane"});
+  f.integer("min_points", c.min_points, {"-", in_range(3, 1000000), "inliers of a ground plane"});
   f.number("min_spread", c.min_spread,
-           {"m", positive(), "smallest deviation of the inliers along any direction"});
+           {"m", positive_up_to(1e4), "smallest deviation of the inliers along any direction"});
   f.number("max_residual", c.max_residual,
-           {"m", positive(), "root mean square distance of the inliers from the plane"});
+           {"m", positive_up_to(1e4), "root mean square distance of the inliers from the plane"});
   f.number("max_bend", c.max_bend,
-           {"m", positive(), "ground with a part further from the plane is not level"});
+           {"m", positive_up_to(1e4), "ground with a part further from the plane is not level"});
   f.number("min_tilt_gate", c.min_tilt_gate,
-           {"rad", positive(), "ground tilted by less is level; lower bound of the 3-sigma gate"});
+           {"rad", positive_up_to(100.0),
+            "ground tilted by less is level; lower bound of the 3-sigma gate"});
   f.number("max_tilt_gate", c.max_tilt_gate,
-           {"rad", positive(), "ground tilted by more is not level; upper bound of the gate"});
+           {"rad", positive_up_to(100.0),
+            "ground tilted by more is not level; upper bound of the gate"});
   f.number("max_step", c.max_step,
-           {"m", positive(), "larger change of height starts another level"});
+           {"m", positive_up_to(1e4), "larger change of height starts another level"});
   f.number("settling_distance", c.settling_distance,
-           {"m", at_least(0), "distance on level ground before it is used again"});
-  f.number("spacing", c.spacing, {"m", at_least(0), "distance between measurements"});
+           {"m", up_to(1e4), "distance on level ground before it is used again"});
+  f.number("spacing", c.spacing, {"m", up_to(1e4), "distance between measurements"});
   f.number("correlation_length", c.correlation_length,
-           {"m", positive(), "correlation length of the unevenness"});
-  f.number("sigma_tilt", c.sigma_tilt, {"rad", positive(), "unevenness of level ground"});
-  f.number("sigma_height", c.sigma_height, {"m", positive(), "unevenness of level ground"});
+           {"m", positive_up_to(1e4), "correlation length of the unevenness"});
+  f.number("sigma_tilt", c.sigma_tilt,
+           {"rad", positive_up_to(100.0), "unevenness of level ground"});
+  f.number("sigma_height", c.sigma_height,
+           {"m", positive_up_to(1e4), "unevenness of level ground"});
 }
 
 std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points,

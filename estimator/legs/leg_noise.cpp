@@ -15,24 +15,25 @@ double squared(double x) { return x * x; }
 void describe(Fields& f, LegNoiseConfig& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "leg noise from stance feet, yaw rate, lost packets and innovation"});
-  f.vector("velocity_sigma", c.velocity_sigma,
-           {"m/s", positive(), "error of one sample with consistent stance feet, base axes"});
+  f.vector(
+      "velocity_sigma", c.velocity_sigma,
+      {"m/s", positive_up_to(1e3), "error of one sample with consistent stance feet, base axes"});
   f.number("correlation_time", c.correlation_time,
            {"s", in_range(0.0, 10.0), "correlation time of that error"});
   f.number("nominal_spread", c.nominal_spread,
-           {"m/s", at_least(0), "spread of the velocities from feet that do not slip"});
+           {"m/s", up_to(1e3), "spread of the velocities from feet that do not slip"});
   f.number("one_foot_sigma", c.one_foot_sigma,
-           {"m/s", at_least(0), "added with a single stance foot"});
+           {"m/s", up_to(1e3), "added with a single stance foot"});
   f.number("no_foot_sigma", c.no_foot_sigma,
-           {"m/s", at_least(0), "added without a stance foot; bounds the gap term"});
-  f.number("yaw_lever", c.yaw_lever, {"m", at_least(0), "added per yaw rate"});
-  f.number("gap_growth", c.gap_growth, {"m/s^2", at_least(0), "added per time without packets"});
+           {"m/s", up_to(1e3), "added without a stance foot; bounds the gap term"});
+  f.number("yaw_lever", c.yaw_lever, {"m", up_to(1e3), "added per yaw rate"});
+  f.number("gap_growth", c.gap_growth, {"m/s^2", up_to(1e5), "added per time without packets"});
   f.number("gate", c.gate,
-           {"-", positive(), "chi-square above which the noise grows", "3 dof, 99.9 %"});
+           {"-", positive_up_to(1e6), "chi-square above which the noise grows", "3 dof, 99.9 %"});
   f.number("max_variance_growth", c.max_variance_growth,
-           {"-", at_least(1), "growth of the variance above which a sample is rejected"});
+           {"-", in_range(1.0, 1e9), "growth of the variance above which a sample is rejected"});
   f.number("max_slip_duration", c.max_slip_duration,
-           {"s", at_least(0), "an innovation that lasts longer is not a slip and is accepted"});
+           {"s", up_to(1e6), "an innovation that lasts longer is not a slip and is accepted"});
 }
 
 StanceFeet compare_stance_feet(const LegOdometrySample& sample,

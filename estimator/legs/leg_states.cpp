@@ -21,10 +21,12 @@ void describe(Fields& f, LegStatesConfig& c) {
   f.flag("bias", c.bias, {"", any(), "estimate the bias of the leg odometry"});
   f.flag("gate_learning", c.gate_learning,
          {"", any(), "correct both only while the LiDAR constrains every axis"});
-  f.number("scale_sigma", c.scale_sigma, {"-", positive(), "initial deviation of the scale"});
-  f.number("scale_walk", c.scale_walk, {"1/sqrt(s)", at_least(0), "random walk of the scale"});
-  f.number("bias_sigma", c.bias_sigma, {"m/s", positive(), "initial deviation of the bias"});
-  f.number("bias_walk", c.bias_walk, {"m/s/sqrt(s)", at_least(0), "random walk of the bias"});
+  f.number("scale_sigma", c.scale_sigma,
+           {"-", positive_up_to(1e6), "initial deviation of the scale"});
+  f.number("scale_walk", c.scale_walk, {"1/sqrt(s)", up_to(1e3), "random walk of the scale"});
+  f.number("bias_sigma", c.bias_sigma,
+           {"m/s", positive_up_to(1e3), "initial deviation of the bias"});
+  f.number("bias_walk", c.bias_walk, {"m/s/sqrt(s)", up_to(1e3), "random walk of the bias"});
   f.number("min_axis_weight", c.min_axis_weight,
            {"-", in_range(0.0, 1.0),
             "weight of the weakest LiDAR axis above which the leg states are corrected"});

@@ -10,13 +10,13 @@ void describe(Fields& f, LegConfig& c) {
   f.flag("repeat_lost", c.repeat_lost,
          {"", any(), "repeat the last packet while packets are lost (zero-order hold)"});
   f.vector("velocity_sigma", c.velocity_sigma,
-           {"m/s", positive(), "error of one sample along the base axes, R_leg"});
+           {"m/s", positive_up_to(1e3), "error of one sample along the base axes, R_leg"});
   f.number("correlation_time", c.correlation_time,
            {"s", in_range(0.0, 60.0),
             "correlation time of that error; multiplies R_leg by the number of correlated samples"});
   f.number("scale_sigma", c.scale_sigma,
-           {"-", at_least(0), "error proportional to the speed, R_leg"});
-  f.number("max_speed", c.max_speed, {"m/s", positive(), "faster samples are rejected"});
+           {"-", up_to(1e6), "error proportional to the speed, R_leg"});
+  f.number("max_speed", c.max_speed, {"m/s", positive_up_to(1e3), "faster samples are rejected"});
 }
 
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,

@@ -19,20 +19,23 @@ void describe(Fields& f, ZeroVelocityConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "zero-velocity update while the robot stands still"});
   f.number("window", c.window,
            {"s", in_range(0.05, 0.9), "of the detection; one measurement per window"});
-  f.number("max_rate", c.max_rate,
-           {"rad/s", positive(), "largest mean rate, and deviation from it, while standing"});
+  f.number(
+      "max_rate", c.max_rate,
+      {"rad/s", positive_up_to(1e4), "largest mean rate, and deviation from it, while standing"});
   f.number("max_force_deviation", c.max_force_deviation,
-           {"m/s^2", positive(), "largest deviation of the specific force from its mean"});
+           {"m/s^2", positive_up_to(1e5), "largest deviation of the specific force from its mean"});
   f.number("max_leg_speed", c.max_leg_speed,
-           {"m/s", positive(), "largest speed from leg odometry while standing"});
-  f.number("max_joint_rate", c.max_joint_rate,
-           {"rad/s", positive(), "largest root mean square rate of the joints while standing"});
+           {"m/s", positive_up_to(1e3), "largest speed from leg odometry while standing"});
+  f.number(
+      "max_joint_rate", c.max_joint_rate,
+      {"rad/s", positive_up_to(1e4), "largest root mean square rate of the joints while standing"});
   f.number("leg_smoothing", c.leg_smoothing,
-           {"s", positive(), "time constant of leg speed and joint rate"});
+           {"s", positive_up_to(1e6), "time constant of leg speed and joint rate"});
   f.number("hysteresis", c.hysteresis,
-           {"-", at_least(1), "factor on the limits once the robot stands"});
-  f.number("sigma_velocity", c.sigma_velocity, {"m/s", positive(), "of the zero velocity"});
-  f.number("sigma_rate", c.sigma_rate, {"rad/s", positive(), "of the zero mean rate"});
+           {"-", in_range(1.0, 1e3), "factor on the limits once the robot stands"});
+  f.number("sigma_velocity", c.sigma_velocity,
+           {"m/s", positive_up_to(1e3), "of the zero velocity"});
+  f.number("sigma_rate", c.sigma_rate, {"rad/s", positive_up_to(1e4), "of the zero mean rate"});
 }
 
 std::optional<ImuStatistics> imu_statistics(const std::deque<ImuSample>& samples, Time end,

@@ -4,63 +4,67 @@
 namespace aims {
 
 void describe(Fields& f, LidarUpdateConfig& c) {
-  f.number("min_range", c.min_range, {"m", at_least(0), "nearer returns are ignored"});
-  f.number("max_range", c.max_range, {"m", positive(), "farther returns are ignored"});
+  f.number("min_range", c.min_range, {"m", up_to(1e4), "nearer returns are ignored"});
+  f.number("max_range", c.max_range, {"m", positive_up_to(1e4), "farther returns are ignored"});
   f.number("selection_voxel", c.selection_voxel,
            {"m", in_range(0.01, 10.0), "one return per voxel of the raw scan is matched"});
-  f.integer("max_points", c.max_points, {"-", at_least(1), "returns matched per scan at most"});
+  f.integer("max_points", c.max_points,
+            {"-", in_range(1, 10000000), "returns matched per scan at most"});
   f.number("point_sigma", c.point_sigma,
-           {"m", positive(), "error of a point-to-plane residual, R_lidar",
+           {"m", positive_up_to(1e4), "error of a point-to-plane residual, R_lidar",
             "tuned on simulated corridors, with doors and smooth"});
   f.number("residual_gate", c.residual_gate,
-           {"m", positive(), "larger point-to-plane residuals are rejected"});
+           {"m", positive_up_to(1e4), "larger point-to-plane residuals are rejected"});
   f.integer("max_iterations", c.max_iterations,
             {"-", in_range(1, 50), "iterations of the trial update at most"});
   f.number("convergence_rotation", c.convergence_rotation,
-           {"rad", positive(), "smaller steps end the iteration"});
+           {"rad", positive_up_to(100.0), "smaller steps end the iteration"});
   f.number("convergence_position", c.convergence_position,
-           {"m", positive(), "smaller steps end the iteration"});
+           {"m", positive_up_to(1e4), "smaller steps end the iteration"});
   f.number("rematch_rotation", c.rematch_rotation,
-           {"rad", positive(), "larger rotations search the planes again"});
+           {"rad", positive_up_to(100.0), "larger rotations search the planes again"});
   f.number("rematch_position", c.rematch_position,
-           {"m", positive(), "larger shifts search the planes again"});
-  f.integer("min_matches", c.min_matches, {"-", at_least(6), "planes needed for an update"});
+           {"m", positive_up_to(1e4), "larger shifts search the planes again"});
+  f.integer("min_matches", c.min_matches,
+            {"-", in_range(6, 1000000), "planes needed for an update"});
 }
 
 void describe(Fields& f, RobustKernelConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "weigh each residual with a Cauchy kernel"});
-  f.number("scale", c.scale,
-           {"-", positive(), "deviations of a scan's residuals at which a weight is one half"});
-  f.number("min_sigma", c.min_sigma, {"m", positive(), "lower bound on that deviation"});
+  f.number(
+      "scale", c.scale,
+      {"-", positive_up_to(1e6), "deviations of a scan's residuals at which a weight is one half"});
+  f.number("min_sigma", c.min_sigma, {"m", positive_up_to(1e4), "lower bound on that deviation"});
 }
 
 void describe(Fields& f, MapConfig& c) {
   f.number("voxel_size", c.voxel_size,
            {"m", in_range(0.05, 10.0), "edge of a voxel of the local map"});
   f.number("point_spacing", c.point_spacing,
-           {"m", at_least(0), "returns nearer to a map point merge into it"});
+           {"m", up_to(1e4), "returns nearer to a map point merge into it"});
   f.integer("max_points_per_voxel", c.max_points_per_voxel,
             {"-", in_range(5, 32), "map points per voxel at most"});
   f.integer("max_merges", c.max_merges,
             {"-", in_range(1, 255), "returns averaged by a map point at most"});
   f.integer("max_voxels", c.max_voxels,
-            {"-", at_least(100), "bound on voxels; the farthest are dropped"});
+            {"-", in_range(100, 10000000), "bound on voxels; the farthest are dropped"});
   f.number("insertion_voxel", c.insertion_voxel,
            {"m", in_range(0.01, 10.0), "one return per voxel of the raw scan is mapped"});
   f.integer("max_insertions", c.max_insertions,
-            {"-", at_least(1), "returns mapped per scan at most"});
-  f.number("neighbor_gate", c.neighbor_gate,
-           {"m", positive(), "largest distance of the five neighbours (at most one voxel)"});
+            {"-", in_range(1, 10000000), "returns mapped per scan at most"});
+  f.number(
+      "neighbor_gate", c.neighbor_gate,
+      {"m", positive_up_to(1e4), "largest distance of the five neighbours (at most one voxel)"});
   f.number("plane_thickness", c.plane_thickness,
-           {"m", positive(), "largest distance of the five neighbours from their plane"});
+           {"m", positive_up_to(1e4), "largest distance of the five neighbours from their plane"});
   f.number("plane_min_spread", c.plane_min_spread,
-           {"m", at_least(0),
+           {"m", up_to(1e4),
             "smallest second principal deviation of the neighbours; docs/decisions.md"});
   f.number("plane_min_ratio", c.plane_min_ratio,
-           {"-", at_least(1),
+           {"-", in_range(1.0, 1e9),
             "smallest ratio of second to smallest principal variance; docs/decisions.md"});
   f.number("map_sigma", c.map_sigma,
-           {"m", positive(), "smallest error of a map point across its plane"});
+           {"m", positive_up_to(1e4), "smallest error of a map point across its plane"});
 }
 
 void describe(Fields& f, MapCovarianceConfig& c) {
@@ -71,7 +75,7 @@ void describe(Fields& f, MapCovarianceConfig& c) {
 void describe(Fields& f, ForgettingConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "drop parts of the map that are no longer seen"});
   f.integer("after", c.after,
-            {"-", at_least(1), "voxels unseen for this many scans are dropped"});
+            {"-", in_range(1, 1e6), "voxels unseen for this many scans are dropped"});
 }
 
 }  // namespace aims

@@ -19,7 +19,7 @@ void describe(Fields& f, DoorConfig& c) {
             .meaning = "Distance between the centres of two doors in one wall."});
   f.number("jitter", c.jitter,
            {.unit = "m",
-            .range = at_least(0),
+            .range = up_to(100.0),
             .meaning = "Largest random shift of a door along its wall."});
   f.number("depth", c.depth,
            {.unit = "m",

@@ -78,7 +78,7 @@ void describe(Fields& f, PeopleConfig& c) {
             .meaning = "Height of the upright cylinder that models a person."});
   f.number("lane_offset", c.lane_offset,
            {.unit = "m",
-            .range = at_least(0),
+            .range = up_to(100.0),
             .meaning = "Distance of a person's path from the centre line of the corridor."});
   f.number("reflectivity", c.reflectivity,
            {.unit = "-",

@@ -14,7 +14,7 @@ constexpr double kLargestCell = 0.25;  ///< of the floor's grid [m]
 void describe(Fields& f, RampConfig& c) {
   f.number("start", c.start,
            {.unit = "m",
-            .range = at_least(0),
+            .range = up_to(2000.0),
             .meaning = "Position along x at which the floor begins to rise."});
   f.number("length", c.length,
            {.unit = "m", .range = in_range(0.5, 200.0), .meaning = "Length of the slope along x."});

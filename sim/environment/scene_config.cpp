@@ -11,7 +11,7 @@ void describe(Fields& f, PillarConfig& c) {
   f.choice("sides", c.sides, side_options(), {.meaning = "Walls with pillars, looking along +x."});
   f.number("spacing", c.spacing,
            {.unit = "m",
-            .range = at_least(0),
+            .range = up_to(1000.0),
             .meaning = "Distance between the centres of two pillars on one wall; 0 for none."});
   f.number(
       "size", c.size,
@@ -84,7 +84,7 @@ void describe(Fields& f, SceneConfig& c) {
            {.meaning = "Type of environment to build."});
   f.integer("seed", c.seed,
             {.unit = "-",
-             .range = at_least(0),
+             .range = in_range(0, 2147483647),
              .meaning = "Seed of door jitter, clutter and bumps; 0 uses the seed of the run."});
   f.number("floor_friction", c.floor_friction,
            {.unit = "-",

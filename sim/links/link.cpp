@@ -30,20 +30,21 @@ void shift_stamps(Measurement& measurement, Duration offset) {
 void describe(Fields& f, OutageConfig& c) {
   f.number("start", c.start,
            {.unit = "s",
-            .range = at_least(0),
+            .range = up_to(1e6),
             .meaning = "Start of the first outage, from the start of the recording."});
   f.number("duration", c.duration,
-           {.unit = "s", .range = at_least(0), .meaning = "Duration of an outage; 0 for none."});
+           {.unit = "s", .range = up_to(1e6), .meaning = "Duration of an outage; 0 for none."});
   f.number("period", c.period,
            {.unit = "s",
-            .range = at_least(0),
+            .range = up_to(1e6),
             .meaning = "Time from the start of one outage to the next; 0 for a single outage."});
 }
 
 bool is_out(const OutageConfig& outage, Time sent) {
   const Duration since = sent - from_seconds(outage.start);
   if (outage.duration <= 0.0 || since < 0) return false;
-  const Duration within = outage.period > 0.0 ? since % from_seconds(outage.period) : since;
+  const Duration period = from_seconds(outage.period);  // of less than half a nanosecond: zero
+  const Duration within = period > 0 ? since % period : since;
   return within < from_seconds(outage.duration);
 }
 
@@ -60,20 +61,20 @@ void describe(Fields& f, LinkConfig& c) {
             .source = "Gilbert-Elliott model; every packet is lost in the bad state"});
   f.number("burst_length", c.burst_length,
            {.unit = "packets",
-            .range = at_least(1),
+            .range = in_range(1.0, 1e6),
             .meaning = "Mean length of a burst of lost packets."});
   f.number("delay", c.delay,
-           {.unit = "s", .range = at_least(0), .meaning = "Constant delay of every packet."});
+           {.unit = "s", .range = up_to(60.0), .meaning = "Constant delay of every packet."});
   f.number("jitter", c.jitter,
            {.unit = "s",
-            .range = at_least(0),
+            .range = up_to(60.0),
             .meaning = "Largest additional random delay, uniformly distributed."});
   f.number("reorder_probability", c.reorder_probability,
            {.unit = "-",
             .range = probability,
             .meaning = "Probability that a packet is held back, which reorders packets."});
   f.number("reorder_delay", c.reorder_delay,
-           {.unit = "s", .range = at_least(0), .meaning = "Time for which a packet is held back."});
+           {.unit = "s", .range = up_to(60.0), .meaning = "Time for which a packet is held back."});
   f.number(
       "duplicate_probability", c.duplicate_probability,
       {.unit = "-", .range = probability, .meaning = "Probability that a packet arrives twice."});

@@ -265,35 +265,34 @@ void describe(Fields& f, GaitConfig& c) {
            {.unit = "m",
             .range = in_range(0.0, 0.15),
             .meaning = "Lateral distance of a standing foot from its hip."});
-  f.number("velocity_gain", c.velocity_gain,
-           {.unit = "1/s",
-            .range = at_least(0),
-            .meaning = "Gain of the horizontal velocity feedback."});
+  f.number(
+      "velocity_gain", c.velocity_gain,
+      {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the horizontal velocity feedback."});
   f.number("height_gain", c.height_gain,
-           {.unit = "1/s^2", .range = at_least(0), .meaning = "Gain of the height feedback."});
+           {.unit = "1/s^2", .range = up_to(1e6), .meaning = "Gain of the height feedback."});
   f.number(
       "height_damping", c.height_damping,
-      {.unit = "1/s", .range = at_least(0), .meaning = "Gain of the vertical velocity feedback."});
+      {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the vertical velocity feedback."});
   f.number(
       "attitude_gain", c.attitude_gain,
-      {.unit = "1/s^2", .range = at_least(0), .meaning = "Gain of the roll and pitch feedback."});
+      {.unit = "1/s^2", .range = up_to(1e6), .meaning = "Gain of the roll and pitch feedback."});
   f.number("attitude_damping", c.attitude_damping,
-           {.unit = "1/s", .range = at_least(0), .meaning = "Gain of the angular rate feedback."});
+           {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the angular rate feedback."});
   f.number("standing_gain", c.standing_gain,
            {.unit = "1/s^2",
-            .range = at_least(0),
+            .range = up_to(1e6),
             .meaning = "Gain of the position and heading feedback while standing."});
   f.number("integral_gain", c.integral_gain,
            {.unit = "1/s",
-            .range = at_least(0),
+            .range = up_to(1e5),
             .meaning = "Gain of the integral feedback of velocity and yaw rate."});
   f.number("acceleration", c.acceleration,
            {.unit = "m/s^2",
-            .range = positive(),
+            .range = positive_up_to(1e5),
             .meaning = "Largest rate of change of the velocity command."});
   f.number("yaw_acceleration", c.yaw_acceleration,
            {.unit = "rad/s^2",
-            .range = positive(),
+            .range = positive_up_to(1e5),
             .meaning = "Largest rate of change of the yaw-rate command."});
   f.group("forces", c.forces);
 }

@@ -25,11 +25,11 @@ void describe(Fields& f, PushConfig& c) {
            {.unit = "s", .range = in_range(0.01, 10.0), .meaning = "Duration of a push."});
   f.number("start", c.start,
            {.unit = "s",
-            .range = at_least(0),
+            .range = up_to(1e6),
             .meaning = "Start of the interval that is divided equally among the pushes."});
   f.number("end", c.end,
            {.unit = "s",
-            .range = at_least(0),
+            .range = up_to(1e6),
             .meaning = "End of the interval that is divided equally among the pushes."});
 }
 

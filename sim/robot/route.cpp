@@ -183,8 +183,10 @@ VelocityCommand RouteFollower::command(Time now, const Pose& T_world_base, bool 
 void describe(Fields& f, RoutePoint& c) {
   f.text("name", c.name,
          {.meaning = "Name of the waypoint, at which the robot stops; empty: it does not stop."});
-  f.number("x", c.x, {.unit = "m", .meaning = "Position in the world frame."});
-  f.number("y", c.y, {.unit = "m", .meaning = "Position in the world frame."});
+  f.number("x", c.x,
+           {.unit = "m", .range = within(1e4), .meaning = "Position in the world frame."});
+  f.number("y", c.y,
+           {.unit = "m", .range = within(1e4), .meaning = "Position in the world frame."});
 }
 
 void describe(Fields& f, RouteConfig& c) {
@@ -196,11 +198,11 @@ void describe(Fields& f, RouteConfig& c) {
             .range = in_range(0.3, 1.5),
             .meaning = "Largest yaw rate of a turn in place."});
   f.number("stand_before", c.stand_before,
-           {.unit = "s", .range = at_least(0), .meaning = "Standing time before the first step."});
+           {.unit = "s", .range = up_to(1e6), .meaning = "Standing time before the first step."});
   f.number("stand_at_points", c.stand_at_points,
-           {.unit = "s", .range = at_least(0), .meaning = "Standing time at each named point."});
+           {.unit = "s", .range = up_to(1e6), .meaning = "Standing time at each named point."});
   f.number("stand_after", c.stand_after,
-           {.unit = "s", .range = at_least(0), .meaning = "Standing time after the last step."});
+           {.unit = "s", .range = up_to(1e6), .meaning = "Standing time after the last step."});
   f.number("lookahead", c.lookahead,
            {.unit = "m",
             .range = in_range(0.2, 3.0),

@@ -82,20 +82,21 @@ Stack minimize(const SquareStack& H, const Stack& gradient, const StanceForceCon
 void describe(Fields& f, StanceForceConfig& c) {
   f.number("friction", c.friction,
            {.unit = "-",
-            .range = positive(),
+            .range = positive_up_to(10.0),
             .meaning = "Friction coefficient of the cone that limits the contact forces."});
   f.number(
       "min_normal", c.min_normal,
-      {.unit = "N", .range = at_least(0), .meaning = "Smallest normal force of a standing foot."});
-  f.number("max_normal", c.max_normal,
-           {.unit = "N", .range = positive(), .meaning = "Largest normal force of a foot."});
+      {.unit = "N", .range = up_to(1e5), .meaning = "Smallest normal force of a standing foot."});
+  f.number(
+      "max_normal", c.max_normal,
+      {.unit = "N", .range = positive_up_to(1e5), .meaning = "Largest normal force of a foot."});
   f.number("regularization", c.regularization,
            {.unit = "1/kg^2",
-            .range = positive(),
+            .range = positive_up_to(1e3),
             .meaning = "Weight of the squared forces against the acceleration error."});
   f.integer("iterations", c.iterations,
             {.unit = "-",
-             .range = at_least(1),
+             .range = in_range(1, 1000),
              .meaning = "Iterations of the force distribution (ADMM)."});
 }
 

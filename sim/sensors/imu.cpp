@@ -31,22 +31,23 @@ void describe_errors(Fields& f, std::string_view prefix, InertialErrorConfig& c,
   const std::string name(prefix);
   f.number(name + "_noise_density", c.noise_density,
            {.unit = unit + "/sqrt(Hz)",
-            .range = at_least(0),
+            .range = up_to(1e3),
             .meaning = "Density of the white noise.",
             .source = source});
-  f.number(
-      name + "_bias_walk", c.bias_walk,
-      {.unit = unit + "/sqrt(s)", .range = at_least(0), .meaning = "Random walk of the bias."});
+  f.number(name + "_bias_walk", c.bias_walk,
+           {.unit = unit + "/sqrt(s)", .range = up_to(1e3), .meaning = "Random walk of the bias."});
   f.number(name + "_turn_on_bias", c.turn_on_bias,
            {.unit = unit,
-            .range = at_least(0),
+            .range = up_to(1e3),
             .meaning = "Standard deviation per axis of the bias at the start of a run."});
   f.number(name + "_scale_error", c.scale_error,
            {.unit = "-",
             .range = in_range(0.0, 0.2),
             .meaning = "Standard deviation per axis of the scale error, constant in a run."});
   f.number(name + "_range", c.range,
-           {.unit = unit, .range = positive(), .meaning = "Magnitude at which an axis saturates."});
+           {.unit = unit,
+            .range = positive_up_to(1e3),
+            .meaning = "Magnitude at which an axis saturates."});
 }
 
 }  // namespace

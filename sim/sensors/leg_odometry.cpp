@@ -155,37 +155,36 @@ void describe(Fields& f, LegOdometryConfig& c) {
             .meaning = "Foot model of the robot's own kinematics; the true feet are spheres."});
   f.number("joint_angle_noise", c.joint_angle_noise,
            {.unit = "rad",
-            .range = at_least(0),
+            .range = up_to(10.0),
             .meaning = "Standard deviation of a joint angle, per sample."});
   f.number("joint_angle_offset", c.joint_angle_offset,
            {.unit = "rad",
-            .range = at_least(0),
+            .range = up_to(10.0),
             .meaning = "Standard deviation of the offset of a joint angle, constant in a run."});
   f.number("joint_rate_noise", c.joint_rate_noise,
            {.unit = "rad/s",
-            .range = at_least(0),
+            .range = up_to(1e3),
             .meaning = "Standard deviation of a joint rate, per sample."});
   f.number(
       "contact_on", c.contact_on,
-      {.unit = "N", .range = at_least(0), .meaning = "Foot load above which contact is detected."});
-  f.number(
-      "contact_off", c.contact_off,
-      {.unit = "N", .range = at_least(0), .meaning = "Foot load below which contact is lost."});
+      {.unit = "N", .range = up_to(1e5), .meaning = "Foot load above which contact is detected."});
+  f.number("contact_off", c.contact_off,
+           {.unit = "N", .range = up_to(1e5), .meaning = "Foot load below which contact is lost."});
   f.number("load_noise", c.load_noise,
            {.unit = "N",
-            .range = at_least(0),
+            .range = up_to(1e5),
             .meaning = "Standard deviation of the measured foot load, per sample."});
   f.number("contact_debounce", c.contact_debounce,
            {.unit = "s",
-            .range = at_least(0),
+            .range = up_to(10.0),
             .meaning = "Time from touchdown until contact is reported."});
   f.number("gyro_noise_density", c.gyro_noise_density,
            {.unit = "rad/s/sqrt(Hz)",
-            .range = at_least(0),
+            .range = up_to(1e3),
             .meaning = "Noise density of the gyro of the leg odometry."});
   f.number("gyro_bias", c.gyro_bias,
            {.unit = "rad/s",
-            .range = at_least(0),
+            .range = up_to(1e4),
             .meaning = "Standard deviation per axis of the bias of that gyro, constant in a run."});
   f.number("gyro_scale_error", c.gyro_scale_error,
            {.unit = "-",
@@ -201,13 +200,13 @@ void describe(Fields& f, LegOdometryConfig& c) {
             .range = in_range(0.0, 0.5),
             .meaning = "Standard deviation of the velocity scale error, constant in a run."});
   f.number("slip_rate", c.slip_rate,
-           {.unit = "Hz", .range = at_least(0), .meaning = "Injected slip bursts per second."});
+           {.unit = "Hz", .range = up_to(1e3), .meaning = "Injected slip bursts per second."});
   f.number("slip_speed", c.slip_speed,
            {.unit = "m/s",
-            .range = at_least(0),
+            .range = up_to(100.0),
             .meaning = "Standard deviation of the speed error during a burst."});
   f.number("slip_duration", c.slip_duration,
-           {.unit = "s", .range = at_least(0), .meaning = "Duration of a burst."});
+           {.unit = "s", .range = up_to(1e4), .meaning = "Duration of a burst."});
 }
 
 }  // namespace aims

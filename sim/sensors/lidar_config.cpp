@@ -48,11 +48,11 @@ void describe(Fields& f, LidarConfig& c) {
       {.unit = "deg", .range = in_range(-360.0, 360.0), .meaning = "Azimuth of the first firing."});
   f.number("ring_interval_us", c.ring_interval_us,
            {.unit = "us",
-            .range = at_least(0),
+            .range = up_to(1e4),
             .meaning = "Time between the firings of neighbouring rings."});
   f.number("range_min", c.range_min,
            {.unit = "m",
-            .range = at_least(0),
+            .range = up_to(1e4),
             .meaning = "Smallest measured range; nearer returns are dropped."});
   f.number("range_max", c.range_max,
            {.unit = "m",
@@ -68,7 +68,7 @@ void describe(Fields& f, LidarConfig& c) {
             .meaning = "Probability that a return is lost at random."});
   f.number("range_at_10_percent", c.range_at_10_percent,
            {.unit = "m",
-            .range = positive(),
+            .range = positive_up_to(1e4),
             .meaning = "Range at which half the returns of a perpendicular target of 10 % "
                        "reflectivity are detected."});
   f.number("detection_steepness", c.detection_steepness,
@@ -77,11 +77,11 @@ void describe(Fields& f, LidarConfig& c) {
             .meaning = "Steepness of the detection probability over the received power."});
   f.vector("body_mask_min", c.body_mask_min,
            {.unit = "m",
-            .range = any(),
+            .range = within(100.0),
             .meaning = "Lower corner of the body mask in the LiDAR frame."});
   f.vector("body_mask_max", c.body_mask_max,
            {.unit = "m",
-            .range = any(),
+            .range = within(100.0),
             .meaning = "Upper corner of the body mask in the LiDAR frame."});
   f.group("defects", c.defects);
 }

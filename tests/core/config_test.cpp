@@ -45,7 +45,7 @@ void describe(Fields& f, Ranges& c) {
   f.number("rangs", c.rangs, {});
 }
 
-void describe(Fields& f, Item& c) { f.number("width", c.width, {.range = positive()}); }
+void describe(Fields& f, Item& c) { f.number("width", c.width, {.range = positive_up_to(10.0)}); }
 
 void describe(Fields& f, Nested& c) {
   f.number("alpha", c.alpha, {.range = in_half_open(0.0, 1.0)});
@@ -53,7 +53,7 @@ void describe(Fields& f, Nested& c) {
 }
 
 void describe(Fields& f, Sample& c) {
-  f.number("eta", c.eta, {.unit = "-", .range = at_least(0.0), .source = "eq. (8)"});
+  f.number("eta", c.eta, {.unit = "-", .range = up_to(100.0), .source = "eq. (8)"});
   f.integer("count", c.count, {.range = in_range(1, 9)});
   f.flag("on", c.on, {});
   f.text("name", c.name, {});
@@ -77,8 +77,10 @@ std::string message_of(const std::string& key, const std::string& text) {
 
 TEST(Range, BoundsAreIncludedOrNot) {
   EXPECT_TRUE(any().contains(-1e300));
-  EXPECT_TRUE(at_least(0.0).contains(0.0));
-  EXPECT_FALSE(positive().contains(0.0));
+  EXPECT_TRUE(up_to(2.0).contains(0.0));
+  EXPECT_TRUE(up_to(2.0).contains(2.0));
+  EXPECT_FALSE(positive_up_to(2.0).contains(0.0));
+  EXPECT_TRUE(within(2.0).contains(-2.0));
   EXPECT_TRUE(in_range(0.0, 1.0).contains(1.0));
   EXPECT_FALSE(in_half_open(0.0, 1.0).contains(1.0));
   EXPECT_TRUE(in_half_open(0.0, 1.0).contains(0.0));
@@ -86,8 +88,9 @@ TEST(Range, BoundsAreIncludedOrNot) {
 
 TEST(Range, TextIsReadable) {
   EXPECT_EQ(any().text(), "");
-  EXPECT_EQ(at_least(0.0).text(), ">= 0");
-  EXPECT_EQ(positive().text(), "> 0");
+  EXPECT_EQ(up_to(1e6).text(), "in [0, 1e+06]");
+  EXPECT_EQ(positive_up_to(2.0).text(), "in [1e-12, 2]");
+  EXPECT_EQ((Range{.min = 0.0}).text(), ">= 0");
   EXPECT_EQ(in_range(0.0, 1.0).text(), "in [0, 1]");
   EXPECT_EQ(in_half_open(0.0, 0.5).text(), "in [0, 0.5)");
   EXPECT_EQ((Range{.max = 2.0}).text(), "<= 2");
@@ -148,7 +151,7 @@ TEST(Fields, ARejectedVectorIsUnchanged) {
 }
 
 TEST(Fields, ErrorsNameKeyAndWhatWasExpected) {
-  EXPECT_EQ(message_of("eta", "-1"), "eta: '-1' is not a number >= 0");
+  EXPECT_EQ(message_of("eta", "-1"), "eta: '-1' is not a number in [0, 100]");
   EXPECT_EQ(message_of("count", "0"), "count: '0' is not an integer in [1, 9]");
   EXPECT_EQ(message_of("nested.foot", "x"), "nested.foot: 'x' is not one of point, rolling");
   EXPECT_EQ(message_of("axis", "[1]"),

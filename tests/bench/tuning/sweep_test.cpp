@@ -11,7 +11,9 @@
 #include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "core/files/atomic_file.hpp"
+#include "bench/tuning/tune_plan.hpp"
 #include "tests/bench/short_walk.hpp"
+#include "tests/support/parameter_bounds.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -38,6 +40,14 @@ Result<std::vector<Job>> jobs_of(const SweepPlan& plan) {
 std::string error_of(const SweepPlan& plan) {
   const auto jobs = jobs_of(plan);
   return jobs ? "no error" : jobs.error().message;
+}
+
+TEST(Plans, EveryNumberHasTwoFiniteBounds) {
+  SweepPlan sweep;
+  testing::expect_bounded(fields_of(sweep));
+  TunePlan tune;
+  tune.objectives.resize(1);
+  testing::expect_bounded(fields_of(tune));
 }
 
 TEST(SweepPlan, MakesEveryPointOnEveryWalkAndThoseOnOneWalkStandTogether) {

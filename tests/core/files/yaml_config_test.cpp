@@ -49,7 +49,7 @@ void describe(Fields& f, Waypoint& c) {
 
 void describe(Fields& f, Inner& c) {
   f.number("eta", c.eta,
-           {.unit = "-", .range = at_least(0.0), .meaning = "Sensitivity.", .source = "eq. (8)"});
+           {.unit = "-", .range = up_to(100.0), .meaning = "Sensitivity.", .source = "eq. (8)"});
   f.integer("count", c.count, {.range = in_range(1, 9), .meaning = "Count."});
   f.flag("enabled", c.enabled, {.meaning = "Switch."});
   f.choice("model", c.model, {{"point", Model::kPoint}, {"rolling", Model::kRolling}},
@@ -117,9 +117,9 @@ TEST(YamlConfig, ErrorsNamePlaceKeyAndWhatWasExpected) {
   EXPECT_EQ(message_of("eta: 1\n"), "s.yaml:1:1: unknown key 'eta'; did you mean 'inner.eta'?");
   EXPECT_EQ(message_of("quite_unlike: 1\n"), "s.yaml:1:1: unknown key 'quite_unlike'");
   EXPECT_EQ(message_of("inner:\n  eta: fast\n"),
-            "s.yaml:2:8: inner.eta: expected a number >= 0, found 'fast'");
+            "s.yaml:2:8: inner.eta: expected a number in [0, 100], found 'fast'");
   EXPECT_EQ(message_of("inner:\n  eta: -1\n"),
-            "s.yaml:2:8: inner.eta: expected a number >= 0, found '-1'");
+            "s.yaml:2:8: inner.eta: expected a number in [0, 100], found '-1'");
   EXPECT_EQ(message_of("inner: {count: 2.5}\n"),
             "s.yaml:1:16: inner.count: expected an integer in [1, 9], found '2.5'");
   EXPECT_EQ(message_of("inner: {enabled: yes}\n"),
@@ -137,11 +137,11 @@ TEST(YamlConfig, RefusesTheWrongShape) {
   EXPECT_EQ(message_of("inner: 3\n"), "s.yaml:1:8: inner: expected a map, found '3'");
   EXPECT_EQ(message_of("inner:\n"), "s.yaml:1:1: inner: expected a map, found nothing");
   EXPECT_EQ(message_of("inner: {eta: {a: 1}}\n"),
-            "s.yaml:1:14: inner.eta: expected a number >= 0, found a map");
+            "s.yaml:1:14: inner.eta: expected a number in [0, 100], found a map");
   EXPECT_EQ(message_of("inner: {eta: [1]}\n"),
-            "s.yaml:1:14: inner.eta: expected a number >= 0, found [1]");
+            "s.yaml:1:14: inner.eta: expected a number in [0, 100], found [1]");
   EXPECT_EQ(message_of("inner: {eta: }\n"),
-            "s.yaml:1:9: inner.eta: expected a number >= 0, found nothing");
+            "s.yaml:1:9: inner.eta: expected a number in [0, 100], found nothing");
   EXPECT_EQ(message_of("name: [a]\n"), "s.yaml:1:7: name: expected a text, found [a]");
   EXPECT_EQ(message_of("gravity: [1, 2]\n"),
             "s.yaml:1:10: gravity: expected three numbers like [x, y, z], found [1, 2]");
@@ -263,7 +263,7 @@ TEST(YamlConfig, ErrorsOfABaseNameTheFileTheyAreIn) {
   const auto child = write(directory.path() / "child.yaml", "base: base.yaml\n");
   Sample c;
   EXPECT_EQ(load_config(child, c).error().message,
-            base.string() + ":1:14: inner.eta: expected a number >= 0, found '-7'");
+            base.string() + ":1:14: inner.eta: expected a number in [0, 100], found '-7'");
   const auto orphan = write(directory.path() / "orphan.yaml", "base: gone.yaml\n");
   EXPECT_EQ(load_config(orphan, c).error().message, orphan.string() + ":1:7: base: no such file '" +
                                                         (directory.path() / "gone.yaml").string() +
