@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/simulation.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "sim/links/arrivals.hpp"
 #include "sim/robot/quadruped_model.hpp"
 #include "sim/robot/robot_geometry.hpp"
+#include "sim/robot/route_check.hpp"
 #include "sim/robot/walk_monitor.hpp"
 #include "sim/robot/walker.hpp"
 #include "sim/sensors/fisher_information.hpp"
@@ -22,7 +21,6 @@ namespace aims {
 namespace {
 
 constexpr Duration kSnapshotPeriod = 100 * kMillisecond;
-constexpr double kStartClearance = 0.15;  ///< of the robot's trunk from solids [m]
 
 Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene) {
   auto mjcf = scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics,
@@ -67,17 +65,10 @@ std::vector<WaypointTime> waypoint_times_since(const RouteFollower& route, Time 
   return waypoint_times;
 }
 
-/// Error when a route point is inside a solid, or the robot would start in contact with one.
+/// Error when the route cannot be walked, or the robot would start in contact with a solid.
 Result<void> check_route(const SimulationConfig& config, const Scene& scene, const World& world) {
-  for (std::size_t i = 0; i < config.route.points.size(); ++i) {
-    const RoutePoint& p = config.route.points[i];
-    const double ground = floor_height(scene.floor, p.x, p.y);
-    const Eigen::Vector3d at(p.x, p.y, ground + config.robot.gait.body_height);
-    if (is_inside_solid(scene, at, kStartClearance)) {
-      return failure(fmt::format(
-          "route.points.{}: ({}, {}) is inside a wall or object of the scene", i, p.x, p.y));
-    }
-  }
+  auto walkable = check_walkable(config.route, scene, config.robot.gait.body_height);
+  if (!walkable) return walkable;
   if (world.robot_inside_solid()) {
     return failure("route.points.0: the robot would start inside a wall or object of the scene");
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/environment/height_field.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,16 +41,33 @@ double unit_height(const std::array<Wave, kWaves>& waves, const Eigen::Vector2d&
   return 0.5 * std::erfc(-sum / (sigma * std::numbers::sqrt2));
 }
 
+constexpr double kMaxGridPoints = 2e6;
+
 int grid_points(double length, double cell) {
   return std::max(2, static_cast<int>(std::ceil(length / cell)) + 1);
 }
 
+double cell_of(const BumpConfig& bumps) { return bumps.correlation_length / kCellsPerLength; }
+
 }  // namespace
+
+Result<void> validate(const BumpConfig& bumps, const Floor& floor) {
+  if (bumps.height <= 0.0) return {};
+  const Eigen::Vector2d size = floor.max_corner - floor.min_corner;
+  const double points = size.prod() / (cell_of(bumps) * cell_of(bumps));
+  if (points <= kMaxGridPoints) return {};
+  return failure(
+      fmt::format("scene.bumps.correlation_length: expected at least {:.2g} m for a floor of "
+                  "{:.0f} m x {:.0f} m "
+                  "({:.0g} grid points), got {}",
+                  kCellsPerLength * std::sqrt(size.prod() / kMaxGridPoints), size.x(), size.y(),
+                  kMaxGridPoints, bumps.correlation_length));
+}
 
 void add_bumps(const BumpConfig& bumps, std::uint64_t seed, Floor& floor) {
   if (bumps.height <= 0.0) return;
   const Eigen::Vector2d size = floor.max_corner - floor.min_corner;
-  const double cell = bumps.correlation_length / kCellsPerLength;
+  const double cell = cell_of(bumps);
   floor.columns = grid_points(size.x(), cell);
   floor.rows = grid_points(size.y(), cell);
   const auto waves = random_waves(bumps.correlation_length, seed);

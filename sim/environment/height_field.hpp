@@ -7,6 +7,9 @@
 
 namespace aims {
 
+/// Error when the floor would need more grid points than can be made in a few seconds.
+Result<void> validate(const BumpConfig& bumps, const Floor& floor);
+
 /// Fills the floor's rectangle with smooth random heights in [0, bumps.height]; keeps it flat
 /// when that is 0. Heights are correlated as exp(-d^2 / (2 correlation_length^2)).
 void add_bumps(const BumpConfig& bumps, std::uint64_t seed, Floor& floor);

@@ -126,15 +126,8 @@ std::vector<Person> corridor_people(const SceneConfig& config, std::uint64_t see
                          corridor.length + corridor.margin - kTurningDistance, seed);
 }
 
-}  // namespace
-
-Result<void> validate(const SceneConfig& config) {
-  if (config.kind != SceneKind::kCorridor) {
-    if (config.ramp.grade > 0.0)
-      return failure("scene.ramp: only a scene of kind corridor can have a ramp");
-    if (config.people.count > 0)
-      return failure("scene.people: only a scene of kind corridor can have people");
-  }
+/// The part of the scene's kind.
+Result<void> validate_kind(const SceneConfig& config) {
   switch (config.kind) {
     case SceneKind::kCorridor: {
       if (auto ok = validate_ramp(config); !ok) return ok;
@@ -151,26 +144,50 @@ Result<void> validate(const SceneConfig& config) {
   return failure("unknown kind of scene");
 }
 
+Floor flat_floor(const SceneConfig& config) {
+  switch (config.kind) {
+    case SceneKind::kCorridor:
+      return corridor_floor(config.corridor);
+    case SceneKind::kGarage:
+      return garage_floor(config.garage);
+    case SceneKind::kJunction:
+      return junction_floor(config.junction);
+    case SceneKind::kTunnel:
+      return tunnel_floor(config.tunnel);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> validate(const SceneConfig& config) {
+  if (config.kind != SceneKind::kCorridor) {
+    if (config.ramp.grade > 0.0)
+      return failure("scene.ramp: only a scene of kind corridor can have a ramp");
+    if (config.people.count > 0)
+      return failure("scene.people: only a scene of kind corridor can have people");
+  }
+  if (auto ok = validate_kind(config); !ok) return ok;
+  return validate(config.bumps, flat_floor(config));
+}
+
 Scene build_scene(const SceneConfig& config, std::uint64_t run_seed) {
   const std::uint64_t seed = config.seed > 0 ? static_cast<std::uint64_t>(config.seed) : run_seed;
   Scene scene;
+  scene.floor = flat_floor(config);
   switch (config.kind) {
     case SceneKind::kCorridor:
       scene.solids = corridor_solids(config.corridor, config.ramp, config.reflectivity, seed);
-      scene.floor = corridor_floor(config.corridor);
       scene.people = corridor_people(config, seed);
       break;
     case SceneKind::kGarage:
       scene.solids = garage_solids(config.garage, config.reflectivity, seed);
-      scene.floor = garage_floor(config.garage);
       break;
     case SceneKind::kJunction:
       scene.solids = junction_solids(config.junction, config.reflectivity, seed);
-      scene.floor = junction_floor(config.junction);
       break;
     case SceneKind::kTunnel:
       scene.solids = tunnel_solids(config.tunnel, config.reflectivity, seed);
-      scene.floor = tunnel_floor(config.tunnel);
       break;
   }
   scene.floor.material = {config.reflectivity.floor, {0.55F, 0.57F, 0.60F}};

@@ -18,6 +18,7 @@ constexpr double kTouchdownFeedback = 0.06;  ///< foot placement by velocity err
 constexpr double kLatchProgress = 0.6;       ///< fraction of the swing after which contact ends it
 constexpr double kContactLoad = 15.0;        ///< [N]
 constexpr double kGroundFilter = 0.1;        ///< time constant [s]
+constexpr double kHeldTolerance = 0.02;      ///< of the feet about the place held [m]
 constexpr double kVelocityIntegralLimit = 0.25;  ///< [m/s]
 constexpr double kYawIntegralLimit = 0.4;        ///< [rad/s]
 
@@ -90,8 +91,16 @@ void GaitController::begin_standing(const View& now) {
   yaw_rate_integral_ = 0.0;
   hold_position_ = now.mean_foot();
   hold_yaw_ = now.yaw;
+  hold_feet_.begin(now.feet);
   stands_.fill(true);
   latched_.fill(false);
+}
+
+/// The place that is held follows feet that creep away as a whole, which they do on a slope.
+void GaitController::follow_feet(const View& now) {
+  const Eigen::Vector2d crept = now.mean_foot() - hold_position_;
+  const double distance = crept.norm();
+  if (distance > kHeldTolerance) hold_position_ += (1.0 - kHeldTolerance / distance) * crept;
 }
 
 /// Limits the rate of change of the command.
@@ -233,7 +242,12 @@ JointVector GaitController::torques(const RobotState& state, const VelocityComma
   advance_phase(state, command, now);
   limit_command(command, now);
 
-  const auto forces = stance_forces(stance_problem(now), config_.forces);
+  if (standing_) follow_feet(now);
+  auto forces = stance_forces(stance_problem(now), config_.forces);
+  if (standing_) {
+    const StanceHold::Offsets held = hold_feet_.forces(now.feet);
+    for (int leg = 0; leg < kLegCount; ++leg) forces[leg].head<2>() += held.col(leg);
+  }
   JointVector torques;
   for (int leg = 0; leg < kLegCount; ++leg) {
     const Eigen::Matrix3d J = foot_jacobian(leg, joints_of(state.q, leg), kRobotGeometry);
@@ -242,59 +256,6 @@ JointVector GaitController::torques(const RobotState& state, const VelocityComma
                      : swing_torques(leg, state, now);
   }
   return torques;
-}
-
-void describe(Fields& f, GaitConfig& c) {
-  f.number("period", c.period,
-           {.unit = "s",
-            .range = in_range(0.2, 1.0),
-            .meaning = "Period of a stride; a multiple of 20 ms aliases into a 50 Hz IMU."});
-  f.number("duty_factor", c.duty_factor,
-           {.unit = "-",
-            .range = in_range(0.5, 0.9),
-            .meaning = "Fraction of the stride that a foot is on the ground."});
-  f.number("body_height", c.body_height,
-           {.unit = "m",
-            .range = in_range(0.2, 0.36),
-            .meaning = "Height of the trunk above the ground."});
-  f.number("swing_height", c.swing_height,
-           {.unit = "m",
-            .range = in_range(0.02, 0.15),
-            .meaning = "Height of a foot above the ground in mid-swing."});
-  f.number("stance_width", c.stance_width,
-           {.unit = "m",
-            .range = in_range(0.0, 0.15),
-            .meaning = "Lateral distance of a standing foot from its hip."});
-  f.number(
-      "velocity_gain", c.velocity_gain,
-      {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the horizontal velocity feedback."});
-  f.number("height_gain", c.height_gain,
-           {.unit = "1/s^2", .range = up_to(1e6), .meaning = "Gain of the height feedback."});
-  f.number(
-      "height_damping", c.height_damping,
-      {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the vertical velocity feedback."});
-  f.number(
-      "attitude_gain", c.attitude_gain,
-      {.unit = "1/s^2", .range = up_to(1e6), .meaning = "Gain of the roll and pitch feedback."});
-  f.number("attitude_damping", c.attitude_damping,
-           {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the angular rate feedback."});
-  f.number("standing_gain", c.standing_gain,
-           {.unit = "1/s^2",
-            .range = up_to(1e6),
-            .meaning = "Gain of the position and heading feedback while standing."});
-  f.number("integral_gain", c.integral_gain,
-           {.unit = "1/s",
-            .range = up_to(1e5),
-            .meaning = "Gain of the integral feedback of velocity and yaw rate."});
-  f.number("acceleration", c.acceleration,
-           {.unit = "m/s^2",
-            .range = positive_up_to(1e5),
-            .meaning = "Largest rate of change of the velocity command."});
-  f.number("yaw_acceleration", c.yaw_acceleration,
-           {.unit = "rad/s^2",
-            .range = positive_up_to(1e5),
-            .meaning = "Largest rate of change of the yaw-rate command."});
-  f.group("forces", c.forces);
 }
 
 }  // namespace aims

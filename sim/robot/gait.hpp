@@ -6,6 +6,7 @@
 
 #include "core/config.hpp"
 #include "sim/robot/stance_forces.hpp"
+#include "sim/robot/stance_hold.hpp"
 #include "sim/robot/world.hpp"
 
 namespace aims {
@@ -54,6 +55,7 @@ class GaitController {
   void advance_phase(const RobotState& state, const VelocityCommand& command, const View& now);
   void schedule_feet(const RobotState& state, const View& now);
   void begin_standing(const View& now);
+  void follow_feet(const View& now);
   StanceProblem stance_problem(const View& now) const;
   Eigen::Vector3d touchdown(int leg, const View& now) const;
   Eigen::Vector3d swing_torques(int leg, const RobotState& state, const View& now) const;
@@ -74,6 +76,7 @@ class GaitController {
   double yaw_rate_integral_ = 0.0;
   Eigen::Vector2d hold_position_ = Eigen::Vector2d::Zero();  ///< world [m]
   double hold_yaw_ = 0.0;
+  StanceHold hold_feet_;
   std::array<bool, kLegCount> stands_{};
   std::array<bool, kLegCount> latched_{};             ///< touched down early
   std::array<Eigen::Vector3d, kLegCount> liftoff_{};  ///< where the swing began, world [m]

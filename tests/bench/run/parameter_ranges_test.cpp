@@ -56,8 +56,17 @@ std::vector<std::string> refused_values(const Parameter& parameter) {
   const bool whole = takes_integers(parameter);
   const double below = whole ? range.min - 1.0 : std::nextafter(range.min, -1e300);
   const double above = whole ? range.max + 1.0 : std::nextafter(range.max, 1e300);
-  return {fmt::format("{}", below), fmt::format("{}", above), "1e308", "-1e308", "9.3e18", "inf",
-          "-inf", "nan", "", "x", "1e400"};
+  return {fmt::format("{}", below),
+          fmt::format("{}", above),
+          "1e308",
+          "-1e308",
+          "9.3e18",
+          "inf",
+          "-inf",
+          "nan",
+          "",
+          "x",
+          "1e400"};
 }
 
 void expect_refused(const Fields& fields, const Parameter& parameter, const std::string& value) {

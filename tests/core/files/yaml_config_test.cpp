@@ -355,7 +355,7 @@ TEST(Overrides, ErrorsNameTheSetting) {
   };
   EXPECT_EQ(message("inner.eat=1"),
             "--set inner.eat=1: unknown key 'inner.eat'; did you mean 'inner.eta'?");
-  EXPECT_EQ(message("inner.eta=x"), "--set inner.eta=x: inner.eta: 'x' is not a number >= 0");
+  EXPECT_EQ(message("inner.eta=x"), "--set inner.eta=x: inner.eta: 'x' is not a number in [0, 100]");
   EXPECT_EQ(message("inner.eta"), "--set inner.eta: expected key=value or @FILE");
   EXPECT_EQ(message("inner=1"),
             "--set inner=1: inner: a group of settings; expected one of its keys");
@@ -380,7 +380,7 @@ TEST(DumpConfig, AnnotatedFormExplainsAndLoads) {
   Sample c;
   c.inner.eta = 1.25;
   const std::string text = dump_annotated_config(fields_of(c));
-  EXPECT_NE(text.find("  eta: 1.25  # [-] a number >= 0; Sensitivity.; eq. (8)\n"),
+  EXPECT_NE(text.find("  eta: 1.25  # [-] a number in [0, 100]; Sensitivity.; eq. (8)\n"),
             std::string::npos)
       << text;
   Sample again;

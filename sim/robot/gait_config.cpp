@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/robot/gait.hpp"
+
+namespace aims {
+
+void describe(Fields& f, GaitConfig& c) {
+  f.number("period", c.period,
+           {.unit = "s",
+            .range = in_range(0.2, 1.0),
+            .meaning = "Period of a stride; a multiple of 20 ms aliases into a 50 Hz IMU."});
+  f.number("duty_factor", c.duty_factor,
+           {.unit = "-",
+            .range = in_range(0.5, 0.9),
+            .meaning = "Fraction of the stride that a foot is on the ground."});
+  f.number("body_height", c.body_height,
+           {.unit = "m",
+            .range = in_range(0.2, 0.36),
+            .meaning = "Height of the trunk above the ground."});
+  f.number("swing_height", c.swing_height,
+           {.unit = "m",
+            .range = in_range(0.02, 0.15),
+            .meaning = "Height of a foot above the ground in mid-swing."});
+  f.number("stance_width", c.stance_width,
+           {.unit = "m",
+            .range = in_range(0.0, 0.15),
+            .meaning = "Lateral distance of a standing foot from its hip."});
+  f.number(
+      "velocity_gain", c.velocity_gain,
+      {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the horizontal velocity feedback."});
+  f.number("height_gain", c.height_gain,
+           {.unit = "1/s^2", .range = up_to(1e6), .meaning = "Gain of the height feedback."});
+  f.number(
+      "height_damping", c.height_damping,
+      {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the vertical velocity feedback."});
+  f.number(
+      "attitude_gain", c.attitude_gain,
+      {.unit = "1/s^2", .range = up_to(1e6), .meaning = "Gain of the roll and pitch feedback."});
+  f.number("attitude_damping", c.attitude_damping,
+           {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the angular rate feedback."});
+  f.number("standing_gain", c.standing_gain,
+           {.unit = "1/s^2",
+            .range = up_to(1e6),
+            .meaning = "Gain of the position and heading feedback while standing."});
+  f.number("integral_gain", c.integral_gain,
+           {.unit = "1/s",
+            .range = up_to(1e5),
+            .meaning = "Gain of the integral feedback of velocity and yaw rate."});
+  f.number("acceleration", c.acceleration,
+           {.unit = "m/s^2",
+            .range = positive_up_to(1e5),
+            .meaning = "Largest rate of change of the velocity command."});
+  f.number("yaw_acceleration", c.yaw_acceleration,
+           {.unit = "rad/s^2",
+            .range = positive_up_to(1e5),
+            .meaning = "Largest rate of change of the yaw-rate command."});
+  f.group("forces", c.forces);
+}
+
+}  // namespace aims

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "bench/run/scenario.hpp"
+
+namespace aims {
+namespace {
+
+TEST(ScenarioRoutes, EveryShippedScenarioCanBeWalkedOnSeveralSeeds) {
+  const auto files = scenario_files(AIMS_SCENARIOS);
+  ASSERT_TRUE(files.has_value()) << files.error().message;
+  ASSERT_GT(files->size(), 50U);
+  for (const std::filesystem::path& file : *files) {
+    const auto scenario = load_scenario(file, {});
+    ASSERT_TRUE(scenario.has_value()) << scenario.error().message;
+    for (const std::uint64_t seed : {1, 2, 7}) {
+      const auto ready = check_simulation(*scenario, seed);
+      EXPECT_TRUE(ready.has_value()) << file << " seed " << seed << ": " << ready.error().message;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace aims
