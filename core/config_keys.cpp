@@ -190,6 +190,9 @@ std::string near_match(std::string_view word, const std::vector<std::string>& ca
   std::string nearest;
   std::size_t nearest_distance = tolerance + 1;
   for (const std::string& candidate : candidates) {
+    // No less than the difference in length, which is cheap to know of a long word.
+    const auto [shorter, longer] = std::minmax({word.size(), candidate.size()});
+    if (longer - shorter >= nearest_distance) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < nearest_distance) {
       nearest_distance = distance;

@@ -49,6 +49,11 @@ void print_results(const RecordOutcome& outcome, const RecordOptions& options, b
 
 int simulate_command(const SimulateArguments& arguments) {
   SharedOptions shared = arguments.shared;
+  if (const fs::path bag = shared.out; bag.extension() != ".bag") {
+    return bad_input("simulate", {fmt::format("--out {}: expected a name that ends in .bag, since "
+                                              "a ROS 1 bag is written",
+                                              bag.string())});
+  }
   const auto read = check_settings(shared.settings, {"estimators", "run", "scoring"}, true);
   if (!read) return bad_input("simulate", read.error());
   if (arguments.fast_imu_hz) {

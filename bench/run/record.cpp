@@ -95,15 +95,71 @@ fs::path beside(const fs::path& bag, const char* extension) {
   return file.replace_extension(extension);
 }
 
-Result<void> make_room(const RecordOptions& options) {
+/// The bag while it is being recorded; what was recorded stays there when that fails.
+fs::path partial_of(const fs::path& bag) {
+  fs::path file = bag;
+  return file += ".partial";
+}
+
+/// Whether nothing is there, or a file that may be replaced.
+Result<void> check_free(const fs::path& file, const RecordOptions& options, const char* what) {
+  std::error_code code;
+  const fs::file_status status = fs::symlink_status(file, code);
+  if (status.type() == fs::file_type::not_found) return {};
+  if (code) return failure(fmt::format("{}: {}", file.string(), code.message()));
+  if (!options.overwrite) {
+    return failure(fmt::format("{}: {}; choose another --out, or --overwrite to replace it",
+                               file.string(), what));
+  }
+  if (!fs::is_regular_file(status)) {
+    return failure(fmt::format("{}: expected a file to overwrite", file.string()));
+  }
+  return {};
+}
+
+/// The name under which recording begins. An existing bag stays until the new one is whole.
+Result<fs::path> make_room(const RecordOptions& options) {
   std::error_code ignored;
   if (options.bag.has_parent_path()) fs::create_directories(options.bag.parent_path(), ignored);
-  if (!options.overwrite || !fs::exists(options.bag)) return {};
-  if (!fs::is_regular_file(options.bag)) {
-    return failure(fmt::format("{}: expected a file to overwrite", options.bag.string()));
-  }
-  fs::remove(options.bag, ignored);
+  const fs::path partial = partial_of(options.bag);
+  auto free = check_free(options.bag, options, "exists already");
+  if (free) free = check_free(partial, options, "holds what a stopped simulation recorded");
+  if (!free) return tl::unexpected(free.error());
+  fs::remove(partial, ignored);
+  return partial;
+}
+
+/// What went wrong, and where the recording up to then is.
+tl::unexpected<Error> kept(const fs::path& partial, const Error& error) {
+  return failure(
+      fmt::format("{}; what was recorded until then is in {}", error.message, partial.string()));
+}
+
+/// Gives the finished bag its name.
+Result<void> publish(const fs::path& partial, const fs::path& bag) {
+  std::error_code code;
+  fs::rename(partial, bag, code);
+  if (code) return failure(fmt::format("{}: cannot be written: {}", bag.string(), code.message()));
   return {};
+}
+
+/// Simulates to the end or until the observer stops it, and closes the bag.
+Result<void> fill(Simulation& simulation, Recorder& recorder, const Observer& observer,
+                  const Stopwatch& stopwatch, RecordOutcome& outcome) {
+  outcome.complete = true;
+  std::vector<Delivery> deliveries;
+  const double expected_s = to_seconds(simulation.expected_duration());
+  for (bool moving = true; moving && outcome.complete;) {
+    deliveries.clear();
+    moving = simulation.advance(kStreamBatch, deliveries);
+    auto ok = recorder.write(deliveries, simulation.take_fast_imu(), simulation.truth());
+    if (!ok) return ok;
+    outcome.complete = observer({to_seconds(simulation.now()), expected_s, stopwatch.seconds()});
+  }
+  const CsvTable waypoint_times = waypoint_times_table(simulation.truth().waypoint_times);
+  auto ok = recorder.writer().write_waypoint_times(simulation.now(), waypoint_times.text());
+  if (ok) ok = recorder.writer().close();
+  return ok;
 }
 
 }  // namespace
@@ -113,32 +169,23 @@ Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& opti
   const Stopwatch stopwatch;
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
-  if (auto ok = make_room(options); !ok) return tl::unexpected(ok.error());
+  const auto partial = make_room(options);
+  if (!partial) return tl::unexpected(partial.error());
   auto writer =
-      RecordingWriter::create(options.bag, simulation->rig(), origin_text(scenario, options.seed),
+      RecordingWriter::create(*partial, simulation->rig(), origin_text(scenario, options.seed),
                               {.compression = options.compression});
   if (!writer) return tl::unexpected(writer.error());
 
   Recorder recorder(std::move(*writer));
   RecordOutcome outcome;
-  outcome.complete = true;
-  std::vector<Delivery> deliveries;
-  const double expected_s = to_seconds(simulation->expected_duration());
-  for (bool moving = true; moving && outcome.complete;) {
-    deliveries.clear();
-    moving = simulation->advance(kStreamBatch, deliveries);
-    auto ok = recorder.write(deliveries, simulation->take_fast_imu(), simulation->truth());
-    if (!ok) return tl::unexpected(ok.error());
-    outcome.complete = observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
-  }
+  auto ok = fill(*simulation, recorder, observer, stopwatch, outcome);
+  if (ok) ok = publish(*partial, options.bag);
+  if (!ok) return kept(*partial, ok.error());
   const Truth& truth = simulation->truth();
-  const CsvTable waypoint_times = waypoint_times_table(truth.waypoint_times);
   outcome.truth = beside(options.bag, ".truth.tum");
   outcome.waypoint_times = beside(options.bag, ".waypoint_times.csv");
-  auto ok = recorder.writer().write_waypoint_times(simulation->now(), waypoint_times.text());
-  if (ok) ok = recorder.writer().close();
-  if (ok) ok = write_tum(outcome.truth, thinned(body_trajectory(truth), kTruthSpacing));
-  if (ok) ok = write_csv(outcome.waypoint_times, waypoint_times);
+  ok = write_tum(outcome.truth, thinned(body_trajectory(truth), kTruthSpacing));
+  if (ok) ok = write_csv(outcome.waypoint_times, waypoint_times_table(truth.waypoint_times));
   if (!ok) return tl::unexpected(ok.error());
   outcome.simulated_s = to_seconds(simulation->now());
   outcome.walk = truth.walk;

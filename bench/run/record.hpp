@@ -32,8 +32,9 @@ struct RecordOutcome {
 };
 
 /// Simulates the scenario and records what its sensors deliver, and the truth, as a ROS 1 bag;
-/// truth and waypoint times of the reference points also beside it. Killed at any moment, it leaves
-/// a bag that opens. Error when the scenario cannot be simulated or a file cannot be written.
+/// truth and waypoint times of the reference points also beside it. The bag is NAME.bag.partial
+/// until it is whole; killed at any moment, or without space, this leaves a bag that opens there.
+/// Error when the scenario cannot be simulated or a file cannot be written.
 Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& options,
                              const Observer& observer);
 

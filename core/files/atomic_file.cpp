@@ -111,7 +111,7 @@ Result<void> write_file_atomically(const fs::path& file, std::span<const std::by
       file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
-Result<std::string> read_file(const fs::path& file) {
+Result<std::string> read_file(const fs::path& file, std::size_t most) {
   const auto refuse = [&file](int code) {
     return failure(fmt::format("{}: cannot be read: {}", file.string(), reason(code)));
   };
@@ -125,6 +125,9 @@ Result<std::string> read_file(const fs::path& file) {
     if (got < 0) return refuse(errno);
     if (got == 0) return text;
     text.append(buffer, static_cast<std::size_t>(got));
+    if (text.size() > most) {
+      return failure(fmt::format("{}: expected at most {} bytes", file.string(), most));
+    }
   }
 }
 

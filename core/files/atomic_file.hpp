@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,7 +46,8 @@ Result<void> write_file_atomically(const std::filesystem::path& file, std::strin
 Result<void> write_file_atomically(const std::filesystem::path& file,
                                    std::span<const std::byte> bytes);
 
-/// The content of a file.
-Result<std::string> read_file(const std::filesystem::path& file);
+/// The content of a file. Error when it has more than `most` bytes.
+Result<std::string> read_file(const std::filesystem::path& file,
+                              std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace aims

@@ -9,6 +9,7 @@
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -106,8 +107,8 @@ Result<std::vector<double>> CsvColumns::numbers(std::string_view column) const {
     const std::string& text = cell(row, found->second);
     const auto number = number_of(text);
     if (!number) {
-      return failure(fmt::format("{}:{}: {}: expected a number, found '{}'", name_, lines_[row],
-                                 column, text));
+      return failure(line_text(fmt::format("{}:{}: {}: expected a number, found '{}'", name_,
+                                           lines_[row], column, text)));
     }
     numbers.push_back(*number);
   }

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
 
@@ -23,7 +25,8 @@ std::optional<std::uint64_t> parse_digits(std::string_view word) {
 
 std::optional<std::string_view> LineReader::next() {
   while (!rest_.empty()) {
-    ++number_;
+    number_ += 1 + further_;
+    further_ = 0;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     const std::string_view line = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
@@ -33,8 +36,25 @@ std::optional<std::string_view> LineReader::next() {
   return std::nullopt;
 }
 
+std::optional<std::string_view> LineReader::next_record() {
+  const auto line = next();
+  if (!line) return line;
+  const auto quotes = [](std::string_view text) {
+    return std::count(text.begin(), text.end(), '"');
+  };
+  std::string_view record = *line;
+  for (auto seen = quotes(record); seen % 2 != 0 && !rest_.empty();) {
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    seen += quotes(rest_.substr(0, end));
+    record = {record.data(), record.size() + 1 + end};  // the lines follow each other in memory
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    ++further_;
+  }
+  return record;
+}
+
 tl::unexpected<Error> LineReader::error(std::string_view message) const {
-  return failure(fmt::format("{}:{}: {}", name_, number_, message));
+  return failure(line_text(fmt::format("{}:{}: {}", name_, number_, message)));
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {

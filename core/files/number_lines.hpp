@@ -21,6 +21,9 @@ class LineReader {
   /// The next such line, or nothing at the end.
   std::optional<std::string_view> next();
 
+  /// As `next`, together with the lines that a text in double quotes in it goes on over.
+  std::optional<std::string_view> next_record();
+
   /// Number of the last line returned, from 1, blank lines and comments included.
   int number() const { return number_; }
 
@@ -31,6 +34,7 @@ class LineReader {
   std::string_view rest_;
   std::string_view name_;
   int number_ = 0;
+  int further_ = 0;  ///< lines of the last record after its first
 };
 
 /// The words of a line, separated by blanks and tabs.

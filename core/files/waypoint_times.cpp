@@ -57,7 +57,7 @@ Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text,
   if (without_return(*header) != kHeader) {
     return lines.error(fmt::format("expected the header '{}', found '{}'", kHeader, *header));
   }
-  while (const auto line = lines.next()) {
+  while (const auto line = lines.next_record()) {
     auto waypoint_time = parse_row(*line);
     if (!waypoint_time) {
       return lines.error(

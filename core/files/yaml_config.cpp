@@ -10,23 +10,18 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/yaml_assigner.hpp"
 #include "core/files/yaml_document.hpp"
+#include "core/files/yaml_size.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The text with a space in place of every control character.
-std::string one_line(std::string text) {
-  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
-  std::replace_if(text.begin(), text.end(), is_control, ' ');
-  return text;
-}
-
 Result<void> load_file(const fs::path& file, const SettingTarget& target,
                        std::vector<fs::path> chain);
 
-/// Loads the document's `base`, if any.
+/// Loads the document's `base`, if any; `chain` holds the files on the way to it, none for a text.
 Result<void> load_base(const YAML::Node& document, const std::string& name,
                        const SettingTarget& target, const std::vector<fs::path>& chain) {
   for (const auto& entry : document) {
@@ -38,8 +33,15 @@ Result<void> load_base(const YAML::Node& document, const std::string& name,
           fmt::format("{}: base: expected a scenario or the path of a YAML file, found {}", here,
                       kind_of(entry.second)));
     }
+    if (chain.empty()) {
+      return failure(fmt::format("{}: base: expected none; only a file may name another", here));
+    }
     const auto base = find_base(name, entry.second.Scalar(), target.named);
     if (!base) return failure(fmt::format("{}: {}", here, base.error().message));
+    std::error_code ignored;
+    if (!fs::is_regular_file(*base, ignored)) {
+      return failure(fmt::format("{}: base: '{}' is no plain file", here, base->string()));
+    }
     const fs::path canonical = fs::weakly_canonical(*base);
     if (std::find(chain.begin(), chain.end(), canonical) != chain.end()) {
       return failure(fmt::format("{}: base: '{}' is based on itself", here, base->string()));
@@ -59,7 +61,7 @@ Result<void> load_document(const std::string& text, const std::string& name,
 
 Result<void> load_file(const fs::path& file, const SettingTarget& target,
                        std::vector<fs::path> chain) {
-  const auto text = read_file(file);
+  const auto text = read_file(file, kLargestYaml);
   if (!text) return tl::unexpected(text.error());
   chain.push_back(fs::weakly_canonical(file));
   return load_document(*text, file.string(), target, chain);
@@ -76,7 +78,7 @@ Result<void> reported(const std::string& name, const Load& load) {
   } catch (const std::exception& error) {
     message = fmt::format("{}: {}", name, error.what());
   }
-  return failure(one_line(std::move(message)));
+  return failure(line_text(message));
 }
 
 /// Replaces a list by the value of a setting, which has YAML's form.
@@ -104,7 +106,7 @@ Result<void> apply_setting(const std::string& setting, const Fields& fields,
                            const SettingTarget& target) {
   const auto equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) {
-    return failure(fmt::format("--set {}: expected key=value or @FILE", setting));
+    return failure(line_text(fmt::format("--set {}: expected key=value or @FILE", setting)));
   }
   const std::string key = setting.substr(0, equals);
   const std::string value = setting.substr(equals + 1);
@@ -112,7 +114,9 @@ Result<void> apply_setting(const std::string& setting, const Fields& fields,
     return set_list(*list, setting, value, target);
   }
   const auto done = assign(fields, key, value);
-  if (!done) return failure(fmt::format("--set {}: {}", setting, done.error().message));
+  if (!done) {
+    return failure(line_text(fmt::format("--set {}: {}", setting, done.error().message)));
+  }
   if (target.assigned != nullptr) {
     target.assigned->push_back({key, fmt::format("--set {}: ", setting)});
   }
@@ -129,8 +133,7 @@ Result<void> load_config(const fs::path& file, const CollectFields& collect,
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect) {
   return reported(name, [&] {
-    return load_document(std::string(text), name, {collect, nullptr, {}},
-                         {fs::weakly_canonical(name)});
+    return load_document(std::string(text), name, {collect, nullptr, {}}, {});
   });
 }
 

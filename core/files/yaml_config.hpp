@@ -31,7 +31,7 @@ Result<void> load_config(const std::filesystem::path& file, const CollectFields&
                          std::vector<AssignedKey>* assigned = nullptr,
                          const std::filesystem::path& named = {});
 
-/// As `load_config`, from YAML text; errors call it `name`, and a `base` is relative to it.
+/// As `load_config`, from YAML text, which errors call `name` and which has no `base`.
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect);
 

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <vector>
 
+#include "core/files/yaml_size.hpp"
+
 namespace aims {
 namespace {
 
@@ -43,6 +45,9 @@ std::string syntax_message(const std::string& text, const std::string& file,
 }
 
 Result<std::vector<YAML::Node>> parse_documents(const std::string& text, const std::string& file) {
+  if (auto bounded = check_yaml_size(text, file); !bounded) {
+    return tl::unexpected(bounded.error());
+  }
   try {
     return YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {

@@ -58,7 +58,7 @@ void check_leg_kilo(SystemCheck check) {
   }
   check.imu(50.0, 100.0);
   check.imu_in_si();
-  check.joints_and_contacts();
+  check.unitree_state();
   check.extrinsics("set the transform in its parameter file");
 }
 
@@ -131,8 +131,9 @@ std::string check_text(const std::vector<RequirementCheck>& checks) {
   for (const RequirementCheck& each : checks) {
     if (each.fulfilment == Fulfilment::kMet) continue;
     const char* word = each.fulfilment == Fulfilment::kPoor ? "poor" : "MISSING";
-    text += fmt::format("{}: {}: {}: found {}; {}\n", each.system, word, each.requirement,
-                        each.found, each.remedy);
+    const std::string found = each.found.empty() ? "" : fmt::format("found {}; ", each.found);
+    text +=
+        fmt::format("{}: {}: {}: {}{}\n", each.system, word, each.requirement, found, each.remedy);
   }
   return text;
 }

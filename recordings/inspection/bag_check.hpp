@@ -21,7 +21,7 @@ struct RequirementCheck {
   std::string system;
   std::string requirement;  ///< e.g. "ring of each point (uint16)"
   Fulfilment fulfilment = Fulfilment::kMet;
-  std::string found;   ///< e.g. "/imu/data at 50 Hz"
+  std::string found;   ///< e.g. "/imu/data at 50 Hz"; empty: the remedy says it
   std::string remedy;  ///< if poor or missing
 };
 

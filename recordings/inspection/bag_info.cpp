@@ -164,7 +164,9 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
     info.notes = recording->setup().notes;
   } else {
     info.refusal = recording.error().message;
+    info.used = unambiguous_topics(bag, reader->connections(), config.topics);
   }
+  info.extrinsics_configured = config.T_imu_lidar.override_tf;
   info.warnings = bag_warnings(info);
   return info;
 }

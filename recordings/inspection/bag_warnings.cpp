@@ -160,7 +160,7 @@ std::vector<std::string> bag_warnings(const BagInfo& info) {
   warn_of_offsets(info, out);
   for (const CloudInfo& each : info.clouds) warn_of_clouds(each, out);
   for (const ImuInfo& each : info.imus) warn_of_imu(info, each, out);
-  if (!info.clouds.empty() && !has_sensor_transform(info)) {
+  if (!info.clouds.empty() && !has_sensor_transform(info) && !info.extrinsics_configured) {
     out.push_back(
         "no fixed transform on /tf_static: the pose of the LiDAR on the IMU is unknown; set "
         "recording.T_imu_lidar");

@@ -119,6 +119,9 @@ void SystemCheck::static_start() {
 }
 
 void SystemCheck::extrinsics(const std::string& remedy) {
+  if (bag_.bag->extrinsics_configured) {
+    return met("LiDAR to IMU transform", "T_imu_lidar of the configuration");
+  }
   const auto& known = bag_.bag->transforms;
   if (std::any_of(known.begin(), known.end(), [](const auto& each) { return each.fixed; })) {
     return met("LiDAR to IMU transform", "tf_static");
@@ -126,12 +129,13 @@ void SystemCheck::extrinsics(const std::string& remedy) {
   add(Fulfilment::kPoor, "LiDAR to IMU transform", "no tf_static", remedy);
 }
 
-void SystemCheck::joints_and_contacts() {
-  const bool both = has_type("sensor_msgs/JointState") && !bag_.bag->used.contacts.empty();
-  if (both) return met("joint states and foot contacts", bag_.bag->used.contacts);
-  add(Fulfilment::kMissing, "joint states and foot contacts",
-      has_type("sensor_msgs/JointState") ? "joint states only" : "none",
-      "record the robot's joint states and foot forces");
+void SystemCheck::unitree_state() {
+  constexpr const char* kState = "unitree_legged_msgs/HighState";
+  const std::string required = fmt::format("joints and foot forces as {}", kState);
+  if (has_type(kState)) return met(required, "recorded");
+  const bool others = has_type("sensor_msgs/JointState") && !bag_.bag->used.contacts.empty();
+  add(Fulfilment::kMissing, required, others ? "joint states and contacts of other types" : "none",
+      "record or convert to that message, which it reads alone");
 }
 
 void SystemCheck::legs() {
@@ -146,7 +150,7 @@ void SystemCheck::legs() {
 
 void SystemCheck::readable() {
   if (!bag_.bag->refusal) return met("readable by aims", "yes");
-  add(Fulfilment::kMissing, "readable by aims", "no", *bag_.bag->refusal);
+  add(Fulfilment::kMissing, "readable by aims", "", *bag_.bag->refusal);
 }
 
 void SystemCheck::imu_coverage() {

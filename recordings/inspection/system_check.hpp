@@ -41,7 +41,8 @@ class SystemCheck {
   void orientation();
   void static_start();
   void extrinsics(const std::string& remedy);
-  void joints_and_contacts();
+  /// Joint angles and foot forces as Unitree's robots publish them.
+  void unitree_state();
   void legs();
   void readable();
 

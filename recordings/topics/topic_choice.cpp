@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <set>
 
 #include "recordings/topics/recording_topics.hpp"
@@ -160,6 +161,45 @@ Result<std::string> optional_topic(const Chooser& chooser, const Request& reques
   return std::string();
 }
 
+/// Topics, each chosen whether or not others can be, and the first error.
+struct Choice {
+  TopicsConfig topics;
+  std::optional<Error> error;
+
+  void keep(std::string& member, const Result<std::string>& topic) {
+    if (topic) {
+      member = *topic;
+    } else if (!error) {
+      error = topic.error();
+    }
+  }
+};
+
+Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
+                 std::vector<std::string>& notes) {
+  const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
+  const Request imu = {"imu", "sensor_msgs/Imu", is_imu};
+  const Request joints = {"joint_states", "sensor_msgs/JointState", is_joints};
+  const Request contacts = {"contacts", "contacts of feet", is_anything};
+  Choice choice;
+  TopicsConfig& topics = choice.topics;
+  choice.keep(topics.lidar, required_topic(chooser, lidar, configured.lidar, kLidarTopic));
+  choice.keep(topics.imu, required_topic(chooser, imu, configured.imu, kImuTopic));
+  choice.keep(topics.leg_odometry, legs(chooser, configured.leg_odometry));
+  choice.keep(topics.joint_states, optional_topic(chooser, joints, configured.joint_states,
+                                                  kJointStatesTopic, is_joints, notes));
+  choice.keep(topics.contacts, optional_topic(chooser, contacts, configured.contacts,
+                                              kFootContactsTopic, may_be_contacts, notes));
+  if (!configured.truth.empty() && configured.truth != kNone) {
+    const Request truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
+    choice.keep(topics.truth, chooser.requested(truth, configured.truth));
+  } else if (configured.truth.empty()) {
+    const BagConnection* known = chooser.find(kTruthImuTopic);
+    if (known != nullptr && is_truth(*known)) topics.truth = known->topic;
+  }
+  return choice;
+}
+
 }  // namespace
 
 bool is_cloud_type(std::string_view type) {
@@ -177,36 +217,16 @@ Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
                                    const TopicsConfig& configured,
                                    std::vector<std::string>& notes) {
   const Chooser chooser(bag, connections);
-  TopicsConfig topics;
-  const auto keep = [](std::string& member, const Result<std::string>& topic) -> Result<void> {
-    if (!topic) return tl::unexpected(topic.error());
-    member = *topic;
-    return {};
-  };
-  const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
-  const Request imu = {"imu", "sensor_msgs/Imu", is_imu};
-  const Request joints = {"joint_states", "sensor_msgs/JointState", is_joints};
-  const Request contacts = {"contacts", "contacts of feet", is_anything};
-  auto ok = keep(topics.lidar, required_topic(chooser, lidar, configured.lidar, kLidarTopic));
-  if (ok) ok = keep(topics.imu, required_topic(chooser, imu, configured.imu, kImuTopic));
-  if (ok) ok = keep(topics.leg_odometry, legs(chooser, configured.leg_odometry));
-  if (ok) {
-    ok = keep(topics.joint_states, optional_topic(chooser, joints, configured.joint_states,
-                                                  kJointStatesTopic, is_joints, notes));
-  }
-  if (ok) {
-    ok = keep(topics.contacts, optional_topic(chooser, contacts, configured.contacts,
-                                              kFootContactsTopic, may_be_contacts, notes));
-  }
-  if (ok && !configured.truth.empty() && configured.truth != kNone) {
-    const Request truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
-    ok = keep(topics.truth, chooser.requested(truth, configured.truth));
-  } else if (ok && configured.truth.empty()) {
-    const BagConnection* known = chooser.find(kTruthImuTopic);
-    if (known != nullptr && is_truth(*known)) topics.truth = known->topic;
-  }
-  if (!ok) return tl::unexpected(ok.error());
-  return topics;
+  Choice choice = choice_of(chooser, configured, notes);
+  if (choice.error) return tl::unexpected(*choice.error);
+  return std::move(choice.topics);
+}
+
+TopicsConfig unambiguous_topics(const std::filesystem::path& bag,
+                                std::span<const BagConnection> connections,
+                                const TopicsConfig& configured) {
+  std::vector<std::string> notes;
+  return choice_of(Chooser(bag, connections), configured, notes).topics;
 }
 
 }  // namespace aims

@@ -22,6 +22,12 @@ Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
                                    std::span<const BagConnection> connections,
                                    const TopicsConfig& configured, std::vector<std::string>& notes);
 
+/// The topics that `choose_topics` would read of a recording that it refuses: empty where the
+/// choice fails.
+TopicsConfig unambiguous_topics(const std::filesystem::path& bag,
+                                std::span<const BagConnection> connections,
+                                const TopicsConfig& configured);
+
 /// Type of the topic, or empty.
 std::string_view type_of(std::span<const BagConnection> connections, std::string_view topic);
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr std::string_view kDataMark = "__AIMS_DATA__";
 
 std::string html_escaped(std::string_view text) {
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : utf8_text(text)) {
     switch (c) {
       case '&':
         escaped += "&amp;";

@@ -13,7 +13,7 @@ namespace aims {
 /// once each; empty when this program was built without it (CMake option AIMS_PAGE).
 std::string_view page_template();
 
-/// Text that is safe inside an HTML element.
+/// Text that is safe inside an HTML element; bytes that are not UTF-8 become \xNN.
 std::string html_escaped(std::string_view text);
 
 /// `html`, a page's template, with title and data in place of its marks. Error when the template is

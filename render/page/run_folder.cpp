@@ -18,6 +18,7 @@
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/waypoint_times.hpp"
+#include "render/page/links.hpp"
 
 namespace aims {
 namespace {
@@ -202,7 +203,8 @@ Result<RunFolder> read_run_folder(const fs::path& folder) {
   }
   RunFolder run;
   run.path = folder;
-  auto done = read_records(run);
+  auto done = check_links(folder);
+  if (done) done = read_records(run);
   if (done) done = read_config(run);
   if (done) done = read_trajectory_into(folder / "truth.tum", run.truth);
   if (done) done = read_waypoint_times(run);

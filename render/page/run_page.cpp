@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "bench/run/start_anchor.hpp"
@@ -31,6 +32,7 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kPictures = {
      {"trajectories", "Trajectories over the plan; height and error over the distance travelled"}}};
 /// Pictures beyond this size are left out [bytes].
 constexpr std::uintmax_t kLargestPicture = 256 * 1024;
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word) {
@@ -113,13 +115,18 @@ Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surfac
   return list;
 }
 
-Result<Json> pictures_json(const RunFolder& run) {
+/// The pictures that the folder holds; one that is no PNG becomes a note.
+Result<Json> pictures_json(const RunFolder& run, Json& notes) {
   Json list = Json::array();
   for (const auto& [name, title] : kPictures) {
     const fs::path file = run.path / (std::string(name) + ".png");
     if (!fs::is_regular_file(file) || fs::file_size(file) > kLargestPicture) continue;
     const auto bytes = read_file(file);
     if (!bytes) return tl::unexpected(bytes.error());
+    if (!bytes->starts_with(kPngSignature)) {
+      notes.push_back(file.filename().string() + " is no PNG picture and is left out.");
+      continue;
+    }
     list.push_back({{"name", name}, {"title", title}, {"png", base64(*bytes)}});
   }
   return list;
@@ -160,7 +167,6 @@ Result<PageData> run_page(const fs::path& folder) {
       {"command", command_json(*run)},
       {"config_yaml", run->config_yaml.empty() ? Json() : Json(run->config_yaml)},
       {"config_changes", changes_json(*run)},
-      {"notes", run->notes},
       {"scores", run->scores},
       {"waypoint_times", waypoint_times_json(*run, start)},
       {"truth", truth_json(*run, start, page)}};
@@ -173,8 +179,10 @@ Result<PageData> run_page(const fs::path& folder) {
   if (auto added = add_estimators(*run, start, page); !added) {
     return tl::unexpected(added.error());
   }
-  auto pictures = pictures_json(*run);
+  Json notes = run->notes;
+  auto pictures = pictures_json(*run, notes);
   if (!pictures) return tl::unexpected(pictures.error());
+  page.json["notes"] = std::move(notes);
   page.json["pictures"] = std::move(*pictures);
   return page;
 }

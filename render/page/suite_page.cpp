@@ -17,6 +17,7 @@
 #include "bench/studies/suite_summary.hpp"
 #include "render/page/detector_curves.hpp"
 #include "render/page/json_access.hpp"
+#include "render/page/links.hpp"
 
 namespace aims {
 namespace {
@@ -150,6 +151,7 @@ std::string link_to(const fs::path& relative) {
 }
 
 Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) {
+  if (auto ok = check_links(folder); !ok) return tl::unexpected(ok.error());
   const fs::path file = folder / "suite.json";
   auto suite = read_json_of(file, kSuiteSchema);
   if (!suite) return tl::unexpected(suite.error());

@@ -17,6 +17,7 @@
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "render/page/json_access.hpp"
+#include "render/page/links.hpp"
 #include "render/page/tuning_analysis.hpp"
 
 namespace aims {
@@ -263,6 +264,7 @@ Result<Json> estimators_json(const TuningSource& source, const VariedParameters&
 }  // namespace
 
 Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*options*/) {
+  if (auto ok = check_links(folder); !ok) return tl::unexpected(ok.error());
   const auto source = read_tuning(folder);
   if (!source) return tl::unexpected(source.error());
   const auto varied = varied_in(source->units);

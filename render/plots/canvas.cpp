@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
 
@@ -188,7 +190,7 @@ double Canvas::text_width(const std::string& text, const TextStyle& style) {
   cairo_t* cr = impl_->context.get();
   set_font(cr, style);
   cairo_text_extents_t extents;
-  cairo_text_extents(cr, text.c_str(), &extents);
+  cairo_text_extents(cr, name_text(text).c_str(), &extents);
   return extents.x_advance;
 }
 
@@ -202,7 +204,7 @@ void Canvas::text(const Eigen::Vector2d& at, const std::string& text, const Text
   set_color(cr, style.color);
   cairo_move_to(cr, -fraction_of(style.horizontal) * width,
                 (1.0 - fraction_of(style.vertical)) * cap_height);
-  cairo_show_text(cr, text.c_str());
+  cairo_show_text(cr, name_text(text).c_str());
   cairo_new_path(cr);
   cairo_restore(cr);
 }

@@ -165,6 +165,15 @@ TEST(IncludeRules, ThirdPartyHeadersStayInTheirFolders) {
   }
 }
 
+// Names in files may hold any bytes, which print_out makes safe for a terminal.
+TEST(Commands, PrintThroughTheTerminal) {
+  for (const fs::path& file : sources_in(fs::path(AIMS_SOURCE_DIR) / "bench/cli")) {
+    for (const std::string& line : lines_of(file)) {
+      EXPECT_EQ(line.find("fmt::print(\""), std::string::npos) << file << ": " << line;
+    }
+  }
+}
+
 TEST(SourceFiles, StartWithTheLicence) {
   for (const auto& [folder, unused] : kAllowed) {
     for (const fs::path& file : sources_in(fs::path(AIMS_SOURCE_DIR) / folder)) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "core/files/atomic_file.hpp"
 #include "tests/bench/cli/command_line.hpp"
@@ -93,8 +94,9 @@ TEST_F(Recordings, AKilledSimulationLeavesABagThatOpens) {
   for (const char* after : {"0.4", "0.7", "1.1", "1.9"}) {
     shell(std::string("timeout -s KILL ") + after + " '" AIMS_COMMAND "' simulate '" +
           AIMS_SCENARIOS + "/paper/corridor.yaml' --quiet --overwrite --out killed.bag");
-    if (!fs::exists(folder_.path() / "killed.bag")) continue;
-    const Outcome info = aims("info killed.bag");
+    EXPECT_FALSE(fs::exists(folder_.path() / "killed.bag")) << "it is not whole";
+    if (!fs::exists(folder_.path() / "killed.bag.partial")) continue;
+    const Outcome info = aims("info killed.bag.partial");
     EXPECT_EQ(info.exit_code, 0) << after << info.output;
     EXPECT_EQ(info.output.find("never closed"), std::string::npos) << info.output;
     with_messages += info.output.find("/lidar/points ") != std::string::npos ? 1 : 0;
@@ -118,11 +120,53 @@ TEST_F(Recordings, CheckNamesWhatASystemMisses) {
   const Outcome all = aims("check walk.bag");
   EXPECT_EQ(all.exit_code, 0) << all.output;
   EXPECT_NE(all.output.find("LIO-SAM: poor: IMU of 200 Hz"), std::string::npos) << all.output;
-  EXPECT_EQ(aims("check walk.bag --system LIO-SAM,Leg-KILO").exit_code, 0)
+  EXPECT_EQ(aims("check walk.bag --system LIO-SAM,FAST-LIO2").exit_code, 0)
       << "poorly, but they run";
+  const Outcome unitree = aims("check walk.bag --system Leg-KILO");
+  EXPECT_EQ(unitree.exit_code, 1);
+  EXPECT_NE(unitree.output.find("unitree_legged_msgs/HighState"), std::string::npos)
+      << unitree.output;
   const Outcome unknown = aims("check walk.bag --system SLAM9000");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.output.find("FAST-LIO2"), std::string::npos) << unknown.output;
+}
+
+TEST_F(Recordings, CheckJudgesEachTopicThoughAnotherIsAmbiguous) {
+  ASSERT_EQ(simulate("--fast-imu 200").exit_code, 0);
+  std::string bytes = text_of("walk.bag");
+  for (std::string_view name : {"/imu/data", "/leg_odometry"}) {  // no longer the default names
+    for (std::size_t at = bytes.find(name); at != std::string::npos; at = bytes.find(name, at)) {
+      bytes[at + 3] = 'x';
+    }
+  }
+  write("two.bag", bytes);
+  const Outcome check = aims("check two.bag --system aims");
+  EXPECT_EQ(check.exit_code, 1) << check.output;
+  EXPECT_NE(check.output.find("aims: MISSING: readable by aims: two.bag: several topics are "
+                              "sensor_msgs/Imu: /imx/data, /imx/data_fast"),
+            std::string::npos)
+      << check.output;
+  EXPECT_EQ(check.output.find("leg odometry"), std::string::npos) << check.output;
+  const Outcome chosen = aims("check two.bag --system aims --set recording.topics.imu=/imx/data");
+  EXPECT_EQ(chosen.exit_code, 0) << chosen.output;
+}
+
+TEST_F(Recordings, CheckTakesTheExtrinsicsOfTheConfiguration) {
+  ASSERT_EQ(simulate().exit_code, 0);
+  std::string bytes = text_of("walk.bag");
+  for (std::size_t at = bytes.find("/tf_static"); at != std::string::npos;) {
+    bytes[at + 1] = 'x';
+    at = bytes.find("/tf_static");
+  }
+  write("bare.bag", bytes);
+  EXPECT_NE(aims("check bare.bag --system aims").output.find("no tf_static"), std::string::npos);
+  write("mount.yaml",
+        "recording: {T_imu_lidar: {override_tf: true, translation: [0.03, 0, 0.16]}}\n");
+  const Outcome check = aims("check bare.bag --system aims --config mount.yaml");
+  EXPECT_EQ(check.exit_code, 0) << check.output;
+  EXPECT_EQ(check.output.find("tf_static"), std::string::npos) << check.output;
+  EXPECT_EQ(aims("info bare.bag --config mount.yaml").output.find("T_imu_lidar"),
+            std::string::npos);
 }
 
 TEST_F(Recordings, BadInputIsRefusedWithFileAndOffset) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/files/csv.hpp"
+
 namespace aims {
 namespace {
 
@@ -20,6 +22,23 @@ TEST(WaypointTimes, RowsAreReadInOrder) {
   EXPECT_EQ((*waypoint_times)[0].stamp, 2'500'000'000);
   EXPECT_EQ((*waypoint_times)[1].point, "b, \"far\"");
   EXPECT_EQ((*waypoint_times)[2].stamp, 100 * kSecond);
+}
+
+TEST(WaypointTimes, NamesOfAnyTextComeBack) {
+  const std::vector<WaypointTime> written = {
+      {"b\"\n", 1 * kSecond}, {"\n\n# c,\"", 2 * kSecond}, {"a\r\nb", 3 * kSecond}};
+  CsvTable table({"point", "stamp_s"});
+  for (const WaypointTime& each : written) {
+    table.add(each.point).add(to_seconds(each.stamp)).end_row();
+  }
+  const auto read = parse_waypoint_times(table.text(), "p.csv");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->size(), written.size());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    EXPECT_EQ((*read)[i].point, written[i].point);
+    EXPECT_EQ((*read)[i].stamp, written[i].stamp);
+  }
+  EXPECT_EQ(message_of("point,stamp_s\n\"a\nb\",1\nc,x\n").substr(0, 8), "p.csv:4:");
 }
 
 TEST(WaypointTimes, ErrorsNameFileAndLine) {

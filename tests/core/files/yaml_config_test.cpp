@@ -233,6 +233,24 @@ TEST(YamlConfig, ABaseMayBeABareName) {
       std::string::npos);
 }
 
+TEST(YamlConfig, RefusesWhatWouldCostTheParserItsMemory) {
+  EXPECT_EQ(message_of("name: a\nx: " + std::string(3'000'000, '[')),
+            "s.yaml: expected at most 524288 bytes, found 3000011");
+  EXPECT_EQ(message_of("name: a\nx: " + std::string(500'000, '[')),
+            "s.yaml:2: expected no deeper nesting than 100");
+  std::string lists;
+  for (int i = 0; i < 100'000; ++i) lists += "- ";
+  EXPECT_EQ(message_of("x:\n" + lists), "s.yaml:2: expected no deeper nesting than 100");
+  EXPECT_EQ(message_of("# " + std::string(200'000, '-') + "\nname: a\n"), "") << "a ruler";
+  EXPECT_EQ(message_of("name: '" + std::string(500, '[') + "'\n"), "") << "a text";
+}
+
+TEST(YamlConfig, EchoesAtMostTheStartOfALongValue) {
+  EXPECT_EQ(message_of("inner: {eta: " + std::string(100'000, 'a') + "}\n"),
+            "s.yaml:1:14: inner.eta: expected a number >= 0, found '" + std::string(79, 'a') +
+                "... (100002 bytes)");
+}
+
 TEST(YamlConfig, MissingFileIsNamed) {
   Sample c;
   const auto loaded = load_config("/nonexistent/s.yaml", c);
@@ -268,6 +286,16 @@ TEST(YamlConfig, ErrorsOfABaseNameTheFileTheyAreIn) {
   EXPECT_EQ(load_config(orphan, c).error().message, orphan.string() + ":1:7: base: no such file '" +
                                                         (directory.path() / "gone.yaml").string() +
                                                         "'");
+}
+
+TEST(YamlConfig, ATextOpensNoFile) {
+  EXPECT_EQ(message_of("base: /dev/zero\n"),
+            "s.yaml:1:7: base: expected none; only a file may name another");
+  TemporaryFolder directory;
+  Sample c;
+  const auto child = write(directory.path() / "child.yaml", "base: /dev/zero\n");
+  EXPECT_EQ(load_config(child, c).error().message,
+            child.string() + ":1:7: base: '/dev/zero' is no plain file");
 }
 
 TEST(YamlConfig, FilesBasedOnThemselvesAreRefused) {

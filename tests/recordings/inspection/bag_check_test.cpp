@@ -27,10 +27,10 @@ TopicInfo topic(const std::string& name, const std::string& type, double hz) {
 /// A bag that every system takes.
 BagInfo good_bag() {
   BagInfo bag;
-  bag.topics = {topic("/imu", "sensor_msgs/Imu", 200.0),
-                topic("/joints", "sensor_msgs/JointState", 200.0),
-                topic("/odom", "nav_msgs/Odometry", 200.0),
-                topic("/points", "sensor_msgs/PointCloud2", 10.0)};
+  bag.topics = {
+      topic("/imu", "sensor_msgs/Imu", 200.0), topic("/joints", "sensor_msgs/JointState", 200.0),
+      topic("/odom", "nav_msgs/Odometry", 200.0), topic("/points", "sensor_msgs/PointCloud2", 10.0),
+      topic("/high_state", "unitree_legged_msgs/HighState", 200.0)};
   CloudInfo cloud;
   cloud.topic = "/points";
   cloud.fields = {{"x", "float32", 0},          {"y", "float32", 4},    {"z", "float32", 8},
@@ -152,6 +152,30 @@ TEST(BagCheck, AnUnreadableCloudTopicCountsAsMissing) {
   bag.clouds[0].clouds = 0;
   bag.clouds[0].broken = 20;
   EXPECT_EQ(worst(bag, "LOAM"), Fulfilment::kMissing);
+}
+
+TEST(BagCheck, LegKiloReadsNothingButUnitreesMessage) {
+  BagInfo bag = good_bag();
+  bag.topics.pop_back();
+  EXPECT_EQ(worst(bag, "Leg-KILO"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMet);
+}
+
+TEST(BagCheck, ConfiguredExtrinsicsReplaceThoseOfTf) {
+  BagInfo bag = good_bag();
+  bag.transforms.clear();
+  EXPECT_EQ(worst(bag, "aims"), Fulfilment::kPoor);
+  bag.extrinsics_configured = true;
+  EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMet);
+  EXPECT_TRUE(bag_warnings(bag).empty()) << bag_warnings(bag).front();
+}
+
+TEST(BagCheck, ARefusalIsSaidInItsOwnWords) {
+  BagInfo bag = good_bag();
+  bag.refusal = "b.bag: several topics are sensor_msgs/Imu: /a, /b; choose one with topics.imu";
+  const std::string text = check_text(check_bag(bag));
+  EXPECT_NE(text.find("aims: MISSING: readable by aims: " + *bag.refusal + "\n"), std::string::npos)
+      << text;
 }
 
 TEST(BagCheck, TheTableListsWhichSystemsRun) {

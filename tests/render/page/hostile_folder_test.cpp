@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -68,6 +69,32 @@ TEST_F(HostileFolder, EstimatorNamedAsAPathReadsNoFileOutsideTheFolder) {
     EXPECT_TRUE(estimator["series"].is_null());
   }
   EXPECT_TRUE(found);
+}
+
+TEST_F(HostileFolder, ALinkToAFileOutsideIsRefused) {
+  put(folder_.path() / "secret.png", "\x89PNG\r\n\x1a\n the reader's own");
+  fs::remove(run_ / "trajectories.png");
+  fs::create_symlink("../secret.png", run_ / "trajectories.png");
+  expect_refused({"trajectories.png", "outside the folder"});
+  fs::remove(run_ / "trajectories.png");
+  put(folder_.path() / "secret.yaml", content(run_ / "config.yaml"));
+  fs::remove(run_ / "config.yaml");
+  fs::create_symlink(folder_.path() / "secret.yaml", run_ / "config.yaml");
+  expect_refused({"config.yaml", "outside the folder"});
+}
+
+TEST_F(HostileFolder, ALinkInsideTheFolderIsFollowed) {
+  fs::create_symlink("truth.tum", run_ / "other.tum");
+  const DecodedPage decoded = page();
+  EXPECT_TRUE(std::any_of(decoded.json["estimators"].begin(), decoded.json["estimators"].end(),
+                          [](const auto& each) { return each["name"] == "other"; }));
+}
+
+TEST_F(HostileFolder, APictureThatIsNoneIsLeftOut) {
+  put(run_ / "trajectories.png", "<svg onload=alert(1)>");
+  const DecodedPage decoded = page();
+  for (const auto& each : decoded.json["pictures"]) EXPECT_NE(each["name"], "trajectories");
+  EXPECT_NE(decoded.json["notes"].dump().find("trajectories.png is no PNG"), std::string::npos);
 }
 
 TEST_F(HostileFolder, MissingFilesLeaveTheirPartEmpty) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+/// Error when a file of the folder is a link to one outside it: a page of results from elsewhere
+/// must not show files of its reader.
+Result<void> check_links(const std::filesystem::path& folder);
+
+}  // namespace aims
