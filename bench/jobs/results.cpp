@@ -9,6 +9,7 @@
 
 #include "bench/jobs/job_store.hpp"
 #include "bench/run/json_text.hpp"
+#include "bench/run/json_values.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {
@@ -79,7 +80,7 @@ Result<RunRecord> read_record(const fs::path& file) {
   auto parsed = parse_json(*text, file.string());
   if (!parsed) return tl::unexpected(parsed.error());
   Json& json = *parsed;
-  const bool known = json.is_object() && json.value("schema", "") == kScoresSchema &&
+  const bool known = json.is_object() && value_in(json, "schema", "") == kScoresSchema &&
                      json.contains("seed") && json["seed"].is_number_unsigned() &&
                      json.contains("estimators") && json["estimators"].is_object();
   if (!known) return failure(fmt::format("{}: holds no {}", file.string(), kScoresSchema));
@@ -95,7 +96,7 @@ Result<StoredResults> read_results(const fs::path& folder) {
   } else if (fs::exists(folder / "scores.json")) {
     auto record = read_record(folder / "scores.json");
     if (!record) return tl::unexpected(record.error());
-    results[record->scores.value("scenario", "")].push_back(std::move(*record));
+    results[value_in(record->scores, "scenario", "")].push_back(std::move(*record));
   }
   if (!results.empty()) return results;
   return failure(fmt::format("{}: holds no finished results", folder.string()));

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/run/json_values.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -49,8 +50,8 @@ FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
 std::optional<double> equivalent_returns(const SuiteCase& each) {
   std::vector<double> values;
   for (const RunRecord& run : each.runs) {
-    const Json sums = run.scores.value("localizability", Json::object());
-    const Json value = sums.value("median_equivalent_returns", Json());
+    const Json sums = value_in(run.scores, "localizability", Json());
+    const Json value = value_in(sums, "median_equivalent_returns", Json());
     if (value.is_number()) values.push_back(value.get<double>());
   }
   return median(values);

@@ -5,6 +5,7 @@
 
 #include "bench/run/code_version.hpp"
 #include "bench/run/json_text.hpp"
+#include "bench/run/json_values.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/suite_tables.hpp"
 #include "core/files/atomic_file.hpp"
@@ -110,7 +111,7 @@ bool holds_suite(const std::filesystem::path& folder) {
   const auto text = read_file(folder / "suite.json");
   if (!text) return false;
   const auto json = parse_json(*text, "suite.json");
-  return json && json->is_object() && json->value("schema", "") == kSuiteSchema;
+  return json && json->is_object() && value_in(*json, "schema", "") == kSuiteSchema;
 }
 
 Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bench/run/json_values.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {
@@ -155,8 +156,8 @@ CsvTable timings_csv(const Suite& suite) {
       for (const std::string& estimator : labels_of(each.scenario.run)) {
         if (estimator_in(run, estimator).is_null()) continue;
         table.add(each.scenario.name).add(static_cast<std::int64_t>(run.seed)).add(estimator);
-        table.add(run.scores.value("simulated_s", 0.0));
-        table.add(run.scores.value("wall_s", Json::object()).value(estimator, 0.0));
+        table.add(value_in(run.scores, "simulated_s", 0.0));
+        table.add(value_in(value_in(run.scores, "wall_s", Json()), estimator, 0.0));
         table.add(find_score(run, estimator, "time_per_scan_ms.mean"));
         table.add(find_score(run, estimator, "cpu_per_scan_ms.mean")).end_row();
       }
@@ -166,7 +167,7 @@ CsvTable timings_csv(const Suite& suite) {
 }
 
 bool robot_fell(const RunRecord& run) {
-  return run.scores.value("robot", Json::object()).value("fell", false);
+  return value_in(value_in(run.scores, "robot", Json()), "fell", false);
 }
 
 }  // namespace aims

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "bench/run/json_values.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "core/files/csv.hpp"
 
@@ -50,9 +51,7 @@ void add_cell(CsvTable& table, const Json& value) {
 
 }  // namespace
 
-std::string MergedJob::outcome() const {
-  return file.is_null() ? kMissing : file.value("outcome", kMissing);
-}
+std::string MergedJob::outcome() const { return value_in(file, "outcome", kMissing); }
 
 std::size_t MergedSweep::count(std::string_view outcome) const {
   return static_cast<std::size_t>(std::count_if(
@@ -98,8 +97,9 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
   Columns scores;
   for (const MergedJob& job : sweep.jobs) {
     if (!is_done(job)) continue;
-    for (const auto& [key, unused] : job.file["settings"].items()) parameters.add(key);
-    visit_leaves(job.file["scores"], "",
+    const Json settings = value_in(job.file, "settings", Json::object());
+    for (const auto& [key, unused] : settings.items()) parameters.add(key);
+    visit_leaves(value_in(job.file, "scores", Json()), "",
                  [&](const std::string& key, const Json&) { scores.add(key); });
   }
   std::vector<std::string> header = {"id", "scenario", "seed", "estimator", "outcome"};
@@ -112,10 +112,10 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
     table.add(job.listed.estimator).add(job.outcome());
     if (is_done(job)) {
       std::map<std::string, Json> found;
-      visit_leaves(job.file["scores"], "",
+      visit_leaves(value_in(job.file, "scores", Json()), "",
                    [&](const std::string& key, const Json& value) { found[key] = value; });
       for (const std::string& key : parameters.names()) {
-        add_cell(table, job.file["settings"].value(key, Json()));
+        add_cell(table, value_in(value_in(job.file, "settings", Json()), key, Json()));
       }
       for (const std::string& key : scores.names()) add_cell(table, found[key]);
     }

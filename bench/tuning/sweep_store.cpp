@@ -9,6 +9,8 @@
 #include <optional>
 #include <system_error>
 
+#include "bench/run/json_values.hpp"
+
 namespace aims {
 namespace {
 
@@ -24,6 +26,13 @@ CREATE TABLE parameters (job INTEGER NOT NULL REFERENCES jobs, key TEXT NOT NULL
 CREATE TABLE scores (job INTEGER NOT NULL REFERENCES jobs, key TEXT NOT NULL, value,
   PRIMARY KEY (job, key)) WITHOUT ROWID;
 )";
+
+/// The seed that a list names; 0 for what is none.
+std::uint64_t seed_in(const std::string& text) {
+  std::uint64_t seed = 0;
+  std::from_chars(text.data(), text.data() + text.size(), seed);
+  return seed;
+}
 
 void bind_text(SQLite::Statement& statement, int at, const Json& file, const char* key) {
   const auto found = file.is_object() ? file.find(key) : file.end();
@@ -77,22 +86,22 @@ class Filler {
     job_.bind(2, listed.id);
     job_.bind(3, listed.scenario);
     bind_text(job_, 4, file, "family");
-    bind_number(job_, 5, file.is_object() ? file.value("level", Json()) : Json());
-    job_.bind(6, static_cast<std::int64_t>(std::stoull(listed.seed)));
+    bind_number(job_, 5, value_in(file, "level", Json()));
+    job_.bind(6, static_cast<std::int64_t>(seed_in(listed.seed)));
     const std::size_t plus = listed.estimator.find('+');
     job_.bind(7, listed.estimator.substr(0, plus));
     job_.bind(8, plus == std::string::npos ? "" : listed.estimator.substr(plus + 1));
     job_.bind(9, job.outcome());
     bind_text(job_, 10, file, "message");
     bind_text(job_, 11, file, "code");
-    bind_number(job_, 12, file.is_object() ? file.value("wall_s", Json()) : Json());
+    bind_number(job_, 12, value_in(file, "wall_s", Json()));
     finish(job_);
     if (!file.is_object()) return;
-    const Json settings = file.value("settings", Json::object());
+    const Json settings = value_in(file, "settings", Json::object());
     for (const auto& [key, value] : settings.items()) {
       if (value.is_string()) add_value(parameter_, key, setting_value(value.get<std::string>()));
     }
-    const Json scores = file.value("scores", Json());
+    const Json scores = value_in(file, "scores", Json());
     visit_leaves(scores, "", [this](const std::string& key, const Json& value) {
       add_value(score_, key, value);
     });

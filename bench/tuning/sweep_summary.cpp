@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "bench/run/json_values.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/sweep_plan.hpp"
@@ -121,7 +122,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
   if (varied.ranges.empty()) return failure("the sweep varies nothing: no range in its plan");
   for (const MergedJob& job : sweep.jobs) {
     if (!job.file.is_object()) continue;
-    const Json defaults = job.file.value("defaults", Json::object());
+    const Json defaults = value_in(job.file, "defaults", Json::object());
     for (const auto& [key, text] : defaults.items()) {
       const auto value = text.is_string() ? number_in(text.get<std::string>()) : std::nullopt;
       if (value) varied.scenario_values.emplace(key, *value);
@@ -133,12 +134,12 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
 std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters& varied) {
   if (job.outcome() == "missing") return std::nullopt;
   PlacedJob placed;
-  placed.estimator.name = job.file.value("estimator", "");
+  placed.estimator.name = value_in(job.file, "estimator", "");
   placed.estimator.label = placed.estimator.name;
   std::map<std::string, std::string> settings;
-  const Json all_settings = job.file.value("settings", Json::object());
+  const Json all_settings = value_in(job.file, "settings", Json::object());
   for (const auto& [key, value] : all_settings.items()) {
-    settings[key] = value.is_string() ? value.get<std::string>() : value.dump();
+    settings[key] = value.is_string() ? value.get<std::string>() : json_text(value, -1);
   }
   for (const ParameterRange& range : varied.ranges) {
     const auto found = settings.find(range.key);
@@ -150,9 +151,9 @@ std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters
   }
   if (!placed.values.empty() && placed.values.size() != varied.ranges.size()) return std::nullopt;
   placed.estimator.settings.assign(settings.begin(), settings.end());
-  const std::string family = job.file.value("family", "");
+  const std::string family = value_in(job.file, "family", "");
   placed.on = {job.listed.scenario, family.empty() ? job.listed.scenario : family,
-               job.file.value("seed", std::uint64_t{0})};
+               value_in(job.file, "seed", std::uint64_t{0})};
   auto result = result_in(job.file);
   if (!result) return std::nullopt;
   placed.result = std::move(*result);

@@ -28,6 +28,9 @@ void replay(const std::string& target, void (*run)(std::span<const std::uint8_t>
 TEST(FuzzCorpus, Bags) { replay("bag", fuzz_bag); }
 TEST(FuzzCorpus, Messages) { replay("message", fuzz_message); }
 TEST(FuzzCorpus, Recordings) { replay("recording", fuzz_recording); }
+TEST(FuzzCorpus, Yaml) { replay("yaml", fuzz_yaml); }
+TEST(FuzzCorpus, Tables) { replay("tables", fuzz_tables); }
+TEST(FuzzCorpus, Json) { replay("json", fuzz_json); }
 
 }  // namespace
 }  // namespace aims

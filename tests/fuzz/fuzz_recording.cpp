@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "recordings/bag/bag_publisher.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "tests/fuzz/demand.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/touch.hpp"
@@ -74,10 +74,6 @@ std::vector<RecordingConfig> ways_to_read() {
   return {odometry, joints, twist};
 }
 
-void demand(const Result<void>& outcome) {
-  if (!outcome) std::abort();
-}
-
 }  // namespace
 
 void fuzz_recording(std::span<const std::uint8_t> input) {
@@ -95,9 +91,9 @@ void fuzz_recording(std::span<const std::uint8_t> input) {
       time += *cursor.number<std::uint8_t>() * kMillisecond;
       const std::size_t size = *cursor.number<std::uint16_t>();
       const auto data = cursor.take(std::min(size, cursor.left()));
-      demand(bag->write(static_cast<std::uint32_t>(topic), time, *data));
+      demand(bag->write(static_cast<std::uint32_t>(topic), time, *data).has_value());
     }
-    demand(bag->close());
+    demand(bag->close().has_value());
   }
   const MemoryFile file(bytes);
   for (const RecordingConfig& way : ways_to_read()) touch_recording(file.path(), false, way);

@@ -16,5 +16,11 @@ void fuzz_bag(std::span<const std::uint8_t> input);
 void fuzz_message(std::span<const std::uint8_t> input);
 /// Messages of a robot's topics in a sound bag, their content free: read as a recording.
 void fuzz_recording(std::span<const std::uint8_t> input);
+/// A scenario, a configuration of `aims estimate`, plans; or lines of `--set KEY=VALUE`.
+void fuzz_yaml(std::span<const std::uint8_t> input);
+/// A text as TUM, KITTI, CSV, PLY and waypoint times, each read and what was read written again.
+void fuzz_tables(std::span<const std::uint8_t> input);
+/// JSON as every file of results: read as records, as a store of jobs, and for a page.
+void fuzz_json(std::span<const std::uint8_t> input);
 
 }  // namespace aims

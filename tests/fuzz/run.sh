@@ -1,17 +1,18 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Fuzzes the reading of bags, messages and recordings, each for some seconds, from the kept corpus
-# on; what is new and reaches further is put into BUILD/corpus, what breaks into BUILD/found.
+# Fuzzes the readers of bags, messages, recordings, YAML, tables and JSON, each for some seconds, from
+# the kept corpus on; what is new and reaches further is put into BUILD/corpus, what breaks into BUILD/found.
 # usage: tests/fuzz/run.sh [SECONDS [BUILD [TARGET...]]]
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 seconds=${1:-300}
 build=${2:-$source/build/fuzz}
 [ $# -ge 2 ] && shift 2 || set --
-[ $# -gt 0 ] || set -- bag message recording
+[ $# -gt 0 ] || set -- bag message recording yaml tables json
 
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-  -DCMAKE_CXX_COMPILER=clang++ -DAIMS_FUZZ=ON -DAIMS_BENCH=OFF > "$build.log" 2>&1 ||
+  -DCMAKE_CXX_COMPILER=clang++ -DAIMS_FUZZ=ON -DAIMS_BENCH=OFF -DAIMS_PAGE=OFF \
+  -DAIMS_UNITY=ON "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -gline-tables-only" > "$build.log" 2>&1 ||
   { cat "$build.log"; exit 1; }
 for target; do
   cmake --build "$build" --target "fuzz_$target"

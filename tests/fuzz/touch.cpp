@@ -2,12 +2,12 @@
 #include "tests/fuzz/touch.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/stream/recording_reader.hpp"
+#include "tests/fuzz/demand.hpp"
 
 namespace aims {
 namespace {
@@ -15,10 +15,6 @@ namespace {
 constexpr std::size_t kMemoryLimit = std::size_t{16} << 20;
 /// Lists claim more entries than are worth looking at.
 constexpr std::size_t kMostEntries = 20;
-
-void demand(bool condition) {
-  if (!condition) std::abort();
-}
 
 void touch_table(const TableView& table) {
   demand(table.rows * table.stride <= table.bytes.size());
