@@ -38,10 +38,6 @@ Result<void> load_base(const YAML::Node& document, const std::string& name,
     }
     const auto base = find_base(name, entry.second.Scalar(), target.named);
     if (!base) return failure(fmt::format("{}: {}", here, base.error().message));
-    std::error_code ignored;
-    if (!fs::is_regular_file(*base, ignored)) {
-      return failure(fmt::format("{}: base: '{}' is no plain file", here, base->string()));
-    }
     const fs::path canonical = fs::weakly_canonical(*base);
     if (std::find(chain.begin(), chain.end(), canonical) != chain.end()) {
       return failure(fmt::format("{}: base: '{}' is based on itself", here, base->string()));

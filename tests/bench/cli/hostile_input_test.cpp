@@ -78,7 +78,8 @@ TEST_F(HostileInput, ResultsAreWrittenWhateverATopicHolds) {
   expect_shown_safely(aims("check bad.bag"));
   expect_shown_safely(aims("estimate bad.bag --topics lidar=/none"));
   const Outcome estimate = aims(
-      "estimate bad.bag --topics 'leg_odometry=/leg\xFF\x1B[31mtry' --no-pictures --quiet --out est");
+      "estimate bad.bag --no-pictures --quiet --out est "
+      "--topics 'leg_odometry=/leg\xFF\x1B[31mtry'");
   EXPECT_EQ(estimate.exit_code, 0) << estimate.output;
   expect_shown_safely(estimate);
   EXPECT_EQ(document("est/estimate.json").at("topics").at("leg_odometry"), "/leg\\xff\x1B[31mtry");
