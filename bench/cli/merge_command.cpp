@@ -40,7 +40,8 @@ void print_open(const MergedSweep& sweep) {
   for (const MergedJob& job : sweep.jobs) {
     const std::string outcome = job.outcome();
     if (outcome == "done" || ++open > kMostShown) continue;
-    const std::string why = job.file.is_object() ? job.file.value("message", "") : "";
+    const std::string message = job.file.is_object() ? job.file.value("message", "") : "";
+    const std::string why = job.invalid().value_or(message);
     print_out("{}: {} {} seed {} {}{}{}\n", outcome, job.listed.id, job.listed.scenario,
               job.listed.seed, job.listed.estimator, why.empty() ? "" : ": ", why);
   }
@@ -71,7 +72,9 @@ int merge_command(const MergeArguments& arguments) {
   }
   print_out("{} of {} jobs done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
             sweep->jobs.size(), (out / "sweep.sqlite").string());
-  return sweep->count("done") == sweep->jobs.size() ? kOk : kExpectationFailed;
+  const std::size_t invalid = sweep->count("invalid");
+  if (sweep->count("done") + invalid < sweep->jobs.size()) return kExpectationFailed;
+  return invalid == 0 ? kOk : kInvalidRun;
 }
 
 }  // namespace

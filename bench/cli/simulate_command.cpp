@@ -10,7 +10,9 @@
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/run/expectations.hpp"
 #include "bench/run/record.hpp"
+#include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
@@ -33,10 +35,6 @@ void print_results(const RecordOutcome& outcome, const RecordOptions& options, b
               static_cast<double>(outcome.bag_bytes) / 1e6, outcome.simulated_s, outcome.wall_s);
     print_out("  {}\n  {}\n", outcome.truth.string(), outcome.waypoint_times.string());
   }
-  const WalkEnd end = outcome.walk.end;
-  if (outcome.complete && end != WalkEnd::kRouteDone) {
-    print_out("warning: the walk ended before its route: {}\n", name_of(end));
-  }
   if (outcome.walk.touched_wall) print_out("warning: the robot touched a wall\n");
   if (outcome.left_out > 0) {
     print_out("warning: {} messages from before time 0 were left out: ROS has no negative time\n",
@@ -45,6 +43,19 @@ void print_results(const RecordOutcome& outcome, const RecordOptions& options, b
   if (!outcome.complete) {
     print_out("interrupted: the bag ends where the simulation was stopped\n");
   }
+}
+
+/// Whether the walk may have ended as it did: the run is valid, or the scenario demands what makes
+/// it invalid. Prints one that is invalid.
+bool is_as_demanded(const RecordOutcome& outcome, const Scenario& scenario, std::uint64_t seed) {
+  RunRecord run{seed, {{"simulated_s", outcome.simulated_s}, {"robot", robot_json(outcome.walk)}}};
+  mark_validity(run.scores);
+  const auto reason = invalid_reason(run.scores);
+  if (!reason) return true;
+  const bool demanded = undemanded_runs({&run, 1}, check_expectations(scenario, {&run, 1})).empty();
+  print_out("{}{} seed {}: {}{}\n", demanded ? "" : "INVALID RUN: ", scenario.name, seed, *reason,
+            demanded ? ", as the scenario demands" : "; the bag is kept");
+  return demanded;
 }
 
 int simulate_command(const SimulateArguments& arguments) {
@@ -76,7 +87,8 @@ int simulate_command(const SimulateArguments& arguments) {
   display.close();
   if (!outcome) return bad_input("simulate", outcome.error());
   print_results(*outcome, options, shared.quiet);
-  return outcome->complete ? kOk : interrupted_code();
+  if (!outcome->complete) return interrupted_code();
+  return is_as_demanded(*outcome, *scenario, options.seed) ? kOk : kInvalidRun;
 }
 
 }  // namespace

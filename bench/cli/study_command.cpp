@@ -207,6 +207,7 @@ void print_comparison(const Comparison& comparison) {
             summary_text(comparison));
   for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
   for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
+  for (const std::string& run : comparison.invalid) print_out("INVALID RUN left out: {}\n", run);
 }
 
 int compare_command(const CompareArguments& arguments) {

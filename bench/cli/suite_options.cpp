@@ -55,17 +55,44 @@ void print_expectations(const Suite& suite) {
   }
 }
 
+namespace {
+
+std::vector<InvalidRun> undemanded_runs(const SuiteCase& each) {
+  return aims::undemanded_runs(each.runs, check_expectations(each.scenario, each.runs));
+}
+
+/// A line per invalid run, loud unless the scenario demands it.
+void print_invalid(const Suite& suite) {
+  for (const SuiteCase& each : suite.cases) {
+    const auto undemanded = undemanded_runs(each);
+    for (const auto& [seed, reason] : invalid_runs(each.runs)) {
+      const bool demanded = std::ranges::none_of(
+          undemanded, [seed = seed](const InvalidRun& run) { return run.seed == seed; });
+      print_out("{}{} seed {}: {}{}\n", demanded ? "" : "INVALID RUN: ", each.scenario.name, seed,
+                reason,
+                demanded ? ", as the scenario demands"
+                         : "; it is no success, and left out of all statistics");
+    }
+  }
+}
+
+}  // namespace
+
 void print_outcome(const Suite& suite, const SharedOptions& options) {
   print_out("{} jobs done, {} found finished, {} sequences simulated\n", suite.run.done,
             suite.run.reused, suite.run.sequences);
   print_pruned(suite.run.pruned, options);
   for (const SuiteFailure& each : suite.failures) print_out("FAILED: {}\n", text_of(each));
+  print_invalid(suite);
   if (!suite.complete) print_out("interrupted: the same command continues\n");
 }
 
 int exit_code_of(const Suite& suite) {
   if (!suite.complete) return interrupted_code();
-  return suite.failures.empty() ? kOk : kBadInput;
+  if (!suite.failures.empty()) return kBadInput;
+  const bool as_demanded = std::ranges::all_of(
+      suite.cases, [](const SuiteCase& each) { return undemanded_runs(each).empty(); });
+  return as_demanded ? kOk : kInvalidRun;
 }
 
 int exit_code_with_expectations(const Suite& suite) {

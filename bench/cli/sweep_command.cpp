@@ -73,6 +73,10 @@ void print_results(const JobRun& run, const SharedOptions& shared) {
   print_out("{} jobs done, {} of them failed; {} found finished; {} sequences simulated\n",
             run.done, run.failed, run.reused, run.sequences);
   print_pruned(run.pruned, shared);
+  if (run.invalid > 0) {
+    print_out("INVALID RUNS: {} jobs, left out of all statistics; why: aims merge {}\n",
+              run.invalid, shared.out);
+  }
   if (!run.complete) print_out("interrupted: the same command continues\n");
   if (run.failed > 0) {
     print_out("why jobs failed: aims merge {0}; to repeat them: --retry\n", shared.out);
@@ -113,7 +117,8 @@ int sweep_command(const SweepArguments& arguments) {
   if (whole) print_points_of(arguments.shared.out);
   print_results(*run, arguments.shared);
   if (!run->complete) return interrupted_code();
-  return run->failed == 0 ? kOk : kExpectationFailed;
+  if (run->failed > 0) return kExpectationFailed;
+  return run->invalid == 0 ? kOk : kInvalidRun;
 }
 
 void add_design(Command& command, SweepArguments& arguments) {

@@ -77,14 +77,17 @@ int finish(const TuneArguments& arguments, const TuneResult& result) {
     const bool front = result.tables.size() > 1;
     print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
   }
+  const auto left_out = left_out_lines(result);
+  for (const std::string& line : left_out) print_out("INVALID RUNS: {}\n", line);
   print_out("results: {}\n", (out / "tune.md").string());
   if (!result.complete) return interrupted_code();
-  if (arguments.apply.empty()) return kOk;
+  const int code = left_out.empty() ? kOk : kInvalidRun;
+  if (arguments.apply.empty()) return code;
   if (auto written = write_overlay(result, arguments.apply); !written) {
     return bad_input("tune", written.error());
   }
   print_out("tuned values: {0}; to use them: --set @{0}\n", arguments.apply);
-  return kOk;
+  return code;
 }
 
 int tune_command(const TuneArguments& arguments) {

@@ -36,13 +36,14 @@ Result<JobRun> JobRunner::run(std::span<const Job> jobs, const JobObserver& obse
   return JobSchedule(*this, jobs, observer).run();
 }
 
-bool JobRunner::is_done(const Job& job) {
-  const auto result = store_.find(job.id);
-  if (!result || options_.redo) return false;
-  if (result->outcome != JobOutcome::kDone) return !options_.retry;
+std::optional<JobResult> JobRunner::finished(const Job& job) {
+  auto result = store_.find(job.id);
+  if (!result || options_.redo) return std::nullopt;
+  if (result->outcome != JobOutcome::kDone) return options_.retry ? std::nullopt : result;
   const JobOutputs& outputs = options_.outputs;
-  if (!outputs.trajectories && !outputs.weak_axis) return true;
-  return store_.has(job.id, sequence_id(job), outputs);
+  const bool whole = (!outputs.trajectories && !outputs.weak_axis) ||
+                     store_.has(job.id, sequence_id(job), outputs);
+  return whole ? result : std::nullopt;
 }
 
 std::string JobRunner::sequence_id(const Job& job) {

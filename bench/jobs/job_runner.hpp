@@ -57,6 +57,7 @@ struct JobRun {
   std::size_t done = 0;       ///< evaluated now, failures included
   std::size_t failed = 0;     ///< of them
   std::size_t reused = 0;     ///< found finished
+  std::size_t invalid = 0;    ///< of both: on invalid runs (bench/run/validity.hpp)
   std::size_t sequences = 0;  ///< simulated now
   bool complete = true;       ///< false when the observer ended it early
   CachePruned pruned;         ///< from the cache, in all runs of the runner
@@ -95,7 +96,8 @@ class JobRunner {
     std::optional<FolderLock> in_use;
   };
 
-  bool is_done(const Job& job);
+  /// The result of a job that has not to be done again; none of others.
+  std::optional<JobResult> finished(const Job& job);
   std::string sequence_id(const Job& job);
   /// The open sequence; opens it, and closes the one that was opened first when there are many.
   Result<const Sequence*> open(const std::string& id, const Scenario& scenario);

@@ -11,6 +11,7 @@
 #include "bench/run/json_text.hpp"
 #include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
+#include "bench/run/validity.hpp"
 #include "bench/run/weak_axis_series.hpp"
 #include "core/files/csv.hpp"
 
@@ -85,8 +86,9 @@ Result<JobRun> JobSchedule::run() {
 
 /// Adds a job to its sequence, unless it is done.
 void JobSchedule::add(const Job& job) {
-  if (runner_.is_done(job)) {
+  if (const auto result = runner_.finished(job)) {
     ++run_.reused;
+    run_.invalid += invalid_reason(result->sequence) ? 1 : 0;
     return;
   }
   const std::string id = runner_.sequence_id(job);
@@ -152,7 +154,8 @@ Result<void> JobSchedule::start_job(SequenceWork& work) {
     result.wall_s = stopwatch.seconds();
     if (stored) stored = runner_.store_.put(job, result);
     if (!stored) return text_of_reply({{"error", stored.error().message}});
-    return text_of_reply({{"failed", result.outcome != JobOutcome::kDone}});
+    return text_of_reply({{"failed", result.outcome != JobOutcome::kDone},
+                          {"invalid", invalid_reason(result.sequence).has_value()}});
   };
   return start({&work, &job}, runner_.options_.timeout_s, evaluated);
 }
@@ -197,6 +200,7 @@ Result<void> JobSchedule::take_job(const Job& job, const EndedProcess& ended, co
   if (ended.end == ProcessEnd::kCrashed) return fail(job, JobOutcome::kCrashed, ended.text);
   ++progress_.done;
   if (reply.value("failed", false)) ++progress_.failed;
+  if (reply.value("invalid", false)) ++run_.invalid;
   return {};
 }
 

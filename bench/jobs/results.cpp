@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bench/jobs/job_store.hpp"
+#include "bench/run/validity.hpp"
 #include "bench/run/json_text.hpp"
 #include "bench/run/json_values.hpp"
 #include "core/files/atomic_file.hpp"
@@ -71,6 +72,7 @@ RunRecord record_of(const std::string& scenario, std::uint64_t seed,
   }
   record.scores["wall_s"] = std::move(times);
   record.scores["estimators"] = std::move(estimators);
+  mark_validity(record.scores);
   return record;
 }
 
@@ -84,6 +86,7 @@ Result<RunRecord> read_record(const fs::path& file) {
                      json.contains("seed") && json["seed"].is_number_unsigned() &&
                      json.contains("estimators") && json["estimators"].is_object();
   if (!known) return failure(fmt::format("{}: holds no {}", file.string(), kScoresSchema));
+  mark_validity(json);  // of results from before it was written
   return RunRecord{json["seed"].get<std::uint64_t>(), std::move(json)};
 }
 

@@ -107,6 +107,17 @@ Scores score(const Trajectory& estimate, const Trajectory& truth,
   return score_over(estimate, truth, segments_wanted(waypoint_times, config.segments), config);
 }
 
+void withdraw_success(Scores& scores, FailureReason reason) {
+  scores.success = false;
+  const FailureReason own = scores.failure_reason;
+  if (own == FailureReason::kInvalid || own == FailureReason::kGap ||
+      own == FailureReason::kErrorLimit) {
+    return;
+  }
+  scores.failure_reason = reason;
+  scores.diverged_at.reset();
+}
+
 Scores score_over(const Trajectory& estimate, const Trajectory& truth,
                   std::span<const Segment> segments, const ScoreConfig& config) {
   const Trajectory valid = valid_part(estimate);

@@ -40,7 +40,7 @@ void describe(Fields& fields, ScoreConfig& config);
 struct Scores {
   bool success = false;
   FailureReason failure_reason = FailureReason::kNoOverlap;
-  std::optional<Time> diverged_at;  ///< none exactly on success
+  std::optional<Time> diverged_at;  ///< none on success, or when the reason is not the estimate's
 
   int poses = 0;             ///< given by the estimator
   int poses_invalid = 0;     ///< not finite, not a rigid transform, or out of order
@@ -68,6 +68,10 @@ struct Scores {
 /// quantities, never an error.
 Scores score(const Trajectory& estimate, const Trajectory& truth,
              std::span<const WaypointTime> waypoint_times, const ScoreConfig& config);
+
+/// Takes the success of an estimate for a reason that is not its own; one that it has itself stays,
+/// unless it is one of what was cut off: that the estimate ends early, or hardly begins.
+void withdraw_success(Scores& scores, FailureReason reason);
 
 /// As `score`, with an M_list of each of the segments, in order of time, and of no others.
 Scores score_over(const Trajectory& estimate, const Trajectory& truth,

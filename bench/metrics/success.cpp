@@ -68,6 +68,10 @@ std::string_view name_of(FailureReason reason) {
       return "error_limit";
     case FailureReason::kCoverage:
       return "low_coverage";
+    case FailureReason::kInvalidRun:
+      return "invalid_run";
+    case FailureReason::kInterrupted:
+      return "interrupted";
   }
   return "";
 }

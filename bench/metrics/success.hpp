@@ -19,6 +19,8 @@ enum class FailureReason {
   kEndsEarly,   ///< no estimate near the end of the truth
   kErrorLimit,  ///< position error beyond the limit
   kCoverage,    ///< too little of the truth's time has an estimate
+  kInvalidRun,  ///< the robot did not finish its route, so that nothing is a success
+  kInterrupted,  ///< the user ended it
 };
 
 /// Identifier for result files: "", "no_overlap", "invalid_pose", "starts_late", "gap", ...
@@ -33,7 +35,8 @@ struct SuccessLimits {
   double coverage = 0.5;         ///< least fraction of the truth's time with estimates [-]
 };
 
-/// When and why an estimate failed; `diverged_at` has a value exactly when there is a reason.
+/// When and why an estimate failed; `diverged_at` has a value exactly when there is a reason that
+/// lies in the estimate.
 struct SuccessVerdict {
   FailureReason reason = FailureReason::kNone;
   std::optional<Time> diverged_at;

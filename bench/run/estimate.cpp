@@ -41,6 +41,10 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   auto scores = score_trajectories(std::move(input));
   if (scores) {
     result.scores = std::move(*scores);
+    if (result.complete) return;
+    for (ScoredEstimate& each : result.scores->estimates) {
+      withdraw_success(each.scores, FailureReason::kInterrupted);
+    }
   } else {
     result.setup.notes.push_back("not scored: " + scores.error().message);
   }

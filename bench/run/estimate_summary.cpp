@@ -90,6 +90,8 @@ std::string config_text(const EstimateConfig& config) {
 /// What `aims run` calls a run's record, with the times of this estimate.
 Result<void> write_scores(const EstimateResult& result, const fs::path& folder) {
   RunRecord record = record_of(*result.scores);
+  record.scores["complete"] = result.complete && !result.broken;
+  if (!result.complete) record.scores["interrupted"] = true;
   for (const EstimatorOutcome& each : result.estimators) {
     Json& json = record.scores["estimators"][each.name];
     json["time_per_scan_ms"] = time_json(each.scan_times.wall_ms);

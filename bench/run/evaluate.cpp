@@ -2,6 +2,7 @@
 #include "bench/run/evaluate.hpp"
 
 #include "bench/run/stream.hpp"
+#include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
@@ -40,6 +41,10 @@ void add_scores(const Sequence& sequence, const Scenario& scenario, EstimatorOut
   const EstimatorResult& result = outcome.result;
   outcome.scores = scores_of(result.trajectory);
   if (result.optimized) outcome.optimized = scores_of(*result.optimized);
+  if (invalid_reason(sequence.walk, to_seconds(sequence.end()))) {
+    withdraw_success(outcome.scores, FailureReason::kInvalidRun);
+    if (outcome.optimized) withdraw_success(*outcome.optimized, FailureReason::kInvalidRun);
+  }
   outcome.weak_axis_errors =
       weak_axis_errors_of(result, sequence.truth_trajectory, sequence.localizability,
                           scenario.scoring, half_scan(scenario.simulation));

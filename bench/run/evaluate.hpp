@@ -32,7 +32,7 @@ struct EstimatorOutcome {
 EstimatorOutcome outcome_of(const TimedEstimator& timed);
 
 /// Scores an outcome against the truth of its sequence, the re-optimized trajectory by the same
-/// rules as the online one.
+/// rules as the online one. On an invalid run (bench/run/validity.hpp) neither is a success.
 void add_scores(const Sequence& sequence, const Scenario& scenario, EstimatorOutcome& outcome);
 
 /// Called with the part of the sequence that is done, in [0, 1].

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -44,13 +45,16 @@ ExpectationCheck check_one(const Expectation& expectation, std::span<const RunRe
   check.expectation = expectation;
   std::vector<double> values;
   for (const RunRecord& run : runs) {
-    if (const auto value = find_score(run, expectation.estimator, expectation.score)) {
+    const auto value = expectation.estimator.empty()
+                           ? find_run_score(run, expectation.score)
+                           : find_score(run, expectation.estimator, expectation.score);
+    if (value) {
       values.push_back(*value);
     } else {
       check.seeds.push_back(run.seed);
     }
   }
-  if (values.size() < runs.size()) return check;
+  if (values.empty() || values.size() < runs.size()) return check;
   apply_statistic(runs, values, check);
   check.holds = within(expectation, *check.value);
   return check;
@@ -65,6 +69,27 @@ std::string limits_of(const Expectation& expectation) {
 std::string_view name_of(ExpectationStatistic statistic) {
   if (statistic == ExpectationStatistic::kMedian) return "median";
   return statistic == ExpectationStatistic::kMean ? "mean" : "worst";
+}
+
+/// Whether the check demands of the run what made it invalid.
+bool demands_invalid(const ExpectationCheck& check, const RunRecord& run) {
+  const Expectation& expectation = check.expectation;
+  if (!expectation.estimator.empty() || !check.holds) return false;
+  const auto has = [&](const char* score, double value_of_valid) {
+    return expectation.score == score && !within(expectation, value_of_valid);
+  };
+  const bool fell = find_run_score(run, "robot.fell") == 1.0;
+  const bool leaned =
+      find_run_score(run, "robot.wall_contact_fraction").value_or(0.0) > kMaxWallContact;
+  return has("robot.valid", 1.0) || (fell && has("robot.fell", 0.0)) ||
+         (!fell && leaned && has("robot.wall_contact_fraction", kMaxWallContact));
+}
+
+/// Copies of the valid ones.
+std::vector<RunRecord> valid_ones(std::span<const RunRecord> runs) {
+  std::vector<RunRecord> valid;
+  std::ranges::copy_if(runs, std::back_inserter(valid), is_valid_run);
+  return valid;
 }
 
 /// The word as a POSIX shell reads it back.
@@ -94,12 +119,28 @@ bool applies(const std::string& setting, const Scenario& scenario, const std::st
 std::vector<ExpectationCheck> check_expectations(const Scenario& scenario, std::span<const RunRecord> runs) {
   std::vector<ExpectationCheck> checks;
   if (runs.empty()) return checks;
+  const std::vector<RunRecord> valid = valid_ones(runs);
+  const auto ran = labels_of(scenario.run);
   for (const Expectation& expectation : scenario.expect) {
-    const auto ran = labels_of(scenario.run);
-    if (std::find(ran.begin(), ran.end(), expectation.estimator) == ran.end()) continue;
-    checks.push_back(check_one(expectation, runs));
+    if (expectation.estimator.empty()) {
+      checks.push_back(check_one(expectation, runs));
+    } else if (std::find(ran.begin(), ran.end(), expectation.estimator) != ran.end()) {
+      checks.push_back(check_one(expectation, valid));
+    }
   }
   return checks;
+}
+
+std::vector<InvalidRun> undemanded_runs(std::span<const RunRecord> runs,
+                                        std::span<const ExpectationCheck> checks) {
+  std::vector<InvalidRun> undemanded;
+  for (const RunRecord& run : runs) {
+    auto reason = invalid_reason(run.scores);
+    const bool demanded = std::ranges::any_of(
+        checks, [&](const ExpectationCheck& check) { return demands_invalid(check, run); });
+    if (reason && !demanded) undemanded.push_back({run.seed, std::move(*reason)});
+  }
+  return undemanded;
 }
 
 std::vector<ExpectationCheck> failed(std::vector<ExpectationCheck> checks) {
@@ -123,24 +164,25 @@ std::string text_of(const Scenario& scenario, const ExpectationCheck& check) {
   const std::string value = check.value ? fmt::format("{:.4g}", *check.value) : "no value";
   std::string statistic(name_of(check.expectation.statistic));
   statistic = check.expectation.statistic == ExpectationStatistic::kWorst ? "" : statistic + " ";
-  return fmt::format("{} seed {}: {} {}{} = {}, expected {}", scenario.name,
-                     fmt::join(check.seeds, ","), check.expectation.estimator, statistic,
+  if (!check.expectation.estimator.empty()) statistic = check.expectation.estimator + " " + statistic;
+  const std::string runs =
+      check.seeds.empty() ? "no valid run" : fmt::format("seed {}", fmt::join(check.seeds, ","));
+  return fmt::format("{} {}: {}{} = {}, expected {}", scenario.name, runs, statistic,
                      check.expectation.score, value, limits_of(check.expectation));
 }
 
 std::string reproducing_command(const Scenario& scenario, const ExpectationCheck& check) {
   const std::string file = scenario.file.empty() ? scenario.name : scenario.file.string();
-  const auto asked =
-      std::find_if(scenario.run.begin(), scenario.run.end(),
-                   [&](const auto& spec) { return label_of(spec) == check.expectation.estimator; });
-  const bool found = asked != scenario.run.end();
-  std::string command = fmt::format("aims run {} --seeds {} --estimators {}", quoted(file),
-                                    fmt::join(check.seeds, ","),
-                                    quoted(found ? *asked : check.expectation.estimator));
+  const std::string& label = check.expectation.estimator;
+  const auto asked = std::ranges::find_if(
+      scenario.run, [&](const auto& spec) { return label_of(spec) == label; });
+  std::string command = fmt::format("aims run {}", quoted(file));
+  if (!check.seeds.empty()) command += fmt::format(" --seeds {}", fmt::join(check.seeds, ","));
+  const std::string spec = asked != scenario.run.end() ? *asked : label;
+  if (!spec.empty()) command += " --estimators " + quoted(spec);
   for (const std::string& setting : scenario.overrides) {
-    if (applies(setting, scenario, found ? *asked : check.expectation.estimator)) {
-      command += " --set " + quoted(setting);
-    }
+    const bool kept = spec.empty() ? !is_run_setting(setting) : applies(setting, scenario, spec);
+    if (kept) command += " --set " + quoted(setting);
   }
   return command;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/run/score_record.hpp"
+#include "bench/run/validity.hpp"
 
 namespace aims {
 
@@ -19,9 +20,15 @@ struct ExpectationCheck {
   bool holds = false;
 };
 
-/// Every expectation of the scenario whose estimator ran, over all `runs`. A score that has no
-/// value in some run holds no limit, whichever statistic is asked for.
+/// Every expectation of the scenario whose estimator ran, over the valid ones of `runs`, and every
+/// one on the run itself, over all of them. A score that has no value in some run holds no limit,
+/// whichever statistic is asked for.
 std::vector<ExpectationCheck> check_expectations(const Scenario& scenario, std::span<const RunRecord> runs);
+
+/// The runs that are invalid although no expectation on the run itself demands what made them so.
+/// One demands a fall when it holds and no robot that stays on its feet could meet it.
+std::vector<InvalidRun> undemanded_runs(std::span<const RunRecord> runs,
+                                        std::span<const ExpectationCheck> checks);
 
 /// Those of the checks that do not hold.
 std::vector<ExpectationCheck> failed(std::vector<ExpectationCheck> checks);

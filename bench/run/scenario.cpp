@@ -70,9 +70,12 @@ Result<void> check(const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
     const std::string key = fmt::format("expect.{}.estimator", i);
     const Expectation& expectation = scenario.expect[i];
-    if (auto known = check_estimator(key, expectation.estimator, scenario); !known) return known;
     const std::string score = fmt::format("expect.{}.score", i);
-    if (auto known = check_score(score, expectation.score, scenario); !known) return known;
+    const bool of_run = expectation.estimator.empty();
+    auto known = of_run ? check_run_score(score, expectation.score, scenario)
+                        : check_estimator(key, expectation.estimator, scenario);
+    if (known && !of_run) known = check_score(score, expectation.score, scenario);
+    if (!known) return known;
     if (expectation.min == -kNoLimit && expectation.max == kNoLimit) {
       return failure(fmt::format("expect.{}: expected a limit, max or min", i));
     }
@@ -93,7 +96,7 @@ Result<void> check_effects_in(Scenario& scenario, std::vector<AssignedKey> assig
 }  // namespace
 
 void describe(Fields& f, Expectation& e) {
-  f.text("estimator", e.estimator, {.meaning = "estimator whose score is limited"});
+  f.text("estimator", e.estimator, {.meaning = "estimator whose score is limited; absent: a score of the run, e.g. robot.fell"});
   f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
   f.number("max", e.max,
            {.unit = "as the score", .range = within(1e12), .meaning = "largest value that passes"});

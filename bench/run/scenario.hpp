@@ -28,8 +28,10 @@ inline constexpr double kNoLimit = 1e300;
 /// Limits that a score must hold over the seeds of an invocation, or it fails (exit code 1). `min`
 /// serves scores of which more is better, and errors that must not become small unnoticed.
 struct Expectation {
-  std::string estimator;   ///< name in the registry, or a label of the scenario's estimators
-  std::string score;       ///< dotted key inside the estimator's scores, e.g. "m_list_percent.a-b"
+  /// Name in the registry, or a label of the scenario's estimators; empty: of the run itself.
+  std::string estimator;
+  /// Dotted key inside the estimator's scores, e.g. "m_list_percent.a-b"; of the run "robot.fell".
+  std::string score;
   double max = kNoLimit;   ///< in the score's own unit
   double min = -kNoLimit;  ///< in the score's own unit
   ExpectationStatistic statistic = ExpectationStatistic::kWorst;

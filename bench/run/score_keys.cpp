@@ -50,6 +50,15 @@ EstimatorOutcome example_outcome(const Scenario& scenario) {
   return outcome;
 }
 
+/// Error for a score that is not among those; `expected` says what they are.
+Result<void> check_known(std::string_view key, const std::string& score,
+                         const std::vector<std::string>& known, const std::string& expected) {
+  if (std::ranges::find(known, score) != known.end()) return {};
+  const std::string near = near_match(score, known);
+  return failure(fmt::format("{}: no score '{}'; expected {}{}", key, score, expected,
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
 }  // namespace
 
 std::vector<std::string> possible_score_keys(const Scenario& scenario) {
@@ -58,15 +67,29 @@ std::vector<std::string> possible_score_keys(const Scenario& scenario) {
   return score_keys(record, "it");
 }
 
+std::vector<std::string> possible_run_score_keys(const Scenario& scenario) {
+  RunLocalizability localizability;
+  localizability.scans.emplace_back();
+  localizability.bounds.emplace_back();
+  RunRecord record;
+  record.scores =
+      sequence_json(0.0, WalkOutcome(), example_outcome(scenario).scores, localizability);
+  return run_score_keys(record);
+}
+
 Result<void> check_score(std::string_view key, const std::string& score,
                          const Scenario& scenario) {
   if (score.starts_with(kCounters)) return {};
-  const std::vector<std::string> known = possible_score_keys(scenario);
-  if (std::ranges::find(known, score) != known.end()) return {};
-  const std::string near = near_match(score, known);
-  return failure(fmt::format(
-      "{}: no score '{}'; expected a key of an estimator in scores.json, e.g. ate_m{}", key, score,
-      near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  return check_known(key, score, possible_score_keys(scenario),
+                     "a key of an estimator in scores.json, e.g. ate_m");
+}
+
+Result<void> check_run_score(std::string_view key, const std::string& score,
+                             const Scenario& scenario) {
+  const std::vector<std::string> known = possible_run_score_keys(scenario);
+  return check_known(key, score, known,
+                     fmt::format("a score of an estimator, which is to be named, or of the run: {}",
+                                 fmt::join(known, ", ")));
 }
 
 }  // namespace aims

@@ -14,7 +14,14 @@ namespace aims {
 /// re-optimized trajectory included; without counters (`counts.`), which depend on what happens.
 std::vector<std::string> possible_score_keys(const Scenario& scenario);
 
+/// Dotted keys of the numbers that scores.json has of a run whoever estimates, e.g. "robot.fell".
+std::vector<std::string> possible_run_score_keys(const Scenario& scenario);
+
 /// Error, which begins with `key` and has the nearest key, for a score that no estimator can have.
 Result<void> check_score(std::string_view key, const std::string& score, const Scenario& scenario);
+
+/// The same for a score of the run itself.
+Result<void> check_run_score(std::string_view key, const std::string& score,
+                             const Scenario& scenario);
 
 }  // namespace aims

@@ -7,6 +7,7 @@
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/run/health_summary.hpp"
+#include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
@@ -92,6 +93,26 @@ Json localizability_json(const RunLocalizability& run) {
           {"bound_end_m", std::move(bound)}};
 }
 
+/// The number at a dotted key; a flag is 1 or 0.
+std::optional<double> number_at(const Json& json, const std::string& key) {
+  std::optional<double> found;
+  visit_leaves(json, "", [&](const std::string& name, const Json& value) {
+    if (name != key) return;
+    if (value.is_number()) found = value.get<double>();
+    if (value.is_boolean()) found = value.get<bool>() ? 1.0 : 0.0;
+  });
+  return found;
+}
+
+/// What of a record holds whoever estimates.
+Json run_part(const RunRecord& record) {
+  Json part = Json::object();
+  for (const char* key : {"simulated_s", "robot", "localizability"}) {
+    if (record.scores.contains(key)) part[key] = record.scores[key];
+  }
+  return part;
+}
+
 }  // namespace
 
 Json json_of(const std::optional<double>& value) {
@@ -156,11 +177,19 @@ Json robot_json(const WalkOutcome& walk) {
           {"wall_contact_fraction", walk.wall_contact_fraction}};
 }
 
+Json sequence_json(double simulated_s, const WalkOutcome& walk, const Scores& scores,
+                   const RunLocalizability& localizability) {
+  Json json = {{"simulated_s", simulated_s},
+               {"robot", robot_json(walk)},
+               {"segments", segments_json(scores)},
+               {"localizability", localizability_json(localizability)}};
+  mark_validity(json);
+  return json;
+}
+
 Json sequence_json(const Sequence& sequence, const Scores& scores) {
-  return {{"simulated_s", to_seconds(sequence.end())},
-          {"robot", robot_json(sequence.walk)},
-          {"segments", segments_json(scores)},
-          {"localizability", localizability_json(sequence.localizability)}};
+  return sequence_json(to_seconds(sequence.end()), sequence.walk, scores,
+                       sequence.localizability);
 }
 
 const Json& estimator_in(const RunRecord& record, const std::string& estimator) {
@@ -184,14 +213,19 @@ void visit_leaves(const Json& json, const std::string& prefix,
 
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
                                  const std::string& key) {
-  std::optional<double> found;
-  visit_leaves(estimator_in(record, estimator), "",
-               [&](const std::string& name, const Json& value) {
-                 if (name != key) return;
-                 if (value.is_number()) found = value.get<double>();
-                 if (value.is_boolean()) found = value.get<bool>() ? 1.0 : 0.0;
-               });
-  return found;
+  return number_at(estimator_in(record, estimator), key);
+}
+
+std::optional<double> find_run_score(const RunRecord& record, const std::string& key) {
+  return number_at(run_part(record), key);
+}
+
+std::vector<std::string> run_score_keys(const RunRecord& record) {
+  std::vector<std::string> keys;
+  visit_leaves(run_part(record), "", [&](const std::string& name, const Json& value) {
+    if (value.is_number() || value.is_boolean()) keys.push_back(name);
+  });
+  return keys;
 }
 
 std::string optimized_label(const std::string& estimator) { return estimator + " (optimized)"; }

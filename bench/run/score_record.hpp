@@ -38,9 +38,14 @@ Json estimator_json(const EstimatorOutcome& outcome);
 /// The segments with their true straight lengths, which are the same for every estimate.
 Json segments_json(const Scores& scores);
 
+/// How the robot fared, without whether the run is valid.
+Json robot_json(const WalkOutcome& walk);
+
 /// What scores.json holds of a run whoever estimates: duration, robot, segments, localizability.
 /// `scores` are of any estimator.
 Json sequence_json(const Sequence& sequence, const Scores& scores);
+Json sequence_json(double simulated_s, const WalkOutcome& walk, const Scores& scores,
+                   const RunLocalizability& localizability);
 
 /// What the record holds of that estimator; null when there is nothing.
 const Json& estimator_in(const RunRecord& record, const std::string& estimator);
@@ -53,6 +58,12 @@ void visit_leaves(const Json& json, const std::string& prefix,
 /// no value (a segment that was not reached, an estimator that diverged) or does not exist.
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
                                  const std::string& key);
+
+/// One number of what the record holds whoever estimates ("robot.fell", which is 1 or 0); likewise.
+std::optional<double> find_run_score(const RunRecord& record, const std::string& key);
+
+/// Dotted keys of those numbers.
+std::vector<std::string> run_score_keys(const RunRecord& record);
 
 /// Of the keys of a re-optimized trajectory's scores.
 inline constexpr const char* kOptimizedPrefix = "optimized.";

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
@@ -17,6 +18,7 @@ std::vector<double> values_of(std::span<const RunRecord> runs, const std::string
                               const std::string& key) {
   std::vector<double> values;
   for (const RunRecord& run : runs) {
+    if (!is_valid_run(run)) continue;
     if (const auto value = find_score(run, estimator, key)) values.push_back(*value);
   }
   return values;
@@ -52,7 +54,7 @@ Interval median_interval(std::span<const RunRecord> runs, const std::string& est
 std::size_t finished(std::span<const RunRecord> runs, const std::string& estimator) {
   return static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) {
-        return !estimator_in(run, estimator).is_null();
+        return is_valid_run(run) && !estimator_in(run, estimator).is_null();
       }));
 }
 
@@ -60,7 +62,7 @@ std::size_t successes(std::span<const RunRecord> runs, const std::string& estima
                       const std::string& prefix) {
   return static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) {
-        return find_score(run, estimator, prefix + "success") == 1.0;
+        return is_valid_run(run) && find_score(run, estimator, prefix + "success") == 1.0;
       }));
 }
 
@@ -76,7 +78,7 @@ ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
   ScorePairs pairs;
   for (const RunRecord& a : reference.runs) {
     for (const RunRecord& b : other.runs) {
-      if (a.seed != b.seed) continue;
+      if (a.seed != b.seed || !is_valid_run(a) || !is_valid_run(b)) continue;
       const auto first = find_score(a, reference.estimator, key);
       const auto second = find_score(b, other.estimator, key);
       if (!first || !second) continue;

@@ -30,7 +30,8 @@ inline constexpr std::array<HeadlineScore, 4> kHeadlineScores = {{
     {"max_error_z_m", "max |z|", "m", 3, 0.01},
 }};
 
-/// One score of one estimator over runs of the same scenario.
+/// One score of one estimator over runs of the same scenario. As everywhere below, invalid runs
+/// (bench/run/validity.hpp) are left out.
 struct ScoreStatistics {
   std::optional<double> median;  ///< over the runs that have a value
   std::optional<double> worst;   ///< largest

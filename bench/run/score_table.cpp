@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bench/run/score_statistics.hpp"
+#include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
@@ -37,6 +38,7 @@ std::string cell(const ScoreStatistics& summary, int digits, bool several) {
 
 std::string success_cell(std::span<const RunRecord> runs, const std::string& estimator,
                          const std::string& prefix) {
+  if (std::ranges::none_of(runs, is_valid_run)) return "invalid run";
   const std::size_t count = successes(runs, estimator, prefix);
   if (runs.size() == 1) return count == 1 ? "yes" : "diverged";
   return fmt::format("{}/{}", count, finished(runs, estimator));
@@ -59,7 +61,9 @@ std::vector<std::string> row_of(std::span<const RunRecord> runs, std::span<const
 TextTable score_table(std::span<const RunRecord> runs) {
   TextTable table;
   if (runs.empty()) return table;
-  const std::vector<Column> columns = columns_of(runs.front());
+  // A route that was not finished may lack segments.
+  const auto valid = std::ranges::find_if(runs, is_valid_run);
+  const std::vector<Column> columns = columns_of(valid == runs.end() ? runs.front() : *valid);
   table.header = {"estimator"};
   for (const Column& column : columns) table.header.push_back(column.title);
   table.header.emplace_back("success");

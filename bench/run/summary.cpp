@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/summary.hpp"
 
+#include <algorithm>
+
 #include "bench/run/expectations.hpp"
 #include "bench/run/json_text.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/run/tables.hpp"
+#include "bench/run/validity.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {
@@ -14,8 +17,12 @@ namespace {
 Json summary_json(const Scenario& scenario, std::span<const RunRecord> runs) {
   Json summary = {{"schema", "aims.summary/2"}, {"scenario", scenario.name}};
   for (const RunRecord& run : runs) summary["seeds"].push_back(run.seed);
-  for (const auto& [estimator, unused] : runs.front().scores["estimators"].items()) {
-    for (const std::string& key : score_keys(runs.front(), estimator)) {
+  summary["invalid"] = invalid_json(runs);
+  summary["estimators"] = Json::object();
+  const auto valid = std::ranges::find_if(runs, is_valid_run);
+  const RunRecord& example = valid == runs.end() ? runs.front() : *valid;
+  for (const auto& [estimator, unused] : example.scores["estimators"].items()) {
+    for (const std::string& key : score_keys(example, estimator)) {
       const ScoreStatistics over_seeds = statistics_of(runs, estimator, key);
       summary["estimators"][estimator][key] = {{"median", json_of(over_seeds.median)},
                                                {"worst", json_of(over_seeds.worst)},
@@ -29,6 +36,11 @@ Json summary_json(const Scenario& scenario, std::span<const RunRecord> runs) {
   return summary;
 }
 
+std::string markdown_of(std::span<const RunRecord> runs) {
+  const std::string left_out = left_out_text(runs);
+  return to_markdown(score_table(runs)) + (left_out.empty() ? "" : "\n" + left_out + ".\n");
+}
+
 }  // namespace
 
 Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> runs,
@@ -36,7 +48,7 @@ Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> 
   if (runs.empty()) return {};
   auto written = write_csv(folder / "summary.csv", scores_csv(runs));
   if (written) {
-    written = write_file_atomically(folder / "summary.md", to_markdown(score_table(runs)));
+    written = write_file_atomically(folder / "summary.md", markdown_of(runs));
   }
   if (written) {
     written = write_file_atomically(folder / "summary.json",

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/run/validity.hpp"
 #include "core/files/csv_columns.hpp"
 
 namespace aims {
@@ -148,6 +149,10 @@ CsvTable waypoint_times_table(const std::vector<WaypointTime>& waypoint_times) {
 CsvTable scores_csv(std::span<const RunRecord> runs) {
   CsvTable table({"seed", "estimator", "score", "value"});
   for (const RunRecord& run : runs) {
+    if (!is_valid_run(run)) {
+      table.add(static_cast<std::int64_t>(run.seed)).add("").add("robot.valid").add(0.0).end_row();
+      continue;
+    }
     for (const auto& [estimator, unused] : run.scores["estimators"].items()) {
       for (const std::string& key : score_keys(run, estimator)) {
         table.add(static_cast<std::int64_t>(run.seed)).add(estimator).add(key);

@@ -24,7 +24,8 @@ Result<Diagnostics> read_diagnostics(const std::filesystem::path& file);
 /// One row per passed reference point.
 CsvTable waypoint_times_table(const std::vector<WaypointTime>& waypoint_times);
 
-/// One row per run, estimator and score: seed, estimator, score, value.
+/// One row per run, estimator and score: seed, estimator, score, value. An invalid run has one row,
+/// of the score robot.valid and no estimator.
 CsvTable scores_csv(std::span<const RunRecord> runs);
 
 }  // namespace aims

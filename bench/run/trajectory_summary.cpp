@@ -79,6 +79,7 @@ std::string cell(const ScoredEstimate& estimate, const RunRecord& record, const 
 /// "yes", or why and when it diverged [s after the truth's start].
 std::string success_cell(const Scores& scores, const Trajectory& truth) {
   if (scores.success) return "yes";
+  if (!scores.diverged_at) return std::string(name_of(scores.failure_reason));
   return fmt::format("{} at {:.1f} s", name_of(scores.failure_reason),
                      to_seconds(*scores.diverged_at - truth.front().stamp));
 }

@@ -45,6 +45,7 @@ std::string markdown_of(const Ablation& ablation, const Suite& suite) {
   for (const AblationEffect& each : ablation.effects) {
     text += fmt::format("- `{}`: `{}`\n", each.label, each.changes);
   }
+  for (const std::string& line : left_out_lines(suite)) text += fmt::format("- {}\n", line);
   for (const SuiteFailure& each : suite.failures) {
     text += fmt::format("- failed: {}\n", text_of(each));
   }
@@ -105,6 +106,7 @@ Json ablation_json(const Ablation& ablation, const Suite& suite) {
                                  {"largest_ate_ratio", json_of(each.worst_ratio)},
                                  {"largest_in", each.worst_scenario}};
   }
+  json["invalid"] = invalid_json(suite);
   for (const AblationCase& each : ablation.cases) json["scenarios"].push_back(case_json(each));
   return json;
 }

@@ -11,6 +11,7 @@
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/run/score_statistics.hpp"
+#include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
@@ -98,6 +99,15 @@ void compare_runs(const std::string& scenario, const std::vector<RunRecord>& bef
   }
 }
 
+/// Notes the runs of one side that are left out.
+void note_invalid(const char* side, const StoredResults& results, Comparison& comparison) {
+  for (const auto& [scenario, runs] : results) {
+    for (const auto& [seed, reason] : invalid_runs(runs)) {
+      comparison.invalid.push_back(fmt::format("{}: {} seed {}: {}", side, scenario, seed, reason));
+    }
+  }
+}
+
 }  // namespace
 
 Comparison compare(const StoredResults& before, const StoredResults& after) {
@@ -106,6 +116,8 @@ Comparison compare(const StoredResults& before, const StoredResults& after) {
     const auto other = after.find(scenario);
     if (other != after.end()) compare_runs(scenario, runs, other->second, comparison);
   }
+  note_invalid("before", before, comparison);
+  note_invalid("after", after, comparison);
   const SeedsByName seeds_before = seeds_of(before);
   const SeedsByName seeds_after = seeds_of(after);
   comparison.only_before = without(seeds_before, seeds_after);

@@ -71,7 +71,8 @@ std::string comparison_markdown(const Comparison& comparison, const std::string&
       fmt::format("# {} against {}\n\n{}\n", after, before, summary_text(comparison));
   text += fmt::format("\n{}\n{}", to_markdown(change_table(comparison)), rule_text(comparison));
   text += list_markdown("Only before", comparison.only_before);
-  return text + list_markdown("Only after", comparison.only_after);
+  text += list_markdown("Only after", comparison.only_after);
+  return text + list_markdown("Invalid and left out", comparison.invalid);
 }
 
 }  // namespace
@@ -106,7 +107,8 @@ Json comparison_json(const Comparison& comparison, const std::string& before,
                {"rule", rule_text(comparison)},
                {"changes", Json::array()},
                {"only_before", comparison.only_before},
-               {"only_after", comparison.only_after}};
+               {"only_after", comparison.only_after},
+               {"invalid", comparison.invalid}};
   for (const ScoreChange& change : comparison.changes) {
     json["changes"].push_back(change_json(change));
   }

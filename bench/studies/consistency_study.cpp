@@ -28,6 +28,7 @@ Result<ConsistencyStudy> consistency_study(const Suite& suite,
   for (const Job& job : suite.jobs) {
     const auto result = store.find(job.id);
     if (!result || result->outcome != JobOutcome::kDone) continue;
+    if (invalid_reason(result->sequence)) continue;
     auto series = read_weak_axis(store.outputs_of(job.id) / kWeakAxisFile);
     if (!series) return tl::unexpected(series.error());
     ConsistencyCase& each = case_of(job, study);

@@ -47,6 +47,7 @@ std::string markdown_of(const ConsistencyStudy& study, const Suite& suite) {
   text += "\n## Over all instants\n\n" + to_markdown(consistency_table(study));
   text += "\n## At the end\n\nRoot mean squares over seeds [m].\n\n" +
           to_markdown(end_table(study));
+  for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}\n", line);
   for (const SuiteFailure& each : suite.failures) {
     text += fmt::format("\n- failed: {}\n", text_of(each));
   }
@@ -123,6 +124,7 @@ Json study_json(const ConsistencyStudy& study, const Suite& suite) {
                {"code", code_version()},
                {"complete", suite.complete},
                {"cases", Json::array()}};
+  json["invalid"] = invalid_json(suite);
   for (const ConsistencyCase& each : study) json["cases"].push_back(case_json(each));
   return json;
 }

@@ -59,6 +59,7 @@ Result<DetectorStudy> detector_study(const Suite& suite, const fs::path& folder)
   for (const Job& job : suite.jobs) {
     const auto result = store.find(job.id);
     if (!result || result->outcome != JobOutcome::kDone) continue;
+    if (invalid_reason(result->sequence)) continue;
     study.estimator = job.estimator.label;
     auto run = read_run(job, store);
     if (!run) return tl::unexpected(run.error());
@@ -66,6 +67,8 @@ Result<DetectorStudy> detector_study(const Suite& suite, const fs::path& folder)
   }
   const bool any = std::any_of(study.runs.begin(), study.runs.end(),
                                [](const DetectorRun& run) { return !run.scans.empty(); });
+  study.warnings = left_out_lines(suite);
+  if (study.runs.empty() && !study.warnings.empty()) return failure(study.warnings.front());
   if (!any) {
     return failure(fmt::format("estimator {} made no update with a scan", study.estimator));
   }
@@ -73,7 +76,8 @@ Result<DetectorStudy> detector_study(const Suite& suite, const fs::path& folder)
   if (study.scores.empty()) {
     return failure(fmt::format("estimator {} reports no index of degeneracy", study.estimator));
   }
-  study.warnings = undecided_levels(study.scores);
+  const auto undecided = undecided_levels(study.scores);
+  study.warnings.insert(study.warnings.end(), undecided.begin(), undecided.end());
   return study;
 }
 

@@ -33,6 +33,7 @@ using Members = std::vector<const SuiteCase*>;
 FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
   FamilyPoint point;
   point.level = each.scenario.level;
+  point.invalid = invalid_runs(each.runs).size();
   point.distance_m = route_length(each.scenario);
   const auto own = labels_of(each.scenario.run);
   if (std::find(own.begin(), own.end(), estimator) == own.end()) return point;
@@ -50,6 +51,7 @@ FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
 std::optional<double> equivalent_returns(const SuiteCase& each) {
   std::vector<double> values;
   for (const RunRecord& run : each.runs) {
+    if (!is_valid_run(run)) continue;
     const Json sums = value_in(run.scores, "localizability", Json());
     const Json value = value_in(sums, "median_equivalent_returns", Json());
     if (value.is_number()) values.push_back(value.get<double>());
@@ -131,7 +133,8 @@ Json point_json(const FamilyPoint& point) {
           {"m_list_low_percent", json_of(point.m_list_interval.low)},
           {"m_list_high_percent", json_of(point.m_list_interval.high)},
           {"success_rate", point.success_rate},
-          {"runs", point.runs}};
+          {"runs", point.runs},
+          {"invalid", point.invalid}};
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ struct FamilyPoint {
   Interval m_list_interval;      ///< of the median, 95 %
   double distance_m = 0.0;       ///< length of the route
   double success_rate = 0.0;     ///< in [0, 1]
-  std::size_t runs = 0;
+  std::size_t runs = 0;          ///< valid ones
+  std::size_t invalid = 0;       ///< left out
 };
 
 /// One estimator over the levels of a family.

@@ -107,6 +107,25 @@ Result<Suite> run_suite(std::vector<ScenarioFile> scenarios, const SuiteOptions&
   return suite;
 }
 
+std::vector<std::string> left_out_lines(const Suite& suite) {
+  std::vector<std::string> lines;
+  for (const SuiteCase& each : suite.cases) {
+    const std::string text = left_out_text(each.runs);
+    if (!text.empty()) lines.push_back(fmt::format("{}: {}", each.scenario.name, text));
+  }
+  return lines;
+}
+
+Json invalid_json(const Suite& suite) {
+  Json json = Json::array();
+  for (const SuiteCase& each : suite.cases) {
+    for (const auto& [seed, reason] : invalid_runs(each.runs)) {
+      json.push_back({{"scenario", each.scenario.name}, {"seed", seed}, {"reason", reason}});
+    }
+  }
+  return json;
+}
+
 std::string text_of(const SuiteFailure& failure) {
   std::string text = failure.scenario;
   if (failure.seed) text += fmt::format(" seed {}", *failure.seed);

@@ -51,6 +51,13 @@ struct Suite {
 Result<Suite> run_suite(std::vector<ScenarioFile> scenarios, const SuiteOptions& options,
                         const JobObserver& observer);
 
+/// A line per scenario with invalid runs, which are left out of all statistics (validity.hpp):
+/// "severity_3: 1 of 5 runs are invalid and left out: seed 2 (the robot fell at 1.2 s)".
+std::vector<std::string> left_out_lines(const Suite& suite);
+
+/// The invalid runs, each with scenario, seed and reason.
+Json invalid_json(const Suite& suite);
+
 /// "severity_3 seed 1 aims: ...".
 std::string text_of(const SuiteFailure& failure);
 

@@ -18,7 +18,7 @@ namespace {
 Json scores_json(std::span<const RunRecord> runs, const std::string& estimator) {
   Json scores = Json::object();
   const auto first = std::find_if(runs.begin(), runs.end(), [&](const RunRecord& run) {
-    return !estimator_in(run, estimator).is_null();
+    return is_valid_run(run) && !estimator_in(run, estimator).is_null();
   });
   if (first == runs.end()) return scores;
   for (const std::string& key : score_keys(*first, estimator)) {
@@ -46,12 +46,11 @@ Json case_json(const SuiteCase& each) {
                {"level", each.scenario.level},
                {"level_unit", each.scenario.level_unit},
                {"seeds", Json::array()},
-               {"fell", Json::array()},
+               {"invalid", invalid_json(each.runs)},
                {"estimators", Json::object()},
                {"expectations", Json::array()}};
   for (const RunRecord& run : each.runs) {
     json["seeds"].push_back(run.seed);
-    if (robot_fell(run)) json["fell"].push_back(run.seed);
   }
   for (const ExpectationCheck& check : each.expectations) {
     json["expectations"].push_back(check_json(check));

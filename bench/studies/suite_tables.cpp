@@ -15,9 +15,17 @@ bool ran(const SuiteCase& each, const std::string& estimator) {
   return finished(each.runs, estimator) > 0;
 }
 
+/// The cell of an estimator without a valid run; empty when it has none at all.
+std::string invalid_cell(const SuiteCase& each, const std::string& estimator) {
+  const bool any = std::ranges::any_of(each.runs, [&](const RunRecord& run) {
+    return !estimator_in(run, estimator).is_null();
+  });
+  return any ? "invalid" : "";
+}
+
 std::string headline_cell(const SuiteCase& each, const std::string& estimator,
                           const HeadlineScore& score) {
-  if (!ran(each, estimator)) return "";
+  if (!ran(each, estimator)) return invalid_cell(each, estimator);
   const ScoreStatistics summary = statistics_of(each.runs, estimator, score.key);
   if (!summary.median) return "-";
   std::string text = fmt::format("{:.{}f}", *summary.median, score.digits);
@@ -46,6 +54,17 @@ TextTable matrix(const Suite& suite, const Cell& cell) {
   return table;
 }
 
+/// Scenario, family, level and seed of a row.
+void add_start(const Scenario& scenario, const RunRecord& run, CsvTable& table) {
+  table.add(scenario.name).add(scenario.family);
+  if (scenario.family.empty()) {
+    table.add_empty();
+  } else {
+    table.add(scenario.level);
+  }
+  table.add(static_cast<std::int64_t>(run.seed));
+}
+
 std::string expectations_markdown(const Suite& suite) {
   std::size_t count = 0;
   std::string text;
@@ -63,13 +82,8 @@ std::string expectations_markdown(const Suite& suite) {
 std::string failures_markdown(const Suite& suite) {
   std::string text;
   for (const SuiteFailure& each : suite.failures) text += fmt::format("- {}\n", text_of(each));
-  for (const SuiteCase& each : suite.cases) {
-    for (const RunRecord& run : each.runs) {
-      if (!robot_fell(run)) continue;
-      text += fmt::format("- {} seed {}: the robot fell\n", each.scenario.name, run.seed);
-    }
-  }
-  return text.empty() ? "Everything ran, and no robot fell.\n" : text;
+  for (const std::string& line : left_out_lines(suite)) text += fmt::format("- {}\n", line);
+  return text.empty() ? "Everything ran, and every run is valid.\n" : text;
 }
 
 }  // namespace
@@ -82,7 +96,7 @@ TextTable headline_table(const Suite& suite, const HeadlineScore& score) {
 
 TextTable success_table(const Suite& suite) {
   return matrix(suite, [](const SuiteCase& each, const std::string& estimator) {
-    if (!ran(each, estimator)) return std::string();
+    if (!ran(each, estimator)) return invalid_cell(each, estimator);
     return fmt::format("{}/{}", successes(each.runs, estimator), finished(each.runs, estimator));
   });
 }
@@ -114,7 +128,7 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
     text += fmt::format("\n## {} [{}]\n\n{}", score.title, score.unit,
                         to_markdown(headline_table(suite, score)));
   }
-  text += fmt::format("\n## Success\n\nRuns that did not diverge, of all.\n\n{}", to_markdown(success_table(suite)));
+  text += fmt::format("\n## Success\n\nRuns that did not diverge, of all valid ones.\n\n{}", to_markdown(success_table(suite)));
   if (!families.empty()) {
     text += fmt::format(
         "\n## Breaks at\n\nThe first level, going away from the mildest, where less than half of "
@@ -131,17 +145,16 @@ CsvTable suite_csv(const Suite& suite) {
   CsvTable table({"scenario", "family", "level", "seed", "estimator", "score", "value"});
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
+      if (!is_valid_run(run)) {
+        add_start(each.scenario, run, table);
+        table.add("").add("robot.valid").add(0.0).end_row();
+        continue;
+      }
       for (const std::string& estimator : labels_of(each.scenario.run)) {
         for (const std::string& key : score_keys(run, estimator)) {
           if (is_timing(key)) continue;
-          table.add(each.scenario.name).add(each.scenario.family);
-          if (each.scenario.family.empty()) {
-            table.add_empty();
-          } else {
-            table.add(each.scenario.level);
-          }
-          table.add(static_cast<std::int64_t>(run.seed)).add(estimator).add(key);
-          table.add(find_score(run, estimator, key)).end_row();
+          add_start(each.scenario, run, table);
+          table.add(estimator).add(key).add(find_score(run, estimator, key)).end_row();
         }
       }
     }
@@ -164,10 +177,6 @@ CsvTable timings_csv(const Suite& suite) {
     }
   }
   return table;
-}
-
-bool robot_fell(const RunRecord& run) {
-  return value_in(value_in(run.scores, "robot", Json()), "fell", false);
 }
 
 }  // namespace aims

@@ -30,7 +30,4 @@ CsvTable suite_csv(const Suite& suite);
 /// One row per scenario, seed and estimator: wall times.
 CsvTable timings_csv(const Suite& suite);
 
-/// Whether the robot fell in that run.
-bool robot_fell(const RunRecord& run);
-
 }  // namespace aims

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
@@ -74,15 +76,20 @@ std::string text_of(const Objective& objective) {
 }
 
 RunScore run_score(const JobResult& job, const std::string& score) {
+  if (auto reason = invalid_reason(job.sequence)) return {std::nullopt, false, std::move(*reason)};
   return {score_in(job, score),
-          job.outcome != JobOutcome::kDone || score_in(job, "success") == 0.0};
+          job.outcome != JobOutcome::kDone || score_in(job, "success") == 0.0,
+          ""};
 }
 
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
                                       std::span<const RunScore> reference) {
   std::vector<double> values;
   std::size_t diverged = 0;
+  std::size_t valid = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!runs[i].invalid.empty()) continue;
+    ++valid;
     auto value = counted(objective, runs[i], i < reference.size() ? &reference[i] : nullptr);
     if (runs[i].diverged) {
       ++diverged;
@@ -93,7 +100,7 @@ std::optional<double> objective_value(const Objective& objective, std::span<cons
   const auto statistic = statistic_of(objective, values);
   if (!statistic) return std::nullopt;
   return *statistic +
-         objective.divergence_penalty * static_cast<double>(diverged) / double(runs.size());
+         objective.divergence_penalty * static_cast<double>(diverged) / double(valid);
 }
 
 std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family) {
@@ -108,6 +115,29 @@ std::vector<std::string> families_of(const ResponseTable& table) {
   std::vector<std::string> families;
   for (const ResponseCase& each : table.cases) append_new(families, each.family);
   return families;
+}
+
+std::vector<std::string> left_out_lines(const ResponseTable& table) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < table.cases.size(); ++i) {
+    std::size_t runs = 0;
+    std::size_t invalid = 0;
+    std::string reason;
+    const auto look_at = [&](const std::vector<RunScore>& of_point) {
+      if (i >= of_point.size()) return;
+      ++runs;
+      if (of_point[i].invalid.empty()) return;
+      ++invalid;
+      reason = of_point[i].invalid;
+    };
+    look_at(table.default_runs);
+    for (const auto& of_point : table.runs) look_at(of_point);
+    if (invalid == 0) continue;
+    lines.push_back(fmt::format("{} seed {}: {} of {} runs are invalid and left out ({})",
+                                table.cases[i].scenario, table.cases[i].seed, invalid, runs,
+                                reason));
+  }
+  return lines;
 }
 
 std::vector<std::uint64_t> seeds_of(const ResponseTable& table) {

@@ -36,15 +36,18 @@ std::string text_of(const Objective& objective);
 struct RunScore {
   std::optional<double> value;  ///< none: the run has no such score
   bool diverged = false;        ///< no success, or the job failed
+  std::string invalid = {};     ///< why the run is invalid (validity.hpp); empty: it is valid
 };
 
-/// The score of that key of a job. A job that failed is a diverged run.
+/// The score of that key of a job. A job that failed is a diverged run; an invalid run has no score
+/// and is not diverged.
 RunScore run_score(const JobResult& job, const std::string& score);
 
 /// The statistic over the runs, plus the penalty times the fraction of diverged runs. A diverged
 /// run counts as the penalty in the statistic, or as its score where that is more. Where the
 /// objective is relative, `reference` has the runs of the default setting on the same sequences,
-/// and a run without a positive reference is left out unless it diverged. None when no run is left.
+/// and a run without a positive reference is left out unless it diverged. Invalid runs are left out.
+/// None when no run is left.
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
                                       std::span<const RunScore> reference);
 
@@ -70,6 +73,10 @@ std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string&
 
 /// The families of the table's cases, in the order in which they appear.
 std::vector<std::string> families_of(const ResponseTable& table);
+
+/// A line per case with invalid runs: "corridor seed 3: 5 of 13 runs are invalid and left out (the
+/// robot fell at 1.2 s)".
+std::vector<std::string> left_out_lines(const ResponseTable& table);
 
 /// The seeds of the table's cases, in the order in which they appear.
 std::vector<std::uint64_t> seeds_of(const ResponseTable& table);

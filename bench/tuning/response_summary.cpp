@@ -147,7 +147,11 @@ TextTable gain_table(const ResponseTable& table, const Objective& objective, std
 
 std::string response_markdown(const ResponseTable& table, const Objective& objective) {
   const auto best = best_point(table, objective);
-  if (!best) return best.error().message + ".\n";
+  if (!best) {
+    std::string why = best.error().message + ".\n";
+    for (const std::string& line : left_out_lines(table)) why += fmt::format("- {}\n", line);
+    return why;
+  }
   const auto sensitivity = sensitivity_of(table, objective);
   std::string text = fmt::format(
       "Objective: {}. The best of {} points has {}; the defaults have {}.\n", text_of(objective),
@@ -156,6 +160,7 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
   if (best->gain) {
     text += fmt::format("Reduction by {}.\n", percent_text(best->gain, best->gain_interval));
   }
+  for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
   const std::size_t seeds = seeds_of(table).size();
   text += seeds < 2 ? "One seed: no intervals.\n"
                     : fmt::format("Intervals are 95 % bootstrap intervals over {} seeds{}.\n",

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/run/json_values.hpp"
+#include "bench/run/validity.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "core/files/csv.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMissing = "missing";
+constexpr const char* kInvalid = "invalid";
 
 bool is_done(const MergedJob& job) { return job.outcome() == name_of(JobOutcome::kDone); }
 
@@ -51,7 +53,15 @@ void add_cell(CsvTable& table, const Json& value) {
 
 }  // namespace
 
-std::string MergedJob::outcome() const { return value_in(file, "outcome", kMissing); }
+std::string MergedJob::outcome() const {
+  if (file.is_null()) return kMissing;
+  return invalid() ? kInvalid : value_in(file, "outcome", kMissing);
+}
+
+std::optional<std::string> MergedJob::invalid() const {
+  if (!file.is_object() || !file.contains("sequence")) return std::nullopt;
+  return invalid_reason(file["sequence"]);
+}
 
 std::size_t MergedSweep::count(std::string_view outcome) const {
   return static_cast<std::size_t>(std::count_if(
@@ -125,7 +135,8 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
 }
 
 TextTable merge_table(const MergedSweep& sweep) {
-  const std::vector<std::string> outcomes = {"done", "failed", "crashed", "timed_out", kMissing};
+  const std::vector<std::string> outcomes = {"done",      "invalid",   "failed",
+                                             "crashed", "timed_out", kMissing};
   TextTable table;
   table.header = {"scenario", "jobs"};
   table.header.insert(table.header.end(), outcomes.begin(), outcomes.end());

@@ -93,6 +93,8 @@ class Filler {
     job_.bind(8, plus == std::string::npos ? "" : listed.estimator.substr(plus + 1));
     job_.bind(9, job.outcome());
     bind_text(job_, 10, file, "message");
+    const auto invalid = job.invalid();
+    if (invalid) job_.bind(10, *invalid);
     bind_text(job_, 11, file, "code");
     bind_number(job_, 12, value_in(file, "wall_s", Json()));
     finish(job_);
@@ -101,6 +103,7 @@ class Filler {
     for (const auto& [key, value] : settings.items()) {
       if (value.is_string()) add_value(parameter_, key, setting_value(value.get<std::string>()));
     }
+    if (job.invalid()) return;
     const Json scores = value_in(file, "scores", Json());
     visit_leaves(scores, "", [this](const std::string& key, const Json& value) {
       add_value(score_, key, value);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,8 +23,10 @@ struct MergedJob {
   ListedJob listed;
   Json file;
 
-  /// "done", "failed", "crashed", "timed_out" or "missing".
+  /// "done", "invalid", "failed", "crashed", "timed_out" or "missing".
   std::string outcome() const;
+  /// Why its run is invalid (bench/run/validity.hpp).
+  std::optional<std::string> invalid() const;
 };
 
 /// Every job of one or several folders.

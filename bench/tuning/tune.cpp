@@ -74,6 +74,8 @@ class Tuning {
       const Objective& objective = task.plan.objectives[i];
       table.default_runs = runs_in((**scores).front(), i);
       if (objective_at(table, objective, kDefaults, cases_of(table, ""))) continue;
+      const auto left_out = left_out_lines(table);
+      if (!left_out.empty()) return failure("no valid run is left: " + left_out.front());
       return failure(fmt::format(
           "objectives.{}: no run of {} has the score '{}'; expected a key of scores.json", i,
           text_of(task.estimator), objective.score));

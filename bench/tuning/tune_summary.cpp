@@ -262,6 +262,15 @@ TextTable front_table(const TuneResult& result) {
   return text;
 }
 
+std::vector<std::string> left_out_lines(const TuneResult& result) {
+  std::vector<std::string> lines;
+  if (!result.tables.empty()) lines = left_out_lines(result.tables.front());
+  if (result.held_out.empty()) return lines;
+  const auto held_out = left_out_lines(result.held_out.front());
+  lines.insert(lines.end(), held_out.begin(), held_out.end());
+  return lines;
+}
+
 Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder,
                           const DrawResponse& draw, std::vector<std::string>& warnings) {
   std::vector<std::string> pictures;

@@ -32,4 +32,7 @@ TextTable front_table(const TuneResult& result);
 Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder,
                           const DrawResponse& draw, std::vector<std::string>& warnings);
 
+/// A line per sequence whose run is invalid, of those tuned on and those held out.
+std::vector<std::string> left_out_lines(const TuneResult& result);
+
 }  // namespace aims

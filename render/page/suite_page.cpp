@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/jobs/results.hpp"
+#include "bench/run/validity.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
@@ -87,13 +88,14 @@ Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_fol
       Json run = {{"scenario", name},
                   {"seed", seed},
                   {"href", run_link(suite_run_folder(folder, name, seed), page_folder)},
+                  {"invalid", Json()},
                   {"estimators", Json::object()}};
       const RunRecord* record = record_in(results, name, seed);
       if (record == nullptr) {
         notes.push_back(fmt::format("{}, seed {}: no results of its jobs", name, seed));
       } else {
-        for (const auto& [estimator, unused] : scenario["estimators"].items()) {
-          if (estimator_in(*record, estimator).is_null()) continue;
+        if (const auto reason = invalid_reason(record->scores)) run["invalid"] = *reason;
+        for (const auto& [estimator, unused] : record->scores["estimators"].items()) {
           run["estimators"][estimator] = outcome_of(*record, estimator);
         }
       }

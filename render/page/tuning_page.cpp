@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/run/validity.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
@@ -150,17 +151,21 @@ Json points_json(const EstimatorRows& own, const std::vector<double>& defaults,
           {"generation", source.points.empty() ? Json() : page.f32(generation)}};
 }
 
+/// Beyond the values of JobOutcome: on an invalid run.
+constexpr std::uint8_t kInvalidOutcome = 4;
+
 Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores, PageData& page) {
   std::vector<double> point, sequence, values;
   std::vector<std::uint8_t> outcome, diverged, held_out;
   for (const Row& row : own.rows) {
     point.push_back(static_cast<double>(row.point));
     sequence.push_back(static_cast<double>(row.sequence));
-    outcome.push_back(static_cast<std::uint8_t>(row.result.outcome));
+    const bool invalid = invalid_reason(row.result.sequence).has_value();
+    outcome.push_back(invalid ? kInvalidOutcome : static_cast<std::uint8_t>(row.result.outcome));
     diverged.push_back(run_score(row.result, "success").diverged ? 1 : 0);
     held_out.push_back(row.held_out ? 1 : 0);
     for (const std::string& key : scores) {
-      values.push_back(score_in(row.result, key).value_or(kNone));
+      values.push_back(invalid ? kNone : score_in(row.result, key).value_or(kNone));
     }
   }
   return {{"point", page.f32(point)},      {"sequence", page.f32(sequence)},
@@ -237,7 +242,7 @@ Json sequences_json(const std::vector<ResponseCase>& sequences) {
 
 Json counts_json(const MergedSweep& units) {
   Json json = {{"total", units.jobs.size()}, {"others", units.others}};
-  for (const char* outcome : {"done", "failed", "crashed", "timed_out", "missing"}) {
+  for (const char* outcome : {"done", "invalid", "failed", "crashed", "timed_out", "missing"}) {
     json[outcome] = units.count(outcome);
   }
   return json;

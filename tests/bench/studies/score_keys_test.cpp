@@ -31,6 +31,20 @@ TEST(ScoreKeys, AreThoseOfARealRun) {
   EXPECT_EQ(without(possible, "optimized."), without(score_keys(run, "aims"), "counts."));
 }
 
+TEST(ScoreKeys, OfTheRunItselfAreThoseOfARealRun) {
+  const TemporaryFolder folder;
+  Scenario scenario = test::short_walk();
+  scenario.run = {"leg"};
+  SuiteOptions options = test::options_for(folder.path());
+  options.seeds = {1};
+  const auto suite = run_suite({{"short_walk.yaml", scenario}}, options, test::keep_going);
+  ASSERT_TRUE(suite) << suite.error().message;
+  EXPECT_EQ(possible_run_score_keys(scenario), run_score_keys(suite->cases.at(0).runs.at(0)));
+  EXPECT_TRUE(check_run_score("it", "robot.fell", scenario));
+  EXPECT_FALSE(check_run_score("it", "robot.feld", scenario));
+  EXPECT_FALSE(check_run_score("it", "ate_m", scenario)) << "of which estimator?";
+}
+
 TEST(ScoreKeys, FollowTheSegmentsOfTheScenario) {
   Scenario scenario = test::short_walk();
   EXPECT_TRUE(check_score("it", "m_list_signed_percent.a-b", scenario));

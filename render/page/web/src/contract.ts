@@ -117,6 +117,14 @@ export interface Picture {
   png: string;
 }
 
+/** How the robot's walk went; an invalid run says nothing of the estimators. */
+export interface Robot {
+  fell?: boolean | null;
+  touched_wall?: boolean | null;
+  valid?: boolean | null;
+  invalid_reason?: string | null;
+}
+
 export interface RunPayload extends PagePayload {
   kind: "run";
   /** What could not be read. */
@@ -129,7 +137,7 @@ export interface RunPayload extends PagePayload {
     seed: Maybe;
     simulated_s: Maybe;
     complete: boolean | null;
-    robot?: { fell?: boolean | null; touched_wall?: boolean | null } | null;
+    robot?: Robot | null;
   };
   command?: string | null;
   config_yaml?: string | null;

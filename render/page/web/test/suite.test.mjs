@@ -40,6 +40,29 @@ test("a diverged run is stated in words, not by colour alone", { skip }, async (
   assert.equal(await page.locator("#matrix tbody tr").count(), 1);
 });
 
+test("invalid runs are stated above all, and are no runs of a cell", { skip }, async () => {
+  const data = suite();
+  const reason = "the robot fell at 1.2 s";
+  data.suite.scenarios[0].invalid = [{ seed: 2, reason }];
+  data.suite.scenarios[3].invalid = [1, 2, 3].map((seed) => ({ seed, reason }));
+  data.suite.scenarios[3].estimators = {};
+  for (const run of data.runs) {
+    if (run.scenario === "alone" || (run.scenario === "severity_1" && run.seed === 2)) run.invalid = reason;
+  }
+  const { page, troubles } = await pages.show(data);
+  assert.match(await page.locator(".banner").innerText(), /4 of 12 runs are invalid[^]*severity_1, seed 2: the robot fell at 1.2 s/);
+  assert.match(await page.locator('#matrix tr[data-row="alone"]').innerText(), /no valid run/);
+  await cell(page, "severity_1", "a").locator("button").click();
+  assert.match(await page.locator(".cell-details").innerText(), /✕ invalid run: the robot fell at 1.2 s/);
+  assert.deepEqual(troubles, []);
+});
+
+test("a suite without invalid runs has no banner, and shows its expectations", { skip }, async () => {
+  const { page } = await pages.show(suite());
+  assert.equal(await page.locator(".banner").count(), 0);
+  assert.match(await page.locator("#expectations").innerText(), /3 of 4 are met/);
+});
+
 test("rows sort by an estimator, those without a value last", { skip }, async () => {
   const { page } = await pages.show(suite());
   await page.locator("#matrix thead button").filter({ hasText: /^b$/ }).click();

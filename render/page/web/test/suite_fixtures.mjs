@@ -32,8 +32,8 @@ function point(level, each) {
 export function suite({ first = "a", names = ["severity_1", "severity_2", "severity_3", "alone"] } = {}) {
   const scenarios = names.map((name, i) => ({
     name, tags: i < 3 ? ["severity"] : ["other"], family: i < 3 ? "severity" : "", level: i < 3 ? i + 1 : null, level_unit: i < 3 ? "step" : "",
-    seeds: [1, 2, 3], fell: [],
-    gates: [{ estimator: first, score: "ate_m", statistic: "worst", max: 0.1, min: null, value: 0.02 * (i + 1), seeds: [1], holds: i < 3 }],
+    seeds: [1, 2, 3], invalid: [],
+    expectations: [{ estimator: first, score: "ate_m", statistic: "worst", max: 0.1, min: null, value: 0.02 * (i + 1), seeds: [1], holds: i < 3 }],
     estimators: { [first]: estimator(0.0123 * (i + 1)), b: estimator(i === 2 ? null : 0.05 * (i + 1), i === 2 ? 0 : 3) },
   }));
   const levels = (name) => scenarios.slice(0, 3).map((each, i) => point(i + 1, each.estimators[name]));

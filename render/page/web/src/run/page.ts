@@ -17,6 +17,18 @@ function badge(text: string, kind: "good" | "bad" | "plain"): HTMLElement {
   return h("span", { class: `badge ${kind}` }, text);
 }
 
+/** What stands above everything else on the page of an invalid run. */
+function invalidBanner(data: RunPayload): HTMLElement | null {
+  const robot = data.scenario.robot;
+  if (robot?.valid !== false) return null;
+  return h(
+    "p",
+    { class: "banner", role: "alert" },
+    h("strong", {}, `Invalid run: ${robot.invalid_reason ?? "its robot did not finish"}.`),
+    " No estimator counts as a success on it, and its scores enter no statistics.",
+  );
+}
+
 function header(data: RunPayload): HTMLElement {
   const scenario = data.scenario;
   const robot = scenario.robot;
@@ -143,8 +155,10 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
   const results = h("div", {}, resultsSection(data) ?? "");
   onTheme(() => results.replaceChildren(resultsSection(data) ?? ""));
   const pictures = picturesSection(data);
+  const banner = invalidBanner(data);
   root.append(
     header(data),
+    ...(banner ? [banner] : []),
     h(
       "div",
       { class: "explore" },

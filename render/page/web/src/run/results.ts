@@ -71,7 +71,7 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
       ),
     ),
     score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
-    { title: "Outcome", value: (row) => outcome(row) },
+    { title: "Outcome", value: (row) => outcome(data, row) },
   ];
   return sortableTable(list, columns, {
     caption:
@@ -81,8 +81,9 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   });
 }
 
-function outcome(row: Row): string {
+function outcome(data: RunPayload, row: Row): string {
   if (row.scores === undefined) return kNone;
+  if (data.scenario.robot?.valid === false) return "invalid run";
   const divergedAt = at(row.scores, "diverged_at_s");
   if (isNumber(divergedAt)) return `diverged at ${formatFixed(divergedAt, 1)} s`;
   return success(row) ? "success" : "failed";
@@ -203,7 +204,7 @@ function gateTable(data: RunPayload): HTMLElement | null {
   return sortableTable<unknown>(
     gates,
     [
-      { title: "Estimator", value: (row) => text(row, "estimator") },
+      { title: "Estimator", value: (row) => text(row, "estimator") || "the run itself" },
       { title: "Score", value: (row) => text(row, "score") || text(row, "metric") },
       { title: "at least", value: (row) => numberAt(row, "min"), show: (row) => limit(row, "min") },
       { title: "at most", value: (row) => numberAt(row, "max"), show: (row) => limit(row, "max") },

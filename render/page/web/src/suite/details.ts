@@ -23,6 +23,7 @@ function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string
     {
       title: "outcome", value: (run) => String(outcome(run, estimator)["success"]),
       show: (run) => {
+        if (run.invalid) return `✕ invalid run: ${run.invalid}`;
         const found = outcome(run, estimator);
         if (found["success"] === true) return "success";
         if (found["success"] !== false) return "unknown";
@@ -32,7 +33,8 @@ function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string
       },
     },
     ...data.headline.map((score): Column<Run> => ({
-      title: score.title, unit: score.unit, best: "low", value: (run) => numberAt(outcome(run, estimator), score.key),
+      title: score.title, unit: score.unit, best: "low", eligible: (run) => !run.invalid,
+      value: (run) => numberAt(outcome(run, estimator), score.key),
     })),
   ];
   return sortableTable(runsOf(data, scenario.name), columns, {
@@ -61,12 +63,14 @@ export function details(
 ): HTMLElement {
   const level = isNumber(scenario.level) && scenario.family
     ? `${scenario.family} ${scenario.level} ${scenario.level_unit ?? ""}` : null;
-  const fell = scenario.fell ?? [];
+  const invalid = scenario.invalid?.length ?? 0;
   return h("div", { class: "card inner" },
     h("div", { class: "page-head" }, h("h3", {}, `${scenario.name}, ${estimator}`),
       h("button", { type: "button", onclick: close }, "Close")),
     level ? h("p", { class: "soft" }, `Level: ${level}`) : null,
-    fell.length > 0 ? h("p", { class: "soft" }, `The robot fell with seed ${fell.join(", ")}.`) : null,
+    invalid > 0
+      ? h("p", { class: "soft" }, `${invalid} of ${scenario.seeds.length} runs are invalid and left out of the statistics.`)
+      : null,
     runTable(data, scenario, estimator),
     h("details", {}, h("summary", {}, "All scores"), scoreTable(data, scenario, estimator)));
 }

@@ -109,7 +109,10 @@ interface Cells {
 
 function cell({ row, view, shade, best, open }: Cells, estimator: string): HTMLElement {
   const summary = summaryOf(row, estimator);
-  if (!summary) return h("td", { class: "matrix-cell none" }, h("span", { class: "soft" }, "not run"));
+  if (!summary) {
+    const why = (row.invalid?.length ?? 0) > 0 ? "no valid run" : "not run";
+    return h("td", { class: "matrix-cell none" }, h("span", { class: "soft" }, why));
+  }
   const value = valueOf(row, estimator, view.score, view.statistic);
   const diverged = summary.runs - summary.successes;
   const text = formatNumber(value);

@@ -19,7 +19,8 @@ export interface EstimatorSummary {
   scores: Record<string, ScoreSummary>;
 }
 
-export interface Gate {
+/** A limit and what was measured; without an estimator it is of the run itself. */
+export interface Expectation {
   estimator: string;
   score: string;
   statistic: string;
@@ -29,6 +30,12 @@ export interface Gate {
   holds: boolean;
 }
 
+/** A run that no statistic holds. */
+export interface InvalidRun {
+  seed: number;
+  reason: string;
+}
+
 export interface SuiteScenario {
   name: string;
   tags?: string[];
@@ -36,8 +43,8 @@ export interface SuiteScenario {
   level?: Maybe;
   level_unit?: string;
   seeds: number[];
-  fell?: number[];
-  gates?: Gate[];
+  invalid?: InvalidRun[];
+  expectations?: Expectation[];
   estimators: Record<string, EstimatorSummary>;
 }
 
@@ -65,6 +72,8 @@ export interface Run {
   scenario: string;
   seed: number;
   href: string | null;
+  /** Why the run is invalid; null when it is valid. */
+  invalid?: string | null;
   estimators: Record<string, Record<string, Maybe | boolean | string>>;
 }
 

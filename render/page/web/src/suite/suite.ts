@@ -8,24 +8,24 @@ import { themeButton } from "../theme";
 import { compareSection } from "./compare";
 import { familySection } from "./families";
 import { matrixSection } from "./matrix";
-import { estimatorsOf, type Gate, type SuitePayload } from "./model";
+import { estimatorsOf, type Expectation, type SuitePayload } from "./model";
 import { rocSection } from "./roc";
 
-type GateRow = Gate & { scenario: string };
+type ExpectationRow = Expectation & { scenario: string };
 
-function limit(gate: Gate): string {
-  const parts = [gate.min === null ? null : `at least ${gate.min}`, gate.max === null ? null : `at most ${gate.max}`];
+function limit(row: Expectation): string {
+  const parts = [row.min === null ? null : `at least ${row.min}`, row.max === null ? null : `at most ${row.max}`];
   return parts.filter((part) => part !== null).join(", ");
 }
 
-function gateSection(data: SuitePayload): HTMLElement | null {
-  const gates: GateRow[] = data.suite.scenarios.flatMap((scenario) =>
-    (scenario.gates ?? []).map((gate) => ({ ...gate, scenario: scenario.name })));
-  if (gates.length === 0) return null;
-  const failed = gates.filter((gate) => !gate.holds);
-  const table = (rows: GateRow[], caption: string) => sortableTable(rows, [
+function expectationSection(data: SuitePayload): HTMLElement | null {
+  const all: ExpectationRow[] = data.suite.scenarios.flatMap((scenario) =>
+    (scenario.expectations ?? []).map((each) => ({ ...each, scenario: scenario.name })));
+  if (all.length === 0) return null;
+  const failed = all.filter((row) => !row.holds);
+  const table = (rows: ExpectationRow[], caption: string) => sortableTable(rows, [
     { title: "scenario", value: (row) => row.scenario },
-    { title: "estimator", value: (row) => row.estimator },
+    { title: "estimator", value: (row) => row.estimator || "the run itself" },
     { title: "score", value: (row) => row.score },
     { title: "statistic", value: (row) => row.statistic },
     { title: "expected", value: limit },
@@ -33,9 +33,9 @@ function gateSection(data: SuitePayload): HTMLElement | null {
     { title: "met", value: (row) => row.holds, show: (row) => (row.holds ? "yes" : "✕ no") },
   ], { caption });
   return section("expectations", "Expectations",
-    h("p", {}, `${gates.length - failed.length} of ${gates.length} are met.`),
+    h("p", {}, `${all.length - failed.length} of ${all.length} are met.`),
     failed.length > 0 ? table(failed, "Not met") : null,
-    h("details", {}, h("summary", {}, "All"), table(gates, "All expectations")));
+    h("details", {}, h("summary", {}, "All"), table(all, "All expectations")));
 }
 
 function failureSection(data: SuitePayload): HTMLElement | null {
@@ -45,11 +45,22 @@ function failureSection(data: SuitePayload): HTMLElement | null {
     `${each.scenario ?? ""}${each.seed === null || each.seed === undefined ? "" : `, seed ${each.seed}`}: ${each.message ?? ""}`)));
 }
 
+/** What stands above everything else when runs are invalid. */
+function invalidBanner(data: SuitePayload): HTMLElement | null {
+  const invalid = data.suite.scenarios.flatMap((scenario) =>
+    (scenario.invalid ?? []).map((run) => `${scenario.name}, seed ${run.seed}: ${run.reason}`));
+  if (invalid.length === 0) return null;
+  return h("div", { class: "banner", role: "alert" },
+    h("strong", {}, `${invalid.length} of ${data.runs.length} runs are invalid and left out of every statistic.`),
+    h("ul", {}, ...invalid.map((each) => h("li", {}, each))));
+}
+
 /** Fills `root` with the page of a suite. */
 export function renderSuite(root: HTMLElement, data: SuitePayload): void {
   const runs = data.runs.length;
+  const banner = invalidBanner(data);
   const sections = [matrixSection(data), familySection(data), rocSection(data), compareSection(data),
-    gateSection(data), failureSection(data)].filter((each) => each !== null);
+    expectationSection(data), failureSection(data)].filter((each) => each !== null);
   root.append(
     h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()),
     facts([
@@ -57,6 +68,7 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
       ["", data.suite.complete === false ? "unfinished: runs are missing" : null],
       ["aims", data.version], ["code", data.suite.code],
     ]),
+    ...(banner ? [banner] : []),
     h("nav", { class: "contents", "aria-label": "Contents" }, ...sections.map((each) =>
       h("a", { href: `#${each.id}` }, each.querySelector("h2")?.textContent ?? each.id))),
     ...sections);

@@ -81,7 +81,7 @@ export interface TunedEstimator {
   name: string;
   parameters: Parameter[];
   points: { values: Numbers; untuned: Uint8Array; generation: Numbers | null };
-  /** A job each: point, sequence, outcome (0 done, 1 failed, 2 crashed, 3 timed out), scores, job by job. */
+  /** A job each: point, sequence, outcome (0 done, 1 failed, 2 crashed, 3 timed out, 4 invalid run), scores, job by job. */
   rows: { point: Numbers; sequence: Numbers; outcome: Uint8Array; diverged: Uint8Array; held_out: Uint8Array; scores: Numbers };
   analyses: Analysis[];
 }

@@ -96,7 +96,7 @@ function part(make: (redraw: () => void) => HTMLElement | null): HTMLElement {
 }
 
 function jobText(jobs: Record<string, number>): string {
-  const bad = ["failed", "crashed", "timed_out", "missing"].filter((key) => (jobs[key] ?? 0) > 0)
+  const bad = ["invalid", "failed", "crashed", "timed_out", "missing"].filter((key) => (jobs[key] ?? 0) > 0)
     .map((key) => `${jobs[key]} ${key.replace("_", " ")}`);
   return `${jobs["done"] ?? 0} of ${jobs["total"] ?? 0} done${bad.length > 0 ? `, ${bad.join(", ")}` : ""}`;
 }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench/jobs/results.hpp"
+#include "bench/run/estimate_summary.hpp"
+#include "bench/run/record.hpp"
+#include "bench/run/trajectory_summary.hpp"
+#include "bench/run/validity.hpp"
+#include "tests/bench/short_walk.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+/// Estimates the bag until `end_s` of it.
+EstimateResult estimate_until(const std::filesystem::path& bag, double end_s) {
+  EstimateConfig config;
+  config.run = {"leg"};
+  auto result = estimate(config, {bag}, [end_s](const Progress& progress) {
+    return progress.simulated_s < end_s;
+  });
+  EXPECT_TRUE(result) << result.error().message;
+  return std::move(*result);
+}
+
+TEST(Estimate, ThatIsInterruptedIsLabelledSoAndEntersNoAverage) {
+  const TemporaryFolder folder;
+  RecordOptions options;
+  options.bag = folder.path() / "walk.bag";
+  ASSERT_TRUE(record(testing::short_walk(), options, [](const Progress&) { return true; }));
+  for (const double end_s : {0.5, 3.0}) {  // while it stands, and while it walks
+    const EstimateResult result = estimate_until(options.bag, end_s);
+    EXPECT_FALSE(result.complete);
+    ASSERT_TRUE(result.scores);
+    EXPECT_FALSE(result.scores->estimates.at(0).scores.success);
+    EXPECT_EQ(result.scores->estimates.at(0).scores.failure_reason, FailureReason::kInterrupted);
+    EXPECT_EQ(trajectory_score_table(*result.scores).rows.at(0).back(), "interrupted");
+    ASSERT_TRUE(write_estimate({}, result, folder.path()));
+    const auto record = read_record(folder.path() / "scores.json");
+    ASSERT_TRUE(record);
+    EXPECT_EQ(record->scores["complete"], false);
+    EXPECT_EQ(record->scores["estimators"]["leg"]["diverged_reason"], "interrupted");
+    EXPECT_TRUE(record->scores["estimators"]["leg"]["diverged_at_s"].is_null());
+    EXPECT_FALSE(is_valid_run(*record));
+  }
+  EXPECT_TRUE(estimate_until(options.bag, 1e9).scores->estimates.at(0).scores.success);
+}
+
+}  // namespace
+}  // namespace aims
