@@ -52,6 +52,18 @@ TEST_F(Signals, TermEndsASimulationWithABagThatCanBeEstimated) {
   EXPECT_EQ(estimated.exit_code, 0) << estimated.output;
 }
 
+TEST_F(Signals, TermEndsAnEstimateWithWhatWasRead) {
+  ended("simulate long.yaml --out walk.bag",
+        "[ $(stat -c %s walk.bag || echo 0) -gt 20000000 ]");
+  const Outcome estimate =
+      ended("estimate walk.bag --estimators aims,tfs,lio --jobs 1 --no-pictures --out est",
+            "ls -d est.partial");
+  EXPECT_EQ(estimate.exit_code, 143) << estimate.output;
+  EXPECT_TRUE(holds(estimate, "interrupted: the results end where")) << estimate.output;
+  EXPECT_TRUE(fs::exists(folder_.path() / "est" / "estimate.json"));
+  EXPECT_FALSE(has_remains());
+}
+
 TEST_F(Signals, TermEndsSuitesAndSweepsWithWhatIsFinished) {
   write("short.yaml", testing::kMetreWalk);
   const Outcome suite =
