@@ -11,6 +11,7 @@
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/jobs/sequence_cache.hpp"
+#include "bench/run/validity.hpp"
 #include "bench/studies/fault_study.hpp"
 #include "core/files/output_folder.hpp"
 
@@ -58,6 +59,11 @@ int faults_command(const FaultArguments& arguments) {
   if (!folder) return bad_input(kFaultsName, folder.error());
   const auto sequence = sequence_of(*scenario, *seed, shared.cache);
   if (!sequence) return bad_input(kFaultsName, sequence.error());
+  if (const auto reason = invalid_reason(sequence->walk, to_seconds(sequence->end()))) {
+    print_out("INVALID RUN: {} seed {}: {}; no fault is tried on it\n", scenario->name, *seed,
+              *reason);
+    return kInvalidRun;
+  }
   watch_interrupt();
   const FaultStudyOptions options = {scenario->run, arguments.faults, *seed, shared.jobs};
   const auto cases = fault_study(*sequence, *scenario, options, [&](std::size_t done, std::size_t all) {
