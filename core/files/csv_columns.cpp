@@ -38,14 +38,16 @@ class RowReader {
   /// Reads up to the comma or line end after the cell; false at the end of the text.
   bool take_cell(std::string& cell) {
     bool quoted = false;
+    std::size_t kept = 0;  // bytes of the cell up to its last closing quote
     for (; position_ < text_.size(); ++position_) {
       const char c = text_[position_];
       if (c == '"') {
         const bool doubled = quoted && text_.substr(position_ + 1, 1) == "\"";
         if (doubled) cell += text_[position_++];
         if (!doubled) quoted = !quoted;
+        if (!quoted) kept = cell.size();
       } else if (!quoted && (c == ',' || c == '\n')) {
-        if (c == '\n' && cell.ends_with('\r')) cell.pop_back();
+        if (c == '\n' && cell.size() > kept && cell.ends_with('\r')) cell.pop_back();
         return true;
       } else {
         if (c == '\n') ++line_;

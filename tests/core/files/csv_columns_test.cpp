@@ -58,5 +58,12 @@ TEST(CsvColumns, AcceptsCarriageReturns) {
   EXPECT_EQ(*table->numbers("b"), std::vector<double>{2.0});
 }
 
+TEST(CsvColumns, KeepsTheCarriageReturnOfAQuotedCell) {
+  const auto table = CsvColumns::parse("a,\"b\r\"\r\n1,\"\r\"\n", "t.csv");
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->header(), (std::vector<std::string>{"a", "b\r"}));
+  EXPECT_EQ(table->texts("b\r"), std::vector<std::string>{"\r"});
+}
+
 }  // namespace
 }  // namespace aims

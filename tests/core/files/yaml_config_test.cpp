@@ -247,7 +247,7 @@ TEST(YamlConfig, RefusesWhatWouldCostTheParserItsMemory) {
 
 TEST(YamlConfig, EchoesAtMostTheStartOfALongValue) {
   EXPECT_EQ(message_of("inner: {eta: " + std::string(100'000, 'a') + "}\n"),
-            "s.yaml:1:14: inner.eta: expected a number >= 0, found '" + std::string(79, 'a') +
+            "s.yaml:1:14: inner.eta: expected a number in [0, 100], found '" + std::string(79, 'a') +
                 "... (100002 bytes)");
 }
 
@@ -476,7 +476,7 @@ RC_GTEST_PROP(DumpConfig, IsReadBackToEqualValues, ()) {
   c.name = *awkward_text();
   c.estimators = *rc::gen::container<std::vector<std::string>>(awkward_text());
   c.gravity = {*number, *number, *number};
-  c.inner.eta = std::abs(*number);
+  c.inner.eta = std::fmod(std::abs(*number), 100.0);
   c.inner.count = *rc::gen::inRange(1, 10);
   c.inner.enabled = *rc::gen::arbitrary<bool>();
   c.inner.model = *rc::gen::element(Model::kPoint, Model::kRolling);
