@@ -44,7 +44,7 @@ class Signals : public testing::CommandLine {
 
 TEST_F(Signals, TermEndsASimulationWithABagThatCanBeEstimated) {
   const Outcome simulated = ended("simulate long.yaml --out walk.bag",
-                                  "[ $(stat -c %s walk.bag || echo 0) -gt 1000000 ]");
+                                  "[ $(cat walk* | wc -c) -gt 1000000 ]");
   EXPECT_EQ(simulated.exit_code, 143) << simulated.output;
   EXPECT_TRUE(holds(simulated, "interrupted: the bag ends where")) << simulated.output;
   EXPECT_TRUE(fs::exists(folder_.path() / "walk.truth.tum"));
@@ -54,7 +54,7 @@ TEST_F(Signals, TermEndsASimulationWithABagThatCanBeEstimated) {
 
 TEST_F(Signals, TermEndsAnEstimateWithWhatWasRead) {
   ended("simulate long.yaml --out walk.bag",
-        "[ $(stat -c %s walk.bag || echo 0) -gt 20000000 ]");
+        "[ $(cat walk* | wc -c) -gt 20000000 ]");
   const Outcome estimate =
       ended("estimate walk.bag --estimators aims,tfs,lio --jobs 1 --no-pictures --out est",
             "ls -d est.partial");
