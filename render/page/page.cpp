@@ -97,7 +97,8 @@ Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& opti
   }
   const bool only_seeds = !suite && !runs.empty() && !holds_run(folder);
   if (only_seeds) return written_pages;
-  announce(observer, folder / kPageFile);
+  const bool results = suite || holds_tuning(folder) || holds_run(folder);
+  if (results) announce(observer, folder / kPageFile);
   auto written = write_page(folder, folder / kPageFile, options);
   if (!written) return tl::unexpected(written.error());
   written_pages.pages.push_back(folder / kPageFile);
