@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <set>
 
 #include "bench/run/evaluate.hpp"
 #include "bench/run/stream.hpp"
@@ -96,8 +97,10 @@ FaultCase case_of(const StreamFault& fault, const EstimatorOutcome& outcome, Tim
 Result<std::vector<StreamFault>> selected(const std::vector<std::string>& names) {
   std::vector<StreamFault> faults = stream_faults();
   if (names.empty()) return faults;
-  const auto matches = [](const StreamFault& fault, const std::string& name) {
-    return fault.name.starts_with(name);
+  std::set<std::string> whole;
+  for (const StreamFault& fault : faults) whole.insert(fault.name);
+  const auto matches = [&whole](const StreamFault& fault, const std::string& name) {
+    return whole.contains(name) ? fault.name == name : fault.name.starts_with(name);
   };
   for (const std::string& name : names) {
     const bool found = std::ranges::any_of(faults, [&](const auto& f) { return matches(f, name); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/filter/static_initialization.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace aims {
@@ -227,7 +228,8 @@ std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samp
   auto [best, begin, duration] = longest_static_interval(samples, config, limits, gravity);
   if (best.count > 0) {
     // Only the end of a long interval is averaged: before it the robot settles.
-    const Time averaged = best.end - from_seconds(config.duration - config.settling_time);
+    const double averaged_s = std::max(0.0, config.duration - config.settling_time);
+    const Time averaged = best.end - from_seconds(averaged_s);
     while (samples[begin].stamp < averaged) ++begin;
     best = static_interval_from(samples, begin, config, limits, gravity);
   }

@@ -69,7 +69,7 @@ TEST(RangeKey, IsHeldAgainstTheScenario) {
   EXPECT_EQ(refusal_of("lidar.range_sigma=0:0.05:3"), "accepted");
   EXPECT_EQ(refusal_of("scoring.max_error_offset=0.5:2:3"), "accepted");
   EXPECT_EQ(refusal_of("route.points.1.x=0.5:2:3"), "accepted");
-  EXPECT_TRUE(says(refusal_of("route.points.7.x=0.5:2:3"), "unknown key"));
+  EXPECT_TRUE(says(refusal_of("route.points.7.x=0.5:2:3"), "no entry 7"));
   EXPECT_TRUE(
       says(refusal_of("links.leg_odometry.los=0:0.5:6"), "did you mean 'links.leg_odometry.loss'"));
   EXPECT_TRUE(says(refusal_of("degeneracy.etta=0:6:3"), "did you mean 'degeneracy.eta'"));

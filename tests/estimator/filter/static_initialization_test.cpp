@@ -198,6 +198,14 @@ TEST(StaticInitialization, AShortIntervalGivesTheTiltButNoGyroBias) {
               10.0 * InitializationConfig{}.sigma_gyro_bias, 1e-12);
 }
 
+TEST(StaticInitialization, AStartShorterThanItsSettlingTimeIsStillAStart) {
+  const auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
+  const InitializationConfig config = {.duration = 0.5, .settling_time = 1.0};
+  const auto found = initialize_static(samples, config, {.enabled = true}, 9.81);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
+}
+
 TEST(StaticInitialization, APushBeforeTheIntervalIsLeftOut) {
   const auto level = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
   const auto samples = pushed(level, 0.0, 0.55, 2.0);
