@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bench/run/json_values.hpp"
+#include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {
