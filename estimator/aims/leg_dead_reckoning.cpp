@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/aims/leg_dead_reckoning.hpp"
 
+#include <algorithm>
+
 namespace aims {
 namespace {
 
@@ -53,6 +55,7 @@ void LegDeadReckoning::judge_health() {
   std::optional<HealthEstimate> estimate;
   if (last_) estimate = {last_->pose.translation, speed_, kNotComputed};
   append_health(result_.health, health_.judge(*now, queue_.inputs(), estimate));
+  speed_ = 0.0;
 }
 
 void LegDeadReckoning::process(const LegOdometrySample& sample) {
@@ -70,8 +73,11 @@ void LegDeadReckoning::process(const LegOdometrySample& sample) {
   if (!start_) start_ = now.stamp;
   const Time last_pose = result_.trajectory.empty() ? *start_ : result_.trajectory.back().stamp;
   if (now.stamp - last_pose >= kMaxPoseInterval) result_.trajectory.push_back(now);
+  if (last_ && now.stamp > last_->stamp) {
+    const double step = (now.pose.translation - last_->pose.translation).norm();
+    speed_ = std::max(speed_, step / to_seconds(now.stamp - last_->stamp));
+  }
   last_ = now;
-  speed_ = sample.linear_velocity.norm();
   queue_.imu().forget_before(sample.stamp);
 }
 

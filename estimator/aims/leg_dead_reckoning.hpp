@@ -44,7 +44,7 @@ class LegDeadReckoning : public Estimator {
   EstimatorResult result_;
   std::optional<Time> start_;   ///< stamp of the first sample
   std::optional<Time> judged_;  ///< arrival
-  double speed_ = 0.0;          ///< of the last sample [m/s]
+  double speed_ = 0.0;          ///< largest between two samples since the last judgement [m/s]
   std::optional<Pose> T_start_odom_;
   std::optional<StampedPose> last_;  ///< T_start_body
   std::vector<Time> waiting_;        ///< scan ends after the last sample

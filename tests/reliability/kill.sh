@@ -66,4 +66,4 @@ simulate() {
 simulate
 run suite 4 "$aims" suite sequence.yaml --seeds 1-2 --estimators aims,leg --no-page --quiet --jobs 2
 run sweep 4 "$aims" sweep plan.yaml --quiet --jobs 2
-run tune 8 "$aims" tune tune.yaml --quiet --jobs 2 --no-page
+run tune 8 "$aims" tune tune.yaml --quiet --jobs 2

@@ -117,6 +117,15 @@ TEST_F(MissingSensors, AnImuOfNotANumberGivesNoPoseAndSaysWhy) {
   EXPECT_EQ(worst(result), HealthState::kInvalid);
 }
 
+TEST_F(MissingSensors, LegsWhosePoseJumpsAreInvalid) {
+  const EstimatorResult result = run("leg", [](Delivery& delivery) {
+    auto* legs = std::get_if<LegOdometrySample>(&delivery.measurement);
+    if (legs != nullptr && legs->stamp > 4 * kSecond) legs->T_odom_base.translation.setConstant(1e6);
+    return true;
+  });
+  EXPECT_EQ(worst(result), HealthState::kInvalid);
+}
+
 TEST_F(MissingSensors, ADeadLidarIsNamedAndItsReturnToo) {
   const EstimatorResult result = run("tfs_clean", [](Delivery& delivery) {
     return !is_scan(delivery) || delivery.arrival < 5 * kSecond || delivery.arrival > 7 * kSecond;
