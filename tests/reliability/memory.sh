@@ -4,7 +4,7 @@
 # memory over the second half.
 #
 #   tests/reliability/memory.sh SECONDS COMMAND...     SECONDS: between samples
-set -euo pipefail
+set -u
 interval=$1
 shift
 "$@" > /dev/null 2>&1 &
@@ -16,12 +16,12 @@ while [ -d /proc/$process ]; do
   family="$process $(pgrep -P $process | tr '\n' ' ')"
   rss=0 files=0 threads=0
   for each in $family; do
-    [ -r "/proc/$each/status" ] || continue
-    rss=$((rss + $(awk '/^RssAnon/ {print $2}' "/proc/$each/status" 2> /dev/null || echo 0)))
-    threads=$((threads + $(awk '/^Threads/ {print $2}' "/proc/$each/status" 2> /dev/null || echo 0)))
+    anon=$(awk '/^RssAnon/ {print $2}' "/proc/$each/status" 2> /dev/null || true)  # none: it has ended
+    count=$(awk '/^Threads/ {print $2}' "/proc/$each/status" 2> /dev/null || true)
+    rss=$((rss + ${anon:-0})) threads=$((threads + ${count:-0}))
     files=$((files + $(ls "/proc/$each/fd" 2> /dev/null | wc -l)))
   done
-  [ "$rss" -gt 0 ] && echo "$SECONDS $rss $files $threads" >> "$samples"
+  if [ "$rss" -gt 0 ]; then echo "$SECONDS $rss $files $threads" >> "$samples"; fi
   sleep "$interval"
 done
 wait $process && code=0 || code=$?
