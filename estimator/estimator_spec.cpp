@@ -175,9 +175,8 @@ void describe_estimators(Fields& fields, const std::vector<std::string>& run,
   }
 }
 
-Result<void> check_effects(const Fields& fields, std::vector<AssignedKey> assigned,
-                           bool run_chosen, std::span<const std::string> run,
-                           const EstimatorConfigs& configs) {
+Result<void> check_effects(const Fields& fields, std::vector<AssignedKey> assigned, bool run_chosen,
+                           std::span<const std::string> run, const EstimatorConfigs& configs) {
   if (run_chosen) {
     std::erase_if(assigned, [&](const AssignedKey& each) { return of_others(each, fields); });
   }

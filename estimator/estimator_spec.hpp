@@ -49,9 +49,8 @@ void describe_estimators(Fields& fields, const std::vector<std::string>& run,
 
 /// Error for a key that was set without effect, and for such a setting in a spec of `run`. With
 /// `run_chosen`, by the command line, files may hold settings of estimators that do not run.
-Result<void> check_effects(const Fields& fields, std::vector<AssignedKey> assigned,
-                           bool run_chosen, std::span<const std::string> run,
-                           const EstimatorConfigs& configs);
+Result<void> check_effects(const Fields& fields, std::vector<AssignedKey> assigned, bool run_chosen,
+                           std::span<const std::string> run, const EstimatorConfigs& configs);
 
 /// The label of a spec, well-formed or not.
 std::string label_of(std::string_view spec);

@@ -24,8 +24,8 @@ struct Limits {
 enum class Presence { kOptional, kRequired };
 
 /// A command of `aims` while it is declared. Options fill variables, which must live until the
-/// action has run; a variable's value before that is the default. An empty value is an error. `names` is one spelling or
-/// several, e.g. "-o,--out".
+/// action has run; a variable's value before that is the default. An empty value is an error.
+/// `names` is one spelling or several, e.g. "-o,--out".
 class Command {
  public:
   Command(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}

@@ -54,6 +54,7 @@ int faults_command(const FaultArguments& arguments) {
   if (!scenario) return bad_input(kFaultsName, scenario.error());
   const auto seed = seed_of(shared, *scenario);
   if (!seed) return bad_input(kFaultsName, seed.error());
+  watch_interrupt();
   const fs::path out = shared.out.empty() ? fs::path("out/faults") : fs::path(shared.out);
   auto folder = OutputFolder::create(out, shared.overwrite);
   if (!folder) return bad_input(kFaultsName, folder.error());
@@ -64,12 +65,13 @@ int faults_command(const FaultArguments& arguments) {
               *reason);
     return kInvalidRun;
   }
-  watch_interrupt();
+  if (interrupted()) return interrupted_code();
   const FaultStudyOptions options = {scenario->run, arguments.faults, *seed, shared.jobs};
-  const auto cases = fault_study(*sequence, *scenario, options, [&](std::size_t done, std::size_t all) {
-    if (!shared.quiet && done % 10 == 0) print_error(fmt::format("{} of {} cases", done, all));
-    return !interrupted();
-  });
+  const auto cases =
+      fault_study(*sequence, *scenario, options, [&](std::size_t done, std::size_t all) {
+        if (!shared.quiet && done % 10 == 0) print_error(fmt::format("{} of {} cases", done, all));
+        return !interrupted();
+      });
   if (!cases) return bad_input(kFaultsName, cases.error());
   const std::string name = fmt::format("{}, seed {}", scenario->name, *seed);
   if (auto ok = write_faults(*cases, name, folder->path()); !ok) {
@@ -77,7 +79,7 @@ int faults_command(const FaultArguments& arguments) {
   }
   if (auto ok = folder->commit(); !ok) return bad_input(kFaultsName, ok.error());
   print_out("{}: ATE [m] and the worst state reported; SILENT: failed and called healthy\n{}\n",
-             name, to_text(fault_table(*cases)));
+            name, to_text(fault_table(*cases)));
   print_out("results: {}, faults.csv\n", (out / "faults.md").string());
   if (interrupted()) return interrupted_code();
   return std::ranges::any_of(*cases, &FaultCase::silent) ? kExpectationFailed : kOk;

@@ -10,6 +10,7 @@
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/run/health_summary.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/studies/run_folder.hpp"
 #include "render/results/run_pictures.hpp"
@@ -45,6 +46,13 @@ std::string seeds_text(const SuiteCase& each) {
   return fmt::format("{}{}", fmt::join(seeds, ", "), seeds.size() > 1 ? ": median (worst)" : "");
 }
 
+/// A line per seed and estimator that was not healthy all along.
+void print_health(const SuiteCase& each) {
+  for (const RunRecord& run : each.runs) {
+    for (const std::string& line : health_lines(run)) print_out("health: {}\n", line);
+  }
+}
+
 /// Draws the runs; a picture that cannot be drawn is a warning: the results are there.
 void draw(const std::vector<fs::path>& folders, bool quiet) {
   DrawDisplay display(quiet);
@@ -60,8 +68,8 @@ int run_command(const RunArguments& arguments) {
   if (!scenario) return bad_input("run", scenario.error());
   const auto options = options_of(shared, *scenario);
   if (!options) return bad_input("run", options.error());
-  const auto first_seed = options->seeds.empty() ? static_cast<std::uint64_t>(scenario->seed)
-                                                 : options->seeds.front();
+  const auto first_seed =
+      options->seeds.empty() ? static_cast<std::uint64_t>(scenario->seed) : options->seeds.front();
   if (auto ok = check_simulation(*scenario, first_seed); !ok) return bad_input("run", ok.error());
   const auto suite = run_with_display({{scenario->file, *scenario}}, *options, shared.quiet);
   if (!suite) return bad_input("run", suite.error());
@@ -75,6 +83,7 @@ int run_command(const RunArguments& arguments) {
   if (!each.runs.empty()) {
     print_out("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
               to_text(score_table(each.runs)));
+    print_health(each);
   }
   print_expectations(*suite);
   print_outcome(*suite, shared);

@@ -62,8 +62,7 @@ Result<const Sequence*> JobRunner::open(const std::string& id, const Scenario& s
   auto sequence = open_sequence(cache_.file_of(id), scenario);
   if (!sequence) return tl::unexpected(sequence.error());
   if (open_.size() == kOpenSequences) open_.erase(open_.begin());
-  open_.push_back(
-      {id, std::make_unique<const Sequence>(std::move(*sequence)), std::move(in_use)});
+  open_.push_back({id, std::make_unique<const Sequence>(std::move(*sequence)), std::move(in_use)});
   return open_.back().sequence.get();
 }
 

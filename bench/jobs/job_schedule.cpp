@@ -145,8 +145,8 @@ Result<void> JobSchedule::start_job(SequenceWork& work) {
     if (outcome) {
       result.scores = estimator_json(*outcome);
       result.sequence = sequence_json(sequence, outcome->scores);
-      stored = write_outputs(runner_.store_, runner_.options_.outputs, job, work.id, sequence,
-                             *outcome);
+      stored =
+          write_outputs(runner_.store_, runner_.options_.outputs, job, work.id, sequence, *outcome);
     } else {
       result.outcome = JobOutcome::kFailed;
       result.message = outcome.error().message;

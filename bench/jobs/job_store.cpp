@@ -97,8 +97,7 @@ bool is_claimed(const fs::path& folder) {
 
 }  // namespace
 
-Result<void> JobStore::enter(std::span<const Job> jobs, const std::string& plan,
-                             bool force) const {
+Result<void> JobStore::enter(std::span<const Job> jobs, const std::string& plan, bool force) const {
   const std::string list_here = job_list(jobs);
   if (plan.empty()) return write_file_atomically(folder_ / kListFile, list_here);
   const std::string plan_here = plan_file_text(plan);

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "bench/jobs/job_store.hpp"
-#include "bench/run/validity.hpp"
 #include "bench/run/json_text.hpp"
 #include "bench/run/json_values.hpp"
+#include "bench/run/validity.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {

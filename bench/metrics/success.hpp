@@ -11,15 +11,15 @@ namespace aims {
 
 /// Why an estimate is not a success.
 enum class FailureReason {
-  kNone,        ///< success
-  kNoOverlap,   ///< fewer than two estimated poses in the time span of the truth
-  kInvalid,     ///< a pose that is not finite or not a rigid transform
-  kStartsLate,  ///< no estimate near the start of the truth
-  kGap,         ///< a gap without estimates that is too long
-  kEndsEarly,   ///< no estimate near the end of the truth
-  kErrorLimit,  ///< position error beyond the limit
-  kCoverage,    ///< too little of the truth's time has an estimate
-  kInvalidRun,  ///< the robot did not finish its route, so that nothing is a success
+  kNone,         ///< success
+  kNoOverlap,    ///< fewer than two estimated poses in the time span of the truth
+  kInvalid,      ///< a pose that is not finite or not a rigid transform
+  kStartsLate,   ///< no estimate near the start of the truth
+  kGap,          ///< a gap without estimates that is too long
+  kEndsEarly,    ///< no estimate near the end of the truth
+  kErrorLimit,   ///< position error beyond the limit
+  kCoverage,     ///< too little of the truth's time has an estimate
+  kInvalidRun,   ///< the robot did not finish its route, so that nothing is a success
   kInterrupted,  ///< the user ended it
 };
 

@@ -45,7 +45,8 @@ Result<std::vector<ScenarioFile>> scenarios_in(const fs::path& folder,
   const auto paths = scenario_files(folder);
   if (!paths) return tl::unexpected(paths.error());
   std::vector<ScenarioFile> files;
-  for (const fs::path& path : *paths) files.push_back({path, load_scenario(path, overrides, folder)});
+  for (const fs::path& path : *paths)
+    files.push_back({path, load_scenario(path, overrides, folder)});
   if (tags.empty()) return files;
   if (auto known = check_tags(files, tags); !known) return tl::unexpected(known.error());
   std::erase_if(files, [&](const ScenarioFile& each) {

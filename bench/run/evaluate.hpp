@@ -19,9 +19,9 @@ namespace aims {
 struct EstimatorOutcome {
   std::string name;
   EstimatorResult result;
-  std::vector<Eigen::Vector3f> map;  ///< in its odometry frame [m]
-  Scores scores;                     ///< of the online trajectory
-  std::optional<Scores> optimized;   ///< of the re-optimized one
+  std::vector<Eigen::Vector3f> map;             ///< in its odometry frame [m]
+  Scores scores;                                ///< of the online trajectory
+  std::optional<Scores> optimized;              ///< of the re-optimized one
   std::vector<WeakAxisError> weak_axis_errors;  ///< along what the LiDAR cannot see, by scan
   std::vector<WeakAxisScore> weak_axis;         ///< summary of them
   ScanTimes scan_times;

@@ -36,7 +36,8 @@ void apply_statistic(std::span<const RunRecord> runs, const std::vector<double>&
     check.seeds = {runs[static_cast<std::size_t>(worst - values.begin())].seed};
     return;
   }
-  check.value = expectation.statistic == ExpectationStatistic::kMedian ? median(values) : mean(values);
+  check.value =
+      expectation.statistic == ExpectationStatistic::kMedian ? median(values) : mean(values);
   for (const RunRecord& run : runs) check.seeds.push_back(run.seed);
 }
 
@@ -116,7 +117,8 @@ bool applies(const std::string& setting, const Scenario& scenario, const std::st
 
 }  // namespace
 
-std::vector<ExpectationCheck> check_expectations(const Scenario& scenario, std::span<const RunRecord> runs) {
+std::vector<ExpectationCheck> check_expectations(const Scenario& scenario,
+                                                 std::span<const RunRecord> runs) {
   std::vector<ExpectationCheck> checks;
   if (runs.empty()) return checks;
   const std::vector<RunRecord> valid = valid_ones(runs);
@@ -164,7 +166,8 @@ std::string text_of(const Scenario& scenario, const ExpectationCheck& check) {
   const std::string value = check.value ? fmt::format("{:.4g}", *check.value) : "no value";
   std::string statistic(name_of(check.expectation.statistic));
   statistic = check.expectation.statistic == ExpectationStatistic::kWorst ? "" : statistic + " ";
-  if (!check.expectation.estimator.empty()) statistic = check.expectation.estimator + " " + statistic;
+  if (!check.expectation.estimator.empty())
+    statistic = check.expectation.estimator + " " + statistic;
   const std::string runs =
       check.seeds.empty() ? "no valid run" : fmt::format("seed {}", fmt::join(check.seeds, ","));
   return fmt::format("{} {}: {}{} = {}, expected {}", scenario.name, runs, statistic,
@@ -174,8 +177,8 @@ std::string text_of(const Scenario& scenario, const ExpectationCheck& check) {
 std::string reproducing_command(const Scenario& scenario, const ExpectationCheck& check) {
   const std::string file = scenario.file.empty() ? scenario.name : scenario.file.string();
   const std::string& label = check.expectation.estimator;
-  const auto asked = std::ranges::find_if(
-      scenario.run, [&](const auto& spec) { return label_of(spec) == label; });
+  const auto asked =
+      std::ranges::find_if(scenario.run, [&](const auto& spec) { return label_of(spec) == label; });
   std::string command = fmt::format("aims run {}", quoted(file));
   if (!check.seeds.empty()) command += fmt::format(" --seeds {}", fmt::join(check.seeds, ","));
   const std::string spec = asked != scenario.run.end() ? *asked : label;

@@ -23,7 +23,8 @@ struct ExpectationCheck {
 /// Every expectation of the scenario whose estimator ran, over the valid ones of `runs`, and every
 /// one on the run itself, over all of them. A score that has no value in some run holds no limit,
 /// whichever statistic is asked for.
-std::vector<ExpectationCheck> check_expectations(const Scenario& scenario, std::span<const RunRecord> runs);
+std::vector<ExpectationCheck> check_expectations(const Scenario& scenario,
+                                                 std::span<const RunRecord> runs);
 
 /// The runs that are invalid although no expectation on the run itself demands what made them so.
 /// One demands a fall when it holds and no robot that stays on its feet could meet it.

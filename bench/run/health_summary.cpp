@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/run/json_values.hpp"
+
 namespace aims {
 namespace {
 
@@ -62,6 +64,22 @@ std::string text_of(const HealthSummary& summary) {
     states.push_back(fmt::format("degraded for {:.1f} s", summary.degraded_s));
   }
   return fmt::format("{} ({})", fmt::join(states, ", "), reasons_text(summary));
+}
+
+std::vector<std::string> health_lines(const RunRecord& run) {
+  std::vector<std::string> lines;
+  const auto estimators = run.scores.find("estimators");
+  if (estimators == run.scores.end()) return lines;
+  for (const auto& [name, scores] : estimators->items()) {
+    const auto health = scores.find("health");
+    if (health == scores.end() ||
+        value_in(*health, "worst", "") == name_of(HealthState::kHealthy)) {
+      continue;
+    }
+    lines.push_back(fmt::format("{} seed {}: {} ({})", name, run.seed,
+                                value_in(*health, "worst", ""), value_in(*health, "reasons", "")));
+  }
+  return lines;
 }
 
 CsvTable health_table(const std::vector<HealthRow>& rows) {

@@ -30,6 +30,10 @@ Json health_json(const HealthSummary& summary);
 /// "degraded 3.2 s (no leg odometry 3.2 s)"; empty for an estimate that was healthy all along.
 std::string text_of(const HealthSummary& summary);
 
+/// "lio seed 1: degraded (no leg odometry 3.2 s)" for each estimator of a run that was not
+/// healthy all along; none for records without health.
+std::vector<std::string> health_lines(const RunRecord& run);
+
 /// A row per health row: stamp_s, state, reasons, position_sigma_m.
 CsvTable health_table(const std::vector<HealthRow>& rows);
 

@@ -24,6 +24,6 @@ Result<EstimatorOutcome> read_estimator(const std::filesystem::path& folder,
 
 /// Endings of those files, with their dots.
 inline constexpr const char* kEstimatorFiles[] = {".tum", kOptimizedEnding, ".map.ply",
-                                                 ".diagnostics.csv", ".health.csv"};
+                                                  ".diagnostics.csv", ".health.csv"};
 
 }  // namespace aims

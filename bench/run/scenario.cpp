@@ -96,7 +96,9 @@ Result<void> check_effects_in(Scenario& scenario, std::vector<AssignedKey> assig
 }  // namespace
 
 void describe(Fields& f, Expectation& e) {
-  f.text("estimator", e.estimator, {.meaning = "estimator whose score is limited; absent: a score of the run, e.g. robot.fell"});
+  f.text(
+      "estimator", e.estimator,
+      {.meaning = "estimator whose score is limited; absent: a score of the run, e.g. robot.fell"});
   f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
   f.number("max", e.max,
            {.unit = "as the score", .range = within(1e12), .meaning = "largest value that passes"});

@@ -43,8 +43,7 @@ ExampleWalk example_walk(const Scenario& scenario) {
 EstimatorOutcome example_outcome(const Scenario& scenario) {
   const ExampleWalk walk = example_walk(scenario);
   EstimatorOutcome outcome;
-  outcome.scores =
-      score(walk.trajectory, walk.trajectory, walk.waypoint_times, scenario.scoring);
+  outcome.scores = score(walk.trajectory, walk.trajectory, walk.waypoint_times, scenario.scoring);
   outcome.optimized = outcome.scores;
   outcome.weak_axis = weak_axis_scores({});
   return outcome;
@@ -77,8 +76,7 @@ std::vector<std::string> possible_run_score_keys(const Scenario& scenario) {
   return run_score_keys(record);
 }
 
-Result<void> check_score(std::string_view key, const std::string& score,
-                         const Scenario& scenario) {
+Result<void> check_score(std::string_view key, const std::string& score, const Scenario& scenario) {
   if (score.starts_with(kCounters)) return {};
   return check_known(key, score, possible_score_keys(scenario),
                      "a key of an estimator in scores.json, e.g. ate_m");

@@ -188,8 +188,7 @@ Json sequence_json(double simulated_s, const WalkOutcome& walk, const Scores& sc
 }
 
 Json sequence_json(const Sequence& sequence, const Scores& scores) {
-  return sequence_json(to_seconds(sequence.end()), sequence.walk, scores,
-                       sequence.localizability);
+  return sequence_json(to_seconds(sequence.end()), sequence.walk, scores, sequence.localizability);
 }
 
 const Json& estimator_in(const RunRecord& record, const std::string& estimator) {

@@ -29,8 +29,9 @@ CsvTable snapshots_table(const std::vector<RobotSnapshot>& snapshots) {
 Result<std::vector<LegInterval>> legs_of(const Sequence& sequence, const Scenario& scenario,
                                          const Truth& truth) {
   LegPackets packets;
-  const auto replayed = sequence.reader.replay_without_points(
-      [&](const Delivery& delivery) { packets.count({&delivery, 1}); });
+  const auto replayed = sequence.reader.replay_without_points([&](const Delivery& delivery) {
+    packets.count({&delivery, 1});
+  });
   if (!replayed) return tl::unexpected(replayed.error());
   return leg_intervals(scenario.simulation, packets, truth, sequence.end());
 }
@@ -53,8 +54,7 @@ Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
   const Truth truth = sequence.reader.truth();
   const auto legs = legs_of(sequence, scenario, truth);
   if (!legs) return tl::unexpected(legs.error());
-  auto written =
-      write_tum(folder / "truth.tum", thinned(sequence.truth_trajectory, kTruthSpacing));
+  auto written = write_tum(folder / "truth.tum", thinned(sequence.truth_trajectory, kTruthSpacing));
   const auto write = [&](const char* name, const CsvTable& table) {
     if (written) written = write_csv(folder / name, table);
   };

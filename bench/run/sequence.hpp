@@ -17,8 +17,8 @@ inline constexpr Duration kTruthSpacing = 10 * kMillisecond;
 
 /// A simulated sequence, open for any number of estimators, with what all their scores need.
 struct Sequence {
-  SequenceReader reader;         ///< the measurements stay in the file
-  Trajectory truth_trajectory;   ///< T_world_body at the physics rate
+  SequenceReader reader;        ///< the measurements stay in the file
+  Trajectory truth_trajectory;  ///< T_world_body at the physics rate
   std::vector<WaypointTime> waypoint_times;
   RunLocalizability localizability;
   WalkOutcome walk;
@@ -36,8 +36,7 @@ Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
 
 /// Names of the files that `write_sequence` writes.
 inline constexpr const char* kSequenceFiles[] = {"truth.tum", "waypoint_times.csv",
-                                                 "localizability.csv", "legs.csv",
-                                                 "snapshots.csv"};
+                                                 "localizability.csv", "legs.csv", "snapshots.csv"};
 
 /// Reads snapshots.csv.
 Result<std::vector<RobotSnapshot>> read_snapshots(const std::filesystem::path& file);

@@ -213,8 +213,8 @@ void append_rig(std::vector<std::byte>& out, const SensorRig& rig) {
   append_pose(out, rig.T_body_lidar);
   append_pose(out, rig.T_body_base);
   const LegGeometry& legs = rig.leg_geometry;
-  const std::array<double, 8> numbers = {legs.hip_x,       legs.hip_y,      legs.abduction,
-                                         legs.thigh,       legs.calf,       legs.foot_radius,
+  const std::array<double, 8> numbers = {legs.hip_x,      legs.hip_y,     legs.abduction,
+                                         legs.thigh,      legs.calf,      legs.foot_radius,
                                          rig.imu_rate_hz, rig.leg_rate_hz};
   append_numbers(out, numbers);
 }

@@ -23,7 +23,7 @@ constexpr std::size_t kTrailerSize = sizeof(std::uint64_t) + kEnd.size();
 }  // namespace
 
 Result<SequenceWriter> SequenceWriter::create(const fs::path& file, const SensorRig& rig,
-                                      std::string_view origin) {
+                                              std::string_view origin) {
   auto atomic = AtomicFile::create(file);
   if (!atomic) return tl::unexpected(atomic.error());
   SequenceWriter writer(std::move(*atomic));

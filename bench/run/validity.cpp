@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 #include <utility>
+
+#include "bench/run/json_values.hpp"
 
 namespace aims {
 namespace {
 
-constexpr std::array kEnds = {WalkEnd::kRunning,         WalkEnd::kRouteDone, WalkEnd::kFell,
-                              WalkEnd::kLeftScene,       WalkEnd::kNoProgress, WalkEnd::kTimeLimit,
+constexpr std::array kEnds = {WalkEnd::kRunning,        WalkEnd::kRouteDone,  WalkEnd::kFell,
+                              WalkEnd::kLeftScene,      WalkEnd::kNoProgress, WalkEnd::kTimeLimit,
                               WalkEnd::kUnstablePhysics};
 
 /// Why the walk did not end at the end of its route; empty when it did.
@@ -36,26 +37,15 @@ std::string reason_of(WalkEnd end, double end_s) {
   return "";
 }
 
-template <class Value>
-Value member_or(const Json& json, const char* key, Value otherwise) {
-  const auto found = json.find(key);
-  if (found == json.end()) return otherwise;
-  if constexpr (std::is_same_v<Value, bool>) {
-    return found->is_boolean() ? found->template get<bool>() : otherwise;
-  } else {
-    return found->is_number() ? found->template get<double>() : otherwise;
-  }
-}
-
-/// The walk that a record tells of; results of before have no `end`.
+/// The walk of a record; older results have no `end`.
 WalkOutcome walk_in(const Json& robot) {
   WalkOutcome walk;
-  walk.end = member_or(robot, "fell", false) ? WalkEnd::kFell : WalkEnd::kRouteDone;
+  walk.end = value_in(robot, "fell", false) ? WalkEnd::kFell : WalkEnd::kRouteDone;
   for (const WalkEnd end : kEnds) {
-    if (robot.value("end", Json()) == name_of(end)) walk.end = end;
+    if (value_in(robot, "end", "") == name_of(end)) walk.end = end;
   }
-  walk.touched_wall = member_or(robot, "touched_wall", false);
-  walk.wall_contact_fraction = member_or(robot, "wall_contact_fraction", 0.0);
+  walk.touched_wall = value_in(robot, "touched_wall", false);
+  walk.wall_contact_fraction = value_in(robot, "wall_contact_fraction", 0.0);
   return walk;
 }
 
@@ -68,15 +58,15 @@ bool has_robot(const Json& scores) {
 std::optional<std::string> invalid_reason(const WalkOutcome& walk, double end_s) {
   if (std::string reason = reason_of(walk.end, end_s); !reason.empty()) return reason;
   if (walk.wall_contact_fraction <= kMaxWallContact) return std::nullopt;
-  return fmt::format("the robot touched a wall for {:.0f} % of its way",
+  return fmt::format("the robot touched a wall for {:.0f} % of the time walked",
                      100.0 * walk.wall_contact_fraction);
 }
 
 std::optional<std::string> invalid_reason(const Json& scores) {
   if (!scores.is_object()) return std::nullopt;
-  if (member_or(scores, "interrupted", false)) return "it was interrupted";
+  if (value_in(scores, "interrupted", false)) return "it was interrupted";
   if (!has_robot(scores)) return std::nullopt;
-  return invalid_reason(walk_in(scores["robot"]), member_or(scores, "simulated_s", 0.0));
+  return invalid_reason(walk_in(scores["robot"]), value_in(scores, "simulated_s", 0.0));
 }
 
 void mark_validity(Json& scores) {

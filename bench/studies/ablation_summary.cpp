@@ -53,9 +53,8 @@ std::string markdown_of(const Ablation& ablation, const Suite& suite) {
 }
 
 CsvTable csv_of(const Ablation& ablation) {
-  CsvTable table(
-      {"scenario", "variant", "score", "median", "worst", "ratio", "change", "change_low",
-                  "change_high", "count", "runs", "successes"});
+  CsvTable table({"scenario", "variant", "score", "median", "worst", "ratio", "change",
+                  "change_low", "change_high", "count", "runs", "successes"});
   for (const AblationCase& each : ablation.cases) {
     for (const AblationRow& row : each.rows) {
       for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
@@ -102,9 +101,9 @@ Json ablation_json(const Ablation& ablation, const Suite& suite) {
       ratios[kAblationScores[i].key] = json_of(each.ratios[i]);
     }
     json["effects"][each.label] = {{"settings", each.changes},
-                                 {"mean_ratio", std::move(ratios)},
-                                 {"largest_ate_ratio", json_of(each.worst_ratio)},
-                                 {"largest_in", each.worst_scenario}};
+                                   {"mean_ratio", std::move(ratios)},
+                                   {"largest_ate_ratio", json_of(each.worst_ratio)},
+                                   {"largest_in", each.worst_scenario}};
   }
   json["invalid"] = invalid_json(suite);
   for (const AblationCase& each : ablation.cases) json["scenarios"].push_back(case_json(each));

@@ -43,12 +43,12 @@ struct Comparison {
   std::vector<ScoreChange> changes;      ///< of every score on both sides
   std::vector<std::string> only_before;  ///< "scenario, estimator, seed 1,2"
   std::vector<std::string> only_after;
-  std::vector<std::string> invalid;  ///< runs left out: "before: corridor seed 3: the robot fell"
+  std::vector<std::string> invalid;    ///< runs left out: "before: corridor seed 3: the robot fell"
   double expected_false_alarms = 0.0;  ///< sum over the changes
 };
 
-/// Pairs the valid runs of the same scenario, seed and estimator. A change is better or worse when the
-/// interval of `paired_test` excludes zero and the change exceeds both the score's own floor
+/// Pairs the valid runs of the same scenario, seed and estimator. A change is better or worse when
+/// the interval of `paired_test` excludes zero and the change exceeds both the score's own floor
 /// (kHeadlineScores) and 5 % of the value before.
 Comparison compare(const StoredResults& before, const StoredResults& after);
 

@@ -15,8 +15,7 @@ ConsistencyCase& case_of(const Job& job, ConsistencyStudy& study) {
     return each.scenario == job.scenario->name && each.estimator == job.estimator.label;
   });
   if (known != study.end()) return *known;
-  return study.emplace_back(
-      ConsistencyCase{job.scenario->name, job.estimator.label, {}, {}, {}});
+  return study.emplace_back(ConsistencyCase{job.scenario->name, job.estimator.label, {}, {}, {}});
 }
 
 }  // namespace

@@ -18,12 +18,15 @@ constexpr const char* kConsistencyIntroduction =
     "\n"
     "Error: estimated minus true position along each scan's weakest axis by the truth, the\n"
     "estimate aligned to the truth at its first pose; one scan per second. NEES: its square over\n"
-    "the variance that the estimator states along that axis; the mean over seeds is 1 when that is\n"
+    "the variance that the estimator states along that axis; the mean over seeds is 1 when that "
+    "is\n"
     "right, above 1 when it is overconfident. Inside: fraction of the instants at which that mean\n"
-    "lies within its 95 % chi-square bounds (N seeds, N degrees of freedom); above: fraction beyond\n"
+    "lies within its 95 % chi-square bounds (N seeds, N degrees of freedom); above: fraction "
+    "beyond\n"
     "the upper bound. Instants that fewer than half of the runs reach are left out. 2 sigma:\n"
     "fraction of runs whose error is within twice the stated deviation, over all instants and at\n"
-    "the end (with its 95 % Wilson interval). Bound over error: accumulated Cramer-Rao bound of all\n"
+    "the end (with its 95 % Wilson interval). Bound over error: accumulated Cramer-Rao bound of "
+    "all\n"
     "sensors over the error, rms over seeds; 0.5 is an error of twice the bound. The leg bound is\n"
     "that of IMU and legs alone; it models neither slip nor rolling feet, so that real legs are\n"
     "worse.\n";
@@ -45,8 +48,8 @@ std::string markdown_of(const ConsistencyStudy& study, const Suite& suite) {
   std::string text = kConsistencyIntroduction;
   if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
   text += "\n## Over all instants\n\n" + to_markdown(consistency_table(study));
-  text += "\n## At the end\n\nRoot mean squares over seeds [m].\n\n" +
-          to_markdown(end_table(study));
+  text +=
+      "\n## At the end\n\nRoot mean squares over seeds [m].\n\n" + to_markdown(end_table(study));
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}\n", line);
   for (const SuiteFailure& each : suite.failures) {
     text += fmt::format("\n- failed: {}\n", text_of(each));

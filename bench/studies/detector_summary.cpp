@@ -20,7 +20,8 @@ constexpr const char* kDetectorsIntroduction =
     "\n"
     "A scan is degenerate at nK when its true returns constrain its weakest axis less than K\n"
     "returns of a facing surface would. AUC with 95 % interval (bootstrap over runs); detected =\n"
-    "fraction of degenerate scans at {:.0f} % false alarms; delay = median from onset to alarm over\n"
+    "fraction of degenerate scans at {:.0f} % false alarms; delay = median from onset to alarm "
+    "over\n"
     "the onsets that were detected; missed = onsets without an alarm. AUC 0.5 is no better than\n"
     "random; below it the index has the wrong sign. Alarms at random on 5 % of the scans of 10 Hz\n"
     "would come 1.4 s after an onset in the median. Pooling over scenarios also rewards an index\n"
@@ -55,8 +56,7 @@ Json study_json(const DetectorStudy& study) {
   }
   Json indices = Json::object();
   for (const DegeneracyIndex& index : degeneracy_indices()) {
-    const bool judged =
-        std::ranges::count(study.scores, index.name, &DetectorScore::index) > 0;
+    const bool judged = std::ranges::count(study.scores, index.name, &DetectorScore::index) > 0;
     if (!judged) continue;
     indices[index.name] = {{"degenerate_when", index.high_is_degenerate ? "high" : "low"},
                            {"source", index.source}};

@@ -187,7 +187,8 @@ Result<void> write_faults(const std::vector<FaultCase>& cases, const std::string
   if (!written) return written;
   const auto silent = std::ranges::count_if(cases, &FaultCase::silent);
   const std::string text = fmt::format(
-      "# Faults on {}\n\n{} of {} cases fail unnoticed (SILENT). Cells: ATE [m] and the worst state "
+      "# Faults on {}\n\n{} of {} cases fail unnoticed (SILENT). Cells: ATE [m] and the worst "
+      "state "
       "that the estimator reported.\n\n{}",
       sequence, silent, cases.size(), to_markdown(fault_table(cases)));
   return write_file_atomically(folder / "faults.md", text);

@@ -26,13 +26,13 @@ inline constexpr Duration kNoticeTime = 2 * kSecond;
 /// One estimator on a sequence with one fault.
 struct FaultCase {
   std::string fault;
-  std::string estimator;             ///< its label
-  bool success = false;              ///< held against the truth
+  std::string estimator;  ///< its label
+  bool success = false;   ///< held against the truth
   std::optional<double> ate_m;
   HealthState worst = HealthState::kStarting;  ///< after the start
   std::optional<double> first_alarm_s;  ///< first row that is not healthy, since the fault began
   std::string reasons;                  ///< of that row
-  double alarm_fraction = 0.0;  ///< of the time after the start in which it is not healthy
+  double alarm_fraction = 0.0;          ///< of the time after the start in which it is not healthy
   /// It fails and is called healthy until `kNoticeTime` after its error passed the limit.
   bool silent = false;
 };

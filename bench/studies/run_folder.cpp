@@ -122,8 +122,8 @@ Result<void> write_suite_runs(const Suite& suite, const fs::path& out) {
   const JobStore store(out);
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
-      auto written = write_run(store, suite, each, run,
-                               suite_run_folder(out, each.scenario.name, run.seed));
+      auto written =
+          write_run(store, suite, each, run, suite_run_folder(out, each.scenario.name, run.seed));
       if (!written) return written;
     }
   }

@@ -55,7 +55,8 @@ StreamFault changing(std::string name, std::string meaning, int sensor, bool per
 
 /// The same over the whole stream.
 StreamFault calibration(std::string name, std::string meaning, int sensor, Change change) {
-  StreamFault fault = changing(std::move(name), std::move(meaning), sensor, true, std::move(change));
+  StreamFault fault =
+      changing(std::move(name), std::move(meaning), sensor, true, std::move(change));
   fault.always = true;
   return fault;
 }
@@ -133,8 +134,8 @@ void add_clock_jumps(std::vector<StreamFault>& faults) {
         shift_stamp(out.back(), 3 * kSecond);
       };
     };
-    faults.push_back({fmt::format("{}.stamp_+3s", kSensorNames[sensor]),
-                      "a single stamp 3 s ahead", false, make});
+    faults.push_back({fmt::format("{}.stamp_+3s", kSensorNames[sensor]), "a single stamp 3 s ahead",
+                      false, make});
   }
 }
 
@@ -246,10 +247,9 @@ void add_calibration(std::vector<StreamFault>& faults) {
   };
   faults.push_back(calibration("imu.force_in_g", "specific force in g", 0,
                                change_imu([](ImuSample& s) { s.specific_force /= kGravity; })));
-  faults.push_back(calibration("imu.rate_in_degrees", "angular velocity in degrees per second", 0,
-                               change_imu([](ImuSample& s) {
-                                 s.angular_velocity *= 180.0 / M_PI;
-                               })));
+  faults.push_back(
+      calibration("imu.rate_in_degrees", "angular velocity in degrees per second", 0,
+                  change_imu([](ImuSample& s) { s.angular_velocity *= 180.0 / M_PI; })));
   faults.push_back(calibration("imu.no_gravity", "gravity removed from the specific force", 0,
                                change_imu([](ImuSample& s) { s.specific_force.z() -= kGravity; })));
 }

@@ -18,9 +18,8 @@ bool ran(const SuiteCase& each, const std::string& estimator) {
 
 /// The cell of an estimator without a valid run; empty when it has none at all.
 std::string invalid_cell(const SuiteCase& each, const std::string& estimator) {
-  const bool any = std::ranges::any_of(each.runs, [&](const RunRecord& run) {
-    return !estimator_in(run, estimator).is_null();
-  });
+  const bool any = std::ranges::any_of(
+      each.runs, [&](const RunRecord& run) { return !estimator_in(run, estimator).is_null(); });
   return any ? "invalid" : "";
 }
 
@@ -129,7 +128,8 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
     text += fmt::format("\n## {} [{}]\n\n{}", score.title, score.unit,
                         to_markdown(headline_table(suite, score)));
   }
-  text += fmt::format("\n## Success\n\nRuns that did not diverge, of all valid ones.\n\n{}", to_markdown(success_table(suite)));
+  text += fmt::format("\n## Success\n\nRuns that did not diverge, of all valid ones.\n\n{}",
+                      to_markdown(success_table(suite)));
   if (!families.empty()) {
     text += fmt::format(
         "\n## Breaks at\n\nThe first level, going away from the mildest, where less than half of "
@@ -164,7 +164,8 @@ CsvTable suite_csv(const Suite& suite) {
 }
 
 CsvTable timings_csv(const Suite& suite) {
-  CsvTable table({"scenario", "seed", "estimator", "simulated_s", "wall_s", "wall_per_scan_ms", "cpu_per_scan_ms"});
+  CsvTable table({"scenario", "seed", "estimator", "simulated_s", "wall_s", "wall_per_scan_ms",
+                  "cpu_per_scan_ms"});
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
       for (const std::string& estimator : labels_of(each.scenario.run)) {

@@ -77,8 +77,7 @@ std::string text_of(const Objective& objective) {
 
 RunScore run_score(const JobResult& job, const std::string& score) {
   if (auto reason = invalid_reason(job.sequence)) return {std::nullopt, false, std::move(*reason)};
-  return {score_in(job, score),
-          job.outcome != JobOutcome::kDone || score_in(job, "success") == 0.0,
+  return {score_in(job, score), job.outcome != JobOutcome::kDone || score_in(job, "success") == 0.0,
           ""};
 }
 
@@ -99,8 +98,7 @@ std::optional<double> objective_value(const Objective& objective, std::span<cons
   }
   const auto statistic = statistic_of(objective, values);
   if (!statistic) return std::nullopt;
-  return *statistic +
-         objective.divergence_penalty * static_cast<double>(diverged) / double(valid);
+  return *statistic + objective.divergence_penalty * static_cast<double>(diverged) / double(valid);
 }
 
 std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family) {

@@ -46,8 +46,8 @@ RunScore run_score(const JobResult& job, const std::string& score);
 /// The statistic over the runs, plus the penalty times the fraction of diverged runs. A diverged
 /// run counts as the penalty in the statistic, or as its score where that is more. Where the
 /// objective is relative, `reference` has the runs of the default setting on the same sequences,
-/// and a run without a positive reference is left out unless it diverged. Invalid runs are left out.
-/// None when no run is left.
+/// and a run without a positive reference is left out unless it diverged. Invalid runs are left
+/// out. None when no run is left.
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
                                       std::span<const RunScore> reference);
 

@@ -135,7 +135,7 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
 }
 
 TextTable merge_table(const MergedSweep& sweep) {
-  const std::vector<std::string> outcomes = {"done",      "invalid",   "failed",
+  const std::vector<std::string> outcomes = {"done",    "invalid",   "failed",
                                              "crashed", "timed_out", kMissing};
   TextTable table;
   table.header = {"scenario", "jobs"};

@@ -70,8 +70,7 @@ Position search(fs::path file, const std::vector<std::string>& parts, const fs::
 
 }  // namespace
 
-std::string with_position(const fs::path& file, const std::string& message,
-                          const fs::path& named) {
+std::string with_position(const fs::path& file, const std::string& message, const fs::path& named) {
   try {
     const Position at = search(file, parts_of(message.substr(0, message.find(": "))), named);
     if (at.depth > 0) {

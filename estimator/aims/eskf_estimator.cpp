@@ -183,8 +183,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
   LinearMeasurement measurement =
       leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_covariance(sample, rate));
-  health_.leg_residual(measurement.residual - belief_.state.leg_scale.cwiseProduct(legs.stride_mean) -
-                       belief_.state.leg_bias);
+  health_.leg_residual(uncorrected_residual(measurement, belief_.state, legs));
   if (config_.leg_noise.enabled) {
     const auto inflation = leg_noise_.inflation(measurement, belief_.covariance);
     if (!inflation) {

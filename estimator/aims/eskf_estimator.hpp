@@ -67,9 +67,9 @@ class EskfEstimator : public Estimator {
   EstimatorResult result_;
 
   bool started_ = false;
-  Time time_ = 0;             ///< of the belief
-  Time last_pose_ = 0;        ///< of the newest pose, or of the start
-  Time last_correction_ = 0;  ///< stamp of the newest, or of the start
+  Time time_ = 0;               ///< of the belief
+  Time last_pose_ = 0;          ///< of the newest pose, or of the start
+  Time last_correction_ = 0;    ///< stamp of the newest, or of the start
   std::optional<Time> judged_;  ///< arrival
   Belief belief_;
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated

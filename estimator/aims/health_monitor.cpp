@@ -8,16 +8,18 @@
 #include <tuple>
 #include <utility>
 
+#include "estimator/degeneracy/noise_information.hpp"
+
 namespace aims {
 namespace {
 
 // Limits on the input. Shorter gaps are what packet loss and jitter make.
-constexpr double kImuGap = 0.2;           ///< the bridge over missing samples is rough beyond [s]
-constexpr double kGap = 0.5;              ///< of legs or LiDAR [s]
-constexpr double kLongImuGap = 2.0;       ///< attitude and velocity are then guesses [s]
-constexpr double kLongGap = 5.0;          ///< without any correction [s]
-constexpr double kMaxRejected = 0.5;      ///< fraction of a sensor's measurements
-constexpr double kForceTolerance = 0.2;   ///< of the mean specific force, relative to gravity
+constexpr double kImuGap = 0.2;          ///< the bridge over missing samples is rough beyond [s]
+constexpr double kGap = 0.5;             ///< of legs or LiDAR [s]
+constexpr double kLongImuGap = 2.0;      ///< attitude and velocity are then guesses [s]
+constexpr double kLongGap = 5.0;         ///< without any correction [s]
+constexpr double kMaxRejected = 0.5;     ///< fraction of a sensor's measurements
+constexpr double kForceTolerance = 0.2;  ///< of the mean specific force, relative to gravity
 
 // Limits on how sources disagree.
 constexpr double kLegDisagreement = 0.15;       ///< several times a usual scale error [m/s]
@@ -28,13 +30,12 @@ constexpr double kMinMatched = 0.3;             ///< fraction of a scan's points
 constexpr int kScansWithoutUpdate = 5;
 constexpr int kLongWithoutUpdate = 50;
 constexpr int kWeakScans = 50;
-constexpr double kNoiseRatio = 1.35;  ///< of information to noise, NoiseInformationConfig
 
 // Limits on the estimate.
-constexpr double kMaxSpeed = 5.0;           ///< no walking robot is faster [m/s]
-constexpr double kMinSpeed = 0.1;           ///< standing scans repeat one noise sample [m/s]
-constexpr double kSigmaOffset = 1.0;        ///< of a success, SuccessLimits::error_offset [m]
-constexpr double kSigmaPerPath = 0.05;      ///< SuccessLimits::error_per_path [-]
+constexpr double kMaxSpeed = 5.0;       ///< no walking robot is faster [m/s]
+constexpr double kMinSpeed = 0.1;       ///< standing scans repeat one noise sample [m/s]
+constexpr double kSigmaOffset = 1.0;    ///< of a success, SuccessLimits::error_offset [m]
+constexpr double kSigmaPerPath = 0.05;  ///< SuccessLimits::error_per_path [-]
 
 // Moving averages.
 constexpr double kLegSamples = 200.0;
@@ -48,8 +49,7 @@ struct HealthMonitor::Findings {
 };
 
 HealthEstimate health_estimate(const Belief& belief) {
-  const Eigen::Matrix3d P =
-      block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition);
+  const Eigen::Matrix3d P = block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition);
   return {belief.state.position, belief.state.velocity.norm(),
           std::sqrt(std::max(0.0, P.diagonal().maxCoeff()))};
 }
@@ -68,7 +68,7 @@ void HealthMonitor::scan(const ScanDiagnostics& scan, std::size_t points) {
   };
   average(scan.innovation_rotation.norm(), rotation_residual_);
   average(scan.innovation_position.norm(), position_residual_);
-  weak_scans_ = scan.weak_ratio < kNoiseRatio ? weak_scans_ + 1 : 0;
+  weak_scans_ = scan.weak_ratio < NoiseInformationConfig().significance_ratio ? weak_scans_ + 1 : 0;
 }
 
 bool HealthMonitor::lidar_corrects(Time now, const InputMonitor& inputs) const {

@@ -11,10 +11,10 @@ void describe(Fields& f, DegeneracyConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "weigh LiDAR and legs by the degeneracy index"});
   f.flag("prior_residuals", c.prior_residuals,
          {"", any(), "O_lidar from the residuals before the trial update", "eq. (4)"});
-  f.choice("prediction", c.prediction,
-           {{"imu", ConsistencyPrediction::kImu},
-            {"imu_and_legs", ConsistencyPrediction::kImuAndLegs}},
-           {"", any(), "what C_IL compares the LiDAR with", "eq. (6): imu"});
+  f.choice(
+      "prediction", c.prediction,
+      {{"imu", ConsistencyPrediction::kImu}, {"imu_and_legs", ConsistencyPrediction::kImuAndLegs}},
+      {"", any(), "what C_IL compares the LiDAR with", "eq. (6): imu"});
   f.number("sigma_0", c.sigma_0,
            {"m", positive_up_to(1e4), "nominal residual dispersion", "eq. (4)"});
   f.number(

@@ -18,7 +18,9 @@ InputMonitor::Input& InputMonitor::note(Sensor sensor, Time arrival, bool reject
   return input;
 }
 
-void InputMonitor::accepted(Sensor sensor, Time arrival) { note(sensor, arrival, false).last = arrival; }
+void InputMonitor::accepted(Sensor sensor, Time arrival) {
+  note(sensor, arrival, false).last = arrival;
+}
 
 void InputMonitor::rejected(Sensor sensor, Time arrival) { note(sensor, arrival, true); }
 

@@ -11,9 +11,10 @@ void describe(Fields& f, LegConfig& c) {
          {"", any(), "repeat the last packet while packets are lost (zero-order hold)"});
   f.vector("velocity_sigma", c.velocity_sigma,
            {"m/s", positive_up_to(1e3), "error of one sample along the base axes, R_leg"});
-  f.number("correlation_time", c.correlation_time,
-           {"s", in_range(0.0, 60.0),
-            "correlation time of that error; multiplies R_leg by the number of correlated samples"});
+  f.number(
+      "correlation_time", c.correlation_time,
+      {"s", in_range(0.0, 60.0),
+       "correlation time of that error; multiplies R_leg by the number of correlated samples"});
   f.number("scale_sigma", c.scale_sigma,
            {"-", up_to(1e6), "error proportional to the speed, R_leg"});
   f.number("max_speed", c.max_speed, {"m/s", positive_up_to(1e3), "faster samples are rejected"});
@@ -38,6 +39,11 @@ LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_bo
   columns(m.jacobian, E::kLegBias).setIdentity();
   m.noise = noise;
   return m;
+}
+
+Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
+                                     const NominalState& state, const LegVelocity& legs) {
+  return measurement.residual - state.leg_scale.cwiseProduct(legs.stride_mean) - state.leg_bias;
 }
 
 Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,

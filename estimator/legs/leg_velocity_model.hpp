@@ -10,7 +10,7 @@ namespace aims {
 /// Leg odometry.
 struct LegConfig {
   bool enabled = true;
-  bool repeat_lost = false;  ///< zero-order hold of lost packets
+  bool repeat_lost = false;                       ///< zero-order hold of lost packets
   Eigen::Vector3d velocity_sigma{0.1, 0.1, 0.1};  ///< of one sample, base axes [m/s]
   double correlation_time = 0.1;  ///< of that error, which consecutive samples share [s]
   double scale_sigma = 0.05;      ///< error proportional to the speed [-]
@@ -33,6 +33,11 @@ struct LegVelocity {
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
                                      const Eigen::Vector3d& angular_velocity,
                                      const LegVelocity& legs, const Eigen::Matrix3d& noise);
+
+/// The residual of that measurement without the scale and bias of `state`: velocity of the state
+/// minus the velocity reported [m/s].
+Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
+                                     const NominalState& state, const LegVelocity& legs);
 
 /// R_leg, the nominal covariance of one sample [m^2/s^2] at `rate_hz` [Hz]. Consecutive samples
 /// share their error (a scale, a slipping stance), so the variance is multiplied by the samples per

@@ -57,9 +57,7 @@ std::vector<ConfigChange> changes_between(Config used, Config defaults) {
 }
 
 /// Names come from JSON: only those that a program of ours gives are names of files in the folder.
-bool is_file_name(const std::string& name) {
-  return check_file_name("name", name).has_value();
-}
+bool is_file_name(const std::string& name) { return check_file_name("name", name).has_value(); }
 
 void take_names(const Json& document, std::vector<std::string>& names) {
   if (!document.is_object() || !document.contains("estimators")) return;

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/run/validity.hpp"
 #include "bench/run/scenario.hpp"
+#include "bench/run/validity.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_summary.hpp"

@@ -13,7 +13,6 @@ namespace aims {
 /// Draws each family's scores over its levels into `folder`: NAME.png and NAME.svg, and of the
 /// severity levels also over the equivalent returns along the weak axis.
 Result<void> draw_families(const std::vector<FamilyResult>& families,
-                           const std::filesystem::path& folder,
-                           const DrawObserver& observer = {});
+                           const std::filesystem::path& folder, const DrawObserver& observer = {});
 
 }  // namespace aims

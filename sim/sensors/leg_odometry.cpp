@@ -143,6 +143,42 @@ std::optional<LegOdometrySample> LegOdometry::sample(const RobotState& truth) {
   return sample;
 }
 
+namespace {
+
+void describe_gyro_and_velocity(Fields& f, LegOdometryConfig& c) {
+  f.number("gyro_noise_density", c.gyro_noise_density,
+           {.unit = "rad/s/sqrt(Hz)",
+            .range = up_to(1e3),
+            .meaning = "Noise density of the gyro of the leg odometry."});
+  f.number("gyro_bias", c.gyro_bias,
+           {.unit = "rad/s",
+            .range = up_to(1e4),
+            .meaning = "Standard deviation per axis of the bias of that gyro, constant in a run."});
+  f.number("gyro_scale_error", c.gyro_scale_error,
+           {.unit = "-",
+            .range = in_range(0.0, 0.2),
+            .meaning = "Standard deviation of the scale error of that gyro, constant in a run."});
+  f.number(
+      "velocity_scale", c.velocity_scale,
+      {.unit = "-",
+       .range = in_range(0.2, 5.0),
+       .meaning = "Ratio of reported to measured velocity in every run: a calibration error."});
+  f.number("velocity_scale_error", c.velocity_scale_error,
+           {.unit = "-",
+            .range = in_range(0.0, 0.5),
+            .meaning = "Standard deviation of the velocity scale error, constant in a run."});
+  f.number("slip_rate", c.slip_rate,
+           {.unit = "Hz", .range = up_to(1e3), .meaning = "Injected slip bursts per second."});
+  f.number("slip_speed", c.slip_speed,
+           {.unit = "m/s",
+            .range = up_to(100.0),
+            .meaning = "Standard deviation of the speed error during a burst."});
+  f.number("slip_duration", c.slip_duration,
+           {.unit = "s", .range = up_to(1e4), .meaning = "Duration of a burst."});
+}
+
+}  // namespace
+
 void describe(Fields& f, LegOdometryConfig& c) {
   f.number("rate", c.rate,
            {.unit = "Hz",
@@ -178,35 +214,7 @@ void describe(Fields& f, LegOdometryConfig& c) {
            {.unit = "s",
             .range = up_to(10.0),
             .meaning = "Time from touchdown until contact is reported."});
-  f.number("gyro_noise_density", c.gyro_noise_density,
-           {.unit = "rad/s/sqrt(Hz)",
-            .range = up_to(1e3),
-            .meaning = "Noise density of the gyro of the leg odometry."});
-  f.number("gyro_bias", c.gyro_bias,
-           {.unit = "rad/s",
-            .range = up_to(1e4),
-            .meaning = "Standard deviation per axis of the bias of that gyro, constant in a run."});
-  f.number("gyro_scale_error", c.gyro_scale_error,
-           {.unit = "-",
-            .range = in_range(0.0, 0.2),
-            .meaning = "Standard deviation of the scale error of that gyro, constant in a run."});
-  f.number(
-      "velocity_scale", c.velocity_scale,
-      {.unit = "-",
-       .range = in_range(0.2, 5.0),
-       .meaning = "Ratio of reported to measured velocity in every run: a calibration error."});
-  f.number("velocity_scale_error", c.velocity_scale_error,
-           {.unit = "-",
-            .range = in_range(0.0, 0.5),
-            .meaning = "Standard deviation of the velocity scale error, constant in a run."});
-  f.number("slip_rate", c.slip_rate,
-           {.unit = "Hz", .range = up_to(1e3), .meaning = "Injected slip bursts per second."});
-  f.number("slip_speed", c.slip_speed,
-           {.unit = "m/s",
-            .range = up_to(100.0),
-            .meaning = "Standard deviation of the speed error during a burst."});
-  f.number("slip_duration", c.slip_duration,
-           {.unit = "s", .range = up_to(1e4), .meaning = "Duration of a burst."});
+  describe_gyro_and_velocity(f, c);
 }
 
 }  // namespace aims

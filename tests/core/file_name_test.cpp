@@ -20,8 +20,8 @@ TEST(FileName, WhatLeavesTheFolderOrConfusesAShellIsRefused) {
   for (const std::string& name :
        {std::string("../../evil"), std::string("/tmp/evil"), std::string("a/b"),
         std::string("a\\b"), std::string(".."), std::string("."), std::string(".hidden"),
-        std::string("-rf"), std::string("a..b"), std::string("a\nb"), std::string("\x1b[2J"),
-        null, std::string("a\x7f"), std::string(), std::string(kMaxNameLength + 1, 'x')}) {
+        std::string("-rf"), std::string("a..b"), std::string("a\nb"), std::string("\x1b[2J"), null,
+        std::string("a\x7f"), std::string(), std::string(kMaxNameLength + 1, 'x')}) {
     const auto checked = check_file_name("name", name);
     ASSERT_FALSE(checked) << name;
     EXPECT_EQ(checked.error().message.rfind("name: expected a name", 0), 0U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the help of the `aims` program against private_words.txt, and the command lines of documents
-// against the help.
+// Holds the help of the `aims` program against private_words.txt, and the command lines of
+// documents against the help.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -151,15 +151,16 @@ std::set<std::string> configuration_keys() {
   std::vector<std::pair<std::size_t, std::string>> open;
   const std::regex entry("^( *)(?:- )?([a-zA-Z_0-9]+):.*");
   const std::regex relative("estimators\\.[a-z_]+\\.(.*)");
-  std::istringstream stream(output_of(
-      "config corridor --set 'run=[aims, aims_d, tfs, tfs_clean, tfs_plus, lio, leg, "
-      "all=aims_d+degeneracy.enabled=true+forgetting.enabled=true]'"));
+  std::istringstream stream(
+      output_of("config corridor --set 'run=[aims, aims_d, tfs, tfs_clean, tfs_plus, lio, leg, "
+                "all=aims_d+degeneracy.enabled=true+forgetting.enabled=true]'"));
   for (std::string line; std::getline(stream, line);) {
     std::smatch match;
     if (!std::regex_match(line, match, entry)) continue;
     const auto depth = static_cast<std::size_t>(match.length(1));
     while (!open.empty() && open.back().first >= depth) open.pop_back();
-    const std::string key = open.empty() ? match[2].str() : open.back().second + "." + match[2].str();
+    const std::string key =
+        open.empty() ? match[2].str() : open.back().second + "." + match[2].str();
     keys.insert(key);
     std::smatch below;
     if (std::regex_match(key, below, relative)) keys.insert(below[1]);

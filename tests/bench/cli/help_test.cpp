@@ -123,7 +123,8 @@ TEST_F(Help, OptionsWithoutEffectAreRefused) {
   scenario(testing::kMetreWalk);
   refused("simulate my.yaml --out x.bag --set estimators.aims.degeneracy.eta=3", "no effect");
   refused("info x.bag --set scoring.anchor=pose", "no effect");
-  refused("sweep --scenarios my.yaml --param queue.max_ahead=1:2:2 --samples 9", "no effect on a grid");
+  refused("sweep --scenarios my.yaml --param queue.max_ahead=1:2:2 --samples 9",
+          "no effect on a grid");
   refused("sweep --scenarios my.yaml --design sobol", "no effect without --param");
   refused("render my.yaml --svg --fps 5", "no effect without --video");
   refused("render my.yaml --svg --view top", "no effect without --still or --video");

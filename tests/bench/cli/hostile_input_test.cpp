@@ -87,8 +87,8 @@ TEST_F(HostileInput, ResultsAreWrittenWhateverATopicHolds) {
 
 TEST_F(HostileInput, ResultsAreWrittenWhateverALabelHolds) {
   simulate();
-  const Outcome score = aims(
-      "score --truth walk.truth.tum --estimate walk.truth.tum --name 'n\xFF' --out sc");
+  const Outcome score =
+      aims("score --truth walk.truth.tum --estimate walk.truth.tum --name 'n\xFF' --out sc");
   EXPECT_EQ(score.exit_code, 0) << score.output;
   expect_shown_safely(score);
   EXPECT_TRUE(document("sc/scores.json").at("estimators").contains("n\\xff"));

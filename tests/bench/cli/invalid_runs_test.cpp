@@ -79,8 +79,8 @@ TEST_F(InvalidRuns, KeepTheBagOfASimulation) {
 }
 
 TEST_F(InvalidRuns, AreNoScoresOfASweepOrATuning) {
-  const Outcome sweep = aims(
-      "sweep --scenarios push.yaml --estimators leg --param push.force=0:500:2 --out sweep");
+  const Outcome sweep =
+      aims("sweep --scenarios push.yaml --estimators leg --param push.force=0:500:2 --out sweep");
   EXPECT_EQ(sweep.exit_code, 4) << sweep.output;
   EXPECT_TRUE(holds(sweep, "INVALID RUNS: 1 jobs")) << sweep.output;
   const Outcome merged = aims("merge sweep");
@@ -97,8 +97,7 @@ TEST_F(InvalidRuns, IncludeARouteThatMaxDurationCuts) {
   const Outcome run =
       aims("run fine.yaml --estimators leg --no-pictures --no-page --set max_duration=3 --out out");
   EXPECT_EQ(run.exit_code, 4) << run.output;
-  EXPECT_TRUE(holds(run, "INVALID RUN: fine seed 1: max_duration ended it at 3.0 s"))
-      << run.output;
+  EXPECT_TRUE(holds(run, "INVALID RUN: fine seed 1: max_duration ended it at 3.0 s")) << run.output;
 }
 
 }  // namespace

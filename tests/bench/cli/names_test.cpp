@@ -69,8 +69,9 @@ TEST_F(Names, OfAScoreIsFoundUnknownBeforeTheWalk) {
   write("my.yaml", kMetreWalk + "expect: [{estimator: leg, score: m_list_percent.a-c, max: 1}]\n");
   expect_refused("run my.yaml", "my.yaml:4:34: expect.0.score: no score 'm_list_percent.a-c'");
   expect_refused("run my.yaml", "did you mean 'm_list_percent.a-b'?");
-  write("plan.yaml", "scenarios: [ok.yaml]\nparams: [\"degeneracy.eta=1:2\"]\n"
-                     "objectives: [{score: ate}]\n");
+  write("plan.yaml",
+        "scenarios: [ok.yaml]\nparams: [\"degeneracy.eta=1:2\"]\n"
+        "objectives: [{score: ate}]\n");
   write("ok.yaml", kMetreWalk);
   expect_refused("tune plan.yaml --out out/tune", "objectives.0.score: no score 'ate'");
 }

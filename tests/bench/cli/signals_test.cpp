@@ -43,8 +43,8 @@ class Signals : public testing::CommandLine {
 };
 
 TEST_F(Signals, TermEndsASimulationWithABagThatCanBeEstimated) {
-  const Outcome simulated = ended("simulate long.yaml --out walk.bag",
-                                  "[ $(cat walk* | wc -c) -gt 1000000 ]");
+  const Outcome simulated =
+      ended("simulate long.yaml --out walk.bag", "[ $(cat walk* | wc -c) -gt 1000000 ]");
   EXPECT_EQ(simulated.exit_code, 143) << simulated.output;
   EXPECT_TRUE(holds(simulated, "interrupted: the bag ends where")) << simulated.output;
   EXPECT_TRUE(fs::exists(folder_.path() / "walk.truth.tum"));
@@ -53,8 +53,7 @@ TEST_F(Signals, TermEndsASimulationWithABagThatCanBeEstimated) {
 }
 
 TEST_F(Signals, TermEndsAnEstimateWithWhatWasRead) {
-  ended("simulate long.yaml --out walk.bag",
-        "[ $(cat walk* | wc -c) -gt 20000000 ]");
+  ended("simulate long.yaml --out walk.bag", "[ $(cat walk* | wc -c) -gt 20000000 ]");
   const Outcome estimate =
       ended("estimate walk.bag --estimators aims,tfs,lio --jobs 1 --no-pictures --out est",
             "ls -d est.partial");
@@ -82,15 +81,14 @@ TEST_F(Signals, TermEndsSuitesAndSweepsWithWhatIsFinished) {
 }
 
 TEST_F(Signals, TermEndsARunBeforeItsFirstResult) {
-  const Outcome run = ended("run long.yaml --estimators leg --no-pictures --no-page --out run",
-                            "ls run/jobs.csv");
+  const Outcome run =
+      ended("run long.yaml --estimators leg --no-pictures --no-page --out run", "ls run/jobs.csv");
   EXPECT_EQ(run.exit_code, 143) << run.output;
   EXPECT_FALSE(has_remains());
 }
 
 TEST_F(Signals, TermEndsATuning) {
-  write("plan.yaml",
-        "scenarios: [long.yaml]\nseeds: '1'\nparams: [\"degeneracy.eta=1:2\"]\n");
+  write("plan.yaml", "scenarios: [long.yaml]\nseeds: '1'\nparams: [\"degeneracy.eta=1:2\"]\n");
   const Outcome tune = ended("tune plan.yaml --out tune", "ls tune/tune.yaml");
   EXPECT_EQ(tune.exit_code, 143) << tune.output;
   EXPECT_TRUE(fs::exists(folder_.path() / "tune" / "tune.md"));

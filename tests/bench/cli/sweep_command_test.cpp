@@ -67,8 +67,8 @@ TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
     EXPECT_TRUE(holds(each, "estimator  queue.max_ahead  ate_m, median  largest  diverged"))
         << each.output;
     for (const char* point : {"100", "150", "200"}) {
-      EXPECT_TRUE(std::regex_search(each.output, std::regex(std::string("\nleg +") + point +
-                                                            " .* 0 of 1\n")))
+      EXPECT_TRUE(std::regex_search(each.output,
+                                    std::regex(std::string("\nleg +") + point + " .* 0 of 1\n")))
           << point << "\n"
           << each.output;
     }
@@ -106,17 +106,20 @@ TEST_F(Sweeps, RecordJobsThatTakeTooLongAndDoThemAgainWhenAsked) {
 }
 
 TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
-  expect_refused("--param queue.max_ahed=1:2:2", {"unknown key 'queue.max_ahed'", "queue.max_ahead"});
+  expect_refused("--param queue.max_ahed=1:2:2",
+                 {"unknown key 'queue.max_ahed'", "queue.max_ahead"});
   expect_refused("--param queue.max_ahead=2:1:2", {"queue.max_ahead=2:1:2", "reversed"});
   expect_refused("--param queue.max_ahead=5:5:3", {"empty"});
   expect_refused("--param 'queue.max_ahead=log(0,5,3)'", {"logarithm"});
-  expect_refused("--param queue.max_ahead=-1:5:3", {"queue.max_ahead", "expected a number in [1e-12, 1e+06]"});
+  expect_refused("--param queue.max_ahead=-1:5:3",
+                 {"queue.max_ahead", "expected a number in [1e-12, 1e+06]"});
   expect_refused("--param queue.max_ahead=x", {"KEY=LOW:HIGH:COUNT"});
   expect_refused("--param links.leg_odometry.los=0:1:2",
                  {"did you mean 'links.leg_odometry.loss'"});
   expect_refused("--param links.leg_odometry.loss=0:2:3",
                  {"links.leg_odometry.loss=0:2:3", "a number in [0, 1]"});
-  expect_refused("--param imu.gyro_bias_walk=0:1:3", {"expected 'estimators.*.imu.gyro_bias_walk'"});
+  expect_refused("--param imu.gyro_bias_walk=0:1:3",
+                 {"expected 'estimators.*.imu.gyro_bias_walk'"});
   expect_refused("--param seed=1:5:5", {"'seeds'"});
   expect_refused("--cache-limit=-1", {"--cache-limit", "not in range"});
   expect_refused("--design sobbol", {"design", "sobol"});

@@ -21,7 +21,7 @@ using testing::short_walk;
 bool keep_going(const JobProgress&) { return true; }
 
 Job job_of(const std::shared_ptr<const Scenario>& scenario, const std::string& spec,
-                  std::uint64_t seed = 1) {
+           std::uint64_t seed = 1) {
   return make_job(scenario, seed, parse_estimator_spec(spec).value());
 }
 
@@ -120,7 +120,7 @@ TEST_F(Jobs, ThatCrashHangOrFailAreRecordedAndStopNothing) {
 TEST_F(Jobs, OnAWalkThatCannotBeSimulatedFailWithTheReason) {
   const auto scenario = shared(testing::in_wall());
   const std::vector<Job> jobs = {job_of(scenario, "aims"), job_of(scenario, "leg"),
-                                        job_of(shared(short_walk()), "leg")};
+                                 job_of(shared(short_walk()), "leg")};
   JobRunner runner(options(2));
   const auto run = runner.run(jobs, keep_going);
   ASSERT_TRUE(run) << run.error().message;
@@ -140,8 +140,8 @@ TEST_F(Jobs, AreDoneAgainWhenAnOutputIsWantedThatTheyLack) {
   JobRunner runner(more);
   EXPECT_EQ(runner.run(jobs, keep_going)->done, 1U);
   const fs::path own = runner.store().outputs_of(jobs[0].id);
-  for (const char* name : {"estimate.tum", "estimate.map.ply", "estimate.diagnostics.csv",
-                           "weak_axis.csv"}) {
+  for (const char* name :
+       {"estimate.tum", "estimate.map.ply", "estimate.diagnostics.csv", "weak_axis.csv"}) {
     EXPECT_TRUE(fs::exists(own / name)) << name;
   }
   EXPECT_EQ(runner.run(jobs, keep_going)->reused, 1U);

@@ -38,8 +38,8 @@ TEST(Validity, OnlyAFinishedRouteIsValid) {
   EXPECT_EQ(invalid_reason(ended_by(WalkEnd::kFell), 1.23), "the robot fell at 1.2 s");
   EXPECT_EQ(invalid_reason(ended_by(WalkEnd::kLeftScene), 7.0),
             "the robot left the scene at 7.0 s");
-  for (const WalkEnd end : {WalkEnd::kRunning, WalkEnd::kNoProgress, WalkEnd::kTimeLimit,
-                            WalkEnd::kUnstablePhysics}) {
+  for (const WalkEnd end :
+       {WalkEnd::kRunning, WalkEnd::kNoProgress, WalkEnd::kTimeLimit, WalkEnd::kUnstablePhysics}) {
     const auto reason = invalid_reason(ended_by(end), 900.0);
     ASSERT_TRUE(reason) << name_of(end);
     EXPECT_NE(reason->find("900.0 s"), std::string::npos) << *reason;
@@ -49,15 +49,15 @@ TEST(Validity, OnlyAFinishedRouteIsValid) {
 TEST(Validity, BrushingAWallIsWalkingAndFollowingItIsNot) {
   EXPECT_FALSE(invalid_reason(ended_by(WalkEnd::kRouteDone, kMaxWallContact), 60.0));
   EXPECT_EQ(invalid_reason(ended_by(WalkEnd::kRouteDone, 0.83), 60.0),
-            "the robot touched a wall for 83 % of its way");
+            "the robot touched a wall for 83 % of the time walked");
 }
 
 TEST(Validity, IsReadFromRecordsOldAndNew) {
   EXPECT_FALSE(invalid_reason(Json{{"robot", {{"fell", false}, {"touched_wall", true}}}}));
   EXPECT_TRUE(invalid_reason(Json{{"robot", {{"fell", true}}}, {"simulated_s", 3.0}}));
   EXPECT_TRUE(invalid_reason(Json{{"robot", {{"fell", false}, {"end", "no_progress"}}}}));
-  EXPECT_TRUE(invalid_reason(
-      Json{{"robot", {{"end", "route_done"}, {"wall_contact_fraction", 0.9}}}}));
+  EXPECT_TRUE(
+      invalid_reason(Json{{"robot", {{"end", "route_done"}, {"wall_contact_fraction", 0.9}}}}));
   EXPECT_FALSE(invalid_reason(Json{{"estimators", Json::object()}})) << "a recording of others";
   EXPECT_TRUE(invalid_reason(Json{{"interrupted", true}}));
   EXPECT_FALSE(invalid_reason(Json{{"robot", nullptr}}));
@@ -88,7 +88,8 @@ TEST(Validity, NoStatisticHoldsAnInvalidRun) {
   EXPECT_EQ(score_table(runs).rows.at(0).back(), "2/2");
   EXPECT_EQ(left_out_text(runs),
             "1 of 3 runs are invalid and left out: seed 2 (the robot fell at 1.2 s)");
-  EXPECT_EQ(invalid_json(runs), Json::parse(R"([{"seed": 2, "reason": "the robot fell at 1.2 s"}])"));
+  EXPECT_EQ(invalid_json(runs),
+            Json::parse(R"([{"seed": 2, "reason": "the robot fell at 1.2 s"}])"));
 }
 
 TEST(Validity, ASingleInvalidRunHasNoScoresInItsTable) {

@@ -18,9 +18,8 @@ namespace {
 EstimateResult estimate_until(const std::filesystem::path& bag, double end_s) {
   EstimateConfig config;
   config.run = {"leg"};
-  auto result = estimate(config, {bag}, [end_s](const Progress& progress) {
-    return progress.simulated_s < end_s;
-  });
+  auto result = estimate(
+      config, {bag}, [end_s](const Progress& progress) { return progress.simulated_s < end_s; });
   EXPECT_TRUE(result) << result.error().message;
   return std::move(*result);
 }

@@ -87,9 +87,9 @@ class FaultStudy : public ::testing::Test {
     const auto sequence =
         open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_);
     EXPECT_TRUE(sequence);
-    const auto cases = fault_study(*sequence, scenario_,
-                                   {{"aims_d", "leg"}, std::move(faults), 1, jobs},
-                                   [](std::size_t, std::size_t) { return true; });
+    const auto cases =
+        fault_study(*sequence, scenario_, {{"aims_d", "leg"}, std::move(faults), 1, jobs},
+                    [](std::size_t, std::size_t) { return true; });
     EXPECT_TRUE(cases) << cases.error().message;
     return cases.value_or(std::vector<FaultCase>());
   }

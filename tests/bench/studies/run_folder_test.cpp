@@ -51,9 +51,9 @@ TEST(RunFolder, HoldsEveryFileAndPicture) {
   EXPECT_EQ(scores["schema"], kScoresSchema);
   EXPECT_EQ(scores["scenario"], "short_walk");
   EXPECT_FALSE(scores["robot"]["fell"]);
-  for (const char* key : {"m_list_percent", "m_list_signed_percent", "m_end_m", "m_end_xy_m",
-                          "m_end_z_m", "ate_m", "max_error_m", "success", "time_per_scan_ms",
-                          "cpu_per_scan_ms"}) {
+  for (const char* key :
+       {"m_list_percent", "m_list_signed_percent", "m_end_m", "m_end_xy_m", "m_end_z_m", "ate_m",
+        "max_error_m", "success", "time_per_scan_ms", "cpu_per_scan_ms"}) {
     EXPECT_TRUE(scores["estimators"]["aims"].contains(key)) << key;
   }
 }
@@ -110,8 +110,7 @@ std::string timeless(const fs::path& file) {
 TEST(RunFolder, HasTheSameBytesInEveryFileWithOneJobAndWithTwo) {
   const TemporaryFolder temporary;
   for (const int processes : {1, 2}) {
-    ASSERT_TRUE(
-        run(short_walk(), {4}, temporary.path() / std::to_string(processes), processes));
+    ASSERT_TRUE(run(short_walk(), {4}, temporary.path() / std::to_string(processes), processes));
   }
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(temporary.path() / "1")) {

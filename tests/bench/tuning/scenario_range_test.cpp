@@ -110,8 +110,7 @@ std::vector<std::string> walks_of(const std::vector<Job>& units) {
 }
 
 TEST(ScenarioRange, OfTheSimulationMakesAWalkPerValueThatItsUnitsShare) {
-  const auto units =
-      units_of(plan_over({"queue.lag=0:0.1:3", "links.leg_odometry.loss=0:0.5:3"}));
+  const auto units = units_of(plan_over({"queue.lag=0:0.1:3", "links.leg_odometry.loss=0:0.5:3"}));
   EXPECT_EQ(units.size(), 2U * 3U * 3U * 2U);
   const auto walks = walks_of(units);
   EXPECT_EQ(walks.size(), 3U * 2U) << "those on one walk stand together";

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "bench/jobs/job_store.hpp"
-#include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/sweep_plan.hpp"
-#include "core/files/atomic_file.hpp"
+#include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/tune_plan.hpp"
+#include "core/files/atomic_file.hpp"
 #include "tests/bench/short_walk.hpp"
 #include "tests/support/parameter_bounds.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -33,9 +33,7 @@ SweepPlan small_plan() {
   return plan;
 }
 
-Result<std::vector<Job>> jobs_of(const SweepPlan& plan) {
-  return plan_jobs(plan, AIMS_SCENARIOS);
-}
+Result<std::vector<Job>> jobs_of(const SweepPlan& plan) { return plan_jobs(plan, AIMS_SCENARIOS); }
 
 std::string error_of(const SweepPlan& plan) {
   const auto jobs = jobs_of(plan);
@@ -130,7 +128,9 @@ class Sweep : public ::testing::Test {
     options_.cache = sequences_->path();
   }
 
-  Result<JobRun> sweep() { return run_jobs({jobs_, shard_, plan_text(plan_), force_}, options_, keep_going); }
+  Result<JobRun> sweep() {
+    return run_jobs({jobs_, shard_, plan_text(plan_), force_}, options_, keep_going);
+  }
 
   void expect_refused(const std::string& part) {
     const auto run = sweep();
@@ -225,7 +225,8 @@ TEST_F(Sweep, MergesFoldersIntoOneDatabaseAndTable) {
   const fs::path csv = folder_.path() / "sweep.csv";
   ASSERT_TRUE(write_sweep_csv(*merged, csv));
   const std::string text = read_file(csv).value();
-  EXPECT_NE(text.find("id,scenario,seed,estimator,outcome,queue.max_ahead,success"), std::string::npos);
+  EXPECT_NE(text.find("id,scenario,seed,estimator,outcome,queue.max_ahead,success"),
+            std::string::npos);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
 }
 

@@ -7,62 +7,16 @@
 // rapidcheck's gtest glue needs both headers above it.
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-
 #include "core/files/atomic_file.hpp"
-#include "core/files/config_dump.hpp"
+#include "tests/core/files/sample_config.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
 
+using namespace testing;
+
 namespace fs = std::filesystem;
-
-enum class Model { kPoint, kRolling };
-
-struct Waypoint {
-  std::string name = "p";
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  std::vector<std::string> tags;
-};
-
-struct Inner {
-  double eta = 3.0;
-  int count = 5;
-  bool enabled = true;
-  Model model = Model::kPoint;
-};
-
-struct Sample {
-  std::string name = "corridor";
-  Eigen::Vector3d gravity = Eigen::Vector3d(0.0, 0.0, -9.81);
-  std::vector<std::string> estimators = {"aims", "lio"};
-  Inner inner;
-  std::vector<Waypoint> points = std::vector<Waypoint>(1);
-};
-
-void describe(Fields& f, Waypoint& c) {
-  f.text("name", c.name, {.meaning = "Name."});
-  f.vector("position", c.position, {.unit = "m", .meaning = "Place."});
-  f.texts("tags", c.tags, {.meaning = "Tags."});
-}
-
-void describe(Fields& f, Inner& c) {
-  f.number("eta", c.eta,
-           {.unit = "-", .range = up_to(100.0), .meaning = "Sensitivity.", .source = "eq. (8)"});
-  f.integer("count", c.count, {.range = in_range(1, 9), .meaning = "Count."});
-  f.flag("enabled", c.enabled, {.meaning = "Switch."});
-  f.choice("model", c.model, {{"point", Model::kPoint}, {"rolling", Model::kRolling}},
-           {.meaning = "Foot."});
-}
-
-void describe(Fields& f, Sample& c) {
-  f.text("name", c.name, {.meaning = "Name."});
-  f.vector("gravity", c.gravity, {.unit = "m/s^2", .meaning = "Gravity."});
-  f.texts("estimators", c.estimators, {.meaning = "Who runs."});
-  f.group("inner", c.inner);
-  f.list("points", c.points, "Route.");
-}
 
 /// The message of loading that text, or "" when it loads.
 std::string message_of(std::string_view text) {
@@ -247,8 +201,8 @@ TEST(YamlConfig, RefusesWhatWouldCostTheParserItsMemory) {
 
 TEST(YamlConfig, EchoesAtMostTheStartOfALongValue) {
   EXPECT_EQ(message_of("inner: {eta: " + std::string(100'000, 'a') + "}\n"),
-            "s.yaml:1:14: inner.eta: expected a number in [0, 100], found '" + std::string(79, 'a') +
-                "... (100002 bytes)");
+            "s.yaml:1:14: inner.eta: expected a number in [0, 100], found '" +
+                std::string(79, 'a') + "... (100002 bytes)");
 }
 
 TEST(YamlConfig, MissingFileIsNamed) {
@@ -307,191 +261,6 @@ TEST(YamlConfig, FilesBasedOnThemselvesAreRefused) {
   ASSERT_FALSE(loaded);
   EXPECT_NE(loaded.error().message.find("based on itself"), std::string::npos);
   EXPECT_NE(loaded.error().message.find("b.yaml:1:7"), std::string::npos);
-}
-
-TEST(Overrides, SetValuesInOrder) {
-  Sample c;
-  const std::vector<std::string> settings = {"inner.eta=1", "inner.eta=2.5", "points.0.name=a=b",
-                                             "gravity=[0, 0, -1]", "name="};
-  const auto applied = apply_overrides(c, settings);
-  ASSERT_TRUE(applied) << applied.error().message;
-  EXPECT_EQ(c.inner.eta, 2.5);
-  EXPECT_EQ(c.points[0].name, "a=b");
-  EXPECT_EQ(c.gravity.z(), -1.0);
-  EXPECT_EQ(c.name, "");
-}
-
-TEST(Overrides, FilesGoOnTopInOrder) {
-  const TemporaryFolder directory;
-  const auto file = write(directory.path() / "tuned.yaml",
-                          "inner: {eta: 4}\npoints:\n  - {name: x}\n  - {name: y}\n");
-  Sample c;
-  const std::vector<std::string> settings = {"inner.eta=1", fmt::format("@{}", file.string()),
-                                             "inner.count=7", "points.1.name=z"};
-  const auto applied = apply_overrides(c, settings);
-  ASSERT_TRUE(applied) << applied.error().message;
-  EXPECT_EQ(c.inner.eta, 4.0);
-  EXPECT_EQ(c.inner.count, 7);
-  ASSERT_EQ(c.points.size(), 2U);
-  EXPECT_EQ(c.points[1].name, "z");
-  const auto missing = apply_overrides(c, std::vector<std::string>{"@gone.yaml"});
-  ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("gone.yaml"), std::string::npos);
-}
-
-TEST(Overrides, AListIsReplacedByItsYamlForm) {
-  Sample c;
-  const std::vector<std::string> settings = {"points=[[a, [0, 0], []], {name: b}, {name: c}]",
-                                             "points.2.name=d"};
-  std::vector<AssignedKey> assigned;
-  const auto applied = apply_overrides(c, settings, &assigned);
-  ASSERT_TRUE(applied) << applied.error().message;
-  ASSERT_EQ(c.points.size(), 3U);
-  EXPECT_EQ(c.points[0].name, "a");
-  EXPECT_EQ(c.points[2].name, "d");
-  ASSERT_FALSE(assigned.empty());
-  EXPECT_EQ(assigned.front().key, "points.0.name");
-  EXPECT_EQ(assigned.front().place, "--set " + settings[0] + ": ");
-  Sample again;
-  ASSERT_TRUE(load_config_text(dump_config(fields_of(c)), "dump.yaml", again));
-  EXPECT_EQ(dump_config(fields_of(again)), dump_config(fields_of(c)));
-  ASSERT_TRUE(apply_overrides(c, std::vector<std::string>{"points=[]"}));
-  EXPECT_TRUE(c.points.empty());
-}
-
-TEST(Overrides, ErrorsNameTheEntryOfAList) {
-  const auto message = [](const std::string& setting) {
-    Sample c;
-    return apply_overrides(c, std::vector<std::string>{setting}).error().message;
-  };
-  EXPECT_EQ(message("points=3"), "--set points=3: points: expected a list of maps, found '3'");
-  EXPECT_EQ(
-      message("points=[[a]]"),
-      "--set points=[[a]]: points.0: expected a map or a list [name, position, tags], found 1 "
-      "values");
-  EXPECT_EQ(message("points=[{nam: a}]"),
-            "--set points=[{nam: a}]: unknown key 'points.0.nam'; did you mean 'points.0.name'?");
-  EXPECT_TRUE(message("points=[[a").starts_with("--set points=[[a:1:")) << message("points=[[a");
-  EXPECT_EQ(message("points.4.name=a"),
-            "--set points.4.name=a: points.4.name: no entry 4; points has 1, counted from 0");
-}
-
-TEST(Overrides, ErrorsNameTheSetting) {
-  Sample c;
-  const auto message = [&c](const std::string& setting) {
-    return apply_overrides(c, std::vector<std::string>{setting}).error().message;
-  };
-  EXPECT_EQ(message("inner.eat=1"),
-            "--set inner.eat=1: unknown key 'inner.eat'; did you mean 'inner.eta'?");
-  EXPECT_EQ(message("inner.eta=x"), "--set inner.eta=x: inner.eta: 'x' is not a number in [0, 100]");
-  EXPECT_EQ(message("inner.eta"), "--set inner.eta: expected key=value or @FILE");
-  EXPECT_EQ(message("inner=1"),
-            "--set inner=1: inner: a group of settings; expected one of its keys");
-}
-
-TEST(DumpConfig, WritesNestedYaml) {
-  Sample c;
-  c.points.clear();
-  EXPECT_EQ(dump_config(fields_of(c)),
-            "name: corridor\n"
-            "gravity: [0, 0, -9.81]\n"
-            "estimators: [aims, lio]\n"
-            "inner:\n"
-            "  eta: 3\n"
-            "  count: 5\n"
-            "  enabled: true\n"
-            "  model: point\n"
-            "points: []\n");
-}
-
-TEST(DumpConfig, AnnotatedFormExplainsAndLoads) {
-  Sample c;
-  c.inner.eta = 1.25;
-  const std::string text = dump_annotated_config(fields_of(c));
-  EXPECT_NE(text.find("  eta: 1.25  # [-] a number in [0, 100]; Sensitivity.; eq. (8)\n"),
-            std::string::npos)
-      << text;
-  Sample again;
-  ASSERT_TRUE(load_config_text(text, "dump.yaml", again));
-  EXPECT_EQ(again.inner.eta, 1.25);
-}
-
-TEST(DumpConfig, LeavesOutWhatHasNoEffect) {
-  Sample c;
-  c.points.clear();
-  c.inner.enabled = false;
-  const std::string text = dump_config(fields_of(c));
-  EXPECT_NE(text.find("inner:\n  enabled: false\npoints"), std::string::npos) << text;
-}
-
-/// Two groups with the same keys.
-struct Pair {
-  Inner left;
-  Inner right;
-};
-
-void describe(Fields& f, Pair& c) {
-  f.group("left", c.left);
-  f.group("right", c.right);
-}
-
-TEST(Wildcard, SetsTheKeyInEveryGroupThatHasIt) {
-  Pair c;
-  ASSERT_TRUE(load_config_text("\"*\": {eta: 7}\nleft: {count: 2}\n", "s.yaml", c));
-  EXPECT_EQ(c.left.eta, 7.0);
-  EXPECT_EQ(c.right.eta, 7.0);
-  EXPECT_EQ(c.left.count, 2);
-  ASSERT_TRUE(assign(fields_of(c), "*.model", "rolling"));
-  EXPECT_EQ(c.right.model, Model::kRolling);
-  const auto unknown = assign(fields_of(c), "*.etta", "7");
-  ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().message, "unknown key '*.etta'; did you mean '*.eta'?");
-}
-
-TEST(CheckEffect, NamesPlaceKeyAndReasonWhateverTheOrder) {
-  Pair c;
-  std::vector<AssignedKey> assigned;
-  const std::vector<std::string> settings = {"right.eta=4", "right.enabled=false"};
-  ASSERT_TRUE(apply_overrides(c, settings, &assigned));
-  const auto checked = check_effect(fields_of(c), assigned);
-  ASSERT_FALSE(checked);
-  EXPECT_EQ(checked.error().message,
-            "--set right.eta=4: right.eta: has no effect: right.enabled is false");
-  EXPECT_TRUE(check_effect(fields_of(c), std::vector<AssignedKey>{{"*.eta"}}));
-  c.left.enabled = false;
-  EXPECT_FALSE(check_effect(fields_of(c), std::vector<AssignedKey>{{"*.eta"}}));
-}
-
-/// Texts of printable ASCII and a few control characters, with YAML's special ones frequent.
-rc::Gen<std::string> awkward_text() {
-  return rc::gen::container<std::string>(
-      rc::gen::oneOf(rc::gen::inRange<char>(32, 127), rc::gen::element('\n', '\t', '\r', '\x01'),
-                     rc::gen::element(':', '#', '"', '\'', '[', ',', '-', '~', '\\', ' ', '&')));
-}
-
-RC_GTEST_PROP(DumpConfig, IsReadBackToEqualValues, ()) {
-  const auto number = rc::gen::suchThat(rc::gen::arbitrary<double>(),
-                                        [](double each) { return std::isfinite(each); });
-  Sample c;
-  c.name = *awkward_text();
-  c.estimators = *rc::gen::container<std::vector<std::string>>(awkward_text());
-  c.gravity = {*number, *number, *number};
-  c.inner.eta = std::fmod(std::abs(*number), 100.0);
-  c.inner.count = *rc::gen::inRange(1, 10);
-  c.inner.enabled = *rc::gen::arbitrary<bool>();
-  c.inner.model = *rc::gen::element(Model::kPoint, Model::kRolling);
-  c.points.resize(*rc::gen::inRange<std::size_t>(0, 4));
-  for (Waypoint& each : c.points) each.name = *awkward_text();
-  Sample again;
-  const std::string text = dump_config(fields_of(c));
-  const auto loaded = load_config_text(text, "dump.yaml", again);
-  if (!loaded) RC_FAIL(loaded.error().message + "\n" + text);
-  RC_ASSERT(again.name == c.name);
-  RC_ASSERT(again.estimators == c.estimators);
-  RC_ASSERT(again.gravity == c.gravity);
-  RC_ASSERT(!c.inner.enabled || again.inner.eta == c.inner.eta);  // else it has no effect
-  RC_ASSERT(again.points.size() == c.points.size());
-  RC_ASSERT(dump_config(fields_of(again)) == text);
 }
 
 RC_GTEST_PROP(YamlConfig, AnyTextLoadsOrFailsWithOneLine, ()) {

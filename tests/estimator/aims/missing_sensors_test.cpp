@@ -120,7 +120,8 @@ TEST_F(MissingSensors, AnImuOfNotANumberGivesNoPoseAndSaysWhy) {
 TEST_F(MissingSensors, LegsWhosePoseJumpsAreInvalid) {
   const EstimatorResult result = run("leg", [](Delivery& delivery) {
     auto* legs = std::get_if<LegOdometrySample>(&delivery.measurement);
-    if (legs != nullptr && legs->stamp > 4 * kSecond) legs->T_odom_base.translation.setConstant(1e6);
+    if (legs != nullptr && legs->stamp > 4 * kSecond)
+      legs->T_odom_base.translation.setConstant(1e6);
     return true;
   });
   EXPECT_EQ(worst(result), HealthState::kInvalid);

@@ -79,18 +79,16 @@ std::string localizability_text(const WrittenRun& run) {
 }
 
 std::string scores_text(const WrittenRun& run) {
-  Json scores = {{"schema", kScoresSchema},
-                 {"version", "0"},
-                 {"scenario", run.name},
-                 {"seed", 7},
-                 {"complete", true},
-                 {"simulated_s", 0.1 * run.scans},
-                 {"robot",
-                  {{"fell", false},
-                   {"touched_wall", false},
-                   {"valid", true},
-                   {"invalid_reason", nullptr}}},
-                 {"segments", Json::array()}};
+  Json scores = {
+      {"schema", kScoresSchema},
+      {"version", "0"},
+      {"scenario", run.name},
+      {"seed", 7},
+      {"complete", true},
+      {"simulated_s", 0.1 * run.scans},
+      {"robot",
+       {{"fell", false}, {"touched_wall", false}, {"valid", true}, {"invalid_reason", nullptr}}},
+      {"segments", Json::array()}};
   for (const char* name : kMadeUpEstimators) {
     scores["estimators"][name] = {{"success", true}, {"diverged_at_s", nullptr}, {"ate_m", 0.125}};
   }
