@@ -39,6 +39,19 @@ std::optional<Imu> second_output(const SimulationConfig& config, Duration timest
   return Imu(fast, timestep, seed);
 }
 
+/// Where the model has the IMU and the LiDAR.
+Mounts nominal_mounts(const World& world) {
+  const Pose T_base_body = world.T_base_site("imu");
+  return {T_base_body, T_base_body.inverse() * world.T_base_site("lidar")};
+}
+
+/// What the estimators are told of the robot: no drawn error is part of it.
+SensorRig nominal_rig(const World& world, const SimulationConfig& config) {
+  const Mounts mounts = nominal_mounts(world);
+  return {mounts.T_body_lidar, mounts.T_base_body.inverse(), kRobotGeometry, config.imu.rate,
+          config.leg_odometry.rate};
+}
+
 /// Random offset of the start position and heading, at most three sigma.
 Placement start_offset(const RobotConfig& config, std::uint64_t seed) {
   RandomStream random(seed, "robot.start");
@@ -102,7 +115,6 @@ struct Simulation::Impl {
   Link leg_link;
   Link lidar_link;
   SensorRig rig;
-  Pose T_base_body;
   Trajectory scan_motion;  ///< of the LiDAR since the start of the present scan
   Arrivals arrivals;
   std::vector<Delivery> sent;
@@ -126,10 +138,8 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene buil
       imu_link(config.links.imu, seed, "imu"),
       leg_link(config.links.leg_odometry, seed, "leg_odometry"),
       lidar_link(config.links.lidar, seed, "lidar"),
-      T_base_body(walker.world().T_base_site("imu")) {
-  const Pose T_body_base = T_base_body.inverse();
-  rig = {T_body_base * walker.world().T_base_site("lidar"), T_body_base, kRobotGeometry,
-         config.imu.rate, config.leg_odometry.rate};
+      rig(nominal_rig(walker.world(), config)) {
+  truth.mounts = true_mounts(nominal_mounts(walker.world()), config.calibration, seed);
   record();
 }
 
@@ -153,7 +163,8 @@ void Simulation::Impl::send_legs() {
 /// Casts the scan that ends now, if one does; the next begins where it ended.
 void Simulation::Impl::send_scan() {
   const RobotState& state = walker.world().state();
-  scan_motion.push_back({state.stamp, state.T_world_base * T_base_body * rig.T_body_lidar});
+  scan_motion.push_back(
+      {state.stamp, state.T_world_base * truth.mounts.T_base_body * truth.mounts.T_body_lidar});
   if (state.stamp - scan_motion.front().stamp < lidar.period()) return;
   const Stopwatch watch;
   ScanTruth hits;
@@ -163,9 +174,9 @@ void Simulation::Impl::send_scan() {
   deliver(state.stamp, LidarScanPtr(std::move(scan)), lidar_link);
   if (!sent.empty()) {
     const Pose T_world_lidar = pose_at(scan_motion, end).value_or(scan_motion.back().pose);
-    truth.scans.push_back(scan_information(end, hits, T_world_lidar * rig.T_body_lidar.inverse(),
-                                           config.lidar.range_sigma,
-                                           caster.first_moving_surface()));
+    truth.scans.push_back(
+        scan_information(end, hits, T_world_lidar * truth.mounts.T_body_lidar.inverse(),
+                         config.lidar.range_sigma, caster.first_moving_surface()));
   }
   times.lidar += watch.seconds();
   scan_motion.erase(scan_motion.begin(), scan_motion.end() - 1);
@@ -176,10 +187,10 @@ void Simulation::Impl::record() {
   const RobotState& state = walker.world().state();
   TruthSample sample;
   sample.stamp = state.stamp;
-  sample.T_world_body = state.T_world_base * T_base_body;
-  const Eigen::Vector3d around = state.angular_velocity.cross(T_base_body.translation);
+  sample.T_world_body = state.T_world_base * truth.mounts.T_base_body;
+  const Eigen::Vector3d around = state.angular_velocity.cross(truth.mounts.T_base_body.translation);
   sample.velocity = state.velocity + state.T_world_base.rotation * around;
-  sample.angular_velocity = T_base_body.rotation.conjugate() * state.angular_velocity;
+  sample.angular_velocity = truth.mounts.T_base_body.rotation.conjugate() * state.angular_velocity;
   sample.gyro_bias = imu.gyro_bias();
   sample.accelerometer_bias = imu.accelerometer_bias();
   sample.slip_speed = walker.world().slip_speed();

@@ -48,6 +48,7 @@ void describe(Fields& f, SimulationConfig& c) {
   f.group("imu", c.imu);
   f.group("leg_odometry", c.leg_odometry);
   f.group("lidar", c.lidar);
+  f.group("calibration", c.calibration);
   f.group("links", c.links);
   f.number(
       "fast_imu_rate", c.fast_imu_rate,

@@ -7,6 +7,7 @@
 #include "sim/robot/gait.hpp"
 #include "sim/robot/push.hpp"
 #include "sim/robot/route.hpp"
+#include "sim/sensors/calibration.hpp"
 #include "sim/sensors/imu.hpp"
 #include "sim/sensors/leg_odometry.hpp"
 #include "sim/sensors/lidar.hpp"
@@ -45,6 +46,7 @@ struct SimulationConfig {
   ImuConfig imu;
   LegOdometryConfig leg_odometry;
   LidarConfig lidar;
+  CalibrationErrorConfig calibration;
   LinksConfig links;
   double fast_imu_rate = 0.0;    ///< of the IMU's second output, for recordings; 0: none [Hz]
   double recording_start = 0.0;  ///< the robot walks unrecorded until then [s]

@@ -20,6 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using LevelOptions = std::vector<std::pair<std::string, SensorLevel>>;
+
+const LevelOptions& level_options() {
+  static const LevelOptions options = {{"ideal", SensorLevel::kIdeal},
+                                       {"datasheet", SensorLevel::kDatasheet},
+                                       {"field", SensorLevel::kField}};
+  return options;
+}
+
 /// Error for an expectation of an estimator that there is not.
 Result<void> check_estimator(std::string_view key, const std::string& name,
                              const Scenario& scenario) {
@@ -60,6 +69,47 @@ Result<void> check_names(const Scenario& scenario) {
   return check_file_name("family", scenario.family);
 }
 
+/// Error for an expectation whose level of the sensors there is not.
+Result<void> check_level(std::size_t index, const Expectation& expectation) {
+  const auto& levels = level_options();
+  const bool known =
+      expectation.sensors.empty() || std::ranges::any_of(levels, [&](const auto& level) {
+        return level.first == expectation.sensors;
+      });
+  if (known) return {};
+  return failure(fmt::format("expect.{}.sensors: expected ideal, datasheet or field, got '{}'",
+                             index, expectation.sensors));
+}
+
+/// Leaves out the expectations that are held at other levels of the sensors.
+void keep_expectations_of_level(Scenario& scenario) {
+  const auto& levels = level_options();
+  const auto level = std::ranges::find_if(
+      levels, [&](const auto& each) { return each.second == scenario.sensors; });
+  std::erase_if(scenario.expect, [&](const Expectation& each) {
+    return !each.sensors.empty() && each.sensors != level->first;
+  });
+}
+
+/// Applies the presets that `chosen` names, which lie below the scenario's own keys.
+Result<void> apply_presets(const Scenario& chosen, Scenario& scenario) {
+  for (const SensorPreset& preset : sensor_presets(chosen.sensors, chosen.imu_grade)) {
+    const std::string name = fmt::format("models/sensors/{}.yaml", preset.name);
+    if (auto ok = load_config_text(preset.text, name, scenario); !ok) return ok;
+  }
+  return {};
+}
+
+/// `start` as `load` leaves it, on top of the sensor presets that it chooses.
+template <class Load>
+Result<Scenario> on_presets(Scenario start, std::vector<AssignedKey>& assigned, const Load& load) {
+  Scenario chosen = start;
+  if (auto ok = load(chosen, nullptr); !ok) return tl::unexpected(ok.error());
+  if (auto ok = apply_presets(chosen, start); !ok) return tl::unexpected(ok.error());
+  if (auto ok = load(start, &assigned); !ok) return tl::unexpected(ok.error());
+  return start;
+}
+
 Result<void> check(const Scenario& scenario) {
   if (auto names = check_names(scenario); !names) return names;
   if (scenario.run.empty()) return failure("run: expected at least one estimator");
@@ -71,6 +121,7 @@ Result<void> check(const Scenario& scenario) {
     const std::string key = fmt::format("expect.{}.estimator", i);
     const Expectation& expectation = scenario.expect[i];
     const std::string score = fmt::format("expect.{}.score", i);
+    if (auto level = check_level(i, expectation); !level) return level;
     const bool of_run = expectation.estimator.empty();
     auto known = of_run ? check_run_score(score, expectation.score, scenario)
                         : check_estimator(key, expectation.estimator, scenario);
@@ -100,6 +151,8 @@ void describe(Fields& f, Expectation& e) {
       "estimator", e.estimator,
       {.meaning = "estimator whose score is limited; absent: a score of the run, e.g. robot.fell"});
   f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
+  f.text("sensors", e.sensors,
+         {.meaning = "level of the sensors at which it is held; absent: at each"});
   f.number("max", e.max,
            {.unit = "as the score", .range = within(1e12), .meaning = "largest value that passes"});
   f.number(
@@ -126,6 +179,16 @@ void describe(Fields& f, Scenario& s) {
       {.unit = "-", .range = in_range(0, 2147483647), .meaning = "seed of every random stream"});
   f.texts("run", s.run,
           {.meaning = "estimators that run on the stream: NAME or LABEL=NAME+key=value"});
+  f.choice("sensors", s.sensors, level_options(),
+           {.meaning = "Realism of the sensors: presets below the scenario's own keys.",
+            .source = "models/sensors"});
+  f.choice("imu_grade", s.imu_grade,
+           {{"of_level", ImuGrade::kOfLevel},
+            {"ideal", ImuGrade::kIdeal},
+            {"mems", ImuGrade::kMems},
+            {"industrial", ImuGrade::kIndustrial}},
+           {.meaning = "Part whose figures the IMU has, in place of the level's.",
+            .source = "models/sensors"});
   describe(f, s.simulation);
   describe_estimators(f, s.run, s.estimators);
   f.group("scoring", s.scoring);
@@ -151,19 +214,20 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
   scenario.overrides.assign(overrides.begin(), overrides.end());
   scenario.name = file.stem().string();
   std::vector<AssignedKey> assigned;
-  if (auto loaded = load_config(file, scenario, &assigned, folder); !loaded) {
-    return tl::unexpected(loaded.error());
+  auto loaded = on_presets(std::move(scenario), assigned,
+                           [&](Scenario& into, std::vector<AssignedKey>* keys) {
+                             auto read = load_config(file, into, keys, folder);
+                             return read ? apply_overrides(into, overrides, keys, folder) : read;
+                           });
+  if (!loaded) return loaded;
+  if (auto valid = check(*loaded); !valid) {
+    return tl::unexpected(located(*loaded, valid.error()));
   }
-  if (auto applied = apply_overrides(scenario, overrides, &assigned, folder); !applied) {
-    return tl::unexpected(applied.error());
-  }
-  if (auto valid = check(scenario); !valid) {
-    return tl::unexpected(located(scenario, valid.error()));
-  }
-  if (auto acts = check_effects_in(scenario, std::move(assigned)); !acts) {
+  keep_expectations_of_level(*loaded);
+  if (auto acts = check_effects_in(*loaded, std::move(assigned)); !acts) {
     return tl::unexpected(acts.error());
   }
-  return scenario;
+  return loaded;
 }
 
 Result<Scenario> default_scenario(std::span<const std::string> overrides) {
@@ -171,13 +235,15 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides) {
   scenario.name = "default";
   scenario.overrides.assign(overrides.begin(), overrides.end());
   std::vector<AssignedKey> assigned;
-  if (auto applied = apply_overrides(scenario, overrides, &assigned); !applied) {
-    return tl::unexpected(applied.error());
-  }
-  if (auto acts = check_effects_in(scenario, std::move(assigned)); !acts) {
+  auto loaded = on_presets(std::move(scenario), assigned,
+                           [&](Scenario& into, std::vector<AssignedKey>* keys) {
+                             return apply_overrides(into, overrides, keys);
+                           });
+  if (!loaded) return loaded;
+  if (auto acts = check_effects_in(*loaded, std::move(assigned)); !acts) {
     return tl::unexpected(acts.error());
   }
-  return scenario;
+  return loaded;
 }
 
 std::string config_text(const Scenario& scenario, bool annotated) {

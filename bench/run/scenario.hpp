@@ -11,6 +11,7 @@
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator_config.hpp"
+#include "sim/sensors/sensor_level.hpp"
 #include "sim/simulation_config.hpp"
 
 namespace aims {
@@ -35,6 +36,8 @@ struct Expectation {
   double max = kNoLimit;   ///< in the score's own unit
   double min = -kNoLimit;  ///< in the score's own unit
   ExpectationStatistic statistic = ExpectationStatistic::kWorst;
+  /// Level of the sensors at which it is held: "ideal", "datasheet", "field"; empty: at each.
+  std::string sensors = {};
 
   bool operator==(const Expectation&) const = default;
 };
@@ -53,6 +56,9 @@ struct Scenario {
   int seed = 1;
   /// Specs (estimator/estimator_spec.hpp) of who runs.
   std::vector<std::string> run = {"aims", "aims_d", "tfs", "tfs_clean", "tfs_plus", "lio", "leg"};
+  /// Chooses the presets below the scenario's own keys.
+  SensorLevel sensors = SensorLevel::kField;
+  ImuGrade imu_grade = ImuGrade::kOfLevel;  ///< replaces the level's figures of the IMU
   SimulationConfig simulation;
   EstimatorConfigs estimators;
   ScoreConfig scoring;

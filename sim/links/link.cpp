@@ -86,6 +86,14 @@ void describe(Fields& f, LinkConfig& c) {
            {.unit = "s",
             .range = in_range(-10.0, 10.0),
             .meaning = "Offset of the sensor's clock, added to its stamps."});
+  f.number("clock_offset_sigma", c.clock_offset_sigma,
+           {.unit = "s",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Standard deviation of a further clock offset, constant in a run."});
+  f.number("clock_drift_sigma", c.clock_drift_sigma,
+           {.unit = "ppm",
+            .range = in_range(0.0, 1000.0),
+            .meaning = "Standard deviation of the clock's rate error, constant in a run."});
   f.group("outage", c.outage);
 }
 
@@ -97,7 +105,11 @@ Link::Link(const LinkConfig& config, std::uint64_t run_seed, std::string_view na
       reorder_(run_seed, stream_name(name, "reorder")),
       duplicate_(run_seed, stream_name(name, "duplicate")),
       stamp_(run_seed, stream_name(name, "stamp")),
-      in_burst_(burst_.chance(config.burst_fraction)) {}
+      in_burst_(burst_.chance(config.burst_fraction)) {
+  RandomStream clock(run_seed, stream_name(name, "clock"));
+  clock_offset_ = config.clock_offset + config.clock_offset_sigma * clock.normal();
+  clock_drift_ = 1e-6 * config.clock_drift_sigma * clock.normal();
+}
 
 bool Link::lost() {
   const bool lost_in_burst = in_burst_;
@@ -113,14 +125,19 @@ Time Link::arrival(Time sent) {
   return sent + from_seconds(config_.delay + jitter_.uniform(0.0, config_.jitter) + held);
 }
 
+/// What the sensor's clock adds to a true time.
+Duration Link::stamp_error(Time sent) {
+  const double jitter = stamp_.uniform(-config_.stamp_jitter, config_.stamp_jitter);
+  return from_seconds(clock_offset_ + clock_drift_ * to_seconds(sent) + jitter);
+}
+
 void Link::send(Time sent, Measurement measurement, std::vector<Delivery>& out) {
   const bool dropped = lost() || is_out(config_.outage, sent);
   const Time first = arrival(sent);
   const bool twice = duplicate_.chance(config_.duplicate_probability);
   const Duration behind = twice ? from_seconds(duplicate_.uniform(0.0, config_.jitter)) : 0;
   if (dropped) return;
-  const double error = stamp_.uniform(-config_.stamp_jitter, config_.stamp_jitter);
-  const Duration offset = from_seconds(config_.clock_offset + error);
+  const Duration offset = stamp_error(sent);
   if (offset != 0) shift_stamps(measurement, offset);
   out.push_back({first, measurement});
   if (twice) out.push_back({first + behind, std::move(measurement)});

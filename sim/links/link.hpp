@@ -35,6 +35,8 @@ struct LinkConfig {
   double duplicate_probability = 0.0;  ///< that a packet arrives twice [-]
   double stamp_jitter = 0.0;           ///< largest error of a stamp, uniform around zero [s]
   double clock_offset = 0.0;           ///< of the sensor's clock: added to the stamps [s]
+  double clock_offset_sigma = 0.0;     ///< of a further offset, drawn per run [s]
+  double clock_drift_sigma = 0.0;      ///< of the rate of that clock, drawn per run [ppm]
   OutageConfig outage = {};
 };
 
@@ -54,10 +56,13 @@ class Link {
  private:
   bool lost();
   Time arrival(Time sent);
+  Duration stamp_error(Time sent);
 
   LinkConfig config_;
   RandomStream loss_, burst_, jitter_, reorder_, duplicate_, stamp_;
   bool in_burst_ = false;
+  double clock_offset_ = 0.0;  ///< drawn and configured [s]
+  double clock_drift_ = 0.0;   ///< [s/s]
 };
 
 }  // namespace aims

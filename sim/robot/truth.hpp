@@ -9,6 +9,7 @@
 #include "core/scan_information.hpp"
 #include "core/trajectory.hpp"
 #include "sim/robot/walk_outcome.hpp"
+#include "sim/sensors/calibration.hpp"
 
 namespace aims {
 
@@ -36,6 +37,7 @@ struct Truth {
   std::vector<WaypointTime> waypoint_times;  ///< of the route's named points, in order
   std::vector<ScanInformation> scans;        ///< of the scans that were delivered
   WalkOutcome walk;
+  Mounts mounts;  ///< of IMU and LiDAR, as they really are
 };
 
 /// The true poses of the body alone.

@@ -183,6 +183,29 @@ TEST(Link, ClockOffsetShiftsEveryStampAndNoArrival) {
   for (const Delivery& each : out) EXPECT_EQ(each.arrival, 2 * kSecond);
 }
 
+TEST(Link, DrawsAnOffsetAndADriftOfTheClockPerRun) {
+  LinkConfig config;
+  config.clock_offset = 0.01;
+  config.clock_offset_sigma = 0.002;
+  config.clock_drift_sigma = 20.0;
+  constexpr int kRuns = 1000;
+  const Time late = 1000 * kSecond;
+  double offset_square = 0.0;
+  double drift_square = 0.0;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    Link link(config, seed, "any");
+    std::vector<Delivery> out;
+    link.send(0, ImuSample{.stamp = 0}, out);
+    link.send(late, ImuSample{.stamp = late}, out);
+    const double begin = to_seconds(stamp_of(out[0].measurement));
+    const double end = to_seconds(stamp_of(out[1].measurement) - late);
+    offset_square += (begin - 0.01) * (begin - 0.01) / kRuns;
+    drift_square += (end - begin) * (end - begin) / kRuns;
+  }
+  EXPECT_NEAR(std::sqrt(offset_square), 0.002, 0.0002);
+  EXPECT_NEAR(std::sqrt(drift_square), 1000.0 * 20e-6, 0.1 * 0.02);
+}
+
 TEST(Link, LosesExactlyWhatIsSentInAnOutage) {
   LinkConfig config;
   config.outage = {.start = 0.5, .duration = 0.2, .period = 1.0};
