@@ -7,7 +7,7 @@
 #include "sim/robot/gait.hpp"
 #include "sim/robot/push.hpp"
 #include "sim/robot/route.hpp"
-#include "sim/sensors/calibration.hpp"
+#include "sim/robot/mounts.hpp"
 #include "sim/sensors/imu.hpp"
 #include "sim/sensors/leg_odometry.hpp"
 #include "sim/sensors/lidar.hpp"

@@ -9,7 +9,7 @@
 #include "core/scan_information.hpp"
 #include "core/trajectory.hpp"
 #include "sim/robot/walk_outcome.hpp"
-#include "sim/sensors/calibration.hpp"
+#include "sim/robot/mounts.hpp"
 
 namespace aims {
 

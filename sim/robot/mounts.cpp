@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/sensors/calibration.hpp"
+#include "sim/robot/mounts.hpp"
 
 #include <numbers>
 
