@@ -22,12 +22,14 @@ namespace {
 
 constexpr Duration kSnapshotPeriod = 100 * kMillisecond;
 
-Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene) {
+Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene,
+                               std::uint64_t seed) {
   auto mjcf = scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics,
                          {.floor_friction = config.scene.floor_friction});
   if (!mjcf) return tl::unexpected(mjcf.error());
   return WorldSetup{std::move(*mjcf), height_field_data(scene.floor), config.physics.timestep,
-                    config.scene.floor_friction};
+                    config.scene.floor_friction,
+                    built_legs(config.leg_odometry.link_length_error, seed)};
 }
 
 /// The second output of the IMU: the same random draws give the same turn-on biases and scales.
@@ -215,7 +217,7 @@ void Simulation::Impl::step() {
 Result<Simulation> Simulation::create(const SimulationConfig& config, std::uint64_t seed) {
   if (auto ok = validate(config); !ok) return tl::unexpected(ok.error());
   Scene scene = build_scene(config.scene, seed);
-  auto setup = world_setup(config, scene);
+  auto setup = world_setup(config, scene, seed);
   if (!setup) return tl::unexpected(setup.error());
   auto walker =
       Walker::create(*setup, config.robot.gait, config.route, start_offset(config.robot, seed));

@@ -45,11 +45,14 @@ struct World::Impl {
   int trunk = -1;
   std::array<int, kLegCount> foot_geom{};
   std::array<int, kLegCount> calf_body{};
+  LegGeometries legs;
   BodyModel body;
   RobotState state;
 
   Result<void> find_parts();
   void set_options(const WorldSetup& setup);
+  /// The lengths of the robot as built; constants of the model that follow from them.
+  void set_legs(const LegGeometries& built);
   void put(double x, double y, double z, double yaw);
   /// Height [m] of the grid point of the floor nearest to (x, y).
   double field_height(double x, double y) const;
@@ -84,6 +87,19 @@ void World::Impl::set_options(const WorldSetup& setup) {
   option.impratio = 10.0;
   timestep = from_seconds(setup.timestep);
   for (const int geom : foot_geom) model->geom_friction[3 * geom] = setup.friction;
+}
+
+void World::Impl::set_legs(const LegGeometries& built) {
+  legs = built;
+  if (built == kNominalLegs) return;
+  mjModel* m = model.get();
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const int foot_site = id_of(m, mjOBJ_SITE, std::string(kLegNames[leg]) + "_foot");
+    m->body_pos[3 * calf_body[leg] + 2] = -built[leg].thigh;
+    m->geom_pos[3 * foot_geom[leg] + 2] = -built[leg].calf;
+    if (foot_site >= 0) m->site_pos[3 * foot_site + 2] = -built[leg].calf;
+  }
+  mj_setConst(m, data.get());
 }
 
 double World::Impl::field_height(double x, double y) const {
@@ -164,6 +180,10 @@ void World::Impl::read_contact(const mjContact& contact, int index) {
     std::array<mjtNum, 6> force{};
     mj_contactForce(model.get(), data.get(), index, force.data());
     state.foot_load[leg] += force[0];
+    // The rows of the frame are the contact's axes; its force is the one on the second body.
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(contact.frame);
+    const Eigen::Vector3d on_second = axes.transpose() * vector_at(force.data());
+    state.foot_force[leg] += first_is_static ? on_second : Eigen::Vector3d(-on_second);
     return;
   }
   if (leg_of_calf(model->geom_bodyid[robot_geom]) < 0) state.trunk_on_floor = true;
@@ -172,6 +192,7 @@ void World::Impl::read_contact(const mjContact& contact, int index) {
 /// Contacts belong to the step that led to the present state.
 void World::Impl::read_contacts() {
   state.foot_load.fill(0.0);
+  state.foot_force.fill(Eigen::Vector3d::Zero());
   state.touches_wall = false;
   state.trunk_on_floor = false;
   for (int i = 0; i < data->ncon; ++i) read_contact(data->contact[i], i);
@@ -190,6 +211,7 @@ Result<World> World::create(const WorldSetup& setup) {
   if (auto found = impl->find_parts(); !found) return tl::unexpected(found.error());
   impl->set_options(setup);
   impl->data.reset(mj_makeData(impl->model.get()));
+  impl->set_legs(setup.legs);
   impl->measure_body();
   World world(std::move(impl));
   world.place(0.0, 0.0, 0.0);
@@ -251,8 +273,8 @@ std::array<double, kLegCount> World::slip_speed() const {
     const Eigen::Vector3d rate = joints_of(s.qd, leg);
     const Eigen::Vector3d turning = s.angular_velocity + calf_rate_in_base(q, rate);
     const Eigen::Vector3d in_base =
-        s.angular_velocity.cross(foot_in_base(leg, q, kRobotGeometry)) +
-        foot_jacobian(leg, q, kRobotGeometry) * rate;
+        s.angular_velocity.cross(foot_in_base(leg, q, impl_->legs[leg])) +
+        foot_jacobian(leg, q, impl_->legs[leg]) * rate;
     const Eigen::Vector3d down(0.0, 0.0, -kRobotGeometry.foot_radius);
     const Eigen::Quaterniond& R = s.T_world_base.rotation;
     const Eigen::Vector3d patch = s.velocity + R * in_base + (R * turning).cross(down);

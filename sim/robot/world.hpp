@@ -12,6 +12,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/lie.hpp"
 #include "core/measurements.hpp"
+#include "sim/robot/leg_lengths.hpp"
 
 namespace aims {
 
@@ -21,6 +22,7 @@ struct WorldSetup {
   std::vector<float> heights;  ///< of the height field in [0, 1], row by row; empty: flat floor
   double timestep = 0.0025;    ///< of the integrator [s]
   double friction = 0.7;       ///< of the feet on the floor [-]
+  LegGeometries legs = kNominalLegs;  ///< true lengths of thighs and calves
 };
 
 /// State of the robot after a physics step. The base frame is the trunk's centre.
@@ -32,6 +34,10 @@ struct RobotState {
   JointVector q = JointVector::Zero();                         ///< joint angles [rad]
   JointVector qd = JointVector::Zero();                        ///< joint rates [rad/s]
   std::array<double, kLegCount> foot_load{};  ///< normal force on each foot in the last step [N]
+  /// Force of the floor on each foot in the last step, in the world [N]
+  std::array<Eigen::Vector3d, kLegCount> foot_force{
+      Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+      Eigen::Vector3d::Zero()};
   bool trunk_on_floor = false;  ///< a part other than feet and calves touches the floor
   bool touches_wall = false;    ///< any part touches a solid other than the floor
 };

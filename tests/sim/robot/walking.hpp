@@ -59,8 +59,8 @@ struct Walk {
   bool touched_wall = false;
 };
 
-inline Walk walk(const WorldSetup& setup, const RouteConfig& route) {
-  Walker walker = Walker::create(setup, {}, route).value();
+inline Walk walk(const WorldSetup& setup, const RouteConfig& route, const GaitConfig& gait = {}) {
+  Walker walker = Walker::create(setup, gait, route).value();
   Walk walk;
   const Time limit = 2 * from_seconds(nominal_duration(route));
   while (!walker.route().done() && !walker.fallen() && walker.world().state().stamp < limit) {

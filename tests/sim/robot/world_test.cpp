@@ -44,6 +44,42 @@ TEST(World, StandingFeetCarryTheWeightAndRestOnTheFloor) {
   for (const double slip : world.slip_speed()) EXPECT_LT(slip, 0.01);
 }
 
+/// Newton: a robot at rest is pushed back by the floor as hard as it is pushed.
+TEST(World, TheFloorsForceOnTheFeetOpposesWeightAndPush) {
+  World world = World::create(corridor_world(10.0, 0.7, 0.0)).value();
+  GaitController gait({}, world.body(), kTimestep);
+  const Eigen::Vector3d push(12.0, -8.0, 0.0);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  constexpr int kSettling = 1200;
+  constexpr int kAveraged = 400;
+  for (int i = 0; i < kSettling + kAveraged; ++i) {
+    world.push(push);
+    world.step(gait.torques(world.state(), {}));
+    if (i < kSettling) continue;
+    for (const Eigen::Vector3d& force : world.state().foot_force) sum += force / kAveraged;
+  }
+  const Eigen::Vector3d expected = Eigen::Vector3d(0.0, 0.0, world.body().mass * 9.81) - push;
+  EXPECT_LT((sum - expected).norm(), 1.0) << sum.transpose();
+}
+
+TEST(World, LongerLegsReachTheFloorWithTheirOwnKinematics) {
+  WorldSetup setup = corridor_world(10.0, 0.7, 0.0);
+  for (LegGeometry& leg : setup.legs) {
+    leg.thigh *= 1.03;
+    leg.calf *= 0.98;
+  }
+  World world = World::create(setup).value();
+  GaitController gait({}, world.body(), kTimestep);
+  for (int i = 0; i < 800; ++i) world.step(gait.torques(world.state(), {}));
+  const RobotState& state = world.state();
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const Eigen::Vector3d foot =
+        state.T_world_base * foot_in_base(leg, joints_of(state.q, leg), setup.legs[leg]);
+    EXPECT_NEAR(foot.z(), kRobotGeometry.foot_radius, 1.5e-3) << kLegNames[leg];
+  }
+  for (const double slip : world.slip_speed()) EXPECT_LT(slip, 0.01);
+}
+
 TEST(World, SensorsSitLevelOnTheRearOfTheTrunk) {
   const World world = World::create(corridor_world(10.0, 0.7, 0.0)).value();
   for (const char* site : {"imu", "lidar"}) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/robot/leg_lengths.hpp"
+
+#include <cmath>
+
+#include "core/random.hpp"
+
+namespace aims {
+
+LegGeometries built_legs(double error, std::uint64_t run_seed) {
+  RandomStream random(run_seed, "leg.lengths");
+  const double sigma = error * std::sqrt(0.5);
+  const double thigh = sigma * random.normal();
+  const double calf = sigma * random.normal();
+  LegGeometries legs = kNominalLegs;
+  for (LegGeometry& leg : legs) {
+    leg.thigh *= 1.0 + thigh + sigma * random.normal();
+    leg.calf *= 1.0 + calf + sigma * random.normal();
+  }
+  return legs;
+}
+
+}  // namespace aims

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/robot/leg_lengths.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/sim/robot/walking.hpp"
+
+namespace aims {
+namespace {
+
+TEST(LegLengths, WithoutErrorTheLegsAreTheDrawn) { EXPECT_EQ(built_legs(0.0, 7), kNominalLegs); }
+
+TEST(LegLengths, ErrorsHaveTheirStandardDeviationAndHalfOfItIsCommon) {
+  double squares = 0.0;
+  double products = 0.0;
+  constexpr int kRuns = 500;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    const LegGeometries legs = built_legs(0.01, seed);
+    const double front = legs[0].calf / kRobotGeometry.calf - 1.0;
+    const double rear = legs[3].calf / kRobotGeometry.calf - 1.0;
+    squares += 0.5 * (front * front + rear * rear);
+    products += front * rear;
+    EXPECT_EQ(legs[1].foot_radius, kRobotGeometry.foot_radius);
+    EXPECT_NE(legs[0].thigh, legs[1].thigh);
+  }
+  EXPECT_NEAR(std::sqrt(squares / kRuns), 0.01, 0.001) << "seeds 1 to 500";
+  EXPECT_NEAR(products / squares, 0.5, 0.12) << "seeds 1 to 500";
+}
+
+/// Length that the nominal kinematics measure, over the length walked, less one.
+double short_reading(double longer) {
+  WorldSetup setup = testing::corridor_world(4.0, 0.8, 0.0);
+  for (LegGeometry& leg : setup.legs) {
+    leg.thigh *= 1.0 + longer;
+    leg.calf *= 1.0 + longer;
+  }
+  RouteConfig route;
+  route.points = {{"a", 0.0, 0.0}, {"b", 4.0, 0.0}};
+  const testing::Walk walk = testing::walk(setup, route);
+  LegOdometryConfig config;
+  config.foot_model = FootModel::kRolling;
+  config.joint_angle_noise = config.joint_angle_offset = config.joint_rate_noise = 0.0;
+  config.gyro_noise_density = config.gyro_bias = config.gyro_scale_error = 0.0;
+  config.velocity_scale_error = config.slip_rate = 0.0;
+  LegOdometry odometry(config, from_seconds(testing::kTimestep), 1);
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();
+  for (const RobotState& state : walk.states) {
+    if (const auto sample = odometry.sample(state)) end = sample->T_odom_base.translation;
+  }
+  const Eigen::Vector3d walked =
+      walk.states.back().T_world_base.translation - walk.states.front().T_world_base.translation;
+  return end.head<2>().norm() / walked.head<2>().norm() - 1.0;
+}
+
+/// The same angles carry longer legs further.
+TEST(LegLengths, KinematicsOfLegsThatAreLongerInTruthReadShort) {
+  EXPECT_NEAR(short_reading(0.04) - short_reading(0.0), -0.04, 0.01);
+  EXPECT_NEAR(short_reading(-0.04) - short_reading(0.0), 0.04, 0.01);
+}
+
+}  // namespace
+}  // namespace aims
