@@ -131,9 +131,11 @@ void GaitController::advance_phase(const RobotState& state, const VelocityComman
     standing_ = false;
     phase_ = 0.0;
     idle_time_ = 0.0;
+    motion_ = 0.0;
   } else {
     phase_ = std::fmod(phase_ + dt_ / config_.period, 1.0);
     idle_time_ = zero ? idle_time_ + dt_ : 0.0;
+    motion_ = toward(motion_, zero ? 0.0 : 1.0, dt_ / config_.period);
   }
   schedule_feet(state, now);
   const bool all_stand = std::all_of(stands_.begin(), stands_.end(), [](bool s) { return s; });
@@ -166,6 +168,7 @@ StanceProblem GaitController::stance_problem(const View& now) const {
   Eigen::Vector3d angular = config_.attitude_gain * up.cross(Eigen::Vector3d::UnitZ()) -
                             config_.attitude_damping * now.turning;
   angular.z() += config_.attitude_damping * (target_.yaw_rate + yaw_rate_integral_);
+  if (!standing_) move_trunk(now, linear, angular);
   if (standing_) {
     linear.head<2>() += config_.standing_gain * (hold_position_ - now.position.head<2>());
     angular.z() += config_.standing_gain * wrap_angle(hold_yaw_ - now.yaw);
@@ -177,6 +180,18 @@ StanceProblem GaitController::stance_problem(const View& now) const {
   for (int leg = 0; leg < kLegCount; ++leg) problem.lever[leg] = now.feet[leg] - now.com;
   problem.acceleration << linear, angular;
   return problem;
+}
+
+/// Adds what moves the trunk within the stride: feed-forward and the shift of the set points.
+void GaitController::move_trunk(const View& now, Eigen::Vector3d& linear,
+                                Eigen::Vector3d& angular) const {
+  const TrunkReference move =
+      motion_ * trunk_reference(config_.trunk, phase_, config_.duty_factor, config_.period);
+  linear.z() += move.acceleration + config_.height_damping * move.velocity +
+                config_.height_gain * move.height;
+  angular +=
+      yaw_rotation(now.yaw) * (move.angular_acceleration + config_.attitude_damping * move.rate +
+                               config_.attitude_gain * move.tilt);
 }
 
 /// Target of the foot: under the predicted position of the hip, ahead by half a stance.

@@ -7,6 +7,7 @@
 #include "core/config.hpp"
 #include "sim/robot/stance_forces.hpp"
 #include "sim/robot/stance_hold.hpp"
+#include "sim/robot/trunk_motion.hpp"
 #include "sim/robot/world.hpp"
 
 namespace aims {
@@ -16,7 +17,7 @@ struct GaitConfig {
   double period = 0.433;         ///< of a stride; a multiple of 20 ms aliases into a 50 Hz IMU [s]
   double duty_factor = 0.58;     ///< fraction of the period that a foot is on the ground [-]
   double body_height = 0.29;     ///< of the trunk's centre over the ground [m]
-  double swing_height = 0.07;    ///< of a foot in mid-swing [m]
+  double swing_height = 0.06;    ///< of a foot in mid-swing [m]
   double stance_width = 0.09;    ///< of a foot beside its hip [m]
   double velocity_gain = 12.0;   ///< [1/s]
   double height_gain = 120.0;    ///< [1/s^2]
@@ -27,6 +28,7 @@ struct GaitConfig {
   double integral_gain = 0.8;      ///< of velocity and yaw rate [1/s]
   double acceleration = 1.0;       ///< limit of the velocity command [m/s^2]
   double yaw_acceleration = 3.0;   ///< limit of the yaw-rate command [rad/s^2]
+  TrunkMotionConfig trunk;
   StanceForceConfig forces;
 };
 void describe(Fields& f, GaitConfig& c);
@@ -57,6 +59,7 @@ class GaitController {
   void begin_standing(const View& now);
   void follow_feet(const View& now);
   StanceProblem stance_problem(const View& now) const;
+  void move_trunk(const View& now, Eigen::Vector3d& linear, Eigen::Vector3d& angular) const;
   Eigen::Vector3d touchdown(int leg, const View& now) const;
   Eigen::Vector3d swing_torques(int leg, const RobotState& state, const View& now) const;
   double leg_phase(int leg) const;
@@ -70,6 +73,7 @@ class GaitController {
   bool standing_ = true;
   double phase_ = 0.0;      ///< of the stride, in [0, 1)
   double idle_time_ = 0.0;  ///< since the command became zero [s]
+  double motion_ = 0.0;     ///< share of the trunk's motion, 0 to 1
   double ground_ = 0.0;     ///< height under the feet [m]
   VelocityCommand target_;  ///< rate-limited command
   Eigen::Vector2d velocity_integral_ = Eigen::Vector2d::Zero();

@@ -53,6 +53,7 @@ void describe(Fields& f, GaitConfig& c) {
            {.unit = "rad/s^2",
             .range = positive_up_to(1e5),
             .meaning = "Largest rate of change of the yaw-rate command."});
+  f.group("trunk", c.trunk);
   f.group("forces", c.forces);
 }
 

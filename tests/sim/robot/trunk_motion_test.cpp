@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/robot/trunk_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/sim/robot/walking.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kDuty = 0.58;
+constexpr double kPeriod = 0.433;  ///< [s]
+
+TrunkReference at(double phase) { return trunk_reference({}, phase, kDuty, kPeriod); }
+
+TEST(TrunkMotion, RatesAndAccelerationsAreTheDerivatives) {
+  const double step = 1e-5;
+  const double time = 2.0 * step * kPeriod;
+  for (const double phase : {0.0, 0.13, 0.4, 0.77, 0.98}) {
+    const TrunkReference before = at(phase - step);
+    const TrunkReference after = at(phase + step);
+    const TrunkReference now = at(phase);
+    EXPECT_NEAR((after.height - before.height) / time, now.velocity, 1e-6);
+    EXPECT_NEAR((after.velocity - before.velocity) / time, now.acceleration, 1e-5);
+    EXPECT_LT(((after.tilt - before.tilt) / time - now.rate).norm(), 1e-5);
+    EXPECT_LT(((after.rate - before.rate) / time - now.angular_acceleration).norm(), 1e-4);
+  }
+}
+
+TEST(TrunkMotion, IsLowestAndPushesHardestInTheMiddleOfEachStance) {
+  const TrunkMotionConfig config;
+  const double speed = 4.0 * M_PI / kPeriod;
+  for (const double phase : {0.5 * kDuty, 0.5 * kDuty + 0.5}) {
+    EXPECT_NEAR(at(phase).height, -config.bounce, 1e-12);
+    EXPECT_NEAR(at(phase).acceleration, config.bounce * speed * speed, 1e-9);
+    EXPECT_NEAR(at(phase).tilt.x(), 0.0, 1e-12);
+  }
+  EXPECT_GT(at(0.5 * kDuty).rate.x() * -at(0.5 * kDuty + 0.5).rate.x(), 0.0)
+      << "rolls once per stride";
+}
+
+TEST(TrunkMotion, IsNoneWhileTheRobotStands) {
+  RouteConfig route = testing::there_and_back(2.0);
+  route.stand_before = 4.0;
+  GaitConfig still;
+  still.trunk = {0.0, 0.0, 0.0};
+  const auto setup = testing::corridor_world(2.0, 0.7, 0.0);
+  Walker moving = Walker::create(setup, {}, route).value();
+  Walker level = Walker::create(setup, still, route).value();
+  while (moving.world().state().stamp < 3 * kSecond) {
+    moving.step();
+    level.step();
+  }
+  EXPECT_EQ(moving.world().qpos(), level.world().qpos());
+  while (moving.world().state().stamp < 6 * kSecond) {
+    moving.step();
+    level.step();
+  }
+  EXPECT_NE(moving.world().qpos(), level.world().qpos());
+}
+
+}  // namespace
+}  // namespace aims
