@@ -13,6 +13,7 @@
 #include "sim/robot/quadruped_model.hpp"
 #include "sim/robot/robot_geometry.hpp"
 #include "sim/robot/route_check.hpp"
+#include "sim/robot/scene_route.hpp"
 #include "sim/robot/walk_monitor.hpp"
 #include "sim/robot/walker.hpp"
 #include "sim/sensors/fisher_information.hpp"
@@ -214,7 +215,9 @@ void Simulation::Impl::step() {
   record();
 }
 
-Result<Simulation> Simulation::create(const SimulationConfig& config, std::uint64_t seed) {
+Result<Simulation> Simulation::create(const SimulationConfig& given, std::uint64_t seed) {
+  SimulationConfig config = given;
+  config.route = route_in(given.scene, given.route);
   if (auto ok = validate(config); !ok) return tl::unexpected(ok.error());
   Scene scene = build_scene(config.scene, seed);
   auto setup = world_setup(config, scene, seed);

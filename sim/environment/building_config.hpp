@@ -5,7 +5,10 @@
 
 namespace aims {
 
-/// Walls of a corridor that have a feature, looking along it: left is +y of its own axes.
+/// A side of a corridor, looking along it: left is +y of its own axes.
+enum class Side { kLeft, kRight };
+
+/// Walls of a corridor that have a feature, looking along it.
 enum class WallSides { kNone, kLeft, kRight, kBoth, kAlternate };
 
 /// Doors set back into the walls.

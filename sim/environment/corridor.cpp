@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "sim/environment/bent_corridor.hpp"
+#include "sim/environment/corridor_pieces.hpp"
 #include "sim/environment/wall.hpp"
 
 namespace aims {
@@ -23,10 +25,6 @@ Span extent(const CorridorConfig& config) {
 Span outer_extent(const CorridorConfig& config) {
   const Span along = extent(config);
   return {along.begin - kWallThickness, along.end + kWallThickness};
-}
-
-bool has_end(const CorridorConfig& config, EndWalls end) {
-  return config.end_walls == end || config.end_walls == EndWalls::kBoth;
 }
 
 /// The pillars of one wall that do not stand in front of a door, as spans along x.
@@ -54,25 +52,6 @@ void add_pillars(const CorridorConfig& config, double height, const std::vector<
                              materials.pillar);
     pillar.collides = true;
   }
-}
-
-/// One box or cylinder that touches the wall and stays out of the walkway.
-Solid clutter_object(const CorridorConfig& config, double x, const Material& material,
-                     RandomStream& random) {
-  const double room = 0.5 * (config.width - config.clutter.free_width);
-  Solid solid;
-  solid.shape = random.chance(0.4) ? Shape::kCylinder : Shape::kBox;
-  const double depth = random.uniform(0.4, 1.0) * std::min(room, 0.4);
-  const double length = solid.shape == Shape::kCylinder ? depth : random.uniform(0.2, 0.7);
-  const double height = random.uniform(0.3, std::min(1.5, config.height));
-  const double sign = random.chance(0.5) ? 1.0 : -1.0;
-  solid.half_extents = 0.5 * Eigen::Vector3d(length, depth, height);
-  solid.T_world_solid.translation = {x, sign * 0.5 * (config.width - depth), 0.5 * height};
-  solid.material = material;
-  const auto shade = static_cast<float>(random.uniform(0.6, 1.4));
-  solid.material.color = (shade * material.color).cwiseMin(1.0F);
-  solid.collides = false;
-  return solid;
 }
 
 void add_clutter(const CorridorConfig& config, const RampConfig& ramp, const Material& material,
@@ -191,7 +170,30 @@ Result<void> validate_pillars(const CorridorConfig& config) {
 
 }  // namespace
 
+bool has_end(const CorridorConfig& config, EndWalls end) {
+  return config.end_walls == end || config.end_walls == EndWalls::kBoth;
+}
+
+Solid clutter_object(const CorridorConfig& config, double x, const Material& material,
+                     RandomStream& random) {
+  const double room = 0.5 * (config.width - config.clutter.free_width);
+  Solid solid;
+  solid.shape = random.chance(0.4) ? Shape::kCylinder : Shape::kBox;
+  const double depth = random.uniform(0.4, 1.0) * std::min(room, 0.4);
+  const double length = solid.shape == Shape::kCylinder ? depth : random.uniform(0.2, 0.7);
+  const double height = random.uniform(0.3, std::min(1.5, config.height));
+  const double sign = random.chance(0.5) ? 1.0 : -1.0;
+  solid.half_extents = 0.5 * Eigen::Vector3d(length, depth, height);
+  solid.T_world_solid.translation = {x, sign * 0.5 * (config.width - depth), 0.5 * height};
+  solid.material = material;
+  const auto shade = static_cast<float>(random.uniform(0.6, 1.4));
+  solid.material.color = (shade * material.color).cwiseMin(1.0F);
+  solid.collides = false;
+  return solid;
+}
+
 Result<void> validate(const CorridorConfig& config) {
+  if (auto bends = validate_bends(config); !bends) return bends;
   if (const auto doors = validate_doors(config.doors, config.height, "scene.corridor.doors");
       !doors) {
     return doors;
@@ -219,6 +221,7 @@ std::vector<Solid> corridor_solids(const CorridorConfig& config, const RampConfi
                                    const ReflectivityConfig& reflectivity, std::uint64_t seed) {
   Materials materials = building_materials(reflectivity);
   materials.glass = glass_material(config.glass);
+  if (has_bends(config)) return bent_corridor_solids(config, materials, seed);
   std::vector<Solid> solids;
   for (const Side which : {Side::kLeft, Side::kRight}) {
     const char* stream = which == Side::kLeft ? "scene.doors.left" : "scene.doors.right";
@@ -232,6 +235,7 @@ std::vector<Solid> corridor_solids(const CorridorConfig& config, const RampConfi
 }
 
 Floor corridor_floor(const CorridorConfig& config) {
+  if (has_bends(config)) return bent_corridor_floor(config);
   const Span along = extent(config);
   const double half_width = closed_half_width(config);
   Floor floor;

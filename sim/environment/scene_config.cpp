@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "sim/environment/bent_corridor.hpp"
 #include "sim/environment/corridor.hpp"
+#include "sim/environment/corridor_pieces.hpp"
 #include "sim/environment/height_field.hpp"
 
 namespace aims {
@@ -45,6 +47,19 @@ void describe(Fields& f, BumpConfig& c) {
             .meaning = "Correlation length of the floor's heights."});
 }
 
+void describe(Fields& f, BendConfig& c) {
+  f.number("at", c.at,
+           {.unit = "-",
+            .range = in_range(0.02, 0.98),
+            .meaning = "Position of the bend, as a fraction of the route's length."});
+  f.number("angle_deg", c.angle_deg,
+           {.unit = "deg",
+            .range = in_range(0.0, 90.0),
+            .meaning = "Change of the corridor's direction; 0 for no bend."});
+  f.choice("side", c.side, {{"left", Side::kLeft}, {"right", Side::kRight}},
+           {.meaning = "Side to which the corridor turns, looking from the start of the route."});
+}
+
 void describe(Fields& f, CorridorConfig& c) {
   f.number("length", c.length,
            {.unit = "m",
@@ -69,6 +84,7 @@ void describe(Fields& f, CorridorConfig& c) {
             {"end", EndWalls::kEnd},
             {"both", EndWalls::kBoth}},
            {.meaning = "Ends of the corridor closed by a wall."});
+  f.list("bends", c.bends, "Bends of the corridor in order; none in a straight one.");
   f.group("doors", c.doors);
   f.group("pillars", c.pillars);
   f.group("clutter", c.clutter);
@@ -105,6 +121,8 @@ namespace {
 Result<void> validate_ramp(const SceneConfig& config) {
   const RampConfig& ramp = config.ramp;
   if (ramp.grade <= 0.0) return {};
+  if (has_bends(config.corridor))
+    return failure("scene.ramp.grade: expected 0 (no ramp) in a corridor with bends");
   if (config.bumps.height > 0.0)
     return failure("scene.ramp: a floor with a ramp cannot have bumps (scene.bumps)");
   if (config.people.count > 0)
@@ -118,10 +136,12 @@ Result<void> validate_ramp(const SceneConfig& config) {
   return {};
 }
 
-/// People who walk up and down the corridor and turn 1 m before its ends.
+/// People who walk up and down the corridor and turn 1 m before its ends; with bends, on its
+/// longest piece.
 std::vector<Person> corridor_people(const SceneConfig& config, std::uint64_t seed) {
   constexpr double kTurningDistance = 1.0;  ///< from the corridor's end [m]
   const CorridorConfig& corridor = config.corridor;
+  if (has_bends(corridor)) return people_on_longest_piece(corridor, config.people, seed);
   return people_in_lanes(config.people, kTurningDistance - corridor.margin,
                          corridor.length + corridor.margin - kTurningDistance, seed);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/config.hpp"
 #include "core/error.hpp"
@@ -39,14 +40,22 @@ struct BumpConfig {
   double correlation_length = 0.6;  ///< of the heights [m]
 };
 
-/// A straight corridor along +x with its centre line on y = 0 and its floor at z = 0. The route
-/// runs on the centre line from x = 0 to x = length.
+/// A bend of a corridor.
+struct BendConfig {
+  double at = 0.5;          ///< on the centre line, as a fraction of the route's length [-]
+  double angle_deg = 0.0;   ///< between the directions before and after [deg]; 0: no bend
+  Side side = Side::kLeft;  ///< to which the corridor turns
+};
+
+/// A corridor that begins along +x with its centre line on y = 0, its floor at z = 0; straight
+/// unless it has bends. The route runs on the centre line from (0, 0) over `length`.
 struct CorridorConfig {
   double length = 78.6;  ///< of the route [m]
   double margin = 3.0;   ///< length of corridor beyond either end of the route [m]
   double width = 2.2;    ///< between the walls [m]
   double height = 2.6;   ///< from floor to ceiling [m]
   EndWalls end_walls = EndWalls::kBoth;
+  std::vector<BendConfig> bends;  ///< in order; with any, no pillars, glass or ramp
   DoorConfig doors;
   PillarConfig pillars;
   ClutterConfig clutter;
@@ -73,6 +82,7 @@ struct SceneConfig {
 void describe(Fields& fields, PillarConfig& config);
 void describe(Fields& fields, ClutterConfig& config);
 void describe(Fields& fields, BumpConfig& config);
+void describe(Fields& fields, BendConfig& config);
 void describe(Fields& fields, CorridorConfig& config);
 void describe(Fields& fields, SceneConfig& config);
 

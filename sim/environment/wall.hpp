@@ -17,8 +17,6 @@ inline constexpr double kOverlap = 0.05;  ///< of pieces behind visible faces, a
 inline constexpr double kGlassThickness = 0.01;  ///< [m]
 inline constexpr double kDoorThickness = 0.05;   ///< [m]
 
-enum class Side { kLeft, kRight };
-
 /// An interval along a wall [m].
 struct Span {
   double begin = 0.0;

@@ -190,6 +190,9 @@ void describe(Fields& f, RoutePoint& c) {
 }
 
 void describe(Fields& f, RouteConfig& c) {
+  f.flag(
+      "follow_scene", c.follow_scene,
+      {.meaning = "Walk the centre line of the scene to its far end and back; replaces points."});
   f.list("points", c.points, "Points of the route in order; the robot starts at the first.");
   f.number("speed", c.speed,
            {.unit = "m/s", .range = in_range(0.1, 1.0), .meaning = "Walking speed."});

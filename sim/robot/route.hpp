@@ -30,6 +30,7 @@ struct RouteConfig {
   double stand_after = 2.0;          ///< at the end [s]
   double lookahead = 0.6;            ///< of the pure pursuit [m]
   double turn_in_place_angle = 0.7;  ///< heading error beyond which the robot turns in place [rad]
+  bool follow_scene = false;         ///< the points are those of `points_along` (scene_route.hpp)
 };
 void describe(Fields& f, RouteConfig& c);
 
