@@ -15,7 +15,7 @@ struct ScanInformation {
   /// [1/rad^2, 1/(rad m); 1/(rad m), 1/m^2]
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   int returns = 0;           ///< summed over
-  double range_sigma = 0.0;  ///< assumed white noise of each range [m]
+  double range_sigma = 0.0;  ///< white noise of each range: the mean, as 1 / sigma^2 [m]
 };
 
 }  // namespace aims

@@ -10,7 +10,7 @@
 #include "sim/robot/mounts.hpp"
 #include "sim/sensors/imu.hpp"
 #include "sim/sensors/leg_odometry.hpp"
-#include "sim/sensors/lidar.hpp"
+#include "sim/sensors/lidar_config.hpp"
 
 namespace aims {
 

@@ -4,136 +4,61 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "sim/environment/people.hpp"
+#include "sim/sensors/pose_cursor.hpp"
 
 namespace aims {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
-Duration scan_period(const LidarConfig& config) { return from_seconds(1.0 / config.rate); }
-
-double column_period_ns(const LidarConfig& config) {
-  return static_cast<double>(scan_period(config)) / config.columns;
+/// The nearest multiple of `step`; a step of zero leaves the value.
+double rounded(double value, double step) {
+  return step > 0.0 ? step * std::round(value / step) : value;
 }
 
-double ring_interval_ns(const LidarConfig& config) {
-  return std::min(1e3 * config.ring_interval_us, column_period_ns(config) / config.rings);
+/// The true hit of one point.
+void append_hit(const RayPacket& rays, const HitPacket& hits, int lane, ScanTruth& truth) {
+  const Eigen::Vector3f origin(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
+  const Eigen::Vector3f direction(rays.direction_x[lane], rays.direction_y[lane],
+                                  rays.direction_z[lane]);
+  const Eigen::Vector3f normal(hits.normal_x[lane], hits.normal_y[lane], hits.normal_z[lane]);
+  truth.normals.push_back(normal);
+  truth.surfaces.push_back(hits.surface[lane]);
+  truth.points.emplace_back(origin + hits.distance[lane] * direction);
+  truth.cosines.push_back(std::clamp(-normal.dot(direction), 0.0F, 1.0F));
 }
-
-/// Direction of a firing in the LiDAR frame.
-Eigen::Vector3d beam_direction(const LidarConfig& config, int ring, double time_offset_ns) {
-  const double turned = time_offset_ns / static_cast<double>(scan_period(config));
-  const double azimuth =
-      config.start_azimuth_deg * kRadiansPerDegree - 2.0 * std::numbers::pi * turned;
-  const double fraction = config.rings > 1 ? static_cast<double>(ring) / (config.rings - 1) : 0.0;
-  const double elevation =
-      kRadiansPerDegree * std::lerp(config.elevation_min_deg, config.elevation_max_deg, fraction);
-  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-          std::sin(elevation)};
-}
-
-/// Whether a beam from the origin enters the body mask.
-bool enters_body_mask(const LidarConfig& config, const Eigen::Vector3d& direction) {
-  if ((config.body_mask_max.array() <= config.body_mask_min.array()).any()) return false;
-  double enter = 0.0;
-  double leave = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = config.body_mask_min[axis] / direction[axis];
-    const double high = config.body_mask_max[axis] / direction[axis];
-    enter = std::max(enter, std::min(low, high));
-    leave = std::min(leave, std::max(low, high));
-  }
-  return enter <= leave;
-}
-
-/// The working rings: the dead ones are drawn without replacement.
-std::vector<bool> working_rings(const LidarConfig& config, std::uint64_t run_seed) {
-  RandomStream random = rng(run_seed, "lidar.defects");
-  std::vector<bool> works(static_cast<std::size_t>(config.rings), true);
-  const auto dead = std::lround(config.defects.dead_ring_fraction * config.rings);
-  for (long lost = 0; lost < dead;) {
-    const auto ring = static_cast<std::size_t>(random.uniform(0.0, config.rings));
-    if (ring >= works.size() || !works[ring]) continue;
-    works[ring] = false;
-    ++lost;
-  }
-  return works;
-}
-
-/// The time offset of a firing [ns], rounded to float32 seconds as in a recording.
-std::int32_t sensor_time_offset(double offset_ns) {
-  const auto seconds = static_cast<float>(offset_ns * 1e-9);
-  return static_cast<std::int32_t>(std::llround(static_cast<double>(seconds) * 1e9));
-}
-
-/// Whether a direction lies in the blocked sector.
-bool is_blocked(const LidarDefectConfig& defects, const Eigen::Vector3d& direction) {
-  const double azimuth = std::atan2(direction.y(), direction.x());
-  const double off = azimuth - defects.blocked_sector_center_deg * kRadiansPerDegree;
-  return std::abs(std::remainder(off, 2.0 * std::numbers::pi)) <
-         0.5 * defects.blocked_sector_width_deg * kRadiansPerDegree;
-}
-
-/// Poses at rising times, found by walking along the trajectory.
-class PoseCursor {
- public:
-  explicit PoseCursor(const Trajectory& trajectory) : trajectory_(trajectory) {}
-
-  Pose at(Time stamp) {
-    while (next_ < trajectory_.size() && trajectory_[next_].stamp < stamp) ++next_;
-    if (next_ == trajectory_.size()) return trajectory_.back().pose;
-    if (next_ == 0) return trajectory_.front().pose;
-    const StampedPose& before = trajectory_[next_ - 1];
-    const StampedPose& after = trajectory_[next_];
-    const double fraction =
-        to_seconds(stamp - before.stamp) / to_seconds(after.stamp - before.stamp);
-    return interpolate(before.pose, after.pose, fraction);
-  }
-
- private:
-  const Trajectory& trajectory_;
-  std::size_t next_ = 0;
-};
 
 }  // namespace
 
 Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed)
     : config_(config),
       caster_(&caster),
+      calibration_(draw_calibration(config, run_seed)),
+      model_(config, calibration_),
       noise_(run_seed, "lidar.noise"),
       detection_(run_seed, "lidar.detection"),
-      returns_(static_cast<std::size_t>(config.rings)) {
+      intensity_noise_(run_seed, "lidar.intensity"),
+      beams_(make_beams(config, calibration_, run_seed)),
+      returns_(static_cast<std::size_t>(config.rings)),
+      before_(config.beam.is_line() ? 0 : returns_.size()),
+      errors_(returns_.size()),
+      edges_(config.rings, config.columns),
+      // Six sigma beyond the limit: noise cannot bring farther hits back into range.
+      reach_(static_cast<float>(config.range_max + model_.largest_range_error())) {
   for (const Material& material : caster.materials()) {
     reflectivity_.push_back(static_cast<float>(material.reflectivity));
   }
-  const std::vector<bool> works = working_rings(config, run_seed);
   for (const Person& person : caster.people()) {
     reflectivity_.push_back(static_cast<float>(person.material.reflectivity));
   }
-  const int blocks = (config.columns + kRayPacketSize - 1) / kRayPacketSize;
-  for (int block = 0; block < blocks; ++block) {
-    for (int ring = 0; ring < config.rings; ++ring) {
-      Beams& beams = beams_.emplace_back();
-      for (int lane = 0; lane < kRayPacketSize; ++lane) {
-        const int column = std::min(block * kRayPacketSize + lane, config.columns - 1);
-        const double offset = column * column_period_ns(config) + ring * ring_interval_ns(config);
-        const Eigen::Vector3d direction = beam_direction(config, ring, offset);
-        beams.x[lane] = static_cast<float>(direction.x());
-        beams.y[lane] = static_cast<float>(direction.y());
-        beams.z[lane] = static_cast<float>(direction.z());
-        beams.time_offset_ns[lane] = sensor_time_offset(offset);
-        beams.open[lane] = works[static_cast<std::size_t>(ring)] &&
-                           !is_blocked(config.defects, direction) &&
-                           !enters_body_mask(config, direction);
-      }
-    }
-  }
 }
 
-Duration Lidar::period() const { return scan_period(config_); }
+int Lidar::lanes_of(int block) const {
+  return std::min(kRayPacketSize, config_.columns - block * kRayPacketSize);
+}
 
 LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* truth) {
   assert(!T_world_lidar.empty());
@@ -144,18 +69,28 @@ LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* tr
   PoseCursor cursor(T_world_lidar);
   std::vector<Pose> poses(kRayPacketSize + 1);
   const double column_ns = column_period_ns(config_);
+  const int blocks = (config_.columns + kRayPacketSize - 1) / kRayPacketSize;
   poses.back() = cursor.at(start);
-  for (int first = 0; first < config_.columns; first += kRayPacketSize) {
-    const int lanes = std::min(kRayPacketSize, config_.columns - first);
+  edges_.clear();
+  // An edge is known once the next block is cast: with footprints, points follow a block later.
+  for (int block = 0; block < blocks; ++block) {
+    const int first = block * kRayPacketSize;
     poses.front() = poses.back();
     for (int lane = 1; lane <= kRayPacketSize; ++lane) {
-      poses[lane] = cursor.at(start + std::llround((first + std::min(lane, lanes)) * column_ns));
+      const int column = first + std::min(lane, lanes_of(block));
+      poses[lane] = cursor.at(start + std::llround(column * column_ns));
     }
-    const int block = first / kRayPacketSize;
     aim(block, poses);
-    receive(block, lanes, start);
-    append_points(block, lanes, scan, truth);
+    receive(block, start);
+    if (config_.beam.is_line()) {
+      append_points(block, returns_, scan, truth);
+      continue;
+    }
+    mark_edges(block);
+    if (block > 0) spread_and_append(block - 1, scan, truth);
+    std::swap(returns_, before_);
   }
+  if (!config_.beam.is_line()) spread_and_append(blocks - 1, scan, truth);
   return scan;
 }
 
@@ -180,7 +115,7 @@ void Lidar::aim(int block, const std::vector<Pose>& column_poses) {
     here = next;
   }
   for (int ring = 0; ring < config_.rings; ++ring) {
-    const Beams& beams = beams_[block * config_.rings + ring];
+    const BeamDirections& beams = beams_.actual(block * config_.rings + ring);
     RayPacket& rays = returns_[ring].rays;
     const auto fraction =
         static_cast<float>(ring * ring_interval_ns(config_) / column_period_ns(config_));
@@ -198,29 +133,99 @@ void Lidar::aim(int block, const std::vector<Pose>& column_poses) {
   }
 }
 
-void Lidar::receive(int block, int lanes, Time start) {
-  // Six sigma beyond the limit: noise cannot bring farther hits back into range.
-  const auto reach = static_cast<float>(config_.range_max + 6.0 * config_.range_sigma);
+/// Casts the rays of a packet, people included, and finds the strengths of their returns.
+void Lidar::cast(const std::array<Time, kRayPacketSize>& stamps, int count, Returns& each) const {
+  caster_->cast(each.rays, reach_, each.hits, count);
+  if (!caster_->people().empty()) {
+    intersect_people(caster_->people(), each.rays, stamps, caster_->first_moving_surface(), reach_,
+                     each.hits);
+  }
+  const RayPacket& rays = each.rays;
+  const HitPacket& hits = each.hits;
+  LaneValues reflectivity;
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    each.cosine[i] =
+        -(hits.normal_x[i] * rays.direction_x[i] + hits.normal_y[i] * rays.direction_y[i] +
+          hits.normal_z[i] * rays.direction_z[i]);
+    reflectivity[i] = hits.surface[i] < 0 ? 0.0F : reflectivity_[hits.surface[i]];
+  }
+  model_.strengths(reflectivity, each.cosine, each.strength);
+}
+
+void Lidar::receive(int block, Time start) {
   for (int ring = 0; ring < config_.rings; ++ring) {
-    Returns& each = returns_[ring];
-    caster_->cast(each.rays, reach, each.hits, lanes);
-    if (!caster_->people().empty()) {
-      const Beams& beams = beams_[block * config_.rings + ring];
-      std::array<Time, kRayPacketSize> stamps;
-      for (int i = 0; i < kRayPacketSize; ++i) stamps[i] = start + beams.time_offset_ns[i];
-      intersect_people(caster_->people(), each.rays, stamps, caster_->first_moving_surface(), reach,
-                       each.hits);
+    const BeamPacket& beams = beams_.packets[block * config_.rings + ring];
+    std::array<Time, kRayPacketSize> stamps;
+    for (int i = 0; i < kRayPacketSize; ++i) stamps[i] = start + beams.time_offset_ns[i];
+    cast(stamps, lanes_of(block), returns_[ring]);
+  }
+}
+
+/// Marks the firings beside every step in range within the newest block, to the block before, and
+/// between its rings.
+void Lidar::mark_edges(int block) {
+  const int lanes = lanes_of(block);
+  const int first = block * kRayPacketSize;
+  for (int ring = 0; ring < config_.rings; ++ring) {
+    const Returns& each = returns_[ring];
+    if (block > 0) mark_edge(ring, first - 1, before_[ring], kRayPacketSize - 1, each, 0);
+    for (int lane = 0; lane + 1 < lanes; ++lane) {
+      mark_edge(ring, first + lane, each, lane, each, lane + 1);
     }
-    const RayPacket& rays = each.rays;
-    const HitPacket& hits = each.hits;
-    for (int i = 0; i < kRayPacketSize; ++i) {
-      const float cosine =
-          -(hits.normal_x[i] * rays.direction_x[i] + hits.normal_y[i] * rays.direction_y[i] +
-            hits.normal_z[i] * rays.direction_z[i]);
-      const float reflectivity = hits.surface[i] < 0 ? 0.0F : reflectivity_[hits.surface[i]];
-      each.strength[i] = std::clamp(reflectivity * cosine, 0.0F, 1.0F);
+    if (ring + 1 == config_.rings) continue;
+    const Returns& above = returns_[ring + 1];
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (!range_steps_between(each.rays, each.hits, lane, above.rays, above.hits, lane)) continue;
+      edges_.mark_one(ring, first + lane);
+      edges_.mark_one(ring + 1, first + lane);
     }
   }
+}
+
+/// Marks the firings whose footprint may reach a step between `column` and the next one.
+void Lidar::mark_edge(int ring, int column, const Returns& a, int lane_a, const Returns& b,
+                      int lane_b) {
+  if (!range_steps_between(a.rays, a.hits, lane_a, b.rays, b.hits, lane_b)) return;
+  const double nearer = std::min(a.hits.distance[lane_a], b.hits.distance[lane_b]);
+  const double column_angle = 2.0 * std::numbers::pi / config_.columns;
+  const double reach = std::ceil(footprint_half_angle(config_.beam, nearer) / column_angle);
+  edges_.mark(ring, column, static_cast<int>(std::min<double>(reach, kRayPacketSize - 1)));
+}
+
+/// Points of the block before the newest, each footprint over an edge resolved.
+void Lidar::spread_and_append(int block, LidarScan& scan, ScanTruth* truth) {
+  for (int ring = 0; ring < config_.rings; ++ring) {
+    if (!edges_.any(ring, block * kRayPacketSize)) continue;
+    for (int lane = 0; lane < lanes_of(block); ++lane) {
+      if (!edges_.marked(ring, block * kRayPacketSize + lane)) continue;
+      resolve_footprint(block, ring, lane, scan.stamp);
+    }
+  }
+  append_points(block, before_, scan, truth);
+}
+
+/// Replaces the return of a marked firing by the strongest echo of its footprint; takes the mark
+/// back when the whole footprint is on the surface of its centre.
+void Lidar::resolve_footprint(int block, int ring, int lane, Time start) {
+  Returns& each = before_[ring];
+  Returns parts;
+  parts.rays = footprint_rays(config_.beam, each.rays, lane);
+  std::array<Time, kRayPacketSize> stamps;
+  stamps.fill(start + beams_.packets[block * config_.rings + ring].time_offset_ns[lane]);
+  cast(stamps, kRayPacketSize, parts);
+  if (std::ranges::count(parts.hits.surface, each.hits.surface[lane]) == kRayPacketSize) {
+    edges_.unmark(ring, block * kRayPacketSize + lane);
+    return;
+  }
+  const Echo echo = strongest_echo(parts.hits, parts.strength, config_.beam.pulse_length);
+  each.hits.surface[lane] = echo.lane < 0 ? -1 : parts.hits.surface[echo.lane];
+  if (echo.lane < 0) return;
+  each.hits.distance[lane] = echo.distance;
+  each.hits.normal_x[lane] = parts.hits.normal_x[echo.lane];
+  each.hits.normal_y[lane] = parts.hits.normal_y[echo.lane];
+  each.hits.normal_z[lane] = parts.hits.normal_z[echo.lane];
+  each.cosine[lane] = parts.cosine[echo.lane];
+  each.strength[lane] = echo.strength;
 }
 
 bool Lidar::detected(float strength, float range) {
@@ -228,35 +233,67 @@ bool Lidar::detected(float strength, float range) {
   return detection_.chance((1.0 - config_.miss_probability) * probability);
 }
 
-void Lidar::append_points(int block, int lanes, LidarScan& scan, ScanTruth* truth) {
+void Lidar::find_range_errors(const std::vector<Returns>& returns) {
+  for (int ring = 0; ring < config_.rings; ++ring) {
+    const Returns& each = returns[ring];
+    RangeErrors& errors = errors_[ring];
+    if (model_.noise_differs()) {
+      model_.range_sigmas(each.strength, each.hits.distance, errors.sigma);
+    }
+    if (model_.has_bias()) model_.range_biases(ring, each.cosine, errors.bias);
+  }
+}
+
+double Lidar::measured_range(float distance, const RangeErrors& errors, int lane) {
+  const double sigma = model_.noise_differs() ? errors.sigma[lane] : config_.range_sigma;
+  double range = distance + sigma * noise_.normal();
+  if (model_.has_bias()) range += errors.bias[lane];
+  return rounded(range, config_.range_resolution);
+}
+
+float Lidar::measured_intensity(float strength) {
+  double intensity = strength;
+  if (config_.intensity_sigma > 0.0) {
+    intensity *= 1.0 + config_.intensity_sigma * intensity_noise_.normal();
+  }
+  return static_cast<float>(std::clamp(rounded(intensity, config_.intensity_resolution), 0.0, 1.0));
+}
+
+void Lidar::append_points(int block, const std::vector<Returns>& returns, LidarScan& scan,
+                          ScanTruth* truth) {
+  find_range_errors(returns);
+  const int lanes = lanes_of(block);
   for (int lane = 0; lane < lanes; ++lane) {
     for (int ring = 0; ring < config_.rings; ++ring) {
-      const Beams& beams = beams_[block * config_.rings + ring];
-      const Returns& each = returns_[ring];
-      const int surface = each.hits.surface[lane];
-      if (surface < 0 || !beams.open[lane]) continue;
+      const BeamPacket& beams = beams_.packets[block * config_.rings + ring];
+      const Returns& each = returns[ring];
+      if (each.hits.surface[lane] < 0 || !beams.open[lane]) continue;
       if (!detected(each.strength[lane], each.hits.distance[lane])) continue;
-      const double range = each.hits.distance[lane] + config_.range_sigma * noise_.normal();
+      const double range = measured_range(each.hits.distance[lane], errors_[ring], lane);
       if (range < config_.range_min || range > config_.range_max) continue;
       LidarPoint& point = scan.points.emplace_back();
       point.position =
-          static_cast<float>(range) * Eigen::Vector3f(beams.x[lane], beams.y[lane], beams.z[lane]);
-      point.intensity = each.strength[lane];
+          static_cast<float>(range) *
+          Eigen::Vector3f(beams.nominal.x[lane], beams.nominal.y[lane], beams.nominal.z[lane]);
+      point.intensity = measured_intensity(each.strength[lane]);
       point.time_offset_ns = beams.time_offset_ns[lane];
       point.ring = static_cast<std::uint16_t>(ring);
       if (truth == nullptr) continue;
-      const RayPacket& rays = each.rays;
-      const Eigen::Vector3f origin(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
-      const Eigen::Vector3f direction(rays.direction_x[lane], rays.direction_y[lane],
-                                      rays.direction_z[lane]);
-      const Eigen::Vector3f normal(each.hits.normal_x[lane], each.hits.normal_y[lane],
-                                   each.hits.normal_z[lane]);
-      truth->normals.push_back(normal);
-      truth->surfaces.push_back(surface);
-      truth->points.emplace_back(origin + each.hits.distance[lane] * direction);
-      truth->cosines.push_back(std::clamp(-normal.dot(direction), 0.0F, 1.0F));
+      append_hit(each.rays, each.hits, lane, *truth);
+      append_noise(ring, block * kRayPacketSize + lane, *truth);
     }
   }
+}
+
+/// Rounding to a step adds step^2 / 12 to the variance.
+void Lidar::append_noise(int ring, int column, ScanTruth& truth) const {
+  if (config_.beam.is_line() && !model_.noise_differs() && config_.range_resolution == 0.0) return;
+  const double sigma =
+      model_.noise_differs() ? errors_[ring].sigma[column % kRayPacketSize] : config_.range_sigma;
+  const double rounding = config_.range_resolution * config_.range_resolution / 12.0;
+  truth.range_sigmas.push_back(edges_.marked(ring, column)
+                                   ? std::numeric_limits<float>::infinity()
+                                   : static_cast<float>(std::sqrt(sigma * sigma + rounding)));
 }
 
 }  // namespace aims

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/sensors/lidar_config.hpp"
+
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "sim/sensors/lidar.hpp"
-
 namespace aims {
-namespace {
-
-constexpr double kReferenceReflectivity = 0.1;
-/// Received power over the threshold beyond which a return is certain, and below the inverse of
-/// which there is none.
-constexpr double kCertainPower = 8.0;
-
-}  // namespace
-
 void describe(Fields& f, LidarDefectConfig& c) {
   f.number("dead_ring_fraction", c.dead_ring_fraction,
            {.unit = "-",
@@ -28,6 +17,55 @@ void describe(Fields& f, LidarDefectConfig& c) {
            {.unit = "deg",
             .range = in_range(0.0, 360.0),
             .meaning = "Width of the blocked sector; 0 for none."});
+}
+
+void describe(Fields& f, LidarCalibrationConfig& c) {
+  const auto length = [&](std::string_view name, double& value, std::string meaning,
+                          std::string source = {}) {
+    f.number(name, value,
+             {.unit = "m",
+              .range = up_to(0.5),
+              .meaning = std::move(meaning),
+              .source = std::move(source)});
+  };
+  const auto angle = [&](std::string_view name, double& value, std::string meaning) {
+    f.number(name, value, {.unit = "deg", .range = up_to(2.0), .meaning = std::move(meaning)});
+  };
+  length("range_bias_sigma", c.range_bias_sigma,
+         "Standard deviation of the offset of all ranges, drawn per run.");
+  length("incidence_bias_mean", c.incidence_bias_mean,
+         "Mean of the factor c of the range offset c (1 / cos(incidence) - 1).",
+         "Laconte et al., ICRA 2019");
+  length("incidence_bias_sigma", c.incidence_bias_sigma,
+         "Standard deviation of that factor, drawn per run.");
+  length("ring_range_sigma", c.ring_range_sigma,
+         "Standard deviation of each ring's range offset, drawn per run.");
+  angle("ring_elevation_sigma_deg", c.ring_elevation_sigma_deg,
+        "Standard deviation of each ring's true elevation about the nominal one, drawn per run.");
+  angle("azimuth_sigma_deg", c.azimuth_sigma_deg,
+        "Standard deviation of both components of the encoder error of one period per revolution, "
+        "drawn per run.");
+}
+
+void describe(Fields& f, LidarBeamConfig& c) {
+  f.number("divergence_horizontal", c.divergence_horizontal,
+           {.unit = "rad",
+            .range = up_to(0.1),
+            .meaning = "Full horizontal angle by which the beam widens."});
+  f.number("divergence_vertical", c.divergence_vertical,
+           {.unit = "rad",
+            .range = up_to(0.1),
+            .meaning = "Full vertical angle by which the beam widens."});
+  f.number("exit_width", c.exit_width,
+           {.unit = "m", .range = up_to(0.1), .meaning = "Width of the beam at the sensor."});
+  f.number("exit_height", c.exit_height,
+           {.unit = "m", .range = up_to(0.1), .meaning = "Height of the beam at the sensor."});
+  f.number("pulse_length", c.pulse_length,
+           {.unit = "m",
+            .range = in_range(0.05, 10.0),
+            .meaning = "Surfaces in one footprint that are nearer to each other in range give one "
+                       "return between them; others two echoes, of which the stronger is reported.",
+            .source = "VLP-16 user manual: two returns of a firing are at least 1 m apart"});
 }
 
 void describe(Fields& f, LidarConfig& c) {
@@ -62,6 +100,14 @@ void describe(Fields& f, LidarConfig& c) {
            {.unit = "m",
             .range = in_range(0.0, 1.0),
             .meaning = "Standard deviation of the white range noise."});
+  f.number("range_sigma_at_threshold", c.range_sigma_at_threshold,
+           {.unit = "m",
+            .range = up_to(1.0),
+            .meaning = "Further white range noise at the power of the detection threshold; its "
+                       "variance falls as one over the received power."});
+  f.number(
+      "range_resolution", c.range_resolution,
+      {.unit = "m", .range = up_to(1.0), .meaning = "Step of the reported range; 0 for none."});
   f.number("miss_probability", c.miss_probability,
            {.unit = "-",
             .range = in_half_open(0.0, 1.0),
@@ -75,6 +121,20 @@ void describe(Fields& f, LidarConfig& c) {
            {.unit = "-",
             .range = in_range(4.0, 50.0),
             .meaning = "Steepness of the detection probability over the received power."});
+  f.number("specular_loss", c.specular_loss,
+           {.unit = "-",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Smoothness of the surfaces: the part of the Fresnel reflection that is "
+                       "mirrored away and lost, on the way in and out.",
+            .source = "Schlick's approximation with 4 % at normal incidence"});
+  f.number("intensity_sigma", c.intensity_sigma,
+           {.unit = "-",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Standard deviation of the intensity relative to its value."});
+  f.number("intensity_resolution", c.intensity_resolution,
+           {.unit = "-",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Step of the reported intensity; 0 for none."});
   f.vector("body_mask_min", c.body_mask_min,
            {.unit = "m",
             .range = within(100.0),
@@ -83,6 +143,8 @@ void describe(Fields& f, LidarConfig& c) {
            {.unit = "m",
             .range = within(100.0),
             .meaning = "Upper corner of the body mask in the LiDAR frame."});
+  f.group("beam", c.beam);
+  f.group("calibration", c.calibration);
   f.group("defects", c.defects);
 }
 
@@ -97,15 +159,6 @@ Result<void> validate(const LidarConfig& config) {
                     config.elevation_min_deg, config.elevation_max_deg));
   }
   return {};
-}
-
-double detection_probability(const LidarConfig& config, double reflectivity, double cos_incidence,
-                             double range) {
-  const double ratio = config.range_at_10_percent / range;
-  const double power = reflectivity / kReferenceReflectivity * cos_incidence * ratio * ratio;
-  if (power >= kCertainPower) return 1.0;
-  if (power * kCertainPower <= 1.0) return 0.0;
-  return 1.0 / (1.0 + std::pow(power, -config.detection_steepness));
 }
 
 }  // namespace aims

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/sensors/lidar_calibration.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/random.hpp"
+
+namespace aims {
+
+bool LidarCalibration::directions_are_nominal() const {
+  return azimuth_cosine == 0.0 && azimuth_sine == 0.0 &&
+         std::ranges::all_of(ring_elevation, [](double offset) { return offset == 0.0; });
+}
+
+LidarCalibration draw_calibration(const LidarConfig& config, std::uint64_t run_seed) {
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  const LidarCalibrationConfig& spread = config.calibration;
+  RandomStream random = rng(run_seed, "lidar.calibration");
+  LidarCalibration drawn;
+  drawn.range_bias = spread.range_bias_sigma * random.normal();
+  drawn.incidence_bias = spread.incidence_bias_mean + spread.incidence_bias_sigma * random.normal();
+  drawn.azimuth_cosine = kRadians * spread.azimuth_sigma_deg * random.normal();
+  drawn.azimuth_sine = kRadians * spread.azimuth_sigma_deg * random.normal();
+  for (int ring = 0; ring < config.rings; ++ring) {
+    drawn.ring_range.push_back(spread.ring_range_sigma * random.normal());
+    drawn.ring_elevation.push_back(kRadians * spread.ring_elevation_sigma_deg * random.normal());
+  }
+  return drawn;
+}
+
+}  // namespace aims
