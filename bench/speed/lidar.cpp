@@ -69,9 +69,31 @@ Trajectory walking_poses(double from_x) {
   return poses;
 }
 
-void scan(benchmark::State& state, const SceneConfig& config) {
+/// Every error of the sensor switched on, as in models/sensors/field.yaml.
+LidarConfig field_lidar() {
+  LidarConfig config;
+  config.range_sigma = 0.01;
+  config.range_sigma_at_threshold = 0.03;
+  config.range_resolution = 0.002;
+  config.specular_loss = 0.5;
+  config.intensity_sigma = 0.05;
+  config.intensity_resolution = 0.01;
+  config.beam = {.divergence_horizontal = 0.003,
+                 .divergence_vertical = 0.0012,
+                 .exit_width = 0.0127,
+                 .exit_height = 0.0095};
+  config.calibration = {.range_bias_sigma = 0.01,
+                        .incidence_bias_mean = 0.0073,
+                        .incidence_bias_sigma = 0.002,
+                        .ring_range_sigma = 0.008,
+                        .ring_elevation_sigma_deg = 0.03,
+                        .azimuth_sigma_deg = 0.02};
+  return config;
+}
+
+void scan(benchmark::State& state, const SceneConfig& config, const LidarConfig& sensor) {
   const RayCaster caster(build_scene(config, 1));
-  Lidar lidar(LidarConfig{}, caster, 1);
+  Lidar lidar(sensor, caster, 1);
   const Trajectory poses = walking_poses(40.0);
   std::size_t points = 0;
   for (auto _ : state) {
@@ -87,9 +109,18 @@ void scan(benchmark::State& state, const SceneConfig& config) {
 BENCHMARK_CAPTURE(cast_rays, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cast_rays, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cast_rays, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(scan, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(scan, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(scan, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_ideal, corridor(0.0, 0.0), LidarConfig{})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_field, corridor(0.0, 0.0), field_lidar())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_clutter_ideal, corridor(0.0, 1.0), LidarConfig{})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_clutter_field, corridor(0.0, 1.0), field_lidar())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_bumps_ideal, corridor(0.02, 0.0), LidarConfig{})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_bumps_field, corridor(0.02, 0.0), field_lidar())
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace aims

@@ -49,36 +49,67 @@ bool range_steps_between(const RayPacket& rays_a, const HitPacket& hits_a, int a
          (past_a < -kLeastStep && past_b > kLeastStep);
 }
 
-RayPacket footprint_rays(const LidarBeamConfig& beam, const RayPacket& rays, int lane) {
+BeamFootprint::BeamFootprint(const LidarBeamConfig& beam) : beam_(beam) {
   // A lattice of rank one: sixteen levels along each axis, so that an edge of any direction divides
   // the footprint in steps of a sixteenth.
   constexpr int kStep = 7;
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    const double u = (i + 0.5) / kRayPacketSize - 0.5;
+    const double v = (i * kStep % kRayPacketSize + 0.5) / kRayPacketSize - 0.5;
+    shift_across_[i] = static_cast<float>(u * beam.exit_width);
+    shift_up_[i] = static_cast<float>(v * beam.exit_height);
+    turn_across_[i] = static_cast<float>(u * beam.divergence_horizontal);
+    turn_up_[i] = static_cast<float>(v * beam.divergence_vertical);
+    scale_[i] = 1.0F / std::hypot(1.0F, turn_across_[i], turn_up_[i]);
+  }
+}
+
+RayPacket BeamFootprint::parts(const RayPacket& rays, int lane) const {
   const Eigen::Vector3f origin = origin_of(rays, lane);
   const Eigen::Vector3f direction = direction_of(rays, lane);
   const Eigen::Vector3f across = Eigen::Vector3f::UnitZ().cross(direction).normalized();
   const Eigen::Vector3f up = direction.cross(across);
   RayPacket spread;
   for (int i = 0; i < kRayPacketSize; ++i) {
-    const float u = (static_cast<float>(i) + 0.5F) / kRayPacketSize - 0.5F;
-    const float v = (static_cast<float>(i * kStep % kRayPacketSize) + 0.5F) / kRayPacketSize - 0.5F;
-    const Eigen::Vector3f from = origin + u * static_cast<float>(beam.exit_width) * across +
-                                 v * static_cast<float>(beam.exit_height) * up;
-    const Eigen::Vector3f towards =
-        (direction + u * static_cast<float>(beam.divergence_horizontal) * across +
-         v * static_cast<float>(beam.divergence_vertical) * up)
-            .normalized();
-    spread.origin_x[i] = from.x();
-    spread.origin_y[i] = from.y();
-    spread.origin_z[i] = from.z();
-    spread.direction_x[i] = towards.x();
-    spread.direction_y[i] = towards.y();
-    spread.direction_z[i] = towards.z();
+    const float side = shift_across_[i];
+    const float rise = shift_up_[i];
+    spread.origin_x[i] = origin.x() + side * across.x() + rise * up.x();
+    spread.origin_y[i] = origin.y() + side * across.y() + rise * up.y();
+    spread.origin_z[i] = origin.z() + side * across.z() + rise * up.z();
+    const float yaw = turn_across_[i];
+    const float pitch = turn_up_[i];
+    spread.direction_x[i] = scale_[i] * (direction.x() + yaw * across.x() + pitch * up.x());
+    spread.direction_y[i] = scale_[i] * (direction.y() + yaw * across.y() + pitch * up.y());
+    spread.direction_z[i] = scale_[i] * (direction.z() + yaw * across.z() + pitch * up.z());
   }
   return spread;
 }
 
-double footprint_half_angle(const LidarBeamConfig& beam, double distance) {
-  return 0.5 * (beam.divergence_horizontal + beam.exit_width / distance);
+RayPacket BeamFootprint::border(const RayPacket& rays, int side) const {
+  const auto pitch = static_cast<float>(0.5 * side * beam_.divergence_vertical);
+  const auto rise = static_cast<float>(0.5 * side * beam_.exit_height);
+  const float scale = 1.0F / std::hypot(1.0F, pitch);
+  RayPacket turned = rays;
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    // Perpendicular to the beam, in its vertical plane.
+    const float x = rays.direction_x[i];
+    const float y = rays.direction_y[i];
+    const float z = rays.direction_z[i];
+    const float level = std::sqrt(std::max(x * x + y * y, 1e-12F));
+    const float up_x = -z * x / level;
+    const float up_y = -z * y / level;
+    turned.origin_x[i] += rise * up_x;
+    turned.origin_y[i] += rise * up_y;
+    turned.origin_z[i] += rise * level;
+    turned.direction_x[i] = scale * (x + pitch * up_x);
+    turned.direction_y[i] = scale * (y + pitch * up_y);
+    turned.direction_z[i] = scale * (z + pitch * level);
+  }
+  return turned;
+}
+
+double BeamFootprint::half_angle(double distance) const {
+  return 0.5 * (beam_.divergence_horizontal + beam_.exit_width / distance);
 }
 
 Echo strongest_echo(const HitPacket& hits, const LaneValues& strength, double pulse_length) {
@@ -121,15 +152,16 @@ EdgeMap::EdgeMap(int rings, int columns)
 
 void EdgeMap::clear() { std::ranges::fill(marks_, std::uint8_t{0}); }
 
-void EdgeMap::mark(int ring, int before, int reach) {
+void EdgeMap::mark_beside(int ring, int before, int reach) {
   const int begin = std::max(before - reach + 1, 0);
   const int end = std::min(before + reach, columns_ - 1);
-  for (int column = begin; column <= end; ++column) mark_one(ring, column);
+  for (int column = begin; column <= end; ++column) mark(ring, column, kBeside);
 }
 
-bool EdgeMap::any(int ring, int first) const {
-  const auto begin = marks_.begin() + static_cast<std::ptrdiff_t>(index(ring, first));
-  return std::any_of(begin, begin + kRayPacketSize, [](std::uint8_t mark) { return mark != 0; });
+bool EdgeMap::any(int ring, int first, int places) const {
+  std::uint8_t found = 0;
+  for (int i = 0; i < kRayPacketSize; ++i) found |= marks_[index(ring, first + i)];
+  return (found & places) != 0;
 }
 
 }  // namespace aims

@@ -14,11 +14,26 @@ namespace aims {
 bool range_steps_between(const RayPacket& rays_a, const HitPacket& hits_a, int a,
                          const RayPacket& rays_b, const HitPacket& hits_b, int b);
 
-/// Sixteen rays spread evenly over the footprint of lane `lane`. Width is horizontal in the world.
-RayPacket footprint_rays(const LidarBeamConfig& beam, const RayPacket& rays, int lane);
+/// Rays within the footprint of a beam. Its width is horizontal in the world.
+class BeamFootprint {
+ public:
+  explicit BeamFootprint(const LidarBeamConfig& beam);
 
-/// Half of the footprint's width at a distance, as an angle from the beam [rad].
-double footprint_half_angle(const LidarBeamConfig& beam, double distance);
+  /// Sixteen rays spread evenly over the footprint of lane `lane`.
+  RayPacket parts(const RayPacket& rays, int lane) const;
+
+  /// The ray in the middle of the footprint's upper (+1) or lower (-1) edge, for every lane.
+  RayPacket border(const RayPacket& rays, int side) const;
+
+  /// Half of the footprint's width at a distance, as an angle from the beam [rad].
+  double half_angle(double distance) const;
+
+ private:
+  LidarBeamConfig beam_;
+  LaneValues shift_across_, shift_up_;  ///< of the origin, by part [m]
+  LaneValues turn_across_, turn_up_;    ///< of the direction, by part [rad]
+  LaneValues scale_;                    ///< makes the direction a unit vector
+};
 
 /// What the receiver takes from a footprint of sixteen equal parts.
 struct Echo {
@@ -33,16 +48,25 @@ Echo strongest_echo(const HitPacket& hits, const LaneValues& strength, double pu
 /// The firings of a scan whose footprint may meet a step in range.
 class EdgeMap {
  public:
+  /// Where the step may be, as bits.
+  enum Place : std::uint8_t { kNone = 0, kBeside = 1, kAbove = 2, kBelow = 4 };
+
   EdgeMap(int rings, int columns);
 
   void clear();
   /// Marks `reach` firings of a ring on either side of the gap after column `before`.
-  void mark(int ring, int before, int reach);
-  void mark_one(int ring, int column) { marks_[index(ring, column)] = 1; }
-  void unmark(int ring, int column) { marks_[index(ring, column)] = 0; }
-  bool marked(int ring, int column) const { return marks_[index(ring, column)] != 0; }
-  /// Whether any of the sixteen firings from `first` on is marked.
-  bool any(int ring, int first) const;
+  void mark_beside(int ring, int before, int reach);
+  void mark(int ring, int column, Place place) { marks_[index(ring, column)] |= place; }
+  void unmark(int ring, int column, Place place) {
+    marks_[index(ring, column)] &= static_cast<std::uint8_t>(~place);
+  }
+  void unmark(int ring, int column) { marks_[index(ring, column)] = kNone; }
+  bool marked(int ring, int column) const { return marks_[index(ring, column)] != kNone; }
+  bool marked(int ring, int column, Place place) const {
+    return (marks_[index(ring, column)] & place) != 0;
+  }
+  /// Whether any of the sixteen firings from `first` on is marked at one of `places`.
+  bool any(int ring, int first, int places) const;
 
  private:
   std::size_t index(int ring, int column) const {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "sim/environment/people.hpp"
@@ -14,9 +14,10 @@
 namespace aims {
 namespace {
 
-/// The nearest multiple of `step`; a step of zero leaves the value.
+/// The nearest multiple of `step` of a value above minus half a step; a step of zero leaves it.
 double rounded(double value, double step) {
-  return step > 0.0 ? step * std::round(value / step) : value;
+  return step > 0.0 ? step * static_cast<double>(static_cast<std::int64_t>(value / step + 0.5))
+                    : value;
 }
 
 /// The true hit of one point.
@@ -45,6 +46,7 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
       returns_(static_cast<std::size_t>(config.rings)),
       before_(config.beam.is_line() ? 0 : returns_.size()),
       errors_(returns_.size()),
+      footprint_(config.beam),
       edges_(config.rings, config.columns),
       // Six sigma beyond the limit: noise cannot bring farther hits back into range.
       reach_(static_cast<float>(config.range_max + model_.largest_range_error())) {
@@ -87,10 +89,10 @@ LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* tr
       continue;
     }
     mark_edges(block);
-    if (block > 0) spread_and_append(block - 1, scan, truth);
+    if (block > 0) finish_before(block - 1, scan, truth);
     std::swap(returns_, before_);
   }
-  if (!config_.beam.is_line()) spread_and_append(blocks - 1, scan, truth);
+  if (!config_.beam.is_line()) finish_before(blocks - 1, scan, truth);
   return scan;
 }
 
@@ -159,73 +161,6 @@ void Lidar::receive(int block, Time start) {
     for (int i = 0; i < kRayPacketSize; ++i) stamps[i] = start + beams.time_offset_ns[i];
     cast(stamps, lanes_of(block), returns_[ring]);
   }
-}
-
-/// Marks the firings beside every step in range within the newest block, to the block before, and
-/// between its rings.
-void Lidar::mark_edges(int block) {
-  const int lanes = lanes_of(block);
-  const int first = block * kRayPacketSize;
-  for (int ring = 0; ring < config_.rings; ++ring) {
-    const Returns& each = returns_[ring];
-    if (block > 0) mark_edge(ring, first - 1, before_[ring], kRayPacketSize - 1, each, 0);
-    for (int lane = 0; lane + 1 < lanes; ++lane) {
-      mark_edge(ring, first + lane, each, lane, each, lane + 1);
-    }
-    if (ring + 1 == config_.rings) continue;
-    const Returns& above = returns_[ring + 1];
-    for (int lane = 0; lane < lanes; ++lane) {
-      if (!range_steps_between(each.rays, each.hits, lane, above.rays, above.hits, lane)) continue;
-      edges_.mark_one(ring, first + lane);
-      edges_.mark_one(ring + 1, first + lane);
-    }
-  }
-}
-
-/// Marks the firings whose footprint may reach a step between `column` and the next one.
-void Lidar::mark_edge(int ring, int column, const Returns& a, int lane_a, const Returns& b,
-                      int lane_b) {
-  if (!range_steps_between(a.rays, a.hits, lane_a, b.rays, b.hits, lane_b)) return;
-  const double nearer = std::min(a.hits.distance[lane_a], b.hits.distance[lane_b]);
-  const double column_angle = 2.0 * std::numbers::pi / config_.columns;
-  const double reach = std::ceil(footprint_half_angle(config_.beam, nearer) / column_angle);
-  edges_.mark(ring, column, static_cast<int>(std::min<double>(reach, kRayPacketSize - 1)));
-}
-
-/// Points of the block before the newest, each footprint over an edge resolved.
-void Lidar::spread_and_append(int block, LidarScan& scan, ScanTruth* truth) {
-  for (int ring = 0; ring < config_.rings; ++ring) {
-    if (!edges_.any(ring, block * kRayPacketSize)) continue;
-    for (int lane = 0; lane < lanes_of(block); ++lane) {
-      if (!edges_.marked(ring, block * kRayPacketSize + lane)) continue;
-      resolve_footprint(block, ring, lane, scan.stamp);
-    }
-  }
-  append_points(block, before_, scan, truth);
-}
-
-/// Replaces the return of a marked firing by the strongest echo of its footprint; takes the mark
-/// back when the whole footprint is on the surface of its centre.
-void Lidar::resolve_footprint(int block, int ring, int lane, Time start) {
-  Returns& each = before_[ring];
-  Returns parts;
-  parts.rays = footprint_rays(config_.beam, each.rays, lane);
-  std::array<Time, kRayPacketSize> stamps;
-  stamps.fill(start + beams_.packets[block * config_.rings + ring].time_offset_ns[lane]);
-  cast(stamps, kRayPacketSize, parts);
-  if (std::ranges::count(parts.hits.surface, each.hits.surface[lane]) == kRayPacketSize) {
-    edges_.unmark(ring, block * kRayPacketSize + lane);
-    return;
-  }
-  const Echo echo = strongest_echo(parts.hits, parts.strength, config_.beam.pulse_length);
-  each.hits.surface[lane] = echo.lane < 0 ? -1 : parts.hits.surface[echo.lane];
-  if (echo.lane < 0) return;
-  each.hits.distance[lane] = echo.distance;
-  each.hits.normal_x[lane] = parts.hits.normal_x[echo.lane];
-  each.hits.normal_y[lane] = parts.hits.normal_y[echo.lane];
-  each.hits.normal_z[lane] = parts.hits.normal_z[echo.lane];
-  each.cosine[lane] = parts.cosine[echo.lane];
-  each.strength[lane] = echo.strength;
 }
 
 bool Lidar::detected(float strength, float range) {

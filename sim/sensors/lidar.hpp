@@ -66,8 +66,10 @@ class Lidar {
   void cast(const std::array<Time, kRayPacketSize>& stamps, int count, Returns& each) const;
   void mark_edges(int block);
   void mark_edge(int ring, int column, const Returns& a, int lane_a, const Returns& b, int lane_b);
-  void spread_and_append(int block, LidarScan& scan, ScanTruth* truth);
+  void probe_borders(int block, int ring, EdgeMap::Place place, Time start);
+  void spread_beams(int block, Time start);
   void resolve_footprint(int block, int ring, int lane, Time start);
+  void finish_before(int block, LidarScan& scan, ScanTruth* truth);
   void append_points(int block, const std::vector<Returns>& returns, LidarScan& scan,
                      ScanTruth* truth);
   void append_noise(int ring, int column, ScanTruth& truth) const;
@@ -89,6 +91,7 @@ class Lidar {
   std::vector<Returns> returns_;  ///< of the newest block, by ring
   std::vector<Returns> before_;   ///< of the block before, by ring; only with footprints
   std::vector<RangeErrors> errors_;
+  BeamFootprint footprint_;
   EdgeMap edges_;
   float reach_;  ///< of the rays [m]
 };

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "sim/environment/ray_caster.hpp"
@@ -280,6 +281,23 @@ TEST(ScanInformation, LeavesOutMovingSurfaces) {
   const ScanInformation scan = scan_information(0, hits, Pose{}, 0.1, 7);
   EXPECT_EQ(scan.returns, 1);
   EXPECT_DOUBLE_EQ(scan.information.bottomRightCorner(3, 3).trace(), 100.0);
+}
+
+TEST(ScanInformation, WeighsEveryReturnByItsOwnNoise) {
+  ScanTruth hits;
+  hits.points.assign(3, {5.0F, 0.0F, 0.0F});
+  hits.normals.assign(3, {-1.0F, 0.0F, 0.0F});
+  hits.cosines.assign(3, 1.0F);
+  hits.surfaces.assign(3, 0);
+  hits.range_sigmas = {0.1F, 0.2F, std::numeric_limits<float>::infinity()};
+  const ScanInformation scan = scan_information(0, hits, Pose{}, 0.05);
+  EXPECT_EQ(scan.returns, 2) << "infinite noise is no return";
+  EXPECT_NEAR(scan.information(3, 3), 100.0 + 25.0, 1e-4);
+  EXPECT_NEAR(scan.range_sigma, 1.0 / std::sqrt(0.5 * (100.0 + 25.0)), 1e-8);
+  hits.range_sigmas.assign(3, 0.05F);
+  const ScanInformation same = scan_information(0, hits, Pose{}, 0.05);
+  hits.range_sigmas.clear();
+  EXPECT_TRUE(same.information.isApprox(scan_information(0, hits, Pose{}, 0.05).information, 1e-6));
 }
 
 TEST(ScanInformation, OfAScanWithoutReturnsIsZero) {

@@ -304,7 +304,7 @@ TEST(Lidar, RepeatsBitForBitWithItsSeedAndOnlyWithIt) {
 TEST(LidarConfig, EveryParameterTakesItsOwnText) {
   LidarConfig config;
   const Fields fields = fields_of(config);
-  EXPECT_EQ(fields.parameters().size(), 18U);
+  EXPECT_EQ(fields.parameters().size(), 34U);
   for (const Parameter& each : fields.parameters()) {
     EXPECT_TRUE(each.assign(each.text())) << each.key << " = " << each.text();
   }
