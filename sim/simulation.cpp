@@ -153,9 +153,10 @@ void Simulation::Impl::deliver(Time now, Measurement measurement, Link& link) {
 }
 
 void Simulation::Impl::send_inertial(const TruthSample& motion) {
-  if (auto sample = imu.sample(motion)) deliver(motion.stamp, *sample, imu_link);
+  const Imu::FootLoads& loads = walker.world().state().foot_load;
+  if (auto sample = imu.sample(motion, loads)) deliver(motion.stamp, *sample, imu_link);
   if (!fast_imu) return;
-  if (auto sample = fast_imu->sample(motion)) fast_samples.push_back(*sample);
+  if (auto sample = fast_imu->sample(motion, loads)) fast_samples.push_back(*sample);
 }
 
 void Simulation::Impl::send_legs() {

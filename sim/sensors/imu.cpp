@@ -26,46 +26,15 @@ Eigen::Vector3d mean_rate(const TruthSample& before, const TruthSample& after) {
          to_seconds(after.stamp - before.stamp);
 }
 
-void describe_errors(Fields& f, std::string_view prefix, InertialErrorConfig& c,
-                     const std::string& unit, const std::string& source) {
-  const std::string name(prefix);
-  f.number(name + "_noise_density", c.noise_density,
-           {.unit = unit + "/sqrt(Hz)",
-            .range = up_to(1e3),
-            .meaning = "Density of the white noise.",
-            .source = source});
-  f.number(name + "_bias_walk", c.bias_walk,
-           {.unit = unit + "/sqrt(s)", .range = up_to(1e3), .meaning = "Random walk of the bias."});
-  f.number(name + "_turn_on_bias", c.turn_on_bias,
-           {.unit = unit,
-            .range = up_to(1e3),
-            .meaning = "Standard deviation per axis of the bias at the start of a run."});
-  f.number(name + "_scale_error", c.scale_error,
-           {.unit = "-",
-            .range = in_range(0.0, 0.2),
-            .meaning = "Standard deviation per axis of the scale error, constant in a run."});
-  f.number(name + "_range", c.range,
-           {.unit = unit,
-            .range = positive_up_to(1e3),
-            .meaning = "Magnitude at which an axis saturates."});
+/// Noise of a sample at an instant has the power that the chip's filter lets pass.
+InertialTriad triad(const ImuConfig& config, const InertialErrorConfig& errors, std::uint64_t seed,
+                    std::string_view name) {
+  const bool point = config.sampling == ImuSampling::kPoint;
+  const double bandwidth = point ? noise_bandwidth(config.bandwidth, config.filter_order) : 0.0;
+  return {errors, 1.0 / config.rate, bandwidth, seed, name};
 }
 
 }  // namespace
-
-Imu::Triad::Triad(const InertialErrorConfig& e, double sample_interval, std::uint64_t seed,
-                  std::string_view name)
-    : errors(e),
-      interval(sample_interval),
-      random(seed, name),
-      bias(e.turn_on_bias * random.normal3()),
-      scale(Eigen::Vector3d::Ones() + e.scale_error * random.normal3()) {}
-
-Eigen::Vector3d Imu::Triad::measure(const Eigen::Vector3d& truth) {
-  const double noise = errors.noise_density / std::sqrt(interval);
-  const Eigen::Vector3d value = scale.cwiseProduct(truth) + bias + noise * random.normal3();
-  bias += errors.bias_walk * std::sqrt(interval) * random.normal3();
-  return value.cwiseMax(-errors.range).cwiseMin(errors.range);
-}
 
 Result<void> validate(const ImuConfig& config, Duration timestep) {
   const auto steps = steps_per_sample("imu.rate", config.rate, timestep);
@@ -76,29 +45,57 @@ Result<void> validate(const ImuConfig& config, Duration timestep) {
 Imu::Imu(const ImuConfig& config, Duration timestep, std::uint64_t run_seed)
     : sampling_(config.sampling),
       steps_(*steps_per_sample("imu.rate", config.rate, timestep)),
-      gyro_(config.gyro, 1.0 / config.rate, run_seed, "imu.gyro"),
-      accelerometer_(config.accelerometer, 1.0 / config.rate, run_seed, "imu.accelerometer") {}
+      gyro_(triad(config, config.gyro, run_seed, "imu.gyro")),
+      accelerometer_(triad(config, config.accelerometer, run_seed, "imu.accelerometer")),
+      vibration_(config.vibration, to_seconds(timestep), run_seed),
+      gyro_filter_(config.bandwidth, config.filter_order, to_seconds(timestep)),
+      accelerometer_filter_(config.bandwidth, config.filter_order, to_seconds(timestep)),
+      disturbed_(config.bandwidth > 0.0 || vibration_.active()) {}
 
-std::optional<ImuSample> Imu::sample(const TruthSample& motion) {
+Vibration Imu::disturbance(const Vibration& truth, const FootLoads& loads) {
+  const Vibration added = vibration_.step(loads);
+  const Eigen::Vector3d force =
+      accelerometer_filter_.filter(truth.acceleration + added.acceleration);
+  const Eigen::Vector3d rate = gyro_filter_.filter(truth.rate + added.rate);
+  return {force - truth.acceleration, rate - truth.rate};
+}
+
+std::optional<ImuSample> Imu::sample(const TruthSample& motion, const FootLoads& loads) {
   if (!last_) {
     last_ = motion;
     interval_start_ = motion;
     return std::nullopt;
   }
+  const bool average = sampling_ == ImuSampling::kMean;
   const Eigen::Vector3d force = specific_force(*last_, motion);
+  Vibration added;
+  if (disturbed_) {
+    added =
+        disturbance({force, average ? mean_rate(*last_, motion) : motion.angular_velocity}, loads);
+    disturbance_sum_.acceleration += added.acceleration;
+    disturbance_sum_.rate += added.rate;
+  }
   force_sum_ += force;
   last_ = motion;
   if (++count_ < steps_) return std::nullopt;
 
-  const bool average = sampling_ == ImuSampling::kMean;
+  Vibration sensed = {force, motion.angular_velocity};
+  if (average) {
+    sensed = {force_sum_ / steps_, mean_rate(interval_start_, motion)};
+    added = {disturbance_sum_.acceleration / steps_, disturbance_sum_.rate / steps_};
+  }
+  if (disturbed_) {
+    sensed.acceleration += added.acceleration;
+    sensed.rate += added.rate;
+  }
   ImuSample sample;
   sample.stamp = motion.stamp;
-  sample.angular_velocity =
-      gyro_.measure(average ? mean_rate(interval_start_, motion) : motion.angular_velocity);
+  sample.angular_velocity = gyro_.measure(motion.stamp, sensed.rate, sensed.acceleration);
   sample.specific_force =
-      accelerometer_.measure(average ? Eigen::Vector3d(force_sum_ / steps_) : force);
+      accelerometer_.measure(motion.stamp, sensed.acceleration, sensed.acceleration);
   interval_start_ = motion;
   force_sum_.setZero();
+  disturbance_sum_ = {};
   count_ = 0;
   return sample;
 }
@@ -111,9 +108,18 @@ void describe(Fields& f, ImuConfig& c) {
             .source = "paper, III-A"});
   f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
            {.unit = "-", .meaning = "Mean over the sample interval, or the value at its end."});
-  describe_errors(f, "gyro", c.gyro, "rad/s", "MEMS datasheets: 0.005-0.015 deg/s/sqrt(Hz)");
-  describe_errors(f, "accelerometer", c.accelerometer, "m/s^2",
-                  "MEMS datasheets: 60-250 ug/sqrt(Hz)");
+  f.number("bandwidth", c.bandwidth,
+           {.unit = "Hz",
+            .range = in_range(0.0, 2000.0),
+            .meaning = "Bandwidth (-3 dB) of the chip's low-pass before it samples; 0 for none."});
+  f.integer("filter_order", c.filter_order,
+            {.unit = "-",
+             .range = in_range(1, 2),
+             .meaning = "Order of that low-pass: 1, or 2 (Butterworth)."});
+  f.idle_if(c.bandwidth <= 0.0, "bandwidth is 0", {"filter_order"});
+  describe_errors(f, "gyro", c.gyro);
+  describe_errors(f, "accelerometer", c.accelerometer);
+  f.group("vibration", c.vibration);
 }
 
 }  // namespace aims

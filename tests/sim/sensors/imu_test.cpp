@@ -135,6 +135,87 @@ TEST(Imu, TurnsOnWithAnotherBiasEachRun) {
   EXPECT_EQ(Imu(config, kStep, 1).gyro_bias(), one.gyro_bias());
 }
 
+/// The samples of a walk with the forces of its feet.
+std::vector<ImuSample> measure_walk(const ImuConfig& config, std::uint64_t seed = 1) {
+  const testing::Walk& walk = recorded_walk();
+  Imu imu(config, kStep, seed);
+  std::vector<ImuSample> samples;
+  for (std::size_t i = 0; i < walk.motion.size(); ++i) {
+    if (auto measured = imu.sample(walk.motion[i], walk.states[i].foot_load)) {
+      samples.push_back(*measured);
+    }
+  }
+  return samples;
+}
+
+TEST(Imu, WithoutVibrationTheForcesOfTheFeetHaveNoEffect) {
+  const auto without = measure(recorded_walk().motion, {});
+  const auto with = measure_walk({});
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    ASSERT_EQ(with[i].angular_velocity, without[i].angular_velocity);
+    ASSERT_EQ(with[i].specific_force, without[i].specific_force);
+  }
+}
+
+TEST(Imu, TwoOutputsShareTheVibrationAndTheErrorsOfTheRun) {
+  ImuConfig config = perfect();
+  config.sampling = ImuSampling::kPoint;
+  config.bandwidth = 100.0;
+  config.vibration.level = 1.0;
+  config.vibration.floor_rate = 0.02;
+  config.vibration.floor_acceleration = 0.1;
+  for (InertialErrorConfig* errors : {&config.gyro, &config.accelerometer}) {
+    errors->turn_on_bias = 0.01;
+    errors->scale_error = 0.01;
+    errors->misalignment = 0.01;
+    errors->drift = 0.01;
+  }
+  config.gyro.g_sensitivity = 1e-3;
+  const auto slow = measure_walk(config, 5);
+  config.rate = 400.0;
+  const auto fast = measure_walk(config, 5);
+  ASSERT_EQ(fast.size() / 8, slow.size());
+  for (std::size_t i = 1; i < slow.size(); ++i) {
+    const ImuSample& same = fast[8 * i + 7];
+    ASSERT_EQ(same.stamp, slow[i].stamp);
+    // The drift of the slower output is that of its last sample.
+    ASSERT_LT((same.angular_velocity - slow[i].angular_velocity).norm(), 2e-4);
+    ASSERT_LT((same.specific_force - slow[i].specific_force).norm(), 2e-4);
+  }
+}
+
+TEST(Imu, TheLowPassDelaysAStepOfTheRateAsAFirstOrderFilter) {
+  std::vector<TruthSample> motion = rest(0.5, Eigen::Quaterniond::Identity());
+  for (std::size_t i = 1; i < motion.size(); ++i) motion[i].angular_velocity.z() = 2.0;
+  ImuConfig config = perfect();
+  config.rate = 400.0;
+  config.sampling = ImuSampling::kPoint;
+  config.bandwidth = 10.0;
+  config.filter_order = 1;
+  motion.insert(motion.begin(), TruthSample());
+  motion.front().stamp = -kStep;
+  const auto samples = measure(motion, config);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double t = 0.0025 * static_cast<double>(i);
+    const double expected = 2.0 * (1.0 - std::exp(-20.0 * M_PI * t));
+    ASSERT_NEAR(samples[i].angular_velocity.z(), expected, 1e-9) << i;
+  }
+}
+
+TEST(Imu, AveragesBehindAWideFilterAreThoseWithoutIt) {
+  ImuConfig config = perfect();
+  const auto plain = measure_walk(config);
+  config.bandwidth = 2000.0;
+  config.filter_order = 1;
+  const auto filtered = measure_walk(config);
+  ASSERT_EQ(filtered.size(), plain.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    ASSERT_LT((filtered[i].angular_velocity - plain[i].angular_velocity).norm(), 1e-6);
+    ASSERT_LT((filtered[i].specific_force - plain[i].specific_force).norm(), 1e-6);
+  }
+}
+
 TEST(Imu, RefusesARateThatDoesNotDividePhysics) {
   ImuConfig config;
   config.rate = 60.0;
