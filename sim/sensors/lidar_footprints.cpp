@@ -15,13 +15,16 @@ void Lidar::mark_edges(int block) {
   const int first = block * kRayPacketSize;
   for (int ring = 0; ring < config_.rings; ++ring) {
     const Returns& each = returns_[ring];
+    const auto& surface = each.hits.surface;
     if (block > 0) mark_edge(ring, first - 1, before_[ring], kRayPacketSize - 1, each, 0);
     for (int lane = 0; lane + 1 < lanes; ++lane) {
+      if (surface[lane] == surface[lane + 1]) continue;  // most pairs: no call
       mark_edge(ring, first + lane, each, lane, each, lane + 1);
     }
     if (ring + 1 == config_.rings) continue;
     const Returns& above = returns_[ring + 1];
     for (int lane = 0; lane < lanes; ++lane) {
+      if (surface[lane] == above.hits.surface[lane]) continue;
       if (!range_steps_between(each.rays, each.hits, lane, above.rays, above.hits, lane)) continue;
       edges_.mark(ring, first + lane, EdgeMap::kAbove);
       edges_.mark(ring + 1, first + lane, EdgeMap::kBelow);
