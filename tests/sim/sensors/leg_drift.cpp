@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/sim/sensors/leg_drift.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/files/yaml_config.hpp"
@@ -65,6 +67,35 @@ Walk drift_walk(const SimulationConfig& config, double friction, std::uint64_t s
   WorldSetup setup = corridor_world(kLength, friction, 0.0, seed);
   setup.legs = built_legs(config.leg_odometry.link_length_error, seed);
   return walk(setup, there_and_back(kLength), config.robot.gait);
+}
+
+Walk square_walk(const SimulationConfig& config, double friction, std::uint64_t seed) {
+  SceneConfig hall;
+  hall.corridor.length = 10.0;
+  hall.corridor.width = 10.0;
+  const Scene scene = build_scene(hall, seed);
+  const WorldSetup setup = {scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics).value(),
+                            {},
+                            kTimestep,
+                            friction,
+                            built_legs(config.leg_odometry.link_length_error, seed)};
+  RouteConfig route;
+  route.points = {{"a", 0.0, 0.0}, {"", 3.2, 0.0}, {"", 3.2, 3.4}, {"", 0.0, 3.4}, {"a", 0.0, 0.0}};
+  route.stand_before = 0.5;
+  return walk(setup, route, config.robot.gait);
+}
+
+double path_error(const Walk& walk, const SimulationConfig& config, std::uint64_t seed) {
+  const LegOdometryConfig& legs = config.leg_odometry;
+  const std::vector<Place> places = places_of(walk, legs, seed);
+  const auto stride = static_cast<std::size_t>(std::lround(config.robot.gait.period * legs.rate));
+  double actual = 0.0;
+  double reported = 0.0;
+  for (std::size_t i = stride; i < places.size(); i += stride) {
+    actual += (places[i].actual - places[i - stride].actual).head<2>().norm();
+    reported += (places[i].reported - places[i - stride].reported).head<2>().norm();
+  }
+  return reported / actual - 1.0;
 }
 
 LegDrift drift_of(const Walk& walk, const LegOdometryConfig& config, std::uint64_t seed) {

@@ -75,6 +75,18 @@ TEST(LegDrift, ChangesWithTheContactThreshold) {
   EXPECT_LT(drift_of(walk, low, 21).mean(), drift_of(walk, high, 21).mean() - 0.01);
 }
 
+/// A robot that turns at the corners of a square, as the Go1 did.
+TEST(LegDrift, ASquareOfPointFeetIsFiveToSeventeenPercentShort) {
+  SimulationConfig config = config_at(SensorLevel::kField);
+  const testing::Walk walk = testing::square_walk(config, kFriction, 23);
+  ASSERT_TRUE(walk.done);
+  const double point = testing::path_error(walk, config, 23);
+  EXPECT_LT(point, -0.05);
+  EXPECT_GT(point, -0.17);
+  config.leg_odometry.foot_model = FootModel::kRolling;
+  EXPECT_GT(testing::path_error(walk, config, 23), point + 0.03);
+}
+
 TEST(LegDrift, DiffersByRobotAndByGround) {
   const double one = field_drift(FootModel::kRolling, 21).mean();
   EXPECT_GT(std::abs(one - field_drift(FootModel::kRolling, 22).mean()), 1e-3);
