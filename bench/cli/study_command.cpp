@@ -270,6 +270,8 @@ void declare_study(Command command, const fs::path& scenarios) {
       scenarios);
   declare_faults(command.subcommand("faults", "Estimators under every fault of their input"),
                  scenarios);
+  declare_fidelity(command.subcommand("fidelity", "The simulated sensors against real ones"),
+                   scenarios);
   declare_compare(
       command.subcommand("compare", "Scores that got better or worse between two folders"));
   command.footer(
