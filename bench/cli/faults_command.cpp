@@ -54,11 +54,12 @@ int faults_command(const FaultArguments& arguments) {
   if (!scenario) return bad_input(kFaultsName, scenario.error());
   const auto seed = seed_of(shared, *scenario);
   if (!seed) return bad_input(kFaultsName, seed.error());
+  const Scenario drawn = scenario_of_seed(*scenario, *seed);
   watch_interrupt();
   const fs::path out = shared.out.empty() ? fs::path("out/faults") : fs::path(shared.out);
   auto folder = OutputFolder::create(out, shared.overwrite);
   if (!folder) return bad_input(kFaultsName, folder.error());
-  const auto sequence = sequence_of(*scenario, *seed, shared.cache);
+  const auto sequence = sequence_of(drawn, *seed, shared.cache);
   if (!sequence) return bad_input(kFaultsName, sequence.error());
   if (const auto reason = invalid_reason(sequence->walk, to_seconds(sequence->end()))) {
     print_out("INVALID RUN: {} seed {}: {}; no fault is tried on it\n", scenario->name, *seed,
@@ -67,11 +68,10 @@ int faults_command(const FaultArguments& arguments) {
   }
   if (interrupted()) return interrupted_code();
   const FaultStudyOptions options = {scenario->run, arguments.faults, *seed, shared.jobs};
-  const auto cases =
-      fault_study(*sequence, *scenario, options, [&](std::size_t done, std::size_t all) {
-        if (!shared.quiet && done % 10 == 0) print_error(fmt::format("{} of {} cases", done, all));
-        return !interrupted();
-      });
+  const auto cases = fault_study(*sequence, drawn, options, [&](std::size_t done, std::size_t all) {
+    if (!shared.quiet && done % 10 == 0) print_error(fmt::format("{} of {} cases", done, all));
+    return !interrupted();
+  });
   if (!cases) return bad_input(kFaultsName, cases.error());
   const std::string name = fmt::format("{}, seed {}", scenario->name, *seed);
   if (auto ok = write_faults(*cases, name, folder->path()); !ok) {

@@ -28,14 +28,14 @@ struct ScenarioSetting {
 /// The least piece of work: one estimator with its settings on one sequence. The same job gives the
 /// same scores wherever and whenever it is done.
 struct Job {
-  std::shared_ptr<const Scenario> scenario;  ///< with its settings on top
+  std::shared_ptr<const Scenario> scenario;  ///< with its settings on top, drawn for the seed
   std::uint64_t seed = 0;
   EstimatorSpec estimator;
   std::string id;  ///< bench/jobs/job_id.hpp: of scenario, seed, estimator, settings, code version
   std::vector<ScenarioSetting> scenario_settings = {};  ///< what a sweep varies of the scenario
 };
 
-/// The job of those parts under its id.
+/// The job of those parts under its id, on the scenario as the seed draws it.
 Job make_job(std::shared_ptr<const Scenario> scenario, std::uint64_t seed, EstimatorSpec estimator);
 
 /// "aims+degeneracy.eta=3+links.lidar.loss=0.1": the estimator with its settings, and what is set

@@ -145,6 +145,7 @@ Result<void> JobSchedule::start_job(SequenceWork& work) {
     if (outcome) {
       result.scores = estimator_json(*outcome);
       result.sequence = sequence_json(sequence, outcome->scores);
+      if (!job.scenario->drawn.empty()) result.sequence["drawn"] = drawn_json(job.scenario->drawn);
       stored =
           write_outputs(runner_.store_, runner_.options_.outputs, job, work.id, sequence, *outcome);
     } else {

@@ -99,7 +99,8 @@ fs::path SequenceCache::default_folder() {
 }
 
 std::string SequenceCache::id_of(const Scenario& scenario, std::uint64_t seed) {
-  return text_hash(fmt::format("{}\n{}\n{}", simulator_version(), seed, simulation_text(scenario)));
+  return text_hash(fmt::format("{}\n{}\n{}", simulator_version(), seed,
+                               simulation_text(scenario_of_seed(scenario, seed))));
 }
 
 bool SequenceCache::has(const std::string& id) const {
@@ -121,7 +122,7 @@ Result<SequenceMade> SequenceCache::make(const Scenario& scenario, std::uint64_t
   }
   if (has(id)) return SequenceMade{};
   clear_remains(file_of(id));
-  auto made = simulate(scenario, seed, file_of(id), observer);
+  auto made = simulate(scenario_of_seed(scenario, seed), seed, file_of(id), observer);
   fs::remove(folder_ / (id + ".lock"), code);
   return made;
 }

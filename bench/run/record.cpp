@@ -164,9 +164,10 @@ Result<void> fill(Simulation& simulation, Recorder& recorder, const Observer& ob
 
 }  // namespace
 
-Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& options,
+Result<RecordOutcome> record(const Scenario& given, const RecordOptions& options,
                              const Observer& observer) {
   const Stopwatch stopwatch;
+  const Scenario scenario = scenario_of_seed(given, options.seed);
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
   const auto partial = make_room(options);

@@ -13,6 +13,7 @@
 #include "core/files/yaml_position.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "estimator/registry.hpp"
+#include "sim/robot/scene_route.hpp"
 #include "sim/simulation.hpp"
 
 namespace aims {
@@ -113,6 +114,7 @@ Result<Scenario> on_presets(Scenario start, std::vector<AssignedKey>& assigned, 
 Result<void> check(const Scenario& scenario) {
   if (auto names = check_names(scenario); !names) return names;
   if (scenario.run.empty()) return failure("run: expected at least one estimator");
+  if (auto draws = check_draws(scenario); !draws) return draws;
   if (auto segments = check_segments(scenario); !segments) return segments;
   if (auto specs = check_estimator_specs(scenario.run); !specs) {
     return failure("run: " + specs.error().message);
@@ -135,6 +137,12 @@ Result<void> check(const Scenario& scenario) {
     }
   }
   return {};
+}
+
+/// Sets the points of a route along the scene, so that its segments are known.
+void follow_scene(Scenario& scenario) {
+  SimulationConfig& simulation = scenario.simulation;
+  simulation.route = route_in(simulation.scene, simulation.route);
 }
 
 /// Error for a setting without effect.
@@ -190,6 +198,7 @@ void describe(Fields& f, Scenario& s) {
            {.meaning = "Part whose figures the IMU has, in place of the level's.",
             .source = "models/sensors"});
   describe(f, s.simulation);
+  f.list("draw", s.draw, "quantities of the simulation that each seed draws anew");
   describe_estimators(f, s.run, s.estimators);
   f.group("scoring", s.scoring);
   f.list("expect", s.expect, "limits that a run must hold");
@@ -201,7 +210,7 @@ Error located(const Scenario& scenario, const Error& error) {
 }
 
 Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed) {
-  const auto simulation = Simulation::create(scenario.simulation, seed);
+  const auto simulation = Simulation::create(scenario_of_seed(scenario, seed).simulation, seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
   return {};
 }
@@ -214,12 +223,16 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
   scenario.overrides.assign(overrides.begin(), overrides.end());
   scenario.name = file.stem().string();
   std::vector<AssignedKey> assigned;
+  std::size_t of_file = 0;  // of the assigned keys; settings follow
   auto loaded = on_presets(std::move(scenario), assigned,
                            [&](Scenario& into, std::vector<AssignedKey>* keys) {
                              auto read = load_config(file, into, keys, folder);
+                             if (keys != nullptr) of_file = keys->size();
                              return read ? apply_overrides(into, overrides, keys, folder) : read;
                            });
   if (!loaded) return loaded;
+  drop_set_draws(std::span(assigned).subspan(of_file), loaded->draw);
+  follow_scene(*loaded);
   if (auto valid = check(*loaded); !valid) {
     return tl::unexpected(located(*loaded, valid.error()));
   }
@@ -240,6 +253,7 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides) {
                              return apply_overrides(into, overrides, keys);
                            });
   if (!loaded) return loaded;
+  follow_scene(*loaded);
   if (auto acts = check_effects_in(*loaded, std::move(assigned)); !acts) {
     return tl::unexpected(acts.error());
   }
@@ -253,7 +267,7 @@ std::string config_text(const Scenario& scenario, bool annotated) {
 }
 
 std::string effective_config(const Scenario& scenario, std::uint64_t seed) {
-  Scenario effective = scenario;
+  Scenario effective = scenario_of_seed(scenario, seed);
   effective.seed = static_cast<int>(seed);
   return config_text(effective);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/metrics/scores.hpp"
+#include "bench/run/scenario_draws.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator_config.hpp"
@@ -60,6 +61,8 @@ struct Scenario {
   SensorLevel sensors = SensorLevel::kField;
   ImuGrade imu_grade = ImuGrade::kOfLevel;  ///< replaces the level's figures of the IMU
   SimulationConfig simulation;
+  std::vector<Draw> draw;         ///< what each seed draws anew; see `scenario_of_seed`
+  std::vector<DrawnValue> drawn;  ///< on a seed, once drawn
   EstimatorConfigs estimators;
   ScoreConfig scoring;
   std::vector<Expectation> expect;
@@ -89,7 +92,7 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides);
 /// unit, range, meaning and source to each.
 std::string config_text(const Scenario& scenario, bool annotated = false);
 
-/// The configuration that repeats a run with that seed.
+/// The configuration that repeats a run with that seed, with what the seed draws.
 std::string effective_config(const Scenario& scenario, std::uint64_t seed);
 
 /// The file of a scenario given by path or by bare name ("corridor"), searched in `folder` and

@@ -191,6 +191,15 @@ Json sequence_json(const Sequence& sequence, const Scores& scores) {
   return sequence_json(to_seconds(sequence.end()), sequence.walk, scores, sequence.localizability);
 }
 
+Json drawn_json(const std::vector<DrawnValue>& drawn) {
+  Json json = Json::object();
+  for (const DrawnValue& each : drawn) {
+    const Json value = Json::parse(each.value, nullptr, false);
+    json[each.key] = value.is_number() || value.is_boolean() ? value : Json(each.value);
+  }
+  return json;
+}
+
 const Json& estimator_in(const RunRecord& record, const std::string& estimator) {
   static const Json none;
   const auto estimators = record.scores.find("estimators");

@@ -41,6 +41,9 @@ Json segments_json(const Scores& scores);
 /// How the robot fared, without whether the run is valid.
 Json robot_json(const WalkOutcome& walk);
 
+/// What the seed drew: numbers as numbers, by their full keys.
+Json drawn_json(const std::vector<DrawnValue>& drawn);
+
 /// What scores.json holds of a run whoever estimates: duration, robot, segments, localizability.
 /// `scores` are of any estimator.
 Json sequence_json(const Sequence& sequence, const Scores& scores);

@@ -40,10 +40,11 @@ Result<void> add_jobs(const SuiteCase& each, std::vector<std::uint64_t> seeds,
   if (seeds.empty()) seeds = {static_cast<std::uint64_t>(scenario->seed)};
   std::sort(seeds.begin(), seeds.end());
   for (const std::uint64_t seed : seeds) {
+    const auto drawn = scenario_of_seed(scenario, seed);
     for (const std::string& text : scenario->run) {
       auto spec = parse_estimator_spec(text);
       if (!spec) return tl::unexpected(spec.error());
-      jobs.push_back(make_job(scenario, seed, std::move(*spec)));
+      jobs.push_back(make_job(drawn, seed, std::move(*spec)));
     }
   }
   return {};

@@ -46,6 +46,7 @@ Result<ScenarioVariant> ScenarioVariants::make(const std::vector<std::string>& v
     if (auto done = assign(fields, each.full, values[i]); !done) {
       return tl::unexpected(done.error());
     }
+    std::erase_if(scenario->draw, [&](const Draw& draw) { return draw.key == each.full; });
     variant.settings.push_back({ranges_[each.index].key, values[i], each.default_value});
     if (!each.full.starts_with("scoring.")) variant.sequence += values[i] + "\n";
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -93,6 +94,30 @@ struct SequenceGroup {
   std::vector<Member> members;
 };
 
+/// The scenarios of one group as a seed draws them, each made once.
+class DrawnScenarios {
+ public:
+  explicit DrawnScenarios(std::uint64_t seed) : seed_(seed) {}
+
+  /// The scenario on the seed, and the ids of its jobs; without draws itself, and no ids.
+  std::pair<std::shared_ptr<const Scenario>, const JobIds*> find(
+      const std::shared_ptr<const Scenario>& scenario) {
+    if (scenario->draw.empty()) return {scenario, nullptr};
+    auto [made, is_new] = made_.try_emplace(scenario.get());
+    if (is_new) {
+      made->second.first = scenario_of_seed(scenario, seed_);
+      made->second.second = std::make_unique<const JobIds>(*made->second.first);
+    }
+    return {made->second.first, made->second.second.get()};
+  }
+
+ private:
+  using Made = std::pair<std::shared_ptr<const Scenario>, std::unique_ptr<const JobIds>>;
+
+  std::uint64_t seed_;
+  std::map<const Scenario*, Made> made_;
+};
+
 /// Adds one scenario's jobs but those whose ids are known already.
 Result<void> add_jobs(std::span<const std::uint64_t> seeds, std::span<const PlannedPoint> points,
                       std::set<std::string>& known, std::vector<Job>& jobs) {
@@ -110,11 +135,13 @@ Result<void> add_jobs(std::span<const std::uint64_t> seeds, std::span<const Plan
   }
   for (const SequenceGroup& group : groups) {
     for (const std::uint64_t seed : seeds) {
+      DrawnScenarios drawn(seed);
       for (const auto& [point, own, key] : group.members) {
-        std::string id = own->id(seed, key);
+        const auto& scenario = point->variant.scenario;
+        auto [on_seed, drawn_ids] = drawn.find(scenario);
+        std::string id = (drawn_ids == nullptr ? own : drawn_ids)->id(seed, key);
         if (!known.insert(id).second) continue;
-        jobs.push_back({point->variant.scenario, seed, point->estimator, std::move(id),
-                        point->variant.settings});
+        jobs.push_back({on_seed, seed, point->estimator, std::move(id), point->variant.settings});
       }
     }
   }
@@ -194,6 +221,9 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
   std::vector<Job> jobs;
   std::set<std::string> ids;
   for (const auto& scenario : *scenarios) {
+    if (auto right = check_seeds_to_choose_on(*scenario, *seeds); !right) {
+      return tl::unexpected(right.error());
+    }
     const auto points = points_of(plan, *ranges, scenario);
     if (!points) return tl::unexpected(points.error());
     auto added = add_jobs(*seeds, *points, ids, jobs);

@@ -72,10 +72,21 @@ Result<void> check_objectives(const TunePlan& plan, const Scenarios& scenarios) 
   return check_optimizer(plan.optimizer, plan.objectives.size());
 }
 
+/// Error for seeds that are kept for reporting: also of sequences that are held out, on which a
+/// plan is judged before the next one is made.
+Result<void> check_seeds(const Scenarios& scenarios, const std::vector<std::uint64_t>& seeds) {
+  for (const auto& scenario : scenarios) {
+    if (auto right = check_seeds_to_choose_on(*scenario, seeds); !right) return right;
+  }
+  return {};
+}
+
 void add_sequences(const Scenarios& scenarios, const std::vector<std::uint64_t>& seeds,
                    std::vector<ScenarioSeed>& sequences) {
   for (const auto& scenario : scenarios) {
-    for (const std::uint64_t seed : seeds) sequences.push_back({scenario, seed});
+    for (const std::uint64_t seed : seeds) {
+      sequences.push_back({scenario_of_seed(scenario, seed), seed});
+    }
   }
 }
 
@@ -87,11 +98,13 @@ Result<void> add_held_out(const Scenarios& tuned, const std::vector<std::uint64_
     auto own = parse_seeds(held.seeds);
     if (!own) return failure("held_out.seeds: " + own.error().message);
     seeds = std::move(*own);
+    if (auto right = check_seeds(tuned, seeds); !right) return right;
     add_sequences(tuned, seeds, task.held_out);
   }
   if (!held.scenarios.empty() || !held.tags.empty()) {
     const auto others = plan_scenarios(held.scenarios, held.tags, task.plan.set, folder);
     if (!others) return failure("held_out: " + others.error().message);
+    if (auto right = check_seeds(*others, seeds); !right) return right;
     add_sequences(*others, seeds, task.held_out);
   }
   for (const ScenarioSeed& sequence : task.held_out) {
@@ -200,6 +213,7 @@ Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {
   task.defaults = std::move(*defaults);
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());
+  if (auto right = check_seeds(*scenarios, *seeds); !right) return tl::unexpected(right.error());
   add_sequences(*scenarios, *seeds, task.sequences);
   if (auto held = add_held_out(*scenarios, *seeds, folder, task); !held) {
     return tl::unexpected(held.error());

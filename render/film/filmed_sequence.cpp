@@ -38,9 +38,10 @@ FilmedSequence sequence_of(const Scenario& scenario, const Simulation& simulatio
 
 }  // namespace
 
-Result<FilmedSequence> film_sequence(const Scenario& scenario, const RunOptions& options,
+Result<FilmedSequence> film_sequence(const Scenario& given, const RunOptions& options,
                                      const Observer& observer) {
   const Stopwatch stopwatch;
+  const Scenario scenario = scenario_of_seed(given, options.seed);
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
   auto estimators = make_estimators(scenario.run, scenario.estimators, simulation->rig());

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/drawn_groups.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <span>
+#include <system_error>
+
+#include "bench/run/json_text.hpp"
+#include "bench/run/validity.hpp"
+#include "core/config.hpp"
+#include "core/files/atomic_file.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kGroupsSchema = "aims.groups/1";
+
+/// The drawn value of a run; null when it drew no such key.
+Json drawn_in(const RunRecord& run, const std::string& key) {
+  const auto drawn = run.scores.find("drawn");
+  if (drawn == run.scores.end() || !drawn->is_object()) return {};
+  return drawn->value(key, Json());
+}
+
+std::string text_of(const Json& value) {
+  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// Upper ends of bins of about equal numbers of values, each once; the last is the largest value.
+std::vector<double> upper_ends(std::vector<double> values, std::size_t bins) {
+  std::sort(values.begin(), values.end());
+  std::set<double> different(values.begin(), values.end());
+  if (different.size() <= bins) return {different.begin(), different.end()};
+  std::set<double> ends;
+  for (std::size_t i = 1; i <= bins; ++i) ends.insert(values[i * values.size() / bins - 1]);
+  return {ends.begin(), ends.end()};
+}
+
+GroupScores scores_of(std::span<const RunRecord> runs, const std::string& estimator) {
+  GroupScores scores;
+  scores.estimator = estimator;
+  scores.runs = finished(runs, estimator);
+  scores.successes = successes(runs, estimator);
+  for (const HeadlineScore& score : kHeadlineScores) {
+    scores.medians.push_back(statistics_of(runs, estimator, score.key).median);
+  }
+  return scores;
+}
+
+DrawnGroup group_of(const std::string& scenario, std::string label,
+                    std::span<const RunRecord> runs) {
+  DrawnGroup group;
+  group.scenario = scenario;
+  group.label = std::move(label);
+  group.invalid = invalid_runs(runs).size();
+  std::set<std::string> estimators;
+  for (const RunRecord& run : runs) {
+    for (const auto& [name, unused] : run.scores["estimators"].items()) estimators.insert(name);
+  }
+  for (const std::string& name : estimators) group.estimators.push_back(scores_of(runs, name));
+  return group;
+}
+
+/// A group per text, in their order.
+void add_texts(const std::string& scenario, const std::vector<RunRecord>& runs,
+               const std::string& key, std::vector<DrawnGroup>& groups) {
+  std::map<std::string, std::vector<RunRecord>> by_text;
+  for (const RunRecord& run : runs) by_text[text_of(drawn_in(run, key))].push_back(run);
+  for (const auto& [text, members] : by_text) groups.push_back(group_of(scenario, text, members));
+}
+
+void add_bins(const std::string& scenario, const std::vector<RunRecord>& runs,
+              const std::string& key, std::size_t bins, std::vector<DrawnGroup>& groups) {
+  std::vector<double> values;
+  for (const RunRecord& run : runs) values.push_back(drawn_in(run, key).get<double>());
+  const std::vector<double> ends = upper_ends(values, bins);
+  std::vector<std::vector<RunRecord>> members(ends.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto end = std::lower_bound(ends.begin(), ends.end(), values[i]);
+    members[static_cast<std::size_t>(end - ends.begin())].push_back(runs[i]);
+  }
+  for (const auto& bin : members) {
+    const auto value = [&key](const RunRecord& run) { return drawn_in(run, key).get<double>(); };
+    const auto [low, high] = std::ranges::minmax(bin, {}, value);
+    const double least = value(low);
+    const double most = value(high);
+    groups.push_back(group_of(
+        scenario,
+        least == most ? fmt::format("{:.4g}", least) : fmt::format("{:.4g} to {:.4g}", least, most),
+        bin));
+    groups.back().low = least;
+    groups.back().high = most;
+  }
+}
+
+/// Error that names the keys that the runs have drawn.
+tl::unexpected<Error> no_such_key(const StoredResults& results, const std::string& key) {
+  std::set<std::string> known;
+  for (const auto& [scenario, runs] : results) {
+    for (const RunRecord& run : runs) {
+      const auto drawn = run.scores.find("drawn");
+      if (drawn == run.scores.end()) continue;
+      for (const auto& [name, unused] : drawn->items()) known.insert(name);
+    }
+  }
+  if (known.empty()) {
+    return failure(
+        fmt::format("{}: no run here drew any quantity; expected results of scenarios "
+                    "with a draw list, e.g. random_corridor",
+                    key));
+  }
+  const std::string near = near_match(key, {known.begin(), known.end()});
+  return failure(fmt::format("{}: no run drew it; expected one of {}{}", key,
+                             fmt::join(known, ", "),
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+}  // namespace
+
+Result<std::vector<DrawnGroup>> group_by_drawn(const StoredResults& results, const std::string& key,
+                                               std::size_t bins) {
+  std::vector<DrawnGroup> groups;
+  for (const auto& [scenario, all] : results) {
+    std::vector<RunRecord> runs;
+    for (const RunRecord& run : all) {
+      if (!drawn_in(run, key).is_null()) runs.push_back(run);
+    }
+    if (runs.empty()) continue;
+    const bool numbers = std::ranges::all_of(
+        runs, [&key](const RunRecord& run) { return drawn_in(run, key).is_number(); });
+    if (numbers) {
+      add_bins(scenario, runs, key, bins, groups);
+    } else {
+      add_texts(scenario, runs, key, groups);
+    }
+  }
+  if (groups.empty()) return no_such_key(results, key);
+  return groups;
+}
+
+TextTable groups_table(const std::vector<DrawnGroup>& groups) {
+  TextTable table;
+  table.header = {"scenario", "group", "estimator", "runs", "success"};
+  for (const HeadlineScore& score : kHeadlineScores) {
+    table.header.push_back(fmt::format("{} [{}]", score.title, score.unit));
+  }
+  for (const DrawnGroup& group : groups) {
+    for (const GroupScores& each : group.estimators) {
+      std::vector<std::string> row = {
+          group.scenario, group.label, each.estimator, std::to_string(each.runs),
+          each.runs == 0 ? "-"
+                         : fmt::format("{:.0f} %", 100.0 * static_cast<double>(each.successes) /
+                                                       static_cast<double>(each.runs))};
+      for (const auto& median : each.medians) {
+        row.push_back(median ? fmt::format("{:.3f}", *median) : "-");
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
+  std::vector<std::string> header = {"scenario",  "group", "low",       "high",
+                                     "estimator", "runs",  "successes", "invalid"};
+  for (const HeadlineScore& score : kHeadlineScores) {
+    header.push_back(std::string(score.key) + ".median");
+  }
+  CsvTable table(header);
+  for (const DrawnGroup& group : groups) {
+    for (const GroupScores& each : group.estimators) {
+      table.add(group.scenario)
+          .add(group.label)
+          .add(group.low)
+          .add(group.high)
+          .add(each.estimator)
+          .add(static_cast<std::int64_t>(each.runs))
+          .add(static_cast<std::int64_t>(each.successes))
+          .add(static_cast<std::int64_t>(group.invalid));
+      for (const auto& median : each.medians) table.add(median);
+      table.end_row();
+    }
+  }
+  return table;
+}
+
+Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
+                 const std::string& folder) {
+  Json json = {
+      {"schema", kGroupsSchema}, {"folder", folder}, {"by", key}, {"groups", Json::array()}};
+  for (const DrawnGroup& group : groups) {
+    Json estimators = Json::object();
+    for (const GroupScores& each : group.estimators) {
+      Json& entry = estimators[each.estimator];
+      entry = {{"runs", each.runs}, {"successes", each.successes}, {"median", Json::object()}};
+      for (std::size_t i = 0; i < kHeadlineScores.size(); ++i) {
+        entry["median"][std::string(kHeadlineScores[i].key)] = json_of(each.medians[i]);
+      }
+    }
+    json["groups"].push_back({{"scenario", group.scenario},
+                              {"group", group.label},
+                              {"low", json_of(group.low)},
+                              {"high", json_of(group.high)},
+                              {"invalid", group.invalid},
+                              {"estimators", std::move(estimators)}});
+  }
+  return json;
+}
+
+Result<void> write_groups(const std::vector<DrawnGroup>& groups, const std::string& key,
+                          const std::string& source, const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return failure(fmt::format("{}: {}", folder.string(), code.message()));
+  auto written = write_file_atomically(folder / "groups.json",
+                                       json_text(groups_json(groups, key, source), 2) + "\n");
+  if (written) written = write_csv(folder / "groups.csv", groups_csv(groups));
+  if (!written) return written;
+  return write_file_atomically(
+      folder / "groups.md",
+      fmt::format("# {} by {}\n\n{}", source, key, to_markdown(groups_table(groups))));
+}
+
+}  // namespace aims
