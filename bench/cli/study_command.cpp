@@ -274,6 +274,7 @@ void declare_study(Command command, const fs::path& scenarios) {
                    scenarios);
   declare_compare(
       command.subcommand("compare", "Scores that got better or worse between two folders"));
+  declare_groups(command.subcommand("groups", "Scores by a quantity that the seeds drew"));
   command.footer(
       "Examples:\n"
       "  aims study ablation severity_3 severity_8 --seeds 1-3\n"

@@ -41,6 +41,7 @@ const std::map<std::string, std::vector<std::string>> kCommands = {
      {"--scenarios", "--tags", "--folder", "--seeds", "--estimators", "--set", "--out", "--jobs",
       "--quiet"}},
     {"study compare", {"--out", "--json"}},
+    {"study groups", {"--out", "--json"}},
     {"simulate", {"--seeds", "--set", "--out", "--overwrite", "--quiet"}},
     {"estimate", {"--estimators", "--set", "--out", "--overwrite", "--jobs", "--quiet"}},
     {"score", {"--set", "--out", "--overwrite", "--waypoint-times", "--json", "--no-page"}},
