@@ -78,10 +78,10 @@ std::string value_at(const Draw& draw, double part) {
   return fmt::format("{}", std::clamp(rounded, draw.min, draw.max));
 }
 
-/// The value that the entry draws on that seed; none when chance leaves it.
+/// The value that the entry draws on that seed; none when it is not drawn.
 std::optional<std::string> drawn_value(const Draw& draw, std::uint64_t seed) {
   RandomStream random = rng(seed, "draw." + draw.key);
-  const bool made = random.uniform() < draw.chance;
+  const bool made = random.uniform() < draw.probability;
   const double part = random.uniform();
   if (!made) return std::nullopt;
   return value_at(draw, part);
@@ -158,14 +158,14 @@ Result<void> check_condition(const std::string& text, const std::string& name, c
 }  // namespace
 
 void describe(Fields& f, Draw& d) {
-  f.text("key", d.key, {.meaning = "key of the simulation that each seed draws anew"});
+  f.text("key", d.key, {.meaning = "key of the simulation that each seed draws"});
   f.number("min", d.min, {.unit = "as the key", .range = within(1e12), .meaning = "lower end"});
   f.number("max", d.max, {.unit = "as the key", .range = within(1e12), .meaning = "upper end"});
   f.choice("scale", d.scale, {{"linear", DrawScale::kLinear}, {"log", DrawScale::kLog}},
            {.meaning = "uniform in the number or in its logarithm"});
   f.flag("integer", d.integer, {.meaning = "whole numbers, both ends included"});
   f.texts("values", d.values, {.meaning = "equally likely values instead of a range"});
-  f.number("chance", d.chance,
+  f.number("probability", d.probability,
            {.unit = "-",
             .range = {.min = 0.0, .max = 1.0, .min_included = false},
             .meaning = "probability that the key is drawn; else the scenario's own value stays"});

@@ -17,7 +17,7 @@ struct Scenario;
 /// How a drawn number is spread over its range.
 enum class DrawScale { kLinear, kLog };
 
-/// One quantity that each seed draws anew, from the stream "draw.KEY": so that another entry
+/// One quantity that each seed draws, from the stream "draw.KEY": so that another entry
 /// changes no value of this one.
 struct Draw {
   std::string key;   ///< of the simulation, e.g. "scene.corridor.length"
@@ -26,7 +26,7 @@ struct Draw {
   DrawScale scale = DrawScale::kLinear;
   bool integer = false;             ///< whole numbers, both ends included
   std::vector<std::string> values;  ///< equally likely, instead of a range
-  double chance = 1.0;              ///< else the scenario's own value stays [-]
+  double probability = 1.0;         ///< that it is drawn; else the scenario's own value stays [-]
   /// "KEY=VALUE", "KEY>=NUMBER" or "KEY<=NUMBER", which must all hold of the scenario as drawn so
   /// far. Of several entries of one key the first whose conditions hold is drawn.
   std::vector<std::string> when;

@@ -116,9 +116,9 @@ TEST(ScenarioDraws, AreIndependentOfEachOther) {
   EXPECT_LT(std::abs(sum), 4.0 * std::sqrt(500.0 / 144.0));
 }
 
-TEST(ScenarioDraws, ChanceAndConditionsDecide) {
+TEST(ScenarioDraws, ProbabilitiesAndConditionsDecide) {
   Draw bend = range("scene.ramp.grade", 0.02, 0.08);
-  bend.chance = 0.3;
+  bend.probability = 0.3;
   Draw people = range("scene.people.count", 1.0, 3.0);
   people.integer = true;
   people.when = {"scene.ramp.grade<=0"};
