@@ -33,6 +33,7 @@ SimulationConfig config_for(const std::string& key) {
   if (key.starts_with("scene.corridor.pillars")) scene.corridor.pillars.spacing = 5.0;
   if (key.starts_with("scene.corridor.clutter")) scene.corridor.clutter.density = 0.5;
   if (key.starts_with("scene.corridor.glass")) scene.corridor.glass.fraction = 0.5;
+  if (key.starts_with("scene.corridor.bends")) scene.corridor.bends = {{0.5, 45.0, Side::kLeft}};
   if (key.starts_with("push")) config.push.count = 2;
   config.links.lidar.outage = {.start = 0.0, .duration = 0.05};
   return config;
@@ -60,6 +61,7 @@ void expect_simulated_or_refused(const SimulationConfig& config, const std::stri
 
 TEST(SimulationExtremes, EachNumberAtEitherEndIsSimulatedOrRefused) {
   SimulationConfig defaults;
+  defaults.scene.corridor.bends.resize(1);
   for (const Parameter& parameter : fields_of(defaults).parameters()) {
     if (!is_numeric(parameter)) continue;
     for (const double value : {parameter.spec.range.min, parameter.spec.range.max}) {

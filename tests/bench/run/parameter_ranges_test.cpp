@@ -23,6 +23,8 @@ Scenario full_scenario() {
   Scenario scenario;
   scenario.run = estimator_names();
   scenario.expect.push_back({"aims", "ate_m", 1.0, -1.0});
+  scenario.draw.resize(1);
+  scenario.simulation.scene.corridor.bends.resize(1);
   for (const Parameter& parameter : fields_of(scenario).parameters()) {
     if (parameter.expected == "true or false") parameter.assign("true");
   }
