@@ -144,6 +144,9 @@ void print_table(const std::vector<std::uint64_t>& seeds) {
     print(fmt::format("none, friction {}", friction), table.row(none, friction));
     print(fmt::format("all, friction {}", friction), table.row(field, friction));
   }
+  SimulationConfig stiff = field;
+  stiff.leg_odometry.joint_stiffness *= 2.0;
+  print("all, joints twice as stiff", table.row(stiff, 0.7));
   for (const double on : {10.0, 40.0, 60.0}) {
     print(fmt::format("all, contact on {} N, off {} N", on, 0.5 * on),
           table.row(field_with(on), 0.7));
