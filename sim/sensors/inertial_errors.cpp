@@ -90,11 +90,12 @@ void describe_errors(Fields& f, std::string_view prefix, InertialErrorConfig& c)
            {.unit = unit,
             .range = positive_up_to(1e3),
             .meaning = "Magnitude at which an axis saturates."});
-  f.number(name + "misalignment", c.misalignment,
-           {.unit = "-",
-            .range = in_range(0.0, 0.2),
-            .meaning = "Standard deviation of the share of each axis in another, constant in a run "
-                       "(cross-axis sensitivity and misalignment)."});
+  f.number(
+      name + "misalignment", c.misalignment,
+      {.unit = "-",
+       .range = in_range(0.0, 0.2),
+       .meaning = "Standard deviation of the coupling of each axis into another, constant in a run "
+                  "(cross-axis sensitivity and misalignment)."});
   f.number(name + "drift", c.drift,
            {.unit = unit,
             .range = up_to(1e3),

@@ -27,9 +27,9 @@ StructuralVibration::StructuralVibration(const VibrationConfig& config, double t
                                          std::uint64_t run_seed)
     : floor_(run_seed, "imu.vibration.floor") {
   // White noise of a step has its power up to half the physics rate.
-  const double share = std::sqrt(0.5 / timestep / kFloorBandwidth);
-  floor_acceleration_ = share * config.floor_acceleration;
-  floor_rate_ = share * config.floor_rate;
+  const double scale = std::sqrt(0.5 / timestep / kFloorBandwidth);
+  floor_acceleration_ = scale * config.floor_acceleration;
+  floor_rate_ = scale * config.floor_rate;
   if (config.level <= 0.0) return;
   RandomStream random(run_seed, "imu.vibration");
   for (const VibrationMode& mode : config.modes) {
@@ -84,7 +84,7 @@ void describe(Fields& f, VibrationConfig& c) {
   f.number("level", c.level,
            {.unit = "-",
             .range = in_range(0.0, 20.0),
-            .meaning = "Share of the modes' levels: vibration by footfalls; 0 for none.",
+            .meaning = "Factor on the modes' levels: vibration by footfalls; 0 for none.",
             .source = source});
   f.number("damping", c.damping,
            {.unit = "-",
