@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The IMU of the level `field` against a trotting and a standing Unitree Go1 (body IMU at 400 Hz,
-// 16 s of trot). The levels of vibration were chosen on seeds 1 to 3.
+// 16 s of trot). The levels of vibration were fitted on seeds 1 to 3; 11 and 12 were looked
+// at while the model was made, 13 and 14 only afterwards.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -149,7 +150,7 @@ TEST_P(FieldImu, StandingVibratesAsAGo1Does) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, FieldImu, ::testing::Values(11, 12));
+INSTANTIATE_TEST_SUITE_P(Seeds, FieldImu, ::testing::Values(11, 12, 13, 14));
 
 TEST(FieldImuLevels, WithoutVibrationAWalkIsFarFromAGo1) {
   const auto series = samples(imu_of("datasheet"), 11, 22.0, 38.0);
