@@ -160,7 +160,7 @@ void describe(Fields& f, Expectation& e) {
       {.meaning = "estimator whose score is limited; absent: a score of the run, e.g. robot.fell"});
   f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
   f.text("sensors", e.sensors,
-         {.meaning = "level of the sensors at which it is held; absent: at each"});
+         {.meaning = "level of the sensors at which it applies; absent: each"});
   f.number("max", e.max,
            {.unit = "as the score", .range = within(1e12), .meaning = "largest value that passes"});
   f.number(

@@ -11,17 +11,19 @@ std::string stream_name(std::string_view link, std::string_view fault) {
   return "link." + std::string(link) + "." + std::string(fault);
 }
 
-/// Adds `offset` to all stamps of a measurement.
-void shift_stamps(Measurement& measurement, Duration offset) {
+/// Adds to each stamp of a measurement what `error` is at its time.
+template <class Error>
+void shift_stamps(Measurement& measurement, const Error& error) {
   if (auto* scan = std::get_if<LidarScanPtr>(&measurement)) {
     auto shifted = std::make_shared<LidarScan>(**scan);
-    shifted->stamp += offset;
-    shifted->end += offset;
+    shifted->stamp += error(shifted->stamp);
+    shifted->end += error(shifted->end);
     *scan = std::move(shifted);
   } else if (auto* imu = std::get_if<ImuSample>(&measurement)) {
-    imu->stamp += offset;
+    imu->stamp += error(imu->stamp);
   } else {
-    std::get<LegOdometrySample>(measurement).stamp += offset;
+    auto& legs = std::get<LegOdometrySample>(measurement);
+    legs.stamp += error(legs.stamp);
   }
 }
 
@@ -109,6 +111,7 @@ Link::Link(const LinkConfig& config, std::uint64_t run_seed, std::string_view na
   RandomStream clock(run_seed, stream_name(name, "clock"));
   clock_offset_ = config.clock_offset + config.clock_offset_sigma * clock.normal();
   clock_drift_ = 1e-6 * config.clock_drift_sigma * clock.normal();
+  has_clock_error_ = clock_offset_ != 0.0 || clock_drift_ != 0.0;
 }
 
 bool Link::lost() {
@@ -125,10 +128,8 @@ Time Link::arrival(Time sent) {
   return sent + from_seconds(config_.delay + jitter_.uniform(0.0, config_.jitter) + held);
 }
 
-/// What the sensor's clock adds to a true time.
-Duration Link::stamp_error(Time sent) {
-  const double jitter = stamp_.uniform(-config_.stamp_jitter, config_.stamp_jitter);
-  return from_seconds(clock_offset_ + clock_drift_ * to_seconds(sent) + jitter);
+Duration Link::stamp_error(Time stamp, double jitter) const {
+  return from_seconds(clock_offset_ + clock_drift_ * to_seconds(stamp) + jitter);
 }
 
 void Link::send(Time sent, Measurement measurement, std::vector<Delivery>& out) {
@@ -137,8 +138,10 @@ void Link::send(Time sent, Measurement measurement, std::vector<Delivery>& out) 
   const bool twice = duplicate_.chance(config_.duplicate_probability);
   const Duration behind = twice ? from_seconds(duplicate_.uniform(0.0, config_.jitter)) : 0;
   if (dropped) return;
-  const Duration offset = stamp_error(sent);
-  if (offset != 0) shift_stamps(measurement, offset);
+  const double jitter = stamp_.uniform(-config_.stamp_jitter, config_.stamp_jitter);
+  if (has_clock_error_ || jitter != 0.0) {
+    shift_stamps(measurement, [&](Time stamp) { return stamp_error(stamp, jitter); });
+  }
   out.push_back({first, measurement});
   if (twice) out.push_back({first + behind, std::move(measurement)});
 }

@@ -56,13 +56,15 @@ class Link {
  private:
   bool lost();
   Time arrival(Time sent);
-  Duration stamp_error(Time sent);
+  /// What clock and jitter [s] add to a true time.
+  Duration stamp_error(Time stamp, double jitter) const;
 
   LinkConfig config_;
   RandomStream loss_, burst_, jitter_, reorder_, duplicate_, stamp_;
   bool in_burst_ = false;
   double clock_offset_ = 0.0;  ///< drawn and configured [s]
   double clock_drift_ = 0.0;   ///< [s/s]
+  bool has_clock_error_ = false;
 };
 
 }  // namespace aims

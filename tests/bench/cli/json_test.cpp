@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "bench/run/json_text.hpp"
 #include "tests/bench/cli/command_line.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 using testing::Outcome;
 
 class JsonOutput : public testing::CommandLine {

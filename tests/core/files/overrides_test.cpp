@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files/atomic_file.hpp"
+#include "core/files/config_dump.hpp"
 #include "tests/core/files/sample_config.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -128,9 +129,9 @@ TEST(CheckEffect, NamesPlaceKeyAndReasonWhateverTheOrder) {
   ASSERT_FALSE(checked);
   EXPECT_EQ(checked.error().message,
             "--set right.eta=4: right.eta: has no effect: right.enabled is false");
-  EXPECT_TRUE(check_effect(fields_of(c), std::vector<AssignedKey>{{"*.eta"}}));
+  EXPECT_TRUE(check_effect(fields_of(c), std::vector<AssignedKey>{{"*.eta", ""}}));
   c.left.enabled = false;
-  EXPECT_FALSE(check_effect(fields_of(c), std::vector<AssignedKey>{{"*.eta"}}));
+  EXPECT_FALSE(check_effect(fields_of(c), std::vector<AssignedKey>{{"*.eta", ""}}));
 }
 
 }  // namespace
