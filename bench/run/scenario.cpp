@@ -104,6 +104,7 @@ Result<void> apply_presets(const Scenario& chosen, Scenario& scenario) {
 /// `start` as `load` leaves it, on top of the sensor presets that it chooses.
 template <class Load>
 Result<Scenario> on_presets(Scenario start, std::vector<AssignedKey>& assigned, const Load& load) {
+  start.sensors = SensorLevel::kField;
   Scenario chosen = start;
   if (auto ok = load(chosen, nullptr); !ok) return tl::unexpected(ok.error());
   if (auto ok = apply_presets(chosen, start); !ok) return tl::unexpected(ok.error());

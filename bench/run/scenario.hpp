@@ -57,8 +57,9 @@ struct Scenario {
   int seed = 1;
   /// Specs (estimator/estimator_spec.hpp) of who runs.
   std::vector<std::string> run = {"aims", "aims_d", "tfs", "tfs_clean", "tfs_plus", "lio", "leg"};
-  /// Chooses the presets below the scenario's own keys.
-  SensorLevel sensors = SensorLevel::kField;
+  /// Chooses the presets below the scenario's own keys. A scenario that is read has `kField` unless
+  /// it names another.
+  SensorLevel sensors = SensorLevel::kIdeal;
   ImuGrade imu_grade = ImuGrade::kOfLevel;  ///< replaces the level's figures of the IMU
   SimulationConfig simulation;
   std::vector<Draw> draw;         ///< what each seed draws anew; see `scenario_of_seed`

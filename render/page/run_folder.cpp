@@ -37,7 +37,7 @@ bool is_setting(const std::string& key) {
                       [&](std::string_view prefix) { return (key + ".").starts_with(prefix); });
 }
 
-/// What differs between two configurations of one kind.
+/// What differs with effect between two configurations of one kind.
 template <class Config>
 std::vector<ConfigChange> changes_between(Config used, Config defaults) {
   std::map<std::string, std::string> default_values;
@@ -49,7 +49,8 @@ std::vector<ConfigChange> changes_between(Config used, Config defaults) {
   for (const Parameter& each : fields.parameters()) {
     const auto standard = default_values.find(each.key);
     const bool known = standard != default_values.end();
-    if (!is_setting(each.key) || (known && standard->second == each.text())) continue;
+    if (!is_setting(each.key) || !each.idle.empty() || (known && standard->second == each.text()))
+      continue;
     changes.push_back({each.key, each.text(),
                        known ? std::optional(standard->second) : std::nullopt, each.spec.unit});
   }
@@ -151,6 +152,17 @@ void take_config(const Result<Config>& config, const Result<Config>& defaults, R
   if (defaults) run.changes = changes_between(*config, *defaults);
 }
 
+/// The default scenario with that scenario's level of the sensors.
+Result<Scenario> defaults_at_level(Scenario scenario) {
+  std::vector<std::string> settings;
+  for (const Parameter& each : fields_of(scenario).parameters()) {
+    if (each.key == "sensors" || each.key == "imu_grade") {
+      settings.push_back(each.key + "=" + each.text());
+    }
+  }
+  return default_scenario(settings);
+}
+
 Result<void> read_config(RunFolder& run) {
   const fs::path file = run.path / "config.yaml";
   if (!fs::exists(file)) {
@@ -167,7 +179,7 @@ Result<void> read_config(RunFolder& run) {
     return {};
   }
   auto scenario = load_scenario(file, {});
-  take_config(scenario, default_scenario({}), run);
+  take_config(scenario, scenario ? defaults_at_level(*scenario) : default_scenario({}), run);
   if (scenario) run.scenario = std::move(*scenario);
   return {};
 }

@@ -8,6 +8,7 @@ Trajectory body_trajectory(const Truth& truth) {
   trajectory.reserve(truth.samples.size());
   for (const TruthSample& sample : truth.samples) {
     trajectory.push_back({sample.stamp, sample.T_world_body});
+    trajectory.back().pose.rotation.normalize();  // as readers of its files do
   }
   return trajectory;
 }

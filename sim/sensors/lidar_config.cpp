@@ -125,7 +125,7 @@ void describe(Fields& f, LidarConfig& c) {
            {.unit = "-",
             .range = in_range(0.0, 1.0),
             .meaning = "Smoothness of the surfaces: the part of the Fresnel reflection that is "
-                       "mirrored away and lost, on the way in and out.",
+                       "mirrored away and lost, once out and once back.",
             .source = "Schlick's approximation with 4 % at normal incidence"});
   f.number("intensity_sigma", c.intensity_sigma,
            {.unit = "-",

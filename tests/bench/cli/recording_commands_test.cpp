@@ -18,14 +18,16 @@ namespace fs = std::filesystem;
 using testing::Outcome;
 
 /// Two metres of a corridor, with faults on every link.
+/// Clocks are right: a reader finds the period of scans from their stamps to a nanosecond, and
+/// interpolates the truth between the poses of the recording, 10 ms apart.
 const std::string kShortWalk =
     "scene: {corridor: {length: 10}}\n"
     "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 2, y: 0}]}\n"
     "lidar: {columns: 600}\n"
     "links:\n"
-    "  leg_odometry: {loss: 0.1, jitter: 0.01, duplicate_probability: 0.01}\n"
+    "  leg_odometry: {loss: 0.1, jitter: 0.01, duplicate_probability: 0.01, clock_drift_sigma: 0}\n"
     "  imu: {reorder_probability: 0.02, stamp_jitter: 0.0005}\n"
-    "  lidar: {delay: 0.02}\n";
+    "  lidar: {delay: 0.02, clock_offset_sigma: 0, clock_drift_sigma: 0}\n";
 
 class Recordings : public testing::CommandLine {
  protected:

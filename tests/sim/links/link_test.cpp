@@ -271,7 +271,7 @@ TEST(Link, RepeatsWithItsSeedAndOnlyWithIt) {
 TEST(LinkConfig, EveryParameterTakesItsOwnText) {
   LinkConfig config;
   const Fields fields = fields_of(config);
-  EXPECT_EQ(fields.parameters().size(), 13U);
+  EXPECT_EQ(fields.parameters().size(), 15U);
   for (const Parameter& each : fields.parameters()) EXPECT_TRUE(each.assign(each.text()));
 }
 
