@@ -37,10 +37,12 @@ cd /
 grep -qF "$work/moved/share/aims/scenarios" "$work/list" ||
   fail "the installed program does not find its scenarios"
 
-# A recording estimated by the consumer is the recording estimated by the program.
+# A recording estimated by the consumer is the recording estimated by the program. The clock of the
+# LiDAR does not drift: a reader finds the period of scans from their stamps to a nanosecond.
 cat >"$work/walk.yaml" <<'YAML'
 scene: {corridor: {length: 10}}
 route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}
+links: {lidar: {clock_drift_sigma: 0}}
 YAML
 cd "$work"
 moved/bin/aims simulate walk.yaml --quiet -o walk.bag >simulate.log
