@@ -100,6 +100,11 @@ Result<void> RecordingWriter::write_legs(Time arrival, const LegOdometrySample& 
   if (auto ok = write(kFootContacts, arrival, foot_contacts_message(contacts, sample)); !ok) {
     return ok;
   }
+  return write_leg_odometry(arrival, sample);
+}
+
+Result<void> RecordingWriter::write_leg_odometry(Time arrival, const LegOdometrySample& sample) {
+  if (sample.stamp < 0) return ++dropped_, Result<void>{};
   const OdometryContent content = {sample.T_odom_base, sample.linear_velocity,
                                    sample.angular_velocity};
   return write(

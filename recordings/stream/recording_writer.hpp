@@ -41,6 +41,8 @@ class RecordingWriter {
   Result<void> write_scan(Time arrival, const LidarScan& scan);
   /// Joint states, contacts, then odometry, with the same record time.
   Result<void> write_legs(Time arrival, const LegOdometrySample& sample);
+  /// Odometry alone, of a robot that reports neither joints nor contacts.
+  Result<void> write_leg_odometry(Time arrival, const LegOdometrySample& sample);
   /// The truth of the IMU's and the LiDAR's frame.
   Result<void> write_truth(const BodyMotion& motion);
   /// The waypoint times, as in waypoint_times.csv.

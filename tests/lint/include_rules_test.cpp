@@ -77,6 +77,8 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
       "render/plots/", "render/scene/", "render/results/", "sim/"}},
     {"render/page", {"core/", "bench/", "render/page/", "sim/environment/"}},
     {"ros", {"core/", "estimator/", "recordings/", "ros/"}},
+    {"tests/independent",
+     {"core/", "recordings/", "tests/independent/", "tests/support/temporary_folder.hpp"}},
 };
 
 /// Prefixes of third-party headers and the folders that may include them, in which kind of file.
@@ -95,7 +97,7 @@ const std::vector<Confinement> kConfined = {
     {"pagmo/", {"bench/tuning"}, false},
     {"zlib.h", {"render/page"}, false},
     {"webp/", {"render/film"}, false},
-    {"CLI/", {"bench/cli", "ros"}, true},
+    {"CLI/", {"bench/cli", "ros", "tests/independent"}, true},
     {"ros/ros.h", {"ros"}, false},
 };
 
