@@ -38,12 +38,23 @@ Entry& entry_at(Entry& root, const std::string& key) {
   return *entry;
 }
 
+/// Whether the list has entries and none of them has an effect.
+bool is_idle(const ListField& list, const Fields& fields) {
+  if (list.size() == 0) return false;
+  const std::string start = list.key + ".";
+  return std::ranges::none_of(fields.parameters(), [&](const Parameter& each) {
+    return each.key.starts_with(start) && each.idle.empty();
+  });
+}
+
 Entry tree_of(const Fields& fields) {
   Entry root;
   for (const Parameter& parameter : fields.parameters()) {
     if (parameter.idle.empty()) entry_at(root, parameter.key).parameter = &parameter;
   }
   for (const ListField& list : fields.lists()) {
+    // Written as items without keys, it would be read back with the defaults of an entry.
+    if (is_idle(list, fields)) continue;
     entry_at(root, list.key).is_list = true;
     for (std::size_t i = 0; i < list.size(); ++i) {
       entry_at(root, fmt::format("{}.{}", list.key, i));

@@ -37,7 +37,7 @@ bool is_setting(const std::string& key) {
                       [&](std::string_view prefix) { return (key + ".").starts_with(prefix); });
 }
 
-/// What differs with effect between two configurations of one kind.
+/// What differs between two configurations of one kind.
 template <class Config>
 std::vector<ConfigChange> changes_between(Config used, Config defaults) {
   std::map<std::string, std::string> default_values;
@@ -49,8 +49,7 @@ std::vector<ConfigChange> changes_between(Config used, Config defaults) {
   for (const Parameter& each : fields.parameters()) {
     const auto standard = default_values.find(each.key);
     const bool known = standard != default_values.end();
-    if (!is_setting(each.key) || !each.idle.empty() || (known && standard->second == each.text()))
-      continue;
+    if (!is_setting(each.key) || (known && standard->second == each.text())) continue;
     changes.push_back({each.key, each.text(),
                        known ? std::optional(standard->second) : std::nullopt, each.spec.unit});
   }

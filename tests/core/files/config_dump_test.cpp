@@ -51,6 +51,38 @@ TEST(DumpConfig, LeavesOutWhatHasNoEffect) {
   EXPECT_NE(text.find("inner:\n  enabled: false\npoints"), std::string::npos) << text;
 }
 
+/// A list whose default is not that of its entries, behind a level.
+struct Modes {
+  int level = 0;
+  std::vector<Inner> modes = {{.eta = 18.0}, {.eta = 35.0}};
+};
+
+void describe(Fields& f, Modes& c) {
+  f.integer("level", c.level, {.range = in_range(0, 1), .meaning = "Level."});
+  f.list("modes", c.modes, "Modes.");
+  f.idle_if(c.level == 0, "level is 0", {"modes"});
+}
+
+TEST(DumpConfig, LeavesOutAListWithoutEffectSoThatItsDefaultStays) {
+  Modes c;
+  const std::string text = dump_config(fields_of(c));
+  EXPECT_EQ(text, "level: 0\n");
+  Modes again;
+  ASSERT_TRUE(load_config_text(text, "dump.yaml", again));
+  ASSERT_EQ(again.modes.size(), 2U);
+  EXPECT_EQ(again.modes[1].eta, 35.0);
+}
+
+TEST(DumpConfig, WritesAListWithEffect) {
+  Modes c;
+  c.level = 1;
+  c.modes.pop_back();
+  Modes again;
+  ASSERT_TRUE(load_config_text(dump_config(fields_of(c)), "dump.yaml", again));
+  ASSERT_EQ(again.modes.size(), 1U);
+  EXPECT_EQ(again.modes[0].eta, 18.0);
+}
+
 /// Texts of printable ASCII and a few control characters, with YAML's special ones frequent.
 rc::Gen<std::string> awkward_text() {
   return rc::gen::container<std::string>(
