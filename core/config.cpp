@@ -11,6 +11,10 @@
 namespace aims {
 namespace {
 
+// Beginnings of what a parameter of one number expects.
+constexpr std::string_view kNumber = "a number";
+constexpr std::string_view kInteger = "an integer";
+
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -101,6 +105,12 @@ std::string Range::text() const {
   return {};
 }
 
+bool is_integer(const Parameter& parameter) { return parameter.expected.starts_with(kInteger); }
+
+bool is_number(const Parameter& parameter) {
+  return parameter.expected.starts_with(kNumber) || is_integer(parameter);
+}
+
 template <class Number>
 void Fields::add_number(std::string_view name, Number& value, Spec spec, std::string_view what) {
   const Range range = spec.range;
@@ -116,11 +126,11 @@ void Fields::add_number(std::string_view name, Number& value, Spec spec, std::st
 }
 
 void Fields::number(std::string_view name, double& value, Spec spec) {
-  add_number(name, value, std::move(spec), "a number");
+  add_number(name, value, std::move(spec), kNumber);
 }
 
 void Fields::integer(std::string_view name, int& value, Spec spec) {
-  add_number(name, value, std::move(spec), "an integer");
+  add_number(name, value, std::move(spec), kInteger);
 }
 
 void Fields::flag(std::string_view name, bool& value, Spec spec) {

@@ -60,6 +60,12 @@ struct Parameter {
   std::string idle = {};  ///< why the value has no effect now, e.g. "legs.enabled is false"
 };
 
+/// Whether the parameter is one whole number.
+bool is_integer(const Parameter& parameter);
+
+/// Whether the parameter is one number, whole or not; false for a vector.
+bool is_number(const Parameter& parameter);
+
 /// A list of groups inside a configuration, e.g. the points of a route.
 struct ListField {
   std::string key;

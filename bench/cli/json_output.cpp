@@ -24,9 +24,7 @@ Json value_json(const Parameter& parameter) {
   if (parameter.sequence)
     return entries_json(sequence_entries(text).value_or(std::vector<std::string>()));
   if (parameter.expected == "true or false") return text == "true";
-  const bool number =
-      parameter.expected.starts_with("a number") || parameter.expected.starts_with("an integer");
-  return number ? Json::parse(text, nullptr, false) : Json(text);
+  return is_number(parameter) ? Json::parse(text, nullptr, false) : Json(text);
 }
 
 Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json(); }

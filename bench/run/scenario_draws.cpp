@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
 #include <string_view>
-#include <system_error>
 
 #include "bench/run/scenario.hpp"
+#include "core/files/number_lines.hpp"
 #include "core/random.hpp"
 #include "sim/robot/scene_route.hpp"
 
@@ -35,28 +34,14 @@ std::optional<Condition> parse_condition(const std::string& text) {
   return condition;
 }
 
-std::optional<double> number_of(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-bool is_integer(const Parameter& parameter) { return parameter.expected.starts_with("an integer"); }
-
-bool is_number(const Parameter& parameter) {
-  return !parameter.sequence &&
-         (parameter.expected.starts_with("a number") || is_integer(parameter));
-}
-
 bool holds(const std::string& text, const Fields& fields) {
   const auto condition = parse_condition(text);
   const Parameter* parameter = condition ? fields.find(condition->key) : nullptr;
   if (parameter == nullptr) return false;
   const std::string value = parameter->text();
   if (condition->relation == "=" && !is_number(*parameter)) return value == condition->value;
-  const auto left = number_of(value);
-  const auto right = number_of(condition->value);
+  const auto left = parse_number(value);
+  const auto right = parse_number(condition->value);
   if (!left || !right) return false;
   if (condition->relation == ">=") return *left >= *right;
   return condition->relation == "<=" ? *left <= *right : *left == *right;
@@ -74,7 +59,7 @@ std::string value_at(const Draw& draw, double part) {
                            ? draw.min * std::pow(draw.max / draw.min, part)
                            : draw.min + part * (draw.max - draw.min);
   // Rounded for readers, but never out of the range.
-  const double rounded = number_of(fmt::format("{:.6g}", value)).value_or(value);
+  const double rounded = parse_number(fmt::format("{:.6g}", value)).value_or(value);
   return fmt::format("{}", std::clamp(rounded, draw.min, draw.max));
 }
 
@@ -147,7 +132,7 @@ Result<void> check_condition(const std::string& text, const std::string& name, c
   }
   const bool ordered = condition->relation != "=";
   if ((ordered || is_number(*parameter)) &&
-      (!is_number(*parameter) || !number_of(condition->value))) {
+      (!is_number(*parameter) || !parse_number(condition->value))) {
     return failure(fmt::format("{}: expected numbers on both sides, got '{}'", name, text));
   }
   if (!drawn_later.contains(condition->key)) return {};

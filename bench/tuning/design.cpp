@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::string_view kForms =
     "expected KEY=LOW:HIGH:COUNT or KEY=log(LOW,HIGH,COUNT), e.g. degeneracy.eta=0:6:13";
-constexpr std::string_view kInteger = "an integer";
 
 template <class Number>
 std::optional<Number> number_of(std::string_view text) {
@@ -84,7 +83,7 @@ double rounded(double value) {
 
 const Parameter* integer_parameter(const Fields& fields, const std::string& key) {
   const Parameter* parameter = fields.find(key);
-  return parameter != nullptr && parameter->expected.starts_with(kInteger) ? parameter : nullptr;
+  return parameter != nullptr && is_integer(*parameter) ? parameter : nullptr;
 }
 
 std::vector<std::vector<double>> grid(std::span<const ParameterRange> ranges, std::size_t size) {

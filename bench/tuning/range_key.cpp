@@ -41,11 +41,6 @@ bool scenario_has(std::string_view key) {
   return fields_of(config).find(key) != nullptr;
 }
 
-bool is_number(const Parameter& parameter) {
-  return !parameter.sequence && (parameter.expected.starts_with("a number") ||
-                                 parameter.expected.starts_with("an integer"));
-}
-
 /// Why `base` has no such key to be varied.
 std::string absence(const ParameterRange& range, const Scenario& base) {
   Scenario scenario = base;
@@ -86,8 +81,8 @@ Result<void> check_in_estimator(const ParameterRange& range, const Scenario& bas
   const Fields fields = fields_of(**config);
   const Parameter* parameter = fields.find(range.key);
   if (parameter == nullptr && estimator_has(range.key)) {
-    return failure(fmt::format("range '{}': {} has no key '{}'", text_of(range), spec.name,
-                               range.key));
+    return failure(
+        fmt::format("range '{}': {} has no key '{}'", text_of(range), spec.name, range.key));
   }
   if (parameter == nullptr) return failure(absence(range, base));
   if (parameter->idle.empty()) return check_range(range, *parameter);

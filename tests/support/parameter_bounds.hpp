@@ -11,10 +11,8 @@ namespace aims::testing {
 
 /// Whether the parameter is a number or a vector of numbers.
 inline bool is_numeric(const Parameter& parameter) {
-  for (const char* start : {"a number", "an integer", "two numbers", "three numbers"}) {
-    if (parameter.expected.starts_with(start)) return true;
-  }
-  return false;
+  return is_number(parameter) || parameter.expected.starts_with("two numbers") ||
+         parameter.expected.starts_with("three numbers");
 }
 
 /// Every number is bounded on both sides, so that nothing that is computed from it overflows.

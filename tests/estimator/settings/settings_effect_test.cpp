@@ -124,7 +124,7 @@ std::vector<std::string> other_values(const Parameter& parameter) {
   const std::string text = parameter.text();
   if (parameter.expected == "true or false") return {text == "true" ? "false" : "true"};
   if (parameter.expected.starts_with("one of")) return options_of(parameter.expected);
-  const bool whole = parameter.expected.starts_with("an integer");
+  const bool whole = is_integer(parameter);
   std::vector<std::string> values;
   for (const double factor : {0.1, 10.0, 0.5, 2.0, 0.01, 100.0}) {
     if (!parameter.sequence) {
