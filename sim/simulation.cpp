@@ -153,7 +153,7 @@ void Simulation::Impl::deliver(Time now, Measurement measurement, Link& link) {
 }
 
 void Simulation::Impl::send_inertial(const TruthSample& motion) {
-  const Imu::FootLoads& loads = walker.world().state().foot_load;
+  const FootLoads& loads = walker.world().state().foot_load;
   if (auto sample = imu.sample(motion, loads)) deliver(motion.stamp, *sample, imu_link);
   if (!fast_imu) return;
   if (auto sample = fast_imu->sample(motion, loads)) fast_samples.push_back(*sample);

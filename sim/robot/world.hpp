@@ -12,6 +12,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/lie.hpp"
 #include "core/measurements.hpp"
+#include "sim/robot/foot_loads.hpp"
 #include "sim/robot/leg_lengths.hpp"
 
 namespace aims {
@@ -33,7 +34,7 @@ struct RobotState {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in base axes [rad/s]
   JointVector q = JointVector::Zero();                         ///< joint angles [rad]
   JointVector qd = JointVector::Zero();                        ///< joint rates [rad/s]
-  std::array<double, kLegCount> foot_load{};  ///< normal force on each foot in the last step [N]
+  FootLoads foot_load{};                                       ///< in the last step
   /// Force of the floor on each foot in the last step, in the world [N]
   std::array<Eigen::Vector3d, kLegCount> foot_force{
       Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),

@@ -7,11 +7,10 @@
 
 #include "core/measurements.hpp"
 #include "core/random.hpp"
+#include "sim/robot/foot_loads.hpp"
 #include "sim/sensors/leg_odometry_config.hpp"
 
 namespace aims {
-
-using FootLoads = std::array<double, kLegCount>;  ///< normal force on each foot [N]
 
 /// Force sensors in the feet and the detection of contact: a late, low-passed load with offset,
 /// scale error and noise crosses one threshold upwards and another downwards.

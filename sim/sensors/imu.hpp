@@ -2,13 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "core/measurements.hpp"
+#include "sim/robot/foot_loads.hpp"
 #include "sim/robot/truth.hpp"
 #include "sim/sensors/inertial_errors.hpp"
 #include "sim/sensors/low_pass.hpp"
@@ -34,8 +34,6 @@ Result<void> validate(const ImuConfig& config, Duration timestep);
 /// chip's low-pass, sampling, the errors of the triads.
 class Imu {
  public:
-  using FootLoads = std::array<double, kLegCount>;
-
   /// `config` is valid. Random streams: those of InertialTriad under "imu.gyro" and
   /// "imu.accelerometer", and those of StructuralVibration. They do not depend on the rate, so that
   /// two outputs of one device share what is drawn per run.

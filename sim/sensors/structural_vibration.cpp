@@ -41,7 +41,7 @@ StructuralVibration::StructuralVibration(const VibrationConfig& config, double t
   }
 }
 
-Vibration StructuralVibration::step(const std::array<double, kLegCount>& foot_load) {
+Vibration StructuralVibration::step(const FootLoads& foot_load) {
   Vibration sum;
   if (floor_acceleration_ > 0.0 || floor_rate_ > 0.0) {
     sum.acceleration = floor_acceleration_ * floor_.normal3();

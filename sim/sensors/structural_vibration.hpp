@@ -2,13 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/config.hpp"
-#include "core/measurements.hpp"
 #include "core/random.hpp"
+#include "sim/robot/foot_loads.hpp"
 #include "sim/sensors/second_order.hpp"
 
 namespace aims {
@@ -52,7 +51,7 @@ class StructuralVibration {
   bool active() const { return floor_acceleration_ > 0.0 || floor_rate_ > 0.0 || !modes_.empty(); }
 
   /// The vibration after one more physics step under these normal forces of the feet [N].
-  Vibration step(const std::array<double, kLegCount>& foot_load);
+  Vibration step(const FootLoads& foot_load);
 
  private:
   /// A mode with its gains, drawn for the run: rows are axes, columns the diagonals.
