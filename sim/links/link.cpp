@@ -111,7 +111,6 @@ Link::Link(const LinkConfig& config, std::uint64_t run_seed, std::string_view na
   RandomStream clock(run_seed, stream_name(name, "clock"));
   clock_offset_ = config.clock_offset + config.clock_offset_sigma * clock.normal();
   clock_drift_ = 1e-6 * config.clock_drift_sigma * clock.normal();
-  has_clock_error_ = clock_offset_ != 0.0 || clock_drift_ != 0.0;
 }
 
 bool Link::lost() {
@@ -139,7 +138,7 @@ void Link::send(Time sent, Measurement measurement, std::vector<Delivery>& out) 
   const Duration behind = twice ? from_seconds(duplicate_.uniform(0.0, config_.jitter)) : 0;
   if (dropped) return;
   const double jitter = stamp_.uniform(-config_.stamp_jitter, config_.stamp_jitter);
-  if (has_clock_error_ || jitter != 0.0) {
+  if (clock_offset_ != 0.0 || clock_drift_ != 0.0 || jitter != 0.0) {
     shift_stamps(measurement, [&](Time stamp) { return stamp_error(stamp, jitter); });
   }
   out.push_back({first, measurement});

@@ -64,7 +64,6 @@ class Link {
   bool in_burst_ = false;
   double clock_offset_ = 0.0;  ///< drawn and configured [s]
   double clock_drift_ = 0.0;   ///< [s/s]
-  bool has_clock_error_ = false;
 };
 
 }  // namespace aims
