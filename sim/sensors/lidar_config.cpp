@@ -68,7 +68,10 @@ void describe(Fields& f, LidarBeamConfig& c) {
             .source = "VLP-16 user manual: two returns of a firing are at least 1 m apart"});
 }
 
-void describe(Fields& f, LidarConfig& c) {
+namespace {
+
+/// Rings, firings and times of a scan.
+void describe_firings(Fields& f, LidarConfig& c) {
   f.integer("rings", c.rings,
             {.unit = "-", .range = in_range(1, 128), .meaning = "Number of rings (lasers)."});
   f.integer(
@@ -88,6 +91,10 @@ void describe(Fields& f, LidarConfig& c) {
            {.unit = "us",
             .range = up_to(1e4),
             .meaning = "Time between the firings of neighbouring rings."});
+}
+
+/// What a range is measured with.
+void describe_ranges(Fields& f, LidarConfig& c) {
   f.number("range_min", c.range_min,
            {.unit = "m",
             .range = up_to(1e4),
@@ -108,6 +115,10 @@ void describe(Fields& f, LidarConfig& c) {
   f.number(
       "range_resolution", c.range_resolution,
       {.unit = "m", .range = up_to(1.0), .meaning = "Step of the reported range; 0 for none."});
+}
+
+/// Which returns arrive, and how strong.
+void describe_returns(Fields& f, LidarConfig& c) {
   f.number("miss_probability", c.miss_probability,
            {.unit = "-",
             .range = in_half_open(0.0, 1.0),
@@ -135,6 +146,14 @@ void describe(Fields& f, LidarConfig& c) {
            {.unit = "-",
             .range = in_range(0.0, 1.0),
             .meaning = "Step of the reported intensity; 0 for none."});
+}
+
+}  // namespace
+
+void describe(Fields& f, LidarConfig& c) {
+  describe_firings(f, c);
+  describe_ranges(f, c);
+  describe_returns(f, c);
   f.vector("body_mask_min", c.body_mask_min,
            {.unit = "m",
             .range = within(100.0),
