@@ -3,10 +3,13 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/run/scenario_draws.hpp"
 #include "bench/studies/fidelity.hpp"
 #include "core/files/output_folder.hpp"
 
@@ -27,6 +30,15 @@ void print_fidelity(const Fidelity& fidelity) {
   print_out("Leg odometry; below zero: reads short\n{}\n", to_text(leg_drift_table(fidelity.legs)));
 }
 
+/// Prints each step once, unless `quiet`.
+FidelityObserver observer_of(bool quiet) {
+  return [quiet, shown = std::string()](std::string_view step) mutable {
+    if (!quiet && shown != step) print_error(std::string(step));
+    shown = step;
+    return !interrupted();
+  };
+}
+
 int fidelity_command(const SharedOptions& given) {
   SharedOptions shared = given;
   if (shared.scenario.empty()) shared.scenario = "fidelity_walk";
@@ -37,10 +49,10 @@ int fidelity_command(const SharedOptions& given) {
   const fs::path out = shared.out.empty() ? fs::path("out/fidelity") : fs::path(shared.out);
   auto folder = OutputFolder::create(out, shared.overwrite);
   if (!folder) return bad_input(kFidelityName, folder.error());
-  const auto fidelity =
-      fidelity_study(*scenario, *seed, kStandingTime, [&](const std::string& step) {
-        if (!shared.quiet) print_error(step);
-      });
+  watch_interrupt();
+  const auto fidelity = fidelity_study(scenario_of_seed(*scenario, *seed), *seed, kStandingTime,
+                                       observer_of(shared.quiet));
+  if (interrupted()) return interrupted_code();
   if (!fidelity) return bad_input(kFidelityName, located(*scenario, fidelity.error()));
   auto written = write_fidelity(*fidelity, folder->path());
   if (written) written = folder->commit();

@@ -42,13 +42,20 @@ void take(const std::vector<Delivery>& deliveries, std::size_t& scans_seen, Walk
   }
 }
 
-Result<Walk> simulated(const SimulationConfig& config, std::uint64_t seed) {
-  auto simulation = Simulation::create(config, seed);
+/// The study's seed, and where it reports what it does.
+struct Task {
+  std::uint64_t seed = 1;
+  const FidelityObserver& observer;
+};
+
+Result<Walk> simulated(const SimulationConfig& config, const Task& task, std::string_view step) {
+  auto simulation = Simulation::create(config, task.seed);
   if (!simulation) return tl::unexpected(simulation.error());
   Walk walk;
   walk.T_body_base = simulation->rig().T_body_base;
   std::size_t scans_seen = 0;
   for (bool more = true; more;) {
+    if (!task.observer(step)) return failure("the study was stopped");
     std::vector<Delivery> deliveries;
     more = simulation->advance(kSecond, deliveries);
     take(deliveries, scans_seen, walk);
@@ -127,12 +134,12 @@ std::vector<StandingDeviation> standing_deviation(const std::vector<ImuSample>& 
 }
 
 /// Fills in the Allan deviation of a robot that stands for `standing_time` [s].
-Result<void> add_allan(const SimulationConfig& fast, std::uint64_t seed, double standing_time,
+Result<void> add_allan(const SimulationConfig& fast, const Task& task, double standing_time,
                        Fidelity& fidelity) {
   SimulationConfig config = without_lidar(fast);
   config.route.stand_before = standing_time + 1.0;
   config.max_duration = standing_time;
-  const auto standing = simulated(config, seed);
+  const auto standing = simulated(config, task, "Allan deviation of the standing robot");
   if (!standing) return tl::unexpected(standing.error());
   if (standing->truth.walk.end == WalkEnd::kFell) return failure("the robot fell while it stood");
   fidelity.allan =
@@ -183,14 +190,14 @@ void add_segments(const Walk& walk, const LegOdometryConfig& config,
 
 /// Fills in the drift for both foot models, at the configured contact threshold and at three times
 /// that.
-Result<void> add_legs(const SimulationConfig& fast, std::uint64_t seed, Fidelity& fidelity) {
+Result<void> add_legs(const SimulationConfig& fast, const Task& task, Fidelity& fidelity) {
   for (const FootModel model : {FootModel::kPoint, FootModel::kRolling}) {
     for (const double threshold : {1.0, 3.0}) {
       SimulationConfig config = without_lidar(fast);
       config.leg_odometry.foot_model = model;
       config.leg_odometry.contact_on *= threshold;
       config.leg_odometry.contact_off *= threshold;
-      const auto walk = simulated(config, seed);
+      const auto walk = simulated(config, task, "leg drift");
       if (!walk) return tl::unexpected(walk.error());
       add_segments(*walk, config.leg_odometry, fidelity.legs);
     }
@@ -201,22 +208,19 @@ Result<void> add_legs(const SimulationConfig& fast, std::uint64_t seed, Fidelity
 }  // namespace
 
 Result<Fidelity> fidelity_study(const Scenario& scenario, std::uint64_t seed, double standing_time,
-                                const std::function<void(const std::string&)>& step) {
+                                const FidelityObserver& observer) {
   Fidelity fidelity;
   fidelity.scenario = scenario.name;
   fidelity.seed = seed;
   const SimulationConfig config = with_fast_imu(scenario);
-  step("walk with all sensors");
-  const auto walk = simulated(config, seed);
+  const Task task{seed, observer};
+  const auto walk = simulated(config, task, "walk with all sensors");
   if (!walk) return tl::unexpected(walk.error());
   if (walk->truth.walk.end == WalkEnd::kFell) return failure("the robot fell on its walk");
   if (auto ok = add_imu(*walk, fidelity); !ok) return tl::unexpected(ok.error());
-  step("range residuals");
   fidelity.ranges = residual_bins(residuals_of(*walk, RayCaster(build_scene(config.scene, seed))));
-  step("leg drift");
-  if (auto ok = add_legs(config, seed, fidelity); !ok) return tl::unexpected(ok.error());
-  step("Allan deviation of the standing robot");
-  if (auto ok = add_allan(config, seed, standing_time, fidelity); !ok) {
+  if (auto ok = add_legs(config, task, fidelity); !ok) return tl::unexpected(ok.error());
+  if (auto ok = add_allan(config, task, standing_time, fidelity); !ok) {
     return tl::unexpected(ok.error());
   }
   return fidelity;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/run/range_residuals.hpp"
@@ -43,12 +44,15 @@ struct Fidelity {
   std::vector<LegDrift> legs;
 };
 
+/// Receives what is being done, after each simulated second; returns false to stop the study.
+using FidelityObserver = std::function<bool(std::string_view step)>;
+
 /// Simulates the scenario's route with its sensors on perfect links, once for IMU and LiDAR, once
 /// standing for `standing_time` [s], and once per foot model and contact threshold of the leg
-/// odometry. `step` hears what is done next. Error for a simulation that cannot start or that
-/// falls.
+/// odometry. Error for a simulation that cannot start or that falls, and for a study that the
+/// observer stopped.
 Result<Fidelity> fidelity_study(const Scenario& scenario, std::uint64_t seed, double standing_time,
-                                const std::function<void(const std::string&)>& step);
+                                const FidelityObserver& observer);
 
 TextTable allan_table(const std::vector<StandingDeviation>& allan);
 TextTable range_table(const std::vector<ResidualBin>& bins);

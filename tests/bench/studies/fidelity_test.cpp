@@ -24,7 +24,8 @@ Scenario short_scenario() {
 }
 
 TEST(Fidelity, FindsTheConfiguredErrors) {
-  const auto fidelity = fidelity_study(short_scenario(), 3, 20.0, [](const std::string&) {});
+  const auto fidelity =
+      fidelity_study(short_scenario(), 3, 20.0, [](std::string_view) { return true; });
   ASSERT_TRUE(fidelity) << fidelity.error().message;
   for (const ResidualBin& each : fidelity->ranges) {
     if (each.returns < 1000 || each.incidence_end_deg > 75.0) continue;
@@ -40,6 +41,14 @@ TEST(Fidelity, FindsTheConfiguredErrors) {
     EXPECT_LT(each.signed_percent, -15.0) << "20 % short by the injected scale";
     EXPECT_GT(each.signed_percent, -40.0);
   }
+}
+
+TEST(Fidelity, StopsWhenTheObserverReturnsFalse) {
+  int calls = 0;
+  const auto fidelity =
+      fidelity_study(short_scenario(), 3, 20.0, [&](std::string_view) { return ++calls < 3; });
+  EXPECT_FALSE(fidelity);
+  EXPECT_EQ(calls, 3);
 }
 
 }  // namespace
