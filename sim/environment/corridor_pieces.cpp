@@ -5,18 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/angle.hpp"
 
 namespace aims {
 namespace {
 
-constexpr double kRadian = std::numbers::pi / 180.0;
-constexpr double kLargestChord = 30.0 * kRadian;  ///< of a bend's arc [rad]
-constexpr double kLeastStraight = 1.0;            ///< of a piece between what its bends take [m]
+constexpr double kLargestChord = 30.0 * kRadiansPerDegree;  ///< of a bend's arc [rad]
+constexpr double kLeastStraight = 1.0;  ///< of a piece between what its bends take [m]
 constexpr double kBeyondCorner = 0.05;  ///< by which a recess stays clear of a corner's walls [m]
 
 double turn_of(const BendConfig& bend) {
-  return (bend.side == Side::kLeft ? 1.0 : -1.0) * bend.angle_deg * kRadian;
+  return (bend.side == Side::kLeft ? 1.0 : -1.0) * bend.angle_deg * kRadiansPerDegree;
 }
 
 std::vector<BendConfig> bends_of(const CorridorConfig& config) {

@@ -2,7 +2,8 @@
 #include "sim/environment/glass.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "core/angle.hpp"
 
 namespace aims {
 namespace {
@@ -42,7 +43,6 @@ void describe(Fields& f, GlassConfig& c) {
 }
 
 Material glass_material(const GlassConfig& config) {
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
   // Never opaque: at 90 degrees the limit still is a positive cosine.
   const double cosine = std::max(std::cos(config.max_incidence_deg * kRadiansPerDegree), 1e-9);
   return {config.reflectivity, {0.62F, 0.80F, 0.84F}, cosine};

@@ -6,12 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "core/angle.hpp"
 #include "core/random.hpp"
 
 namespace aims {
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 /// Direction of a beam in the LiDAR frame.
 struct BeamAngles {

@@ -2,8 +2,8 @@
 #include "sim/sensors/lidar_calibration.hpp"
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/angle.hpp"
 #include "core/random.hpp"
 
 namespace aims {
@@ -14,17 +14,17 @@ bool LidarCalibration::directions_are_nominal() const {
 }
 
 LidarCalibration draw_calibration(const LidarConfig& config, std::uint64_t run_seed) {
-  constexpr double kRadians = std::numbers::pi / 180.0;
   const LidarCalibrationConfig& spread = config.calibration;
   RandomStream random = rng(run_seed, "lidar.calibration");
   LidarCalibration drawn;
   drawn.range_bias = spread.range_bias_sigma * random.normal();
   drawn.incidence_bias = spread.incidence_bias_mean + spread.incidence_bias_sigma * random.normal();
-  drawn.azimuth_cosine = kRadians * spread.azimuth_sigma_deg * random.normal();
-  drawn.azimuth_sine = kRadians * spread.azimuth_sigma_deg * random.normal();
+  drawn.azimuth_cosine = kRadiansPerDegree * spread.azimuth_sigma_deg * random.normal();
+  drawn.azimuth_sine = kRadiansPerDegree * spread.azimuth_sigma_deg * random.normal();
   for (int ring = 0; ring < config.rings; ++ring) {
     drawn.ring_range.push_back(spread.ring_range_sigma * random.normal());
-    drawn.ring_elevation.push_back(kRadians * spread.ring_elevation_sigma_deg * random.normal());
+    drawn.ring_elevation.push_back(kRadiansPerDegree * spread.ring_elevation_sigma_deg *
+                                   random.normal());
   }
   return drawn;
 }

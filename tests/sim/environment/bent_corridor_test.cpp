@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/angle.hpp"
 #include "sim/environment/corridor_pieces.hpp"
 #include "sim/robot/route_check.hpp"
 #include "sim/robot/scene_route.hpp"
@@ -17,8 +18,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::distance;
-
-constexpr double kRadian = std::numbers::pi / 180.0;
 
 /// 20 m of route with the bends given; doors set back by 15 cm on both sides.
 SceneConfig bent(std::vector<BendConfig> bends, double width = 2.2) {
@@ -54,7 +53,8 @@ Place place_at(const SceneConfig& config, double s) {
     if (s <= at) break;
     go(at - walked);
     walked = at;
-    place.heading += (bend.side == Side::kLeft ? kRadian : -kRadian) * bend.angle_deg;
+    place.heading +=
+        (bend.side == Side::kLeft ? kRadiansPerDegree : -kRadiansPerDegree) * bend.angle_deg;
   }
   go(s - walked);
   return place;
@@ -99,7 +99,7 @@ TEST(BentCorridor, CornersAreMitred) {
     const RayCaster caster(build_scene(config, 1));
     // Both corners lie on the bisector of the bend. Beside it a ray meets the nearer of the outer
     // faces, whose planes bound a convex space, and the farther of the inner ones.
-    const double half = 0.5 * angle * kRadian;
+    const double half = 0.5 * angle * kRadiansPerDegree;
     for (const double aside : {-0.02, 0.0, 0.02}) {
       const double bisector = 0.5 * std::numbers::pi + half + aside;
       const Vector3d inwards(std::cos(bisector), std::sin(bisector), 0.0);
@@ -196,7 +196,7 @@ TEST(BentCorridor, PeopleWalkInsideTheLongestPiece) {
       EXPECT_FALSE(is_inside_solid(scene, {turning.x(), turning.y(), 1.0}, person.radius));
     }
     EXPECT_NEAR(std::atan2(person.to.y() - person.from.y(), person.to.x() - person.from.x()),
-                60.0 * kRadian, 1e-9);
+                60.0 * kRadiansPerDegree, 1e-9);
   }
 }
 

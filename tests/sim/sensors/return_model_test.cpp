@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/angle.hpp"
 #include "sim/sensors/lidar.hpp"
 #include "tests/sim/sensors/closed_room.hpp"
 
@@ -97,15 +98,14 @@ TEST(LidarCalibration, HasTheConfiguredDeviationsOverRuns) {
                         .ring_elevation_sigma_deg = 0.05,
                         .azimuth_sigma_deg = 0.1};
   Spread bias, incidence, ring, elevation, azimuth;
-  constexpr double kRadians = std::numbers::pi / 180.0;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
     const LidarCalibration drawn = draw_calibration(config, seed);
     bias.add(drawn.range_bias / 0.02);
     incidence.add((drawn.incidence_bias - 0.007) / 0.003);
     ring.add(drawn.ring_range[5] / 0.01);
-    elevation.add(drawn.ring_elevation[9] / (0.05 * kRadians));
-    azimuth.add(drawn.azimuth_cosine / (0.1 * kRadians));
-    azimuth.add(drawn.azimuth_sine / (0.1 * kRadians));
+    elevation.add(drawn.ring_elevation[9] / (0.05 * kRadiansPerDegree));
+    azimuth.add(drawn.azimuth_cosine / (0.1 * kRadiansPerDegree));
+    azimuth.add(drawn.azimuth_sine / (0.1 * kRadiansPerDegree));
   }
   for (const Spread& each : {bias, incidence, ring, elevation, azimuth}) {
     EXPECT_NEAR(each.mean(), 0.0, 4.0 / std::sqrt(each.count));
