@@ -37,7 +37,7 @@ std::string reason_of(WalkEnd end, double end_s) {
   return "";
 }
 
-/// The walk of a record; older results have no `end`.
+/// How a record's simulation ended; older results have no `end`.
 WalkOutcome walk_in(const Json& robot) {
   WalkOutcome walk;
   walk.end = value_in(robot, "fell", false) ? WalkEnd::kFell : WalkEnd::kRouteDone;

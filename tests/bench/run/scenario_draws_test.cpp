@@ -64,7 +64,7 @@ double kolmogorov_distance(std::vector<double> values) {
   return largest;
 }
 
-/// Exceeded by chance once in a thousand times (asymptotic, for n above 100).
+/// Exceeded with probability 0.001 by such draws (asymptotic, for n above 100).
 double kolmogorov_limit(std::size_t n) { return 1.95 / std::sqrt(static_cast<double>(n)); }
 
 TEST(ScenarioDraws, AreUniformInTheirRanges) {
