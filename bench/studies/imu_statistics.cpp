@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "bench/metrics/power_spectrum.hpp"
+#include "bench/metrics/statistics.hpp"
 
 namespace aims {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t kShortestTrot = 8 * 400;   ///< [samples]
 constexpr std::size_t kShortestStand = 2 * 400;  ///< [samples]
 constexpr int kSlowInterval = 8;                 ///< 20 ms, the interval of 50 Hz [samples]
-constexpr std::size_t kAnyAxis = 3;
+constexpr std::size_t kAxisCount = 3;
 
 enum class Sensor { kAccelerometer, kGyro };
 
@@ -57,23 +58,17 @@ std::vector<double> series_of(std::span<const ImuSample> samples, Sensor sensor,
   return series;
 }
 
-double mean_of(const std::vector<double>& series) {
-  double sum = 0.0;
-  for (const double each : series) sum += each;
-  return sum / static_cast<double>(series.size());
-}
-
 double spread(const std::vector<double>& series) {
-  const double mean = mean_of(series);
+  const double middle = *mean(series);
   double sum = 0.0;
-  for (const double each : series) sum += (each - mean) * (each - mean);
+  for (const double each : series) sum += (each - middle) * (each - middle);
   return std::sqrt(sum / static_cast<double>(series.size()));
 }
 
 double largest_deviation(const std::vector<double>& series) {
-  const double mean = mean_of(series);
+  const double middle = *mean(series);
   double largest = 0.0;
-  for (const double each : series) largest = std::max(largest, std::abs(each - mean));
+  for (const double each : series) largest = std::max(largest, std::abs(each - middle));
   return largest;
 }
 
@@ -151,9 +146,9 @@ TextTable imu_statistics_table(const std::vector<ImuStatistic>& statistics) {
       const ImuStatistic& each = statistics[i];
       const std::size_t axis = static_cast<std::size_t>(each.axis - 'x');
       row[2 + axis] = fmt::format("{:.2g}", each.simulated);
-      row[2 + kAnyAxis + axis] = each.real_low == each.real_high
-                                     ? fmt::format("{:g}", each.real_low)
-                                     : fmt::format("{:g}-{:g}", each.real_low, each.real_high);
+      row[2 + kAxisCount + axis] = each.real_low == each.real_high
+                                       ? fmt::format("{:g}", each.real_low)
+                                       : fmt::format("{:g}-{:g}", each.real_low, each.real_high);
       if (each.comparable) factor = std::max(factor, each.factor());
     }
     row.back() = fmt::format("{:.2f}", factor);
