@@ -13,8 +13,8 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180.0;
 
 std::vector<double> even_table(int rings, double lowest, double spacing) {
-  std::vector<double> table;
-  for (int ring = 0; ring < rings; ++ring) table.push_back(lowest + spacing * ring);
+  std::vector<double> table(static_cast<std::size_t>(rings));
+  for (int ring = 0; double& each : table) each = lowest + spacing * ring++;
   return table;
 }
 
@@ -62,20 +62,18 @@ LidarScan SpinningLidar::scan(const Walk& walk, const World& world, Time start) 
   scan.stamp = start;
   scan.end = start + kScanPeriod;
   scan.points.reserve(directions_.size());
-  const auto rings = static_cast<int>(options_.elevations_deg.size());
   const Pose begin = walk.pose(to_seconds(start)) * T_body_lidar_;
   const World near = world.within(begin.translation, options_.max_range + 1.0);
+  auto direction = directions_.begin();
   for (int column = 0; column < options_.columns; ++column) {
     const Duration offset = kScanPeriod * column / options_.columns;
     const Pose T_world_lidar = walk.pose(to_seconds(start + offset)) * T_body_lidar_;
     const Eigen::Matrix3d R_world_lidar = T_world_lidar.R();
-    for (int ring = 0; ring < rings; ++ring) {
-      const Eigen::Vector3d& direction =
-          directions_[static_cast<std::size_t>(column * rings + ring)];
+    for (std::size_t ring = 0; ring < options_.elevations_deg.size(); ++ring, ++direction) {
       const double range =
-          measured(near.distance(T_world_lidar.translation, R_world_lidar * direction));
+          measured(near.distance(T_world_lidar.translation, R_world_lidar * *direction));
       if (range == 0.0) continue;
-      scan.points.push_back({(range * direction).cast<float>(), 0.5F,
+      scan.points.push_back({(range * *direction).cast<float>(), 0.5F,
                              static_cast<std::int32_t>(offset), static_cast<std::uint16_t>(ring)});
     }
   }

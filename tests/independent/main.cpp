@@ -3,13 +3,17 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
 #include <string>
 
 #include "tests/independent/cells.hpp"
 #include "tests/independent/recording.hpp"
 
-int main(int argc, char** argv) {
-  using namespace aims::independent;
+namespace aims::independent {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app("Write a synthetic recording; shares no code with the simulator");
   RecordingOptions options;
   std::string bag;
@@ -28,4 +32,16 @@ int main(int argc, char** argv) {
     return 2;
   }
   return 0;
+}
+
+}  // namespace
+}  // namespace aims::independent
+
+int main(int argc, char** argv) {
+  try {
+    return aims::independent::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "independent_recordings: internal error: %s\n", error.what());
+    return 3;
+  }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -120,6 +121,14 @@ Result<void> check(const RecordingOptions& options) {
 
 fs::path beside(fs::path bag, const char* extension) { return bag.replace_extension(extension); }
 
+/// Gives the finished bag its name.
+Result<void> publish(const fs::path& partial, const fs::path& bag) {
+  std::error_code code;
+  fs::rename(partial, bag, code);
+  if (code) return failure(fmt::format("{}: cannot be written: {}", bag.string(), code.message()));
+  return {};
+}
+
 }  // namespace
 
 SensorRig rig_of(const RecordingOptions& options) {
@@ -144,7 +153,8 @@ Result<void> write_recording(const RecordingOptions& options, const fs::path& ba
       {.elevations_deg = std::move(*rings), .max_range = cell->range_limit, .seed = options.seed});
   fs::path partial = bag;
   partial += ".partial";
-  fs::remove(partial);
+  std::error_code ignored;
+  fs::remove(partial, ignored);
   auto writer = RecordingWriter::create(
       partial, rig,
       fmt::format("# independent recording of {}, seed {}\n", options.cell, options.seed),
@@ -157,8 +167,7 @@ Result<void> write_recording(const RecordingOptions& options, const fs::path& ba
   const auto times = waypoint_times_of(walk);
   auto ok = write_file_atomically(beside(bag, ".waypoint_times.csv"), std::string_view(times));
   if (!ok) return ok;
-  fs::rename(partial, bag);
-  return {};
+  return publish(partial, bag);
 }
 
 }  // namespace aims::independent
