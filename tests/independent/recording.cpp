@@ -27,7 +27,8 @@ constexpr Duration kTruthPeriod = 10 * kMillisecond;
 constexpr Duration kImuDelay = 2 * kMillisecond;
 constexpr Duration kLegDelay = 3 * kMillisecond;
 constexpr Duration kLidarDelay = 12 * kMillisecond;  ///< after the end of the scan
-constexpr double kMinLength = 2.0;
+constexpr double kMinLength = 2.0;                   ///< [m]
+constexpr double kMaxLength = 1000.0;                ///< [m]
 
 /// One recording while it is written, in order of arrival.
 class Recorder {
@@ -76,6 +77,8 @@ std::vector<Delivery> small_deliveries(const Walk& walk, const SensorRig& rig,
                                        const RecordingOptions& options) {
   InertialOptions inertial;
   inertial.rate_hz = options.imu_rate_hz;
+  inertial.force_vibration *= options.vibration;
+  inertial.rate_vibration *= options.vibration;
   inertial.seed = options.seed;
   LegOptions legs;
   legs.scale = options.legs_scale;
@@ -110,13 +113,24 @@ Result<void> fill(Recorder& recorder, SpinningLidar& lidar, const Walk& walk, co
 }
 
 Result<void> check(const RecordingOptions& options) {
-  if (options.length != 0.0 && !(options.length >= kMinLength && options.length <= 1000.0)) {
-    return failure(fmt::format("--length: expected {} to 1000 m", kMinLength));
+  struct Bound {
+    const char* name;
+    double value;
+    double low;
+    double high;
+  };
+  for (const Bound& bound : {Bound{"--imu-rate", options.imu_rate_hz, 20.0, 2000.0},
+                             Bound{"--legs-scale", options.legs_scale, 0.1, 10.0},
+                             Bound{"--range-noise", options.range_noise, 0.0, 1.0},
+                             Bound{"--outliers", options.outliers, 0.0, 1.0},
+                             Bound{"--vibration", options.vibration, 0.0, 100.0}}) {
+    if (bound.value >= bound.low && bound.value <= bound.high) continue;
+    return failure(fmt::format("{}: expected {} to {}", bound.name, bound.low, bound.high));
   }
-  if (!(options.imu_rate_hz >= 20.0 && options.imu_rate_hz <= 2000.0)) {
-    return failure("--imu-rate: expected 20 to 2000 Hz");
+  if (options.length == 0.0 || (options.length >= kMinLength && options.length <= kMaxLength)) {
+    return {};
   }
-  return {};
+  return failure(fmt::format("--length: expected {} to {} m", kMinLength, kMaxLength));
 }
 
 fs::path beside(fs::path bag, const char* extension) { return bag.replace_extension(extension); }
@@ -148,9 +162,11 @@ Result<void> write_recording(const RecordingOptions& options, const fs::path& ba
   if (!rings) return tl::unexpected(rings.error());
   const Walk walk({.length = cell->length, .seed = options.seed});
   const SensorRig rig = rig_of(options);
-  SpinningLidar lidar(
-      rig.T_body_lidar,
-      {.elevations_deg = std::move(*rings), .max_range = cell->range_limit, .seed = options.seed});
+  SpinningLidar lidar(rig.T_body_lidar, {.elevations_deg = std::move(*rings),
+                                         .max_range = cell->range_limit,
+                                         .range_noise = options.range_noise,
+                                         .outliers = options.outliers,
+                                         .seed = options.seed});
   fs::path partial = bag;
   partial += ".partial";
   std::error_code ignored;

@@ -18,7 +18,10 @@ struct RecordingOptions {
   double length = 0.0;  ///< of the route, one way; 0: that of the cell [m]
   double legs_scale = 1.045;
   std::string rings = "uneven";
-  bool compress = false;  ///< chunks with lz4
+  double range_noise = 0.02;  ///< of the LiDAR [m]
+  double outliers = 0.002;    ///< fraction of LiDAR returns
+  double vibration = 1.0;     ///< factor on that of the IMU
+  bool compress = false;      ///< chunks with lz4
 };
 
 /// Mounts of the sensors.

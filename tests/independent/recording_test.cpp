@@ -82,6 +82,9 @@ TEST(IndependentRecording, BadOptionsAreErrors) {
   options = short_options();
   options.rings = "64";
   EXPECT_FALSE(write_recording(options, folder.path() / "x.bag"));
+  options = short_options();
+  options.outliers = 2.0;
+  EXPECT_FALSE(write_recording(options, folder.path() / "x.bag"));
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
