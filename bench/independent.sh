@@ -16,15 +16,17 @@ usage: bench/independent.sh [OPTION VALUE]...
   --length METRES      of the route, one way (that of the cell)
   --rings NAME         uneven, uniform or 32 (uneven)
   --jobs N             recordings at a time (2)
+  --keep yes|no        recordings made by this call; a full one takes 1.2 GB (yes)
 EOF
 }
 
 bin=build/release out=out/independent cells=doors_30,recess5_30,plain_30,plain_open_30,garage_30
-rates=50,200 seeds=1 estimators=aims_d,tfs_plus,lio,leg length=0 rings=uneven jobs=2 settings=()
+rates=50,200 seeds=1 estimators=aims_d,tfs_plus,lio,leg length=0 rings=uneven jobs=2 keep=yes
+settings=()
 while [ $# -gt 0 ]; do
   case $1 in
     --help|-h) usage; exit 0 ;;
-    --bin|--out|--cells|--rates|--seeds|--estimators|--length|--rings|--jobs|--set) ;;
+    --bin|--out|--cells|--rates|--seeds|--estimators|--length|--rings|--jobs|--keep|--set) ;;
     *) echo "independent.sh: unknown option '$1'" >&2; usage >&2; exit 2 ;;
   esac
   [ $# -ge 2 ] || { echo "independent.sh: $1 needs a value" >&2; exit 2; }
@@ -38,21 +40,25 @@ done
 # Makes the recording CELL RATE SEED unless it is there, and scores the estimators on it.
 # shellcheck disable=SC2317  # called by xargs
 score() {
-  local name=$1-$2-$3 bag
+  local name=$1-$2-$3 bag made=no code=0
   [ "$length" = 0 ] || name+=-${length}m
   [ "$rings" = uneven ] || name+=-$rings
   bag=$out/recordings/$name.bag
-  [ -e "$bag" ] || "$bin/independent_recordings" "$1" --imu-rate "$2" --seed "$3" \
-    --length "$length" --rings "$rings" --lz4 -o "$bag" || return 1
+  if [ ! -e "$bag" ]; then
+    "$bin/independent_recordings" "$1" --imu-rate "$2" --seed "$3" --length "$length" \
+      --rings "$rings" --lz4 -o "$bag" || return 1
+    made=yes
+  fi
   mkdir -p "$out/results"
-  # Exit code 4: an estimate was invalid at some time, which the table shows.
   "$bin/aims" estimate "$bag" --estimators "$estimators" "${@:4}" -j 1 --no-pictures --no-page -q \
-    --overwrite -o "$out/results/$name" >"$out/results/$name.log" 2>&1 || [ $? -eq 4 ] ||
-    { cat "$out/results/$name.log" >&2; return 1; }
+    --overwrite -o "$out/results/$name" >"$out/results/$name.log" 2>&1 || code=$?
+  [ "$made $keep" != "yes no" ] || rm "$bag"
+  # Exit code 4: an estimate was invalid at some time, which the table shows.
+  [ "$code" -eq 0 ] || [ "$code" -eq 4 ] || { cat "$out/results/$name.log" >&2; return 1; }
   echo "$name" >&3
 }
 export -f score
-export bin out length rings estimators
+export bin out length rings estimators keep
 
 # Rows of one recording: its name and its scores.csv.
 rows() {
