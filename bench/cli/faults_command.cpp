@@ -41,7 +41,7 @@ Result<Sequence> sequence_of(const Scenario& scenario, std::uint64_t seed, const
   const auto made = cache.make(scenario, seed);
   if (!made) return tl::unexpected(made.error());
   if (made->refusal) return failure(*made->refusal);
-  return open_sequence(cache.file_of(id), scenario);
+  return open_sequence(cache.file_of(id), scenario, seed);
 }
 
 int faults_command(const FaultArguments& arguments) {

@@ -53,13 +53,14 @@ std::string JobRunner::sequence_id(const Job& job) {
   return sequence_ids_.emplace(key, SequenceCache::id_of(*job.scenario, job.seed)).first->second;
 }
 
-Result<const Sequence*> JobRunner::open(const std::string& id, const Scenario& scenario) {
+Result<const Sequence*> JobRunner::open(const std::string& id, const Scenario& scenario,
+                                        std::uint64_t seed) {
   const auto same = [&id](const OpenSequence& each) { return each.id == id; };
   const auto known = std::find_if(open_.begin(), open_.end(), same);
   if (known != open_.end()) return known->sequence.get();
   // Without a lock the file may go while it is read, which takes nothing from who has it open.
   auto in_use = cache_.use(id);
-  auto sequence = open_sequence(cache_.file_of(id), scenario);
+  auto sequence = open_sequence(cache_.file_of(id), scenario, seed);
   if (!sequence) return tl::unexpected(sequence.error());
   if (open_.size() == kOpenSequences) open_.erase(open_.begin());
   open_.push_back({id, std::make_unique<const Sequence>(std::move(*sequence)), std::move(in_use)});

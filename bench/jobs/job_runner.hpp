@@ -100,7 +100,7 @@ class JobRunner {
   std::optional<JobResult> finished(const Job& job);
   std::string sequence_id(const Job& job);
   /// The open sequence; opens it, and closes the one that was opened first when there are many.
-  Result<const Sequence*> open(const std::string& id, const Scenario& scenario);
+  Result<const Sequence*> open(const std::string& id, const Scenario& scenario, std::uint64_t seed);
   /// Keeps the cache within its limit, but for the sequences of these ids.
   void prune(std::set<std::string> kept);
 

@@ -125,7 +125,7 @@ Result<void> JobSchedule::start_sequence(SequenceWork& sequence) {
 }
 
 Result<void> JobSchedule::start_job(SequenceWork& work) {
-  const auto open = runner_.open(work.id, work.scenario());
+  const auto open = runner_.open(work.id, work.scenario(), work.seed());
   if (!open && !work.remade) {  // e.g. cut short by a power failure
     work.remade = true;
     work.state = SequenceWork::State::kMissing;

@@ -14,7 +14,7 @@ struct ConsistencySample {
   double time_s = 0.0;
   double error_m = 0.0;           ///< signed; its sign means nothing
   std::optional<double> sigma_m;  ///< stated by the estimator; none or not positive: not stated
-  double bound_m = 0.0;           ///< posterior Cramer-Rao bound, all sensors
+  double bound_m = 0.0;           ///< posterior Cramer-Rao bound, all sensors, unknown map
   double leg_bound_m = 0.0;       ///< the same without the LiDAR
 };
 

@@ -26,10 +26,10 @@ struct LegErrors {
 };
 
 /// Prior standard deviations at the first true pose: the odometry frame defines position and
-/// heading, the other states are estimated.
+/// heading, as errors are aligned there; the other states are estimated.
 struct InitialKnowledge {
-  double position_sigma = 1e-4;  ///< [m]
-  double heading_sigma = 1e-4;   ///< [rad]
+  double position_sigma = 1e-6;  ///< [m]
+  double heading_sigma = 1e-6;   ///< [rad]
   double tilt_sigma = 0.1;       ///< [rad]
   double velocity_sigma = 1e-2;  ///< [m/s]
 };
@@ -71,8 +71,9 @@ double bound_along(const PosteriorBound& bound, const Eigen::Vector3d& axis);
 /// rotation, position, velocity, both IMU biases and the constant scale of the legs. `motion` has
 /// increasing stamps, finely enough to integrate (20 ms); `scans` are in order of time, and only
 /// those inside the motion's span count. One entry per scan, with or without `lidar`.
-/// The LiDAR is matched to a known map, so no SLAM system reaches the bound. The leg model has no
-/// slip, rolling feet, joint offsets or late touchdown: real legs are worse.
+/// The LiDAR is matched to a known map, so no SLAM system reaches the bound: for those see
+/// `unknown_map_bounds`. The leg model has no slip, rolling feet, joint offsets or late touchdown:
+/// real legs are worse.
 std::vector<PosteriorBound> posterior_bounds(std::span<const TrueMotion> motion,
                                              std::span<const ScanInformation> scans,
                                              const BoundParameters& parameters);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/metrics/alignment.hpp"
+#include "bench/run/run_map_views.hpp"
 
 namespace aims {
 namespace {
@@ -64,11 +65,13 @@ BoundParameters bound_parameters(const SimulationConfig& config, const SensorRig
 }
 
 RunLocalizability run_localizability(const SimulationConfig& config, const SensorRig& rig,
-                                     const Truth& truth, const Trajectory& truth_trajectory) {
+                                     std::uint64_t seed, const Truth& truth,
+                                     const Trajectory& truth_trajectory) {
   RunLocalizability result;
   result.scans = localizability_of(truth.scans, truth_trajectory);
   result.parameters = bound_parameters(config, rig);
-  result.bounds = posterior_bounds(motion_of(truth), truth.scans, result.parameters);
+  const MapViews map = map_views(config, rig, seed, truth);
+  result.bounds = unknown_map_bounds(motion_of(truth), map.scans, map.centres, result.parameters);
   return result;
 }
 

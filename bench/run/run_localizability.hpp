@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,8 @@ namespace aims {
 /// What a run's scans allow to know, by the truth: one localizability and bound per scan.
 struct RunLocalizability {
   std::vector<Localizability> scans;
-  std::vector<PosteriorBound> bounds;
-  BoundParameters parameters;  ///< that the bounds hold for
+  std::vector<PosteriorBound> bounds;  ///< of a robot that builds its map
+  BoundParameters parameters;          ///< that the bounds hold for
 };
 
 /// The true parameters of the simulated sensors, as the posterior bound takes them. The white noise
@@ -28,9 +29,11 @@ struct RunLocalizability {
 /// variance by the two feet that stand.
 BoundParameters bound_parameters(const SimulationConfig& config, const SensorRig& rig);
 
-/// Localizability and posterior bound of a run; `truth_trajectory` holds the truth's poses.
+/// Localizability and posterior bound of the run of that seed; `truth_trajectory` holds the truth's
+/// poses.
 RunLocalizability run_localizability(const SimulationConfig& config, const SensorRig& rig,
-                                     const Truth& truth, const Trajectory& truth_trajectory);
+                                     std::uint64_t seed, const Truth& truth,
+                                     const Trajectory& truth_trajectory);
 
 /// Posterior bound of IMU and legs alone, in the run that `truth` and `localizability` are of: one
 /// entry per scan.

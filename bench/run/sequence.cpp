@@ -38,13 +38,14 @@ Result<std::vector<LegInterval>> legs_of(const Sequence& sequence, const Scenari
 
 }  // namespace
 
-Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario) {
+Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario,
+                               std::uint64_t seed) {
   auto reader = SequenceReader::open(file);
   if (!reader) return tl::unexpected(reader.error());
   Truth truth = reader->truth();
   Trajectory poses = body_trajectory(truth);
   RunLocalizability localizability =
-      run_localizability(scenario.simulation, reader->rig(), truth, poses);
+      run_localizability(scenario.simulation, reader->rig(), seed, truth, poses);
   return Sequence{std::move(*reader), std::move(poses), std::move(truth.waypoint_times),
                   std::move(localizability), truth.walk};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -26,8 +27,9 @@ struct Sequence {
   Time end() const { return truth_trajectory.empty() ? 0 : truth_trajectory.back().stamp; }
 };
 
-/// Opens the file of the scenario's sequence (bench/jobs/sequence_cache.hpp).
-Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario);
+/// Opens the file of the scenario's sequence on that seed (bench/jobs/sequence_cache.hpp).
+Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario,
+                               std::uint64_t seed);
 
 /// Writes what is known of the sequence whoever estimates: truth.tum, waypoint_times.csv,
 /// localizability.csv, legs.csv and snapshots.csv (the robot's joints at 10 Hz, for pictures).

@@ -53,13 +53,15 @@ class CachedSequence {
 /// Truth and localizability: once per sequence.
 void open_a_sequence(benchmark::State& state) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario()));
+    benchmark::DoNotOptimize(
+        open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario(), 1));
 }
 BENCHMARK(open_a_sequence)->Unit(benchmark::kMillisecond);
 
 /// All measurements: once per job.
 void replay_a_sequence(benchmark::State& state) {
-  const auto sequence = open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario());
+  const auto sequence =
+      open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario(), 1);
   std::int64_t scans = 0;
   for (auto _ : state) {
     const auto replayed = sequence->reader.replay(
@@ -74,14 +76,18 @@ BENCHMARK(replay_a_sequence)->Unit(benchmark::kMillisecond);
 
 /// One estimator over the sequence, scored: the job itself.
 void evaluate_a_job(benchmark::State& state) {
-  const auto sequence = open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario());
-  for (auto _ : state) benchmark::DoNotOptimize(evaluate(*sequence, CachedSequence::only().scenario(), "aims", [](double) {}));
+  const auto sequence =
+      open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario(), 1);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        evaluate(*sequence, CachedSequence::only().scenario(), "aims", [](double) {}));
 }
 BENCHMARK(evaluate_a_job)->Unit(benchmark::kMillisecond);
 
 /// A process that does nothing, beside an open sequence.
 void start_a_process(benchmark::State& state) {
-  const auto sequence = open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario());
+  const auto sequence =
+      open_sequence(CachedSequence::only().file(), CachedSequence::only().scenario(), 1);
   ProcessPool pool(1);
   for (auto _ : state) {
     if (!pool.start(0, 0.0, [](auto&) { return std::string(); })) state.SkipWithError("no process");

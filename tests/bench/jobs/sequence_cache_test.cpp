@@ -10,9 +10,8 @@
 #include <fstream>
 
 #include "bench/run/evaluate.hpp"
-#include "bench/run/sequence_file.hpp"
-#include "bench/run/evaluate.hpp"
 #include "bench/run/score_record.hpp"
+#include "bench/run/sequence_file.hpp"
 #include "bench/run/stream.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
@@ -127,7 +126,7 @@ TEST_F(SequenceFile, GivesEstimatorsWhatTheSimulationGives) {
   ASSERT_TRUE(direct);
   std::vector<Delivery> deliveries;
   while (simulation->advance(kSecond, deliveries)) continue;
-  const auto sequence = open_sequence(file(), scenario);
+  const auto sequence = open_sequence(file(), scenario, 1);
   ASSERT_TRUE(sequence) << sequence.error().message;
   for (std::size_t i = 0; i < scenario.run.size(); ++i) {
     TimedEstimator& estimator = (*direct)[i];

@@ -6,28 +6,16 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "tests/bench/metrics/bound_motions.hpp"
 
 namespace aims {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kStep = 0.02;  ///< [s]
-
-/// A body that moves along x without turning: v = speed, accelerating by `acceleration`.
-std::vector<TrueMotion> straight_motion(double seconds, double speed, double acceleration = 0.0) {
-  std::vector<TrueMotion> motion;
-  const int steps = static_cast<int>(std::lround(seconds / kStep));
-  for (int i = 0; i <= steps; ++i) {
-    const double t = i * kStep;
-    TrueMotion at;
-    at.stamp = from_seconds(t);
-    at.T_world_body.translation.x() = speed * t + 0.5 * acceleration * t * t;
-    at.velocity.x() = speed + acceleration * t;
-    motion.push_back(at);
-  }
-  return motion;
-}
+using testing::certain;
+using testing::curved_motion;
+using testing::kMotionStep;
+using testing::straight_motion;
 
 std::vector<ScanInformation> scans_at(const std::vector<double>& seconds,
                                       const Eigen::Matrix<double, 6, 6>& information) {
@@ -37,15 +25,6 @@ std::vector<ScanInformation> scans_at(const std::vector<double>& seconds,
 }
 
 const Eigen::Matrix<double, 6, 6> kNothing = Eigen::Matrix<double, 6, 6>::Zero();
-
-/// Everything known but for what a test adds.
-BoundParameters certain() {
-  BoundParameters p;
-  p.legs.used = false;
-  p.legs.scale_sigma = 0.0;
-  p.initial = {1e-9, 1e-9, 1e-9, 1e-9};
-  return p;
-}
 
 TEST(PosteriorBound, OfAccelerometerNoiseAloneGrowsAsItsSecondIntegral) {
   BoundParameters p = certain();
@@ -134,23 +113,25 @@ TEST(PosteriorBound, IsTheSpreadOfTheOptimalFilterInALinearWorld) {
   const double leg_sigma = 0.1;
   const double leg_rate = 50.0;
   const int steps = 300;
-  const auto motion = straight_motion(steps * kStep, 0.2, acceleration);
+  const auto motion = straight_motion(steps * kMotionStep, 0.2, acceleration);
   BoundParameters p = certain();
   p.accelerometer = {force_density, 0.0, bias_sigma};
   p.legs = {true, leg_rate, leg_sigma, scale_sigma};
   p.initial.velocity_sigma = 1.0;  // the start moves: the bound supposes this anyway
-  const double bound = posterior_bounds(motion, scans_at({steps * kStep}, kNothing), p)[0].longitudinal;
+  const double bound =
+      posterior_bounds(motion, scans_at({steps * kMotionStep}, kNothing), p)[0].longitudinal;
 
   using Vector4 = Eigen::Vector4d;  // position, speed, bias, scale
   RandomStream random(11, "test.filter");
   Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
-  F(0, 1) = kStep;
-  F(0, 2) = -0.5 * kStep * kStep;
-  F(1, 2) = -kStep;
+  F(0, 1) = kMotionStep;
+  F(0, 2) = -0.5 * kMotionStep * kMotionStep;
+  F(1, 2) = -kMotionStep;
   const double density = force_density * force_density;
   Eigen::Matrix4d Q = Eigen::Matrix4d::Zero();
-  Q.topLeftCorner<2, 2>() << density * kStep * kStep * kStep / 3, density * kStep * kStep / 2,
-      density * kStep * kStep / 2, density * kStep;
+  Q.topLeftCorner<2, 2>() << density * kMotionStep * kMotionStep * kMotionStep / 3,
+      density * kMotionStep * kMotionStep / 2, density * kMotionStep * kMotionStep / 2,
+      density * kMotionStep;
   const Eigen::Matrix2d root = Q.topLeftCorner<2, 2>().llt().matrixL();
   const int draws = 4000;  // sampling error of the deviation: 1.1 %
   double squared = 0.0;
@@ -189,29 +170,6 @@ TEST(PosteriorBound, HeadingIsUnobservableFromImuAndLegs) {
   EXPECT_NEAR(bounds[0].lateral, 0.01 * 5.0, 1e-3);
 }
 
-/// A body that walks off from rest along a curve, turning, rolling and bobbing as it goes.
-std::vector<TrueMotion> curved_motion(double seconds) {
-  std::vector<TrueMotion> motion;
-  const auto pose_of = [](double t) {
-    const double arc = 0.1 * t * t;
-    const Vector3d rotation(0.1 * std::sin(3.0 * t), 0.08 * std::cos(4.0 * t), 0.5 * t);
-    return Pose{
-        so3_exp(rotation),
-        {1.4 * std::sin(arc), 1.4 * (1.0 - std::cos(arc)), 0.03 * (1.0 - std::cos(5.0 * t))}};
-  };
-  for (int i = 0; i <= std::lround(seconds / kStep); ++i) {
-    const double t = i * kStep;
-    TrueMotion at;
-    at.stamp = from_seconds(t);
-    at.T_world_body = pose_of(t);
-    at.velocity = (pose_of(t + 1e-5).translation - pose_of(t - 1e-5).translation) / 2e-5;
-    at.angular_velocity =
-        so3_log(pose_of(t - 1e-5).rotation.conjugate() * pose_of(t + 1e-5).rotation) / 2e-5;
-    motion.push_back(at);
-  }
-  return motion;
-}
-
 /// Integrates the true motion's own rates with wrong initial attitude, velocity and biases, without
 /// linearising anything, and compares the spread with the bound.
 TEST(PosteriorBound, IsTheSpreadOfInertialIntegrationAlongACurve) {
@@ -236,13 +194,13 @@ TEST(PosteriorBound, IsTheSpreadOfInertialIntegrationAlongACurve) {
       const TrueMotion& b = motion[i];
       const Vector3d gravity(0.0, 0.0, -9.81);
       const Vector3d force =
-          a.T_world_body.rotation.conjugate() * ((b.velocity - a.velocity) / kStep - gravity);
+          a.T_world_body.rotation.conjugate() * ((b.velocity - a.velocity) / kMotionStep - gravity);
       const Vector3d gained = pose.rotation * (force + push) + gravity;
-      pose.translation += velocity * kStep + 0.5 * kStep * kStep * gained;
-      velocity += kStep * gained;
+      pose.translation += velocity * kMotionStep + 0.5 * kMotionStep * kMotionStep * gained;
+      velocity += kMotionStep * gained;
       const Vector3d rate =
-          so3_log(a.T_world_body.rotation.conjugate() * b.T_world_body.rotation) / kStep;
-      pose.rotation = pose.rotation * so3_exp((rate + turn) * kStep);
+          so3_log(a.T_world_body.rotation.conjugate() * b.T_world_body.rotation) / kMotionStep;
+      pose.rotation = pose.rotation * so3_exp((rate + turn) * kMotionStep);
     }
     const Vector3d error = pose.translation - motion.back().T_world_body.translation;
     covariance += error * error.transpose() / draws;

@@ -85,7 +85,7 @@ class FaultStudy : public ::testing::Test {
   }
   std::vector<FaultCase> study(std::vector<std::string> faults, int jobs = 1) const {
     const auto sequence =
-        open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_);
+        open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_, 1);
     EXPECT_TRUE(sequence);
     const auto cases =
         fault_study(*sequence, scenario_, {{"aims_d", "leg"}, std::move(faults), 1, jobs},
@@ -120,7 +120,7 @@ TEST_F(FaultStudy, NamesADeadSensorAndDoesNotDependOnTheThreads) {
 
 TEST_F(FaultStudy, RefusesAFaultThatDoesNotExist) {
   const auto sequence =
-      open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_);
+      open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_, 1);
   const auto cases = fault_study(*sequence, scenario_, {{"leg"}, {"imu.fire"}, 1, 1},
                                  [](std::size_t, std::size_t) { return true; });
   ASSERT_FALSE(cases);

@@ -150,7 +150,7 @@ function weakTable(list: Row[]): HTMLElement | null {
       title: "bound rms",
       unit: "m",
       value: get("bound_rms_m"),
-      hint: "Posterior Cramér–Rao bound against a known map",
+      hint: "Posterior Cramér–Rao bound with an unknown map",
     },
     {
       title: "efficiency",
