@@ -216,11 +216,11 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   diagnostics.leg_updates = leg_updates_;
   leg_updates_ = 0;
   prepare_points(*scan, diagnostics);
-  if (config_.ground_constraint.enabled) fuse_ground_constraint();
   if (!map_.empty()) {
     accept(lidar_update_.update(belief_, match_points_, map_, diagnostics, leg_free_.belief()));
     if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
   }
+  if (config_.ground_constraint.enabled) fuse_ground_constraint();
   health_.scan(diagnostics, match_points_.size());
   leg_free_.restart(belief_, scan->end);
   extend_map();
@@ -257,11 +257,11 @@ void EskfEstimator::fuse_ground_constraint() {
   const auto plane = fit_ground(insert_points_, config_.ground_constraint);
   const auto measurement = ground_.measure(belief_, plane);
   if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];
-  if (ground_.status() == GroundStatus::kNotLevel) ++result_.counts["ground.not_level"];
-  if (ground_.status() == GroundStatus::kSettling) ++result_.counts["ground.settling"];
+  if (ground_.status() == GroundStatus::kSloped) ++result_.counts["ground.not_level"];
   if (!measurement) return;
   ++result_.counts["ground.used"];
   accept(fuse_ground(belief_, *measurement));
+  ground_.corrected(belief_.state);
 }
 
 void EskfEstimator::extend_map() {

@@ -10,113 +10,144 @@ namespace {
 
 /// Bound on the heights that are kept.
 constexpr std::size_t kMaxLevels = 32;
-/// Gate of the level test [standard deviations].
-constexpr double kGate = 3.0;
 
-/// Variance of the tilt, the larger of roll and pitch [rad^2].
-double tilt_variance(const Belief& belief, const Eigen::Matrix3d& R) {
-  const Eigen::Matrix3d rotation =
-      R * block(belief.covariance, ErrorState::kRotation, ErrorState::kRotation) * R.transpose();
-  return std::max(rotation(0, 0), rotation(1, 1));
+double density(const Eigen::Vector3d& residual, const Eigen::Matrix3d& covariance) {
+  const double square = residual.dot(covariance.ldlt().solve(residual));
+  return std::exp(-0.5 * std::min(square, 1400.0)) / std::sqrt(covariance.determinant());
+}
+
+/// Variances of the slope, twice, and of the height of level ground.
+Eigen::Vector3d unevenness(const GroundConstraintConfig& config) {
+  const double tilt = config.sigma_tilt() * config.sigma_tilt();
+  return {tilt, tilt, config.sigma_height * config.sigma_height};
+}
+
+/// The same of a plane that is fitted to ground which bends away from it within half its radius.
+Eigen::Vector3d misfit(const GroundConstraintConfig& config, const GroundPlane& plane) {
+  const double slope = 2.0 * plane.bend / config.radius;
+  return {slope * slope, slope * slope, 0.25 * plane.bend * plane.bend};
+}
+
+/// How much likelier the bend of the ground is on level ground than at the ends of slopes.
+double bend_ratio(const GroundConstraintConfig& config, const GroundPlane& plane) {
+  const double level = config.sigma_height * config.sigma_height;
+  const double kink = 0.25 * config.radius * config.sigma_slope;
+  const double sloped = level + kink * kink;
+  const double square = plane.bend * plane.bend;
+  return std::exp(0.5 * square / sloped - 0.5 * square / level) * std::sqrt(sloped / level);
+}
+
+/// Derivative of floor_of() by the filter's error; that of the height by the rotation is of second
+/// order.
+Matrix3xError jacobian_of(const NominalState& state, const GroundPlane& plane) {
+  using E = ErrorState;
+  const Eigen::Matrix3d turning = -state.rotation.toRotationMatrix() * hat(plane.normal);
+  Matrix3xError jacobian = Matrix3xError::Zero();
+  columns(jacobian, E::kRotation).topRows<2>() = turning.topRows<2>();
+  jacobian(2, E::kPosition.offset + 2) = 1.0;
+  return jacobian;
 }
 
 }  // namespace
 
 std::optional<LinearMeasurement> GroundConstraint::measure(
-    const Belief& predicted, const std::optional<GroundPlane>& plane) {
-  const Eigen::Vector3d& position = predicted.state.position;
-  const double moved = last_position_ ? (position - *last_position_).norm() : 0.0;
-  last_position_ = position;
-  distance_since_used_ += moved;
+    const Belief& belief, const std::optional<GroundPlane>& plane) {
+  plane_ = plane;
   if (!plane) {
     status_ = GroundStatus::kNotFound;
     return std::nullopt;
   }
-  const double vertical = (predicted.state.rotation * plane->normal).z();
-  const double z = position.z() - plane->height / std::max(vertical, 0.5);
-  const bool first = levels_.empty() && !was_level_ && !in_use_;
-  level_distance_ = was_level_ ? level_distance_ + moved : 0.0;
-  status_ = test_level(predicted, *plane, z);
-  was_level_ = status_ != GroundStatus::kNotLevel;
-  if (!was_level_) {
-    in_use_ = false;
+  tracker_.update(belief.state, *plane);
+  distance_since_used_ += tracker_.moved();
+  const bool first = levels_.empty();
+  weigh(belief);
+  if (status_ != GroundStatus::kLevel) {
+    distance_since_used_ = 0.0;
     return std::nullopt;
   }
-  if (!settled(predicted, z, first)) return std::nullopt;
-  if (distance_since_used_ < config_.spacing) return std::nullopt;
-  // Variance of a mean of correlated errors: twice the correlation length over the spacing.
-  const double correlated_samples =
-      first ? 1.0 : std::max(1.0, 2.0 * config_.correlation_length / distance_since_used_);
+  if (first) distance_since_used_ = 2.0 * config_.correlation_length;
+  if (!(distance_since_used_ > 0.0)) return std::nullopt;
+  LinearMeasurement m = rows(belief, tracker_.measured());
   distance_since_used_ = 0.0;
-  return rows(predicted, *plane, z, correlated_samples);
-}
-
-bool GroundConstraint::settled(const Belief& predicted, double z, bool first) {
-  if (in_use_) return true;
-  if (!first && level_distance_ < config_.settling_distance) {
-    status_ = GroundStatus::kSettling;
-    return false;
-  }
-  select_level(predicted, z);
-  in_use_ = true;
-  distance_since_used_ = first ? config_.correlation_length : 0.0;
-  return true;
-}
-
-GroundStatus GroundConstraint::test_level(const Belief& predicted, const GroundPlane& plane,
-                                          double z) const {
-  const Eigen::Matrix3d R = predicted.state.rotation.toRotationMatrix();
-  const double tilt = (R * plane.normal).head<2>().norm();
-  const double expected =
-      std::sqrt(config_.sigma_tilt * config_.sigma_tilt + tilt_variance(predicted, R));
-  const double gate = std::clamp(kGate * expected, config_.min_tilt_gate, config_.max_tilt_gate);
-  if (tilt > gate || plane.bend > config_.max_bend) return GroundStatus::kNotLevel;
-  const bool step = in_use_ && std::abs(z - levels_[current_].z) > config_.max_step;
-  return step ? GroundStatus::kNotLevel : GroundStatus::kLevel;
-}
-
-/// The known level nearest to `z` within `max_step`, else a new one.
-void GroundConstraint::select_level(const Belief& predicted, double z) {
-  const int up = ErrorState::kPosition.offset + 2;
-  const double variance = predicted.covariance(up, up);
-  std::size_t best = levels_.size();
-  double nearest = config_.max_step;
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    const double distance = std::abs(z - levels_[i].z);
-    if (distance >= nearest) continue;
-    nearest = distance;
-    best = i;
-  }
-  current_ = best;
-  if (best < levels_.size()) return;
-  if (levels_.size() == kMaxLevels) levels_.erase(levels_.begin());
-  current_ = levels_.size();
-  levels_.push_back({z, variance});
-}
-
-LinearMeasurement GroundConstraint::rows(const Belief& predicted, const GroundPlane& plane,
-                                         double z, double correlated_samples) const {
-  using E = ErrorState;
-  const Eigen::Matrix3d R = predicted.state.rotation.toRotationMatrix();
-  const Eigen::Matrix3d turning = -R * hat(plane.normal);
-  LinearMeasurement m;
-  m.residual.head<2>() = (R * plane.normal).head<2>();
-  m.residual.z() = z - levels_[current_].z;
-  columns(m.jacobian, E::kRotation).topRows<2>() = turning.topRows<2>();
-  m.jacobian(2, E::kPosition.offset + 2) = 1.0;
-  const Eigen::Matrix3d normal = R * plane.normal_covariance * R.transpose();
-  m.noise.setZero();
-  m.noise.topLeftCorner<2, 2>() =
-      correlated_samples * config_.sigma_tilt * config_.sigma_tilt * Eigen::Matrix2d::Identity() +
-      normal.topLeftCorner<2, 2>();
-  m.noise(2, 2) = correlated_samples *
-                  (config_.sigma_height * config_.sigma_height + levels_[current_].variance);
   return m;
 }
 
-Belief fuse_ground(const Belief& predicted, const LinearMeasurement& measurement) {
+/// The probabilities of the hypotheses, and the most likely level when the floor is level.
+void GroundConstraint::weigh(const Belief& belief) {
+  const Matrix3xError J = jacobian_of(belief.state, *plane_);
+  Eigen::Matrix3d level = tracker_.covariance() + J * belief.covariance * J.transpose();
+  level.diagonal() += unevenness(config_);
+  Eigen::Matrix3d step = level;
+  step(2, 2) += std::pow(config_.sigma_level(), 2);
+  Eigen::Matrix3d sloped = step;
+  sloped.diagonal().head<2>().array() += std::pow(config_.sigma_slope, 2);
+
+  const double change = std::min(0.5, config_.correlation_length / config_.level_distance);
+  const Eigen::Vector3d zero_height(tracker_.floor().x(), tracker_.floor().y(), 0.0);
+  const double weight_sloped = change * density(zero_height, sloped);
+  const double weight_new = change * density(zero_height, step);
+  double weight_known = 0.0;
+  double best = 0.0;
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    const double prior = !current_        ? (1.0 - change) / static_cast<double>(levels_.size())
+                         : i == *current_ ? 1.0 - change
+                                          : change;
+    const double weight = prior * level_density(levels_[i], level);
+    weight_known += weight;
+    if (weight <= best) continue;
+    best = weight;
+    nearest = i;
+  }
+  const double weight_level = (weight_known + weight_new) * bend_ratio(config_, *plane_);
+  level_probability_ = weight_level > 0.0 ? weight_level / (weight_level + weight_sloped) : 0.0;
+  status_ = level_probability_ > 0.5 ? GroundStatus::kLevel : GroundStatus::kSloped;
+  if (status_ == GroundStatus::kSloped) {
+    current_.reset();
+  } else if (weight_known > weight_new) {
+    current_ = nearest;
+  } else {
+    add_level(belief);
+  }
+}
+
+double GroundConstraint::level_density(const Level& level,
+                                       const Eigen::Matrix3d& covariance) const {
+  Eigen::Matrix3d total = covariance;
+  total(2, 2) += level.variance;
+  Eigen::Vector3d residual = tracker_.floor();
+  residual.z() -= level.z;
+  return density(residual, total);
+}
+
+void GroundConstraint::add_level(const Belief& belief) {
+  const int up = ErrorState::kPosition.offset + 2;
+  if (levels_.size() == kMaxLevels) levels_.erase(levels_.begin());
+  current_ = levels_.size();
+  levels_.push_back({tracker_.floor().z(), belief.covariance(up, up)});
+}
+
+LinearMeasurement GroundConstraint::rows(const Belief& belief, const Eigen::Vector3d& floor) const {
+  LinearMeasurement m;
+  m.residual = floor;
+  m.residual.z() -= levels_[*current_].z;
+  m.jacobian = jacobian_of(belief.state, *plane_);
+  // Variance of a mean of correlated errors: twice the correlation length over the distance.
+  const double samples = std::max(1.0, 2.0 * config_.correlation_length / distance_since_used_);
+  m.noise = tracker_.noise();
+  m.noise.diagonal() += samples * (unevenness(config_) + misfit(config_, *plane_));
+  m.noise(2, 2) += samples * levels_[*current_].variance;
+  m.noise /= level_probability_;
+  return m;
+}
+
+void GroundConstraint::corrected(const NominalState& state) {
+  if (plane_) tracker_.shift(floor_of(state, *plane_) - tracker_.measured());
+}
+
+Belief fuse_ground(const Belief& belief, const LinearMeasurement& measurement) {
   const Eigen::Matrix3d up = Eigen::Vector3d::UnitZ() * Eigen::Vector3d::UnitZ().transpose();
-  return kalman_update(predicted.state, inverse_spd(predicted.covariance), predicted.state,
+  return kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
                        information_of(measurement), limit_motion(consider_legs(correct_all()), up));
 }
 

@@ -11,6 +11,18 @@
 namespace aims {
 namespace {
 
+/// Height of the body above the ground [m] and slope of the ground in body axes [-], of any legged
+/// robot that stands upright.
+constexpr double kMinHeight = 0.15;
+constexpr double kMaxHeight = 1.2;
+constexpr double kMaxSlope = 0.15;
+/// Inliers of the plane are this close to it: twice the range noise of a spinning LiDAR [m].
+constexpr double kBand = 0.04;
+/// Smallest number, smallest deviation over all directions [m] and largest root mean square
+/// distance [m] of the inliers of a plane.
+constexpr int kMinPoints = 60;
+constexpr double kMinSpread = 0.25;
+constexpr double kMaxResidual = 0.015;
 /// Height of the histogram bins [m].
 constexpr double kBin = 0.06;
 /// A lower bin with this fraction of the fullest one is taken as the ground [-].
@@ -82,9 +94,8 @@ std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points,
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3d p = point.cast<double>();
     const double away = p.head<2>().norm();
-    const double tilted = config.max_slope * away;
-    if (!(away < config.radius) || p.z() > tilted - config.min_height ||
-        p.z() < -tilted - config.max_height) {
+    const double tilted = kMaxSlope * away;
+    if (!(away < config.radius) || p.z() > tilted - kMinHeight || p.z() < -tilted - kMaxHeight) {
       continue;
     }
     if (columns.is_free(p)) kept.push_back(p);
@@ -95,10 +106,10 @@ std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points,
 /// The lowest well-filled height [m] of the points within half the radius.
 std::optional<double> lowest_mode(const std::vector<Eigen::Vector3d>& points,
                                   const GroundConstraintConfig& config) {
-  const auto bins = static_cast<std::size_t>((config.max_height - config.min_height) / kBin) + 1;
+  const auto bins = static_cast<std::size_t>((kMaxHeight - kMinHeight) / kBin) + 1;
   std::vector<int> counts(bins, 0);
   for (const Eigen::Vector3d& p : points) {
-    const double down = -p.z() - config.min_height;
+    const double down = -p.z() - kMinHeight;
     if (down < 0.0 || p.head<2>().norm() > 0.5 * config.radius) continue;
     ++counts[std::min(bins - 1, static_cast<std::size_t>(down / kBin))];
   }
@@ -106,7 +117,7 @@ std::optional<double> lowest_mode(const std::vector<Eigen::Vector3d>& points,
   if (most == 0) return std::nullopt;
   std::size_t at = bins - 1;
   while (counts[at] < kLowerBinFraction * most) --at;
-  return -(config.min_height + (static_cast<double>(at) + 0.5) * kBin);
+  return -(kMinHeight + (static_cast<double>(at) + 0.5) * kBin);
 }
 
 /// Least squares over the points within `band` of `from`.
@@ -171,6 +182,7 @@ GroundPlane plane_of(const HeightFit& fit) {
   plane.points = fit.points;
   plane.residual = std::sqrt(fit.square_sum / fit.points);
   const Eigen::Matrix3d covariance = plane.residual * plane.residual * fit.information.inverse();
+  plane.height_variance = covariance(0, 0);
   // To first order in the slopes of a plane that is about level.
   const Eigen::Matrix3d across =
       Eigen::Matrix3d::Identity() - plane.normal * plane.normal.transpose();
@@ -184,55 +196,31 @@ GroundPlane plane_of(const HeightFit& fit) {
 void describe(Fields& f, GroundConstraintConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "constrain height and tilt by level ground"});
   f.number("radius", c.radius, {"m", positive_up_to(1e4), "horizontal radius of the points used"});
-  f.number("min_height", c.min_height,
-           {"m", positive_up_to(1e4), "smallest height above the ground"});
-  f.number("max_height", c.max_height,
-           {"m", positive_up_to(1e4), "largest height above the ground"});
-  f.number("max_slope", c.max_slope,
-           {"-", positive_up_to(1e6), "slope of the ground in body axes, for candidate points"});
-  f.number("band", c.band, {"m", positive_up_to(1e4), "inliers are this close to the plane"});
-  f.integer("min_points", c.min_points, {"-", in_range(3, 1000000), "inliers of a ground plane"});
-  f.number("min_spread", c.min_spread,
-           {"m", positive_up_to(1e4), "smallest deviation of the inliers along any direction"});
-  f.number("max_residual", c.max_residual,
-           {"m", positive_up_to(1e4), "root mean square distance of the inliers from the plane"});
-  f.number("max_bend", c.max_bend,
-           {"m", positive_up_to(1e4), "ground with a part further from the plane is not level"});
-  f.number("min_tilt_gate", c.min_tilt_gate,
-           {"rad", positive_up_to(100.0),
-            "ground tilted by less is level; lower bound of the 3-sigma gate"});
-  f.number("max_tilt_gate", c.max_tilt_gate,
-           {"rad", positive_up_to(100.0),
-            "ground tilted by more is not level; upper bound of the gate"});
-  f.number("max_step", c.max_step,
-           {"m", positive_up_to(1e4), "larger change of height starts another level"});
-  f.number("settling_distance", c.settling_distance,
-           {"m", up_to(1e4), "distance on level ground before it is used again"});
-  f.number("spacing", c.spacing, {"m", up_to(1e4), "distance between measurements"});
-  f.number("correlation_length", c.correlation_length,
-           {"m", positive_up_to(1e4), "correlation length of the unevenness"});
-  f.number("sigma_tilt", c.sigma_tilt,
-           {"rad", positive_up_to(100.0), "unevenness of level ground"});
   f.number("sigma_height", c.sigma_height,
            {"m", positive_up_to(1e4), "unevenness of level ground"});
+  f.number("correlation_length", c.correlation_length,
+           {"m", positive_up_to(1e4), "correlation length of the unevenness"});
+  f.number("sigma_slope", c.sigma_slope, {"rad", positive_up_to(10.0), "slope of ramps, 1 sigma"});
+  f.number("level_distance", c.level_distance,
+           {"m", positive_up_to(1e4), "mean distance between changes of slope or height"});
 }
 
 std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points,
                                       const GroundConstraintConfig& config) {
   const std::vector<Eigen::Vector3d> candidates = below(points, config);
-  if (candidates.size() < static_cast<std::size_t>(config.min_points)) return std::nullopt;
+  if (candidates.size() < static_cast<std::size_t>(kMinPoints)) return std::nullopt;
   const std::optional<double> mode = lowest_mode(candidates, config);
   if (!mode) return std::nullopt;
   HeightFit fit;
   fit.coefficients(0) = *mode;
   for (const double band : kWideBands) fit = refit(candidates, fit, band);
   // The last band is applied twice, so that the plane fits its own inliers.
-  for (int i = 0; i < 2; ++i) fit = refit(candidates, fit, config.band);
-  if (fit.points < config.min_points || spread(fit) < config.min_spread) return std::nullopt;
+  for (int i = 0; i < 2; ++i) fit = refit(candidates, fit, kBand);
+  if (fit.points < kMinPoints || spread(fit) < kMinSpread) return std::nullopt;
   if (fit.points < kMinInlierFraction * static_cast<double>(candidates.size())) return std::nullopt;
   GroundPlane plane = plane_of(fit);
-  if (!plane.normal.allFinite() || !(plane.residual <= config.max_residual)) return std::nullopt;
-  if (plane.height < config.min_height || plane.height > config.max_height) return std::nullopt;
+  if (!plane.normal.allFinite() || !(plane.residual <= kMaxResidual)) return std::nullopt;
+  if (plane.height < kMinHeight || plane.height > kMaxHeight) return std::nullopt;
   plane.bend = bend_of(candidates, fit, config.radius);
   return plane;
 }

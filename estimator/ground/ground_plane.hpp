@@ -9,26 +9,22 @@
 
 namespace aims {
 
-/// Ground constraint: when the ground counts as level, and how accurate a level ground is.
+/// Ground constraint: the floors that a robot walks on, as a prior.
 struct GroundConstraintConfig {
   bool enabled = false;
-  double radius = 6.0;              ///< horizontal radius of the points used [m]
-  double min_height = 0.15;         ///< of the body above the ground [m]
-  double max_height = 1.2;          ///< of the body above the ground [m]
-  double max_slope = 0.15;          ///< of the ground in body axes, for candidate points [-]
-  double band = 0.04;               ///< inliers are this close to the plane [m]
-  int min_points = 60;              ///< inliers of a ground plane
-  double min_spread = 0.25;         ///< smallest deviation of the inliers, any direction [m]
-  double max_residual = 0.015;      ///< root mean square distance of the inliers [m]
-  double max_bend = 0.02;           ///< of a part of the ground from the plane [m]
-  double min_tilt_gate = 7.5e-3;    ///< ground tilted by less is level [rad]
-  double max_tilt_gate = 1.5e-2;    ///< ground tilted by more is not, however uncertain [rad]
-  double max_step = 0.05;           ///< a larger change of height starts another level [m]
-  double settling_distance = 1.0;   ///< on level ground before it is used again [m]
-  double spacing = 0.03;            ///< distance between measurements [m]
-  double correlation_length = 0.7;  ///< of the unevenness [m]
-  double sigma_tilt = 1e-3;         ///< unevenness of level ground, per axis [rad]
-  double sigma_height = 5e-3;       ///< unevenness of level ground [m]
+  double radius = 6.0;  ///< horizontal radius of the points used [m]
+  /// Unevenness of level ground, 1 sigma: a third of what DIN 18202 allows over 15 m [m].
+  double sigma_height = 5e-3;
+  double correlation_length = 0.7;  ///< of the unevenness along the path [m]
+  /// Slope of ramps, 1 sigma: the 8 % that accessible ramps may have are two of it [rad].
+  double sigma_slope = 0.04;
+  double level_distance = 20.0;  ///< mean distance between changes of slope or height [m]
+
+  /// Unevenness as tilt of a plane of this radius, per axis [rad].
+  double sigma_tilt() const { return sigma_height / radius; }
+
+  /// Difference of height between two levels, 1 sigma [m].
+  double sigma_level() const { return sigma_slope * level_distance; }
 };
 
 void describe(Fields& fields, GroundConstraintConfig& config);
@@ -41,13 +37,14 @@ struct GroundPlane {
   int points = 0;                                     ///< inliers
   double residual = 0.0;  ///< root mean square distance of the inliers [m]
   double bend = 0.0;      ///< largest median distance of a part of the ground from the plane [m]
+  double height_variance = 0.0;  ///< from the scatter of the inliers [m^2]
   /// Of the normal, from the scatter of the inliers: 3x3, body axes, zero along the normal [rad^2].
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
 };
 
 /// The lowest wide plane below a robot that stands roughly upright: a mode of the point heights
-/// near the robot, then least squares within a band that shrinks to `config.band`. Empty when the
-/// inliers are few, badly spread or scattered, or the height is out of range. Deterministic.
+/// near the robot, then least squares within a band that shrinks to 4 cm. Empty when the inliers
+/// are few, badly spread or scattered, or the height is that of no legged robot. Deterministic.
 /// `points` are deskewed returns in body axes at the scan's end [m].
 std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points,
                                       const GroundConstraintConfig& config);
