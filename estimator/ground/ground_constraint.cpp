@@ -59,15 +59,16 @@ std::optional<LinearMeasurement> GroundConstraint::measure(
   }
   tracker_.update(belief.state, *plane);
   distance_since_used_ += tracker_.moved();
-  const bool first = levels_.empty();
   weigh(belief);
   if (status_ != GroundStatus::kLevel) {
     distance_since_used_ = 0.0;
     return std::nullopt;
   }
-  if (first) distance_since_used_ = 2.0 * config_.correlation_length;
-  if (!(distance_since_used_ > 0.0)) return std::nullopt;
-  LinearMeasurement m = rows(belief, tracker_.measured());
+  last_height_ = tracker_.floor().z();
+  if (!measured_) distance_since_used_ = 2.0 * config_.correlation_length;
+  if (!(distance_since_used_ > 0.0)) return std::nullopt;  // the same ground again
+  measured_ = true;
+  const LinearMeasurement m = rows(belief, tracker_.measured());
   distance_since_used_ = 0.0;
   return m;
 }
@@ -82,7 +83,7 @@ void GroundConstraint::weigh(const Belief& belief) {
   Eigen::Matrix3d sloped = step;
   sloped.diagonal().head<2>().array() += std::pow(config_.sigma_slope, 2);
 
-  const double change = std::min(0.5, config_.correlation_length / config_.level_distance);
+  const double change = std::min(0.5, config_.radius / config_.level_distance);
   const Eigen::Vector3d zero_height(tracker_.floor().x(), tracker_.floor().y(), 0.0);
   const double weight_sloped = change * density(zero_height, sloped);
   const double weight_new = change * density(zero_height, step);
@@ -93,7 +94,7 @@ void GroundConstraint::weigh(const Belief& belief) {
     const double prior = !current_        ? (1.0 - change) / static_cast<double>(levels_.size())
                          : i == *current_ ? 1.0 - change
                                           : change;
-    const double weight = prior * level_density(levels_[i], level);
+    const double weight = prior * level_density(i, level);
     weight_known += weight;
     if (weight <= best) continue;
     best = weight;
@@ -111,12 +112,14 @@ void GroundConstraint::weigh(const Belief& belief) {
   }
 }
 
-double GroundConstraint::level_density(const Level& level,
-                                       const Eigen::Matrix3d& covariance) const {
+/// The current level is tested by what the floor's height changed since the last scan: the drift of
+/// the filter's height, however large, is no step.
+double GroundConstraint::level_density(std::size_t index, const Eigen::Matrix3d& covariance) const {
+  const bool current = current_ && index == *current_;
   Eigen::Matrix3d total = covariance;
-  total(2, 2) += level.variance;
+  if (!current) total(2, 2) += levels_[index].variance;
   Eigen::Vector3d residual = tracker_.floor();
-  residual.z() -= level.z;
+  residual.z() -= current ? last_height_ : levels_[index].z;
   return density(residual, total);
 }
 
@@ -132,17 +135,21 @@ LinearMeasurement GroundConstraint::rows(const Belief& belief, const Eigen::Vect
   m.residual = floor;
   m.residual.z() -= levels_[*current_].z;
   m.jacobian = jacobian_of(belief.state, *plane_);
-  // Variance of a mean of correlated errors: twice the correlation length over the distance.
-  const double samples = std::max(1.0, 2.0 * config_.correlation_length / distance_since_used_);
   m.noise = tracker_.noise();
-  m.noise.diagonal() += samples * (unevenness(config_) + misfit(config_, *plane_));
-  m.noise(2, 2) += samples * levels_[*current_].variance;
+  // Variance of a mean of correlated errors: twice the correlation length over the distance. Not of
+  // the height, which must outweigh a map whose own error is as correlated.
+  const double samples = std::max(1.0, 2.0 * config_.correlation_length / distance_since_used_);
+  m.noise.diagonal() += (unevenness(config_) + misfit(config_, *plane_))
+                            .cwiseProduct(Eigen::Vector3d(samples, samples, 1.0));
+  m.noise(2, 2) += levels_[*current_].variance;
   m.noise /= level_probability_;
   return m;
 }
 
 void GroundConstraint::corrected(const NominalState& state) {
-  if (plane_) tracker_.shift(floor_of(state, *plane_) - tracker_.measured());
+  if (!plane_) return;
+  tracker_.shift(floor_of(state, *plane_) - tracker_.measured());
+  last_height_ = tracker_.floor().z();
 }
 
 Belief fuse_ground(const Belief& belief, const LinearMeasurement& measurement) {

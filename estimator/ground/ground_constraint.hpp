@@ -51,7 +51,7 @@ class GroundConstraint {
   };
 
   void weigh(const Belief& belief);
-  double level_density(const Level& level, const Eigen::Matrix3d& covariance) const;
+  double level_density(std::size_t index, const Eigen::Matrix3d& covariance) const;
   void add_level(const Belief& belief);
   LinearMeasurement rows(const Belief& belief, const Eigen::Vector3d& floor) const;
 
@@ -61,6 +61,8 @@ class GroundConstraint {
   double level_probability_ = 0.0;
   std::vector<Level> levels_;
   std::optional<std::size_t> current_;  ///< in `levels_`; empty on a slope
+  double last_height_ = 0.0;            ///< of the tracked floor when it was last level [m]
+  bool measured_ = false;               ///< at least once
   double distance_since_used_ = 0.0;    ///< travelled since the last measurement [m]
   std::optional<GroundPlane> plane_;    ///< of the last scan
 };

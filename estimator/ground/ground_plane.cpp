@@ -199,7 +199,7 @@ void describe(Fields& f, GroundConstraintConfig& c) {
   f.number("sigma_height", c.sigma_height,
            {"m", positive_up_to(1e4), "unevenness of level ground"});
   f.number("correlation_length", c.correlation_length,
-           {"m", positive_up_to(1e4), "correlation length of the unevenness"});
+           {"m", positive_up_to(1e4), "correlation length of the tilt of level ground"});
   f.number("sigma_slope", c.sigma_slope, {"rad", positive_up_to(10.0), "slope of ramps, 1 sigma"});
   f.number("level_distance", c.level_distance,
            {"m", positive_up_to(1e4), "mean distance between changes of slope or height"});

@@ -15,7 +15,7 @@ struct GroundConstraintConfig {
   double radius = 6.0;  ///< horizontal radius of the points used [m]
   /// Unevenness of level ground, 1 sigma: a third of what DIN 18202 allows over 15 m [m].
   double sigma_height = 5e-3;
-  double correlation_length = 0.7;  ///< of the unevenness along the path [m]
+  double correlation_length = 0.7;  ///< of the tilt of level ground along the path [m]
   /// Slope of ramps, 1 sigma: the 8 % that accessible ramps may have are two of it [rad].
   double sigma_slope = 0.04;
   double level_distance = 20.0;  ///< mean distance between changes of slope or height [m]
