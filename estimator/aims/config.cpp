@@ -31,6 +31,7 @@ void describe(Fields& f, EskfConfig& c) {
   f.group("zero_velocity", c.zero_velocity);
   f.group("ground_constraint", c.ground_constraint);
   f.group("lidar", c.lidar);
+  f.group("calibration", c.calibration);
   f.group("robust_kernel", c.robust_kernel);
   f.group("map", c.map);
   f.group("map_covariance", c.map_covariance);

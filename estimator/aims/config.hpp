@@ -14,6 +14,7 @@
 #include "estimator/legs/leg_velocity_model.hpp"
 #include "estimator/legs/zero_velocity.hpp"
 #include "estimator/lidar/lidar_config.hpp"
+#include "estimator/lidar/sensor_calibration.hpp"
 
 namespace aims {
 
@@ -29,6 +30,7 @@ struct EskfConfig {
   ZeroVelocityConfig zero_velocity;
   GroundConstraintConfig ground_constraint;
   LidarUpdateConfig lidar;
+  CalibrationConfig calibration;
   RobustKernelConfig robust_kernel;
   MapConfig map;
   MapCovarianceConfig map_covariance;

@@ -85,6 +85,8 @@ bool EskfEstimator::start() {
   if (!initial) return false;
   if (!initial->stood_still) ++result_.counts["initialization.moving"];
   belief_ = open_leg_states(initial->belief, leg_states_of(config_));
+  belief_ = open_calibration(belief_, config_.calibration, rig_.imu_rate_hz);
+  queue_.imu().set_delay(from_seconds(belief_.state.delay));
   time_ = initial->stamp;
   last_pose_ = time_;
   last_correction_ = time_;
@@ -164,14 +166,9 @@ bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
   const std::optional<ImuStatistics> statistics = zero_velocity_.due_measurement();
   if (!statistics) return true;
   ++result_.counts["zero_velocity.used"];
-  Information information =
-      information_of(zero_velocity_model(belief_.state, config.sigma_velocity));
-  const Information rate =
-      information_of(zero_rate_model(belief_.state, statistics->rate, config.sigma_rate));
-  information.matrix += rate.matrix;
-  information.vector += rate.vector;
-  accept(kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state, information,
-                       consider_legs(correct_all())));
+  const ErrorMatrix mask = consider_legs(correct_all());
+  accept(fuse(belief_, zero_velocity_model(belief_.state, config.sigma_velocity), mask));
+  accept(fuse(belief_, zero_rate_model(belief_.state, statistics->rate, config.sigma_rate), mask));
   return true;
 }
 
@@ -194,12 +191,9 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  const ErrorMatrix prior_information = inverse_spd(belief_.covariance);
-  const Information information = information_of(measurement);
   accept(lidar_update_.considers_legs()
-             ? kalman_update(belief_.state, prior_information, belief_.state, information,
-                             consider_position(consider_legs(correct_all())))
-             : kalman_update(belief_.state, prior_information, belief_.state, information));
+             ? fuse(belief_, measurement, consider_position(consider_legs(correct_all())))
+             : fuse(belief_, measurement));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {
@@ -214,20 +208,42 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   diagnostics.stamp = scan->end;
   diagnostics.leg_innovation = leg_innovation_;
   diagnostics.leg_updates = leg_updates_;
+  diagnostics.imu_noise = queue_.imu().noise().density();
   leg_updates_ = 0;
   prepare_points(*scan, diagnostics);
   if (!map_.empty()) {
-    accept(lidar_update_.update(belief_, match_points_, map_, diagnostics, leg_free_.belief()));
-    if (diagnostics.iterations == 0) ++result_.counts["lidar.no_update"];
+    fuse_scan(diagnostics);
   }
   if (config_.ground_constraint.enabled) fuse_ground_constraint();
   health_.scan(diagnostics, match_points_.size());
+  last_scan_ = scan->end;
   leg_free_.restart(belief_, scan->end);
   extend_map();
+  diagnostics.delay = belief_.state.delay;
+  diagnostics.mount = so3_log(belief_.state.mount);
   record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   last_pose_ = scan->end;
   result_.diagnostics.scans.push_back(row_of(diagnostics));
+}
+
+/// Fuses the prepared points, and learns from the correction how noisy the IMU is.
+void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
+  const NominalState predicted = belief_.state;
+  const CalibrationModel calibration{rig_.T_body_lidar.translation, scan_twist_};
+  accept(lidar_update_.update(belief_, match_points_, map_, calibration, diagnostics,
+                              leg_free_.belief()));
+  if (diagnostics.iterations == 0) {
+    ++result_.counts["lidar.no_update"];
+    return;
+  }
+  if (last_scan_) {
+    queue_.imu().noise().add_correction(
+        so3_log(predicted.rotation.conjugate() * belief_.state.rotation),
+        to_seconds(time_ - *last_scan_));
+  }
+  belief_ = after_delay_change(belief_, belief_.state.delay - predicted.delay, scan_twist_);
+  queue_.imu().set_delay(from_seconds(belief_.state.delay));
 }
 
 void EskfEstimator::predict_to(Time stamp) {
@@ -239,6 +255,7 @@ void EskfEstimator::predict_to(Time stamp) {
     if (!segment.measured) ++result_.counts["imu.bridged"];
   }
   walk_leg_states(belief_, leg_states_of(config_), to_seconds(stamp - time_));
+  walk_calibration(belief_, config_.calibration, to_seconds(stamp - time_));
   time_ = stamp;
   queue_.imu().forget_before(stamp - kSecond);
 }
@@ -246,7 +263,9 @@ void EskfEstimator::predict_to(Time stamp) {
 void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics) {
   for (const LidarPoint& point : scan.points) diagnostics.points_in += selection_.usable(point);
   queue_.imu().segments(scan.stamp, scan.end, segments_);
-  const ScanMotion motion(belief_.state, segments_, rig_.T_body_lidar, config_.imu.gravity);
+  scan_twist_ = mean_twist(belief_.state, segments_, config_.imu.gravity);
+  const ScanMotion motion(belief_.state, segments_,
+                          corrected_mount(belief_.state, rig_.T_body_lidar), config_.imu.gravity);
   selection_.select(scan, config_.lidar.selection_voxel, config_.lidar.max_points, indices_);
   deskew(scan, indices_, motion, match_points_);
   selection_.select(scan, config_.map.insertion_voxel, config_.map.max_insertions, indices_);

@@ -71,12 +71,14 @@ void LidarUpdate::assess_axes(const MatchInformation& scan, const NominalState& 
 /// by gamma_lidar; with `noise_information` it is reduced to its real part per axis.
 Linearization<NominalState> LidarUpdate::fused(const MatchInformation& scan, double gamma,
                                                const NominalState& state) const {
-  if (!noise_information_.enabled) {
-    return {pose_information(gamma * scan.matrix, gamma * scan.vector), std::nullopt};
-  }
   const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
+  if (!noise_information_.enabled) {
+    return {scan_information(gamma * scan.matrix, gamma * scan.vector, calibration_, R),
+            std::nullopt};
+  }
   const Matrix6 F = axes_.real_fraction(R);
-  return {pose_information(gamma * F * scan.matrix * F.transpose(), gamma * F * scan.vector),
+  return {scan_information(gamma * F * scan.matrix * F.transpose(), gamma * F * scan.vector,
+                           calibration_, R),
           gain_mask(R)};
 }
 
@@ -164,8 +166,9 @@ void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predi
 }
 
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
-                           const VoxelMap& map, ScanDiagnostics& diagnostics,
-                           const Belief* leg_free) {
+                           const VoxelMap& map, const CalibrationModel& calibration,
+                           ScanDiagnostics& diagnostics, const Belief* leg_free) {
+  calibration_ = calibration;
   const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
   const auto trial = this->trial(predicted, prior_information, points, map, diagnostics);
   const NominalState& at = trial.belief.state;
@@ -183,6 +186,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at, scan);
     assess(predicted, prior_information, at, diagnostics);
     belief = kalman_update(predicted.state, prior_information, at, fused(scan, gamma_lidar_, at));
+    matcher_.learn_noise();
     if (map_covariance_enabled_) update_map_covariance(map, predicted, belief);
   }
   if (degeneracy_.enabled) diagnostics.D_smoothed = severity_.value();

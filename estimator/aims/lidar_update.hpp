@@ -26,9 +26,10 @@ class LidarUpdate {
   /// index, weights and statistics of `diagnostics`. With too few planes at any linearization, the
   /// last included, the belief and the index are unchanged and `iterations` is 0. `leg_free` is the
   /// prediction of the IMU alone, for C_IL; null: not known, C_IL then takes `predicted`.
+  /// `calibration` is the scan's dependence on mount and delay.
   Belief update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
-                const VoxelMap& map, ScanDiagnostics& diagnostics,
-                const Belief* leg_free = nullptr);
+                const VoxelMap& map, const CalibrationModel& calibration,
+                ScanDiagnostics& diagnostics, const Belief* leg_free = nullptr);
 
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
@@ -57,6 +58,7 @@ class LidarUpdate {
   void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);
 
   LidarUpdateConfig lidar_;
+  CalibrationModel calibration_;  ///< of the present scan
   DegeneracyConfig degeneracy_;
   NoiseInformationConfig noise_information_;
   LegStatesConfig leg_states_;

@@ -74,6 +74,18 @@ constexpr std::array kSeries = {
            [](const Scan& s) { return s.leg_innovation; }},
     Series{"leg_updates", "-", "leg updates since the last scan",
            [](const Scan& s) { return static_cast<double>(s.leg_updates); }},
+    Series{"gyro_noise", "rad/s/sqrt(Hz)", "estimated white noise of the gyro",
+           [](const Scan& s) { return s.imu_noise.gyro; }},
+    Series{"accelerometer_noise", "m/s^2/sqrt(Hz)", "estimated white noise of the accelerometer",
+           [](const Scan& s) { return s.imu_noise.accelerometer; }},
+    Series{"delay", "s", "estimated delay of the IMU's stamps",
+           [](const Scan& s) { return s.delay; }},
+    Series{"mount_x", "rad", "estimated correction of the mount's rotation",
+           [](const Scan& s) { return s.mount.x(); }},
+    Series{"mount_y", "rad", "estimated correction of the mount's rotation",
+           [](const Scan& s) { return s.mount.y(); }},
+    Series{"mount_z", "rad", "estimated correction of the mount's rotation",
+           [](const Scan& s) { return s.mount.z(); }},
 };
 
 }  // namespace

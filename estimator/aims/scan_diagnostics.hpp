@@ -7,6 +7,7 @@
 
 #include "core/time.hpp"
 #include "estimator/diagnostics.hpp"
+#include "estimator/filter/imu_noise.hpp"
 
 namespace aims {
 
@@ -43,7 +44,11 @@ struct ScanDiagnostics {
   double weak_ratio = kNotComputed;      ///< smallest ratio of information to noise-induced one
   double leg_innovation = kNotComputed;  ///< norm of the last leg innovation [m/s]
   int leg_updates = 0;                   ///< since the last scan
-  PoseCovariance covariance;             ///< after the update
+  ImuNoiseDensity imu_noise;             ///< before the update, estimated
+  double delay = kNotComputed;           ///< of the IMU's stamps, after the update [s]
+  Eigen::Vector3d mount =
+      Eigen::Vector3d::Constant(kNotComputed);  ///< correction of the mount, rotation vector [rad]
+  PoseCovariance covariance;                    ///< after the update
 };
 
 /// The series that the filter reports: name, unit and meaning of each member above.

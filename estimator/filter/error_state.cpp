@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/filter/error_state.hpp"
 
+#include <cmath>
+
 namespace aims {
 
 NominalState boxplus(const NominalState& state, const ErrorVector& delta) {
@@ -13,6 +15,8 @@ NominalState boxplus(const NominalState& state, const ErrorVector& delta) {
       state.accelerometer_bias + segment(delta, ErrorState::kAccelerometerBias);
   moved.leg_scale = state.leg_scale + segment(delta, ErrorState::kLegScale);
   moved.leg_bias = state.leg_bias + segment(delta, ErrorState::kLegBias);
+  moved.mount = (so3_exp(segment(delta, ErrorState::kMount)) * state.mount).normalized();
+  moved.delay = state.delay + delta(ErrorState::kDelay);
   return moved;
 }
 
@@ -26,6 +30,8 @@ ErrorVector boxminus(const NominalState& state, const NominalState& origin) {
       state.accelerometer_bias - origin.accelerometer_bias;
   segment(delta, ErrorState::kLegScale) = state.leg_scale - origin.leg_scale;
   segment(delta, ErrorState::kLegBias) = state.leg_bias - origin.leg_bias;
+  segment(delta, ErrorState::kMount) = so3_log(state.mount * origin.mount.conjugate());
+  delta(ErrorState::kDelay) = state.delay - origin.delay;
   return delta;
 }
 
@@ -33,6 +39,8 @@ ErrorMatrix boxminus_jacobian(const NominalState& /*origin*/, const ErrorVector&
   ErrorMatrix jacobian = ErrorMatrix::Identity();
   block(jacobian, ErrorState::kRotation, ErrorState::kRotation) =
       so3_right_jacobian_inverse(segment(delta, ErrorState::kRotation));
+  block(jacobian, ErrorState::kMount, ErrorState::kMount) =
+      so3_right_jacobian_inverse(-segment(delta, ErrorState::kMount));
   return jacobian;
 }
 
@@ -40,6 +48,8 @@ ErrorMatrix reset_jacobian(const NominalState& /*state*/, const ErrorVector& del
   ErrorMatrix jacobian = ErrorMatrix::Identity();
   block(jacobian, ErrorState::kRotation, ErrorState::kRotation) =
       so3_right_jacobian(segment(delta, ErrorState::kRotation));
+  block(jacobian, ErrorState::kMount, ErrorState::kMount) =
+      so3_right_jacobian(-segment(delta, ErrorState::kMount));
   return jacobian;
 }
 
@@ -47,7 +57,8 @@ bool is_finite(const NominalState& state) {
   return state.rotation.coeffs().allFinite() && state.position.allFinite() &&
          state.velocity.allFinite() && state.gyro_bias.allFinite() &&
          state.accelerometer_bias.allFinite() && state.leg_scale.allFinite() &&
-         state.leg_bias.allFinite();
+         state.leg_bias.allFinite() && state.mount.coeffs().allFinite() &&
+         std::isfinite(state.delay);
 }
 
 }  // namespace aims

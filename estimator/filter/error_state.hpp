@@ -8,10 +8,11 @@
 
 namespace aims {
 
-/// Layout of the 21-D error state, defined here alone: the 15-D of the paper's eq. (1), and scale
-/// and bias of the leg odometry, which stay at zero in the variants that do not estimate them.
-/// Right perturbation: R = R_hat Exp(d_rotation); every other block adds. Position and velocity
-/// errors are in odometry axes, bias errors in body axes, leg errors in base axes.
+/// Layout of the 25-D error state, defined here alone: the 15-D of the paper's eq. (1), scale and
+/// bias of the leg odometry, and mount and delay of the sensors; states that a variant does not
+/// estimate stay at their first value. Right perturbation: R = R_hat Exp(d_rotation); the mount is
+/// R_body_lidar = Exp(d_mount) R_hat; every other block adds. Position and velocity errors are in
+/// odometry axes, errors of biases and mount in body axes, leg errors in base axes.
 struct ErrorState {
   /// Three consecutive entries of the error state.
   struct Block {
@@ -24,9 +25,12 @@ struct ErrorState {
   static constexpr Block kAccelerometerBias{12};  ///< [m/s^2]
   static constexpr Block kLegScale{15};           ///< [-]
   static constexpr Block kLegBias{18};            ///< [m/s]
+  static constexpr Block kMount{21};              ///< rotation of the LiDAR's mount [rad]
+  static constexpr int kDelay = 24;               ///< of the IMU's stamps [s], one entry
   static constexpr int kPoseSize = 6;             ///< rotation and position come first
-  static constexpr int kMotionSize = 15;          ///< without the leg states
-  static constexpr int kSize = 21;
+  static constexpr int kMotionSize = 15;          ///< without legs and calibration
+  static constexpr int kLegSize = 6;              ///< scale and bias of the legs
+  static constexpr int kSize = 25;
 };
 
 using Vector6 = Eigen::Matrix<double, ErrorState::kPoseSize, 1>;
@@ -78,6 +82,9 @@ struct NominalState {
   /// Leg odometry reports (1 + scale) v + bias for the base velocity v, per axis.
   Eigen::Vector3d leg_scale = Eigen::Vector3d::Zero();  ///< [-]
   Eigen::Vector3d leg_bias = Eigen::Vector3d::Zero();   ///< [m/s]
+  /// Correction of the mount: R_body_lidar = mount * R_body_lidar of the rig.
+  Eigen::Quaterniond mount = Eigen::Quaterniond::Identity();
+  double delay = 0.0;  ///< the IMU's stamps are late by this on the LiDAR's clock [s]
 
   Pose T_odom_body() const { return {rotation, position}; }
 };

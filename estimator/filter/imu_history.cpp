@@ -14,27 +14,34 @@ bool before(const ImuSample& a, Time stamp) { return a.stamp < stamp; }
 }  // namespace
 
 ImuHistory::ImuHistory(const ImuPropagationConfig& config, double rate_hz)
-    : config_(config), period_(from_seconds(1.0 / rate_hz)) {}
+    : config_(config), period_(from_seconds(1.0 / rate_hz)), noise_(rate_hz) {}
 
 bool ImuHistory::insert(const ImuSample& sample) {
   const auto at = std::lower_bound(samples_.begin(), samples_.end(), sample.stamp, before);
   if (at != samples_.end() && at->stamp == sample.stamp) return false;
+  if (at == samples_.end()) noise_.add(sample);
   samples_.insert(at, sample);
   return true;
 }
 
+/// The segment that ends at sample `index`. Rate and force change linearly within it: to second
+/// order the rotation gains T/12 w0 x w1 per time (coning), the velocity T/12 (w0 x f1 - w1 x f0)
+/// (sculling; Savage 1998, with w and f at both ends).
 InertialSegment ImuHistory::measured_segment(std::size_t index) const {
   const ImuSample& sample = samples_[index];
-  const Time since = index > 0 ? samples_[index - 1].stamp : sample.stamp - period_;
-  const bool gap = sample.stamp - since > period_ * 3 / 2;
-  InertialSegment segment{gap ? sample.stamp - period_ : since, sample.stamp,
-                          sample.angular_velocity, sample.specific_force, true};
-  if (config_.sampling == ImuSampling::kPoint && index > 0 && !gap) {
-    segment.angular_velocity =
-        0.5 * (sample.angular_velocity + samples_[index - 1].angular_velocity);
-    segment.specific_force = 0.5 * (sample.specific_force + samples_[index - 1].specific_force);
+  const bool gap = index == 0 || sample.stamp - samples_[index - 1].stamp > period_ * 3 / 2;
+  if (gap) {
+    return {time_of(sample) - period_, time_of(sample), sample.angular_velocity,
+            sample.specific_force, true, {}};
   }
-  return segment;
+  const ImuSample& last = samples_[index - 1];
+  const Eigen::Vector3d& w0 = last.angular_velocity;
+  const Eigen::Vector3d& w1 = sample.angular_velocity;
+  const Eigen::Vector3d& f0 = last.specific_force;
+  const Eigen::Vector3d& f1 = sample.specific_force;
+  const double twelfth = to_seconds(sample.stamp - last.stamp) / 12.0;
+  return {time_of(last), time_of(sample), 0.5 * (w0 + w1) + twelfth * w0.cross(w1),
+          0.5 * (f0 + f1) + twelfth * (w0.cross(f1) - w1.cross(f0)), true, {}};
 }
 
 InertialSegment ImuHistory::bridge(std::size_t next) const {
@@ -62,7 +69,7 @@ InertialSegment ImuHistory::bridge(std::size_t next) const {
 
 void ImuHistory::segments(Time begin, Time end, std::vector<InertialSegment>& segments) const {
   segments.clear();
-  const auto at = std::upper_bound(samples_.begin(), samples_.end(), begin,
+  const auto at = std::upper_bound(samples_.begin(), samples_.end(), begin + delay_,
                                    [](Time stamp, const ImuSample& s) { return stamp < s.stamp; });
   auto index = static_cast<std::size_t>(at - samples_.begin());
   while (begin < end) {
@@ -78,13 +85,14 @@ void ImuHistory::segments(Time begin, Time end, std::vector<InertialSegment>& se
       next.end = end;
     }
     next.begin = begin;
+    next.noise = next.measured ? noise_.density() : noise_.bridge_density();
     begin = next.end;
     segments.push_back(next);
   }
 }
 
 std::optional<Eigen::Vector3d> ImuHistory::angular_velocity_at(Time stamp) const {
-  const auto at = std::lower_bound(samples_.begin(), samples_.end(), stamp, before);
+  const auto at = std::lower_bound(samples_.begin(), samples_.end(), stamp + delay_, before);
   if (at == samples_.end()) return std::nullopt;
   const InertialSegment segment = measured_segment(static_cast<std::size_t>(at - samples_.begin()));
   if (stamp < segment.begin) return std::nullopt;
@@ -93,11 +101,11 @@ std::optional<Eigen::Vector3d> ImuHistory::angular_velocity_at(Time stamp) const
 
 std::optional<Time> ImuHistory::newest() const {
   if (samples_.empty()) return std::nullopt;
-  return samples_.back().stamp;
+  return time_of(samples_.back());
 }
 
 void ImuHistory::forget_before(Time stamp) {
-  while (samples_.size() > kBridgeSamples && samples_[1].stamp < stamp) samples_.pop_front();
+  while (samples_.size() > kBridgeSamples && time_of(samples_[1]) < stamp) samples_.pop_front();
 }
 
 }  // namespace aims

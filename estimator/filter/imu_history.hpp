@@ -6,11 +6,15 @@
 #include <vector>
 
 #include "core/measurements.hpp"
+#include "estimator/filter/imu_noise.hpp"
 #include "estimator/filter/imu_propagation.hpp"
 
 namespace aims {
 
-/// Recent inertial samples in order of stamp; cuts any time span into segments.
+/// Recent inertial samples in order of stamp; cuts any time span into segments. A sample is taken
+/// as the value at an instant, `delay` before its stamp, and a segment between two samples has
+/// their mean: an average over the interval before the stamp is late by half of that interval.
+/// Every time in this interface is on the clock of the LiDAR, stamp - delay.
 class ImuHistory {
  public:
   /// `rate_hz`: nominal sample rate [Hz].
@@ -18,6 +22,12 @@ class ImuHistory {
 
   /// Inserts a sample in order of stamp; false when its stamp is already present.
   bool insert(const ImuSample& sample);
+
+  /// The delay of the stamps; 0 before the first call.
+  void set_delay(Duration delay) { delay_ = delay; }
+
+  ImuNoise& noise() { return noise_; }
+  const ImuNoise& noise() const { return noise_; }
 
   /// Replaces `segments` by consecutive segments that cover (begin, end]. Missing samples are
   /// replaced by the mean of both neighbours over a short gap, by the recent mean over a long one.
@@ -32,14 +42,18 @@ class ImuHistory {
   /// Removes samples that end before `stamp`; enough recent ones stay to bridge a gap.
   void forget_before(Time stamp);
 
+  /// With their own stamps.
   const std::deque<ImuSample>& samples() const { return samples_; }
 
  private:
   InertialSegment measured_segment(std::size_t index) const;
   InertialSegment bridge(std::size_t next) const;
+  Time time_of(const ImuSample& sample) const { return sample.stamp - delay_; }
 
   ImuPropagationConfig config_;
   Duration period_;
+  Duration delay_ = 0;
+  ImuNoise noise_;
   std::deque<ImuSample> samples_;
 };
 

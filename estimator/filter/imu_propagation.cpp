@@ -4,24 +4,11 @@
 namespace aims {
 
 void describe(Fields& f, ImuPropagationConfig& c) {
-  f.choice("sampling", c.sampling, {{"mean", ImuSampling::kMean}, {"point", ImuSampling::kPoint}},
-           {"", any(), "a sample is the mean over its interval, or the value at its stamp",
-            "design: 20 ms averages"});
   f.number("gravity", c.gravity, {"m/s^2", positive_up_to(1e5), "magnitude of gravity"});
-  f.number("gyro_noise", c.gyro_noise,
-           {"rad/s/sqrt(Hz)", positive_up_to(1e3), "white noise of the gyro, vibration included"});
-  f.number("accelerometer_noise", c.accelerometer_noise,
-           {"m/s^2/sqrt(Hz)", positive_up_to(1e3),
-            "white noise of the specific force, vibration included"});
   f.number("gyro_bias_walk", c.gyro_bias_walk,
            {"rad/s^2/sqrt(Hz)", positive_up_to(1e3), "random walk of the gyro bias"});
   f.number("accelerometer_bias_walk", c.accelerometer_bias_walk,
            {"m/s^3/sqrt(Hz)", positive_up_to(1e3), "random walk of the accelerometer bias"});
-  f.number("bridge_gyro_noise", c.bridge_gyro_noise,
-           {"rad/s/sqrt(Hz)", positive_up_to(1e3), "gyro noise while samples are missing"});
-  f.number(
-      "bridge_accelerometer_noise", c.bridge_accelerometer_noise,
-      {"m/s^2/sqrt(Hz)", positive_up_to(1e3), "specific-force noise while samples are missing"});
   f.number("max_rate", c.max_rate,
            {"rad/s", positive_up_to(1e4), "samples above this rate are rejected"});
   f.number("max_force", c.max_force,
@@ -86,13 +73,12 @@ ErrorMatrix propagation_jacobian(const NominalState& state, const InertialSegmen
   return F;
 }
 
-ErrorMatrix propagation_noise(const ImuPropagationConfig& config, bool measured, double dt) {
+ErrorMatrix propagation_noise(const ImuPropagationConfig& config, const ImuNoiseDensity& white,
+                              double dt) {
   using E = ErrorState;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  const double gyro = measured ? config.gyro_noise : config.bridge_gyro_noise;
-  const double force = measured ? config.accelerometer_noise : config.bridge_accelerometer_noise;
-  const double gyro_density = gyro * gyro;
-  const double force_density = force * force;
+  const double gyro_density = white.gyro * white.gyro;
+  const double force_density = white.accelerometer * white.accelerometer;
   ErrorMatrix Q = ErrorMatrix::Zero();
   block(Q, E::kRotation, E::kRotation) = I * (gyro_density * dt);
   block(Q, E::kVelocity, E::kVelocity) = I * (force_density * dt);
@@ -107,9 +93,15 @@ ErrorMatrix propagation_noise(const ImuPropagationConfig& config, bool measured,
 
 Belief propagate(const Belief& belief, const InertialSegment& segment, double dt,
                  const ImuPropagationConfig& config) {
-  const ErrorMatrix F = propagation_jacobian(belief.state, segment, dt);
-  const ErrorMatrix covariance =
-      F * belief.covariance * F.transpose() + propagation_noise(config, segment.measured, dt);
+  // Only rotation, position and velocity change, from themselves and the inertial biases.
+  constexpr int kChanged = ErrorState::kGyroBias.offset;
+  constexpr int kUsed = ErrorState::kMotionSize;
+  const Eigen::Matrix<double, kChanged, kUsed> F =
+      propagation_jacobian(belief.state, segment, dt).topLeftCorner<kChanged, kUsed>();
+  ErrorMatrix covariance = belief.covariance;
+  covariance.topRows<kChanged>() = F * belief.covariance.topRows<kUsed>();
+  covariance.leftCols<kChanged>() = (covariance.leftCols<kUsed>() * F.transpose()).eval();
+  covariance += propagation_noise(config, segment.noise, dt);
   return {propagate_state(belief.state, segment, dt, config.gravity),
           0.5 * (covariance + covariance.transpose())};
 }

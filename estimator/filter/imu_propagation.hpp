@@ -5,20 +5,16 @@
 #include "core/measurements.hpp"
 #include "core/time.hpp"
 #include "estimator/filter/error_state.hpp"
+#include "estimator/filter/imu_noise.hpp"
 #include "estimator/filter/kalman_update.hpp"
 
 namespace aims {
 
-/// Inertial prediction (sim has an ImuConfig of its own).
+/// Inertial prediction; the white noise is estimated (imu_noise.hpp).
 struct ImuPropagationConfig {
-  ImuSampling sampling = ImuSampling::kMean;
   double gravity = 9.81;                    ///< [m/s^2]
-  double gyro_noise = 2e-3;                 ///< white noise density [rad/s/sqrt(Hz)]
-  double accelerometer_noise = 5e-2;        ///< white noise density [m/s^2/sqrt(Hz)]
   double gyro_bias_walk = 2e-5;             ///< [rad/s^2/sqrt(Hz)]
   double accelerometer_bias_walk = 2e-4;    ///< [m/s^3/sqrt(Hz)]
-  double bridge_gyro_noise = 0.3;           ///< density while samples are missing [rad/s/sqrt(Hz)]
-  double bridge_accelerometer_noise = 2.0;  ///< while samples are missing [m/s^2/sqrt(Hz)]
   double max_rate = 40.0;                   ///< faster samples are rejected [rad/s]
   double max_force = 300.0;                 ///< samples with a greater force are rejected [m/s^2]
 };
@@ -31,7 +27,8 @@ struct InertialSegment {
   Time end = 0;
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< [m/s^2]
-  bool measured = true;  ///< false: replaces missing samples, with the noise of `bridge_...`
+  bool measured = true;   ///< false: replaces missing samples
+  ImuNoiseDensity noise;  ///< white
 };
 
 /// The nominal state `dt` [s] later (earlier when negative): exact for constant rate and force.
@@ -44,7 +41,8 @@ ErrorMatrix propagation_jacobian(const NominalState& state, const InertialSegmen
 
 /// Covariance Q that `dt` [s] of inertial noise and bias random walk add. It is isotropic, so body
 /// and odometry axes give the same.
-ErrorMatrix propagation_noise(const ImuPropagationConfig& config, bool measured, double dt);
+ErrorMatrix propagation_noise(const ImuPropagationConfig& config, const ImuNoiseDensity& white,
+                              double dt);
 
 /// The belief `dt` [s] later: P <- F P F^T + Q.
 Belief propagate(const Belief& belief, const InertialSegment& segment, double dt,

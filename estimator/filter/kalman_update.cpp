@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/filter/kalman_update.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace aims {
@@ -10,6 +11,36 @@ template Belief kalman_update<NominalState>(const NominalState&, const ErrorMatr
 template Belief kalman_update<NominalState>(const NominalState&, const ErrorMatrix&,
                                             const NominalState&, const Information&,
                                             const ErrorMatrix&);
+
+namespace {
+
+/// With the gain `K` = M P H^T S^-1 for any M: P - K H P - (K H P)^T + K S K^T.
+Belief fuse_with_gain(const Belief& prior, const LinearMeasurement& measurement,
+                      const Matrix3xError& HP, const Eigen::Matrix3d& S,
+                      const Matrix3xError& gain_transposed) {
+  const ErrorVector delta = -gain_transposed.transpose() * measurement.residual;
+  const ErrorMatrix KHP = gain_transposed.transpose() * HP;
+  const ErrorMatrix covariance = prior.covariance - KHP - KHP.transpose() +
+                                 gain_transposed.transpose() * S * gain_transposed;
+  const ErrorMatrix G = reset_jacobian(prior.state, delta);
+  return {boxplus(prior.state, delta),
+          G * (0.5 * (covariance + covariance.transpose())) * G.transpose()};
+}
+
+}  // namespace
+
+Belief fuse(const Belief& prior, const LinearMeasurement& measurement) {
+  const Matrix3xError HP = measurement.jacobian * prior.covariance;
+  const Eigen::Matrix3d S = HP * measurement.jacobian.transpose() + measurement.noise;
+  return fuse_with_gain(prior, measurement, HP, S, S.llt().solve(HP));
+}
+
+Belief fuse(const Belief& prior, const LinearMeasurement& measurement,
+            const ErrorMatrix& gain_mask) {
+  const Matrix3xError HP = measurement.jacobian * prior.covariance;
+  const Eigen::Matrix3d S = HP * measurement.jacobian.transpose() + measurement.noise;
+  return fuse_with_gain(prior, measurement, HP, S, S.llt().solve(HP) * gain_mask.transpose());
+}
 
 Information information_of(const LinearMeasurement& measurement) {
   const Matrix3xError weighted = measurement.noise.inverse() * measurement.jacobian;
@@ -24,7 +55,7 @@ Information pose_information(const Matrix6& matrix, const Vector6& vector) {
 }
 
 ErrorMatrix consider_legs(ErrorMatrix gain_mask) {
-  gain_mask.bottomRows<ErrorState::kSize - ErrorState::kMotionSize>().setZero();
+  gain_mask.middleRows<ErrorState::kLegSize>(ErrorState::kLegScale.offset).setZero();
   return gain_mask;
 }
 

@@ -42,6 +42,12 @@ struct LinearMeasurement {
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
 };
 
+/// The belief after fusing `measurement`, in gain form; with a `gain_mask`, K is replaced by
+/// `gain_mask` K (Schmidt-Kalman update).
+Belief fuse(const Belief& prior, const LinearMeasurement& measurement);
+Belief fuse(const Belief& prior, const LinearMeasurement& measurement,
+            const ErrorMatrix& gain_mask);
+
 /// The information of one three-row measurement.
 Information information_of(const LinearMeasurement& measurement);
 

@@ -142,9 +142,11 @@ ErrorMatrix initial_covariance(const InitializationConfig& config, const Eigen::
       I * variance_of(stood_still ? config.sigma_velocity : config.sigma_velocity_moving);
   block(P, E::kGyroBias, E::kGyroBias) =
       I * variance_of((gyro_bias_measured ? 1.0 : 10.0) * config.sigma_gyro_bias);
-  // Variants that estimate the leg states raise these with `open_leg_states`.
+  // Raised by open_leg_states() and open_calibration() where they are estimated.
   block(P, E::kLegScale, E::kLegScale) = I * kFixedVariance;
   block(P, E::kLegBias, E::kLegBias) = I * kFixedVariance;
+  block(P, E::kMount, E::kMount) = I * kFixedVariance;
+  P(E::kDelay, E::kDelay) = kFixedVariance;
   return P;
 }
 

@@ -10,9 +10,10 @@ void describe(Fields& f, LidarUpdateConfig& c) {
            {"m", in_range(0.01, 10.0), "one return per voxel of the raw scan is matched"});
   f.integer("max_points", c.max_points,
             {"-", in_range(1, 10000000), "returns matched per scan at most"});
-  f.number("point_sigma", c.point_sigma,
-           {"m", positive_up_to(1e4), "error of a point-to-plane residual, R_lidar",
-            "tuned on simulated corridors, with doors and smooth"});
+  f.number("correlated_points", c.correlated_points,
+           {"-", in_range(1.0, 1e6),
+            "residuals that share one error; multiplies the variance of the residuals in R_lidar",
+            "five map points per plane"});
   f.number("residual_gate", c.residual_gate,
            {"m", positive_up_to(1e4), "larger point-to-plane residuals are rejected"});
   f.integer("max_iterations", c.max_iterations,
@@ -34,7 +35,6 @@ void describe(Fields& f, RobustKernelConfig& c) {
   f.number(
       "scale", c.scale,
       {"-", positive_up_to(1e6), "deviations of a scan's residuals at which a weight is one half"});
-  f.number("min_sigma", c.min_sigma, {"m", positive_up_to(1e4), "lower bound on that deviation"});
 }
 
 void describe(Fields& f, MapConfig& c) {

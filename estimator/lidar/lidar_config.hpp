@@ -11,9 +11,9 @@ struct LidarUpdateConfig {
   double max_range = 120.0;       ///< [m]
   double selection_voxel = 0.25;  ///< one point is kept per voxel of the raw scan [m]
   int max_points = 4000;          ///< per update
-  /// Of a point-to-plane residual, R_lidar [m]. Far above the 2 cm of a return: neighbouring
-  /// residuals share the errors of map and normals but are fused as independent.
-  double point_sigma = 0.15;
+  /// Residuals that share one error: R_lidar is the variance of a scan's residuals times this. A
+  /// plane is fitted to five map points, each of which serves as many other returns.
+  double correlated_points = 5.0;
   double residual_gate = 0.2;          ///< larger residuals are rejected [m]
   int max_iterations = 4;              ///< of the trial update
   double convergence_rotation = 1e-4;  ///< [rad]
@@ -29,7 +29,6 @@ void describe(Fields& fields, LidarUpdateConfig& config);
 struct RobustKernelConfig {
   bool enabled = false;
   double scale = 3.0;        ///< deviations of the residuals at which a weight is one half [-]
-  double min_sigma = 0.015;  ///< lower bound on that deviation [m]
 };
 
 void describe(Fields& fields, RobustKernelConfig& config);

@@ -7,10 +7,20 @@
 #include "estimator/degeneracy/noise_information.hpp"
 
 namespace aims {
+namespace {
+
+/// Deviation of the first residuals: the accuracy that datasheets of spinning LiDARs state [m].
+constexpr double kFirstSigma = 0.03;
+/// No map of such returns is sharper [m].
+constexpr double kLeastSigma = 0.005;
+/// Scans over which it is averaged.
+constexpr double kScans = 20.0;
+
+}  // namespace
 
 ScanMatcher::ScanMatcher(const LidarUpdateConfig& config, const RobustKernelConfig& kernel,
                          bool normal_noise)
-    : config_(config), kernel_(kernel), normal_noise_(normal_noise) {}
+    : config_(config), kernel_(kernel), normal_noise_(normal_noise), sigma_(kFirstSigma) {}
 
 void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector3f> points,
                         const VoxelMap& map) {
@@ -40,7 +50,7 @@ MatchInformation ScanMatcher::linearize(const NominalState& state) {
     }
     residuals_.push_back(row.residual);
   }
-  const double weight = 1.0 / (config_.point_sigma * config_.point_sigma);
+  const double weight = 1.0 / (config_.correlated_points * sigma_ * sigma_);
   sum.matrix *= weight;
   sum.vector *= weight;
   sum.noise *= weight;
@@ -49,14 +59,21 @@ MatchInformation ScanMatcher::linearize(const NominalState& state) {
 }
 
 void ScanMatcher::update_robust_scale() {
-  if (!kernel_.enabled || residuals_.empty()) return;
+  if (kernel_.enabled && !residuals_.empty()) robust_scale_ = kernel_.scale * deviation();
+}
+
+void ScanMatcher::learn_noise() {
+  if (!residuals_.empty()) sigma_ += (deviation() - sigma_) / kScans;
+}
+
+/// Deviation of the last residuals from their median magnitude [m].
+double ScanMatcher::deviation() {
   magnitudes_.clear();
   for (const double residual : residuals_) magnitudes_.push_back(std::abs(residual));
   const auto middle = magnitudes_.begin() + static_cast<std::ptrdiff_t>(magnitudes_.size() / 2);
   std::nth_element(magnitudes_.begin(), middle, magnitudes_.end());
   constexpr double kMedianOfNormal = 0.6745;  // median magnitude of a standard normal variable
-  const double deviation = std::max(*middle / kMedianOfNormal, kernel_.min_sigma);
-  robust_scale_ = kernel_.scale * deviation;
+  return std::max(*middle / kMedianOfNormal, kLeastSigma);
 }
 
 std::span<const MappedPlane> ScanMatcher::mapped_planes(const NominalState& state,

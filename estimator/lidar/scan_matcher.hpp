@@ -38,8 +38,14 @@ class ScanMatcher {
   MatchInformation linearize(const NominalState& state);
 
   /// Sets the scale of the Cauchy kernel from the residuals of the last linearization: their robust
-  /// deviation, from the median magnitude, times `RobustKernelConfig::scale`.
+  /// deviation times `RobustKernelConfig::scale`.
   void update_robust_scale();
+
+  /// Adds the residuals of the last linearization to the noise of the next scans.
+  void learn_noise();
+
+  /// Deviation of a residual, averaged over scans [m].
+  double residual_sigma() const { return sigma_; }
 
   /// Residuals of the last linearization [m].
   const std::vector<double>& residuals() const { return residuals_; }
@@ -50,6 +56,8 @@ class ScanMatcher {
  private:
   static constexpr double kNotRobust = std::numeric_limits<double>::infinity();
 
+  double deviation();
+
   /// A point with its plane.
   struct Match {
     Eigen::Vector3d p_body;
@@ -59,6 +67,7 @@ class ScanMatcher {
   LidarUpdateConfig config_;
   RobustKernelConfig kernel_;
   bool normal_noise_;
+  double sigma_;
   double robust_scale_ = kNotRobust;  ///< residual with weight one half [m]
   std::vector<Match> matches_;
   std::vector<double> residuals_;

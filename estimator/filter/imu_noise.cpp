@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/filter/imu_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aims {
+namespace {
+
+/// Time over which variances are averaged: a stride [s].
+constexpr double kAveragingTime = 0.5;
+
+/// Scans over which the share of noise is averaged: many strides, far less than a run.
+constexpr double kScans = 100.0;
+/// Scans for which the first guess of the share counts.
+constexpr double kPriorScans = 10.0;
+/// Bounds on the share: a filtered IMU of high rate, and a noise that the samples hardly show.
+constexpr double kMinShare = 1e-3;
+constexpr double kMaxShare = 10.0;
+
+/// White noise of the best MEMS parts in use (ADIS16488, LSM6DSO): a sensor that shows less is
+/// quantized or simulated.
+constexpr ImuNoiseDensity kLeast{5e-5, 5e-4};
+
+/// Correlation time of the motion of a trot, a quarter of its period of 0.4 s [s].
+constexpr double kMotionTime = 0.1;
+
+double mean_square(const Eigen::Vector3d& x) { return x.squaredNorm() / 3.0; }
+
+}  // namespace
+
+void SignalStatistics::add(const Eigen::Vector3d& x, bool follows, double gain) {
+  if (!follows) count_ = 0;
+  if (!started_) mean_ = x;
+  started_ = true;
+  mean_ += gain * (x - mean_);
+  variance_.total += gain * (mean_square(x - mean_) - variance_.total);
+  if (count_ == 2) {
+    const Eigen::Vector3d difference = x - 2.0 * last_[0] + last_[1];
+    variance_.white += gain * (mean_square(difference) / 6.0 - variance_.white);
+  }
+  last_ = {x, last_[0]};
+  count_ = std::min(count_ + 1, 2);
+}
+
+ImuNoise::ImuNoise(double rate_hz) : period_(1.0 / rate_hz) {}
+
+void ImuNoise::add(const ImuSample& sample) {
+  const double since = started_ ? to_seconds(sample.stamp - last_) : period_;
+  const bool follows = since > 0.5 * period_ && since < 1.5 * period_;
+  const double gain = 1.0 - std::exp(-std::clamp(since, 0.0, kAveragingTime) / kAveragingTime);
+  rate_.add(sample.angular_velocity, follows, gain);
+  force_.add(sample.specific_force, follows, gain);
+  last_ = sample.stamp;
+  started_ = true;
+}
+
+void ImuNoise::add_correction(const Eigen::Vector3d& rotation, double duration) {
+  const double gain = 1.0 / kScans;
+  const double expected = rate_.variance().white * period_ * duration;
+  if (expected_ == 0.0) {
+    expected_ = expected * kPriorScans / kScans;
+    corrections_ = share_ * expected_;
+  }
+  expected_ += gain * (expected - expected_);
+  corrections_ += gain * (mean_square(rotation) - corrections_);
+  if (expected_ > 0.0) share_ = std::clamp(corrections_ / expected_, kMinShare, kMaxShare);
+}
+
+ImuNoiseDensity ImuNoise::density() const {
+  const double scale = std::sqrt(share_ * period_);
+  return {std::max(kLeast.gyro, scale * white_rate()),
+          std::max(kLeast.accelerometer, scale * white_force())};
+}
+
+ImuNoiseDensity ImuNoise::bridge_density() const {
+  const ImuNoiseDensity least = density();
+  return {std::max(least.gyro, std::sqrt(kMotionTime * rate_.variance().total)),
+          std::max(least.accelerometer, std::sqrt(kMotionTime * force_.variance().total))};
+}
+
+double ImuNoise::white_rate() const { return std::sqrt(rate_.variance().white); }
+
+double ImuNoise::white_force() const { return std::sqrt(force_.variance().white); }
+
+}  // namespace aims

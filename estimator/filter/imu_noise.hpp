@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "core/measurements.hpp"
+
+namespace aims {
+
+/// White-noise densities of an inertial signal, the same along each axis.
+struct ImuNoiseDensity {
+  double gyro = 0.0;           ///< [rad/s/sqrt(Hz)]
+  double accelerometer = 0.0;  ///< [m/s^2/sqrt(Hz)]
+};
+
+/// Variances of the samples of a signal, mean over the axes.
+struct SignalVariance {
+  double total = 0.0;  ///< about the running mean
+  double white = 0.0;  ///< of the part that does not follow from the neighbours
+};
+
+/// Running variances of a signal of three axes, over about half a second.
+///
+/// The second difference d_k = x_k - 2 x_(k-1) + x_(k-2) passes the upper half of the band: white
+/// noise of variance s^2 gives E d^2 = 6 s^2, a motion of frequency f the fraction
+/// (16/6) sin^4(pi f T) of its power, below 1 % for the stride of a quadruped at 50 Hz.
+class SignalStatistics {
+ public:
+  /// Adds the sample `x`; `follows`: one sampling period after the last.
+  void add(const Eigen::Vector3d& x, bool follows, double gain);
+
+  const SignalVariance& variance() const { return variance_; }
+
+ private:
+  std::array<Eigen::Vector3d, 2> last_;  ///< newest first
+  int count_ = 0;                        ///< samples in a row, at most 2
+  bool started_ = false;
+  Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
+  SignalVariance variance_;
+};
+
+/// Noise of the integrated IMU, estimated from the IMU itself and from how well it predicts scans.
+///
+/// Vibration above half the sampling rate aliases into the samples and does not average out in
+/// their sum: a sample's white part of deviation s adds a random walk of density s sqrt(T). What
+/// share of that part is noise, and not motion that the samples follow (a filtered IMU), shows in
+/// the rotation: in the steady state E[y y^T] = Q, where y is the correction of the rotation by a
+/// scan and Q the covariance that was added since the last one (Myers and Tapley 1976).
+class ImuNoise {
+ public:
+  explicit ImuNoise(double rate_hz);
+
+  /// Adds the next sample in order of stamp.
+  void add(const ImuSample& sample);
+
+  /// Adds a scan's correction of the rotation, `duration` [s] after the last scan, to the learned
+  /// share of noise.
+  void add_correction(const Eigen::Vector3d& rotation, double duration);
+
+  /// Of the sum of the samples.
+  ImuNoiseDensity density() const;
+
+  /// While samples are missing: the motion itself is unknown.
+  ImuNoiseDensity bridge_density() const;
+
+  /// Share of the white part that is noise [-].
+  double share() const { return share_; }
+
+  /// Deviations of one sample's white part: angular rate [rad/s] and specific force [m/s^2].
+  double white_rate() const;
+  double white_force() const;
+
+ private:
+  double period_;  ///< [s]
+  Time last_ = 0;
+  bool started_ = false;
+  SignalStatistics rate_;
+  SignalStatistics force_;
+  double share_ = 1.0;
+  double corrections_ = 0.0;  ///< mean square per axis and second [rad^2/s]
+  double expected_ = 0.0;     ///< the same if all of the white part were noise
+};
+
+}  // namespace aims

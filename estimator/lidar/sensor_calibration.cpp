@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/lidar/sensor_calibration.hpp"
+
+#include <cmath>
+
+namespace aims {
+namespace {
+
+void add_variance(ErrorMatrix& covariance, double mount, double delay) {
+  block(covariance, ErrorState::kMount, ErrorState::kMount).diagonal().array() += mount * mount;
+  covariance(ErrorState::kDelay, ErrorState::kDelay) += delay * delay;
+}
+
+}  // namespace
+
+void describe(Fields& f, CalibrationConfig& c) {
+  f.flag("enabled", c.enabled,
+         {"", any(), "estimate the rotation of the LiDAR's mount and the delay of the IMU"});
+  f.number("mount_sigma", c.mount_sigma,
+           {"rad", positive_up_to(1.0), "initial error of the mount's rotation, per axis",
+            "target-free calibration: 0.1 to 0.5 deg"});
+  f.number("delay_sigma", c.delay_sigma,
+           {"s", positive_up_to(0.1), "initial error of the clocks",
+            "clocks set over a network: 1 to 5 ms"});
+  f.number("mount_walk", c.mount_walk, {"rad/sqrt(s)", up_to(1.0), "random walk of the mount"});
+  f.number("delay_walk", c.delay_walk, {"s/sqrt(s)", up_to(1.0), "random walk of the delay"});
+  f.idle_if(!c.enabled, "enabled is false",
+            {"mount_sigma", "delay_sigma", "mount_walk", "delay_walk"});
+}
+
+Belief open_calibration(Belief belief, const CalibrationConfig& config, double imu_rate_hz) {
+  const double quarter = 0.25 / imu_rate_hz;  // between a sample at an instant and a mean
+  belief.state.delay = quarter;
+  if (config.enabled) {
+    add_variance(belief.covariance, config.mount_sigma, std::hypot(config.delay_sigma, quarter));
+  }
+  return belief;
+}
+
+void walk_calibration(Belief& belief, const CalibrationConfig& config, double dt) {
+  if (!config.enabled) return;
+  add_variance(belief.covariance, config.mount_walk * std::sqrt(dt),
+               config.delay_walk * std::sqrt(dt));
+}
+
+Pose corrected_mount(const NominalState& state, const Pose& nominal) {
+  return {state.mount * nominal.rotation, nominal.translation};
+}
+
+MeanTwist mean_twist(const NominalState& end_state, std::span<const InertialSegment> segments,
+                     double gravity) {
+  NominalState begin = end_state;
+  double duration = 0.0;
+  for (std::size_t i = segments.size(); i-- > 0;) {
+    const double dt = to_seconds(segments[i].end - segments[i].begin);
+    begin = propagate_state(begin, segments[i], -dt, gravity);
+    duration += dt;
+  }
+  if (!(duration > 0.0)) return {end_state.velocity, Eigen::Vector3d::Zero()};
+  return {(end_state.position - begin.position) / duration,
+          so3_log(begin.rotation.conjugate() * end_state.rotation) / duration};
+}
+
+Information scan_information(const Matrix6& matrix, const Vector6& vector,
+                             const CalibrationModel& model, const Eigen::Matrix3d& R) {
+  using E = ErrorState;
+  Eigen::Matrix<double, E::kPoseSize, E::kSize> J;
+  J.setZero();
+  J.leftCols<E::kPoseSize>().setIdentity();
+  J.block<3, 3>(E::kRotation.offset, E::kMount.offset).setIdentity();
+  J.block<3, 3>(E::kPosition.offset, E::kMount.offset) = R * hat(model.lever);
+  J.block<3, 1>(E::kRotation.offset, E::kDelay) = model.twist.angular_velocity;
+  J.block<3, 1>(E::kPosition.offset, E::kDelay) = model.twist.velocity;
+  return {J.transpose() * matrix * J, J.transpose() * vector};
+}
+
+Belief after_delay_change(Belief belief, double change, const MeanTwist& twist) {
+  belief.state.rotation =
+      (belief.state.rotation * so3_exp(change * twist.angular_velocity)).normalized();
+  belief.state.position += change * twist.velocity;
+  return belief;
+}
+
+}  // namespace aims

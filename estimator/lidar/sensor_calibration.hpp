@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "core/config.hpp"
+#include "core/measurements.hpp"
+#include "estimator/filter/imu_propagation.hpp"
+#include "estimator/filter/kalman_update.hpp"
+
+namespace aims {
+
+/// Rotation of the LiDAR's mount and delay of the IMU's stamps as filter states.
+struct CalibrationConfig {
+  bool enabled = true;         ///< false: both are known exactly
+  double mount_sigma = 5e-3;   ///< initial, per axis [rad]
+  double delay_sigma = 2e-3;   ///< initial, beyond how the IMU averages [s]
+  double mount_walk = 1e-5;    ///< [rad/sqrt(s)]
+  double delay_walk = 5e-5;    ///< [s/sqrt(s)]
+};
+
+void describe(Fields& fields, CalibrationConfig& config);
+
+/// The belief with the first mount and delay. A sample of an IMU with `imu_rate_hz` [Hz] may be the
+/// value at its stamp or the mean over the interval before it, so its delay is between 0 and half
+/// that interval.
+Belief open_calibration(Belief belief, const CalibrationConfig& config, double imu_rate_hz);
+
+/// Adds the random walk of mount and delay over `dt` [s].
+void walk_calibration(Belief& belief, const CalibrationConfig& config, double dt);
+
+/// The LiDAR frame in the body frame with the estimated mount; `nominal` is that of the rig.
+Pose corrected_mount(const NominalState& state, const Pose& nominal);
+
+/// Mean motion of the body during a scan.
+struct MeanTwist {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< odometry axes [m/s]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< body axes [rad/s]
+};
+
+/// The twist over `segments`, which end at `end_state`.
+MeanTwist mean_twist(const NominalState& end_state, std::span<const InertialSegment> segments,
+                     double gravity);
+
+/// How a scan depends on mount and delay: its rows are a point-to-plane row j of the pose with
+/// j_mount = j_rotation - hat(t) R^T j_position, t of the mount, and
+/// j_delay = w . j_rotation + v . j_position, so that information about the pose gives all.
+struct CalibrationModel {
+  Eigen::Vector3d lever = Eigen::Vector3d::Zero();  ///< t, position of the LiDAR, body axes [m]
+  MeanTwist twist;
+};
+
+/// The information of a scan about pose, mount and delay, from that about the pose (matrix A = H^T
+/// R^-1 H and vector b = H^T R^-1 r) at the attitude `R`.
+Information scan_information(const Matrix6& matrix, const Vector6& vector,
+                             const CalibrationModel& model, const Eigen::Matrix3d& R);
+
+/// The belief after its delay has changed by `change` [s]: the same motion, which is now at another
+/// time of the LiDAR's clock, moved on to the time of the belief.
+Belief after_delay_change(Belief belief, double change, const MeanTwist& twist);
+
+}  // namespace aims
