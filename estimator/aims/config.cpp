@@ -11,10 +11,6 @@ void state_dependencies(Fields& f, const EskfConfig& c) {
             {"leg_states.scale_sigma", "leg_states.scale_walk"});
   f.idle_if(!c.leg_states.bias, "leg_states.bias is false",
             {"leg_states.bias_sigma", "leg_states.bias_walk"});
-  f.idle_if(!c.leg_states.gate_learning, "leg_states.gate_learning is false",
-            {"leg_states.min_axis_weight"});
-  f.idle_if(!c.noise_information.enabled, "noise_information.enabled is false",
-            {"leg_states.gate_learning", "leg_states.min_axis_weight", "map.map_sigma"});
   f.idle_if(!c.legs.enabled, "legs.enabled is false",
             {"leg_noise", "leg_states", "zero_velocity", "degeneracy.gamma_min"});
 }
@@ -37,7 +33,7 @@ void describe(Fields& f, EskfConfig& c) {
   f.group("map_covariance", c.map_covariance);
   f.group("forgetting", c.forgetting);
   f.group("degeneracy", c.degeneracy);
-  f.group("noise_information", c.noise_information);
+  f.group("cross_validation", c.cross_validation);
   f.group("queue", c.queue);
   state_dependencies(f, c);
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/config.hpp"
+#include "estimator/degeneracy/cross_validation.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
-#include "estimator/degeneracy/noise_information.hpp"
 #include "estimator/estimator_config.hpp"
 #include "estimator/filter/imu_propagation.hpp"
 #include "estimator/filter/measurement_queue.hpp"
@@ -36,7 +36,7 @@ struct EskfConfig {
   MapCovarianceConfig map_covariance;
   ForgettingConfig forgetting;
   DegeneracyConfig degeneracy;
-  NoiseInformationConfig noise_information;
+  CrossValidationConfig cross_validation;
   QueueConfig queue;
 };
 

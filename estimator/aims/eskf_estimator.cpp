@@ -191,9 +191,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(lidar_update_.considers_legs()
-             ? fuse(belief_, measurement, consider_position(consider_legs(correct_all())))
-             : fuse(belief_, measurement));
+  accept(fuse(belief_, measurement));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {

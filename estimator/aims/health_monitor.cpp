@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "estimator/degeneracy/noise_information.hpp"
+#include "estimator/degeneracy/cross_validation.hpp"
 
 namespace aims {
 namespace {
@@ -68,7 +68,7 @@ void HealthMonitor::scan(const ScanDiagnostics& scan, std::size_t points) {
   };
   average(scan.innovation_rotation.norm(), rotation_residual_);
   average(scan.innovation_position.norm(), position_residual_);
-  weak_scans_ = scan.weak_ratio < NoiseInformationConfig().significance_ratio ? weak_scans_ + 1 : 0;
+  weak_scans_ = scan.weak_weight < kFreeDirection ? weak_scans_ + 1 : 0;
 }
 
 bool HealthMonitor::lidar_corrects(Time now, const InputMonitor& inputs) const {

@@ -10,12 +10,11 @@
 namespace aims {
 namespace {
 
-/// Smaller shifts between scans count as standing [m].
-constexpr double kMinShift = 0.05;
-
 /// Smallest eigenvalue and condition number of the translation information with unknown rotation
 /// (its Schur complement).
-void record_localizability(const Matrix6& information, ScanDiagnostics& diagnostics) {
+void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagnostics) {
+  const Matrix6& information = scan.within;
+  diagnostics.weak_weight = weakest_real_fraction(scan);
   const Eigen::Matrix3d translation =
       schur_complement(information.bottomRightCorner<3, 3>(), information.bottomLeftCorner<3, 3>(),
                        information.topLeftCorner<3, 3>());
@@ -36,57 +35,29 @@ bool moved(const NominalState& state, const NominalState& since, double rotation
 LidarUpdate::LidarUpdate(const EskfConfig& config)
     : lidar_(config.lidar),
       degeneracy_(config.degeneracy),
-      noise_information_(config.noise_information),
-      leg_states_(config.leg_states),
-      legs_enabled_(config.legs.enabled),
+      cross_validation_(config.cross_validation),
       map_covariance_enabled_(config.map_covariance.enabled),
-      matcher_(config.lidar, config.robust_kernel, config.noise_information.enabled),
-      axes_(config.noise_information),
+      matcher_(config.lidar, config.robust_kernel, config.map.plane_thickness),
       severity_(config.degeneracy.alpha) {}
 
-bool LidarUpdate::considers_legs() const {
-  return legs_enabled_ && leg_states_.gate_learning &&
-         axes_.position().significant().minCoeff() < leg_states_.min_axis_weight;
-}
-
-/// No correction along unobservable axes, whatever their correlation with the observable ones;
-/// `R` is R_odom_body.
-ErrorMatrix LidarUpdate::gain_mask(const Eigen::Matrix3d& R) const {
-  const ErrorMatrix mask = considers_legs() ? consider_legs(correct_all()) : correct_all();
-  return limit_rotation(limit_motion(mask, axes_.position().gain_factor()),
-                        R.transpose() * axes_.rotation().gain_factor() * R);
-}
-
-void LidarUpdate::assess_axes(const MatchInformation& scan, const NominalState& state,
-                              ScanDiagnostics& diagnostics) {
-  const double shift = last_position_ ? (state.position - *last_position_).norm() : 0.0;
-  const bool shifted = !last_position_ || shift >= kMinShift;
-  if (shifted) last_position_ = state.position;
-  axes_.assess(scan.matrix, scan.noise, state.rotation.toRotationMatrix(), shifted ? shift : 0.0);
-  diagnostics.weak_weight = axes_.position().significant().minCoeff();
-  diagnostics.weak_ratio = axes_.position().ratio.minCoeff();
-}
-
 /// The scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies its information
-/// by gamma_lidar; with `noise_information` it is reduced to its real part per axis.
+/// by gamma_lidar; with `cross_validation` only its real part counts.
 Linearization<NominalState> LidarUpdate::fused(const MatchInformation& scan, double gamma,
                                                const NominalState& state) const {
-  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
-  if (!noise_information_.enabled) {
-    return {scan_information(gamma * scan.matrix, gamma * scan.vector, calibration_, R),
-            std::nullopt};
-  }
-  const Matrix6 F = axes_.real_fraction(R);
-  return {scan_information(gamma * F * scan.matrix * F.transpose(), gamma * F * scan.vector,
-                           calibration_, R),
-          gain_mask(R)};
+  const PoseInformation pose =
+      cross_validation_.enabled
+          ? fraction_.applied_to(scan.halves)
+          : PoseInformation{scan.halves.within, scan.halves.within_vector};
+  return {scan_information(gamma * pose.matrix, gamma * pose.vector, calibration_,
+                           state.rotation.toRotationMatrix()),
+          std::nullopt};
 }
 
 IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
                                                 const ErrorMatrix& prior_information,
                                                 std::span<const Eigen::Vector3f> points,
                                                 const VoxelMap& map, ScanDiagnostics& diagnostics) {
-  matcher_.reset();
+  matcher_.reset(calibration_.lever);
   NominalState matched_at = predicted.state;
   matcher_.match(matched_at, points, map);
   bool first = true;
@@ -102,8 +73,8 @@ IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
           std::sqrt(residual_statistics(matcher_.residuals()).variance);
     }
     if (scan.used < lidar_.min_matches) return std::nullopt;
-    matcher_.update_robust_scale();
-    if (first && noise_information_.enabled) assess_axes(scan, at, diagnostics);
+    matcher_.start_robust_weights();
+    if (first && cross_validation_.enabled) fraction_.add(scan.halves, at.position);
     first = false;
     return fused(scan, 1.0, at);
   };
@@ -182,7 +153,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
   if (scan.used >= lidar_.min_matches) {
     diagnostics.iterations = trial.iterations;
     diagnostics.converged = trial.converged;
-    record_localizability(scan.matrix, diagnostics);
+    record_localizability(scan.halves, diagnostics);
     if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at, scan);
     assess(predicted, prior_information, at, diagnostics);
     belief = kalman_update(predicted.state, prior_information, at, fused(scan, gamma_lidar_, at));

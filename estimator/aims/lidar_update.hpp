@@ -7,7 +7,7 @@
 
 #include "estimator/aims/config.hpp"
 #include "estimator/aims/scan_diagnostics.hpp"
-#include "estimator/degeneracy/axis_weights.hpp"
+#include "estimator/degeneracy/cross_validation.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/lidar/scan_matcher.hpp"
@@ -17,7 +17,7 @@ namespace aims {
 
 /// The LiDAR correction: an iterated trial update with the nominal noise, the degeneracy index from
 /// its residuals and innovation, and the final update with the noise scaled by the index. With
-/// `noise_information` the information is also scaled along the axes of the pose.
+/// `cross_validation` the information that comes from the noise of the map is removed.
 class LidarUpdate {
  public:
   explicit LidarUpdate(const EskfConfig& config);
@@ -34,19 +34,12 @@ class LidarUpdate {
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
 
-  /// Whether the leg states are consider states: while the weight of the weakest position axis is
-  /// below `LegStatesConfig::min_axis_weight`.
-  bool considers_legs() const;
-
   /// Covariance of the map at the robot, odometry axes [m^2]; see map_covariance_after_scan().
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 
  private:
   Linearization<NominalState> fused(const MatchInformation& scan, double gamma,
                                     const NominalState& state) const;
-  ErrorMatrix gain_mask(const Eigen::Matrix3d& R) const;
-  void assess_axes(const MatchInformation& scan, const NominalState& state,
-                   ScanDiagnostics& diagnostics);
   IteratedUpdate<NominalState> trial(const Belief& predicted, const ErrorMatrix& prior_information,
                                      std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                                      ScanDiagnostics& diagnostics);
@@ -60,17 +53,14 @@ class LidarUpdate {
   LidarUpdateConfig lidar_;
   CalibrationModel calibration_;  ///< of the present scan
   DegeneracyConfig degeneracy_;
-  NoiseInformationConfig noise_information_;
-  LegStatesConfig leg_states_;
-  bool legs_enabled_;
+  CrossValidationConfig cross_validation_;
+  RealFraction fraction_;
   bool map_covariance_enabled_;
   ScanMatcher matcher_;
-  AxisWeigher axes_;
   SeverityFilter severity_;
   double gamma_lidar_ = 1.0;
   double gamma_leg_ = 1.0;
   Eigen::Matrix3d map_covariance_ = Eigen::Matrix3d::Zero();
-  std::optional<Eigen::Vector3d> last_position_;  ///< at the last scan after a shift
 };
 
 }  // namespace aims

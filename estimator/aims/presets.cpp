@@ -31,9 +31,8 @@ constexpr std::array kPresets = {
                [] {
                  EskfConfig config = without_directional_weights();
                  config.leg_noise.enabled = true;
-                 config.leg_states.gate_learning = true;
                  config.map_covariance.enabled = true;
-                 config.noise_information.enabled = true;
+                 config.cross_validation.enabled = true;
                  return config;
                }},
     EskfPreset{"tfs", "fixed weights, zero-order hold of lost leg packets: the paper's ablation",

@@ -40,8 +40,7 @@ struct ScanDiagnostics {
       Eigen::Vector3d::Constant(kNotComputed);  ///< y_k, eq. (5) [m]
   double smallest_eigenvalue = kNotComputed;    ///< of the translation information [1/m^2]
   double condition_number = kNotComputed;       ///< of the translation information
-  double weak_weight = kNotComputed;     ///< significant fraction of the information, weakest axis
-  double weak_ratio = kNotComputed;      ///< smallest ratio of information to noise-induced one
+  double weak_weight = kNotComputed;     ///< real fraction of the information, weakest axis
   double leg_innovation = kNotComputed;  ///< norm of the last leg innovation [m/s]
   int leg_updates = 0;                   ///< since the last scan
   ImuNoiseDensity imu_noise;             ///< before the update, estimated

@@ -19,17 +19,12 @@ void add_variance(ErrorMatrix& covariance, ErrorState::Block at, double sigma, d
 void describe(Fields& f, LegStatesConfig& c) {
   f.flag("scale", c.scale, {"", any(), "estimate the scale of the leg odometry"});
   f.flag("bias", c.bias, {"", any(), "estimate the bias of the leg odometry"});
-  f.flag("gate_learning", c.gate_learning,
-         {"", any(), "correct both only while the LiDAR constrains every axis"});
   f.number("scale_sigma", c.scale_sigma,
            {"-", positive_up_to(1e6), "initial deviation of the scale"});
   f.number("scale_walk", c.scale_walk, {"1/sqrt(s)", up_to(1e3), "random walk of the scale"});
   f.number("bias_sigma", c.bias_sigma,
            {"m/s", positive_up_to(1e3), "initial deviation of the bias"});
   f.number("bias_walk", c.bias_walk, {"m/s/sqrt(s)", up_to(1e3), "random walk of the bias"});
-  f.number("min_axis_weight", c.min_axis_weight,
-           {"-", in_range(0.0, 1.0),
-            "weight of the weakest LiDAR axis above which the leg states are corrected"});
 }
 
 Belief open_leg_states(Belief belief, const LegStatesConfig& config) {

@@ -13,12 +13,10 @@ namespace aims {
 struct LegStatesConfig {
   bool scale = false;            ///< estimate a scale per axis
   bool bias = false;             ///< estimate a bias per axis
-  bool gate_learning = false;    ///< correct them only while the LiDAR constrains every axis
   double scale_sigma = 0.12;     ///< initial [-]
   double scale_walk = 1e-3;      ///< [1/sqrt(s)]
   double bias_sigma = 0.01;      ///< initial [m/s]
   double bias_walk = 1e-4;       ///< [m/s/sqrt(s)]
-  double min_axis_weight = 0.3;  ///< of the weakest LiDAR axis, for learning [-]
 };
 
 void describe(Fields& fields, LegStatesConfig& config);

@@ -56,15 +56,14 @@ void describe(Fields& f, MapConfig& c) {
       "neighbor_gate", c.neighbor_gate,
       {"m", positive_up_to(1e4), "largest distance of the five neighbours (at most one voxel)"});
   f.number("plane_thickness", c.plane_thickness,
-           {"m", positive_up_to(1e4), "largest distance of the five neighbours from their plane"});
+           {"-", positive_up_to(1e4),
+            "largest distance of the five neighbours from their plane, in deviations of a residual"});
   f.number("plane_min_spread", c.plane_min_spread,
            {"m", up_to(1e4),
             "smallest second principal deviation of the neighbours; docs/decisions.md"});
   f.number("plane_min_ratio", c.plane_min_ratio,
            {"-", in_range(1.0, 1e9),
             "smallest ratio of second to smallest principal variance; docs/decisions.md"});
-  f.number("map_sigma", c.map_sigma,
-           {"m", positive_up_to(1e4), "smallest error of a map point across its plane"});
 }
 
 void describe(Fields& f, MapCovarianceConfig& c) {

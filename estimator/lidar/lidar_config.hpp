@@ -43,10 +43,9 @@ struct MapConfig {
   double insertion_voxel = 0.1;     ///< one point is inserted per voxel of the raw scan [m]
   int max_insertions = 12000;       ///< points per scan
   double neighbor_gate = 0.5;       ///< largest distance of the five neighbours [m]
-  double plane_thickness = 0.06;    ///< largest distance of the five neighbours from the plane [m]
+  double plane_thickness = 3.0;     ///< of the five neighbours, in deviations of a residual [-]
   double plane_min_spread = 0.065;  ///< second principal deviation of the neighbours [m]
   double plane_min_ratio = 10.0;    ///< second over smallest principal variance [-]
-  double map_sigma = 0.001;         ///< smallest error of a map point across its plane [m]
 };
 
 void describe(Fields& fields, MapConfig& config);

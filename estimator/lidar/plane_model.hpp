@@ -13,13 +13,12 @@ namespace aims {
 struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< n_i, unit
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< q_i, mean of the map points [m]
-  bool valid = false;  ///< the points lie on it, and span it in two directions
-  /// Of the normal, odometry axes, from the residuals of the fit; zero along the normal.
-  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
+  bool valid = false;      ///< the points span it in two directions, more than across it
+  double thickness = 0.0;  ///< largest distance of a point from it [m]
 };
 
-/// The least-squares plane of `points`; valid when they satisfy the thickness, spread and ratio of
-/// the configuration, which five points of one scan line do not.
+/// The least-squares plane of `points`; valid when they satisfy spread and ratio of the
+/// configuration, which five points of one scan line do not.
 Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config);
 
 /// One row of the point-to-plane model.

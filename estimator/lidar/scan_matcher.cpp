@@ -4,76 +4,76 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/degeneracy/noise_information.hpp"
-
 namespace aims {
 namespace {
 
-/// Deviation of the first residuals: the accuracy that datasheets of spinning LiDARs state [m].
-constexpr double kFirstSigma = 0.03;
-/// No map of such returns is sharper [m].
-constexpr double kLeastSigma = 0.005;
-/// Scans over which it is averaged.
-constexpr double kScans = 20.0;
+/// The row with the sign of its normal turned to that of `other`.
+PlaneRow aligned(PlaneRow row, const PlaneRow& other) {
+  using E = ErrorState;
+  if (segment(row.jacobian, E::kPosition).dot(segment(other.jacobian, E::kPosition)) >= 0.0) {
+    return row;
+  }
+  return {-row.residual, -row.jacobian};
+}
+
+/// Adds the rows of one point to `sum`.
+void add(const PlaneRow& a, const PlaneRow& b, double weight, HalvesInformation& sum) {
+  const Vector6 half_a = 0.5 * weight * a.jacobian;
+  const Vector6 half_b = 0.5 * weight * b.jacobian;
+  sum.within.noalias() += half_a * a.jacobian.transpose();
+  sum.within.noalias() += half_b * b.jacobian.transpose();
+  sum.across.noalias() += half_a * b.jacobian.transpose();
+  sum.across.noalias() += half_b * a.jacobian.transpose();
+  sum.within_vector.noalias() += half_a * a.residual + half_b * b.residual;
+  sum.across_vector.noalias() += half_a * b.residual + half_b * a.residual;
+}
 
 }  // namespace
 
 ScanMatcher::ScanMatcher(const LidarUpdateConfig& config, const RobustKernelConfig& kernel,
-                         bool normal_noise)
-    : config_(config), kernel_(kernel), normal_noise_(normal_noise), sigma_(kFirstSigma) {}
+                         double plane_thickness)
+    : config_(config), kernel_(kernel), plane_thickness_(plane_thickness) {}
+
+void ScanMatcher::reset(const Eigen::Vector3d& sensor) {
+  sensor_ = sensor;
+  robust_ = false;
+}
 
 void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector3f> points,
                         const VoxelMap& map) {
   matches_.clear();
-  const Eigen::Matrix3f R = state.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f t = state.position.cast<float>();
+  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
   for (const Eigen::Vector3f& point : points) {
-    const Plane plane = map.plane_at(R * point + t);
-    if (plane.valid) matches_.push_back({point.cast<double>(), plane});
+    const Eigen::Vector3d p_body = point.cast<double>();
+    const PlanePair planes = map.planes_at((R * p_body + state.position).cast<float>());
+    if (!planes.valid()) continue;
+    const double cosine = std::abs(planes.a.normal.dot(R * (p_body - sensor_).normalized()));
+    const double thickest = std::max(planes.a.thickness, planes.b.thickness);
+    if (thickest <= plane_thickness_ * noise_.sigma(cosine)) {
+      matches_.push_back({p_body, planes, cosine});
+    }
   }
 }
 
 MatchInformation ScanMatcher::linearize(const NominalState& state) {
   MatchInformation sum;
   residuals_.clear();
+  incident_residuals_.clear();
   const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
   for (const Match& match : matches_) {
-    const PlaneRow row = plane_row(match.plane, match.p_body, R, state.position);
-    if (!(std::abs(row.residual) <= config_.residual_gate)) continue;
-    const double ratio = row.residual / robust_scale_;
-    const double weight = 1.0 / (1.0 + ratio * ratio);  // Cauchy
-    const Vector6 weighted = weight * row.jacobian;
-    sum.matrix.noalias() += weighted * row.jacobian.transpose();
-    sum.vector.noalias() += weighted * row.residual;
-    if (normal_noise_) {
-      sum.noise += weight * noise_information(match.plane.normal_covariance, match.p_body, R);
-    }
-    residuals_.push_back(row.residual);
+    const PlaneRow a = plane_row(match.planes.a, match.p_body, R, state.position);
+    const PlaneRow b = aligned(plane_row(match.planes.b, match.p_body, R, state.position), a);
+    const double residual = 0.5 * (a.residual + b.residual);
+    if (!(std::abs(residual) <= config_.residual_gate)) continue;
+    const double sigma = noise_.sigma(match.cosine);
+    const double ratio = robust_ ? residual / (kernel_.scale * sigma) : 0.0;
+    const double weight = 1.0 / (config_.correlated_points * sigma * sigma);
+    add(a, b, weight / (1.0 + ratio * ratio), sum.halves);  // Cauchy
+    residuals_.push_back(residual);
+    incident_residuals_.push_back({residual, match.cosine});
   }
-  const double weight = 1.0 / (config_.correlated_points * sigma_ * sigma_);
-  sum.matrix *= weight;
-  sum.vector *= weight;
-  sum.noise *= weight;
   sum.used = static_cast<int>(residuals_.size());
   return sum;
-}
-
-void ScanMatcher::update_robust_scale() {
-  if (kernel_.enabled && !residuals_.empty()) robust_scale_ = kernel_.scale * deviation();
-}
-
-void ScanMatcher::learn_noise() {
-  if (!residuals_.empty()) sigma_ += (deviation() - sigma_) / kScans;
-}
-
-/// Deviation of the last residuals from their median magnitude [m].
-double ScanMatcher::deviation() {
-  magnitudes_.clear();
-  for (const double residual : residuals_) magnitudes_.push_back(std::abs(residual));
-  const auto middle = magnitudes_.begin() + static_cast<std::ptrdiff_t>(magnitudes_.size() / 2);
-  std::nth_element(magnitudes_.begin(), middle, magnitudes_.end());
-  constexpr double kMedianOfNormal = 0.6745;  // median magnitude of a standard normal variable
-  return std::max(*middle / kMedianOfNormal, kLeastSigma);
 }
 
 std::span<const MappedPlane> ScanMatcher::mapped_planes(const NominalState& state,
@@ -82,7 +82,7 @@ std::span<const MappedPlane> ScanMatcher::mapped_planes(const NominalState& stat
   for (const Match& match : matches_) {
     const Eigen::Vector3d p_odom = state.T_odom_body() * match.p_body;
     mapped_planes_.push_back(
-        {match.plane.normal, map.covariance_at(p_odom.cast<float>()).cast<double>()});
+        {match.planes.a.normal, map.covariance_at(p_odom.cast<float>()).cast<double>()});
   }
   return mapped_planes_;
 }

@@ -2,33 +2,34 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "estimator/degeneracy/cross_validation.hpp"
 #include "estimator/lidar/lidar_config.hpp"
 #include "estimator/lidar/map_covariance.hpp"
 #include "estimator/lidar/plane_model.hpp"
+#include "estimator/lidar/residual_noise.hpp"
 #include "estimator/lidar/voxel_map.hpp"
 
 namespace aims {
 
 /// The rows of all accepted matches at one pose, nominal noise.
 struct MatchInformation {
-  Matrix6 matrix = Matrix6::Zero();  ///< A = H^T R^-1 H
-  Vector6 vector = Vector6::Zero();  ///< b = H^T R^-1 r
-  Matrix6 noise = Matrix6::Zero();   ///< expected part of A from the noise of the normals
-  int used = 0;                      ///< accepted matches
+  HalvesInformation halves;
+  int used = 0;  ///< accepted matches
 };
 
 /// Matches the points of a scan with the planes of the map and linearizes eq. (2).
 class ScanMatcher {
  public:
-  /// `normal_noise`: also sum the noise-induced information of the normals.
-  ScanMatcher(const LidarUpdateConfig& config, const RobustKernelConfig& kernel, bool normal_noise);
+  /// `plane_thickness`: MapConfig::plane_thickness.
+  ScanMatcher(const LidarUpdateConfig& config, const RobustKernelConfig& kernel,
+              double plane_thickness);
 
-  /// Starts a scan: no robust weights until update_robust_scale().
-  void reset() { robust_scale_ = kNotRobust; }
+  /// Starts a scan that was taken from `sensor` (body axes) [m]: no robust weights until
+  /// start_robust_weights().
+  void reset(const Eigen::Vector3d& sensor);
 
   /// Searches the planes of `points` (body axes) at `state`.
   void match(const NominalState& state, std::span<const Eigen::Vector3f> points,
@@ -37,15 +38,11 @@ class ScanMatcher {
   /// Sums the rows of the matches within the residual gate at `state`.
   MatchInformation linearize(const NominalState& state);
 
-  /// Sets the scale of the Cauchy kernel from the residuals of the last linearization: their robust
-  /// deviation times `RobustKernelConfig::scale`.
-  void update_robust_scale();
+  /// From now on a Cauchy kernel weighs each residual by its own deviation.
+  void start_robust_weights() { robust_ = kernel_.enabled; }
 
   /// Adds the residuals of the last linearization to the noise of the next scans.
-  void learn_noise();
-
-  /// Deviation of a residual, averaged over scans [m].
-  double residual_sigma() const { return sigma_; }
+  void learn_noise() { noise_.learn(incident_residuals_); }
 
   /// Residuals of the last linearization [m].
   const std::vector<double>& residuals() const { return residuals_; }
@@ -54,24 +51,22 @@ class ScanMatcher {
   std::span<const MappedPlane> mapped_planes(const NominalState& state, const VoxelMap& map);
 
  private:
-  static constexpr double kNotRobust = std::numeric_limits<double>::infinity();
-
-  double deviation();
-
-  /// A point with its plane.
+  /// A point with its planes.
   struct Match {
     Eigen::Vector3d p_body;
-    Plane plane;
+    PlanePair planes;
+    double cosine;  ///< of the incidence
   };
 
   LidarUpdateConfig config_;
   RobustKernelConfig kernel_;
-  bool normal_noise_;
-  double sigma_;
-  double robust_scale_ = kNotRobust;  ///< residual with weight one half [m]
+  double plane_thickness_;
+  ResidualNoise noise_;
+  Eigen::Vector3d sensor_ = Eigen::Vector3d::Zero();
+  bool robust_ = false;
   std::vector<Match> matches_;
   std::vector<double> residuals_;
-  std::vector<double> magnitudes_;
+  std::vector<IncidentResidual> incident_residuals_;
   std::vector<MappedPlane> mapped_planes_;
 };
 

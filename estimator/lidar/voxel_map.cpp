@@ -48,45 +48,57 @@ VoxelMap::VoxelMap(const MapConfig& config)
 void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
                       const Eigen::Matrix3f& covariance) {
   voxels_.begin_insertion();
+  const int half = insertions_++ % kHalves;
   for (const Eigen::Vector3f& point : points) {
-    if (point.allFinite()) insert(point, covariance);
+    if (point.allFinite()) insert(point, half, covariance);
   }
-  voxels_.limit(max_voxels_, [&center](const Voxel& v) {
-    return (Eigen::Vector3f(v.x[0], v.y[0], v.z[0]) - center).squaredNorm();
-  });
+  voxels_.limit(max_voxels_, [&center](const Voxel& v) { return (v.first - center).squaredNorm(); });
 }
 
-Plane VoxelMap::plane_at(const Eigen::Vector3f& query) const {
-  Neighbors neighbors;
+PlanePair VoxelMap::planes_at(const Eigen::Vector3f& query) const {
+  std::array<Neighbors, kHalves> neighbors;
   nearest(query, neighbors);
-  if (neighbors.count < Neighbors::kWanted) return {};
-  return fit_plane(neighbors.points, config_);
+  for (const Neighbors& half : neighbors) {
+    if (half.count < Neighbors::kWanted) return {};
+  }
+  PlanePair planes;
+  planes.a = fit_plane(neighbors[0].points, config_);
+  if (planes.a.valid) planes.b = fit_plane(neighbors[1].points, config_);
+  return planes;
 }
 
-void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& covariance) {
+void VoxelMap::insert(const Eigen::Vector3f& point, int half, const Eigen::Matrix3f& covariance) {
   Voxel& voxel = voxels_.touch(voxel_key(voxel_of(point, inverse_size_)));
-  if (voxel.count == 0) voxel.covariance = covariance;
+  if (voxel.empty) {
+    voxel.empty = false;
+    voxel.first = point;
+    voxel.covariance = covariance;
+  }
+  insert(point, voxel.halves[static_cast<std::size_t>(half)]);
+}
+
+void VoxelMap::insert(const Eigen::Vector3f& point, Half& half) const {
   int closest = -1;
   float nearest = spacing_ * spacing_;
-  for (int i = 0; i < voxel.count; ++i) {
-    const Eigen::Vector3f d(voxel.x[i] - point.x(), voxel.y[i] - point.y(), voxel.z[i] - point.z());
+  for (int i = 0; i < half.count; ++i) {
+    const Eigen::Vector3f d(half.x[i] - point.x(), half.y[i] - point.y(), half.z[i] - point.z());
     if (d.squaredNorm() < nearest) {
       nearest = d.squaredNorm();
       closest = i;
     }
   }
   if (closest >= 0) {
-    if (voxel.merged[closest] >= max_merges_) return;
-    const float weight = 1.0F / static_cast<float>(++voxel.merged[closest]);
-    voxel.x[closest] += weight * (point.x() - voxel.x[closest]);
-    voxel.y[closest] += weight * (point.y() - voxel.y[closest]);
-    voxel.z[closest] += weight * (point.z() - voxel.z[closest]);
-  } else if (voxel.count < max_points_per_voxel_) {
-    const int i = voxel.count++;
-    voxel.x[i] = point.x();
-    voxel.y[i] = point.y();
-    voxel.z[i] = point.z();
-    voxel.merged[i] = 1;
+    if (half.merged[closest] >= max_merges_) return;
+    const float weight = 1.0F / static_cast<float>(++half.merged[closest]);
+    half.x[closest] += weight * (point.x() - half.x[closest]);
+    half.y[closest] += weight * (point.y() - half.y[closest]);
+    half.z[closest] += weight * (point.z() - half.z[closest]);
+  } else if (half.count < max_points_per_voxel_) {
+    const int i = half.count++;
+    half.x[i] = point.x();
+    half.y[i] = point.y();
+    half.z[i] = point.z();
+    half.merged[i] = 1;
   }
 }
 
@@ -96,7 +108,7 @@ Eigen::Matrix3f VoxelMap::covariance_at(const Eigen::Vector3f& point) const {
   return voxel->covariance;
 }
 
-void VoxelMap::search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
+void VoxelMap::search(const Half& voxel, const Eigen::Vector3f& query, float gate,
                       Neighbors& neighbors) {
   std::array<float, kCapacity> squared;
   for (int i = 0; i < voxel.count; ++i) {
@@ -120,22 +132,28 @@ void VoxelMap::search(const Voxel& voxel, const Eigen::Vector3f& query, float ga
   }
 }
 
-void VoxelMap::nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const {
-  neighbors.count = 0;
+void VoxelMap::nearest(const Eigen::Vector3f& query,
+                       std::array<Neighbors, kHalves>& neighbors) const {
+  for (Neighbors& half : neighbors) half.count = 0;
   const VoxelIndex home = voxel_of(query, inverse_size_);
   const Eigen::Vector3f inside =
       query - size_ * Eigen::Vector3f(static_cast<float>(home.x), static_cast<float>(home.y),
                                       static_cast<float>(home.z));
   const float gate = gate_ * gate_;
+  const auto reach = [gate](const Neighbors& found) {
+    return found.count == Neighbors::kWanted ? found.squared_distances[Neighbors::kWanted - 1]
+                                             : gate;
+  };
   for (const auto& [dx, dy, dz] : kNeighborhood) {
     const float closest = squared_gap(inside.x(), size_, dx) + squared_gap(inside.y(), size_, dy) +
                           squared_gap(inside.z(), size_, dz);
-    const float reach = neighbors.count == Neighbors::kWanted
-                            ? neighbors.squared_distances[Neighbors::kWanted - 1]
-                            : gate;
-    if (closest > reach) continue;
+    if (closest > std::max(reach(neighbors[0]), reach(neighbors[1]))) continue;
     const Voxel* voxel = voxels_.find(voxel_key({home.x + dx, home.y + dy, home.z + dz}));
-    if (voxel != nullptr) search(*voxel, query, gate, neighbors);
+    if (voxel == nullptr) continue;
+    for (std::size_t half = 0; half < kHalves; ++half) {
+      if (closest > reach(neighbors[half])) continue;
+      search(voxel->halves[half], query, gate, neighbors[half]);
+    }
   }
 }
 
@@ -146,7 +164,9 @@ std::size_t VoxelMap::memory() const { return voxels_.memory(); }
 std::vector<Eigen::Vector3f> VoxelMap::points() const {
   std::vector<Eigen::Vector3f> all;
   for (const Voxel& voxel : voxels_) {
-    for (int i = 0; i < voxel.count; ++i) all.emplace_back(voxel.x[i], voxel.y[i], voxel.z[i]);
+    for (const Half& half : voxel.halves) {
+      for (int i = 0; i < half.count; ++i) all.emplace_back(half.x[i], half.y[i], half.z[i]);
+    }
   }
   return all;
 }

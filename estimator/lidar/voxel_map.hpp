@@ -21,10 +21,20 @@ struct Neighbors {
   int count = 0;
 };
 
-/// Local map: points in hashed cubic voxels. A return close to a map point merges into it (running
-/// mean), which averages noise; memory is bounded per voxel and in total.
+/// Planes at one place, from each half of the map.
+struct PlanePair {
+  Plane a;
+  Plane b;
+  bool valid() const { return a.valid && b.valid; }
+};
+
+/// Local map: points in hashed cubic voxels, in two halves that share no return, so that the noise
+/// of their planes is independent. A return close to a map point of its half merges into it
+/// (running mean), which averages noise; memory is bounded per voxel and in total.
 class VoxelMap {
  public:
+  static constexpr int kHalves = 2;
+
   explicit VoxelMap(const MapConfig& config);
 
   /// Adds points in the odometry frame; non-finite ones are ignored. When there are too many
@@ -39,11 +49,11 @@ class VoxelMap {
   /// The covariance stored in the voxel around `point`; zero where there is none [m^2].
   Eigen::Matrix3f covariance_at(const Eigen::Vector3f& point) const;
 
-  /// The nearest map points, up to five, within the gate (at most one voxel edge); exact.
-  void nearest(const Eigen::Vector3f& query, Neighbors& neighbors) const;
+  /// The nearest points of each half, up to five, within the gate (at most one voxel edge); exact.
+  void nearest(const Eigen::Vector3f& query, std::array<Neighbors, kHalves>& neighbors) const;
 
-  /// The plane through the five map points nearest to `query`; invalid when there is none.
-  Plane plane_at(const Eigen::Vector3f& query) const;
+  /// The planes through the five points nearest to `query` in each half; invalid without them.
+  PlanePair planes_at(const Eigen::Vector3f& query) const;
 
   /// Memory that the map holds [bytes].
   std::size_t memory() const;
@@ -55,21 +65,28 @@ class VoxelMap {
   std::vector<Eigen::Vector3f> points() const;
 
  private:
-  static constexpr int kCapacity = 32;
+  static constexpr int kCapacity = 32;  ///< points of one half in a voxel
 
-  struct Voxel {
+  struct Half {
     alignas(16) std::array<float, kCapacity> x;
     std::array<float, kCapacity> y;
     std::array<float, kCapacity> z;
     std::array<std::uint8_t, kCapacity> merged;
-    std::uint64_t key = 0;
     int count = 0;
+  };
+
+  struct Voxel {
+    std::array<Half, kHalves> halves;
+    std::uint64_t key = 0;
+    Eigen::Vector3f first = Eigen::Vector3f::Zero();  ///< its first point
+    bool empty = true;
     std::uint32_t seen = 0;  ///< the last insertion that put a point in it
     Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
   };
 
-  void insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& covariance);
-  static void search(const Voxel& voxel, const Eigen::Vector3f& query, float gate,
+  void insert(const Eigen::Vector3f& point, int half, const Eigen::Matrix3f& covariance);
+  void insert(const Eigen::Vector3f& point, Half& half) const;
+  static void search(const Half& half, const Eigen::Vector3f& query, float gate,
                      Neighbors& neighbors);
 
   MapConfig config_;
@@ -80,6 +97,7 @@ class VoxelMap {
   int max_points_per_voxel_;
   int max_merges_;
   std::size_t max_voxels_;
+  int insertions_ = 0;
   VoxelStore<Voxel> voxels_;
 };
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "core/config.hpp"
+#include "estimator/filter/error_state.hpp"
+
+namespace aims {
+
+/// Removal of the information that the noise of the map adds to a scan.
+struct CrossValidationConfig {
+  bool enabled = false;
+};
+
+void describe(Fields& fields, CrossValidationConfig& config);
+
+/// Information of a scan matched with both halves of the map, whose points share no return. With
+/// the Jacobians j_a, j_b and residuals r_a, r_b of a point's plane in each half, summed over the
+/// points and in units of the noise:
+struct HalvesInformation {
+  Matrix6 within = Matrix6::Zero();         ///< (j_a j_a^T + j_b j_b^T) / 2
+  Matrix6 across = Matrix6::Zero();         ///< (j_a j_b^T + j_b j_a^T) / 2
+  Vector6 within_vector = Vector6::Zero();  ///< (j_a r_a + j_b r_b) / 2
+  Vector6 across_vector = Vector6::Zero();  ///< (j_a r_b + j_b r_a) / 2
+};
+
+/// Matrix and vector about the pose: A = H^T R^-1 H, b = H^T R^-1 r.
+struct PoseInformation {
+  Matrix6 matrix = Matrix6::Zero();
+  Vector6 vector = Vector6::Zero();
+};
+
+/// A real fraction below this is a direction that scans leave free. In corridors without features
+/// the fraction is 0.06 to 0.1 and scatters by 0.1 from scan to scan: the halves share the pattern
+/// of the rings, which moves with the robot (docs/estimators.md).
+inline constexpr double kFreeDirection = 0.2;
+
+/// The information of scans without the part that comes from the noise of the plane normals
+/// (docs/estimators.md). The noise d of a normal adds E[d d^T] to j_a j_a^T but nothing to
+/// j_a j_b^T, since the halves have independent noise; so `across` is on average the real part X
+/// of the information W = `within`, whatever the noise, and x = X^-1 `across_vector` the estimate
+/// with instrumental variables, free of the bias towards no motion. The vector has the noise
+/// covariance W; what x tells about the pose is therefore X W^-1 X = F W F^T with F = X W^-1.
+///
+/// The scatter of X makes F W F^T positive where X is zero, so X and W of the position are averaged
+/// over the way; a robot that stands sees the same noise in every scan.
+class RealFraction {
+ public:
+  /// Adds a scan at `position` [m]; scans of a robot that stands count once.
+  void add(const HalvesInformation& scan, const Eigen::Vector3d& position);
+
+  /// F W F^T and F x; the fraction of the rotation is taken as 1.
+  PoseInformation applied_to(const HalvesInformation& scan) const;
+
+ private:
+  std::optional<Eigen::Vector3d> last_position_;
+  double standing_ = 1.0;  ///< weight of the first scan in the averages
+  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();  ///< of the position, odometry axes
+  Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
+};
+
+/// Information of a block with the other block, of information `other`, unknown: the Schur
+/// complement of `other`; `cross` is the off-diagonal block, 3x3 each.
+Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
+                                 const Eigen::Matrix3d& other);
+
+/// Smallest eigenvalue ratio of `across` to `within` over the axes of the position, the rotation
+/// unknown: the real fraction of the information along the weakest axis, 1 without noise and about
+/// 0 where all of it is noise.
+double weakest_real_fraction(const HalvesInformation& scan);
+
+}  // namespace aims
