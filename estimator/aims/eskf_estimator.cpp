@@ -191,7 +191,9 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(fuse(belief_, measurement));
+  accept(lidar_update_.considers_legs()
+             ? fuse(belief_, measurement, consider_legs(correct_all()))
+             : fuse(belief_, measurement));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {
@@ -236,9 +238,13 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
     return;
   }
   if (last_scan_) {
-    queue_.imu().noise().add_correction(
-        so3_log(predicted.rotation.conjugate() * belief_.state.rotation),
-        to_seconds(time_ - *last_scan_));
+    const ErrorVector y = boxminus(belief_.state, predicted);
+    // Across the robot only: along it a corridor may leave the velocity free.
+    const Eigen::Vector3d across =
+        belief_.state.rotation.conjugate() * segment(y, ErrorState::kVelocity);
+    queue_.imu().noise().add_correction(segment(y, ErrorState::kRotation).squaredNorm() / 3.0,
+                                        across.tail<2>().squaredNorm() / 2.0,
+                                        to_seconds(time_ - *last_scan_));
   }
   belief_ = after_delay_change(belief_, belief_.state.delay - predicted.delay, scan_twist_);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));

@@ -48,9 +48,11 @@ Linearization<NominalState> LidarUpdate::fused(const MatchInformation& scan, dou
       cross_validation_.enabled
           ? fraction_.applied_to(scan.halves)
           : PoseInformation{scan.halves.within, scan.halves.within_vector};
-  return {scan_information(gamma * pose.matrix, gamma * pose.vector, calibration_,
-                           state.rotation.toRotationMatrix()),
-          std::nullopt};
+  Linearization<NominalState> linearization;
+  linearization.information = scan_information(gamma * pose.matrix, gamma * pose.vector,
+                                               calibration_, state.rotation.toRotationMatrix());
+  if (considers_legs()) linearization.gain_mask = consider_legs(correct_all());
+  return linearization;
 }
 
 IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,

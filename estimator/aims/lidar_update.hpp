@@ -34,6 +34,12 @@ class LidarUpdate {
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
 
+  /// Whether the leg states are consider states: while scans leave a direction free, nothing but
+  /// the legs measures the velocity along it.
+  bool considers_legs() const {
+    return false && cross_validation_.enabled && fraction_.leaves_direction_free();
+  }
+
   /// Covariance of the map at the robot, odometry axes [m^2]; see map_covariance_after_scan().
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 

@@ -41,9 +41,10 @@ void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& pos
   standing_ = first ? 1.0 : (1.0 - gain) * standing_;
   within_ += gain * (position_information(scan.within) - within_);
   across_ += gain * (position_information(scan.across) - across_);
+  update_fraction();
 }
 
-PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {
+void RealFraction::update_fraction() {
   // X V = W V diag(f) with V^T W V = I, so X W^-1 = W V diag(f) V^T.
   const Eigen::Matrix3d within = within_ + kRegularization * Eigen::Matrix3d::Identity();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(across_, within);
@@ -51,8 +52,13 @@ PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {
   const double free = kFreeDirection + standing_ * (kFreeStanding - kFreeDirection);
   const Eigen::Array3d beyond = (solver.eigenvalues().array() - free) / (1.0 - free);
   const Eigen::Vector3d fraction = beyond.max(0.0).min(1.0).matrix();
+  weakest_ = fraction.minCoeff();
+  position_fraction_ = within * V * fraction.asDiagonal() * V.transpose();
+}
+
+PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {
   Matrix6 F = Matrix6::Identity();
-  F.bottomRightCorner<3, 3>() = within * V * fraction.asDiagonal() * V.transpose();
+  F.bottomRightCorner<3, 3>() = position_fraction_;
   return {F * scan.within * F.transpose(), F * scan.across_vector};
 }
 

@@ -53,9 +53,16 @@ class RealFraction {
   /// F W F^T and F x; the fraction of the rotation is taken as 1.
   PoseInformation applied_to(const HalvesInformation& scan) const;
 
+  /// Whether scans leave a direction of the position free.
+  bool leaves_direction_free() const { return weakest_ <= 0.0; }
+
  private:
+  void update_fraction();
+
   std::optional<Eigen::Vector3d> last_position_;
   double standing_ = 1.0;  ///< weight of the first scan in the averages
+  double weakest_ = 0.0;   ///< smallest entry of the diagonal below
+  Eigen::Matrix3d position_fraction_ = Eigen::Matrix3d::Zero();  ///< F
   Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();  ///< of the position, odometry axes
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
 };

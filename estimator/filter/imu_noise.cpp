@@ -10,6 +10,9 @@ namespace {
 /// Time over which variances are averaged: a stride [s].
 constexpr double kAveragingTime = 0.5;
 
+/// Gain towards a larger variance: within three samples.
+constexpr double kRise = 0.3;
+
 /// Scans over which the share of noise is averaged: many strides, far less than a run.
 constexpr double kScans = 100.0;
 /// Scans for which the first guess of the share counts.
@@ -18,9 +21,9 @@ constexpr double kPriorScans = 10.0;
 constexpr double kMinShare = 1e-3;
 constexpr double kMaxShare = 10.0;
 
-/// White noise of the best MEMS parts in use (ADIS16488, LSM6DSO): a sensor that shows less is
-/// quantized or simulated.
-constexpr ImuNoiseDensity kLeast{5e-5, 5e-4};
+/// What the samples do not show: attitude errors of a map, a milliradian over seconds, let gravity
+/// act as 0.01 m/s^2, and scale and axes of a MEMS gyro are wrong by half a percent of 0.5 rad/s.
+constexpr ImuNoiseDensity kLeast{2e-3, 5e-2};
 
 /// Correlation time of the motion of a trot, a quarter of its period of 0.4 s [s].
 constexpr double kMotionTime = 0.1;
@@ -37,7 +40,8 @@ void SignalStatistics::add(const Eigen::Vector3d& x, bool follows, double gain) 
   variance_.total += gain * (mean_square(x - mean_) - variance_.total);
   if (count_ == 2) {
     const Eigen::Vector3d difference = x - 2.0 * last_[0] + last_[1];
-    variance_.white += gain * (mean_square(difference) / 6.0 - variance_.white);
+    const double white = mean_square(difference) / 6.0;
+    variance_.white += (white > variance_.white ? kRise : gain) * (white - variance_.white);
   }
   last_ = {x, last_[0]};
   count_ = std::min(count_ + 1, 2);
@@ -55,22 +59,28 @@ void ImuNoise::add(const ImuSample& sample) {
   started_ = true;
 }
 
-void ImuNoise::add_correction(const Eigen::Vector3d& rotation, double duration) {
-  const double gain = 1.0 / kScans;
-  const double expected = rate_.variance().white * period_ * duration;
+void NoiseShare::add(double correction, double expected) {
   if (expected_ == 0.0) {
     expected_ = expected * kPriorScans / kScans;
-    corrections_ = share_ * expected_;
+    corrections_ = expected_;
   }
-  expected_ += gain * (expected - expected_);
-  corrections_ += gain * (mean_square(rotation) - corrections_);
-  if (expected_ > 0.0) share_ = std::clamp(corrections_ / expected_, kMinShare, kMaxShare);
+  expected_ += (expected - expected_) / kScans;
+  corrections_ += (correction - corrections_) / kScans;
+}
+
+double NoiseShare::value() const {
+  return expected_ > 0.0 ? std::clamp(corrections_ / expected_, kMinShare, kMaxShare) : 1.0;
+}
+
+void ImuNoise::add_correction(double rotation, double velocity, double duration) {
+  rate_share_.add(rotation, rate_.variance().white * period_ * duration);
+  force_share_.add(velocity, force_.variance().white * period_ * duration);
 }
 
 ImuNoiseDensity ImuNoise::density() const {
-  const double scale = std::sqrt(share_ * period_);
-  return {std::max(kLeast.gyro, scale * white_rate()),
-          std::max(kLeast.accelerometer, scale * white_force())};
+  return {std::max(kLeast.gyro, std::sqrt(rate_share_.value() * period_) * white_rate()),
+          std::max(kLeast.accelerometer,
+                   std::sqrt(force_share_.value() * period_) * white_force())};
 }
 
 ImuNoiseDensity ImuNoise::bridge_density() const {

@@ -20,7 +20,8 @@ struct SignalVariance {
   double white = 0.0;  ///< of the part that does not follow from the neighbours
 };
 
-/// Running variances of a signal of three axes, over about half a second.
+/// Running variances of a signal of three axes, over about half a second; they rise within a few
+/// samples, since the first steps come at once.
 ///
 /// The second difference d_k = x_k - 2 x_(k-1) + x_(k-2) passes the upper half of the band: white
 /// noise of variance s^2 gives E d^2 = 6 s^2, a motion of frequency f the fraction
@@ -40,13 +41,26 @@ class SignalStatistics {
   SignalVariance variance_;
 };
 
+/// Share of the white part of a signal that is noise, learned from corrections of its integral.
+class NoiseShare {
+ public:
+  /// Adds a mean square correction, `expected` if all of the white part were noise.
+  void add(double correction, double expected);
+
+  double value() const;
+
+ private:
+  double corrections_ = 0.0;
+  double expected_ = 0.0;
+};
+
 /// Noise of the integrated IMU, estimated from the IMU itself and from how well it predicts scans.
 ///
 /// Vibration above half the sampling rate aliases into the samples and does not average out in
 /// their sum: a sample's white part of deviation s adds a random walk of density s sqrt(T). What
 /// share of that part is noise, and not motion that the samples follow (a filtered IMU), shows in
-/// the rotation: in the steady state E[y y^T] = Q, where y is the correction of the rotation by a
-/// scan and Q the covariance that was added since the last one (Myers and Tapley 1976).
+/// the corrections y of rotation and velocity by scans: in the steady state E[y y^T] = Q, the
+/// covariance that was added since the last scan (Myers and Tapley 1976).
 class ImuNoise {
  public:
   explicit ImuNoise(double rate_hz);
@@ -54,18 +68,15 @@ class ImuNoise {
   /// Adds the next sample in order of stamp.
   void add(const ImuSample& sample);
 
-  /// Adds a scan's correction of the rotation, `duration` [s] after the last scan, to the learned
-  /// share of noise.
-  void add_correction(const Eigen::Vector3d& rotation, double duration);
+  /// Adds a scan's mean square correction per axis, of rotation [rad^2] and velocity [m^2/s^2],
+  /// `duration` [s] after the last scan, to the learned shares of noise.
+  void add_correction(double rotation, double velocity, double duration);
 
   /// Of the sum of the samples.
   ImuNoiseDensity density() const;
 
   /// While samples are missing: the motion itself is unknown.
   ImuNoiseDensity bridge_density() const;
-
-  /// Share of the white part that is noise [-].
-  double share() const { return share_; }
 
   /// Deviations of one sample's white part: angular rate [rad/s] and specific force [m/s^2].
   double white_rate() const;
@@ -77,9 +88,8 @@ class ImuNoise {
   bool started_ = false;
   SignalStatistics rate_;
   SignalStatistics force_;
-  double share_ = 1.0;
-  double corrections_ = 0.0;  ///< mean square per axis and second [rad^2/s]
-  double expected_ = 0.0;     ///< the same if all of the white part were noise
+  NoiseShare rate_share_;
+  NoiseShare force_share_;
 };
 
 }  // namespace aims
