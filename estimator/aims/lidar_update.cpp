@@ -51,7 +51,9 @@ Linearization<NominalState> LidarUpdate::fused(const MatchInformation& scan, dou
   Linearization<NominalState> linearization;
   linearization.information = scan_information(gamma * pose.matrix, gamma * pose.vector,
                                                calibration_, state.rotation.toRotationMatrix());
-  if (considers_legs()) linearization.gain_mask = consider_legs(correct_all());
+  if (considers_legs()) {
+    linearization.gain_mask = limit_motion(consider_legs(correct_all()), fraction_.constrained());
+  }
   return linearization;
 }
 

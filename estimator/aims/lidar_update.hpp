@@ -37,7 +37,7 @@ class LidarUpdate {
   /// Whether the leg states are consider states: while scans leave a direction free, nothing but
   /// the legs measures the velocity along it.
   bool considers_legs() const {
-    return false && cross_validation_.enabled && fraction_.leaves_direction_free();
+    return cross_validation_.enabled && fraction_.leaves_direction_free();
   }
 
   /// Covariance of the map at the robot, odometry axes [m^2]; see map_covariance_after_scan().

@@ -53,6 +53,11 @@ void RealFraction::update_fraction() {
   const Eigen::Array3d beyond = (solver.eigenvalues().array() - free) / (1.0 - free);
   const Eigen::Vector3d fraction = beyond.max(0.0).min(1.0).matrix();
   weakest_ = fraction.minCoeff();
+  constrained_.setIdentity();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = V.col(i).normalized();
+    if (fraction(i) <= 0.0) constrained_ -= axis * axis.transpose();
+  }
   position_fraction_ = within * V * fraction.asDiagonal() * V.transpose();
 }
 

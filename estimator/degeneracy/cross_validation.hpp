@@ -34,7 +34,7 @@ struct PoseInformation {
 /// A real fraction below this is a direction that scans leave free. In corridors without features
 /// the fraction is 0.06 to 0.1 and scatters by 0.1 from scan to scan: the halves share the pattern
 /// of the rings, which moves with the robot (docs/estimators.md).
-inline constexpr double kFreeDirection = 0.2;
+inline constexpr double kFreeDirection = 0.35;
 
 /// The information of scans without the part that comes from the noise of the plane normals
 /// (docs/estimators.md). The noise d of a normal adds E[d d^T] to j_a j_a^T but nothing to
@@ -53,6 +53,9 @@ class RealFraction {
   /// F W F^T and F x; the fraction of the rotation is taken as 1.
   PoseInformation applied_to(const HalvesInformation& scan) const;
 
+  /// Projection of the position onto the directions that scans do not leave free.
+  const Eigen::Matrix3d& constrained() const { return constrained_; }
+
   /// Whether scans leave a direction of the position free.
   bool leaves_direction_free() const { return weakest_ <= 0.0; }
 
@@ -62,6 +65,7 @@ class RealFraction {
   std::optional<Eigen::Vector3d> last_position_;
   double standing_ = 1.0;  ///< weight of the first scan in the averages
   double weakest_ = 0.0;   ///< smallest entry of the diagonal below
+  Eigen::Matrix3d constrained_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d position_fraction_ = Eigen::Matrix3d::Zero();  ///< F
   Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();  ///< of the position, odometry axes
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();

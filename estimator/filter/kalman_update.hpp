@@ -48,6 +48,10 @@ Belief fuse(const Belief& prior, const LinearMeasurement& measurement);
 Belief fuse(const Belief& prior, const LinearMeasurement& measurement,
             const ErrorMatrix& gain_mask);
 
+/// The same with the gain for leg states that are known: they keep their value, and their
+/// uncertainty counts in the covariance, not in how much the measurement is trusted.
+Belief fuse_with_known_legs(const Belief& prior, const LinearMeasurement& measurement);
+
 /// The information of one three-row measurement.
 Information information_of(const LinearMeasurement& measurement);
 
