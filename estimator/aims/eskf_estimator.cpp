@@ -161,7 +161,8 @@ bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
   const ZeroVelocityConfig& config = config_.zero_velocity;
   if (!config.enabled) return false;
   const bool standing =
-      zero_velocity_.update(sample, queue_.imu().samples(), belief_.state.gyro_bias);
+      zero_velocity_.update(sample, queue_.imu().samples(), belief_.state.gyro_bias,
+                            queue_.imu().noise().white());
   if (!standing) return false;
   const std::optional<ImuStatistics> statistics = zero_velocity_.due_measurement();
   if (!statistics) return true;

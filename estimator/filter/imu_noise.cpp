@@ -78,9 +78,9 @@ void ImuNoise::add_correction(double rotation, double velocity, double duration)
 }
 
 ImuNoiseDensity ImuNoise::density() const {
-  return {std::max(kLeast.gyro, std::sqrt(rate_share_.value() * period_) * white_rate()),
+  return {std::max(kLeast.gyro, std::sqrt(rate_share_.value() * period_) * white().rate),
           std::max(kLeast.accelerometer,
-                   std::sqrt(force_share_.value() * period_) * white_force())};
+                   std::sqrt(force_share_.value() * period_) * white().force)};
 }
 
 ImuNoiseDensity ImuNoise::bridge_density() const {
@@ -89,8 +89,8 @@ ImuNoiseDensity ImuNoise::bridge_density() const {
           std::max(least.accelerometer, std::sqrt(kMotionTime * force_.variance().total))};
 }
 
-double ImuNoise::white_rate() const { return std::sqrt(rate_.variance().white); }
-
-double ImuNoise::white_force() const { return std::sqrt(force_.variance().white); }
+WhiteDeviation ImuNoise::white() const {
+  return {std::sqrt(rate_.variance().white), std::sqrt(force_.variance().white)};
+}
 
 }  // namespace aims

@@ -54,6 +54,12 @@ class NoiseShare {
   double expected_ = 0.0;
 };
 
+/// Deviations of the white part of one sample, per axis.
+struct WhiteDeviation {
+  double rate = 0.0;   ///< [rad/s]
+  double force = 0.0;  ///< [m/s^2]
+};
+
 /// Noise of the integrated IMU, estimated from the IMU itself and from how well it predicts scans.
 ///
 /// Vibration above half the sampling rate aliases into the samples and does not average out in
@@ -78,9 +84,8 @@ class ImuNoise {
   /// While samples are missing: the motion itself is unknown.
   ImuNoiseDensity bridge_density() const;
 
-  /// Deviations of one sample's white part: angular rate [rad/s] and specific force [m/s^2].
-  double white_rate() const;
-  double white_force() const;
+  /// Of one sample.
+  WhiteDeviation white() const;
 
  private:
   double period_;  ///< [s]

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace aims {
 namespace {
@@ -16,6 +17,33 @@ constexpr int kMinSamples = 5;
 constexpr double kFixedVariance = 1e-16;
 
 double variance_of(double sigma) { return sigma * sigma; }
+
+/// Deviation per axis of a signal's white part, from the median square of its second differences,
+/// 6 s^2 times a chi-square variable of 3 dof: a push or a step leaves the median as it is.
+template <class Signal>
+double white_deviation(const std::deque<ImuSample>& samples, Signal&& signal) {
+  if (samples.size() < 3) return 0.0;
+  std::vector<double> squares;
+  for (std::size_t i = 2; i < samples.size(); ++i) {
+    squares.push_back(
+        (signal(samples[i]) - 2.0 * signal(samples[i - 1]) + signal(samples[i - 2])).squaredNorm());
+  }
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  constexpr double kMedianOfChiSquare = 2.366;
+  return std::sqrt(*middle / (6.0 * kMedianOfChiSquare));
+}
+
+/// White noise of the samples: what they show while nothing moves.
+WhiteDeviation sample_noise(const std::deque<ImuSample>& samples) {
+  return {white_deviation(samples,
+                          [](const ImuSample& s) -> Eigen::Vector3d { return s.angular_velocity; }),
+          white_deviation(samples,
+                          [](const ImuSample& s) -> Eigen::Vector3d { return s.specific_force; })};
+}
+
+/// Largest norm that white noise of deviation 1 per axis reaches: 99.99 %.
+constexpr double kLargestNoise = 4.6;
 
 /// Averages over an interval without motion.
 struct StaticInterval {
@@ -59,14 +87,17 @@ StaticInterval average_start(const std::deque<ImuSample>& samples, double settli
 /// it and none shows motion.
 StaticInterval static_interval_from(const std::deque<ImuSample>& samples, std::size_t begin,
                                     const InitializationConfig& config,
-                                    const StaticInitializationConfig& limits, double gravity) {
+                                    const StaticInitializationConfig& limits,
+                                    const WhiteDeviation& noise, double gravity) {
+  const double max_rate_deviation = limits.max_rate_deviation + kLargestNoise * noise.rate;
+  const double max_force_deviation = limits.max_force_deviation + kLargestNoise * noise.force;
   StaticInterval interval;
   for (std::size_t i = begin; i < samples.size(); ++i) {
     const ImuSample& sample = samples[i];
     const double rate_deviation = (sample.angular_velocity - interval.rate).norm();
     const double force_deviation = (sample.specific_force - interval.force).norm();
-    const bool close = interval.count == 0 || (rate_deviation <= limits.max_rate_deviation &&
-                                               force_deviation <= limits.max_force_deviation);
+    const bool close = interval.count == 0 || (rate_deviation <= max_rate_deviation &&
+                                               force_deviation <= max_force_deviation);
     interval.moved = !close || !is_still(sample, config, gravity);
     if (interval.moved) break;
     ++interval.count;
@@ -87,12 +118,13 @@ struct LongestInterval {
 /// The longest static interval; of equally long ones the last, since the robot settles with time.
 LongestInterval longest_static_interval(const std::deque<ImuSample>& samples,
                                         const InitializationConfig& config,
-                                        const StaticInitializationConfig& limits, double gravity) {
+                                        const StaticInitializationConfig& limits,
+                                        const WhiteDeviation& noise, double gravity) {
   LongestInterval longest;
   for (std::size_t begin = 0; begin < samples.size(); ++begin) {
     const Time from = samples[begin].stamp;
     if (samples.back().stamp - from < from_seconds(longest.duration)) break;
-    const StaticInterval found = static_interval_from(samples, begin, config, limits, gravity);
+    const StaticInterval found = static_interval_from(samples, begin, config, limits, noise, gravity);
     if (found.count == 0 || to_seconds(found.end - from) < longest.duration) continue;
     longest = {found, begin, to_seconds(found.end - from)};
   }
@@ -153,8 +185,12 @@ ErrorMatrix initial_covariance(const InitializationConfig& config, const Eigen::
 /// The belief at the end of `interval`, or at the newest sample when it is too short for a tilt.
 /// The mean rate is the gyro bias only with `gyro_bias_measured`: otherwise the body may sway.
 InitialBelief begin_with(const std::deque<ImuSample>& samples, const StaticInterval& interval,
-                         bool enough, bool gyro_bias_measured, const InitializationConfig& config,
-                         double gravity) {
+                         bool enough, bool gyro_bias_measured, const WhiteDeviation& noise,
+                         InitializationConfig config, double gravity) {
+  // The mean of white noise adds to the errors of the means.
+  const double root_count = std::sqrt(std::max(1, interval.count));
+  config.sigma_mean_force = std::hypot(config.sigma_mean_force, noise.force / root_count);
+  config.sigma_gyro_bias = std::hypot(config.sigma_gyro_bias, noise.rate / root_count);
   InitialBelief initial;
   initial.stamp = enough ? interval.end : samples.back().stamp;
   initial.stood_still = enough;
@@ -217,7 +253,7 @@ std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
   if (span < from_seconds(config.duration) && !start.moved) return std::nullopt;
   if (start.count < kMinSamples) start = average_start(samples, 0.0, config, gravity);
   const bool enough = start.count >= kMinSamples;
-  return begin_with(samples, start, enough, enough, config, gravity);
+  return begin_with(samples, start, enough, enough, sample_noise(samples), config, gravity);
 }
 
 std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samples,
@@ -227,19 +263,20 @@ std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samp
   if (samples.empty()) return std::nullopt;
   const Duration span = samples.back().stamp - samples.front().stamp;
   if (span < from_seconds(config.settling_time)) return std::nullopt;
-  auto [best, begin, duration] = longest_static_interval(samples, config, limits, gravity);
+  const WhiteDeviation noise = sample_noise(samples);
+  auto [best, begin, duration] = longest_static_interval(samples, config, limits, noise, gravity);
   if (best.count > 0) {
     // Only the end of a long interval is averaged: before it the robot settles.
     const double averaged_s = std::max(0.0, config.duration - config.settling_time);
     const Time averaged = best.end - from_seconds(averaged_s);
     while (samples[begin].stamp < averaged) ++begin;
-    best = static_interval_from(samples, begin, config, limits, gravity);
+    best = static_interval_from(samples, begin, config, limits, noise, gravity);
   }
   const bool still_standing = best.count > 0 && !best.moved;
   if (span < from_seconds(config.duration) && still_standing) return std::nullopt;
   const bool enough = best.count >= kMinSamples && duration >= limits.min_duration;
   const bool gyro_bias_measured = enough && duration >= limits.min_duration_gyro_bias;
-  return begin_with(samples, best, enough, gyro_bias_measured, config, gravity);
+  return begin_with(samples, best, enough, gyro_bias_measured, noise, config, gravity);
 }
 
 }  // namespace aims

@@ -6,6 +6,7 @@
 
 #include "core/config.hpp"
 #include "core/measurements.hpp"
+#include "estimator/filter/imu_noise.hpp"
 #include "estimator/filter/kalman_update.hpp"
 
 namespace aims {
@@ -24,7 +25,7 @@ struct InitializationConfig {
   double sigma_velocity = 2e-2;            ///< [m/s]
   double sigma_velocity_moving = 1.0;      ///< after a start in motion [m/s]
   double sigma_gyro_bias = 1e-3;           ///< after averaging [rad/s]
-  double sigma_accelerometer_bias = 5e-2;  ///< [m/s^2]
+  double sigma_accelerometer_bias = 0.1;   ///< [m/s^2]; BMI088: +-20 mg as two sigma
 };
 
 void describe(Fields& fields, InitializationConfig& config);

@@ -13,6 +13,9 @@ namespace {
 /// Longest gap between packets that the smoothing bridges.
 constexpr Duration kMaxGap = 100 * kMillisecond;
 
+/// Largest norm that white noise of deviation 1 per axis reaches: 99.9 % of the samples.
+constexpr double kLargestNoise = 4.0;
+
 }  // namespace
 
 void describe(Fields& f, ZeroVelocityConfig& c) {
@@ -101,14 +104,22 @@ bool ZeroVelocityDetector::legs_still(const LegOdometrySample& legs, double fact
          std::sqrt(smoothed_joint_square_) <= factor * config_.max_joint_rate;
 }
 
+/// The samples of the window deviate no more than the limits and white noise allow.
+bool ZeroVelocityDetector::imu_still(const Eigen::Vector3d& gyro_bias, double factor) const {
+  if (!statistics_) return false;
+  const double max_rate = factor * (config_.max_rate + kLargestNoise * quiet_->rate);
+  const double max_force = factor * (config_.max_force_deviation + kLargestNoise * quiet_->force);
+  return statistics_->rate_deviation <= max_rate && statistics_->force_deviation <= max_force &&
+         (statistics_->rate - gyro_bias).norm() <= max_rate;
+}
+
 bool ZeroVelocityDetector::update(const LegOdometrySample& legs, const std::deque<ImuSample>& imu,
-                                  const Eigen::Vector3d& gyro_bias) {
+                                  const Eigen::Vector3d& gyro_bias, const WhiteDeviation& white) {
   const double factor = standing_ ? config_.hysteresis : 1.0;
+  if (!quiet_) quiet_ = white;
+  quiet_ = {std::min(quiet_->rate, white.rate), std::min(quiet_->force, white.force)};
   statistics_ = imu_statistics(imu, legs.stamp, from_seconds(config_.window));
-  const bool imu_still = statistics_ && statistics_->rate_deviation <= factor * config_.max_rate &&
-                         statistics_->force_deviation <= factor * config_.max_force_deviation &&
-                         (statistics_->rate - gyro_bias).norm() <= factor * config_.max_rate;
-  if (!legs_still(legs, factor) || !imu_still) {
+  if (!legs_still(legs, factor) || !imu_still(gyro_bias, factor)) {
     still_since_.reset();
     standing_ = false;
     return false;

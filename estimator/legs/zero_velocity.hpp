@@ -6,6 +6,7 @@
 
 #include "core/config.hpp"
 #include "core/measurements.hpp"
+#include "estimator/filter/imu_noise.hpp"
 #include "estimator/filter/kalman_update.hpp"
 
 namespace aims {
@@ -49,10 +50,11 @@ class ZeroVelocityDetector {
  public:
   explicit ZeroVelocityDetector(const ZeroVelocityConfig& config) : config_(config) {}
 
-  /// Adds a leg sample, with the IMU samples up to it; `gyro_bias` is the current estimate [rad/s].
+  /// Adds a leg sample, with the IMU samples up to it; `gyro_bias` is the current estimate [rad/s],
+  /// `white` the deviation of one IMU sample, whose least so far is what a standing robot shows.
   /// True while the robot stands.
   bool update(const LegOdometrySample& legs, const std::deque<ImuSample>& imu,
-              const Eigen::Vector3d& gyro_bias);
+              const Eigen::Vector3d& gyro_bias, const WhiteDeviation& white = {});
 
   /// The IMU statistics if a measurement is due: one per window, since neighbouring samples share
   /// their errors.
@@ -61,7 +63,10 @@ class ZeroVelocityDetector {
  private:
   bool legs_still(const LegOdometrySample& legs, double factor);
 
+  bool imu_still(const Eigen::Vector3d& gyro_bias, double factor) const;
+
   ZeroVelocityConfig config_;
+  std::optional<WhiteDeviation> quiet_;  ///< the least so far
   bool standing_ = false;
   Eigen::Vector3d smoothed_velocity_ = Eigen::Vector3d::Zero();  ///< from leg odometry [m/s]
   double smoothed_joint_square_ = 0.0;                           ///< mean square [rad^2/s^2]
