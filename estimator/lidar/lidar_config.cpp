@@ -13,7 +13,7 @@ void describe(Fields& f, LidarUpdateConfig& c) {
   f.number("correlated_points", c.correlated_points,
            {"-", in_range(1.0, 1e6),
             "residuals that share one error; multiplies the variance of the residuals in R_lidar",
-            "five map points per plane"});
+            "docs/decisions.md"});
   f.number("residual_gate", c.residual_gate,
            {"m", positive_up_to(1e4), "larger point-to-plane residuals are rejected"});
   f.integer("max_iterations", c.max_iterations,

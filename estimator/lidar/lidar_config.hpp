@@ -12,8 +12,9 @@ struct LidarUpdateConfig {
   double selection_voxel = 0.25;  ///< one point is kept per voxel of the raw scan [m]
   int max_points = 4000;          ///< per update
   /// Residuals that share one error: R_lidar is the variance of a scan's residuals times this. A
-  /// plane is fitted to five map points, each of which serves as many other returns.
-  double correlated_points = 5.0;
+  /// plane is fitted to five map points, each of which serves as many other returns, and the next
+  /// scans meet the same planes.
+  double correlated_points = 20.0;
   double residual_gate = 0.2;          ///< larger residuals are rejected [m]
   int max_iterations = 4;              ///< of the trial update
   double convergence_rotation = 1e-4;  ///< [rad]
