@@ -160,9 +160,8 @@ Eigen::Matrix3d EskfEstimator::leg_covariance(const LegOdometrySample& sample,
 bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
   const ZeroVelocityConfig& config = config_.zero_velocity;
   if (!config.enabled) return false;
-  const bool standing =
-      zero_velocity_.update(sample, queue_.imu().samples(), belief_.state.gyro_bias,
-                            queue_.imu().noise().white());
+  const bool standing = zero_velocity_.update(
+      sample, queue_.imu().samples(), belief_.state.gyro_bias, queue_.imu().noise().white());
   if (!standing) return false;
   const std::optional<ImuStatistics> statistics = zero_velocity_.due_measurement();
   if (!statistics) return true;
@@ -192,9 +191,8 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(lidar_update_.considers_legs()
-             ? fuse(belief_, measurement, consider_legs(correct_all()))
-             : fuse(belief_, measurement));
+  accept(lidar_update_.considers_legs() ? fuse(belief_, measurement, consider_legs(correct_all()))
+                                        : fuse(belief_, measurement));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {

@@ -80,8 +80,8 @@ class EskfEstimator : public Estimator {
 
   std::vector<InertialSegment> segments_;
   std::vector<int> indices_;
-  MeanTwist scan_twist_;            ///< of the present scan
-  std::optional<Time> last_scan_;   ///< end of the last scan
+  MeanTwist scan_twist_;                        ///< of the present scan
+  std::optional<Time> last_scan_;               ///< end of the last scan
   std::vector<Eigen::Vector3f> match_points_;   ///< body axes at the scan's end
   std::vector<Eigen::Vector3f> insert_points_;  ///< the same, then in the odometry frame
 };

@@ -26,6 +26,8 @@ constexpr double kLegDisagreement = 0.15;       ///< several times a usual scale
 constexpr double kLargeLegDisagreement = 0.5;   ///< about the speed of a walk [m/s]
 constexpr double kRotationDisagreement = 5e-3;  ///< of scan and prediction [rad]; usual: 2e-4
 constexpr double kPositionDisagreement = 0.01;  ///< of scan and prediction [m]; usual: 2e-3
+constexpr double kNoiseFactor = 3.0;            ///< on what the noise of the IMU makes of them
+constexpr double kScanInterval = 0.1;           ///< over which it acts [s]
 constexpr double kMinMatched = 0.3;             ///< fraction of a scan's points
 constexpr int kScansWithoutUpdate = 5;
 constexpr int kLongWithoutUpdate = 50;
@@ -68,6 +70,8 @@ void HealthMonitor::scan(const ScanDiagnostics& scan, std::size_t points) {
   };
   average(scan.innovation_rotation.norm(), rotation_residual_);
   average(scan.innovation_position.norm(), position_residual_);
+  average(scan.imu_noise.gyro * std::sqrt(kScanInterval), expected_rotation_);
+  average(scan.imu_noise.accelerometer * std::pow(kScanInterval, 1.5), expected_position_);
   weak_scans_ = scan.weak_weight < kFreeDirection ? weak_scans_ + 1 : 0;
 }
 
@@ -114,10 +118,10 @@ void HealthMonitor::judge_agreement(Findings& findings) const {
   } else if (legs > kLegDisagreement) {
     findings.degraded.emplace_back("legs disagree with the estimate");
   }
-  if (rotation_residual_ > kRotationDisagreement) {
+  if (rotation_residual_ > kRotationDisagreement + kNoiseFactor * expected_rotation_) {
     findings.degraded.emplace_back("scans disagree with the predicted rotation");
   }
-  if (position_residual_ > kPositionDisagreement) {
+  if (position_residual_ > kPositionDisagreement + kNoiseFactor * expected_position_) {
     findings.degraded.emplace_back("scans disagree with the predicted position");
   }
   if (not_finite_) findings.degraded.emplace_back("an update was not finite");

@@ -62,6 +62,8 @@ class HealthMonitor {
   Eigen::Vector3d leg_residual_ = Eigen::Vector3d::Zero();  ///< moving average [m/s]
   double rotation_residual_ = 0.0;  ///< moving average, scans against prediction [rad]
   double position_residual_ = 0.0;  ///< likewise [m]
+  double expected_rotation_ = 0.0;  ///< moving average, what the noise of the IMU makes [rad]
+  double expected_position_ = 0.0;  ///< likewise [m]
   double matched_ = 1.0;            ///< moving average of the fraction of matched points
   int scans_without_update_ = 0;    ///< in a row
   int weak_scans_ = 0;              ///< in a row, which constrain an axis no better than noise does

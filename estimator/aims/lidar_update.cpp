@@ -44,10 +44,9 @@ LidarUpdate::LidarUpdate(const EskfConfig& config)
 /// by gamma_lidar; with `cross_validation` only its real part counts.
 Linearization<NominalState> LidarUpdate::fused(const MatchInformation& scan, double gamma,
                                                const NominalState& state) const {
-  const PoseInformation pose =
-      cross_validation_.enabled
-          ? fraction_.applied_to(scan.halves)
-          : PoseInformation{scan.halves.within, scan.halves.within_vector};
+  const PoseInformation pose = cross_validation_.enabled
+                                   ? fraction_.applied_to(scan.halves)
+                                   : PoseInformation{scan.halves.within, scan.halves.within_vector};
   Linearization<NominalState> linearization;
   linearization.information = scan_information(gamma * pose.matrix, gamma * pose.vector,
                                                calibration_, state.rotation.toRotationMatrix());

@@ -40,11 +40,11 @@ struct ScanDiagnostics {
       Eigen::Vector3d::Constant(kNotComputed);  ///< y_k, eq. (5) [m]
   double smallest_eigenvalue = kNotComputed;    ///< of the translation information [1/m^2]
   double condition_number = kNotComputed;       ///< of the translation information
-  double weak_weight = kNotComputed;     ///< real fraction of the information, weakest axis
-  double leg_innovation = kNotComputed;  ///< norm of the last leg innovation [m/s]
-  int leg_updates = 0;                   ///< since the last scan
-  ImuNoiseDensity imu_noise;             ///< before the update, estimated
-  double delay = kNotComputed;           ///< of the IMU's stamps, after the update [s]
+  double weak_weight = kNotComputed;            ///< real fraction of the information, weakest axis
+  double leg_innovation = kNotComputed;         ///< norm of the last leg innovation [m/s]
+  int leg_updates = 0;                          ///< since the last scan
+  ImuNoiseDensity imu_noise;                    ///< before the update, estimated
+  double delay = kNotComputed;                  ///< of the IMU's stamps, after the update [s]
   Eigen::Vector3d mount =
       Eigen::Vector3d::Constant(kNotComputed);  ///< correction of the mount, rotation vector [rad]
   PoseCovariance covariance;                    ///< after the update

@@ -67,7 +67,7 @@ class RealFraction {
   double weakest_ = 0.0;   ///< smallest entry of the diagonal below
   Eigen::Matrix3d constrained_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d position_fraction_ = Eigen::Matrix3d::Zero();  ///< F
-  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();  ///< of the position, odometry axes
+  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();             ///< of the position, odometry axes
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
 };
 

@@ -31,8 +31,12 @@ InertialSegment ImuHistory::measured_segment(std::size_t index) const {
   const ImuSample& sample = samples_[index];
   const bool gap = index == 0 || sample.stamp - samples_[index - 1].stamp > period_ * 3 / 2;
   if (gap) {
-    return {time_of(sample) - period_, time_of(sample), sample.angular_velocity,
-            sample.specific_force, true, {}};
+    return {time_of(sample) - period_,
+            time_of(sample),
+            sample.angular_velocity,
+            sample.specific_force,
+            true,
+            {}};
   }
   const ImuSample& last = samples_[index - 1];
   const Eigen::Vector3d& w0 = last.angular_velocity;
@@ -40,8 +44,12 @@ InertialSegment ImuHistory::measured_segment(std::size_t index) const {
   const Eigen::Vector3d& f0 = last.specific_force;
   const Eigen::Vector3d& f1 = sample.specific_force;
   const double twelfth = to_seconds(sample.stamp - last.stamp) / 12.0;
-  return {time_of(last), time_of(sample), 0.5 * (w0 + w1) + twelfth * w0.cross(w1),
-          0.5 * (f0 + f1) + twelfth * (w0.cross(f1) - w1.cross(f0)), true, {}};
+  return {time_of(last),
+          time_of(sample),
+          0.5 * (w0 + w1) + twelfth * w0.cross(w1),
+          0.5 * (f0 + f1) + twelfth * (w0.cross(f1) - w1.cross(f0)),
+          true,
+          {}};
 }
 
 InertialSegment ImuHistory::bridge(std::size_t next) const {

@@ -78,9 +78,9 @@ void ImuNoise::add_correction(double rotation, double velocity, double duration)
 }
 
 ImuNoiseDensity ImuNoise::density() const {
-  return {std::max(kLeast.gyro, std::sqrt(rate_share_.value() * period_) * white().rate),
-          std::max(kLeast.accelerometer,
-                   std::sqrt(force_share_.value() * period_) * white().force)};
+  return {
+      std::max(kLeast.gyro, std::sqrt(rate_share_.value() * period_) * white().rate),
+      std::max(kLeast.accelerometer, std::sqrt(force_share_.value() * period_) * white().force)};
 }
 
 ImuNoiseDensity ImuNoise::bridge_density() const {

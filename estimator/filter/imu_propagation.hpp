@@ -12,11 +12,11 @@ namespace aims {
 
 /// Inertial prediction; the white noise is estimated (imu_noise.hpp).
 struct ImuPropagationConfig {
-  double gravity = 9.81;                    ///< [m/s^2]
-  double gyro_bias_walk = 2e-5;             ///< [rad/s^2/sqrt(Hz)]
-  double accelerometer_bias_walk = 2e-4;    ///< [m/s^3/sqrt(Hz)]
-  double max_rate = 40.0;                   ///< faster samples are rejected [rad/s]
-  double max_force = 300.0;                 ///< samples with a greater force are rejected [m/s^2]
+  double gravity = 9.81;                  ///< [m/s^2]
+  double gyro_bias_walk = 2e-5;           ///< [rad/s^2/sqrt(Hz)]
+  double accelerometer_bias_walk = 2e-4;  ///< [m/s^3/sqrt(Hz)]
+  double max_rate = 40.0;                 ///< faster samples are rejected [rad/s]
+  double max_force = 300.0;               ///< samples with a greater force are rejected [m/s^2]
 };
 
 void describe(Fields& fields, ImuPropagationConfig& config);
@@ -27,8 +27,8 @@ struct InertialSegment {
   Time end = 0;
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< [m/s^2]
-  bool measured = true;   ///< false: replaces missing samples
-  ImuNoiseDensity noise;  ///< white
+  bool measured = true;                                        ///< false: replaces missing samples
+  ImuNoiseDensity noise;                                       ///< white
 };
 
 /// The nominal state `dt` [s] later (earlier when negative): exact for constant rate and force.

@@ -20,8 +20,8 @@ Belief fuse_with_gain(const Belief& prior, const LinearMeasurement& measurement,
                       const Matrix3xError& gain_transposed) {
   const ErrorVector delta = -gain_transposed.transpose() * measurement.residual;
   const ErrorMatrix KHP = gain_transposed.transpose() * HP;
-  const ErrorMatrix covariance = prior.covariance - KHP - KHP.transpose() +
-                                 gain_transposed.transpose() * S * gain_transposed;
+  const ErrorMatrix covariance =
+      prior.covariance - KHP - KHP.transpose() + gain_transposed.transpose() * S * gain_transposed;
   const ErrorMatrix G = reset_jacobian(prior.state, delta);
   return {boxplus(prior.state, delta),
           G * (0.5 * (covariance + covariance.transpose())) * G.transpose()};
@@ -50,8 +50,7 @@ Belief fuse_with_known_legs(const Belief& prior, const LinearMeasurement& measur
   known.middleRows<ErrorState::kLegSize>(kLegs).setZero();
   known.middleCols<ErrorState::kLegSize>(kLegs).setZero();
   const Matrix3xError HP_known = measurement.jacobian * known;
-  const Eigen::Matrix3d S_known =
-      HP_known * measurement.jacobian.transpose() + measurement.noise;
+  const Eigen::Matrix3d S_known = HP_known * measurement.jacobian.transpose() + measurement.noise;
   return fuse_with_gain(prior, measurement, HP, S, S_known.llt().solve(HP_known));
 }
 

@@ -124,7 +124,8 @@ LongestInterval longest_static_interval(const std::deque<ImuSample>& samples,
   for (std::size_t begin = 0; begin < samples.size(); ++begin) {
     const Time from = samples[begin].stamp;
     if (samples.back().stamp - from < from_seconds(longest.duration)) break;
-    const StaticInterval found = static_interval_from(samples, begin, config, limits, noise, gravity);
+    const StaticInterval found =
+        static_interval_from(samples, begin, config, limits, noise, gravity);
     if (found.count == 0 || to_seconds(found.end - from) < longest.duration) continue;
     longest = {found, begin, to_seconds(found.end - from)};
   }

@@ -19,13 +19,13 @@ struct InitializationConfig {
   double max_force_deviation = 0.8;  ///< larger deviations from gravity are motion [m/s^2]
   /// Error of the mean specific force of a standing start, besides the bias [m/s^2].
   double sigma_mean_force = 5e-3;
-  double sigma_mean_force_moving = 0.5;    ///< of a start in motion [m/s^2]
-  double sigma_yaw = 1e-4;                 ///< the odometry frame defines yaw [rad]
-  double sigma_position = 1e-4;            ///< the odometry frame defines position [m]
-  double sigma_velocity = 2e-2;            ///< [m/s]
-  double sigma_velocity_moving = 1.0;      ///< after a start in motion [m/s]
-  double sigma_gyro_bias = 1e-3;           ///< after averaging [rad/s]
-  double sigma_accelerometer_bias = 0.1;   ///< [m/s^2]; BMI088: +-20 mg as two sigma
+  double sigma_mean_force_moving = 0.5;   ///< of a start in motion [m/s^2]
+  double sigma_yaw = 1e-4;                ///< the odometry frame defines yaw [rad]
+  double sigma_position = 1e-4;           ///< the odometry frame defines position [m]
+  double sigma_velocity = 2e-2;           ///< [m/s]
+  double sigma_velocity_moving = 1.0;     ///< after a start in motion [m/s]
+  double sigma_gyro_bias = 1e-3;          ///< after averaging [rad/s]
+  double sigma_accelerometer_bias = 0.1;  ///< [m/s^2]; BMI088: +-20 mg as two sigma
 };
 
 void describe(Fields& fields, InitializationConfig& config);

@@ -11,12 +11,12 @@ namespace aims {
 
 /// Scale and bias of the leg odometry as filter states.
 struct LegStatesConfig {
-  bool scale = false;            ///< estimate a scale per axis
-  bool bias = false;             ///< estimate a bias per axis
-  double scale_sigma = 0.12;     ///< initial [-]
-  double scale_walk = 1e-3;      ///< [1/sqrt(s)]
-  double bias_sigma = 0.01;      ///< initial [m/s]
-  double bias_walk = 1e-4;       ///< [m/s/sqrt(s)]
+  bool scale = false;         ///< estimate a scale per axis
+  bool bias = false;          ///< estimate a bias per axis
+  double scale_sigma = 0.12;  ///< initial [-]
+  double scale_walk = 1e-3;   ///< [1/sqrt(s)]
+  double bias_sigma = 0.01;   ///< initial [m/s]
+  double bias_walk = 1e-4;    ///< [m/s/sqrt(s)]
 };
 
 void describe(Fields& fields, LegStatesConfig& config);

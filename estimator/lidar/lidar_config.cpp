@@ -55,9 +55,10 @@ void describe(Fields& f, MapConfig& c) {
   f.number(
       "neighbor_gate", c.neighbor_gate,
       {"m", positive_up_to(1e4), "largest distance of the five neighbours (at most one voxel)"});
-  f.number("plane_thickness", c.plane_thickness,
-           {"-", positive_up_to(1e4),
-            "largest distance of the five neighbours from their plane, in deviations of a residual"});
+  f.number(
+      "plane_thickness", c.plane_thickness,
+      {"-", positive_up_to(1e4),
+       "largest distance of the five neighbours from their plane, in deviations of a residual"});
   f.number("plane_min_spread", c.plane_min_spread,
            {"m", up_to(1e4),
             "smallest second principal deviation of the neighbours; docs/decisions.md"});

@@ -29,7 +29,7 @@ void describe(Fields& fields, LidarUpdateConfig& config);
 /// Robust weight of each residual: a Cauchy kernel.
 struct RobustKernelConfig {
   bool enabled = false;
-  double scale = 3.0;        ///< deviations of the residuals at which a weight is one half [-]
+  double scale = 3.0;  ///< deviations of the residuals at which a weight is one half [-]
 };
 
 void describe(Fields& fields, RobustKernelConfig& config);

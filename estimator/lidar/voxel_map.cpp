@@ -52,7 +52,8 @@ void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vect
   for (const Eigen::Vector3f& point : points) {
     if (point.allFinite()) insert(point, half, covariance);
   }
-  voxels_.limit(max_voxels_, [&center](const Voxel& v) { return (v.first - center).squaredNorm(); });
+  voxels_.limit(max_voxels_,
+                [&center](const Voxel& v) { return (v.first - center).squaredNorm(); });
 }
 
 PlanePair VoxelMap::planes_at(const Eigen::Vector3f& query) const {
