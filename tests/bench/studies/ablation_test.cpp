@@ -34,7 +34,8 @@ TEST(AblationSpecs, AreTheWholeAndItselfWithoutEachPartThatIsOn) {
   for (const char* spec :
        {"no_ground_constraint=aims_d+ground_constraint.enabled=false",
         "no_leg_states_scale=aims_d+leg_states.scale=false",
-        "no_noise_information=aims_d+noise_information.enabled=false",
+        "no_cross_validation=aims_d+cross_validation.enabled=false",
+        "no_calibration=aims_d+calibration.enabled=false",
         "no_legs=aims_d+legs.enabled=false"}) {
     EXPECT_TRUE(contains(*specs, spec)) << spec;
   }
