@@ -142,8 +142,8 @@ void declare_consistency(Command command, const fs::path& scenarios) {
       std::string(kContinues) +
       "Examples:\n"
       "  aims study consistency severity_3 severity_8 --seeds 1-50 --estimators aims_d,lio\n"
-      "  aims study consistency severity_9 --estimators aims_d,learning=aims_d+"
-      "leg_states.gate_learning=false");
+      "  aims study consistency severity_9 --estimators aims_d,no_cross_validation=aims_d+"
+      "cross_validation.enabled=false");
   command.action([shared] { return consistency_command(*shared); });
 }
 

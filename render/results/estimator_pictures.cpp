@@ -62,12 +62,13 @@ const std::vector<SeriesPanel> kSeriesPanels = {
      {{"lambda_min", "smallest_eigenvalue"}},
      true,
      false},
-    {"Information over noise-induced information",
-     "[-]",
-     {{"smallest over axes", "weak_ratio"}},
+    {"Real fraction of the information", "[-]", {{"weakest axis", "weak_weight"}}, false, true},
+    {"Estimated IMU noise",
+     "[rad/s/√Hz], [m/s²/√Hz]",
+     {{"gyro", "gyro_noise"}, {"accelerometer", "accelerometer_noise"}},
      true,
      false},
-    {"Weight of the weakest axis", "[-]", {{"weak_weight", "weak_weight"}}, false, true},
+    {"Estimated delay of the IMU", "[s]", {{"delay", "delay"}}, false, false},
 };
 
 /// The panels of those series that have values.

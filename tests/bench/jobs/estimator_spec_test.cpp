@@ -160,10 +160,8 @@ TEST(SettingsWithoutEffect, AWildcardNeedsOneEstimatorThatRuns) {
 
 TEST(SettingsWithoutEffect, AreNotInTheTextOfAConfigurationThatLoadsBack) {
   const std::string run = "run=[aims, x=lio+imu.gravity=9.8]";
-  EXPECT_NE(refusal_of({run, "estimators.lio.map.map_sigma=0.001"}), "")
-      << "no noise information in lio";
-  const auto good =
-      default_scenario(std::vector<std::string>{run, "estimators.lio.queue.lag=0.1"});
+  EXPECT_NE(refusal_of({run, "estimators.lio.leg_noise.gate=10"}), "") << "no legs in lio";
+  const auto good = default_scenario(std::vector<std::string>{run, "estimators.lio.queue.lag=0.1"});
   ASSERT_TRUE(good) << good.error().message;
   const std::string text = config_text(*good);
   EXPECT_EQ(text.find("max_speed: 5\n"), text.rfind("max_speed: 5\n")) << "only that of aims";

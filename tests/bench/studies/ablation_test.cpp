@@ -34,8 +34,8 @@ TEST(AblationSpecs, AreTheWholeAndItselfWithoutEachPartThatIsOn) {
   for (const char* spec :
        {"no_ground_constraint=aims_d+ground_constraint.enabled=false",
         "no_leg_states_scale=aims_d+leg_states.scale=false",
-        "no_noise_information=aims_d+noise_information.enabled=false",
-        "no_legs=aims_d+legs.enabled=false"}) {
+        "no_cross_validation=aims_d+cross_validation.enabled=false",
+        "no_calibration=aims_d+calibration.enabled=false", "no_legs=aims_d+legs.enabled=false"}) {
     EXPECT_TRUE(contains(*specs, spec)) << spec;
   }
   EXPECT_FALSE(contains(*specs, "with_degeneracy=aims_d+degeneracy.enabled=true"));
@@ -46,8 +46,8 @@ TEST(AblationSpecs, APartThatItsOwnSettingsNeedStays) {
   const auto specs = ablation_specs("mine=aims_d+leg_noise.gate=10", {}, {});
   ASSERT_TRUE(specs) << specs.error().message;
   for (const std::string& spec : *specs) EXPECT_FALSE(spec.starts_with("no_leg_noise=")) << spec;
-  EXPECT_TRUE(contains(
-      *specs, "no_robust_kernel=aims_d+leg_noise.gate=10+robust_kernel.enabled=false"));
+  EXPECT_TRUE(
+      contains(*specs, "no_robust_kernel=aims_d+leg_noise.gate=10+robust_kernel.enabled=false"));
 }
 
 TEST(AblationSpecs, TurnOnWhatTheScenarioOrTheSpecTurnsOff) {
@@ -83,8 +83,7 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
   for (const auto& [name, factor] : {std::pair("a", 2.0), std::pair("b", 8.0)}) {
     SuiteCase each;
     each.scenario.name = name;
-    each.scenario.run = {
-        "aims_d", "no_ground_constraint=aims_d+ground_constraint.enabled=false"};
+    each.scenario.run = {"aims_d", "no_ground_constraint=aims_d+ground_constraint.enabled=false"};
     for (const std::uint64_t seed : {1, 2, 3}) {
       const double ate = 0.1 * static_cast<double>(seed);
       each.runs.push_back(

@@ -160,11 +160,11 @@ TEST(DetectorRun, TakesEveryScanOfAnEstimatorWithoutIterationsAsAnUpdate) {
 TEST(Detectors, LeaveOutAnIndexWhoseSeriesIsMissing) {
   std::vector<DetectorRun> runs = {run_with("x", 1, 1.0)};
   for (DetectorScan& scan : runs[0].scans) {
-    scan.values[index_of("weak_ratio")] = std::numeric_limits<double>::quiet_NaN();
+    scan.values[index_of("weak_weight")] = std::numeric_limits<double>::quiet_NaN();
   }
   const auto scores = score_detectors(runs);
   EXPECT_TRUE(std::ranges::none_of(
-      scores, [](const DetectorScore& score) { return score.index == "weak_ratio"; }));
+      scores, [](const DetectorScore& score) { return score.index == "weak_weight"; }));
   EXPECT_EQ(score_of(scores, "D", "n10").auc, 1.0);
   DetectorStudy study;
   study.runs = runs;
@@ -172,7 +172,7 @@ TEST(Detectors, LeaveOutAnIndexWhoseSeriesIsMissing) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_detectors(study, folder.path()));
   for (const char* name : {"detectors.json", "detectors.csv", "detectors.md"}) {
-    EXPECT_EQ(read_file(folder.path() / name).value().find("weak_ratio"), std::string::npos)
+    EXPECT_EQ(read_file(folder.path() / name).value().find("weak_weight"), std::string::npos)
         << name;
   }
 }

@@ -80,7 +80,7 @@ TEST(RangeKey, IsHeldAgainstTheScenario) {
   EXPECT_TRUE(says(refusal_of("level=1:5:5"), "decides no number of a run"));
   EXPECT_TRUE(says(refusal_of("ground_constraint.radius=1:5:5"),
                    "has no effect on aims: ground_constraint.enabled is false"));
-  EXPECT_TRUE(says(refusal_of("estimators.lio.lidar.point_sigma=0.1:0.5:5"),
+  EXPECT_TRUE(says(refusal_of("estimators.lio.lidar.correlated_points=1:9:5"),
                    "a key of lio, but aims is varied"));
 }
 

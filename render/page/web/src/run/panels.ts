@@ -94,11 +94,11 @@ function indexPanels(estimator: Estimator | undefined): PanelSpec[] {
       id: "weights",
       title: "Weights",
       range: [-0.03, 1.03],
-      hint: "Reliabilities of LiDAR and legs, eqs. (8), (10); weight of the weakest axis",
+      hint: "Reliabilities of LiDAR and legs, eqs. (8), (10); real fraction of the information along the weakest axis",
       curves: parts(estimator, [
         ["gamma_lidar", "γ lidar", blue],
         ["gamma_leg", "γ leg", orange],
-        ["weak_weight", "weak axis", green, [5, 3]],
+        ["weak_weight", "real fraction", green, [5, 3]],
       ]),
     },
     {
@@ -107,6 +107,23 @@ function indexPanels(estimator: Estimator | undefined): PanelSpec[] {
       log: true,
       hint: "Of the scan's information matrix, from the estimator's diagnostics",
       curves: parts(estimator, [["lambda_min", "λ min", blue]]),
+    },
+    {
+      id: "imu_noise",
+      title: "IMU noise",
+      log: true,
+      hint: "White noise that the estimator finds: gyro in rad/s/√Hz, accelerometer in m/s²/√Hz",
+      curves: parts(estimator, [
+        ["gyro_noise", "gyro", blue],
+        ["accelerometer_noise", "accelerometer", orange],
+      ]),
+    },
+    {
+      id: "delay",
+      title: "IMU delay",
+      unit: "s",
+      hint: "Delay of the IMU's stamps that the estimator finds",
+      curves: parts(estimator, [["delay", "delay", pink]]),
     },
   ];
 }
