@@ -150,9 +150,8 @@ TEST(Eskf, LeavesOutOfItsSeriesWhatAVariantOrAScanDoesNotCompute) {
   for (const char* name : {"C_IL", "D", "O_lidar", "smallest_eigenvalue"}) {
     EXPECT_TRUE(std::isnan(aims.value(0, name))) << name;
   }
-  EXPECT_TRUE(std::isnan(aims.value(100, "weak_ratio"))) << "no weights per axis";
-  const Diagnostics directional = run("aims_d", deliveries, world.rig()).diagnostics;
-  EXPECT_GT(directional.value(100, "weak_ratio"), 0.0);
+  
+  
   const Diagnostics lio = run("lio", deliveries, world.rig()).diagnostics;
   EXPECT_TRUE(std::isnan(lio.value(100, "leg_innovation")));
 }
