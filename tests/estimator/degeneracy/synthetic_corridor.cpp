@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/estimator/degeneracy/synthetic_corridor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -58,8 +59,8 @@ void SyntheticCorridor::add_wall(double y, double outward) {
   along(x, kHalfLength, y);
 }
 
-LabelledScan SyntheticCorridor::scan(const Eigen::Vector3d& sensor) {
-  LabelledScan result;
+ScanPair SyntheticCorridor::scan(const Eigen::Vector3d& sensor) {
+  ScanPair result;
   const double turn = random_.uniform();
   for (int column = 0; column < kColumns; ++column) {
     const double azimuth = 2.0 * M_PI * (column + turn) / kColumns;
@@ -68,18 +69,15 @@ LabelledScan SyntheticCorridor::scan(const Eigen::Vector3d& sensor) {
       const Eigen::Vector3d beam(std::cos(elevation) * std::cos(azimuth),
                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       double nearest = setup_.range;
-      int axis = -1;
       for (const Face& face : faces_) {
-        const double distance = distance_to(face, sensor, beam);
-        if (distance >= nearest) continue;
-        nearest = distance;
-        axis = face.axis;
+        nearest = std::min(nearest, distance_to(face, sensor, beam));
       }
-      if (axis < 0) continue;
+      if (nearest >= setup_.range) continue;
       LidarPoint point;
-      point.position = ((nearest + setup_.noise * random_.normal()) * beam).cast<float>();
-      result.scan.points.push_back(point);
-      result.axes.push_back(axis);
+      point.position = (nearest * beam).cast<float>();
+      result.exact.points.push_back(point);
+      point.position += (setup_.noise * random_.normal() * beam).cast<float>();
+      result.noisy.points.push_back(point);
     }
   }
   return result;

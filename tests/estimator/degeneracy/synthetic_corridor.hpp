@@ -30,10 +30,10 @@ struct Face {
   Eigen::Vector3d high;
 };
 
-/// A scan with the axis of the surface that each point was returned by, in the same order.
-struct LabelledScan {
-  LidarScan scan;              ///< sensor axes, which are those of the corridor
-  std::vector<int> axes;       ///< of the true normals
+/// The same scan with and without noise, in sensor axes, which are those of the corridor.
+struct ScanPair {
+  LidarScan noisy;
+  LidarScan exact;
 };
 
 /// Simulates scans by closed-form intersection.
@@ -42,7 +42,7 @@ class SyntheticCorridor {
   SyntheticCorridor(const CorridorCase& setup, std::uint64_t seed);
 
   /// A scan from `sensor`, whose scan pattern starts at a random azimuth.
-  LabelledScan scan(const Eigen::Vector3d& sensor);
+  ScanPair scan(const Eigen::Vector3d& sensor);
 
   RandomStream& random() { return random_; }
 

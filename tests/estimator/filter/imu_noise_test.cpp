@@ -56,8 +56,8 @@ TEST(ImuNoise, ATrotIsNoWhiteNoise) {
     const double phase = 2.0 * M_PI * 2.5 * i / kRate;
     noise.add({stamp_at(i, kRate), kSway * Eigen::Vector3d(std::sin(phase), std::cos(phase), 0.0),
                {0.0, kBob * std::cos(phase), 9.81 + kBob * std::sin(phase)}});
-    worst_rate = std::max(worst_rate, noise.white_rate());
-    worst_force = std::max(worst_force, noise.white_force());
+    worst_rate = std::max(worst_rate, noise.white().rate);
+    worst_force = std::max(worst_force, noise.white().force);
   }
   const double deviation = std::sqrt(1.0 / 3.0);  // mean over the axes, of two sines
   EXPECT_LT(worst_rate, 0.1 * deviation * kSway);
@@ -94,8 +94,8 @@ TEST(ImuNoise, LostSamplesAreNoVibration) {
     }
     at += 3;  // lost
   }
-  EXPECT_EQ(noise.white_rate(), 0.0);
-  EXPECT_NEAR(noise.white_force(), 0.0, 1e-12);
+  EXPECT_EQ(noise.white().rate, 0.0);
+  EXPECT_NEAR(noise.white().force, 0.0, 1e-12);
   EXPECT_GT(noise.bridge_density().gyro, 0.05) << "the motion itself is unknown in a gap";
 }
 
@@ -107,7 +107,7 @@ TEST(ImuNoise, OneLostSampleIsNoVibration) {
     sample.angular_velocity.x() = 0.2 * i;  // a steady acceleration
     if (i % 7 != 0) noise.add(sample);
   }
-  EXPECT_NEAR(noise.white_rate(), 0.0, 1e-9);
+  EXPECT_NEAR(noise.white().rate, 0.0, 1e-9);
 }
 
 /// One axis of the integral of the IMU, corrected ten times a second by a filter that takes the
