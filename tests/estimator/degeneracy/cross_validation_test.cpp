@@ -37,10 +37,10 @@ HalvesInformation scan_corridor(RandomStream& random, int facing, double shift =
     };
     const PlaneRow a = row();
     const PlaneRow b = row();
-    sum.within += 0.5 * kWeight *
-                  (a.jacobian * a.jacobian.transpose() + b.jacobian * b.jacobian.transpose());
-    sum.across += 0.5 * kWeight *
-                  (a.jacobian * b.jacobian.transpose() + b.jacobian * a.jacobian.transpose());
+    sum.within +=
+        0.5 * kWeight * (a.jacobian * a.jacobian.transpose() + b.jacobian * b.jacobian.transpose());
+    sum.across +=
+        0.5 * kWeight * (a.jacobian * b.jacobian.transpose() + b.jacobian * a.jacobian.transpose());
     sum.within_vector += 0.5 * kWeight * (a.jacobian * a.residual + b.jacobian * b.residual);
     sum.across_vector += 0.5 * kWeight * (a.jacobian * b.residual + b.jacobian * a.residual);
   }
@@ -111,7 +111,8 @@ TEST(RealFraction, AStandingRobotDoesNotBecomeConfident) {
       fraction.add(first, sway);
     }
     EXPECT_TRUE(fraction.leaves_direction_free()) << "seed " << seed;
-    EXPECT_LT(fraction.applied_to(first).matrix(3, 3), 0.05 * first.within(3, 3)) << "seed " << seed;
+    EXPECT_LT(fraction.applied_to(first).matrix(3, 3), 0.05 * first.within(3, 3))
+        << "seed " << seed;
   }
 }
 

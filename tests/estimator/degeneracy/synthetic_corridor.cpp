@@ -8,8 +8,7 @@
 namespace aims::test {
 namespace {
 
-constexpr double kHalfLength = 70.0;  // [m]
-constexpr int kColumns = 900;
+constexpr int kColumns = 450;
 
 /// Distance along `direction` to the face; infinite when the ray misses it.
 double distance_to(const Face& face, const Eigen::Vector3d& origin,
@@ -29,9 +28,10 @@ double distance_to(const Face& face, const Eigen::Vector3d& origin,
 
 SyntheticCorridor::SyntheticCorridor(const CorridorCase& setup, std::uint64_t seed)
     : setup_(setup), random_(seed, "synthetic_corridor") {
+  const double end = half_length();
   const double side = 0.5 * setup.width + std::abs(setup.depth);
   for (const double z : {0.0, setup.height}) {
-    faces_.push_back({2, {-kHalfLength, -side, z}, {kHalfLength, side, z}});
+    faces_.push_back({2, {-end, -side, z}, {end, side, z}});
   }
   add_wall(0.5 * setup.width, 1.0);
   add_wall(-0.5 * setup.width, -1.0);
@@ -39,24 +39,23 @@ SyntheticCorridor::SyntheticCorridor(const CorridorCase& setup, std::uint64_t se
 
 void SyntheticCorridor::add_wall(double y, double outward) {
   const double top = setup_.height;
+  const double end = half_length();
   const auto along = [&](double from, double to, double at) {
     faces_.push_back({1, {from, at, 0.0}, {to, at, top}});
   };
   const double raised = y - outward * setup_.depth;
-  double x = -kHalfLength;
+  double x = -end;
   if (setup_.spacing > 0.0) {
-    for (double next = x + 1.0; next + setup_.breadth < kHalfLength; next += setup_.spacing) {
+    for (double next = x + 1.0; next + setup_.breadth < end; next += setup_.spacing) {
       along(x, next, y);
       x = next + setup_.breadth;
       along(next, x, raised);
       for (const double edge : {next, x}) {
-        faces_.push_back({0,
-                          {edge, std::min(y, raised), 0.0},
-                          {edge, std::max(y, raised), top}});
+        faces_.push_back({0, {edge, std::min(y, raised), 0.0}, {edge, std::max(y, raised), top}});
       }
     }
   }
-  along(x, kHalfLength, y);
+  along(x, end, y);
 }
 
 ScanPair SyntheticCorridor::scan(const Eigen::Vector3d& sensor) {

@@ -48,6 +48,7 @@ class SyntheticCorridor {
 
  private:
   void add_wall(double y, double outward);
+  double half_length() const { return setup_.range + 10.0; }
 
   CorridorCase setup_;
   RandomStream random_;

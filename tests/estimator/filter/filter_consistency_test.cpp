@@ -45,8 +45,7 @@ NominalState moved_on(const NominalState& state, double seconds, const MeanTwist
 /// delay of the belief is too large; a corrected delay moves both.
 Belief after_planes(const Belief& belief, NominalState& truth, const Eigen::Vector3d& gyro,
                     RandomStream& random) {
-  const CalibrationModel model{kMount.translation,
-                               {truth.velocity, gyro - truth.gyro_bias}};
+  const CalibrationModel model{kMount.translation, {truth.velocity, gyro - truth.gyro_bias}};
   const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
   const NominalState at_scan = moved_on(truth, truth.delay - belief.state.delay, model.twist);
   Matrix6 A = Matrix6::Zero();
@@ -83,8 +82,9 @@ double normalised_error_of_a_run(std::uint64_t seed) {
   for (int step = 0; step < 200; ++step) {
     const Eigen::Vector3d rate(0.3 * std::sin(0.1 * step), 0.2, 0.1);
     const Eigen::Vector3d force(std::cos(0.05 * step), 0.5, 9.81);
-    const InertialSegment real{0, from_seconds(kStep), rate + truth.gyro_bias,
-                               force + truth.accelerometer_bias, true, kWhite};
+    const InertialSegment real{
+        0,     from_seconds(kStep), rate + truth.gyro_bias, force + truth.accelerometer_bias, true,
+        kWhite};
     truth = propagate_state(truth, real, kStep, imu.gravity);
     // The model's noise acts on the state, so it is drawn there.
     const ErrorMatrix Q = propagation_noise(imu, kWhite, kStep);

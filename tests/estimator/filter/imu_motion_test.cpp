@@ -45,8 +45,12 @@ NominalState integrate_means(const Signal& signal, const NominalState& start, do
   for (int i = 0; i < count; ++i) {
     const ImuSample a = signal(i * kStep);
     const ImuSample b = signal((i + 1) * kStep);
-    const InertialSegment mean{0, 0, 0.5 * (a.angular_velocity + b.angular_velocity),
-                               0.5 * (a.specific_force + b.specific_force), true, {}};
+    const InertialSegment mean{0,
+                               0,
+                               0.5 * (a.angular_velocity + b.angular_velocity),
+                               0.5 * (a.specific_force + b.specific_force),
+                               true,
+                               {}};
     state = propagate_state(state, mean, kStep, 0.0);
   }
   return state;
@@ -60,9 +64,9 @@ Eigen::Quaterniond coning_attitude(double t) {
 ImuSample coning(double t) {
   constexpr double kDifference = 1e-5;
   ImuSample sample;
-  sample.angular_velocity = so3_log(coning_attitude(t - kDifference).conjugate() *
-                                    coning_attitude(t + kDifference)) /
-                            (2.0 * kDifference);
+  sample.angular_velocity =
+      so3_log(coning_attitude(t - kDifference).conjugate() * coning_attitude(t + kDifference)) /
+      (2.0 * kDifference);
   return sample;
 }
 
@@ -70,8 +74,7 @@ TEST(ImuMotion, TheConingTermKeepsTheAttitudeOfAConingBody) {
   NominalState start;
   start.rotation = coning_attitude(0.0);
   const Eigen::Quaterniond truth = coning_attitude(kSeconds);
-  const double with =
-      integrate(coning, start, 0.0, kSeconds).rotation.angularDistance(truth);
+  const double with = integrate(coning, start, 0.0, kSeconds).rotation.angularDistance(truth);
   const double without = integrate_means(coning, start, kSeconds).rotation.angularDistance(truth);
   EXPECT_GT(without, 0.02) << "without the term the body drifts";
   EXPECT_LT(with, 0.6 * without) << "half of it: the trapezoid flattens the oscillation as well";

@@ -54,7 +54,8 @@ TEST(ImuNoise, ATrotIsNoWhiteNoise) {
   double worst_force = 0.0;
   for (int i = 0; i < 500; ++i) {
     const double phase = 2.0 * M_PI * 2.5 * i / kRate;
-    noise.add({stamp_at(i, kRate), kSway * Eigen::Vector3d(std::sin(phase), std::cos(phase), 0.0),
+    noise.add({stamp_at(i, kRate),
+               kSway * Eigen::Vector3d(std::sin(phase), std::cos(phase), 0.0),
                {0.0, kBob * std::cos(phase), 9.81 + kBob * std::sin(phase)}});
     worst_rate = std::max(worst_rate, noise.white().rate);
     worst_force = std::max(worst_force, noise.white().force);

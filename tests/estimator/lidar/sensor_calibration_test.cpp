@@ -171,8 +171,8 @@ class CalibratedBody {
     const MeanTwist twist = mean_twist(belief_.state, segments_, 9.81);
     const double before = belief_.state.delay;
     const Information information = measure(motion(t), {kNominal.translation, twist});
-    belief_ = kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state,
-                            information);
+    belief_ =
+        kalman_update(belief_.state, inverse_spd(belief_.covariance), belief_.state, information);
     belief_ = after_delay_change(belief_, belief_.state.delay - before, twist);
     imu_.set_delay(from_seconds(belief_.state.delay));
   }
