@@ -251,6 +251,7 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
 
 void EskfEstimator::predict_to(Time stamp) {
   if (stamp <= time_) return;
+  queue_.imu().observe_noise(stamp);
   queue_.imu().segments(time_, stamp, segments_);
   for (const InertialSegment& segment : segments_) {
     const double dt = to_seconds(segment.end - segment.begin);

@@ -19,9 +19,17 @@ ImuHistory::ImuHistory(const ImuPropagationConfig& config, double rate_hz)
 bool ImuHistory::insert(const ImuSample& sample) {
   const auto at = std::lower_bound(samples_.begin(), samples_.end(), sample.stamp, before);
   if (at != samples_.end() && at->stamp == sample.stamp) return false;
-  if (at == samples_.end()) noise_.add(sample);
   samples_.insert(at, sample);
   return true;
+}
+
+void ImuHistory::observe_noise(Time until) {
+  for (const ImuSample& sample : samples_) {
+    if (time_of(sample) > until) break;
+    if (last_observed_ && sample.stamp <= *last_observed_) continue;
+    noise_.add(sample);
+    last_observed_ = sample.stamp;
+  }
 }
 
 /// The segment that ends at sample `index`. Rate and force change linearly within it: to second

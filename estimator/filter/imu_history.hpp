@@ -26,6 +26,10 @@ class ImuHistory {
   /// The delay of the stamps; 0 before the first call.
   void set_delay(Duration delay) { delay_ = delay; }
 
+  /// Adds the samples up to `until` to the estimated noise, in order of stamp: what arrives when
+  /// makes no difference.
+  void observe_noise(Time until);
+
   ImuNoise& noise() { return noise_; }
   const ImuNoise& noise() const { return noise_; }
 
@@ -54,6 +58,7 @@ class ImuHistory {
   Duration period_;
   Duration delay_ = 0;
   ImuNoise noise_;
+  std::optional<Time> last_observed_;  ///< stamp of the newest sample in `noise_`
   std::deque<ImuSample> samples_;
 };
 

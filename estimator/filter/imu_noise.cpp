@@ -10,8 +10,8 @@ namespace {
 /// Time over which variances are averaged: a stride [s].
 constexpr double kAveragingTime = 0.5;
 
-/// Gain towards a larger variance: within three samples.
-constexpr double kRise = 0.3;
+/// Gain of the quick average: about three samples.
+constexpr double kFastGain = 0.3;
 
 /// Scans over which the share of noise is averaged: many strides, far less than a run.
 constexpr double kScans = 100.0;
@@ -41,7 +41,9 @@ void SignalStatistics::add(const Eigen::Vector3d& x, bool follows, double gain) 
   if (count_ == 2) {
     const Eigen::Vector3d difference = x - 2.0 * last_[0] + last_[1];
     const double white = mean_square(difference) / 6.0;
-    variance_.white += (white > variance_.white ? kRise : gain) * (white - variance_.white);
+    slow_white_ += gain * (white - slow_white_);
+    fast_white_ += kFastGain * (white - fast_white_);
+    variance_.white = std::max(slow_white_, fast_white_);
   }
   last_ = {x, last_[0]};
   count_ = std::min(count_ + 1, 2);

@@ -38,6 +38,8 @@ class SignalStatistics {
   int count_ = 0;                        ///< samples in a row, at most 2
   bool started_ = false;
   Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
+  double slow_white_ = 0.0;  ///< over half a second
+  double fast_white_ = 0.0;  ///< over a few samples
   SignalVariance variance_;
 };
 

@@ -13,6 +13,9 @@ constexpr double kMaxDuration = 60.0;  ///< bound on configured durations [s]
 /// Fewer standing samples than this give no biases.
 constexpr int kMinSamples = 5;
 
+/// Largest deviation of the rate from its mean that is not motion, beyond white noise [rad/s].
+constexpr double kMaxRateDeviation = 0.03;
+
 /// Variance of a state that is fixed; above zero so that the covariance stays invertible.
 constexpr double kFixedVariance = 1e-16;
 
@@ -89,7 +92,7 @@ StaticInterval static_interval_from(const std::deque<ImuSample>& samples, std::s
                                     const InitializationConfig& config,
                                     const StaticInitializationConfig& limits,
                                     const WhiteDeviation& noise, double gravity) {
-  const double max_rate_deviation = limits.max_rate_deviation + kLargestNoise * noise.rate;
+  const double max_rate_deviation = kMaxRateDeviation + kLargestNoise * noise.rate;
   const double max_force_deviation = limits.max_force_deviation + kLargestNoise * noise.force;
   StaticInterval interval;
   for (std::size_t i = begin; i < samples.size(); ++i) {
@@ -235,8 +238,6 @@ void describe(Fields& f, InitializationConfig& c) {
 void describe(Fields& f, StaticInitializationConfig& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "initialize from the longest undisturbed interval of the start"});
-  f.number("max_rate_deviation", c.max_rate_deviation,
-           {"rad/s", positive_up_to(1e4), "deviation from the mean rate that ends an interval"});
   f.number("max_force_deviation", c.max_force_deviation,
            {"m/s^2", positive_up_to(1e5),
             "deviation from the mean specific force that ends an interval"});

@@ -33,7 +33,6 @@ void describe(Fields& fields, InitializationConfig& config);
 /// Search for the longest undisturbed interval of a standing start.
 struct StaticInitializationConfig {
   bool enabled = false;
-  double max_rate_deviation = 0.03;  ///< from the interval's mean; more ends the interval [rad/s]
   double max_force_deviation = 0.1;  ///< from the interval's mean; more ends the interval [m/s^2]
   double min_duration = 0.2;         ///< of an interval that gives the tilt [s]
   /// Of an interval that gives the gyro bias [s]: 5 mrad of sway in 0.3 s are 17 mrad/s.

@@ -32,6 +32,8 @@ inline NominalState some_state() {
   state.accelerometer_bias = {0.1, 0.2, -0.1};
   state.leg_scale = {0.05, -0.03, 0.1};
   state.leg_bias = {0.02, -0.01, 0.03};
+  state.mount = so3_exp({0.02, 0.01, -0.03});
+  state.delay = 0.004;
   return state;
 }
 

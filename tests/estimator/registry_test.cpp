@@ -65,7 +65,9 @@ TEST(EstimatorConfigs, ReasonsOfIdleSettingsNameTheSwitch) {
   EXPECT_EQ(idle("lio.legs.max_speed"), "legs.enabled is false");
   EXPECT_EQ(idle("lio.leg_noise.enabled"), "legs.enabled is false");
   EXPECT_EQ(idle("aims_d.legs.velocity_sigma"), "leg_noise.enabled is true");
-  EXPECT_EQ(idle("tfs_plus.leg_states.gate_learning"), "noise_information.enabled is false");
+  EXPECT_EQ(idle("lio.leg_states.scale"), "legs.enabled is false");
+  EXPECT_EQ(idle("aims.leg_states.scale_sigma"), "leg_states.scale is false");
+  EXPECT_EQ(idle("aims.calibration.mount_sigma"), "");
 }
 
 }  // namespace

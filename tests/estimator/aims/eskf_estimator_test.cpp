@@ -17,6 +17,9 @@ namespace {
 using test::KinematicConfig;
 using test::KinematicWorld;
 
+/// The first two scans start the halves of the map.
+constexpr std::size_t kFirstUpdate = 2;
+
 /// A short sequence with a coarse LiDAR, quick to simulate.
 KinematicConfig short_sequence() {
   KinematicConfig config;
@@ -117,7 +120,7 @@ TEST(Eskf, HasOneConsistencyWithoutLegsAndTwoWithThem) {
   const Diagnostics lio = run("lio", deliveries, world.rig()).diagnostics;
   const Diagnostics aims = run("aims", deliveries, world.rig()).diagnostics;
   int differ = 0;
-  for (std::size_t i = 1; i < lio.scans.size(); ++i) {
+  for (std::size_t i = kFirstUpdate; i < lio.scans.size(); ++i) {
     const double imu = lio.value(i, "C_IL_imu");
     ASSERT_NEAR(imu, lio.value(i, "C_IL_imu_legs"), 0.02 + 0.02 * imu) << i;
     ASSERT_EQ(aims.value(i, "C_IL"), aims.value(i, "C_IL_imu")) << i;
@@ -132,7 +135,7 @@ TEST(Eskf, WeighsByTheConsistencyThatIsChosen) {
   config.degeneracy.prediction = ConsistencyPrediction::kImuAndLegs;
   const DegeneracyConfig& d = config.degeneracy;
   const Diagnostics diagnostics = run(config, record(world), world.rig()).diagnostics;
-  for (std::size_t i = 1; i < diagnostics.scans.size(); ++i) {
+  for (std::size_t i = kFirstUpdate; i < diagnostics.scans.size(); ++i) {
     const double C_IL = diagnostics.value(i, "C_IL_imu_legs");
     ASSERT_EQ(diagnostics.value(i, "C_IL"), C_IL) << i;
     ASSERT_NEAR(diagnostics.value(i, "D"),
@@ -145,14 +148,12 @@ TEST(Eskf, LeavesOutOfItsSeriesWhatAVariantOrAScanDoesNotCompute) {
   KinematicWorld world(short_sequence());
   const auto deliveries = record(world);
   const Diagnostics aims = run("aims", deliveries, world.rig()).diagnostics;
-  EXPECT_FALSE(aims.updated(0)) << "the first scan starts the map";
+  EXPECT_FALSE(aims.updated(0)) << "the first scans start the map";
+  EXPECT_TRUE(aims.updated(kFirstUpdate));
   EXPECT_TRUE(aims.updated(100));
   for (const char* name : {"C_IL", "D", "O_lidar", "smallest_eigenvalue"}) {
     EXPECT_TRUE(std::isnan(aims.value(0, name))) << name;
   }
-  EXPECT_TRUE(std::isnan(aims.value(100, "weak_ratio"))) << "no weights per axis";
-  const Diagnostics directional = run("aims_d", deliveries, world.rig()).diagnostics;
-  EXPECT_GT(directional.value(100, "weak_ratio"), 0.0);
   const Diagnostics lio = run("lio", deliveries, world.rig()).diagnostics;
   EXPECT_TRUE(std::isnan(lio.value(100, "leg_innovation")));
 }
@@ -162,10 +163,10 @@ TEST(Eskf, WeightsEachScanByItsOwnSmoothedIndex) {
   const EstimatorResult result = run("aims", record(world), world.rig());
   const DegeneracyConfig config;
   const Diagnostics& diagnostics = result.diagnostics;
-  double smoothed = diagnostics.value(1, "D_smoothed");  // the first scan starts the map
-  for (std::size_t i = 1; i < diagnostics.scans.size(); ++i) {
+  double smoothed = diagnostics.value(kFirstUpdate, "D_smoothed");
+  for (std::size_t i = kFirstUpdate; i < diagnostics.scans.size(); ++i) {
     const double D = diagnostics.value(i, "D_smoothed");
-    if (i > 1) {
+    if (i > kFirstUpdate) {
       smoothed = config.alpha * smoothed + (1.0 - config.alpha) * diagnostics.value(i, "D");
     }
     EXPECT_NEAR(D, smoothed, 1e-12) << i;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "core/random.hpp"
@@ -44,27 +45,20 @@ class Corridor {
   RandomStream& random_;
 };
 
-EskfConfig config_with(bool gate_learning, bool directional = true) {
-  EskfConfig config = eskf_preset(directional ? "aims_d" : "aims");
-  if (!directional) return config;
-  config.leg_states.gate_learning = gate_learning;
-  // These walls have no edges: the residuals of the plane fits do not overstate the noise.
-  config.noise_information.scale = 1.0;
-  return config;
+/// Puts 30000 points of the corridor between both coordinates into each half of `map`.
+void fill(VoxelMap& map, Corridor& corridor, double from, double to) {
+  for (int half = 0; half < VoxelMap::kHalves; ++half) {
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 30000; ++i) points.push_back(corridor.point(from, to).cast<float>());
+    map.insert(points, Eigen::Vector3f::Zero());
+  }
 }
 
-/// The LiDAR update, directional unless that is switched off, after 6 m along a corridor with a
-/// known map.
+/// The LiDAR update of `preset` after 6 m along a corridor with a known map.
 struct Sequence {
-  explicit Sequence(bool pillars, bool gate_learning = true, bool directional = true)
-      : corridor(pillars ? 0.2 : 0.0, random),
-        map(MapConfig{}),
-        update(config_with(gate_learning, directional)) {
-    std::vector<Eigen::Vector3f> points;
-    for (int i = 0; i < 30000; ++i) {
-      points.push_back(corridor.point(-kHalfLength, kHalfLength).cast<float>());
-    }
-    map.insert(points, Eigen::Vector3f::Zero());
+  explicit Sequence(bool pillars, std::string_view preset = "aims_d")
+      : corridor(pillars ? 0.2 : 0.0, random), map(MapConfig{}), update(eskf_preset(preset)) {
+    fill(map, corridor, -kHalfLength, kHalfLength);
     while (truth.x() < 6.0) {
       truth.x() += 0.2;
       Belief belief;
@@ -82,7 +76,7 @@ struct Sequence {
       scan.push_back((p - truth).cast<float>());
     }
     diagnostics = ScanDiagnostics();
-    return update.update(predicted, scan, map, diagnostics, leg_free);
+    return update.update(predicted, scan, map, CalibrationModel(), diagnostics, leg_free);
   }
 
   RandomStream random{1, "lidar_update.test"};
@@ -107,7 +101,7 @@ Belief correlated_prediction(const Eigen::Vector3d& truth) {
 
 TEST(LidarUpdate, ConsidersTheLegStatesBetweenPlainWallsOnly) {
   EXPECT_TRUE(Sequence(false).update.considers_legs());
-  EXPECT_FALSE(Sequence(false, false).update.considers_legs()) << "gating is off";
+  EXPECT_FALSE(Sequence(false, "tfs_plus").update.considers_legs()) << "without cross-validation";
   EXPECT_FALSE(Sequence(true).update.considers_legs())
       << "pillars constrain the longitudinal direction";
 }
@@ -124,7 +118,7 @@ TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
 }
 
 TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {
-  Sequence sequence(true, true, false);
+  Sequence sequence(true, "aims");
   Belief predicted;
   predicted.state.position = sequence.truth;
   predicted.covariance = 1e-4 * ErrorMatrix::Identity();
@@ -137,7 +131,7 @@ TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {
   EXPECT_GT(with_both.C_IL_imu, 3.0 * with_both.C_IL_imu_legs);
 
   // The same scan as if the filter itself had predicted so.
-  Sequence same(true, true, false);
+  Sequence same(true, "aims");
   (void)same.fuse(leg_free);
   EXPECT_NEAR(with_both.C_IL_imu, same.diagnostics.C_IL_imu_legs,
               0.02 * same.diagnostics.C_IL_imu_legs);
@@ -170,9 +164,7 @@ TEST(LidarUpdate, IsRefusedWhenItsLastLinearizationHasTooFewPlanes) {
   RandomStream random(1, "last_linearization");
   Corridor corridor(0.0, random);
   VoxelMap map(MapConfig{});
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 30000; ++i) points.push_back(corridor.point(-5.0, 5.0).cast<float>());
-  map.insert(points, Eigen::Vector3f::Zero());
+  fill(map, corridor, -5.0, 5.0);
   Belief predicted;
   predicted.covariance = 1e-6 * ErrorMatrix::Identity();
   block(predicted.covariance, E::kPosition, E::kPosition) = 0.01 * Eigen::Matrix3d::Identity();
@@ -182,7 +174,7 @@ TEST(LidarUpdate, IsRefusedWhenItsLastLinearizationHasTooFewPlanes) {
     config.lidar.max_iterations = 1;
     ScanDiagnostics diagnostics;
     const Belief belief =
-        LidarUpdate(config).update(predicted, returns_about_a_wall(), map, diagnostics);
+        LidarUpdate(config).update(predicted, returns_about_a_wall(), map, {}, diagnostics);
     EXPECT_EQ(boxminus(belief.state, predicted.state).isZero(0.0), diagnostics.iterations == 0);
     return diagnostics;
   };
@@ -198,18 +190,15 @@ TEST(LidarUpdate, IsRefusedWhenItsLastLinearizationHasTooFewPlanes) {
 
 /// One scan against a noisy map of a corridor with shallow faces, from a prediction whose error
 /// along the corridor is drawn from its covariance; squared error after the update over its stated
-/// variance.
+/// variance. Every point has an error of its own.
 double normalised_error_along(double facing, std::uint64_t seed) {
   RandomStream random(seed, "wall_and_recess");
   Corridor corridor(facing, random);
-  EskfConfig config = config_with(true);
-  config.noise_information.bootstrap_distance = 1e3;  // no test of significance
+  EskfConfig config = eskf_preset("aims_d");
   config.robust_kernel.enabled = false;
-  config.lidar.point_sigma = 1.42 * kNoise;  // of a return and of its plane, as residuals have it
+  config.lidar.correlated_points = 1.0;
   VoxelMap map(MapConfig{});
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 24000; ++i) points.push_back(corridor.point(-3.0, 3.0).cast<float>());
-  map.insert(points, Eigen::Vector3f::Zero());
+  fill(map, corridor, -3.0, 3.0);
   LidarUpdate update(config);
   const auto fuse = [&](const Eigen::Vector3d& truth, const Belief& predicted) {
     std::vector<Eigen::Vector3f> scan;
@@ -217,11 +206,11 @@ double normalised_error_along(double facing, std::uint64_t seed) {
       scan.push_back((corridor.point(-2.8, 2.8) - truth).cast<float>());
     }
     ScanDiagnostics diagnostics;
-    return update.update(predicted, scan, map, diagnostics);
+    return update.update(predicted, scan, map, {}, diagnostics);
   };
   Belief belief;
   belief.covariance = 1e-6 * ErrorMatrix::Identity();
-  for (double x = -1.0; x < -0.1; x += 0.1) {
+  for (double x = -2.5; x < -0.03; x += 0.05) {  // learns the noise
     belief.state.position.x() = x;
     (void)fuse(belief.state.position, belief);
   }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/estimator/finite_differences.hpp"
 
 namespace aims {
@@ -11,7 +13,7 @@ namespace {
 ErrorVector some_error() {
   ErrorVector delta;
   delta << 0.4, -0.3, 0.2, 1.0, 2.0, -1.0, 0.3, 0.1, -0.2, 0.01, 0.02, -0.01, 0.1, -0.1, 0.2, 0.05,
-      -0.02, 0.1, 0.01, 0.02, -0.03;
+      -0.02, 0.1, 0.01, 0.02, -0.03, 0.3, -0.2, 0.1, 0.002;
   return delta;
 }
 
@@ -26,6 +28,40 @@ TEST(ErrorState, PerturbsRotationOnTheRight) {
   const ErrorVector delta = some_error();
   const Eigen::Quaterniond expected = state.rotation * so3_exp(delta.head<3>());
   EXPECT_LT(boxplus(state, delta).rotation.angularDistance(expected), 1e-12);
+}
+
+TEST(ErrorState, PerturbsTheMountOnTheLeftAndTheDelayAsANumber) {
+  const NominalState state = test::some_state();
+  ErrorVector delta = ErrorVector::Zero();
+  segment(delta, ErrorState::kMount) << 0.3, -0.2, 0.1;
+  delta(ErrorState::kDelay) = 0.002;
+  const NominalState moved = boxplus(state, delta);
+  const Eigen::Quaterniond expected = so3_exp({0.3, -0.2, 0.1}) * state.mount;
+  EXPECT_LT(moved.mount.angularDistance(expected), 1e-12);
+  EXPECT_DOUBLE_EQ(moved.delay, state.delay + 0.002);
+  EXPECT_LT(moved.rotation.angularDistance(state.rotation), 1e-12);
+}
+
+TEST(ErrorState, ItsBlocksCoverItOnce) {
+  using E = ErrorState;
+  ErrorVector covered = ErrorVector::Zero();
+  for (const E::Block each : {E::kRotation, E::kPosition, E::kVelocity, E::kGyroBias,
+                              E::kAccelerometerBias, E::kLegScale, E::kLegBias, E::kMount}) {
+    segment(covered, each).array() += 1.0;
+  }
+  covered(E::kDelay) += 1.0;
+  EXPECT_EQ(covered, ErrorVector::Ones());
+}
+
+TEST(ErrorState, IsFiniteOnlyWithAFiniteMountAndDelay) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(is_finite(test::some_state()));
+  NominalState state = test::some_state();
+  state.delay = nan;
+  EXPECT_FALSE(is_finite(state));
+  state = test::some_state();
+  state.mount.x() = nan;
+  EXPECT_FALSE(is_finite(state));
 }
 
 TEST(ErrorState, BoxminusJacobianMatchesFiniteDifferences) {

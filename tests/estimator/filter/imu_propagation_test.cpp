@@ -3,15 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random.hpp"
 #include "tests/estimator/finite_differences.hpp"
 
 namespace aims {
 namespace {
 
 constexpr double kGravity = 9.81;
+constexpr ImuNoiseDensity kWhite{3e-3, 0.1};
 
 InertialSegment some_segment() {
-  return {0, 20 * kMillisecond, {0.9, -0.7, 1.2}, {3.0, -2.0, 14.0}, true};
+  return {0, 20 * kMillisecond, {0.9, -0.7, 1.2}, {3.0, -2.0, 14.0}, true, kWhite};
 }
 
 TEST(ImuPropagation, JacobianMatchesFiniteDifferences) {
@@ -41,7 +43,7 @@ TEST(ImuPropagation, BackwardUndoesForward) {
 }
 
 TEST(ImuPropagation, StandingStillStaysAtRest) {
-  const InertialSegment rest{0, kSecond, Eigen::Vector3d::Zero(), {0.0, 0.0, kGravity}, true};
+  const InertialSegment rest{0, kSecond, Eigen::Vector3d::Zero(), {0.0, 0.0, kGravity}, true, {}};
   const NominalState next = propagate_state(NominalState{}, rest, 1.0, kGravity);
   EXPECT_LT(boxminus(next, NominalState{}).norm(), 1e-12);
 }
@@ -50,7 +52,7 @@ TEST(ImuPropagation, CoordinatedTurnFollowsTheCircle) {
   // Forward at 2 m/s while turning at 0.5 rad/s: a circle of 4 m radius.
   const double speed = 2.0;
   const double rate = 0.5;
-  const InertialSegment turn{0, kSecond, {0.0, 0.0, rate}, {0.0, speed * rate, kGravity}, true};
+  const InertialSegment turn{0, kSecond, {0.0, 0.0, rate}, {0.0, speed * rate, kGravity}, true, {}};
   NominalState state;
   state.velocity = {speed, 0.0, 0.0};
   for (int i = 0; i < 100; ++i) state = propagate_state(state, turn, 0.01, kGravity);
@@ -63,18 +65,52 @@ TEST(ImuPropagation, CoordinatedTurnFollowsTheCircle) {
 TEST(ImuPropagation, NoiseOfPartsAddsUpToTheNoiseOfTheWhole) {
   const ImuPropagationConfig config;
   const Belief start{test::some_state(), ErrorMatrix::Identity() * 1e-6};
-  const InertialSegment slow{0, kSecond, Eigen::Vector3d::Zero(), {0.0, 0.0, kGravity}, true};
+  const Eigen::Vector3d gravity(0.0, 0.0, kGravity);
+  const InertialSegment slow{0, kSecond, Eigen::Vector3d::Zero(), gravity, true, kWhite};
   const Belief whole = propagate(start, slow, 0.02, config);
   const Belief parts = propagate(propagate(start, slow, 0.008, config), slow, 0.012, config);
   EXPECT_LT((whole.covariance - parts.covariance).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-TEST(ImuPropagation, BridgedSpansAreLessCertain) {
+/// A covariance in which every entry is correlated with every other.
+ErrorMatrix some_covariance() {
+  RandomStream random(1, "propagation");
+  ErrorMatrix A;
+  for (double& entry : A.reshaped()) entry = 0.02 * random.normal();
+  return A * A.transpose() + 1e-4 * ErrorMatrix::Identity();
+}
+
+TEST(ImuPropagation, CovarianceIsThatOfTheDenseProduct) {
   const ImuPropagationConfig config;
-  const ErrorMatrix measured = propagation_noise(config, true, 0.02);
-  const ErrorMatrix bridged = propagation_noise(config, false, 0.02);
-  EXPECT_TRUE((bridged.diagonal().array() >= measured.diagonal().array()).all());
-  EXPECT_GT(bridged.trace(), 10.0 * measured.trace());
+  const Belief start{test::some_state(), some_covariance()};
+  const ErrorMatrix F = propagation_jacobian(start.state, some_segment(), 0.02);
+  const ErrorMatrix dense =
+      F * start.covariance * F.transpose() + propagation_noise(config, kWhite, 0.02);
+  const Belief next = propagate(start, some_segment(), 0.02, config);
+  EXPECT_LT((next.covariance - dense).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_EQ(next.covariance, ErrorMatrix(next.covariance.transpose()));
+}
+
+TEST(ImuPropagation, LeavesLegsMountAndDelayAlone) {
+  const Belief start{test::some_state(), some_covariance()};
+  const Belief next = propagate(start, some_segment(), 0.02, ImuPropagationConfig{});
+  constexpr int kRest = ErrorState::kSize - ErrorState::kMotionSize;
+  EXPECT_EQ(boxminus(next.state, start.state).tail<kRest>().norm(), 0.0);
+  const auto difference = next.covariance - start.covariance;
+  EXPECT_LT((difference.bottomRightCorner<kRest, kRest>()).cwiseAbs().maxCoeff(), 1e-17);
+}
+
+TEST(ImuPropagation, TheNoiseOfTheSegmentCounts) {
+  const Belief start{test::some_state(), ErrorMatrix::Identity() * 1e-6};
+  InertialSegment quiet = some_segment();
+  quiet.noise = {};
+  const ImuPropagationConfig config;
+  const ErrorMatrix added = propagate(start, some_segment(), 0.02, config).covariance -
+                            propagate(start, quiet, 0.02, config).covariance;
+  const int rotation = ErrorState::kRotation.offset;
+  const int velocity = ErrorState::kVelocity.offset;
+  EXPECT_NEAR(added(rotation, rotation), 0.02 * 3e-3 * 3e-3, 1e-12);
+  EXPECT_NEAR(added(velocity, velocity), 0.02 * 0.1 * 0.1, 1e-12);
 }
 
 }  // namespace

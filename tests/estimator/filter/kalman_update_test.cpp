@@ -7,9 +7,7 @@
 #include <Eigen/LU>
 
 #include "core/random.hpp"
-#include "estimator/filter/imu_propagation.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
-#include "estimator/lidar/plane_model.hpp"
 #include "tests/estimator/finite_differences.hpp"
 
 namespace aims {
@@ -180,72 +178,6 @@ TEST(IteratedUpdate, SaysWhetherItConvergedAndKeepsThePriorWhenRefused) {
   EXPECT_EQ(refused.iterations, 1) << "the second linearization was refused";
   EXPECT_EQ(refused.belief.state.x, 1.5);
   EXPECT_EQ(refused.belief.covariance(0), 0.04);
-}
-
-/// One run of propagation, leg updates and updates by exact planes, all with noise drawn from their
-/// models; the normalised squared error of the belief at the end, chi-square with 21 dof.
-double normalised_error_of_a_run(std::uint64_t seed) {
-  RandomStream random(seed, "nees");
-  ImuPropagationConfig imu;
-  imu.gyro_noise = 2e-3;
-  const ErrorMatrix P0 = 1e-4 * ErrorMatrix::Identity();
-  Belief belief{test::some_state(), P0};
-  NominalState truth = boxplus(belief.state, 1e-2 * normal_error(random));
-  const double dt = 0.02;
-  const Pose T_body_base{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.05}};
-  for (int step = 0; step < 200; ++step) {
-    const Eigen::Vector3d rate(0.3 * std::sin(0.1 * step), 0.2, 0.1);
-    const Eigen::Vector3d force(std::cos(0.05 * step), 0.5, 9.81);
-    const InertialSegment real{0, from_seconds(dt), rate + truth.gyro_bias,
-                               force + truth.accelerometer_bias, true};
-    InertialSegment measured = real;
-    const Eigen::Vector3d mean(0.6, 0.1, -0.2);
-    truth = propagate_state(truth, real, dt, imu.gravity);
-    // The model's noise acts on the state, so it is drawn there.
-    const ErrorMatrix Q = propagation_noise(imu, true, dt);
-    truth = boxplus(truth, test::square_root(Q) * normal_error(random));
-    belief = propagate(belief, measured, dt, imu);
-    if (step % 2 == 0) {
-      const Eigen::Matrix3d noise = 0.01 * Eigen::Matrix3d::Identity();
-      const LinearMeasurement exact =
-          leg_velocity_model(truth, T_body_base, measured.angular_velocity,
-                             LegVelocity{Eigen::Vector3d::Zero(), mean}, noise);
-      const Eigen::Vector3d reported = exact.residual + 0.1 * random.normal3();
-      const LinearMeasurement m = leg_velocity_model(
-          belief.state, T_body_base, measured.angular_velocity, LegVelocity{reported, mean}, noise);
-      belief = kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
-                             information_of(m));
-    }
-    if (step % 5 == 0) {
-      Matrix6 A = Matrix6::Zero();
-      Vector6 b = Vector6::Zero();
-      for (int i = 0; i < 30; ++i) {
-        const Plane plane{Eigen::Vector3d::Unit(i % 3), 3.0 * Eigen::Vector3d::Unit(i % 3), true};
-        Eigen::Vector3d p_odom = 4.0 * random.normal3();
-        p_odom(i % 3) = 3.0 + 0.02 * random.normal();
-        const Eigen::Vector3d p_body = truth.T_odom_body().inverse() * p_odom;
-        const PlaneRow row = plane_row(plane, p_body, belief.state.rotation.toRotationMatrix(),
-                                       belief.state.position);
-        A += row.jacobian * row.jacobian.transpose() / (0.02 * 0.02);
-        b += row.jacobian * row.residual / (0.02 * 0.02);
-      }
-      belief = kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
-                             pose_information(A, b));
-    }
-  }
-  const ErrorVector error = boxminus(truth, belief.state);
-  return error.dot(belief.covariance.llt().solve(error));
-}
-
-TEST(KalmanUpdate, NormalisedErrorLiesWithinItsChiSquareBounds) {
-  constexpr int kRuns = 50;
-  double sum = 0.0;
-  for (int run = 0; run < kRuns; ++run) {
-    sum += normalised_error_of_a_run(static_cast<std::uint64_t>(100 + run));
-  }
-  // The sum is chi-square with 1050 dof: 99.9 % of it lies within these bounds.
-  EXPECT_GT(sum, 905.0) << "seeds 100 to 149";
-  EXPECT_LT(sum, 1208.0) << "seeds 100 to 149";
 }
 
 }  // namespace

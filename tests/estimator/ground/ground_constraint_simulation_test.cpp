@@ -107,8 +107,6 @@ TEST(GroundConstraintSimulation, AVibratingImuAndAWrongMountLeaveLevelGroundInUs
   config.calibration.rotation_sigma_deg = 0.2;
   const SimulatedSequence sequence = testing::simulate(config, 1);
   EskfConfig estimator = eskf_preset("tfs_plus");
-  estimator.imu.gyro_noise = 0.03;
-  estimator.imu.accelerometer_noise = 0.5;
   const EstimatorResult result = estimate(sequence, estimator);
   const double error = largest_height_error(result, sequence.truth);
   EXPECT_LT(error, 0.03);

@@ -39,7 +39,7 @@ TEST(PlaneModel, JacobianMatchesFiniteDifferences) {
   const auto numeric = test::numeric_jacobian<1>(state, residual);
   const PlaneRow row = plane_row(plane, p, state.rotation.toRotationMatrix(), state.position);
   EXPECT_LT((row.jacobian.transpose() - numeric.leftCols<6>()).cwiseAbs().maxCoeff(), 1e-8);
-  EXPECT_LT(numeric.rightCols<9>().cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(numeric.rightCols<ErrorState::kSize - 6>().cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(PlaneModel, FitsExactPlanes) {
@@ -49,35 +49,6 @@ TEST(PlaneModel, FitsExactPlanes) {
     const Plane plane = fit_plane(spread_on_plane(normal, 0.0, random), MapConfig{});
     ASSERT_TRUE(plane.valid);
     EXPECT_GT(std::abs(plane.normal.dot(normal)), 1.0 - 1e-6);
-  }
-}
-
-// Over many fits with independent noise, the mean squared error of the normal along any tangent
-// equals its covariance.
-TEST(PlaneModel, NormalCovarianceMatchesManyFits) {
-  RandomStream random(3, "plane");
-  MapConfig config;
-  config.plane_min_ratio = 1.0;
-  config.plane_thickness = 1.0;
-  const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.4, 0.8).normalized();
-  Eigen::Matrix3d measured = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d stated = Eigen::Matrix3d::Zero();
-  constexpr int kFits = 4000;
-  constexpr double kMapSigma = 0.01;
-  for (int i = 0; i < kFits; ++i) {
-    const Plane plane = fit_plane(spread_on_plane(normal, kMapSigma, random), config);
-    ASSERT_TRUE(plane.valid);
-    EXPECT_NEAR((plane.normal_covariance * plane.normal).norm(), 0.0, 1e-12);
-    const Eigen::Vector3d error =
-        plane.normal * std::copysign(1.0, plane.normal.dot(normal)) - normal;
-    measured += error * error.transpose() / kFits;
-    stated += plane.normal_covariance / kFits;
-  }
-  for (const Eigen::Vector3d& axis :
-       {normal.unitOrthogonal(), normal.cross(normal.unitOrthogonal())}) {
-    const double ratio = axis.dot(stated * axis) / axis.dot(measured * axis);
-    EXPECT_GT(ratio, 0.85);
-    EXPECT_LT(ratio, 1.2);
   }
 }
 
@@ -99,7 +70,23 @@ TEST(PlaneModel, RejectsOneScanLineBentAroundACorner) {
   EXPECT_FALSE(fit_plane(bent, MapConfig{}).valid);
 }
 
-TEST(PlaneModel, RejectsPointsOffThePlane) {
+// Whether that is too thick depends on the noise of the residuals, which the matcher knows.
+TEST(PlaneModel, StatesTheLargestDistanceFromIt) {
+  RandomStream random(1, "plane");
+  auto points = spread_on_plane(Eigen::Vector3d::UnitZ(), 0.0, random);
+  EXPECT_LT(fit_plane(points, MapConfig{}).thickness, 1e-6);
+  for (std::size_t i : {0, 1}) points[i].z() += 0.02F;
+  const Plane plane = fit_plane(points, MapConfig{});
+  ASSERT_TRUE(plane.valid);
+  double largest = 0.0;
+  for (const Eigen::Vector3f& p : points) {
+    largest = std::max(largest, std::abs(plane.normal.dot(p.cast<double>() - plane.point)));
+  }
+  EXPECT_DOUBLE_EQ(plane.thickness, largest);
+  EXPECT_GT(plane.thickness, 0.008);
+}
+
+TEST(PlaneModel, RejectsPointsFarOffThePlane) {
   RandomStream random(1, "plane");
   auto points = spread_on_plane(Eigen::Vector3d::UnitZ(), 0.0, random);
   points[4].z() += 0.3F;

@@ -38,30 +38,62 @@ struct Cloud {
 using Tree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
 
-TEST(VoxelMap, NearestEqualsTheKdTreeWithinTheGate) {
+/// The five points of `map` nearest to `query` within `gate`, as squared distances, by a kd-tree.
+std::vector<float> nearest_by_tree(const Tree& tree, const Eigen::Vector3f& query, double gate) {
+  std::array<std::uint32_t, 5> indices{};
+  std::array<float, 5> squared{};
+  const std::size_t count = tree.knnSearch(query.data(), 5, indices.data(), squared.data());
+  std::vector<float> found(squared.begin(), squared.begin() + static_cast<std::ptrdiff_t>(count));
+  std::erase_if(found, [gate](float each) { return each > static_cast<float>(gate * gate); });
+  return found;
+}
+
+// Half a map has the points of every second insertion, as a map of its own would have them.
+TEST(VoxelMap, NearestEqualsTheKdTreeOfEachHalfWithinTheGate) {
   MapConfig config;
   config.point_spacing = 0.05;
   VoxelMap map(config);
-  map.insert(random_points(3, 40000, 5.0), Eigen::Vector3f::Zero());
-  const Cloud cloud{map.points()};
-  Tree tree(3, cloud);
-  tree.buildIndex();
+  const std::array<Points, 2> inserted{random_points(3, 20000, 5.0), random_points(8, 15000, 5.0)};
+  for (const Points& points : inserted) map.insert(points, Eigen::Vector3f::Zero());
   int compared = 0;
-  for (const Eigen::Vector3f& query : random_points(4, 2000, 6.0)) {
-    Neighbors found;
-    map.nearest(query, found);
-    std::array<std::uint32_t, 5> indices{};
-    std::array<float, 5> squared{};
-    tree.knnSearch(query.data(), 5, indices.data(), squared.data());
-    const auto gate = static_cast<float>(config.neighbor_gate * config.neighbor_gate);
-    int expected = 0;
-    while (expected < 5 && squared[expected] <= gate) ++expected;
-    ASSERT_EQ(found.count, expected);
-    for (int i = 0; i < expected; ++i, ++compared) {
-      ASSERT_NEAR(found.squared_distances[i], squared[i], 1e-6F);
+  for (std::size_t half = 0; half < 2; ++half) {
+    VoxelMap alone(config);
+    alone.insert(inserted[half], Eigen::Vector3f::Zero());
+    const Cloud cloud{alone.points()};
+    Tree tree(3, cloud);
+    tree.buildIndex();
+    for (const Eigen::Vector3f& query : random_points(4, 2000, 6.0)) {
+      std::array<Neighbors, 2> found;
+      map.nearest(query, found);
+      const std::vector<float> expected = nearest_by_tree(tree, query, config.neighbor_gate);
+      ASSERT_EQ(found[half].count, static_cast<int>(expected.size()));
+      for (std::size_t i = 0; i < expected.size(); ++i, ++compared) {
+        ASSERT_NEAR(found[half].squared_distances[i], expected[i], 1e-6F);
+      }
     }
   }
-  EXPECT_GT(compared, 5000);
+  EXPECT_GT(compared, 10000);
+}
+
+/// Points of the plane z = `height` around the origin.
+Points level_points(double height, std::uint64_t seed) {
+  Points points = random_points(seed, 400, 0.6);
+  for (Eigen::Vector3f& p : points) p.z() = static_cast<float>(height);
+  return points;
+}
+
+TEST(VoxelMap, EverySecondScanIsInTheOtherHalf) {
+  VoxelMap map(MapConfig{});
+  const Eigen::Vector3f query(0.05F, 0.05F, 0.2F);
+  map.insert(level_points(0.1, 1), Eigen::Vector3f::Zero());
+  EXPECT_FALSE(map.planes_at(query).valid()) << "one half is empty";
+  map.insert(level_points(0.3, 2), Eigen::Vector3f::Zero());
+  map.insert(level_points(0.1, 3), Eigen::Vector3f::Zero());
+  const PlanePair planes = map.planes_at(query);
+  ASSERT_TRUE(planes.valid());
+  EXPECT_NEAR(planes.a.point.z(), 0.1, 1e-6);
+  EXPECT_NEAR(planes.b.point.z(), 0.3, 1e-6);
+  EXPECT_NEAR(std::abs(planes.a.normal.z()), 1.0, 1e-6);
 }
 
 TEST(VoxelMap, MergesNearbyReturns) {
@@ -83,7 +115,8 @@ TEST(VoxelMap, PointsPerVoxelAreBounded) {
   config.max_points_per_voxel = 10;
   VoxelMap map(config);
   map.insert(random_points(6, 20000, 0.9), Eigen::Vector3f::Zero());
-  EXPECT_LE(map.points().size(), 10 * map.voxel_count());
+  map.insert(random_points(7, 20000, 0.9), Eigen::Vector3f::Zero());
+  EXPECT_LE(map.points().size(), 2 * 10 * map.voxel_count()) << "per half";
 }
 
 TEST(VoxelMap, DropsTheFarthestVoxelsWhenFull) {
@@ -96,9 +129,9 @@ TEST(VoxelMap, DropsTheFarthestVoxelsWhenFull) {
     for (Eigen::Vector3f& p : points) p += center;
     map.insert(points, center);
     ASSERT_LE(map.voxel_count(), 1000U);
-    Neighbors neighbors;
+    std::array<Neighbors, 2> neighbors;
     map.nearest(points.back(), neighbors);
-    ASSERT_GT(neighbors.count, 0);
+    ASSERT_GT(neighbors[static_cast<std::size_t>(i % 2)].count, 0);
   }
 }
 
@@ -129,7 +162,7 @@ TEST(VoxelMap, MemoryIsBoundedOverManyKilometres) {
   }
   const Eigen::Vector3f end(5.0F * 5999.0F, 0.0F, 0.0F);
   int found = 0;
-  for (const Eigen::Vector3f& p : corridor_around(end, 7)) found += map.plane_at(p).valid;
+  for (const Eigen::Vector3f& p : corridor_around(end, 7)) found += map.planes_at(p).valid();
   EXPECT_GT(found, 100);
 }
 
@@ -144,11 +177,12 @@ TEST(VoxelMap, DropsVoxelsUnseenForLong) {
   map.insert(Points{here}, here);
   map.forget_unseen(10);
   ASSERT_EQ(map.voxel_count(), 1U);
-  Neighbors neighbors;
+  std::array<Neighbors, 2> neighbors;
   map.nearest(here, neighbors);
-  EXPECT_EQ(neighbors.count, 1);
+  EXPECT_EQ(neighbors[0].count, 1);
+  EXPECT_EQ(neighbors[1].count, 1);
   map.nearest(there, neighbors);
-  EXPECT_EQ(neighbors.count, 0);
+  EXPECT_EQ(neighbors[0].count + neighbors[1].count, 0);
 }
 
 TEST(VoxelMap, IgnoresNonFinitePoints) {

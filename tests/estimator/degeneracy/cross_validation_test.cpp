@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/degeneracy/cross_validation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "core/random.hpp"
+#include "estimator/lidar/plane_model.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kNormalSigma = 0.05;  // of each half's normals [rad]
+constexpr double kWeight = 400.0;      // of a return [1/m^2]
+constexpr double kStep = 0.1;          // between scans [m]
+
+/// 600 returns of the walls, floor and ceiling of a corridor along x and `facing` of faces across
+/// it; the normals of each half of the map err on their own. The prediction is `shift` [m] behind:
+/// returns on the walls are matched with what is mapped there, only the faces show it.
+HalvesInformation scan_corridor(RandomStream& random, int facing, double shift = 0.0) {
+  HalvesInformation sum;
+  for (int i = 0; i < 600 + facing; ++i) {
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
+    if (i < 600) normal = (i % 4 < 2 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(1 + i % 2);
+    Eigen::Vector3d p = 1.2 * normal;
+    for (int other : {0, 1, 2}) {
+      if (normal(other) == 0.0) p(other) = random.uniform(-1.0, 1.0) * (other == 0 ? 15.0 : 1.2);
+    }
+    const auto row = [&] {
+      const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+      const Eigen::Vector3d predicted = p - shift * Eigen::Vector3d::UnitX();
+      const Eigen::Vector3d mapped = i < 600 ? predicted : p;
+      const Plane plane{(normal + kNormalSigma * tangent * random.normal3()).normalized(),
+                        mapped + 0.15 * tangent * random.normal3(), true};
+      return plane_row(plane, predicted, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+    };
+    const PlaneRow a = row();
+    const PlaneRow b = row();
+    sum.within +=
+        0.5 * kWeight * (a.jacobian * a.jacobian.transpose() + b.jacobian * b.jacobian.transpose());
+    sum.across +=
+        0.5 * kWeight * (a.jacobian * b.jacobian.transpose() + b.jacobian * a.jacobian.transpose());
+    sum.within_vector += 0.5 * kWeight * (a.jacobian * a.residual + b.jacobian * b.residual);
+    sum.across_vector += 0.5 * kWeight * (a.jacobian * b.residual + b.jacobian * a.residual);
+  }
+  return sum;
+}
+
+/// After `scans` scans, `step` [m] apart.
+RealFraction after(RandomStream& random, int facing, int scans, double step) {
+  RealFraction fraction;
+  for (int k = 0; k < scans; ++k) {
+    fraction.add(scan_corridor(random, facing), Eigen::Vector3d(step * k, 0.0, 0.0));
+  }
+  return fraction;
+}
+
+TEST(RealFraction, ACorridorWithoutFeaturesLeavesItsAxisFree) {
+  RandomStream random(1, "cross_validation");
+  const RealFraction fraction = after(random, 0, 60, kStep);
+  EXPECT_TRUE(fraction.leaves_direction_free());
+  const Eigen::Matrix3d across =
+      Eigen::Matrix3d::Identity() - Eigen::Vector3d::UnitX() * Eigen::Vector3d::UnitX().transpose();
+  EXPECT_LT((fraction.constrained() - across).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST(RealFraction, FacesAcrossTheCorridorConstrainItsAxis) {
+  RandomStream random(2, "cross_validation");
+  const RealFraction fraction = after(random, 60, 60, kStep);
+  EXPECT_FALSE(fraction.leaves_direction_free());
+  EXPECT_LT((fraction.constrained() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+}
+
+TEST(RealFraction, AppliesNothingAlongTheFreeDirection) {
+  RandomStream random(3, "cross_validation");
+  RealFraction fraction;
+  Matrix6 kept = Matrix6::Zero();
+  double from_noise = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const HalvesInformation scan = scan_corridor(random, 0);
+    fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
+    const PoseInformation applied = fraction.applied_to(scan);
+    EXPECT_LT((applied.matrix - applied.matrix.transpose()).norm(), 1e-9 * applied.matrix.norm());
+    kept += applied.matrix;
+    from_noise += scan.within(3, 3);
+  }
+  // The axis is known within a few milliradian, so the walls leak a little.
+  EXPECT_LT(kept(3, 3), 2e-2 * from_noise);
+  EXPECT_GT(kept(4, 4), 0.9 * 1000.0 * 300.0 * kWeight) << "across it everything stays";
+}
+
+TEST(RealFraction, KeepsTheRotationWhole) {
+  RandomStream random(4, "cross_validation");
+  const RealFraction fraction = after(random, 0, 60, kStep);
+  const HalvesInformation scan = scan_corridor(random, 0);
+  const Matrix6 applied = fraction.applied_to(scan).matrix;
+  const Eigen::Matrix3d kept = applied.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d whole = scan.within.topLeftCorner<3, 3>();
+  EXPECT_LT((kept - whole).norm(), 1e-9 * whole.norm());
+}
+
+// Every scan of a standing robot sees the same noise, so that the halves may agree by chance.
+TEST(RealFraction, AStandingRobotDoesNotBecomeConfident) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomStream random(seed, "cross_validation.standing");
+    const HalvesInformation first = scan_corridor(random, 0);
+    RealFraction fraction;
+    for (int k = 0; k < 300; ++k) {
+      const Eigen::Vector3d sway(0.004 * std::sin(0.3 * k), 0.003 * std::cos(0.5 * k), 0.0);
+      fraction.add(first, sway);
+    }
+    EXPECT_TRUE(fraction.leaves_direction_free()) << "seed " << seed;
+    EXPECT_LT(fraction.applied_to(first).matrix(3, 3), 0.05 * first.within(3, 3))
+        << "seed " << seed;
+  }
+}
+
+TEST(RealFraction, BeforeTheFirstScanNothingIsConstrained) {
+  const RealFraction fraction;
+  EXPECT_TRUE(fraction.leaves_direction_free());
+  EXPECT_EQ(fraction.constrained().norm(), 0.0);
+}
+
+// What the matrix states and what the vector asks for agree: no bias towards no motion.
+TEST(RealFraction, AScanCorrectsTheFullShift) {
+  constexpr double kShift = 0.05;
+  RandomStream random(6, "cross_validation");
+  HalvesInformation sum;
+  for (int k = 0; k < 200; ++k) {
+    const HalvesInformation scan = scan_corridor(random, 6, kShift);
+    sum.within += scan.within;
+    sum.across += scan.across;
+    sum.within_vector += scan.within_vector;
+    sum.across_vector += scan.across_vector;
+  }
+  const double instrumental = -sum.across.ldlt().solve(sum.across_vector)(3);
+  const double biased = -sum.within.ldlt().solve(sum.within_vector)(3);
+  EXPECT_NEAR(instrumental, kShift, 0.1 * kShift);
+  EXPECT_LT(biased, 0.9 * kShift) << "noise information shortens the step";
+}
+
+TEST(CrossValidation, WeakestFractionIsOneWithoutNoiseAndZeroWithNothingElse) {
+  HalvesInformation scan;
+  scan.within = 100.0 * Matrix6::Identity();
+  scan.across = scan.within;
+  EXPECT_NEAR(weakest_real_fraction(scan), 1.0, 1e-9);
+  scan.across(3, 3) = 25.0;
+  EXPECT_NEAR(weakest_real_fraction(scan), 0.25, 1e-9);
+  scan.across(3, 3) = 0.0;
+  EXPECT_NEAR(weakest_real_fraction(scan), 0.0, 1e-9);
+}
+
+TEST(CrossValidation, SchurComplementIsTheInformationWithTheRestUnknown) {
+  Matrix6 A = Matrix6::Identity() * 5.0;
+  RandomStream random(7, "cross_validation");
+  for (int i = 0; i < 6; ++i) {
+    const Vector6 v = (Vector6() << random.normal3(), random.normal3()).finished();
+    A += v * v.transpose();
+  }
+  const Eigen::Matrix3d marginal = A.inverse().bottomRightCorner<3, 3>().inverse();
+  const Eigen::Matrix3d schur = schur_complement(
+      A.bottomRightCorner<3, 3>(), A.bottomLeftCorner<3, 3>(), A.topLeftCorner<3, 3>());
+  EXPECT_LT((schur - marginal).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+}  // namespace
+}  // namespace aims
