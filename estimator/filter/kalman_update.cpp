@@ -42,18 +42,6 @@ Belief fuse(const Belief& prior, const LinearMeasurement& measurement,
   return fuse_with_gain(prior, measurement, HP, S, S.llt().solve(HP) * gain_mask.transpose());
 }
 
-Belief fuse_with_known_legs(const Belief& prior, const LinearMeasurement& measurement) {
-  constexpr int kLegs = ErrorState::kLegScale.offset;
-  const Matrix3xError HP = measurement.jacobian * prior.covariance;
-  const Eigen::Matrix3d S = HP * measurement.jacobian.transpose() + measurement.noise;
-  ErrorMatrix known = prior.covariance;
-  known.middleRows<ErrorState::kLegSize>(kLegs).setZero();
-  known.middleCols<ErrorState::kLegSize>(kLegs).setZero();
-  const Matrix3xError HP_known = measurement.jacobian * known;
-  const Eigen::Matrix3d S_known = HP_known * measurement.jacobian.transpose() + measurement.noise;
-  return fuse_with_gain(prior, measurement, HP, S, S_known.llt().solve(HP_known));
-}
-
 Information information_of(const LinearMeasurement& measurement) {
   const Matrix3xError weighted = measurement.noise.inverse() * measurement.jacobian;
   return {measurement.jacobian.transpose() * weighted, weighted.transpose() * measurement.residual};
@@ -71,19 +59,9 @@ ErrorMatrix consider_legs(ErrorMatrix gain_mask) {
   return gain_mask;
 }
 
-ErrorMatrix consider_position(ErrorMatrix gain_mask) {
-  gain_mask.middleRows<3>(ErrorState::kPosition.offset).setZero();
-  return gain_mask;
-}
-
 ErrorMatrix limit_motion(ErrorMatrix gain_mask, const Eigen::Matrix3d& factor) {
   block(gain_mask, ErrorState::kPosition, ErrorState::kPosition) = factor;
   block(gain_mask, ErrorState::kVelocity, ErrorState::kVelocity) = factor;
-  return gain_mask;
-}
-
-ErrorMatrix limit_rotation(ErrorMatrix gain_mask, const Eigen::Matrix3d& factor) {
-  block(gain_mask, ErrorState::kRotation, ErrorState::kRotation) = factor;
   return gain_mask;
 }
 

@@ -48,10 +48,6 @@ Belief fuse(const Belief& prior, const LinearMeasurement& measurement);
 Belief fuse(const Belief& prior, const LinearMeasurement& measurement,
             const ErrorMatrix& gain_mask);
 
-/// The same with the gain for leg states that are known: they keep their value, and their
-/// uncertainty counts in the covariance, not in how much the measurement is trusted.
-Belief fuse_with_known_legs(const Belief& prior, const LinearMeasurement& measurement);
-
 /// The information of one three-row measurement.
 Information information_of(const LinearMeasurement& measurement);
 
@@ -175,15 +171,9 @@ inline ErrorMatrix correct_all() { return ErrorMatrix::Identity(); }
 /// `gain_mask` with the leg states as consider states: not corrected.
 ErrorMatrix consider_legs(ErrorMatrix gain_mask);
 
-/// `gain_mask` with the position as a consider state: not corrected.
-ErrorMatrix consider_position(ErrorMatrix gain_mask);
-
 /// `gain_mask` with the correction of position and velocity multiplied by `factor` (3x3, odometry
 /// axes).
 ErrorMatrix limit_motion(ErrorMatrix gain_mask, const Eigen::Matrix3d& factor);
-
-/// `gain_mask` with the correction of the rotation multiplied by `factor` (3x3, body axes).
-ErrorMatrix limit_rotation(ErrorMatrix gain_mask, const Eigen::Matrix3d& factor);
 
 // Compiled once, in kalman_update.cpp.
 extern template Belief kalman_update<NominalState>(const NominalState&, const ErrorMatrix&,

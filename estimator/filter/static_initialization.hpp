@@ -25,7 +25,7 @@ struct InitializationConfig {
   double sigma_velocity = 2e-2;           ///< [m/s]
   double sigma_velocity_moving = 1.0;     ///< after a start in motion [m/s]
   double sigma_gyro_bias = 1e-3;          ///< after averaging [rad/s]
-  double sigma_accelerometer_bias = 0.1;  ///< [m/s^2]; BMI088: +-20 mg as two sigma
+  double sigma_accelerometer_bias = 0.25;  ///< [m/s^2]; ICM-20948: +-50 mg as two sigma
 };
 
 void describe(Fields& fields, InitializationConfig& config);

@@ -51,7 +51,7 @@ TEST(Fuse, EqualsTheInformationFormWithAMask) {
   const Belief prior = some_belief();
   const LinearMeasurement m = some_measurement(prior.state);
   const Eigen::Matrix3d half = 0.5 * Eigen::Matrix3d::Identity();
-  for (const ErrorMatrix& mask : {consider_legs(correct_all()), consider_position(correct_all()),
+  for (const ErrorMatrix& mask : {consider_legs(correct_all()),
                                   limit_motion(consider_legs(correct_all()), half)}) {
     expect_same(fuse(prior, m, mask), kalman_update(prior.state, inverse_spd(prior.covariance),
                                                     prior.state, information_of(m), mask));
@@ -63,43 +63,6 @@ TEST(Fuse, ConsidersTheLegsAndNothingElse) {
   ErrorMatrix expected = ErrorMatrix::Identity();
   for (const E::Block legs : {E::kLegScale, E::kLegBias}) block(expected, legs, legs).setZero();
   EXPECT_EQ(mask, expected) << "mount and delay are corrected";
-}
-
-TEST(Fuse, KnownLegsKeepTheirValueAndTheirUncertaintyCounts) {
-  const Belief prior = some_belief();
-  const LinearMeasurement m = some_measurement(prior.state);
-  const Belief updated = fuse_with_known_legs(prior, m);
-  EXPECT_LT((updated.state.leg_scale - prior.state.leg_scale).norm(), 1e-15);
-  EXPECT_LT((updated.state.leg_bias - prior.state.leg_bias).norm(), 1e-15);
-  constexpr int kLegs = E::kLegScale.offset;
-  const auto change = updated.covariance - prior.covariance;
-  EXPECT_LT((change.block<E::kLegSize, E::kLegSize>(kLegs, kLegs).cwiseAbs().maxCoeff()), 1e-12);
-  EXPECT_GT((updated.state.velocity - prior.state.velocity).norm(), 1e-3);
-
-  ErrorMatrix known = prior.covariance;
-  known.middleRows<E::kLegSize>(kLegs).setZero();
-  known.middleCols<E::kLegSize>(kLegs).setZero();
-  const Eigen::Matrix3d S = m.jacobian * known * m.jacobian.transpose() + m.noise;
-  const Eigen::Matrix<double, E::kSize, 3> K = known * m.jacobian.transpose() * S.inverse();
-  EXPECT_LT((boxminus(updated.state, prior.state) + K * m.residual).norm(), 1e-12);
-  EXPECT_LT((updated.covariance - joseph(prior, m, K)).cwiseAbs().maxCoeff(), 1e-12);
-}
-
-// The gain is that of a filter in which the legs are known, the covariance is not.
-TEST(Fuse, KnownLegsTrustTheMeasurementMoreThanUncertainOnes) {
-  Belief prior = some_belief();
-  block(prior.covariance, E::kLegBias, E::kLegBias) += 0.5 * Eigen::Matrix3d::Identity();
-  const LinearMeasurement m = some_measurement(prior.state);
-  const auto moved = [&](const Belief& updated) {
-    return (updated.state.velocity - prior.state.velocity).norm();
-  };
-  const Belief considered = fuse(prior, m, consider_legs(correct_all()));
-  const Belief known = fuse_with_known_legs(prior, m);
-  EXPECT_GT(moved(known), 1.5 * moved(considered));
-  const int v = E::kVelocity.offset;
-  EXPECT_GE((known.covariance.block<3, 3>(v, v).trace()),
-            (considered.covariance.block<3, 3>(v, v).trace()))
-      << "the considered gain is the best one without correcting the legs";
 }
 
 }  // namespace
