@@ -8,7 +8,7 @@
 namespace aims {
 namespace {
 
-/// The parts of `aims_d` that do not weigh the directions of a scan.
+/// The parts of `aims_d` that do not judge the directions of a scan.
 EskfConfig without_directional_weights() {
   EskfConfig config;
   config.static_initialization.enabled = true;
@@ -27,7 +27,7 @@ constexpr std::array kPresets = {
                  config.degeneracy.enabled = true;
                  return config;
                }},
-    EskfPreset{"aims_d", "beyond the paper: weights per axis, leg scale, ground constraint",
+    EskfPreset{"aims_d", "beyond the paper: real information per axis, leg scale, ground constraint",
                [] {
                  EskfConfig config = without_directional_weights();
                  config.leg_noise.enabled = true;
@@ -42,7 +42,7 @@ constexpr std::array kPresets = {
                  return config;
                }},
     EskfPreset{"tfs_clean", "fixed weights, lost leg packets skipped", [] { return EskfConfig(); }},
-    EskfPreset{"tfs_plus", "tfs_clean with all parts of aims_d but weights per axis and leg noise",
+    EskfPreset{"tfs_plus", "tfs_clean with all parts of aims_d but cross-validation and leg noise",
                [] { return without_directional_weights(); }},
     EskfPreset{"lio", "LiDAR and IMU only, fixed weights",
                [] {

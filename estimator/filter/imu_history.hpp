@@ -25,6 +25,7 @@ class ImuHistory {
 
   /// The delay of the stamps; 0 before the first call.
   void set_delay(Duration delay) { delay_ = delay; }
+  Duration delay() const { return delay_; }
 
   /// Adds the samples up to `until` to the estimated noise, in order of stamp: what arrives when
   /// makes no difference.

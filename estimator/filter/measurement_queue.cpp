@@ -117,7 +117,9 @@ void MeasurementQueue::hold(const Key& key, Sensor sensor, Correction correction
 
 bool MeasurementQueue::ready(Time stamp) const {
   if (closed_) return true;
-  if (*now_ < stamp + from_seconds(config_.lag)) return false;
+  // IMU samples up to this stamp have a share in the motion before `stamp`.
+  const Time last_needed = stamp + std::max<Duration>(imu_.delay(), 0);
+  if (*now_ < last_needed + from_seconds(config_.lag)) return false;
   const std::optional<Time> newest = imu_.newest();
   return (newest && *newest >= stamp) || *now_ >= stamp + from_seconds(config_.imu_wait);
 }

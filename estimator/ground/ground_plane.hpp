@@ -18,7 +18,7 @@ struct GroundConstraintConfig {
   double correlation_length = 0.7;  ///< of the tilt of level ground along the path [m]
   /// Slope of ramps, 1 sigma: the 8 % that accessible ramps may have are two of it [rad].
   double sigma_slope = 0.04;
-  double level_distance = 100.0;  ///< mean distance between changes of slope or height [m]
+  double level_distance = 20.0;  ///< mean distance between changes of slope or height [m]
 
   /// Unevenness as tilt of a plane of this radius, per axis [rad].
   double sigma_tilt() const { return sigma_height / radius; }

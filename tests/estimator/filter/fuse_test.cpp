@@ -31,15 +31,6 @@ void expect_same(const Belief& a, const Belief& b) {
   EXPECT_LT((a.covariance - b.covariance).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-/// Joseph's form for any gain, with the reset of the rotation.
-ErrorMatrix joseph(const Belief& prior, const LinearMeasurement& m,
-                   const Eigen::Matrix<double, E::kSize, 3>& K) {
-  const ErrorMatrix kept = ErrorMatrix::Identity() - K * m.jacobian;
-  const ErrorMatrix G = reset_jacobian(prior.state, -K * m.residual);
-  return G * (kept * prior.covariance * kept.transpose() + K * m.noise * K.transpose()) *
-         G.transpose();
-}
-
 TEST(Fuse, EqualsTheInformationForm) {
   const Belief prior = some_belief();
   const LinearMeasurement m = some_measurement(prior.state);
@@ -51,8 +42,8 @@ TEST(Fuse, EqualsTheInformationFormWithAMask) {
   const Belief prior = some_belief();
   const LinearMeasurement m = some_measurement(prior.state);
   const Eigen::Matrix3d half = 0.5 * Eigen::Matrix3d::Identity();
-  for (const ErrorMatrix& mask : {consider_legs(correct_all()),
-                                  limit_motion(consider_legs(correct_all()), half)}) {
+  for (const ErrorMatrix& mask :
+       {consider_legs(correct_all()), limit_motion(consider_legs(correct_all()), half)}) {
     expect_same(fuse(prior, m, mask), kalman_update(prior.state, inverse_spd(prior.covariance),
                                                     prior.state, information_of(m), mask));
   }

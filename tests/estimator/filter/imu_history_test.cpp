@@ -79,6 +79,7 @@ TEST(ImuHistory, ForgetsByTheClockOfTheLidar) {
 TEST(ImuHistory, BridgedSpansAreLessCertain) {
   ImuHistory history(ImuPropagationConfig{}, kRate);
   for (int i = 0; i < 100; ++i) history.insert(sample(i * kPeriod, std::sin(0.3 * i)));
+  history.observe_noise(110 * kPeriod);
   const auto segments = segments_of(history, 98 * kPeriod, 110 * kPeriod);
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_GT(segments[0].noise.gyro, 0.0);
