@@ -40,8 +40,8 @@ inline constexpr double kFreeDirection = 0.2;
 /// (docs/estimators.md). The noise d of a normal adds E[d d^T] to j_a j_a^T but nothing to
 /// j_a j_b^T, since the halves have independent noise; so `across` is on average the real part X
 /// of the information W = `within`, whatever the noise, and x = X^-1 `across_vector` the estimate
-/// with instrumental variables, free of the bias towards no motion. The vector has the noise
-/// covariance W; what x tells about the pose is therefore X W^-1 X = F W F^T with F = X W^-1.
+/// with instrumental variables, free of the bias towards no motion. The noise covariance
+/// of the vector is W at most; x then tells X W^-1 X = F W F^T about the pose, with F = X W^-1.
 ///
 /// The scatter of X makes F W F^T positive where X is zero, so X and W of the position are averaged
 /// over the way; a robot that stands sees the same noise in every scan.

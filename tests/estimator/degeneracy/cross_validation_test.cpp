@@ -100,7 +100,7 @@ TEST(RealFraction, KeepsTheRotationWhole) {
   EXPECT_LT((kept - whole).norm(), 1e-9 * whole.norm());
 }
 
-// Every scan of a standing robot sees the same noise, so that the halves may agree by chance.
+// Every scan of a standing robot sees the same noise, so that the halves may agree on it.
 TEST(RealFraction, AStandingRobotDoesNotBecomeConfident) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     RandomStream random(seed, "cross_validation.standing");
