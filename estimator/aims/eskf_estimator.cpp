@@ -166,7 +166,7 @@ bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
   const std::optional<ImuStatistics> statistics = zero_velocity_.due_measurement();
   if (!statistics) return true;
   ++result_.counts["zero_velocity.used"];
-  const ErrorMatrix mask = consider_legs(correct_all());
+  const ErrorMatrix mask = consider_legs(lidar_update_.odometry_mask());
   accept(fuse(belief_, zero_velocity_model(belief_.state, config.sigma_velocity), mask));
   accept(fuse(belief_, zero_rate_model(belief_.state, statistics->rate, config.sigma_rate), mask));
   return true;
@@ -191,7 +191,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(lidar_update_.considers_legs() ? fuse(belief_, measurement, consider_legs(correct_all()))
+  accept(lidar_update_.considers_legs() ? fuse(belief_, measurement, lidar_update_.odometry_mask())
                                         : fuse(belief_, measurement));
 }
 

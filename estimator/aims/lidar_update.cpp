@@ -56,6 +56,13 @@ Linearization<NominalState> LidarUpdate::fused(const MatchInformation& scan, dou
   return linearization;
 }
 
+ErrorMatrix LidarUpdate::odometry_mask() const {
+  if (!considers_legs()) return correct_all();
+  ErrorMatrix mask = consider_legs(correct_all());
+  block(mask, ErrorState::kPosition, ErrorState::kPosition) = fraction_.constrained();
+  return mask;
+}
+
 IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
                                                 const ErrorMatrix& prior_information,
                                                 std::span<const Eigen::Vector3f> points,

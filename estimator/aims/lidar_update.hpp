@@ -40,6 +40,13 @@ class LidarUpdate {
     return cross_validation_.enabled && fraction_.leaves_direction_free();
   }
 
+  /// Gain mask of what measures the velocity. While scans leave a direction free, the position
+  /// along it is the integral of the velocity, and both carry the error of the leg scale. That
+  /// error is common to the whole way and cancels in the gain only as far as the models of scale
+  /// and velocity agree to a percent; what is left, times metres of uncertainty, would move the
+  /// position with every sample.
+  ErrorMatrix odometry_mask() const;
+
   /// Covariance of the map at the robot, odometry axes [m^2]; see map_covariance_after_scan().
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 

@@ -117,6 +117,31 @@ TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
   EXPECT_GT(updated.covariance(x, x), 0.8 * predicted.covariance(x, x));
 }
 
+// A leg sample whose model of the scale is off by a percent, after a way on which the scale has
+// made the position uncertain by metres: without the mask the gain along x is 0.1 m per m/s, and
+// 200 samples a second would carry the position away.
+TEST(LidarUpdate, BetweenPlainWallsTheVelocityDoesNotCorrectThePositionAlongThem) {
+  Sequence sequence(false);
+  Belief belief;
+  ErrorVector common = ErrorVector::Zero();
+  common(E::kPosition.offset) = -3.0;
+  common(E::kVelocity.offset) = -0.09;
+  common(E::kLegScale.offset) = 0.12;
+  belief.covariance = common * common.transpose() + 1e-4 * ErrorMatrix::Identity();
+  LinearMeasurement legs;
+  legs.residual = Eigen::Vector3d(0.05, 0.05, 0.0);
+  columns(legs.jacobian, E::kVelocity).setIdentity();
+  columns(legs.jacobian, E::kLegScale) = Eigen::Vector3d(0.73, 0.0, 0.0).asDiagonal();
+  legs.noise = 0.01 * Eigen::Matrix3d::Identity();
+  const double plain = fuse(belief, legs).state.position.x();
+  EXPECT_GT(std::abs(plain), 0.005) << "the mask has something to do";
+  const Belief updated = fuse(belief, legs, sequence.update.odometry_mask());
+  EXPECT_LT(std::abs(updated.state.position.x()), 1e-3);
+  EXPECT_LT(updated.state.leg_scale.norm(), 1e-12);
+  EXPECT_NE(updated.state.velocity.y(), 0.0);
+  EXPECT_EQ(Sequence(true).update.odometry_mask(), correct_all()) << "pillars constrain x";
+}
+
 TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {
   Sequence sequence(true, "aims");
   Belief predicted;
