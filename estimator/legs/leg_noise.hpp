@@ -17,7 +17,7 @@ struct LegNoiseConfig {
   /// Of one sample with consistent stance feet, base axes [m/s]; the scale is a separate state.
   Eigen::Vector3d velocity_sigma{0.07, 0.07, 0.07};
   double correlation_time = 0.1;       ///< of that error, which consecutive samples share [s]
-  double nominal_spread = 0.03;        ///< of the velocities from feet that do not slip [m/s]
+  double nominal_spread = 0.2;         ///< of the velocities from feet that do not slip [m/s]
   double one_foot_sigma = 0.05;        ///< added with a single stance foot [m/s]
   double no_foot_sigma = 0.5;          ///< added without a stance foot; bounds the gap term [m/s]
   double yaw_lever = 0.03;             ///< added per yaw rate [m]

@@ -113,9 +113,9 @@ TEST(LegNoise, NoiseGrowsWithSlipMissingFeetTurningAndGaps) {
   const LegNoiseConfig config;
   const StanceFeet fixed = compare_stance_feet(fixed_stance(0), kTurning, kRobotGeometry);
   const StanceFeet slip =
-      compare_stance_feet(slipping(fixed_stance(0), 2, {0.3, 0.0, 0.0}), kTurning, kRobotGeometry);
+      compare_stance_feet(slipping(fixed_stance(0), 2, {0.6, 0.0, 0.0}), kTurning, kRobotGeometry);
   const Eigen::Vector3d growth = (sample_covariance(config, slip, {}) - nominal(config)).diagonal();
-  EXPECT_NEAR(growth.x(), 0.15 * 0.15 - config.nominal_spread * config.nominal_spread, 1e-9);
+  EXPECT_NEAR(growth.x(), 0.3 * 0.3 - config.nominal_spread * config.nominal_spread, 1e-9);
   EXPECT_NEAR(growth.y(), 0.0, 1e-9) << "the foot slips forward only";
   const auto grown = [&](const StanceFeet& stance, const LegConditions& conditions) {
     return (sample_covariance(config, stance, conditions) - nominal(config)).diagonal().minCoeff();
