@@ -191,8 +191,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(lidar_update_.considers_legs() ? fuse(belief_, measurement, lidar_update_.odometry_mask())
-                                        : fuse(belief_, measurement));
+  accept(fuse(belief_, measurement, lidar_update_.odometry_mask()));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {
