@@ -42,7 +42,7 @@ class LidarUpdate {
 
   /// Gain mask of what measures the velocity. While scans leave a direction free, the position
   /// along it is the integral of the velocity, and both carry the error of the leg scale. That
-  /// error is common to the whole way and cancels in the gain only as far as the models of scale
+  /// error is common to the whole route and cancels in the gain only as far as the models of scale
   /// and velocity agree to a percent; what is left, times metres of uncertainty, would move the
   /// position with every sample.
   ErrorMatrix odometry_mask() const;

@@ -32,8 +32,8 @@ struct PoseInformation {
 };
 
 /// A real fraction below this is a direction that scans leave free. In corridors without features
-/// the fraction is 0.06 to 0.1 and scatters by 0.1 from scan to scan: the halves share the pattern
-/// of the rings, which moves with the robot (docs/estimators.md).
+/// the fraction is 0.06 to 0.1 and scatters by 0.1 from scan to scan: the halves share errors of
+/// the poses from which they are mapped (docs/estimators.md).
 inline constexpr double kFreeDirection = 0.2;
 
 /// The information of scans without the part that comes from the noise of the plane normals

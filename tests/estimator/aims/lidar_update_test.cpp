@@ -117,9 +117,9 @@ TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
   EXPECT_GT(updated.covariance(x, x), 0.8 * predicted.covariance(x, x));
 }
 
-// A leg sample whose model of the scale is off by a percent, after a way on which the scale has
-// made the position uncertain by metres: without the mask the gain along x is 0.1 m per m/s, and
-// 200 samples a second would carry the position away.
+// A leg sample whose model of the scale is off by a percent, after a distance over which the
+// scale has made the position uncertain by metres: without the mask the gain along x is 0.1 m per
+// m/s, and 200 samples a second would carry the position away.
 TEST(LidarUpdate, BetweenPlainWallsTheVelocityDoesNotCorrectThePositionAlongThem) {
   Sequence sequence(false);
   Belief belief;
