@@ -12,12 +12,12 @@ template Belief kalman_update<NominalState>(const NominalState&, const ErrorMatr
                                             const NominalState&, const Information&,
                                             const ErrorMatrix&);
 
-namespace {
-
-/// With the gain `K` = M P H^T S^-1 for any M: P - K H P - (K H P)^T + K S K^T.
-Belief fuse_with_gain(const Belief& prior, const LinearMeasurement& measurement,
-                      const Matrix3xError& HP, const Eigen::Matrix3d& S,
-                      const Matrix3xError& gain_transposed) {
+Belief fuse(const Belief& prior, const LinearMeasurement& measurement,
+            const ErrorMatrix& gain_mask) {
+  const Matrix3xError HP = measurement.jacobian * prior.covariance;
+  const Eigen::Matrix3d S = HP * measurement.jacobian.transpose() + measurement.noise;
+  const Matrix3xError gain_transposed = S.llt().solve(HP) * gain_mask.transpose();
+  // With the gain K = M P H^T S^-1 for any mask M: P - K H P - (K H P)^T + K S K^T.
   const ErrorVector delta = -gain_transposed.transpose() * measurement.residual;
   const ErrorMatrix KHP = gain_transposed.transpose() * HP;
   const ErrorMatrix covariance =
@@ -25,21 +25,6 @@ Belief fuse_with_gain(const Belief& prior, const LinearMeasurement& measurement,
   const ErrorMatrix G = reset_jacobian(prior.state, delta);
   return {boxplus(prior.state, delta),
           G * (0.5 * (covariance + covariance.transpose())) * G.transpose()};
-}
-
-}  // namespace
-
-Belief fuse(const Belief& prior, const LinearMeasurement& measurement) {
-  const Matrix3xError HP = measurement.jacobian * prior.covariance;
-  const Eigen::Matrix3d S = HP * measurement.jacobian.transpose() + measurement.noise;
-  return fuse_with_gain(prior, measurement, HP, S, S.llt().solve(HP));
-}
-
-Belief fuse(const Belief& prior, const LinearMeasurement& measurement,
-            const ErrorMatrix& gain_mask) {
-  const Matrix3xError HP = measurement.jacobian * prior.covariance;
-  const Eigen::Matrix3d S = HP * measurement.jacobian.transpose() + measurement.noise;
-  return fuse_with_gain(prior, measurement, HP, S, S.llt().solve(HP) * gain_mask.transpose());
 }
 
 Information information_of(const LinearMeasurement& measurement) {

@@ -42,11 +42,13 @@ struct LinearMeasurement {
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
 };
 
-/// The belief after fusing `measurement`, in gain form; with a `gain_mask`, K is replaced by
-/// `gain_mask` K (Schmidt-Kalman update).
-Belief fuse(const Belief& prior, const LinearMeasurement& measurement);
+/// The gain mask that corrects every state.
+inline ErrorMatrix correct_all() { return ErrorMatrix::Identity(); }
+
+/// The belief after fusing `measurement`, in gain form, with the gain K replaced by `gain_mask` K
+/// (Schmidt-Kalman update).
 Belief fuse(const Belief& prior, const LinearMeasurement& measurement,
-            const ErrorMatrix& gain_mask);
+            const ErrorMatrix& gain_mask = correct_all());
 
 /// The information of one three-row measurement.
 Information information_of(const LinearMeasurement& measurement);
@@ -164,9 +166,6 @@ IteratedUpdate<State> iterated_update(const BeliefOf<State>& prior,
   }
   return update;
 }
-
-/// The gain mask that corrects every state.
-inline ErrorMatrix correct_all() { return ErrorMatrix::Identity(); }
 
 /// `gain_mask` with the leg states as consider states: not corrected.
 ErrorMatrix consider_legs(ErrorMatrix gain_mask);
