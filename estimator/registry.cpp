@@ -8,6 +8,7 @@
 #include "estimator/aims/eskf_estimator.hpp"
 #include "estimator/aims/leg_dead_reckoning.hpp"
 #include "estimator/aims/presets.hpp"
+#include "estimator/baselines/fast_lio2/fast_lio2.hpp"
 
 namespace aims {
 namespace {
@@ -21,6 +22,14 @@ EstimatorEntry entry(std::string_view name, std::string_view description, MakeCo
           }};
 }
 
+/// The compared systems of others, which `aims run` leaves out unless they are named.
+void add_baselines(std::vector<EstimatorEntry>& all) {
+  all.push_back(entry<fast_lio2::FastLio2>("fast_lio2", "FAST-LIO2, set for a narrow corridor",
+                                           [] { return fast_lio2::Config(); }));
+  all.push_back(entry<fast_lio2::FastLio2>(
+      "fast_lio2_published", "FAST-LIO2 with its published defaults", fast_lio2::published));
+}
+
 std::vector<EstimatorEntry> entries() {
   std::vector<EstimatorEntry> all;
   for (const EskfPreset& preset : eskf_presets()) {
@@ -28,6 +37,7 @@ std::vector<EstimatorEntry> entries() {
   }
   all.push_back(entry<LegDeadReckoning>("leg", "leg odometry alone, as the robot reports it",
                                         [] { return LegDeadReckoningConfig(); }));
+  add_baselines(all);
   return all;
 }
 

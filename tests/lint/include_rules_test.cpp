@@ -29,6 +29,10 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
       "estimator/estimator_config.hpp", "estimator/health.hpp", "estimator/filter/",
       "estimator/degeneracy/", "estimator/legs/", "estimator/ground/", "estimator/lidar/",
       "estimator/aims/"}},
+    {"estimator/baselines",
+     {"core/", "estimator/diagnostics.hpp", "estimator/estimator.hpp",
+      "estimator/estimator_config.hpp", "estimator/health.hpp", "estimator/filter/",
+      "estimator/lidar/", "estimator/baselines/"}},
     {"sim", {"core/", "sim/"}},
     {"sim/environment", {"core/", "sim/environment/"}},
     {"sim/robot", {"core/", "sim/environment/", "sim/robot/"}},
@@ -140,6 +144,18 @@ TEST(IncludeRules, EachFolderIncludesOnlyWhatTheTableAllows) {
         const std::string header = included(line);
         if (!is_own(header)) continue;
         EXPECT_TRUE(starts_with_any(header, allowed)) << file << " includes " << header;
+      }
+    }
+  }
+}
+
+TEST(IncludeRules, BaselinesAreIncludedByTheRegistryAlone) {
+  for (const auto& [folder, unused] : kAllowed) {
+    for (const fs::path& file : sources_in(fs::path(AIMS_SOURCE_DIR) / folder)) {
+      const std::string name = fs::relative(file, AIMS_SOURCE_DIR).string();
+      if (name.starts_with("estimator/baselines/") || name == "estimator/registry.cpp") continue;
+      for (const std::string& line : lines_of(file)) {
+        EXPECT_FALSE(included(line).starts_with("estimator/baselines/")) << file << ": " << line;
       }
     }
   }

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/baselines/fast_lio2/fast_lio2.hpp"
+
+#include <limits>
+
+#include "estimator/baselines/fast_lio2/scan_series.hpp"
+
+namespace aims::fast_lio2 {
+namespace {
+
+constexpr double kGravity = 9.81;  ///< [m/s^2]
+constexpr double kAnySpeed = std::numeric_limits<double>::infinity();
+
+/// A scan with fewer points is not matched, and does not begin a map.
+constexpr std::size_t kMinPoints = 5;
+
+ErrorMatrix start_covariance(const Start& config) {
+  ErrorVector variances = ErrorVector::Zero();
+  part(variances, Error::kPosition).setConstant(config.pose_variance);
+  part(variances, Error::kRotation).setConstant(config.pose_variance);
+  part(variances, Error::kMountRotation).setConstant(config.extrinsic_rotation_variance);
+  part(variances, Error::kMountTranslation).setConstant(config.extrinsic_translation_variance);
+  part(variances, Error::kVelocity).setConstant(config.velocity_variance);
+  part(variances, Error::kGyroBias).setConstant(config.gyro_bias_variance);
+  part(variances, Error::kAccelerometerBias).setConstant(config.accelerometer_bias_variance);
+  variances.segment<2>(Error::kGravity).setConstant(config.gravity_variance);
+  return variances.asDiagonal();
+}
+
+std::vector<Eigen::Vector3f> in_world(const State& x, const std::vector<Eigen::Vector3f>& points) {
+  std::vector<Eigen::Vector3f> moved;
+  moved.reserve(points.size());
+  for (const Eigen::Vector3f& point : points) moved.push_back(to_world(x, point).cast<float>());
+  return moved;
+}
+
+}  // namespace
+
+FastLio2::FastLio2(const Config& config, const SensorRig& rig)
+    : config_(config),
+      rig_(rig),
+      queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, kAnySpeed),
+      map_(config.map.voxel),
+      cube_(config.map) {
+  result_.diagnostics.series = scan_series();
+}
+
+void FastLio2::consume(const Delivery& delivery) {
+  if (std::holds_alternative<LegOdometrySample>(delivery.measurement)) return;
+  queue_.push(delivery);
+  process_ready();
+}
+
+void FastLio2::finish() {
+  queue_.close();
+  process_ready();
+}
+
+void FastLio2::process_ready() {
+  while (const std::optional<Correction> next = queue_.pop()) {
+    if (const auto* scan = std::get_if<LidarScanPtr>(&*next)) process(**scan);
+  }
+  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
+}
+
+std::vector<ImuSample> FastLio2::new_samples(Time end) {
+  std::vector<ImuSample> samples;
+  for (const ImuSample& sample : queue_.imu().samples()) {
+    const bool fresh = !last_sample_ || sample.stamp > last_sample_->stamp;
+    if (fresh && sample.stamp <= end) samples.push_back(sample);
+  }
+  return samples;
+}
+
+/// Averages the first samples. The frame of the start is the world: gravity is opposite to the mean
+/// specific force in it.
+bool FastLio2::start(const std::vector<ImuSample>& samples) {
+  for (const ImuSample& sample : samples) {
+    ++samples_;
+    mean_force_ += (sample.specific_force - mean_force_) / samples_;
+    mean_rate_ += (sample.angular_velocity - mean_rate_) / samples_;
+  }
+  if (samples_ <= config_.start.min_samples || mean_force_.norm() < 1e-3 * kGravity) return false;
+  belief_.state = State();
+  belief_.state.T_body_lidar = rig_.T_body_lidar;
+  belief_.state.gyro_bias = mean_rate_;
+  belief_.state.gravity = -kGravity * mean_force_.normalized();
+  belief_.covariance = start_covariance(config_.start);
+  time_ = samples.back().stamp;
+  return true;
+}
+
+void FastLio2::step(const Inertial& input, Time until) {
+  State& x = belief_.state;
+  knots_.push_back({time_, x.T_world_body, x.velocity, input.rate - x.gyro_bias,
+                    x.T_world_body.rotation * (input.force - x.accelerometer_bias) + x.gravity});
+  belief_ = predicted(belief_, input, to_seconds(until - time_), config_.process_noise);
+  time_ = until;
+}
+
+/// Steps from sample to sample with the mean of both, then with the last mean to `end`. The
+/// specific force is scaled so that the start's mean has the length of gravity.
+void FastLio2::predict(const std::vector<ImuSample>& samples, Time end) {
+  knots_.clear();
+  const double scale = kGravity / mean_force_.norm();
+  Inertial input;
+  for (const ImuSample& sample : samples) {
+    input.rate = 0.5 * (last_sample_->angular_velocity + sample.angular_velocity);
+    input.force = 0.5 * scale * (last_sample_->specific_force + sample.specific_force);
+    if (sample.stamp > time_) step(input, sample.stamp);
+    last_sample_ = sample;
+  }
+  if (end > time_) step(input, end);
+}
+
+void FastLio2::process(const LidarScan& scan) {
+  const std::vector<ImuSample> samples = new_samples(scan.end);
+  if (samples.empty()) {
+    ++result_.counts["lidar.without_imu"];
+    return;
+  }
+  if (!started_) {
+    started_ = start(samples);
+    last_sample_ = samples.back();
+    return;
+  }
+  predict(samples, scan.end);
+  queue_.imu().forget_before(scan.end - kSecond);
+  const std::vector<int> indices = selected_points(scan, config_.points);
+  const std::vector<Eigen::Vector3f> points =
+      voxel_centroids(deskewed(scan, indices, knots_, belief_.state), config_.points.voxel);
+  const Pose T_world_lidar = belief_.state.T_world_body * belief_.state.T_body_lidar;
+  cube_.follow(T_world_lidar.translation, map_);
+  if (map_.empty() && points.size() > kMinPoints) {
+    for (const Eigen::Vector3f& point : in_world(belief_.state, points)) map_.add(point);
+    record({belief_}, points.size(), scan.end);
+  } else if (points.size() < kMinPoints) {
+    ++result_.counts["lidar.no_update"];
+    record({belief_}, points.size(), scan.end);
+  } else {
+    match(points, scan.end);
+  }
+}
+
+void FastLio2::match(const std::vector<Eigen::Vector3f>& points, Time stamp) {
+  Registration registration(points, map_, config_.residuals, config_.iterations.estimate_extrinsic);
+  Update update = iterated_update(
+      belief_,
+      [&](const State& x, bool search) -> const ScanResiduals& {
+        return registration.evaluate(x, search);
+      },
+      config_.residuals.variance, config_.iterations);
+  if (update.iterations == 0) ++result_.counts["lidar.no_update"];
+  if (!is_finite(update.belief.state) || !update.belief.covariance.allFinite()) {
+    ++result_.counts["filter.rejected"];
+    update = {belief_};
+  }
+  belief_ = update.belief;
+  insert_scan(in_world(belief_.state, points), registration.neighbours(), config_.map.voxel, map_);
+  record(update, points.size(), stamp);
+}
+
+void FastLio2::record(const Update& update, std::size_t points, Time stamp) {
+  result_.trajectory.push_back({stamp, belief_.state.T_world_body});
+  result_.diagnostics.scans.push_back(scan_row(update, points, config_.residuals.variance, stamp));
+}
+
+}  // namespace aims::fast_lio2

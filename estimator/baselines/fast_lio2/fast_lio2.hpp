@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "estimator/baselines/fast_lio2/config.hpp"
+#include "estimator/baselines/fast_lio2/iterated_update.hpp"
+#include "estimator/baselines/fast_lio2/local_map.hpp"
+#include "estimator/baselines/fast_lio2/scan_points.hpp"
+#include "estimator/estimator.hpp"
+
+namespace aims::fast_lio2 {
+
+/// FAST-LIO2: an iterated Kalman filter on IMU and LiDAR, which matches the points of each scan
+/// with planes of a map of points (docs/baselines.md). Its world is the IMU's frame at the start:
+/// roll and pitch are not relative to gravity.
+class FastLio2 : public Estimator {
+ public:
+  FastLio2(const Config& config, const SensorRig& rig);
+
+  void consume(const Delivery& delivery) override;
+  void finish() override;
+  const EstimatorResult& result() const override { return result_; }
+  std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
+
+  /// Estimate after the last processed scan.
+  const Belief& belief() const { return belief_; }
+
+ private:
+  void process_ready();
+  void process(const LidarScan& scan);
+  /// IMU samples after the last scan's, up to `end`.
+  std::vector<ImuSample> new_samples(Time end);
+  bool start(const std::vector<ImuSample>& samples);
+  void predict(const std::vector<ImuSample>& samples, Time end);
+  void step(const Inertial& input, Time until);
+  void match(const std::vector<Eigen::Vector3f>& points, Time stamp);
+  void record(const Update& update, std::size_t points, Time stamp);
+
+  Config config_;
+  SensorRig rig_;
+  MeasurementQueue queue_;
+  EstimatorResult result_;
+  Belief belief_;
+  PointMap map_;
+  LocalCube cube_;
+
+  bool started_ = false;
+  int samples_ = 0;                                       ///< averaged at the start
+  Eigen::Vector3d mean_force_ = Eigen::Vector3d::Zero();  ///< of the start [m/s^2]
+  Eigen::Vector3d mean_rate_ = Eigen::Vector3d::Zero();   ///< likewise [rad/s]
+  Time time_ = 0;                                         ///< of the belief
+  std::optional<ImuSample> last_sample_;
+  std::vector<Knot> knots_;  ///< of the present scan
+};
+
+}  // namespace aims::fast_lio2
