@@ -12,7 +12,7 @@ const std::string kProgram = "published program";
 void describe(Fields& f, Start& c) {
   const Range variance = positive_up_to(1e6);
   f.integer("min_samples", c.min_samples,
-            {"-", in_range(1, 100000), "more than this many IMU samples are averaged", kProgram});
+            {"-", in_range(1, 100000), "IMU samples that are averaged, at least", kProgram});
   f.number("extrinsic_rotation_variance", c.extrinsic_rotation_variance,
            {"rad^2", variance, "of the LiDAR's mount, per axis", kProgram});
   f.number("extrinsic_translation_variance", c.extrinsic_translation_variance,

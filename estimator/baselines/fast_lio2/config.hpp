@@ -10,7 +10,7 @@ namespace aims::fast_lio2 {
 
 /// The still start.
 struct Start {
-  int min_samples = 10;                          ///< more than this many IMU samples are averaged
+  int min_samples = 10;                          ///< IMU samples that are averaged, at least
   double extrinsic_rotation_variance = 1e-5;     ///< [rad^2]
   double extrinsic_translation_variance = 1e-5;  ///< [m^2]
   double gyro_bias_variance = 1e-4;              ///< [rad^2/s^2]

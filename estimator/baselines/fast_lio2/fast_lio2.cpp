@@ -8,7 +8,11 @@
 namespace aims::fast_lio2 {
 namespace {
 
-constexpr double kGravity = 9.81;  ///< [m/s^2]
+constexpr double kGravity = 9.81;  ///< of the scaled specific force [m/s^2]
+
+/// Length of the state's gravity: the published program has another constant there [m/s^2].
+constexpr double kStateGravity = 9.809;
+
 constexpr double kAnySpeed = std::numeric_limits<double>::infinity();
 
 /// A scan with fewer points is not matched, and does not begin a map.
@@ -46,7 +50,6 @@ FastLio2::FastLio2(const Config& config, const SensorRig& rig)
 }
 
 void FastLio2::consume(const Delivery& delivery) {
-  if (std::holds_alternative<LegOdometrySample>(delivery.measurement)) return;
   queue_.push(delivery);
   process_ready();
 }
@@ -80,65 +83,73 @@ bool FastLio2::start(const std::vector<ImuSample>& samples) {
     mean_force_ += (sample.specific_force - mean_force_) / samples_;
     mean_rate_ += (sample.angular_velocity - mean_rate_) / samples_;
   }
-  if (samples_ <= config_.start.min_samples || mean_force_.norm() < 1e-3 * kGravity) return false;
+  if (samples_ < config_.start.min_samples || mean_force_.norm() < 1e-3 * kGravity) return false;
   belief_.state = State();
   belief_.state.T_body_lidar = rig_.T_body_lidar;
   belief_.state.gyro_bias = mean_rate_;
-  belief_.state.gravity = -kGravity * mean_force_.normalized();
+  belief_.state.gravity = -kStateGravity * mean_force_.normalized();
   belief_.covariance = start_covariance(config_.start);
   time_ = samples.back().stamp;
   return true;
 }
 
+/// The state at `stamp`, reached by `input`.
+Knot FastLio2::knot(const Inertial& input, Time stamp) const {
+  const State& x = belief_.state;
+  return {stamp, x.T_world_body, x.velocity, input.rate - x.gyro_bias,
+          x.T_world_body.rotation * (input.force - x.accelerometer_bias) + x.gravity};
+}
+
 void FastLio2::step(const Inertial& input, Time until) {
-  State& x = belief_.state;
-  knots_.push_back({time_, x.T_world_body, x.velocity, input.rate - x.gyro_bias,
-                    x.T_world_body.rotation * (input.force - x.accelerometer_bias) + x.gravity});
+  if (until <= time_) return;
   belief_ = predicted(belief_, input, to_seconds(until - time_), config_.process_noise);
   time_ = until;
 }
 
 /// Steps from sample to sample with the mean of both, then with the last mean to `end`. The
 /// specific force is scaled so that the start's mean has the length of gravity.
-void FastLio2::predict(const std::vector<ImuSample>& samples, Time end) {
-  knots_.clear();
+void FastLio2::predict(const std::vector<ImuSample>& samples, Time begin, Time end) {
   const double scale = kGravity / mean_force_.norm();
   Inertial input;
+  knots_.assign(1, knot(input, begin));
   for (const ImuSample& sample : samples) {
     input.rate = 0.5 * (last_sample_->angular_velocity + sample.angular_velocity);
     input.force = 0.5 * scale * (last_sample_->specific_force + sample.specific_force);
-    if (sample.stamp > time_) step(input, sample.stamp);
+    step(input, sample.stamp);
+    knots_.push_back(knot(input, sample.stamp));
     last_sample_ = sample;
   }
-  if (end > time_) step(input, end);
+  step(input, end);
 }
 
 void FastLio2::process(const LidarScan& scan) {
-  const std::vector<ImuSample> samples = new_samples(scan.end);
+  const std::vector<int> indices = selected_points(scan, config_.points);
+  const Time end = end_of(scan, indices);
+  const std::vector<ImuSample> samples = new_samples(end);
   if (samples.empty()) {
     ++result_.counts["lidar.without_imu"];
     return;
   }
   if (!started_) {
-    started_ = start(samples);
+    // The published program takes the first scan, with its samples, for the beginning of time.
+    if (last_sample_) started_ = start(samples);
     last_sample_ = samples.back();
     return;
   }
-  predict(samples, scan.end);
-  queue_.imu().forget_before(scan.end - kSecond);
-  const std::vector<int> indices = selected_points(scan, config_.points);
+  predict(samples, scan.stamp, end);
+  queue_.imu().forget_before(end - kSecond);
   const std::vector<Eigen::Vector3f> points =
       voxel_centroids(deskewed(scan, indices, knots_, belief_.state), config_.points.voxel);
   const Pose T_world_lidar = belief_.state.T_world_body * belief_.state.T_body_lidar;
   cube_.follow(T_world_lidar.translation, map_);
   if (map_.empty() && points.size() > kMinPoints) {
     for (const Eigen::Vector3f& point : in_world(belief_.state, points)) map_.add(point);
-    record({belief_}, points.size(), scan.end);
+    record({belief_}, points.size(), end);
   } else if (points.size() < kMinPoints) {
     ++result_.counts["lidar.no_update"];
-    record({belief_}, points.size(), scan.end);
+    record({belief_}, points.size(), end);
   } else {
-    match(points, scan.end);
+    match(points, end);
   }
 }
 

@@ -33,8 +33,9 @@ class FastLio2 : public Estimator {
   /// IMU samples after the last scan's, up to `end`.
   std::vector<ImuSample> new_samples(Time end);
   bool start(const std::vector<ImuSample>& samples);
-  void predict(const std::vector<ImuSample>& samples, Time end);
+  void predict(const std::vector<ImuSample>& samples, Time begin, Time end);
   void step(const Inertial& input, Time until);
+  Knot knot(const Inertial& input, Time stamp) const;
   void match(const std::vector<Eigen::Vector3f>& points, Time stamp);
   void record(const Update& update, std::size_t points, Time stamp);
 

@@ -11,11 +11,11 @@ namespace {
 /// Returns beyond this are no ranges of a LiDAR; indices of voxels stay small [m].
 constexpr float kMaxRange = 1e4F;
 
-/// Index of the last knot before `stamp`, or of the first.
-std::size_t knot_before(std::span<const Knot> knots, Time stamp) {
-  const auto after = std::ranges::lower_bound(knots, stamp, {}, &Knot::stamp);
-  const auto count = static_cast<std::size_t>(after - knots.begin());
-  return count > 0 ? count - 1 : 0;
+/// The last knot before `stamp` that has another after it; none when there is none.
+const Knot* knot_before(std::span<const Knot> knots, Time stamp) {
+  if (knots.size() < 2 || stamp <= knots.front().stamp) return nullptr;
+  const auto heads = knots.first(knots.size() - 1);
+  return &*std::prev(std::ranges::lower_bound(heads, stamp, {}, &Knot::stamp));
 }
 
 }  // namespace
@@ -31,6 +31,12 @@ std::vector<int> selected_points(const LidarScan& scan, const Points& config) {
   return indices;
 }
 
+Time end_of(const LidarScan& scan, std::span<const int> indices) {
+  if (indices.empty()) return scan.end;
+  const Duration last = scan.points[static_cast<std::size_t>(indices.back())].time_offset_ns;
+  return last < (scan.end - scan.stamp) / 2 ? scan.end : scan.stamp + last;
+}
+
 std::vector<Eigen::Vector3f> deskewed(const LidarScan& scan, std::span<const int> indices,
                                       std::span<const Knot> knots, const State& end) {
   std::vector<Eigen::Vector3f> points;
@@ -40,11 +46,16 @@ std::vector<Eigen::Vector3f> deskewed(const LidarScan& scan, std::span<const int
   for (int index : indices) {
     const LidarPoint& point = scan.points[static_cast<std::size_t>(index)];
     const Time stamp = scan.stamp + point.time_offset_ns;
-    const Knot& knot = knots[knot_before(knots, stamp)];
-    const double dt = to_seconds(stamp - knot.stamp);
+    const Knot* knot = knot_before(knots, stamp);
+    if (knot == nullptr) {
+      points.push_back(point.position);
+      continue;
+    }
+    const Knot& next = knot[1];
+    const double dt = to_seconds(stamp - knot->stamp);
     const Pose T_world_body{
-        knot.T_world_body.rotation * so3_exp(dt * knot.rate),
-        knot.T_world_body.translation + dt * knot.velocity + 0.5 * dt * dt * knot.acceleration};
+        knot->T_world_body.rotation * so3_exp(dt * next.rate),
+        knot->T_world_body.translation + dt * knot->velocity + 0.5 * dt * dt * next.acceleration};
     const Eigen::Vector3d p_world =
         T_world_body * (end.T_body_lidar * point.position.cast<double>());
     points.push_back((T_lidar_body * (T_end_world * p_world)).cast<float>());
