@@ -9,6 +9,7 @@
 #include "estimator/aims/leg_dead_reckoning.hpp"
 #include "estimator/aims/presets.hpp"
 #include "estimator/baselines/fast_lio2/fast_lio2.hpp"
+#include "estimator/baselines/loam/loam.hpp"
 
 namespace aims {
 namespace {
@@ -28,6 +29,12 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
                                            [] { return fast_lio2::Config(); }));
   all.push_back(entry<fast_lio2::FastLio2>(
       "fast_lio2_published", "FAST-LIO2 with its published defaults", fast_lio2::published));
+  all.push_back(
+      entry<loam::Loam>("loam", "LOAM without IMU, set for a narrow corridor", loam::corridor));
+  all.push_back(entry<loam::Loam>("loam_published", "LOAM without IMU, with its published defaults",
+                                  [] { return loam::Config(); }));
+  all.push_back(
+      entry<loam::Loam>("a_loam", "A-LOAM, the published program without IMU", loam::a_loam));
 }
 
 std::vector<EstimatorEntry> entries() {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/config.hpp"
+#include "estimator/baselines/features/degenerate_directions.hpp"
+#include "estimator/baselines/features/feature_matches.hpp"
+
+namespace aims::features {
+
+/// How the pose is found from the distances of the matched points.
+enum class SolverMethod {
+  kGaussNewton,         ///< LOAM: weighted rows, without the directions that are degenerate
+  kLevenbergMarquardt,  ///< A-LOAM: Huber's loss, damped steps
+};
+
+/// Settings of the search for a pose; defaults: LOAM's between two scans.
+struct SolverConfig {
+  SolverMethod method = SolverMethod::kGaussNewton;
+  int max_iterations = 25;
+  int association_interval = 5;    ///< iterations for which the matches stay
+  double residual_factor = 0.05;   ///< part of the residuals that a step removes
+  int unweighted_iterations = 5;   ///< first iterations, in which each weight is 1
+  double weight_slope = 1.8;       ///< weight = 1 - slope |d|, of a plane |d| / sqrt(range) [1/m]
+  double min_weight = 0.1;         ///< residuals of less weight are left out
+  int min_matches = 10;            ///< needed for a step
+  double remap_threshold = 10.0;   ///< directions of a smaller eigenvalue of A^T A do not move
+  double stop_rotation_deg = 0.1;  ///< smaller steps end the iteration [deg]
+  double stop_position = 0.001;    ///< [m]
+  double huber = 0.1;              ///< distance from which the loss is linear [m]
+};
+
+/// LOAM's settings against the map.
+SolverConfig map_solver_config();
+
+void describe(Fields& fields, SolverConfig& config);
+
+/// Coordinates of a pose that a solver may move: rotation 0 to 2, position 3 to 5, target axes.
+using PoseCoordinates = std::vector<int>;
+
+/// All six.
+PoseCoordinates all_coordinates();
+
+/// What a solver found.
+struct SolverResult {
+  Pose pose;           ///< T_target_scan
+  int iterations = 0;  ///< 0: too few matches
+  int lines = 0;       ///< in the last association
+  int planes = 0;
+  /// Of the first iteration. `removed` counts where the method removes directions.
+  ConstrainedDirections directions;
+};
+
+/// Finds the matches at a pose T_target_scan.
+using Associate = std::function<FeatureMatches(const Pose&)>;
+
+/// The pose near `initial` that minimizes the distances of the matched points.
+SolverResult solve_pose(const Pose& initial, const Associate& associate, const SolverConfig& config,
+                        const PoseCoordinates& coordinates = all_coordinates());
+
+}  // namespace aims::features

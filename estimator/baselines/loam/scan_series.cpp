@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/baselines/loam/scan_series.hpp"
+
+#include <array>
+#include <limits>
+
+namespace aims::loam {
+namespace {
+
+/// A series and the quantity that it reports.
+struct Series {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+  double (*value)(const ScanReport&);
+};
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double smallest_eigenvalue(const features::SolverResult& result) {
+  return result.iterations == 0 ? kNone : result.directions.smallest_eigenvalue;
+}
+
+constexpr std::array kSeries = {
+    Series{"points_in", "-", "finite points in range",
+           [](const ScanReport& s) { return double(s.points_in); }},
+    Series{"edges", "-", "sharp features", [](const ScanReport& s) { return double(s.edges); }},
+    Series{"planes", "-", "flat features", [](const ScanReport& s) { return double(s.planes); }},
+    Series{"iterations", "-", "of odometry and mapping; 0: no update",
+           [](const ScanReport& s) {
+             return double(s.odometry.iterations + (s.mapping ? s.mapping->iterations : 0));
+           }},
+    Series{"odometry_matches", "-", "lines and planes of the last scan",
+           [](const ScanReport& s) { return double(s.odometry.lines + s.odometry.planes); }},
+    Series{"odometry_smallest_eigenvalue", "-",
+           "smallest eigenvalue of A^T A in the first iteration, scan to scan",
+           [](const ScanReport& s) { return smallest_eigenvalue(s.odometry); }},
+    Series{"odometry_removed_directions", "-", "degenerate directions that do not move",
+           [](const ScanReport& s) { return double(s.odometry.directions.removed); }},
+    Series{"mapping_matches", "-", "lines and planes of the map; NaN: scan not registered",
+           [](const ScanReport& s) {
+             return s.mapping ? double(s.mapping->lines + s.mapping->planes) : kNone;
+           }},
+    Series{"mapping_smallest_eigenvalue", "-",
+           "smallest eigenvalue of A^T A in the first iteration, scan to map",
+           [](const ScanReport& s) { return s.mapping ? smallest_eigenvalue(*s.mapping) : kNone; }},
+    Series{"mapping_removed_directions", "-", "degenerate directions that do not move",
+           [](const ScanReport& s) {
+             return s.mapping ? double(s.mapping->directions.removed) : kNone;
+           }},
+};
+
+}  // namespace
+
+std::vector<SeriesInfo> scan_series() {
+  std::vector<SeriesInfo> infos;
+  for (const Series& each : kSeries) infos.push_back({each.name, each.unit, each.meaning});
+  return infos;
+}
+
+ScanRow row_of(const ScanReport& scan, Time stamp) {
+  ScanRow row{stamp, std::nullopt, {}};
+  for (const Series& each : kSeries) row.values.push_back(each.value(scan));
+  return row;
+}
+
+}  // namespace aims::loam
