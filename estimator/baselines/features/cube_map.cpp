@@ -7,6 +7,10 @@
 namespace aims::features {
 namespace {
 
+// Cubes around the LiDAR's that are matched, as published.
+constexpr std::int64_t kReach = 2;
+constexpr std::int64_t kVerticalReach = 1;
+
 void append(const FeatureCloud& cloud, std::vector<Eigen::Vector3f>& points) {
   for (const FeaturePoint& point : cloud) points.push_back(point.position);
 }
@@ -33,12 +37,12 @@ void CubeMap::insert(const FeatureCloud& points) {
   }
 }
 
-std::vector<Eigen::Vector3f> CubeMap::around(const Eigen::Vector3d& position, int reach) const {
+std::vector<Eigen::Vector3f> CubeMap::around(const Eigen::Vector3d& position) const {
   std::vector<Eigen::Vector3f> points;
   const CubeIndex centre = cube_of(position);
-  for (std::int64_t x = -reach; x <= reach; ++x) {
-    for (std::int64_t y = -reach; y <= reach; ++y) {
-      for (std::int64_t z = -1; z <= 1; ++z) {
+  for (std::int64_t x = -kReach; x <= kReach; ++x) {
+    for (std::int64_t y = -kReach; y <= kReach; ++y) {
+      for (std::int64_t z = -kVerticalReach; z <= kVerticalReach; ++z) {
         const auto cube = cubes_.find({centre[0] + x, centre[1] + y, centre[2] + z});
         if (cube != cubes_.end()) append(cube->second, points);
       }

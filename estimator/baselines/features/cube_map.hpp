@@ -21,8 +21,8 @@ class CubeMap {
   /// Adds points in map axes.
   void insert(const FeatureCloud& points);
 
-  /// The points of the cubes around `position`: `reach` on each side, one below and above.
-  std::vector<Eigen::Vector3f> around(const Eigen::Vector3d& position, int reach) const;
+  /// The points of the cubes around `position`: two on each side, one below and above.
+  std::vector<Eigen::Vector3f> around(const Eigen::Vector3d& position) const;
 
   /// All points.
   std::vector<Eigen::Vector3f> points() const;

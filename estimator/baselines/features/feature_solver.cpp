@@ -125,7 +125,7 @@ void describe(Fields& f, SolverConfig& c) {
   f.number("weight_slope", c.weight_slope,
            {"1/m", up_to(1e4), "weight = 1 - slope |d|, for planes |d| / sqrt(range)"});
   f.number("min_weight", c.min_weight,
-           {"-", in_half_open(0.0, 1.0), "residuals of less weight are left out"});
+           {"-", in_range(0.0, 0.99), "residuals of less weight are left out"});
   f.integer("min_matches", c.min_matches, {"-", in_range(6, 100000), "needed for a step"});
   f.number("remap_threshold", c.remap_threshold,
            {"-", up_to(1e9), "directions with a smaller eigenvalue of A^T A do not move",

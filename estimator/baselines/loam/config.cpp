@@ -32,9 +32,8 @@ void describe(Fields& f, ScanToMapConfig& c) {
            {"m", in_range(0.01, 10.0), "edge points are averaged in such voxels"});
   f.number("plane_voxel", c.plane_voxel,
            {"m", in_range(0.01, 10.0), "plane points are averaged in such voxels"});
-  f.number("cube_size", c.cube_size, {"m", in_range(0.5, 1e4), "edge of the cubes of the map"});
-  f.integer("cube_reach", c.cube_reach,
-            {"-", in_range(0, 100), "cubes on each side of the LiDAR that are matched"});
+  f.number("cube_size", c.cube_size,
+           {"m", in_range(0.5, 1e4), "edge of the cubes of the map; 5 x 5 x 3 are matched"});
   f.group("matching", c.matching);
   f.group("solver", c.solver);
 }

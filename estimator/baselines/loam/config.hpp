@@ -27,8 +27,7 @@ struct ScanToMapConfig {
   int interval = 2;          ///< one scan in this many is registered and mapped
   double edge_voxel = 0.2;   ///< of the map and of the scan registered to it [m]
   double plane_voxel = 0.4;  ///< likewise [m]
-  double cube_size = 50.0;   ///< edge of the cubes in which the map is kept [m]
-  int cube_reach = 2;        ///< cubes on each side of the LiDAR that are matched
+  double cube_size = 50.0;   ///< edge of the cubes of the map; those around the LiDAR are used [m]
   features::MapMatchConfig matching;
   features::SolverConfig solver = features::map_solver_config();
 };

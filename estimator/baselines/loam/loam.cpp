@@ -19,7 +19,6 @@ Loam::Loam(const Config& config, const SensorRig& rig)
 }
 
 void Loam::consume(const Delivery& delivery) {
-  if (std::holds_alternative<LegOdometrySample>(delivery.measurement)) return;
   queue_.push(delivery);
   process_ready();
 }

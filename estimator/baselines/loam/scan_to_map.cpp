@@ -26,8 +26,7 @@ features::SolverResult ScanToMap::update(const Pose& T_odom_lidar,
       features::voxel_centroids(scan.less_flat, config_.plane_voxel);
   features::SolverResult result;
   result.pose = to_map(T_odom_lidar);
-  reference_.build(edges_.around(result.pose.translation, config_.cube_reach),
-                   planes_.around(result.pose.translation, config_.cube_reach));
+  reference_.build(edges_.around(result.pose.translation), planes_.around(result.pose.translation));
   if (reference_.sufficient(config_.matching)) {
     const auto associate = [&](const Pose& T_map_lidar) {
       return reference_.match(edges, planes, T_map_lidar, config_.matching);

@@ -18,8 +18,8 @@ bool within(Time time, double from, double to) {
   return time >= from_seconds(from) && time < from_seconds(to);
 }
 
-SimulationConfig short_route() {
-  SimulationConfig config = straight_sequence(5.0, 150);
+SimulationConfig short_route(int columns) {
+  SimulationConfig config = straight_sequence(5.0, columns);
   config.route.points = {{"a", 0.0, 0.0}, {"b", 2.5, 0.0}, {"c", 5.0, 0.0}};
   config.route.stand_before = kSetOff;
   config.route.stand_at_points = 1.5;
@@ -57,8 +57,8 @@ bool disturb(LidarScanPtr& scan, Delivery&) { return !within(scan->end, 5.8, 6.4
 
 }  // namespace
 
-RecordedStream eventful_sequence() {
-  SimulatedSequence sequence = simulate(short_route(), 3);
+RecordedStream eventful_sequence(int columns) {
+  SimulatedSequence sequence = simulate(short_route(columns), 3);
   RecordedStream stream{{}, sequence.rig};
   for (Delivery& delivery : sequence.deliveries) {
     const bool kept =
@@ -72,10 +72,9 @@ RecordedStream eventful_sequence() {
 
 RecordedStream started_in_motion(const RecordedStream& stream) {
   RecordedStream moving{{}, stream.rig};
-  std::copy_if(stream.deliveries.begin(), stream.deliveries.end(),
-               std::back_inserter(moving.deliveries), [](const Delivery& delivery) {
-                 return delivery.arrival >= from_seconds(kSetOff + 1.0);
-               });
+  std::copy_if(
+      stream.deliveries.begin(), stream.deliveries.end(), std::back_inserter(moving.deliveries),
+      [](const Delivery& delivery) { return delivery.arrival >= from_seconds(kSetOff + 1.0); });
   return moving;
 }
 

@@ -14,8 +14,9 @@ struct RecordedStream {
 };
 
 /// A few metres with a stop in between, over a ramp, in which every kind of disturbance happens:
-/// lost, late, early and impossible packets of each sensor, slip, lost contacts.
-RecordedStream eventful_sequence();
+/// lost, late, early and impossible packets of each sensor, slip, lost contacts. Each ring of the
+/// LiDAR has `columns` returns.
+RecordedStream eventful_sequence(int columns);
 
 /// The same stream from its first second of motion on.
 RecordedStream started_in_motion(const RecordedStream& stream);

@@ -135,13 +135,17 @@ std::vector<std::string> other_values(const Parameter& parameter) {
   return values;
 }
 
-/// The streams, simulated once per process.
-const std::vector<RecordedStream>& streams() {
-  static const std::vector<RecordedStream> all = [] {
-    const RecordedStream stream = testing::eventful_sequence();
-    return std::vector<RecordedStream>{stream, testing::started_in_motion(stream)};
-  }();
-  return all;
+std::vector<RecordedStream> streams_with(int columns) {
+  const RecordedStream stream = testing::eventful_sequence(columns);
+  return {stream, testing::started_in_motion(stream)};
+}
+
+/// The streams for an estimator, simulated once per process. The curvature along a ring needs
+/// returns that lie close together.
+const std::vector<RecordedStream>& streams_for(const EstimatorConfig& config) {
+  static const std::vector<RecordedStream> sparse = streams_with(150);
+  static const std::vector<RecordedStream> dense = streams_with(600);
+  return config.requirements().rings ? dense : sparse;
 }
 
 std::unique_ptr<EstimatorConfig> config_of(const std::string& name) {
@@ -184,7 +188,8 @@ class Settings : public ::testing::TestWithParam<std::string> {};
 TEST_P(Settings, ThatAreOfferedHaveAnEffect) {
   const auto config = config_of(GetParam());
   std::vector<Reference> references;
-  for (const RecordedStream& stream : streams()) references.emplace_back(stream, *config);
+  for (const RecordedStream& stream : streams_for(*config))
+    references.emplace_back(stream, *config);
   for (const Parameter& parameter : fields_of(*config).parameters()) {
     if (!parameter.idle.empty()) continue;
     EXPECT_TRUE(has_effect(parameter.key, GetParam(), references))
@@ -194,7 +199,7 @@ TEST_P(Settings, ThatAreOfferedHaveAnEffect) {
 
 TEST_P(Settings, ThatAreIdleHaveNone) {
   const auto config = config_of(GetParam());
-  for (const RecordedStream& stream : streams()) {
+  for (const RecordedStream& stream : streams_for(*config)) {
     const Reference reference(stream, *config);
     for (const std::size_t attempt : {0, 1}) {
       const auto changed = config->clone();

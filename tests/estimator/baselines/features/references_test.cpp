@@ -152,8 +152,8 @@ TEST(CubeMap, AnAverageWeighsAsMuchAsANewPoint) {
 TEST(CubeMap, HasThePointsOfTheCubesInReach) {
   CubeMap map(50.0, 0.4);
   map.insert({{{0.0F, 0.0F, 0.0F}}, {{120.0F, 0.0F, 0.0F}}, {{130.0F, 0.0F, 0.0F}}});
-  EXPECT_EQ(map.around(Eigen::Vector3d::Zero(), 2).size(), 2U);
-  EXPECT_EQ(map.around({30.0, 0.0, 0.0}, 2).size(), 3U);
+  EXPECT_EQ(map.around(Eigen::Vector3d::Zero()).size(), 2U);
+  EXPECT_EQ(map.around({30.0, 0.0, 0.0}).size(), 3U);
   EXPECT_EQ(map.points().size(), 3U);
 }
 
