@@ -121,6 +121,22 @@ TEST(GaussNewton, ADegenerateDirectionKeepsItsInitialValue) {
   EXPECT_LT(rotation_error(result.pose, kTruth), 1e-3);
 }
 
+TEST(GaussNewton, WhatNoiseSeemsToConstrainDoesNotMove) {
+  const Pose truth = pose_of({0.0, -0.05, 0.03}, Eigen::Vector3d::Zero());
+  FeatureMatches matches = matches_at(truth, kCorridor);
+  RandomStream random(4, "normals");
+  for (PlaneMatch& match : matches.planes) {
+    const Eigen::Vector3d on_plane = truth * match.point;
+    match.normal = (match.normal + 0.02 * random.normal3()).normalized();
+    match.offset = -match.normal.dot(on_plane);
+  }
+  const Pose initial = pose_of({0.5, 0.0, 0.0}, Eigen::Vector3d::Zero());
+  SolverConfig config = full_steps();
+  EXPECT_NEAR(solve_pose(initial, fixed(matches), config).pose.translation.x(), 0.5, 0.02);
+  config.remap_threshold = 0.0;
+  EXPECT_LT(solve_pose(initial, fixed(matches), config).pose.translation.x(), 0.1) << "seed 4";
+}
+
 TEST(GaussNewton, FartherPointsWeighLessAfterTheFirstIterations) {
   const Pose initial = pose_of({1e-3, -1e-3, 1e-3}, Eigen::Vector3d::Zero());
   FeatureMatches matches = matches_at(Pose(), kRoom);
