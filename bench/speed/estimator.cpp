@@ -63,7 +63,7 @@ BENCHMARK(plane_fit);
 
 /// Twelve seconds of walking with full scans of 28,800 rays; the counter is the time per scan,
 /// inertial prediction and leg updates included.
-void time_per_scan(benchmark::State& state) {
+void time_per_scan(benchmark::State& state, const char* name) {
   test::KinematicConfig config;
   config.walk.distance = 7.0;
   config.walk.there_and_back = false;
@@ -72,7 +72,7 @@ void time_per_scan(benchmark::State& state) {
   world.advance(world.duration(), deliveries);
   std::size_t scans = 0;
   for (auto _ : state) {
-    auto estimator = make_estimator("aims", world.rig());
+    auto estimator = make_estimator(name, world.rig());
     for (const Delivery& delivery : deliveries) (*estimator)->consume(delivery);
     (*estimator)->finish();
     scans += (*estimator)->result().trajectory.size();
@@ -80,7 +80,9 @@ void time_per_scan(benchmark::State& state) {
   state.counters["per_scan"] = benchmark::Counter(
       static_cast<double>(scans), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(time_per_scan)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_per_scan, aims, "aims")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_per_scan, loam, "loam")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_per_scan, a_loam, "a_loam")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace aims
