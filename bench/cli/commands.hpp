@@ -16,6 +16,7 @@ void declare_merge(Command command, const std::filesystem::path& scenarios);
 void declare_tune(Command command, const std::filesystem::path& scenarios);
 void declare_faults(Command command, const std::filesystem::path& scenarios);
 void declare_fidelity(Command command, const std::filesystem::path& scenarios);
+void declare_fidelity_baselines(Command command, const std::filesystem::path& scenarios);
 void declare_groups(Command command);
 void declare_study(Command command, const std::filesystem::path& scenarios);
 void declare_simulate(Command command, const std::filesystem::path& scenarios);

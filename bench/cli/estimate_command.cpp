@@ -34,17 +34,9 @@ struct EstimateArguments {
 };
 
 Result<EstimateConfig> config_of(const EstimateArguments& arguments) {
-  std::vector<std::string> overrides;
-  for (const std::string& topic : arguments.topics) {
-    if (topic.find('=') == std::string::npos) {
-      return failure(
-          fmt::format("--topics: expected SENSOR=TOPIC, e.g. lidar=/points, got '{}'", topic));
-    }
-    overrides.push_back("recording.topics." + topic);
-  }
-  const auto shared = overrides_of(arguments.shared);
-  overrides.insert(overrides.end(), shared.begin(), shared.end());
-  return load_estimate_config(arguments.config, overrides);
+  const auto overrides = overrides_of(arguments.shared, arguments.topics);
+  if (!overrides) return tl::unexpected(overrides.error());
+  return load_estimate_config(arguments.config, *overrides);
 }
 
 /// out/NAME-estimate, which no other command writes.

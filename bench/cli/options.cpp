@@ -109,6 +109,21 @@ std::vector<std::string> overrides_of(const SharedOptions& options) {
   return overrides;
 }
 
+Result<std::vector<std::string>> overrides_of(const SharedOptions& options,
+                                              const std::vector<std::string>& topics) {
+  std::vector<std::string> overrides;
+  for (const std::string& topic : topics) {
+    if (topic.find('=') == std::string::npos) {
+      return failure(
+          fmt::format("--topics: expected SENSOR=TOPIC, e.g. lidar=/points, got '{}'", topic));
+    }
+    overrides.push_back("recording.topics." + topic);
+  }
+  const auto shared = overrides_of(options);
+  overrides.insert(overrides.end(), shared.begin(), shared.end());
+  return overrides;
+}
+
 Result<void> check_settings(const std::vector<std::string>& settings,
                             const std::vector<std::string>& groups, bool refused) {
   for (const std::string& setting : settings) {

@@ -73,6 +73,10 @@ void add_quiet(Command& command, SharedOptions& options);
 /// "key=value" of --set, with the estimators as the last.
 std::vector<std::string> overrides_of(const SharedOptions& options);
 
+/// The same for a recording, with its topics "SENSOR=TOPIC". Error for one of another form.
+Result<std::vector<std::string>> overrides_of(const SharedOptions& options,
+                                              const std::vector<std::string>& topics);
+
 /// Error for a "key=value" of --set that does not begin with one of `groups`, or that begins with
 /// one of them when they are `refused`: nothing in this command reads it.
 Result<void> check_settings(const std::vector<std::string>& settings,

@@ -272,6 +272,9 @@ void declare_study(Command command, const fs::path& scenarios) {
                  scenarios);
   declare_fidelity(command.subcommand("fidelity", "The simulated sensors against real ones"),
                    scenarios);
+  declare_fidelity_baselines(
+      command.subcommand("fidelity-baselines", "Baselines against the published systems"),
+      scenarios);
   declare_compare(
       command.subcommand("compare", "Scores that got better or worse between two folders"));
   declare_groups(command.subcommand("groups", "Scores by a quantity that the seeds drew"));

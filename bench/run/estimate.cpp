@@ -50,6 +50,22 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   }
 }
 
+/// A sentence for each part of the clouds and of the IMU that an estimator needs and the recording
+/// does not hold; where something stands in for it, the notes on the reading state what.
+void note_missing(const EstimateConfig& config, RecordingSetup& setup) {
+  for (const std::string& text : config.run) {
+    const Requirements needs = requirements_of(text, config.estimators);
+    const auto note = [&](bool needed, bool present, std::string_view what) {
+      if (!needed || present) return;
+      setup.notes.push_back(
+          fmt::format("{} needs {}, which the recording lacks", label_of(text), what));
+    };
+    note(needs.point_times, setup.has_point_times, "the time of each point");
+    note(needs.rings, setup.has_rings, "the ring of each point");
+    note(needs.orientation, setup.has_orientation, "the orientation of the IMU");
+  }
+}
+
 /// Error when an estimator needs legs and the recording has none.
 Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& setup,
                           const std::string& recording) {
@@ -103,6 +119,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.summary = reader->summary();
   if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)
     return tl::unexpected(ok.error());
+  note_missing(config, result.setup);
   auto estimators = make_estimators(config.run, config.estimators, result.setup.rig);
   if (!estimators) return tl::unexpected(estimators.error());
 

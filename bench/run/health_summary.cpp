@@ -30,10 +30,13 @@ std::string reasons_text(const HealthSummary& summary) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+constexpr const char* kNotJudged = "not judged";
+
 }  // namespace
 
 HealthSummary health_summary(const std::vector<HealthRow>& rows) {
   HealthSummary summary;
+  summary.judged = !rows.empty();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const HealthRow& row = rows[i];
     summary.worst = std::max(summary.worst, row.state);
@@ -46,7 +49,7 @@ HealthSummary health_summary(const std::vector<HealthRow>& rows) {
 }
 
 Json health_json(const HealthSummary& summary) {
-  return {{"worst", name_of(summary.worst)},
+  return {{"worst", summary.judged ? std::string(name_of(summary.worst)) : kNotJudged},
           {"healthy_s", summary.healthy_s},
           {"degraded_s", summary.degraded_s},
           {"invalid_s", summary.invalid_s},
@@ -54,7 +57,7 @@ Json health_json(const HealthSummary& summary) {
 }
 
 std::string text_of(const HealthSummary& summary) {
-  if (summary.worst == HealthState::kHealthy) return {};
+  if (!summary.judged || summary.worst == HealthState::kHealthy) return {};
   if (summary.worst == HealthState::kStarting) return "never started";
   std::vector<std::string> states;
   if (summary.invalid_s > 0.0 || summary.worst == HealthState::kInvalid) {
@@ -72,12 +75,11 @@ std::vector<std::string> health_lines(const RunRecord& run) {
   if (estimators == run.scores.end()) return lines;
   for (const auto& [name, scores] : estimators->items()) {
     const auto health = scores.find("health");
-    if (health == scores.end() ||
-        value_in(*health, "worst", "") == name_of(HealthState::kHealthy)) {
-      continue;
-    }
-    lines.push_back(fmt::format("{} seed {}: {} ({})", name, run.seed,
-                                value_in(*health, "worst", ""), value_in(*health, "reasons", "")));
+    if (health == scores.end()) continue;
+    const std::string worst = value_in(*health, "worst", "");
+    if (worst == name_of(HealthState::kHealthy) || worst == kNotJudged) continue;
+    lines.push_back(fmt::format("{} seed {}: {} ({})", name, run.seed, worst,
+                                value_in(*health, "reasons", "")));
   }
   return lines;
 }

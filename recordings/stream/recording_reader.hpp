@@ -21,6 +21,9 @@ struct RecordingSetup {
   TopicsConfig topics;  ///< as used; empty: none
   SensorRig rig;
   bool has_legs = false;
+  bool has_point_times = false;  ///< else they are derived from the azimuths
+  bool has_rings = false;        ///< of the points, or as rows; else derived from the elevations
+  bool has_orientation = false;  ///< of the IMU
   bool has_truth = false;
   std::optional<double> imu_rate_hz;  ///< from the first stamps
   std::optional<double> leg_rate_hz;  ///< as for the IMU

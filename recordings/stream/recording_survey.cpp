@@ -76,6 +76,8 @@ void RecordingSurvey::add_imu(const MessageView& view) {
   if (!force || !turn || !force->allFinite() || !turn->allFinite()) return;
   if (forces_.size() < kMaxSamples) forces_.push_back(force->norm());
   largest_turn_rate_ = std::max(largest_turn_rate_, turn->norm());
+  EventCounts ignored;
+  oriented_ = oriented_ || imu_orientation(view, ignored).has_value();
 }
 
 bool RecordingSurvey::has_all_topics() const {
@@ -131,6 +133,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
 void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
   std::vector<std::string>& notes = plan.setup.notes;
   plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
+  plan.setup.has_orientation = oriented_;
   adopt_rate(plan.setup.imu_rate_hz, "IMU", plan.setup.rig.imu_rate_hz, notes);
   const double force = upper_median(forces_).value_or(0.0);
   bool gravities = config_.imu_unit == ImuUnit::kGravities;
@@ -230,6 +233,9 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
       return failure(fmt::format("{}: topic '{}': {}", bag.string(), topics_.lidar, cloud_error_));
     }
     plan.cloud = clouds_.decide(config_, plan.setup.notes);
+    plan.setup.has_point_times = plan.cloud.clock != PointClock::kNone;
+    plan.setup.has_rings = plan.cloud.ring_source != RingSource::kNone &&
+                           plan.cloud.ring_source != RingSource::kElevation;
   }
   decide_stamps(plan);
   decide_imu(plan);

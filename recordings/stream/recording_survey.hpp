@@ -64,6 +64,7 @@ class RecordingSurvey {
   CloudSurvey clouds_;
   std::string cloud_error_;         ///< of the first that could not be read
   std::vector<double> forces_;      ///< norms, in the recorded unit
+  bool oriented_ = false;           ///< an IMU message has an orientation
   double largest_turn_rate_ = 0.0;  ///< [rad/s]
   LegSurvey legs_;
   RecordedFrames frames_;

@@ -30,7 +30,8 @@ TEST(HealthSummary, TextNamesStatesAndTheLongestReasonFirst) {
   EXPECT_EQ(text_of(health_summary(rows())),
             "INVALID for 3.0 s, degraded for 2.0 s (no leg odometry 5.0 s, no LiDAR scans 3.0 s)");
   EXPECT_EQ(text_of(health_summary({{0, HealthState::kHealthy, {}, 0.0}})), "");
-  EXPECT_EQ(text_of(health_summary({})), "never started");
+  EXPECT_EQ(text_of(health_summary({{0, HealthState::kStarting, {}, 0.0}})), "never started");
+  EXPECT_EQ(text_of(health_summary({})), "");  // a system that does not judge itself
 }
 
 TEST(HealthSummary, LinesNameTheEstimatorsThatWereNotHealthy) {
@@ -38,6 +39,7 @@ TEST(HealthSummary, LinesNameTheEstimatorsThatWereNotHealthy) {
   run.scores["estimators"]["lio"]["health"] = health_json(health_summary(rows()));
   run.scores["estimators"]["leg"]["health"] =
       health_json(health_summary({{0, HealthState::kHealthy, {}, 0.0}}));
+  run.scores["estimators"]["fast_lio2"]["health"] = health_json(health_summary({}));
   run.scores["estimators"]["older"]["ate_m"] = 0.1;
   EXPECT_EQ(health_lines(run),
             std::vector<std::string>{

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/jobs/results.hpp"
 #include "bench/run/estimate_summary.hpp"
 #include "bench/run/record.hpp"
 #include "bench/run/trajectory_summary.hpp"
 #include "bench/run/validity.hpp"
 #include "tests/bench/short_walk.hpp"
+#include "tests/recordings/stream/robot_recording.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -45,6 +48,34 @@ TEST(Estimate, ThatIsInterruptedIsLabelledSoAndEntersNoAverage) {
     EXPECT_FALSE(is_valid_run(*record));
   }
   EXPECT_TRUE(estimate_until(options.bag, 1e9).scores->estimates.at(0).scores.success);
+}
+
+/// Whether the notes on a bag of an IMU and of clouds, with times of the points or without, state
+/// that the estimator lacks them.
+bool lacks_times(const std::string& estimator, bool timed) {
+  const TemporaryFolder folder;
+  test::RobotRecording robot(folder.path() / "robot.bag");
+  robot.add_imu(test::kStart, 50);
+  for (int k = 0; k < 8; ++k) {
+    const Time stamp = test::kStart + k * 100 * kMillisecond;
+    const float late = timed ? 0.05F : 0.0F;
+    robot.add_cloud(test::RawCloud::of(stamp, {{1, 2, 3, 0}, {2, 1, 3, late}}), stamp);
+  }
+  robot.close();
+  EstimateConfig config;
+  config.run = {estimator};
+  const auto result =
+      estimate(config, {folder.path() / "robot.bag"}, [](const Progress&) { return true; });
+  EXPECT_TRUE(result) << result.error().message;
+  return std::ranges::count(
+             result->setup.notes,
+             estimator + " needs the time of each point, which the recording lacks") == 1;
+}
+
+TEST(Estimate, NotesWhatTheRecordingLacksForAnEstimator) {
+  EXPECT_TRUE(lacks_times("fast_lio2", false));
+  EXPECT_FALSE(lacks_times("fast_lio2", true));
+  EXPECT_FALSE(lacks_times("lio", false));
 }
 
 }  // namespace

@@ -45,6 +45,28 @@ TEST_F(RecordingReaderTest, SeveralSuitableTopicsAreAnErrorThatNamesThem) {
   EXPECT_EQ(test::read_recording(bag(), config).error, "");
 }
 
+TEST_F(RecordingReaderTest, StatesWhichPartsOfCloudsAndImuTheRecordingHolds) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 50);
+  robot.add_clouds(kStart, 8);
+  robot.close();
+  const RecordingSetup timed = test::read_recording(bag()).setup;
+  EXPECT_TRUE(timed.has_point_times);
+  EXPECT_FALSE(timed.has_rings);
+  EXPECT_FALSE(timed.has_orientation);
+}
+
+TEST_F(RecordingReaderTest, ATimeThatIsTheSameForAllPointsIsNone) {
+  RobotRecording robot(bag());
+  robot.add_imu(kStart, 50);
+  for (int k = 0; k < 8; ++k) {
+    const Time stamp = kStart + k * 100 * kMillisecond;
+    robot.add_cloud(RawCloud::of(stamp, {{1, 2, 3, 0}, {2, 1, 3, 0}}), stamp);
+  }
+  robot.close();
+  EXPECT_FALSE(test::read_recording(bag()).setup.has_point_times);
+}
+
 TEST_F(RecordingReaderTest, AMissingTopicIsAnErrorThatListsTheExistingOnes) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 5);
@@ -199,8 +221,7 @@ TEST_F(RecordingReaderTest, TfReplacesAMissingTfStatic) {
 TEST_F(RecordingReaderTest, TopicsWithoutStampsUseRecordTimes) {
   RobotRecording robot(bag());
   for (int k = 0; k < 10; ++k) {
-    robot.add("/imu", imu_type(), kStart + k * 20 * kMillisecond,
-              imu_message({0, 0, "imu"}, {}));
+    robot.add("/imu", imu_type(), kStart + k * 20 * kMillisecond, imu_message({0, 0, "imu"}, {}));
   }
   robot.add_clouds(kStart, 3);
   robot.close();
@@ -253,8 +274,7 @@ TEST_F(RecordingReaderTest, NumbersThatAreNotFiniteAreCounted) {
   ImuSample bad;
   bad.stamp = kStart + kSecond;
   bad.angular_velocity.x() = std::nan("");
-  robot.add("/imu", imu_type(), bad.stamp,
-            imu_message({0, bad.stamp, "imu"}, bad));
+  robot.add("/imu", imu_type(), bad.stamp, imu_message({0, bad.stamp, "imu"}, bad));
   robot.add("/odom", odometry_type(), bad.stamp, odometry(bad.stamp, "base", std::nan("")));
   robot.close();
   const Recording read = test::read_recording(bag());
