@@ -81,6 +81,8 @@ void time_per_scan(benchmark::State& state, const char* name) {
       static_cast<double>(scans), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK_CAPTURE(time_per_scan, aims, "aims")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_per_scan, lio, "lio")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_per_scan, fast_lio2, "fast_lio2")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, loam, "loam")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, a_loam, "a_loam")->Unit(benchmark::kMillisecond);
 

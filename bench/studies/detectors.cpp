@@ -118,6 +118,7 @@ const std::vector<DegeneracyIndex>& degeneracy_indices() {
       {"C_IL_imu_legs", true, "eq. (6) against IMU and legs"},
       {"smallest_eigenvalue", false, "Zhang, Kaess and Singh 2016"},
       {"condition_number", true, "Hinduja, Ho and Kaess 2019"},
+      {"localizability", false, "Tuna, Nubert, Nava, Khattak and Hutter 2023"},
       {"weak_weight", false, "this project: real fraction along the weakest axis"},
       {"points_used", false, "usual practice"}};
   return indices;

@@ -33,7 +33,7 @@ void describe(Fields& f, Points& c) {
   f.integer("every_nth", c.every_nth,
             {"-", in_range(1, 1000), "one return of this many is used, in order of firing",
              kProgram + ", point_filter_num 4"});
-  f.number("blind_distance", c.blind_distance,
+  f.number("min_range", c.min_range,
            {"m", up_to(1e3), "nearer returns are dropped", kProgram + ", blind 2"});
   f.number("voxel", c.voxel,
            {"m", in_range(0.01, 10.0), "edge of the voxels of which each gives its centroid",
@@ -99,7 +99,7 @@ Requirements requirements_of(const Config&) {
 Config published() {
   Config config;
   config.points.every_nth = 4;
-  config.points.blind_distance = 2.0;
+  config.points.min_range = 2.0;
   return config;
 }
 

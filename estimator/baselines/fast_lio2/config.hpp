@@ -22,9 +22,9 @@ struct Start {
 
 /// Which returns are used.
 struct Points {
-  int every_nth = 3;            ///< returns, in order of firing
-  double blind_distance = 0.5;  ///< nearer ones are dropped [m]
-  double voxel = 0.5;           ///< edge; the centroid of each is matched and mapped [m]
+  int every_nth = 3;       ///< returns, in order of firing
+  double min_range = 0.5;  ///< nearer ones are dropped [m]
+  double voxel = 0.5;      ///< edge; the centroid of each is matched and mapped [m]
 };
 
 /// Association of points with planes of the map, and the weight of a residual.

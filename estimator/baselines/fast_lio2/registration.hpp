@@ -47,7 +47,7 @@ class Registration {
   Registration(std::span<const Eigen::Vector3f> points, const PointMap& map,
                const Residuals& residuals, bool estimate_extrinsic);
 
-  /// The residuals at `x`. With `search`, neighbours are looked up anew; without, the last ones
+  /// The residuals at `x`. With `search`, neighbours are looked up again; without, the last ones
   /// stay, and a point that was left out stays left out.
   const ScanResiduals& evaluate(const State& x, bool search);
 

@@ -23,10 +23,10 @@ const Knot* knot_before(std::span<const Knot> knots, Time stamp) {
 std::vector<int> selected_points(const LidarScan& scan, const Points& config) {
   std::vector<int> indices;
   const auto step = static_cast<std::size_t>(config.every_nth);
-  const auto blind = static_cast<float>(config.blind_distance);
+  const auto nearest = static_cast<float>(config.min_range);
   for (std::size_t i = 0; i < scan.points.size(); i += step) {
     const float range = scan.points[i].position.norm();
-    if (range > blind && range < kMaxRange) indices.push_back(static_cast<int>(i));
+    if (range > nearest && range < kMaxRange) indices.push_back(static_cast<int>(i));
   }
   return indices;
 }

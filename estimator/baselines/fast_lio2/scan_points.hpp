@@ -20,7 +20,7 @@ struct Knot {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< likewise, of the body in the world
 };
 
-/// One return of every n that is not blind, as indices into `scan`.
+/// One return of every n that is not too near, as indices into `scan`.
 std::vector<int> selected_points(const LidarScan& scan, const Points& config);
 
 /// The time that the state is estimated at: that of the last point used, so a sample of the IMU at

@@ -144,7 +144,7 @@ TEST_F(FastLio2InABox, PointsThatAreNoNumbersChangeNothing) {
   EXPECT_LT(largest_error(result), 0.1);
 }
 
-TEST_F(FastLio2InABox, APublishedBlindDistanceLeavesFewPoints) {
+TEST_F(FastLio2InABox, ThePublishedMinimumRangeLeavesFewPoints) {
   const EstimatorResult corridor = run(Config());
   const EstimatorResult published = run(fast_lio2::published());
   const std::size_t last = corridor.diagnostics.scans.size() - 1;

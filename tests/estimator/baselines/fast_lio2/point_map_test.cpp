@@ -82,7 +82,7 @@ TEST_P(FastLio2PointMap, AVoxelKeepsThePointNearestItsCentre) {
 
 INSTANTIATE_TEST_SUITE_P(Voxels, FastLio2PointMap, ::testing::Values(0.2, 0.5, 1.0));
 
-TEST(FastLio2PointMap, PointsAddedUncheckedLeaveWhenTheirVoxelIsFilledAnew) {
+TEST(FastLio2PointMap, PointsAddedUncheckedLeaveWhenTheirVoxelIsFilledAgain) {
   PointMap map(1.0);
   map.add({0.1F, 0.1F, 0.1F});
   map.add({0.9F, 0.9F, 0.9F});

@@ -18,16 +18,15 @@ LidarPoint point_at(const Eigen::Vector3f& position, Duration offset) {
   return {.position = position, .time_offset_ns = static_cast<std::int32_t>(offset)};
 }
 
-TEST(FastLio2Points, EveryNthThatIsNotBlindIsSelected) {
+TEST(FastLio2Points, EveryNthThatIsFarEnoughIsSelected) {
   std::vector<LidarPoint> points;
   for (int i = 0; i < 12; ++i) {
     points.push_back(point_at({i < 6 ? 0.4F : 4.0F, 0.0F, 0.0F}, i));
   }
   points[9].position.x() = std::numeric_limits<float>::quiet_NaN();
   const LidarScan scan = scan_of(std::move(points));
-  EXPECT_EQ(selected_points(scan, {.every_nth = 3, .blind_distance = 0.5}), (std::vector<int>{6}));
-  EXPECT_EQ(selected_points(scan, {.every_nth = 3, .blind_distance = 0.1}),
-            (std::vector<int>{0, 3, 6}));
+  EXPECT_EQ(selected_points(scan, {.every_nth = 3, .min_range = 0.5}), (std::vector<int>{6}));
+  EXPECT_EQ(selected_points(scan, {.every_nth = 3, .min_range = 0.1}), (std::vector<int>{0, 3, 6}));
 }
 
 TEST(FastLio2Points, TheScanEndsWithItsLastPointUnlessThePointsEndEarly) {
