@@ -9,6 +9,7 @@
 #include "estimator/aims/leg_dead_reckoning.hpp"
 #include "estimator/aims/presets.hpp"
 #include "estimator/baselines/fast_lio2/fast_lio2.hpp"
+#include "estimator/baselines/lego_loam/lego_loam.hpp"
 #include "estimator/baselines/loam/loam.hpp"
 
 namespace aims {
@@ -35,6 +36,11 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
                                   [] { return loam::Config(); }));
   all.push_back(
       entry<loam::Loam>("a_loam", "A-LOAM, the published program without IMU", loam::a_loam));
+  all.push_back(entry<lego_loam::LegoLoam>(
+      "lego_loam", "LeGO-LOAM without IMU, set for a narrow corridor", lego_loam::corridor));
+  all.push_back(entry<lego_loam::LegoLoam>("lego_loam_published",
+                                           "LeGO-LOAM without IMU, with its published defaults",
+                                           [] { return lego_loam::Config(); }));
 }
 
 std::vector<EstimatorEntry> entries() {

@@ -8,8 +8,6 @@
 namespace aims::features {
 namespace {
 
-enum class Label { kLessFlat, kLessSharp, kSharp };
-
 float squared_gap(const FeatureCloud& ring, int a, int b) {
   return (ring[a].position - ring[b].position).squaredNorm();
 }
@@ -21,88 +19,20 @@ bool occludes(const Eigen::Vector3f& near, const Eigen::Vector3f& far, double ra
   return (near - far * (range / far.norm())).norm() / range < ratio;
 }
 
-/// The choice of features on one ring.
-class RingSelection {
- public:
-  RingSelection(const FeatureCloud& ring, const RingFeatureConfig& config)
-      : ring_(ring),
-        config_(config),
-        curvature_(ring_curvature(ring, config.half_window)),
-        unavailable_(config.reject_unreliable ? unreliable_points(ring, config)
-                                              : std::vector<bool>(ring.size())),
-        labels_(ring.size(), Label::kLessFlat) {}
-
-  /// Points `begin` to `end`, without the last.
-  void select_sector(int begin, int end, RingFeatures& features) {
-    order_.clear();
-    for (int i = begin; i < end; ++i) order_.push_back(i);
-    std::sort(order_.begin(), order_.end(), [this](int a, int b) {
-      return std::pair(curvature_[a], a) < std::pair(curvature_[b], b);
-    });
-    select_edges(features);
-    select_flat(features);
-    for (int i = begin; i < end; ++i) {
-      if (labels_[i] == Label::kLessFlat) less_flat_.push_back(ring_[i]);
-    }
+RingCandidates candidates_of(FeatureCloud ring, const RingFeatureConfig& config) {
+  RingCandidates candidates;
+  const std::size_t count = ring.size();
+  candidates.curvature = ring_curvature(ring, config.selection.half_window);
+  candidates.unavailable =
+      config.reject_unreliable ? unreliable_points(ring, config) : std::vector<bool>(count);
+  candidates.joined.resize(count);
+  for (int i = 0; i + 1 < static_cast<int>(count); ++i) {
+    candidates.joined[i] = squared_gap(ring, i + 1, i) <= config.max_gap_squared;
   }
-
-  const FeatureCloud& less_flat() const { return less_flat_; }
-
- private:
-  void select_edges(RingFeatures& features) {
-    int count = 0;
-    for (auto i = order_.rbegin(); i != order_.rend() && count < config_.max_less_sharp; ++i) {
-      if (unavailable_[*i] || curvature_[*i] <= config_.curvature) continue;
-      const bool sharp = ++count <= config_.max_sharp;
-      labels_[*i] = sharp ? Label::kSharp : Label::kLessSharp;
-      if (sharp) features.sharp.push_back(ring_[*i]);
-      features.less_sharp.push_back(ring_[*i]);
-      exclude_neighbors(*i);
-    }
-  }
-
-  void select_flat(RingFeatures& features) {
-    int count = 0;
-    for (auto i = order_.begin(); i != order_.end() && count < config_.max_flat; ++i) {
-      if (unavailable_[*i] || curvature_[*i] >= config_.curvature) continue;
-      ++count;
-      features.flat.push_back(ring_[*i]);
-      exclude_neighbors(*i);
-    }
-  }
-
-  void exclude_neighbors(int chosen) {
-    unavailable_[chosen] = true;
-    for (const int step : {1, -1}) {
-      for (int n = 1; n <= config_.half_window; ++n) {
-        const int i = chosen + step * n;
-        if (squared_gap(ring_, i, i - step) > config_.max_gap_squared) break;
-        unavailable_[i] = true;
-      }
-    }
-  }
-
-  const FeatureCloud& ring_;
-  const RingFeatureConfig& config_;
-  std::vector<float> curvature_;
-  std::vector<bool> unavailable_;  ///< rejected, chosen, or beside a chosen point
-  std::vector<Label> labels_;
-  std::vector<int> order_;  ///< of the sector, by curvature
-  FeatureCloud less_flat_;
-};
-
-void select_ring(const FeatureCloud& ring, const RingFeatureConfig& config,
-                 RingFeatures& features) {
-  const int begin = config.half_window;
-  const int end = static_cast<int>(ring.size()) - config.half_window - 1;
-  if (end - begin < config.sectors) return;
-  RingSelection selection(ring, config);
-  for (int j = 0; j < config.sectors; ++j) {
-    selection.select_sector(begin + (end - begin) * j / config.sectors,
-                            begin + (end - begin) * (j + 1) / config.sectors, features);
-  }
-  const FeatureCloud centroids = voxel_centroids(selection.less_flat(), config.less_flat_voxel);
-  features.less_flat.insert(features.less_flat.end(), centroids.begin(), centroids.end());
+  candidates.may_be_edge.assign(count, true);
+  candidates.may_be_flat.assign(count, true);
+  candidates.points = std::move(ring);
+  return candidates;
 }
 
 }  // namespace
@@ -110,20 +40,9 @@ void select_ring(const FeatureCloud& ring, const RingFeatureConfig& config,
 void describe(Fields& f, RingFeatureConfig& c) {
   f.number("min_range", c.min_range, {"m", up_to(1e4), "nearer returns are ignored"});
   f.number("max_range", c.max_range, {"m", positive_up_to(1e4), "farther returns are ignored"});
-  f.integer(
-      "half_window", c.half_window,
-      {"-", in_range(1, 50), "ring neighbours on each side in the curvature", "LOAM, eq. (1)"});
-  f.integer("sectors", c.sectors, {"-", in_range(1, 100), "parts of a ring with equal returns"});
-  f.integer("max_sharp", c.max_sharp, {"-", in_range(0, 1000), "sharp edges per sector at most"});
-  f.integer("max_less_sharp", c.max_less_sharp,
-            {"-", in_range(0, 1000), "edges per sector at most, the sharp ones among them"});
-  f.integer("max_flat", c.max_flat, {"-", in_range(0, 1000), "flat points per sector at most"});
-  f.number("curvature", c.curvature,
-           {"m^2", positive_up_to(1e6), "edges have more curvature, flat points less"});
+  f.group("selection", c.selection);
   f.number("max_gap_squared", c.max_gap_squared,
            {"m^2", up_to(1e6), "neighbours of a feature up to a larger gap are not chosen"});
-  f.number("less_flat_voxel", c.less_flat_voxel,
-           {"m", in_range(0.01, 10.0), "less flat points are averaged in such voxels, per ring"});
   f.flag("reject_unreliable", c.reject_unreliable,
          {"", any(), "reject returns at occlusions and on nearly parallel surfaces"});
   f.number("occlusion_gap_squared", c.occlusion_gap_squared,
@@ -149,7 +68,7 @@ std::vector<float> ring_curvature(const FeatureCloud& ring, int half_window) {
 
 std::vector<bool> unreliable_points(const FeatureCloud& ring, const RingFeatureConfig& config) {
   const int count = static_cast<int>(ring.size());
-  const int window = config.half_window;
+  const int window = config.selection.half_window;
   std::vector<bool> unreliable(ring.size());
   for (int i = window; i < count - window - 1; ++i) {
     const Eigen::Vector3f& point = ring[i].position;
@@ -171,9 +90,9 @@ std::vector<bool> unreliable_points(const FeatureCloud& ring, const RingFeatureC
 
 RingFeatures ring_features(const LidarScan& scan, const RingFeatureConfig& config) {
   RingFeatures features;
-  for (const FeatureCloud& ring : ring_clouds(scan, config.min_range, config.max_range)) {
+  for (FeatureCloud& ring : ring_clouds(scan, config.min_range, config.max_range)) {
     features.points += static_cast<int>(ring.size());
-    select_ring(ring, config, features);
+    select_features(candidates_of(std::move(ring), config), config.selection, features);
   }
   return features;
 }

@@ -5,40 +5,25 @@
 
 #include "core/config.hpp"
 #include "core/measurements.hpp"
-#include "estimator/baselines/features/feature_point.hpp"
+#include "estimator/baselines/features/feature_selection.hpp"
 
 namespace aims::features {
 
 /// Edge and plane features by the curvature along each ring (Zhang and Singh, LOAM, RSS 2014,
 /// section V-A, with the thresholds of the published code).
 struct RingFeatureConfig {
-  double min_range = 0.3;         ///< nearer returns are ignored [m]
-  double max_range = 200.0;       ///< farther returns are ignored [m]
-  int half_window = 5;            ///< ring neighbours on each side that the curvature sums
-  int sectors = 6;                ///< of equal numbers of returns, per ring
-  int max_sharp = 2;              ///< sharp edges per sector
-  int max_less_sharp = 20;        ///< edges per sector, the sharp ones among them
-  int max_flat = 4;               ///< flat points per sector
-  double curvature = 0.1;         ///< edges have more, flat points less [m^2]
-  double max_gap_squared = 0.05;  ///< neighbours up to a larger gap leave the choice [m^2]
-  double less_flat_voxel = 0.2;   ///< less flat points are averaged in voxels of it, per ring [m]
-  bool reject_unreliable = true;  ///< returns beside an occlusion or on a nearly parallel surface
+  double min_range = 0.3;    ///< nearer returns are ignored [m]
+  double max_range = 200.0;  ///< farther returns are ignored [m]
+  SelectionConfig selection;
+  double max_gap_squared = 0.05;       ///< neighbours up to a larger gap leave the choice [m^2]
+  bool reject_unreliable = true;       ///< returns at an occlusion or on a nearly parallel surface
   double occlusion_gap_squared = 0.1;  ///< gap between two returns that may be an occlusion [m^2]
   double occlusion_ratio = 0.1;        ///< lateral gap over range below which it is one
-  double parallel_ratio = 2e-4;  ///< squared gaps over squared range on both sides above which
-                                 ///< the beam is nearly parallel to the surface
+  double parallel_ratio = 2e-4;        ///< squared gaps over squared range, on both sides, above
+                                       ///< which the beam is nearly parallel to the surface
 };
 
 void describe(Fields& fields, RingFeatureConfig& config);
-
-/// Features of a scan, each cloud in order of rings.
-struct RingFeatures {
-  int points = 0;  ///< finite returns in range
-  FeatureCloud sharp;
-  FeatureCloud less_sharp;  ///< the sharp ones among them
-  FeatureCloud flat;
-  FeatureCloud less_flat;  ///< voxel centroids of all that is no edge
-};
 
 /// c_i = |sum over the neighbours of (p_j - p_i)|^2 of each point of a ring [m^2]; 0 where the ring
 /// has fewer than `half_window` neighbours on one side.

@@ -18,8 +18,6 @@ class ScanToScan {
   const Pose& pose() const { return T_odom_lidar_; }
 
  private:
-  features::FeatureMatches match(const features::RingFeatures& scan, const Pose& motion) const;
-
   ScanToScanConfig config_;
   features::RingReference edges_;
   features::RingReference planes_;
@@ -27,9 +25,5 @@ class ScanToScan {
   Pose motion_;  ///< T_laststart_end: from the end of the last scan to that of the present one
   Pose T_odom_lidar_;
 };
-
-/// Moves points measured during a scan with the motion T_start_end to where they would have been
-/// measured at its end.
-void move_to_scan_end(features::FeatureCloud& cloud, const Pose& motion);
 
 }  // namespace aims::loam

@@ -83,8 +83,8 @@ TEST(RingReference, LinesAndPlanesPassThroughTheNearestOfTheirRings) {
     const FeaturePoint* c = nearest_of(cloud, query, [&](const FeaturePoint& each) {
       return each.ring != a->ring && std::abs(each.ring - a->ring) <= config.ring_reach;
     });
-    const auto line = reference.line_near(query, config);
-    const auto plane = reference.plane_near(query, config);
+    const auto line = reference.line_near(query, 1, config);
+    const auto plane = reference.plane_near(query, 1, config);
     ASSERT_TRUE(line && plane) << "seed " << kSeed;
     const auto off_line = [&](const FeaturePoint* point) {
       return line->direction.cross(point->position.cast<double>() - line->origin).norm();
@@ -100,17 +100,29 @@ TEST(RingReference, LinesAndPlanesPassThroughTheNearestOfTheirRings) {
 TEST(RingReference, FartherFeaturesAreNoMatches) {
   RingReference reference;
   reference.set(random_rings(4, 10));
-  EXPECT_FALSE(reference.line_near({40.0F, 0.0F, 0.0F}, RingMatchConfig()));
-  EXPECT_FALSE(reference.plane_near({40.0F, 0.0F, 0.0F}, RingMatchConfig()));
+  EXPECT_FALSE(reference.line_near({40.0F, 0.0F, 0.0F}, 1, RingMatchConfig()));
+  EXPECT_FALSE(reference.plane_near({40.0F, 0.0F, 0.0F}, 1, RingMatchConfig()));
   reference.set({});
-  EXPECT_FALSE(reference.line_near(Eigen::Vector3f::Zero(), RingMatchConfig()));
+  EXPECT_FALSE(reference.line_near(Eigen::Vector3f::Zero(), 1, RingMatchConfig()));
 }
 
 TEST(RingReference, OneRingHasNeitherLinesNorPlanes) {
   RingReference reference;
   reference.set(random_rings(1, 50));
-  EXPECT_FALSE(reference.line_near(Eigen::Vector3f::Zero(), RingMatchConfig()));
-  EXPECT_FALSE(reference.plane_near(Eigen::Vector3f::Zero(), RingMatchConfig()));
+  EXPECT_FALSE(reference.line_near(Eigen::Vector3f::Zero(), 1, RingMatchConfig()));
+  EXPECT_FALSE(reference.plane_near(Eigen::Vector3f::Zero(), 1, RingMatchConfig()));
+}
+
+TEST(RingReference, ATruncatedSearchEndsWithTheNearestFeature) {
+  const FeatureCloud cloud = random_rings(8, 30);
+  RingMatchConfig config;
+  config.truncated_search = true;
+  RingReference reference;
+  reference.set(cloud);
+  const FeaturePoint& lowest = cloud.front();
+  EXPECT_FALSE(reference.line_near(lowest.position, 1, config)) << "seed " << kSeed;
+  EXPECT_TRUE(reference.line_near(lowest.position, cloud.size(), config));
+  EXPECT_TRUE(reference.line_near(cloud.back().position, 1, config));
 }
 
 TEST(MapFits, ALineNeedsOneLongAxis) {

@@ -63,7 +63,7 @@ TEST(RingFeatures, FlatPointsLieOnWallsAwayFromTheirEdges) {
 }
 
 TEST(RingFeatures, CountsAreBoundedPerSector) {
-  const RingFeatureConfig config;
+  const SelectionConfig config;
   const RingFeatures features = features_of_room();
   const std::size_t sectors = 16U * static_cast<std::size_t>(config.sectors);
   EXPECT_LE(features.sharp.size(), sectors * static_cast<std::size_t>(config.max_sharp));

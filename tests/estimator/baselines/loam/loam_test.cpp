@@ -100,7 +100,7 @@ TEST(LoamScanToScan, MovedPointsLieWhereTheScanEnds) {
   for (const LidarPoint& point : scan_in(kRoom, kStart, kMotion, {.columns = 60}).points) {
     cloud.push_back({point.position, static_cast<float>(point.time_offset_ns) / 1e8F, point.ring});
   }
-  move_to_scan_end(cloud, kMotion);
+  features::move_to_scan_end(cloud, kMotion);
   for (const features::FeaturePoint& point : cloud) {
     const Eigen::Vector3d p = kStart * kMotion * point.position.cast<double>();
     const double off_wall =

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/baselines/lego_loam/config.hpp"
+
+namespace aims::lego_loam {
+
+void describe(Fields& f, OdometryConfig& c) {
+  f.integer("min_edges", c.min_edges,
+            {"-", in_range(0, 1000000), "less sharp features that the last scan needs"});
+  f.integer("min_planes", c.min_planes,
+            {"-", in_range(0, 1000000), "less flat features that the last scan needs"});
+  f.group("matching", c.matching);
+  f.group("solver", c.solver);
+}
+
+void describe(Fields& f, MappingConfig& c) {
+  f.integer("every_nth", c.every_nth,
+            {"-", in_range(1, 100), "one scan in this many is offered to the map"});
+  f.number("min_interval", c.min_interval,
+           {"s", in_range(0.0, 100.0), "between two scans that are registered to the map"});
+  f.number("edge_voxel", c.edge_voxel,
+           {"m", in_range(0.01, 10.0), "edge points are averaged in such voxels"});
+  f.number("plane_voxel", c.plane_voxel,
+           {"m", in_range(0.01, 10.0), "plane points are averaged in such voxels"});
+  f.number("outlier_voxel", c.outlier_voxel,
+           {"m", in_range(0.01, 10.0), "outliers are averaged in such voxels"});
+  f.number("keyframe_distance", c.keyframe_distance,
+           {"m", up_to(1e4), "a keyframe is kept after this distance"});
+  f.number("submap_radius", c.submap_radius,
+           {"m", positive_up_to(1e4), "keyframes nearer than this make the map"});
+  f.number("keyframe_voxel", c.keyframe_voxel,
+           {"m", in_range(0.01, 1e3), "one keyframe is used per voxel of their positions"});
+  f.group("matching", c.matching);
+  f.group("solver", c.solver);
+}
+
+void describe(Fields& f, Config& c) {
+  f.group("image", c.image);
+  f.group("features", c.features);
+  f.group("odometry", c.odometry);
+  f.group("mapping", c.mapping);
+  f.group("queue", c.queue);
+}
+
+Requirements requirements_of(const Config& config) {
+  return {.lidar = true,
+          .rings = true,
+          .point_times = config.features.point_times == PointTimes::kMeasured};
+}
+
+Config corridor() {
+  Config config;
+  config.image.min_range = 0.5;
+  return config;
+}
+
+}  // namespace aims::lego_loam

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/measurements.hpp"
+#include "estimator/baselines/features/feature_point.hpp"
+
+namespace aims::lego_loam {
+
+/// Range image, ground and segments (Shan and Englot, LeGO-LOAM, IROS 2018, section III-B).
+struct RangeImageConfig {
+  double min_range = 1.0;           ///< nearer returns are ignored [m]
+  double max_range = 200.0;         ///< farther returns are ignored [m]
+  int rows = 16;                    ///< one per ring
+  int columns = 1800;               ///< of one turn
+  double row_angle_deg = 2.0;       ///< between two rings [deg]
+  int ground_rows = 7;              ///< pairs of rings from the lowest that may see the ground
+  double ground_slope_deg = 10.0;   ///< steepest ground between two rings [deg]
+  double segment_angle_deg = 60.0;  ///< neighbours of a larger angle are one object [deg]
+  int large_segment = 30;           ///< returns of a segment that is kept however thin
+  int small_segment = 5;            ///< returns of a segment that is kept if it spans rings
+  int small_segment_rows = 3;       ///< rings that it spans
+  int stride = 5;                   ///< one column in this many keeps ground and outliers
+};
+
+void describe(Fields& fields, RangeImageConfig& config);
+
+/// Azimuth of a point, from +x to +y [rad].
+double azimuth_of(const Eigen::Vector3f& position);
+
+/// What a cell of the range image shows.
+enum class CellKind : std::uint8_t { kEmpty, kUnlabelled, kGround, kSegment, kOutlier };
+
+/// Returns of a scan by ring and azimuth; columns follow the azimuth, the first is at -180 degrees.
+class RangeImage {
+ public:
+  RangeImage(const LidarScan& scan, const RangeImageConfig& config);
+
+  int rows() const { return config_.rows; }
+  int columns() const { return config_.columns; }
+  /// Returns in range.
+  int count() const { return count_; }
+  CellKind kind(int row, int column) const { return kinds_[cell(row, column)]; }
+  /// Of a cell that is not empty, LiDAR axes.
+  const features::FeaturePoint& point(int row, int column) const {
+    return points_[cell(row, column)];
+  }
+  float range(int row, int column) const { return ranges_[cell(row, column)]; }  ///< [m]
+  double first_azimuth() const { return first_azimuth_; }  ///< of the scan's first return [rad]
+  double last_azimuth() const { return last_azimuth_; }    ///< of its last return [rad]
+
+ private:
+  std::size_t cell(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(config_.columns) +
+           static_cast<std::size_t>(column);
+  }
+  void project(const LidarScan& scan);
+  void label_ground();
+  bool level(int row, int column) const;
+  void label_segments();
+  void grow_segment(int row, int column);
+  void visit_neighbors(std::size_t from, std::vector<std::size_t>& segment);
+  bool same_object(std::size_t a, std::size_t b, double angle) const;
+  bool is_segment(const std::vector<std::size_t>& cells) const;
+
+  RangeImageConfig config_;
+  int count_ = 0;
+  double first_azimuth_ = 0.0;
+  double last_azimuth_ = 0.0;
+  std::vector<features::FeaturePoint> points_;
+  std::vector<float> ranges_;
+  std::vector<CellKind> kinds_;
+};
+
+}  // namespace aims::lego_loam

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/baselines/lego_loam/scan_series.hpp"
+
+#include <array>
+#include <limits>
+
+namespace aims::lego_loam {
+namespace {
+
+/// A series and the quantity that it reports.
+struct Series {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+  double (*value)(const ScanReport&);
+};
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double smallest_eigenvalue(const features::SolverResult& result) {
+  return result.iterations == 0 ? kNone : result.directions.smallest_eigenvalue;
+}
+
+int iterations(const ScanReport& scan) {
+  const int mapping = scan.mapping ? scan.mapping->iterations : 0;
+  return scan.odometry.ground.iterations + scan.odometry.edges.iterations + mapping;
+}
+
+constexpr std::array kSeries = {
+    Series{"points_in", "-", "finite points in range",
+           [](const ScanReport& s) { return double(s.points_in); }},
+    Series{"ground_points", "-", "returns of the ground",
+           [](const ScanReport& s) { return double(s.ground); }},
+    Series{"segmented_points", "-", "returns of kept segments",
+           [](const ScanReport& s) { return double(s.segmented); }},
+    Series{"iterations", "-", "of odometry and mapping; 0: no update",
+           [](const ScanReport& s) { return double(iterations(s)); }},
+    Series{"ground_matches", "-", "planes of the last scan, first step of the odometry",
+           [](const ScanReport& s) { return double(s.odometry.ground.planes); }},
+    Series{"edge_matches", "-", "lines of the last scan, second step of the odometry",
+           [](const ScanReport& s) { return double(s.odometry.edges.lines); }},
+    Series{"ground_smallest_eigenvalue", "-",
+           "smallest eigenvalue of A^T A in the first iteration: roll, pitch, height",
+           [](const ScanReport& s) { return smallest_eigenvalue(s.odometry.ground); }},
+    Series{"edge_smallest_eigenvalue", "-",
+           "smallest eigenvalue of A^T A in the first iteration: heading, horizontal position",
+           [](const ScanReport& s) { return smallest_eigenvalue(s.odometry.edges); }},
+    Series{"odometry_removed_directions", "-", "degenerate directions that do not move, both steps",
+           [](const ScanReport& s) {
+             return double(s.odometry.ground.directions.removed +
+                           s.odometry.edges.directions.removed);
+           }},
+    Series{"mapping_matches", "-", "lines and planes of the map; NaN: scan not registered",
+           [](const ScanReport& s) {
+             return s.mapping ? double(s.mapping->lines + s.mapping->planes) : kNone;
+           }},
+    Series{"mapping_smallest_eigenvalue", "-",
+           "smallest eigenvalue of A^T A in the first iteration, scan to map",
+           [](const ScanReport& s) { return s.mapping ? smallest_eigenvalue(*s.mapping) : kNone; }},
+    Series{"mapping_removed_directions", "-", "degenerate directions that do not move",
+           [](const ScanReport& s) {
+             return s.mapping ? double(s.mapping->directions.removed) : kNone;
+           }},
+};
+
+}  // namespace
+
+std::vector<SeriesInfo> scan_series() {
+  std::vector<SeriesInfo> infos;
+  for (const Series& each : kSeries) infos.push_back({each.name, each.unit, each.meaning});
+  return infos;
+}
+
+ScanRow row_of(const ScanReport& scan, Time stamp) {
+  ScanRow row{stamp, std::nullopt, {}};
+  for (const Series& each : kSeries) row.values.push_back(each.value(scan));
+  return row;
+}
+
+}  // namespace aims::lego_loam
