@@ -5,8 +5,8 @@ namespace aims::lego_loam {
 namespace {
 
 // Coordinates of the pose that each step moves; z is up.
-const features::PoseCoordinates kRollPitchHeight = {0, 1, 5};
-const features::PoseCoordinates kHeadingAndPlane = {2, 3, 4};
+features::PoseCoordinates roll_pitch_height() { return {0, 1, 5}; }
+features::PoseCoordinates heading_and_plane() { return {2, 3, 4}; }
 
 }  // namespace
 
@@ -24,8 +24,9 @@ OdometryResult TwoStepOdometry::solve(const features::RingFeatures& scan) const 
   const auto lines = [&](const Pose& motion) -> features::FeatureMatches {
     return {line_matches(scan.sharp, motion, true, edges_, config_.matching), {}};
   };
-  result.ground = features::solve_pose(motion_, planes, config_.solver, kRollPitchHeight);
-  result.edges = features::solve_pose(result.ground.pose, lines, config_.solver, kHeadingAndPlane);
+  result.ground = features::solve_pose(motion_, planes, config_.solver, roll_pitch_height());
+  result.edges =
+      features::solve_pose(result.ground.pose, lines, config_.solver, heading_and_plane());
   return result;
 }
 

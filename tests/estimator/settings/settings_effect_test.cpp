@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -140,12 +141,21 @@ std::vector<RecordedStream> streams_with(int columns) {
   return {stream, testing::started_in_motion(stream)};
 }
 
-/// The streams for an estimator, simulated once per process. The curvature along a ring needs
-/// returns that lie close together.
-const std::vector<RecordedStream>& streams_for(const EstimatorConfig& config) {
-  static const std::vector<RecordedStream> sparse = streams_with(150);
-  static const std::vector<RecordedStream> dense = streams_with(600);
-  return config.requirements().rings ? dense : sparse;
+/// Returns per ring that an estimator needs: the curvature along a ring and a range image need them
+/// close together.
+int columns_for(EstimatorConfig& config) {
+  const Fields fields = fields_of(config);
+  if (const Parameter* columns = fields.find("image.columns")) return std::stoi(columns->text());
+  return config.requirements().rings ? 600 : 150;
+}
+
+/// The streams for an estimator, simulated once per process.
+const std::vector<RecordedStream>& streams_for(EstimatorConfig& config) {
+  static std::map<int, std::vector<RecordedStream>> all;
+  const int columns = columns_for(config);
+  const auto [streams, is_new] = all.try_emplace(columns);
+  if (is_new) streams->second = streams_with(columns);
+  return streams->second;
 }
 
 std::unique_ptr<EstimatorConfig> config_of(const std::string& name) {
