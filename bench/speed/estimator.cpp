@@ -85,6 +85,7 @@ BENCHMARK_CAPTURE(time_per_scan, lio, "lio")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, fast_lio2, "fast_lio2")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, loam, "loam")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, a_loam, "a_loam")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_per_scan, lego_loam, "lego_loam")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace aims
