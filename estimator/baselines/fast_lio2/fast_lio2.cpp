@@ -31,6 +31,14 @@ ErrorMatrix start_covariance(const Start& config) {
   return variances.asDiagonal();
 }
 
+/// Further from the start the state is of no use, and indices of voxels would overflow [m].
+constexpr double kMaxDistance = 1e6;
+
+bool is_usable(const Belief& belief) {
+  return is_finite(belief.state) && belief.covariance.allFinite() &&
+         belief.state.T_world_body.translation.norm() < kMaxDistance;
+}
+
 std::vector<Eigen::Vector3f> in_world(const State& x, const std::vector<Eigen::Vector3f>& points) {
   std::vector<Eigen::Vector3f> moved;
   moved.reserve(points.size());
@@ -137,6 +145,10 @@ void FastLio2::process(const LidarScan& scan) {
     return;
   }
   predict(samples, scan.stamp, end);
+  if (!is_usable(belief_)) {
+    ++result_.counts["filter.rejected"];
+    return;
+  }
   queue_.imu().forget_before(end - kSecond);
   const std::vector<Eigen::Vector3f> points =
       voxel_centroids(deskewed(scan, indices, knots_, belief_.state), config_.points.voxel);
@@ -162,7 +174,7 @@ void FastLio2::match(const std::vector<Eigen::Vector3f>& points, Time stamp) {
       },
       config_.residuals.variance, config_.iterations);
   if (update.iterations == 0) ++result_.counts["lidar.no_update"];
-  if (!is_finite(update.belief.state) || !update.belief.covariance.allFinite()) {
+  if (!is_usable(update.belief)) {
     ++result_.counts["filter.rejected"];
     update = {belief_};
   }

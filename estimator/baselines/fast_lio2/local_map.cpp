@@ -2,11 +2,12 @@
 #include "estimator/baselines/fast_lio2/local_map.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace aims::fast_lio2 {
 namespace {
 
-/// Fraction of the free way that a move of the cube takes, as published.
+/// Fraction of the free distance that the cube moves, as published.
 constexpr double kMove = 0.9 * 0.5;
 
 }  // namespace

@@ -10,6 +10,10 @@ namespace {
 
 constexpr int kVoxelsPerCellLog2 = 2;  ///< along an edge
 
+/// Shells of cells that are searched around a query before all points are: far from the map there
+/// are more empty cells than points.
+constexpr int kMaxShell = 6;
+
 /// Allowance for the rounding of cell bounds, so that no cell is left out for it [-].
 constexpr float kBoundFactor = 0.999F;
 
@@ -33,6 +37,15 @@ void insert(const Eigen::Vector3f& point, float squared_distance, Neighbours& fo
 float worst(const Neighbours& found) {
   return found.count == kNeighbours ? found.squared_distances.back()
                                     : std::numeric_limits<float>::infinity();
+}
+
+/// Adds the points that are nearer than the farthest of the list.
+void add_nearer(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& query,
+                Neighbours& found) {
+  for (const Eigen::Vector3f& point : points) {
+    const float distance = (point - query).squaredNorm();
+    if (distance < worst(found)) insert(point, distance, found);
+  }
 }
 
 }  // namespace
@@ -111,10 +124,7 @@ void PointMap::search_cell(const Eigen::Vector3f& query, const Eigen::Array3i& i
   if (kBoundFactor * outside.matrix().squaredNorm() >= worst(found)) return;
   const std::int32_t at = index_.find(voxel_key(voxel_index(index)));
   if (at == VoxelHash::kNone) return;
-  for (const Eigen::Vector3f& point : cells_[static_cast<std::size_t>(at)]) {
-    const float distance = (point - query).squaredNorm();
-    if (distance < worst(found)) insert(point, distance, found);
-  }
+  add_nearer(cells_[static_cast<std::size_t>(at)], query, found);
 }
 
 void PointMap::search_shell(const Eigen::Vector3f& query, const Eigen::Array3i& centre, int radius,
@@ -132,22 +142,28 @@ void PointMap::search_shell(const Eigen::Vector3f& query, const Eigen::Array3i& 
   }
 }
 
-Neighbours PointMap::nearest(const Eigen::Vector3f& query) const {
+/// Looks at every point.
+Neighbours PointMap::nearest_of_all(const Eigen::Vector3f& query) const {
   Neighbours found;
-  if (size_ == 0) return found;
+  for (const Cell& cell : cells_) add_nearer(cell, query, found);
+  return found;
+}
+
+Neighbours PointMap::nearest(const Eigen::Vector3f& query) const {
   const Eigen::Array3i centre = cell_index(query);
-  const int first = (lowest_ - centre).max(centre - highest_).max(0).maxCoeff();
   const int last = (highest_ - centre).max(centre - lowest_).maxCoeff();
   const Eigen::Array3f low = centre.cast<float>() * cell_edge_;
   const float inside = (query.array() - low)
                            .min(low + cell_edge_ - query.array())
                            .minCoeff();  // to the nearest face
-  for (int radius = first; radius <= last; ++radius) {
+  Neighbours found;
+  for (int radius = 0; radius <= std::min(last, kMaxShell); ++radius) {
     const float gap = inside + static_cast<float>(radius - 1) * cell_edge_;
-    if (radius > 0 && gap > 0.0F && kBoundFactor * gap * gap >= worst(found)) break;
+    const bool done = radius > 0 && gap > 0.0F && kBoundFactor * gap * gap >= worst(found);
+    if (done) return found;
     search_shell(query, centre, radius, found);
   }
-  return found;
+  return last <= kMaxShell ? found : nearest_of_all(query);
 }
 
 std::vector<Eigen::Vector3f> PointMap::points() const {

@@ -66,6 +66,7 @@ class PointMap {
   Eigen::Array3i cell_index(const Eigen::Vector3f& point) const;
   Cell& cell_of(const Eigen::Vector3f& point);
   Box voxel_box(const Eigen::Vector3f& point) const;
+  Neighbours nearest_of_all(const Eigen::Vector3f& query) const;
   void search_shell(const Eigen::Vector3f& query, const Eigen::Array3i& centre, int radius,
                     Neighbours& found) const;
   void search_cell(const Eigen::Vector3f& query, const Eigen::Array3i& index,

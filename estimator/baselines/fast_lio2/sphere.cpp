@@ -2,6 +2,7 @@
 #include "estimator/baselines/fast_lio2/sphere.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/lie.hpp"
 
@@ -39,7 +40,7 @@ Eigen::Vector2d sphere_minus(const Eigen::Vector3d& to, const Eigen::Vector3d& f
   const double scale = from.norm() * to.norm();
   if (sine < kTiny * scale) {
     // Opposite vectors: any axis of the tangential plane, by half a turn.
-    return cosine > 0.0 ? Eigen::Vector2d::Zero() : Eigen::Vector2d(M_PI, 0.0);
+    return cosine > 0.0 ? Eigen::Vector2d::Zero() : Eigen::Vector2d(std::numbers::pi, 0.0);
   }
   return std::atan2(sine, cosine) / sine * (sphere_basis(from).transpose() * axis);
 }

@@ -144,6 +144,32 @@ TEST_F(FastLio2InABox, PointsThatAreNoNumbersChangeNothing) {
   EXPECT_LT(largest_error(result), 0.1);
 }
 
+TEST_F(FastLio2InABox, AStateThatRunsAwayEndsTheEstimateWithoutAnException) {
+  // Large but allowed forces, and stamps 20 s apart: the position leaves every bound.
+  Duration late = 0;
+  const Time begin = deliveries_.front().arrival + 4 * kSecond;
+  const EstimatorResult result = run(Config(), [&](Delivery& each) {
+    if (each.arrival < begin) return true;
+    if (auto* sample = std::get_if<ImuSample>(&each.measurement)) {
+      sample->specific_force *= 25.0;
+    }
+    if (is_scan(each)) late += 20 * kSecond;
+    each.arrival += late;
+    if (auto* sample = std::get_if<ImuSample>(&each.measurement)) sample->stamp += late;
+    if (is_scan(each)) {
+      LidarScan scan = *std::get<LidarScanPtr>(each.measurement);
+      scan.stamp += late;
+      scan.end += late;
+      each.measurement = std::make_shared<const LidarScan>(scan);
+    }
+    return !is_legs(each);
+  });
+  EXPECT_GT(result.counts.at("filter.rejected"), 0);
+  for (const StampedPose& each : result.trajectory) {
+    EXPECT_TRUE(each.pose.translation.allFinite());
+  }
+}
+
 TEST_F(FastLio2InABox, ThePublishedMinimumRangeLeavesFewPoints) {
   const EstimatorResult corridor = run(Config());
   const EstimatorResult published = run(fast_lio2::published());
