@@ -33,7 +33,7 @@ void nearest_neighbours(benchmark::State& state) {
   }
   const auto queries = corridor_points(4096, 2);
   std::size_t i = 0;
-  std::array<Neighbors, VoxelMap::kHalves> neighbors;
+  std::array<Neighbors, kHalves> neighbors;
   for (auto _ : state) {
     map.nearest(queries[i++ % queries.size()], neighbors);
     benchmark::DoNotOptimize(neighbors);

@@ -120,6 +120,7 @@ const std::vector<DegeneracyIndex>& degeneracy_indices() {
       {"condition_number", true, "Hinduja, Ho and Kaess 2019"},
       {"localizability", false, "Tuna, Nubert, Nava, Khattak and Hutter 2023"},
       {"weak_weight", false, "this project: real fraction along the weakest axis"},
+      {"weak_tilt", false, "this project: tilt of the planes towards the weakest axis"},
       {"points_used", false, "usual practice"}};
   return indices;
 }

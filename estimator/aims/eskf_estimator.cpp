@@ -269,6 +269,7 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
   scan_twist_ = mean_twist(belief_.state, segments_, config_.imu.gravity);
   const ScanMotion motion(belief_.state, segments_,
                           corrected_mount(belief_.state, rig_.T_body_lidar), config_.imu.gravity);
+  selection_.begin(scan);
   selection_.select(scan, config_.lidar.selection_voxel, config_.lidar.max_points, indices_);
   deskew(scan, indices_, motion, match_points_);
   selection_.select(scan, config_.map.insertion_voxel, config_.map.max_insertions, indices_);

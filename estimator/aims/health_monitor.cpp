@@ -72,7 +72,7 @@ void HealthMonitor::scan(const ScanDiagnostics& scan, std::size_t points) {
   average(scan.innovation_position.norm(), position_residual_);
   average(scan.imu_noise.gyro * std::sqrt(kScanInterval), expected_rotation_);
   average(scan.imu_noise.accelerometer * std::pow(kScanInterval, 1.5), expected_position_);
-  weak_scans_ = scan.weak_weight < kFreeDirection ? weak_scans_ + 1 : 0;
+  weak_scans_ = scan.weak_tilt < kFreeTilt ? weak_scans_ + 1 : 0;
 }
 
 bool HealthMonitor::lidar_corrects(Time now, const InputMonitor& inputs) const {

@@ -66,7 +66,7 @@ class HealthMonitor {
   double expected_position_ = 0.0;  ///< likewise [m]
   double matched_ = 1.0;            ///< moving average of the fraction of matched points
   int scans_without_update_ = 0;    ///< in a row
-  int weak_scans_ = 0;              ///< in a row, which constrain an axis no better than noise does
+  int weak_scans_ = 0;              ///< in a row, which leave an axis free
   double path_ = 0.0;               ///< [m]
   std::optional<Eigen::Vector3d> last_position_;
   bool not_finite_ = false;  ///< since the last judgement

@@ -15,6 +15,7 @@ namespace {
 void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagnostics) {
   const Matrix6& information = scan.within;
   diagnostics.weak_weight = weakest_real_fraction(scan);
+  diagnostics.weak_tilt = weakest_real_tilt(scan);
   const Eigen::Matrix3d translation =
       schur_complement(information.bottomRightCorner<3, 3>(), information.bottomLeftCorner<3, 3>(),
                        information.topLeftCorner<3, 3>());

@@ -68,6 +68,8 @@ constexpr std::array kSeries = {
            [](const Scan& s) { return s.condition_number; }},
     Series{"weak_weight", "-", "real fraction of the information, weakest axis",
            [](const Scan& s) { return s.weak_weight; }},
+    Series{"weak_tilt", "rad", "tilt of the planes towards the weakest axis, both halves agreeing",
+           [](const Scan& s) { return s.weak_tilt; }},
     Series{"leg_innovation", "m/s", "norm of the last leg innovation",
            [](const Scan& s) { return s.leg_innovation; }},
     Series{"leg_updates", "-", "leg updates since the last scan",

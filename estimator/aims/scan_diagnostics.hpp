@@ -41,6 +41,7 @@ struct ScanDiagnostics {
   double smallest_eigenvalue = kNotComputed;    ///< of the translation information [1/m^2]
   double condition_number = kNotComputed;       ///< of the translation information
   double weak_weight = kNotComputed;            ///< real fraction of the information, weakest axis
+  double weak_tilt = kNotComputed;              ///< of the planes towards the weakest axis [rad]
   double leg_innovation = kNotComputed;         ///< norm of the last leg innovation [m/s]
   int leg_updates = 0;                          ///< since the last scan
   ImuNoiseDensity imu_noise;                    ///< before the update, estimated

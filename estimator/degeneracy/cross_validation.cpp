@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace aims {
@@ -13,11 +14,13 @@ namespace {
 constexpr double kRegularization = 1e-9;
 /// Smaller shifts between scans count as standing [m].
 constexpr double kMinShift = 0.05;
-/// kFreeDirection for a robot that has not moved: each scan repeats the same pattern of rings.
-constexpr double kFreeStanding = 0.8;
-/// Way over which information is averaged: a few times the reach of the neighbours of a plane, so
-/// that the noise is seen several times anew [m].
-constexpr double kAveragingDistance = 1.5;
+/// At the start each scan repeats the same pattern of rings, and the halves share it: real
+/// fractions below this are free, and less so over this distance.
+constexpr double kFreeAtStart = 0.8;
+constexpr double kStartDistance = 1.0;  // [m]
+/// Distance over which information is averaged: a few times the reach of the neighbours of a plane,
+/// so that the noise is seen several times anew [m].
+constexpr double kAveragingDistance = 3.0;
 
 /// The position block with the rotation unknown.
 Eigen::Matrix3d position_information(const Matrix6& A) {
@@ -32,16 +35,23 @@ void describe(Fields& f, CrossValidationConfig& c) {
          {"", any(), "keep only the information in which both halves of the map agree"});
 }
 
+/// The first scan counts until there is a second one: all scans of a standing robot show its noise.
 void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& position) {
-  const double way = last_position_ ? (position - *last_position_).norm() : 0.0;
   const bool first = !last_position_;
-  if (!first && way < kMinShift) return;
+  const double moved = first ? 0.0 : (position - *last_position_).norm();
+  if (!first && moved < kMinShift) return;
   last_position_ = position;
-  const double gain = first ? 1.0 : 1.0 - std::exp(-way / kAveragingDistance);
-  standing_ = first ? 1.0 : (1.0 - gain) * standing_;
+  distance_ += moved;
+  const double kept = std::exp(-moved / kAveragingDistance);
+  weight_ = kept * weight_ + (1.0 - kept);
+  average(scan, first ? 1.0 : (1.0 - kept) / weight_);
+  update_fraction();
+}
+
+void RealFraction::average(const HalvesInformation& scan, double gain) {
   within_ += gain * (position_information(scan.within) - within_);
   across_ += gain * (position_information(scan.across) - across_);
-  update_fraction();
+  weights_ += gain * (scan.within.bottomRightCorner<3, 3>().trace() - weights_);
 }
 
 void RealFraction::update_fraction() {
@@ -49,15 +59,18 @@ void RealFraction::update_fraction() {
   const Eigen::Matrix3d within = within_ + kRegularization * Eigen::Matrix3d::Identity();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(across_, within);
   const Eigen::Matrix3d& V = solver.eigenvectors();
-  const double free = kFreeDirection + standing_ * (kFreeStanding - kFreeDirection);
-  const Eigen::Array3d beyond = (solver.eigenvalues().array() - free) / (1.0 - free);
-  const Eigen::Vector3d fraction = beyond.max(0.0).min(1.0).matrix();
-  weakest_ = fraction.minCoeff();
+  const double at_start = kFreeAtStart * std::exp(-distance_ / kStartDistance);
+  Eigen::Vector3d fraction = Eigen::Vector3d::Zero();
   constrained_.setIdentity();
   for (int i = 0; i < 3; ++i) {
+    const double free =
+        std::max(at_start, kFreeTilt * kFreeTilt * weights_ * V.col(i).squaredNorm());
+    if (free < 1.0)
+      fraction(i) = std::clamp((solver.eigenvalues()(i) - free) / (1.0 - free), 0.0, 1.0);
     const Eigen::Vector3d axis = V.col(i).normalized();
     if (fraction(i) <= 0.0) constrained_ -= axis * axis.transpose();
   }
+  weakest_ = fraction.minCoeff();
   position_fraction_ = within * V * fraction.asDiagonal() * V.transpose();
 }
 
@@ -82,6 +95,14 @@ double weakest_real_fraction(const HalvesInformation& scan) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(across, within,
                                                                          Eigen::EigenvaluesOnly);
   return solver.eigenvalues()(0);
+}
+
+double weakest_real_tilt(const HalvesInformation& scan) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(position_information(scan.across),
+                                                              Eigen::EigenvaluesOnly);
+  const double weights = scan.within.bottomRightCorner<3, 3>().trace() + kRegularization;
+  const double squared = solver.eigenvalues()(0) / weights;
+  return std::copysign(std::sqrt(std::abs(squared)), squared);
 }
 
 }  // namespace aims

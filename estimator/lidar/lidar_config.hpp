@@ -9,6 +9,7 @@ namespace aims {
 struct LidarUpdateConfig {
   double min_range = 0.3;         ///< [m]
   double max_range = 120.0;       ///< [m]
+  bool leave_out_mixed = true;    ///< returns between two surfaces, see RangeSteps
   double selection_voxel = 0.25;  ///< one point is kept per voxel of the raw scan [m]
   int max_points = 4000;          ///< per update
   /// Residuals that share one error: R_lidar is the variance of a scan's residuals times this. A
@@ -39,14 +40,14 @@ struct MapConfig {
   double voxel_size = 0.5;      ///< hashed voxel; bounds the neighbour search [m]
   double point_spacing = 0.15;  ///< returns closer than this to a map point merge into it [m]
   int max_points_per_voxel = 32;
-  int max_merges = 20;              ///< returns averaged by a map point
-  int max_voxels = 100000;          ///< beyond it the farthest are dropped
-  double insertion_voxel = 0.1;     ///< one point is inserted per voxel of the raw scan [m]
-  int max_insertions = 12000;       ///< points per scan
-  double neighbor_gate = 0.5;       ///< largest distance of the five neighbours [m]
-  double plane_thickness = 3.0;     ///< of the five neighbours, in deviations of a residual [-]
-  double plane_min_spread = 0.065;  ///< second principal deviation of the neighbours [m]
-  double plane_min_ratio = 10.0;    ///< second over smallest principal variance [-]
+  int max_merges = 20;             ///< returns averaged by a map point
+  int max_voxels = 100000;         ///< beyond it the farthest are dropped
+  double insertion_voxel = 0.1;    ///< one point is inserted per voxel of the raw scan [m]
+  int max_insertions = 12000;      ///< points per scan
+  double neighbor_gate = 0.5;      ///< largest distance of the five neighbours [m]
+  double plane_thickness = 3.0;    ///< of the five neighbours, in deviations of a residual [-]
+  double plane_min_spread = 0.05;  ///< second principal deviation of the neighbours [m]
+  double plane_min_ratio = 10.0;   ///< second over smallest principal variance [-]
 };
 
 void describe(Fields& fields, MapConfig& config);

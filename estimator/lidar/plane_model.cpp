@@ -6,27 +6,23 @@
 #include <cmath>
 
 namespace aims {
-namespace {
 
-/// The least-squares plane of points with this mean and scatter [m^2]; valid when they spread in
-/// two directions, and by the map's ratio more than across the plane.
-Plane plane_of(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter,
-               const MapConfig& config) {
-  Plane plane;
+PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter,
+                               const MapConfig& config) {
+  PrincipalPlane fit;
+  Plane& plane = fit.plane;
   plane.point = mean;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(scatter);
   plane.normal = solver.eigenvectors().col(0);
-  const double across = solver.eigenvalues()(0);
+  const double across = std::max(solver.eigenvalues()(0), 0.0);
+  fit.variance = across;
   const double second = solver.eigenvalues()(1);
-  if (!plane.normal.allFinite()) return plane;
-  if (second < config.plane_min_spread * config.plane_min_spread) return plane;
-  if (second < config.plane_min_ratio * across) return plane;
-  plane.valid = true;
-  return plane;
+  plane.valid = plane.normal.allFinite() &&
+                second >= config.plane_min_spread * config.plane_min_spread &&
+                second >= config.plane_min_ratio * across;
+  return fit;
 }
-
-}  // namespace
 
 Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config) {
   if (points.size() < 3) return {};
@@ -40,7 +36,7 @@ Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config
     scatter.noalias() += d * d.transpose();
   }
   scatter /= count;
-  Plane plane = plane_of(mean, scatter, config);
+  Plane plane = principal_plane(mean, scatter, config).plane;
   if (!plane.valid) return plane;
   for (const Eigen::Vector3f& p : points) {
     const double distance = plane.normal.dot(p.cast<double>() - plane.point);

@@ -14,8 +14,29 @@ struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< n_i, unit
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< q_i, mean of the map points [m]
   bool valid = false;      ///< the points span it in two directions, more than across it
-  double thickness = 0.0;  ///< largest distance of a point from it [m]
+  double thickness = 0.0;  ///< largest distance of one in five of its points from it [m]
 };
+
+/// The map is in two halves that share no return, so that the noise of their planes is independent.
+inline constexpr std::size_t kHalves = 2;
+
+/// Planes at one place, from each half of the map.
+struct PlanePair {
+  Plane a;
+  Plane b;
+  bool valid() const { return a.valid && b.valid; }
+};
+
+/// A plane and the variance of its points across it [m^2].
+struct PrincipalPlane {
+  Plane plane;
+  double variance = 0.0;
+};
+
+/// The least-squares plane of points with this mean and scatter [m^2]; valid when they spread in
+/// two directions, and by the ratio of the configuration more than across the plane.
+PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter,
+                               const MapConfig& config);
 
 /// The least-squares plane of `points`; valid when they satisfy spread and ratio of the
 /// configuration, which five points of one scan line do not.

@@ -23,13 +23,21 @@ bool ScanSelection::usable(const LidarPoint& point) const {
          squared <= config_.max_range * config_.max_range;
 }
 
+void ScanSelection::begin(const LidarScan& scan) {
+  eligible_.clear();
+  if (config_.leave_out_mixed) steps_.mark(scan);
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    if (!usable(scan.points[i]) || (config_.leave_out_mixed && steps_.mixed(i))) continue;
+    eligible_.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
 void ScanSelection::list_candidates(const LidarScan& scan, double voxel) {
   candidates_.clear();
   const auto inverse_size = static_cast<float>(1.0 / voxel);
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (!usable(scan.points[i])) continue;
-    const std::uint64_t key = voxel_key(voxel_of(scan.points[i].position, inverse_size));
-    candidates_.push_back({key, static_cast<std::int32_t>(i)});
+  for (const std::int32_t i : eligible_) {
+    const Eigen::Vector3f& position = scan.points[static_cast<std::size_t>(i)].position;
+    candidates_.push_back({voxel_key(voxel_of(position, inverse_size)), i});
   }
 }
 

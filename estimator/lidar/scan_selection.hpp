@@ -6,6 +6,7 @@
 
 #include "core/measurements.hpp"
 #include "estimator/lidar/lidar_config.hpp"
+#include "estimator/lidar/range_steps.hpp"
 #include "estimator/lidar/voxel_hash.hpp"
 
 namespace aims {
@@ -19,7 +20,11 @@ class ScanSelection {
  public:
   explicit ScanSelection(const LidarUpdateConfig& config) : config_(config) {}
 
-  /// Replaces `kept` by indices into `scan`, thinned evenly to at most `limit`.
+  /// Lists the returns of `scan` to select from: the usable ones that are not mixed.
+  void begin(const LidarScan& scan);
+
+  /// Replaces `kept` by indices into `scan`, thinned evenly to at most `limit`. `scan` is the one
+  /// of the last begin().
   void select(const LidarScan& scan, double voxel, int limit, std::vector<int>& kept);
 
   /// True when the point is finite and in range.
@@ -34,6 +39,8 @@ class ScanSelection {
   void list_candidates(const LidarScan& scan, double voxel);
 
   LidarUpdateConfig config_;
+  RangeSteps steps_;
+  std::vector<std::int32_t> eligible_;  ///< indices into the scan
   std::vector<Candidate> candidates_;
   VoxelHash occupied_{8192};
 };

@@ -43,20 +43,39 @@ VoxelMap::VoxelMap(const MapConfig& config)
       spacing_(static_cast<float>(config.point_spacing)),
       max_points_per_voxel_(std::clamp(config.max_points_per_voxel, 1, kCapacity)),
       max_merges_(std::clamp(config.max_merges, 1, 255)),
-      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {}
+      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {
+  for (const double edge : {2.0 * config.voxel_size, config.voxel_size}) {
+    grids_.emplace_back(edge, config);
+  }
+}
 
 void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
                       const Eigen::Matrix3f& covariance) {
   voxels_.begin_insertion();
-  const int half = insertions_++ % kHalves;
+  for (PlaneGrid& grid : grids_) grid.begin_insertion();
   for (const Eigen::Vector3f& point : points) {
-    if (point.allFinite()) insert(point, half, covariance);
+    if (point.allFinite()) insert(point, half_, covariance);
   }
+  end_insertion();
   voxels_.limit(max_voxels_,
                 [&center](const Voxel& v) { return (v.first - center).squaredNorm(); });
+  for (PlaneGrid& grid : grids_) grid.limit(max_voxels_, center);
+}
+
+/// Blocks grow from one scan, so that both halves soon have planes.
+void VoxelMap::end_insertion() {
+  for (PlaneGrid& grid : grids_) grid.end_insertion();
+  if (++in_block_ < block_) return;
+  in_block_ = 0;
+  half_ = 1 - half_;
+  if (half_ == 0) block_ = std::min(2 * block_, kLongestBlock);
 }
 
 PlanePair VoxelMap::planes_at(const Eigen::Vector3f& query) const {
+  for (const PlaneGrid& grid : grids_) {
+    const PlanePair planes = grid.planes_at(query);
+    if (planes.valid()) return planes;
+  }
   std::array<Neighbors, kHalves> neighbors;
   nearest(query, neighbors);
   for (const Neighbors& half : neighbors) {
@@ -68,14 +87,16 @@ PlanePair VoxelMap::planes_at(const Eigen::Vector3f& query) const {
   return planes;
 }
 
-void VoxelMap::insert(const Eigen::Vector3f& point, int half, const Eigen::Matrix3f& covariance) {
+void VoxelMap::insert(const Eigen::Vector3f& point, std::size_t half,
+                      const Eigen::Matrix3f& covariance) {
   Voxel& voxel = voxels_.touch(voxel_key(voxel_of(point, inverse_size_)));
   if (voxel.empty) {
     voxel.empty = false;
     voxel.first = point;
     voxel.covariance = covariance;
   }
-  insert(point, voxel.halves[static_cast<std::size_t>(half)]);
+  insert(point, voxel.halves[half]);
+  for (PlaneGrid& grid : grids_) grid.insert(point, half);
 }
 
 void VoxelMap::insert(const Eigen::Vector3f& point, Half& half) const {
@@ -158,9 +179,16 @@ void VoxelMap::nearest(const Eigen::Vector3f& query,
   }
 }
 
-void VoxelMap::forget_unseen(int insertions) { voxels_.forget_unseen(insertions); }
+void VoxelMap::forget_unseen(int insertions) {
+  voxels_.forget_unseen(insertions);
+  for (PlaneGrid& grid : grids_) grid.forget_unseen(insertions);
+}
 
-std::size_t VoxelMap::memory() const { return voxels_.memory(); }
+std::size_t VoxelMap::memory() const {
+  std::size_t bytes = voxels_.memory();
+  for (const PlaneGrid& grid : grids_) bytes += grid.memory();
+  return bytes;
+}
 
 std::vector<Eigen::Vector3f> VoxelMap::points() const {
   std::vector<Eigen::Vector3f> all;

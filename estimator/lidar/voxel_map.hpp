@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimator/lidar/lidar_config.hpp"
+#include "estimator/lidar/plane_grid.hpp"
 #include "estimator/lidar/plane_model.hpp"
 #include "estimator/lidar/voxel_store.hpp"
 
@@ -21,20 +22,11 @@ struct Neighbors {
   int count = 0;
 };
 
-/// Planes at one place, from each half of the map.
-struct PlanePair {
-  Plane a;
-  Plane b;
-  bool valid() const { return a.valid && b.valid; }
-};
-
 /// Local map: points in hashed cubic voxels, in two halves that share no return, so that the noise
 /// of their planes is independent. A return close to a map point of its half merges into it
 /// (running mean), which averages noise; memory is bounded per voxel and in total.
 class VoxelMap {
  public:
-  static constexpr int kHalves = 2;
-
   explicit VoxelMap(const MapConfig& config);
 
   /// Adds points in the odometry frame; non-finite ones are ignored. When there are too many
@@ -52,7 +44,8 @@ class VoxelMap {
   /// The nearest points of each half, up to five, within the gate (at most one voxel edge); exact.
   void nearest(const Eigen::Vector3f& query, std::array<Neighbors, kHalves>& neighbors) const;
 
-  /// The planes through the five points nearest to `query` in each half; invalid without them.
+  /// The planes at `query`: of the largest cell around it whose returns lie on one in both halves,
+  /// else through the five nearest points of each half; invalid without them.
   PlanePair planes_at(const Eigen::Vector3f& query) const;
 
   /// Memory that the map holds [bytes].
@@ -66,6 +59,9 @@ class VoxelMap {
 
  private:
   static constexpr int kCapacity = 32;  ///< points of one half in a voxel
+  /// Consecutive insertions into one half: 2 s of scans at 10 Hz. Scans of one stride share the
+  /// error of the pose from which they are mapped, and with it the tilt of their planes.
+  static constexpr int kLongestBlock = 20;
 
   struct Half {
     alignas(16) std::array<float, kCapacity> x;
@@ -84,7 +80,8 @@ class VoxelMap {
     Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
   };
 
-  void insert(const Eigen::Vector3f& point, int half, const Eigen::Matrix3f& covariance);
+  void insert(const Eigen::Vector3f& point, std::size_t half, const Eigen::Matrix3f& covariance);
+  void end_insertion();
   void insert(const Eigen::Vector3f& point, Half& half) const;
   static void search(const Half& half, const Eigen::Vector3f& query, float gate,
                      Neighbors& neighbors);
@@ -97,8 +94,11 @@ class VoxelMap {
   int max_points_per_voxel_;
   int max_merges_;
   std::size_t max_voxels_;
-  int insertions_ = 0;
+  std::size_t half_ = 0;  ///< of the next insertion
+  int in_block_ = 0;      ///< insertions in the present block
+  int block_ = 1;         ///< its length
   VoxelStore<Voxel> voxels_;
+  std::vector<PlaneGrid> grids_;  ///< coarse to fine
 };
 
 }  // namespace aims

@@ -32,6 +32,14 @@ class VoxelStore {
     return at == VoxelHash::kNone ? nullptr : &voxels_[at];
   }
 
+  /// Calls `visit` with each voxel touched by this insertion.
+  template <class Visit>
+  void visit_touched(const Visit& visit) {
+    for (Voxel& voxel : voxels_) {
+      if (voxel.seen == insertions_) visit(voxel);
+    }
+  }
+
   /// With more than `max_count` voxels, drops those with the largest `squared_distance`, a tenth of
   /// `max_count` at once, so that dropping stays rare.
   template <class Distance>

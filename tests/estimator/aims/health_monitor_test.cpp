@@ -31,7 +31,7 @@ ScanDiagnostics good_scan() {
   scan.iterations = 3;
   scan.points_used = 800;
   scan.innovation_rotation.setConstant(1e-3);
-  scan.weak_weight = 0.9;
+  scan.weak_tilt = 0.1;
   return scan;
 }
 

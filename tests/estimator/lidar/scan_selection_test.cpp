@@ -21,11 +21,18 @@ LidarScan random_scan(int count) {
   return scan;
 }
 
+std::vector<int> selected(const LidarScan& scan, double voxel, int limit) {
+  ScanSelection selection{LidarUpdateConfig{}};
+  std::vector<int> kept;
+  selection.begin(scan);
+  selection.select(scan, voxel, limit, kept);
+  return kept;
+}
+
 TEST(ScanSelection, KeepsOneReturnOfEachVoxel) {
   const LidarScan scan = random_scan(5000);
   ScanSelection selection{LidarUpdateConfig{}};
-  std::vector<int> kept;
-  selection.select(scan, 0.5, 100000, kept);
+  const std::vector<int> kept = selected(scan, 0.5, 100000);
   const auto voxel_at = [&scan](int i) {
     return voxel_key(voxel_of(scan.points[static_cast<std::size_t>(i)].position, 2.0F));
   };
@@ -56,9 +63,7 @@ TEST(ScanSelection, DoesNotBiasNoiseByTheFiringOrder) {
         const Eigen::Vector3d p(range * std::cos(azimuth), range * std::sin(azimuth), 0.1);
         scan.points.push_back({p.cast<float>(), 0.5F, i, 0});
       }
-      ScanSelection selection{LidarUpdateConfig{}};
-      std::vector<int> kept;
-      selection.select(scan, 0.25, 100000, kept);
+      const std::vector<int> kept = selected(scan, 0.25, 100000);
       for (int i : kept) sum += noise[static_cast<std::size_t>(i)];
       count += static_cast<int>(kept.size());
     }
@@ -67,9 +72,7 @@ TEST(ScanSelection, DoesNotBiasNoiseByTheFiringOrder) {
 }
 
 TEST(ScanSelection, ThinsEvenlyBeyondTheLimit) {
-  ScanSelection selection{LidarUpdateConfig{}};
-  std::vector<int> kept;
-  selection.select(random_scan(5000), 0.1, 500, kept);
+  const std::vector<int> kept = selected(random_scan(5000), 0.1, 500);
   ASSERT_EQ(kept.size(), 500U);
   EXPECT_LT(kept.front(), 50);
   EXPECT_GT(kept.back(), 4900);
@@ -83,10 +86,7 @@ TEST(ScanSelection, IgnoresInvalidReturns) {
   scan.points.push_back({{0.01F, 0.0F, 0.0F}, 0.0F, 0, 0});
   scan.points.push_back({{1000.0F, 0.0F, 0.0F}, 0.0F, 0, 0});
   scan.points.push_back({{2.0F, 0.0F, 0.0F}, 0.0F, 0, 0});
-  ScanSelection selection{LidarUpdateConfig{}};
-  std::vector<int> kept;
-  selection.select(scan, 0.25, 100, kept);
-  EXPECT_EQ(kept, std::vector<int>{4});
+  EXPECT_EQ(selected(scan, 0.25, 100), std::vector<int>{4});
 }
 
 }  // namespace
