@@ -65,8 +65,9 @@ void RealFraction::update_fraction() {
   for (int i = 0; i < 3; ++i) {
     const double free =
         std::max(at_start, kFreeTilt * kFreeTilt * weights_ * V.col(i).squaredNorm());
-    if (free < 1.0)
+    if (free < 1.0) {
       fraction(i) = std::clamp((solver.eigenvalues()(i) - free) / (1.0 - free), 0.0, 1.0);
+    }
     const Eigen::Vector3d axis = V.col(i).normalized();
     if (fraction(i) <= 0.0) constrained_ -= axis * axis.transpose();
   }
