@@ -19,6 +19,31 @@ struct SeriesInfo {
   std::string meaning;  ///< one phrase
 };
 
+/// A series and the quantity of a `Report` on one scan that it shows.
+template <class Report>
+struct ReportedSeries {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+  double (*value)(const Report&);
+};
+
+/// Name, unit and meaning of each of `table`, whose elements are `ReportedSeries`.
+template <class Table>
+std::vector<SeriesInfo> series_of(const Table& table) {
+  std::vector<SeriesInfo> infos;
+  for (const auto& each : table) infos.push_back({each.name, each.unit, each.meaning});
+  return infos;
+}
+
+/// The values of `report` in the order of `table`.
+template <class Table, class Report>
+std::vector<double> values_of(const Table& table, const Report& report) {
+  std::vector<double> values;
+  for (const auto& each : table) values.push_back(each.value(report));
+  return values;
+}
+
 /// Covariance that an estimator states for its pose, body axes.
 struct PoseCovariance {
   Eigen::Matrix3d position = Eigen::Matrix3d::Zero();  ///< [m^2]

@@ -13,13 +13,10 @@ namespace {
 /// Smallest eigenvalue and condition number of the translation information with unknown rotation
 /// (its Schur complement).
 void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagnostics) {
-  const Matrix6& information = scan.within;
   diagnostics.weak_weight = weakest_real_fraction(scan);
   diagnostics.weak_tilt = weakest_real_tilt(scan);
-  const Eigen::Matrix3d translation =
-      schur_complement(information.bottomRightCorner<3, 3>(), information.bottomLeftCorner<3, 3>(),
-                       information.topLeftCorner<3, 3>());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(translation, Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(position_information(scan.within),
+                                                              Eigen::EigenvaluesOnly);
   diagnostics.smallest_eigenvalue = std::max(solver.eigenvalues()(0), 0.0);
   diagnostics.condition_number =
       solver.eigenvalues()(2) / std::max(diagnostics.smallest_eigenvalue, 1e-9);

@@ -7,14 +7,7 @@ namespace aims {
 namespace {
 
 using Scan = ScanDiagnostics;
-
-/// A series and the quantity that it reports.
-struct Series {
-  const char* name;
-  const char* unit;
-  const char* meaning;
-  double (*value)(const Scan&);
-};
+using Series = ReportedSeries<Scan>;
 
 constexpr std::array kSeries = {
     Series{"points_in", "-", "finite points in range",
@@ -90,16 +83,10 @@ constexpr std::array kSeries = {
 
 }  // namespace
 
-std::vector<SeriesInfo> scan_series() {
-  std::vector<SeriesInfo> infos;
-  for (const Series& each : kSeries) infos.push_back({each.name, each.unit, each.meaning});
-  return infos;
-}
+std::vector<SeriesInfo> scan_series() { return series_of(kSeries); }
 
 ScanRow row_of(const ScanDiagnostics& scan) {
-  ScanRow row{scan.stamp, scan.covariance, {}};
-  for (const Series& each : kSeries) row.values.push_back(each.value(scan));
-  return row;
+  return {scan.stamp, scan.covariance, values_of(kSeries, scan)};
 }
 
 }  // namespace aims

@@ -22,12 +22,6 @@ constexpr double kStartDistance = 1.0;  // [m]
 /// so that the noise is seen several times anew [m].
 constexpr double kAveragingDistance = 3.0;
 
-/// The position block with the rotation unknown.
-Eigen::Matrix3d position_information(const Matrix6& A) {
-  return schur_complement(A.bottomRightCorner<3, 3>(), A.bottomLeftCorner<3, 3>(),
-                          A.topLeftCorner<3, 3>());
-}
-
 }  // namespace
 
 void describe(Fields& f, CrossValidationConfig& c) {
@@ -51,7 +45,7 @@ void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& pos
 void RealFraction::average(const HalvesInformation& scan, double gain) {
   within_ += gain * (position_information(scan.within) - within_);
   across_ += gain * (position_information(scan.across) - across_);
-  weights_ += gain * (scan.within.bottomRightCorner<3, 3>().trace() - weights_);
+  sum_of_weights_ += gain * (scan.within.bottomRightCorner<3, 3>().trace() - sum_of_weights_);
 }
 
 void RealFraction::update_fraction() {
@@ -64,7 +58,7 @@ void RealFraction::update_fraction() {
   constrained_.setIdentity();
   for (int i = 0; i < 3; ++i) {
     const double free =
-        std::max(at_start, kFreeTilt * kFreeTilt * weights_ * V.col(i).squaredNorm());
+        std::max(at_start, kFreeTilt * kFreeTilt * sum_of_weights_ * V.col(i).squaredNorm());
     if (free < 1.0) {
       fraction(i) = std::clamp((solver.eigenvalues()(i) - free) / (1.0 - free), 0.0, 1.0);
     }
@@ -87,6 +81,11 @@ Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matr
       (other + kRegularization * Eigen::Matrix3d::Identity()).inverse();
   const Eigen::Matrix3d rest = block - cross * covariance * cross.transpose();
   return 0.5 * (rest + rest.transpose());
+}
+
+Eigen::Matrix3d position_information(const Matrix6& information) {
+  return schur_complement(information.bottomRightCorner<3, 3>(),
+                          information.bottomLeftCorner<3, 3>(), information.topLeftCorner<3, 3>());
 }
 
 double weakest_real_fraction(const HalvesInformation& scan) {

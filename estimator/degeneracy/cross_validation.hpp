@@ -35,7 +35,7 @@ struct PoseInformation {
 /// it free [rad]. That much has nothing to do with the noise of the map: both halves are mapped
 /// from poses with errors in common, and the planes around an edge tilt as the rings lie. Measured
 /// where nothing constrains a corridor: 2 mrad, 3 mrad in one scan of ten; with recesses of 5 cm
-/// every 8 m: 8 mrad (docs/estimators.md).
+/// every 8 m: 9 to 11 mrad (docs/estimators.md).
 inline constexpr double kFreeTilt = 0.008;
 
 /// The information of scans without the part that comes from the noise of the plane normals
@@ -69,7 +69,7 @@ class RealFraction {
   double distance_ = 0.0;  ///< moved since the first scan [m]
   double weight_ = 0.0;   ///< of all scans since the first in the averages, 1 after a long distance
   double weakest_ = 0.0;  ///< smallest entry of the diagonal below
-  double weights_ = 0.0;  ///< average of the sum of the weights of the returns [1/m^2]
+  double sum_of_weights_ = 0.0;  ///< of the returns, average [1/m^2]
   Eigen::Matrix3d constrained_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d position_fraction_ = Eigen::Matrix3d::Zero();  ///< F
   Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();             ///< of the position, odometry axes
@@ -80,6 +80,9 @@ class RealFraction {
 /// complement of `other`; `cross` is the off-diagonal block, 3x3 each.
 Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
                                  const Eigen::Matrix3d& other);
+
+/// Information about the position with the rotation unknown.
+Eigen::Matrix3d position_information(const Matrix6& information);
 
 /// Smallest eigenvalue ratio of `across` to `within` over the axes of the position, the rotation
 /// unknown: the real fraction of the information along the weakest axis, 1 without noise and about

@@ -10,9 +10,9 @@ namespace {
 /// Quarters with fewer returns have no mean to speak of.
 constexpr int kMinQuarter = 3;
 /// Largest fraction of the variance across a plane that may lie between the quarters of a cube
-/// rather than within them, beyond that of their noise: a step of 0.3 deviations through the middle
-/// has it. A larger one would hide recesses of a few centimetres, which may be all that a corridor
-/// has.
+/// rather than within them, beyond that of their noise: a step of 1.1 deviations through the middle
+/// has it, or quarters that differ by 0.3 in turn. A larger one would hide recesses of a few
+/// centimetres, which may be all that a corridor has.
 constexpr double kMaxBetween = 0.02;
 /// Expected largest of five normal deviations, the thickness of a plane through five points [-].
 constexpr double kLargestOfFive = 1.5;

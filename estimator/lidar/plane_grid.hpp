@@ -42,8 +42,8 @@ class PlaneSums {
 };
 
 /// Planes through all returns of a cubic cell, in two halves of the map. With hundreds of returns
-/// over a metre the noise of a normal is a tenth of that of five neighbours, and with it the
-/// information that this noise feigns along a corridor (docs/estimators.md).
+/// over a metre a normal has less noise than one of five neighbours, and adds less noise-induced
+/// information along a corridor (docs/estimators.md).
 class PlaneGrid {
  public:
   PlaneGrid(double edge, const MapConfig& config);

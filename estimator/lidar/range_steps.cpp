@@ -36,7 +36,7 @@ void RangeSteps::list_firings(const LidarScan& scan) {
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const LidarPoint& point = scan.points[i];
     const double range = point.position.norm();
-    if (!(range > 0.0)) continue;  // also a NaN
+    if (!(range > 0.0) || !std::isfinite(range)) continue;
     if (point.ring >= rings_.size()) rings_.resize(point.ring + 1U);
     rings_[point.ring].push_back({static_cast<std::int32_t>(i), 0, 1.0 / range});
   }

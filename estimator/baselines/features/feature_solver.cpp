@@ -3,6 +3,7 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/angle.hpp"
@@ -141,6 +142,11 @@ void describe(Fields& f, SolverConfig& c) {
 }
 
 PoseCoordinates all_coordinates() { return {0, 1, 2, 3, 4, 5}; }
+
+double smallest_eigenvalue(const SolverResult& result) {
+  return result.iterations == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                : result.directions.smallest_eigenvalue;
+}
 
 SolverResult solve_pose(const Pose& initial, const Associate& associate, const SolverConfig& config,
                         const PoseCoordinates& coordinates) {

@@ -53,6 +53,9 @@ struct SolverResult {
   ConstrainedDirections directions;
 };
 
+/// Smallest eigenvalue of A^T A in the first iteration; NaN without one.
+double smallest_eigenvalue(const SolverResult& result);
+
 /// Finds the matches at a pose T_target_scan.
 using Associate = std::function<FeatureMatches(const Pose&)>;
 

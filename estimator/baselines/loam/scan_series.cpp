@@ -7,19 +7,9 @@
 namespace aims::loam {
 namespace {
 
-/// A series and the quantity that it reports.
-struct Series {
-  const char* name;
-  const char* unit;
-  const char* meaning;
-  double (*value)(const ScanReport&);
-};
+using Series = ReportedSeries<ScanReport>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-double smallest_eigenvalue(const features::SolverResult& result) {
-  return result.iterations == 0 ? kNone : result.directions.smallest_eigenvalue;
-}
 
 constexpr std::array kSeries = {
     Series{"points_in", "-", "finite points in range",
@@ -52,16 +42,10 @@ constexpr std::array kSeries = {
 
 }  // namespace
 
-std::vector<SeriesInfo> scan_series() {
-  std::vector<SeriesInfo> infos;
-  for (const Series& each : kSeries) infos.push_back({each.name, each.unit, each.meaning});
-  return infos;
-}
+std::vector<SeriesInfo> scan_series() { return series_of(kSeries); }
 
 ScanRow row_of(const ScanReport& scan, Time stamp) {
-  ScanRow row{stamp, std::nullopt, {}};
-  for (const Series& each : kSeries) row.values.push_back(each.value(scan));
-  return row;
+  return {stamp, std::nullopt, values_of(kSeries, scan)};
 }
 
 }  // namespace aims::loam
