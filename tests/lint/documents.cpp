@@ -28,8 +28,9 @@ std::vector<Line> read_lines(const fs::path& file) {
 
 std::vector<fs::path> documents() {
   std::vector<fs::path> files{"README.md"};
-  for (const auto& entry : fs::directory_iterator(fs::path(AIMS_SOURCE_DIR) / "docs")) {
-    if (entry.path().extension() == ".md") files.push_back("docs" / entry.path().filename());
+  const fs::path source(AIMS_SOURCE_DIR);
+  for (const auto& entry : fs::recursive_directory_iterator(source / "docs")) {
+    if (entry.path().extension() == ".md") files.push_back(entry.path().lexically_relative(source));
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -149,7 +149,7 @@ TEST(Documents, NamedScenariosExist) {
 }
 
 TEST(Sources, NameDocumentsThatExist) {
-  const std::regex name(R"(\b(docs/[\w-]+\.md)\b)");
+  const std::regex name(R"(\b(docs/[\w/-]+\.md)\b)");
   for (const char* folder : {"core", "estimator", "sim", "recordings", "bench", "render", "ros",
                              "scenarios", "scripts", "tests"}) {
     for (const auto& entry :

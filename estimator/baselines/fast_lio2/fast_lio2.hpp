@@ -13,8 +13,8 @@
 namespace aims::fast_lio2 {
 
 /// FAST-LIO2: an iterated Kalman filter on IMU and LiDAR, which matches the points of each scan
-/// with planes of a map of points (docs/baselines.md). Its world is the IMU's frame at the start:
-/// roll and pitch are not relative to gravity.
+/// with planes of a map of points (docs/baselines/fast_lio2.md). Its world is the IMU's frame at the
+/// start: roll and pitch are not relative to gravity.
 class FastLio2 : public Estimator {
  public:
   FastLio2(const Config& config, const SensorRig& rig);
