@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "estimator/baselines/fast_lio2/scan_series.hpp"
+#include "estimator/baselines/points/voxel_centroids.hpp"
 
 namespace aims::fast_lio2 {
 namespace {
@@ -151,7 +152,7 @@ void FastLio2::process(const LidarScan& scan) {
   }
   queue_.imu().forget_before(end - kSecond);
   const std::vector<Eigen::Vector3f> points =
-      voxel_centroids(deskewed(scan, indices, knots_, belief_.state), config_.points.voxel);
+      points::voxel_centroids(deskewed(scan, indices, knots_, belief_.state), config_.points.voxel);
   const Pose T_world_lidar = belief_.state.T_world_body * belief_.state.T_body_lidar;
   cube_.follow(T_world_lidar.translation, map_);
   if (map_.empty() && points.size() > kMinPoints) {

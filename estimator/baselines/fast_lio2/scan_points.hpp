@@ -34,7 +34,4 @@ Time end_of(const LidarScan& scan, std::span<const int> indices);
 std::vector<Eigen::Vector3f> deskewed(const LidarScan& scan, std::span<const int> indices,
                                       std::span<const Knot> knots, const State& end);
 
-/// The centroid of the points in each voxel of edge `voxel` [m], in order of z, y, x of the voxels.
-std::vector<Eigen::Vector3f> voxel_centroids(std::span<const Eigen::Vector3f> points, double voxel);
-
 }  // namespace aims::fast_lio2

@@ -1,36 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/baselines/fast_lio2/scan_series.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <limits>
+
+#include "estimator/baselines/points/translation_constraint.hpp"
 
 namespace aims::fast_lio2 {
 namespace {
-
-/// Least cosine between a normal and a direction that it constrains (X-ICP, Tuna et al. 2023,
-/// its lower threshold: 80 degrees).
-constexpr double kMinCosine = 0.1736;
-
-/// Constraint of the translation by the residuals.
-struct Constraint {
-  double smallest = std::numeric_limits<double>::quiet_NaN();   ///< eigenvalue of N^T N [-]
-  double condition = std::numeric_limits<double>::quiet_NaN();  ///< largest over smallest [-]
-  double localizability = std::numeric_limits<double>::quiet_NaN();
-};
-
-Constraint constraint_of(const ScanResiduals& residuals) {
-  Constraint constraint;
-  if (residuals.distances.size() == 0) return constraint;
-  const auto normals = residuals.jacobian.middleCols<3>(Error::kPosition);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-      Eigen::Matrix3d(normals.transpose() * normals));
-  const Eigen::Vector3d values = solver.eigenvalues().cwiseMax(0.0);
-  constraint.smallest = values.x();
-  constraint.condition = values.z() / std::max(values.x(), 1e-12);
-  const Eigen::ArrayXd cosines = (normals * solver.eigenvectors().col(0)).array().abs();
-  constraint.localizability = (cosines > kMinCosine).select(cosines, 0.0).sum();
-  return constraint;
-}
 
 PoseCovariance stated(const Belief& belief) {
   const Eigen::Matrix3d R = belief.state.T_world_body.R();
@@ -54,7 +30,8 @@ std::vector<SeriesInfo> scan_series() {
 
 ScanRow scan_row(const Update& update, std::size_t points, double variance, Time stamp) {
   const Eigen::VectorXd& distances = update.residuals.distances;
-  const Constraint constraint = constraint_of(update.residuals);
+  const points::TranslationConstraint constraint =
+      points::translation_constraint(update.residuals.jacobian.middleCols<3>(Error::kPosition));
   const double mean =
       distances.size() > 0 ? distances.cwiseAbs().mean() : std::numeric_limits<double>::quiet_NaN();
   return {stamp,

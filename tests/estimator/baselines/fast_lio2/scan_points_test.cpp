@@ -37,16 +37,6 @@ TEST(FastLio2Points, TheScanEndsWithItsLastPointUnlessThePointsEndEarly) {
   EXPECT_EQ(end_of(scan, {}), scan.end);
 }
 
-TEST(FastLio2Points, CentroidsAreThoseOfTheVoxels) {
-  const std::vector<Eigen::Vector3f> points = {
-      {0.1F, 0.1F, 0.1F}, {0.3F, 0.3F, 0.3F}, {0.6F, 0.1F, 0.1F}, {-0.1F, 0.1F, 0.1F}};
-  const auto centroids = voxel_centroids(points, 0.5);
-  ASSERT_EQ(centroids.size(), 3U);
-  EXPECT_TRUE(centroids[0].isApprox(points[3]));
-  EXPECT_TRUE(centroids[1].isApprox(Eigen::Vector3f(0.2F, 0.2F, 0.2F)));
-  EXPECT_TRUE(centroids[2].isApprox(points[2]));
-}
-
 /// A body that turns and accelerates at constant rates, exactly as the knots assume between them.
 struct Motion {
   Eigen::Vector3d rate{0.1, -0.3, 1.5};
