@@ -9,6 +9,7 @@
 #include "estimator/aims/leg_dead_reckoning.hpp"
 #include "estimator/aims/presets.hpp"
 #include "estimator/baselines/fast_lio2/fast_lio2.hpp"
+#include "estimator/baselines/leg_kilo/leg_kilo.hpp"
 #include "estimator/baselines/lego_loam/lego_loam.hpp"
 #include "estimator/baselines/loam/loam.hpp"
 
@@ -41,6 +42,10 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
   all.push_back(entry<lego_loam::LegoLoam>("lego_loam_published",
                                            "LeGO-LOAM without IMU, with its published defaults",
                                            [] { return lego_loam::Config(); }));
+  all.push_back(entry<leg_kilo::LegKilo>("leg_kilo", "Leg-KILO, set for a narrow corridor",
+                                         [] { return leg_kilo::Config(); }));
+  all.push_back(entry<leg_kilo::LegKilo>(
+      "leg_kilo_published", "Leg-KILO with its published defaults", leg_kilo::published));
 }
 
 std::vector<EstimatorEntry> entries() {

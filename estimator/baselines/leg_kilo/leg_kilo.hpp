@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "estimator/baselines/leg_kilo/plane_map.hpp"
+#include "estimator/baselines/leg_kilo/scan_groups.hpp"
+#include "estimator/baselines/leg_kilo/scan_series.hpp"
+#include "estimator/estimator.hpp"
+
+namespace aims::leg_kilo {
+
+/// Leg-KILO: one Kalman filter on IMU, standing feet and points on the planes of a map of voxels
+/// (docs/baselines/leg_kilo.md). It takes the points of a scan in small groups, in order of their
+/// firing, so nothing is deskewed. Its world is the IMU's frame at the start: roll and pitch are
+/// not relative to gravity.
+class LegKilo : public Estimator {
+ public:
+  LegKilo(const Config& config, const SensorRig& rig);
+
+  void consume(const Delivery& delivery) override;
+  void finish() override;
+  const EstimatorResult& result() const override { return result_; }
+  std::vector<Eigen::Vector3f> map_points() const override { return map_.plane_centres(); }
+
+  /// Estimate after the last processed scan.
+  const Belief& belief() const { return belief_; }
+
+ private:
+  void process_ready();
+  void process(const LidarScan& scan);
+  /// IMU samples after the last scan's, up to `end`.
+  std::vector<ImuSample> new_samples(Time end);
+  bool start(const LidarScan& scan, const std::vector<ImuSample>& samples);
+  bool register_scan(const LidarScan& scan, const std::vector<ImuSample>& samples,
+                     ScanReport& report);
+  void predict(Time stamp);
+  void observe(const ImuSample& sample, ScanReport& report);
+  void register_group(const PointGroup& group, ScanReport& report);
+  std::vector<StandingFoot> feet_at(Time stamp);
+  void record(const ScanReport& report, Time stamp);
+
+  Config config_;
+  SensorRig rig_;
+  MeasurementQueue queue_;
+  EstimatorResult result_;
+  Belief belief_;
+  PlaneMap map_;
+
+  bool started_ = false;
+  double force_scale_ = 1.0;  ///< makes the mean specific force of the start as long as gravity
+  Time predicted_ = 0;        ///< time of the state
+  Time updated_ = 0;          ///< time of the last update, from which the covariance is predicted
+  Time last_sample_ = std::numeric_limits<Time>::min();  ///< newest IMU sample taken
+  std::deque<LegOdometrySample> legs_;                   ///< in order of stamp
+};
+
+}  // namespace aims::leg_kilo

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/measurements.hpp"
+
+namespace aims::leg_kilo {
+
+/// A foot that stands on the ground, as the joints see it.
+struct StandingFoot {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< body axes [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< J dq/dt, body axes [m/s]
+};
+
+/// Whether the sample has joint angles and the rig the lengths of the legs.
+bool has_joints(const LegOdometrySample& sample, const SensorRig& rig);
+
+/// The feet in contact, by their joints.
+std::vector<StandingFoot> feet_in_contact(const LegOdometrySample& sample, const SensorRig& rig);
+
+/// Four feet under the hips, all standing: the joints that would report the sample's twist.
+std::vector<StandingFoot> feet_of_twist(const LegOdometrySample& sample, const SensorRig& rig);
+
+}  // namespace aims::leg_kilo
