@@ -228,6 +228,10 @@ std::vector<std::string> joined_specs(std::span<const std::string> pieces) {
     const std::string& last = specs.back();
     open = std::count(last.begin(), last.end(), '[') > std::count(last.begin(), last.end(), ']');
   }
+  const auto all = std::ranges::find(specs, kAllEstimators);
+  if (all == specs.end()) return specs;
+  const std::vector<std::string> systems = system_names();
+  specs.insert(specs.erase(all), systems.begin(), systems.end());
   return specs;
 }
 

@@ -67,8 +67,11 @@ std::string run_setting(std::span<const std::string> specs);
 /// Whether `setting` ("key=value") is such a one.
 bool is_run_setting(std::string_view setting);
 
+/// Stands for every system (`system_names`) on a command line.
+inline constexpr std::string_view kAllEstimators = "all";
+
 /// Specs of a command line split at commas, with the commas inside brackets restored:
-/// {"aims_d+x=[1", "2]"} is one spec.
+/// {"aims_d+x=[1", "2]"} is one spec; "all" is every system.
 std::vector<std::string> joined_specs(std::span<const std::string> pieces);
 
 }  // namespace aims

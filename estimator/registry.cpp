@@ -18,9 +18,10 @@ namespace {
 
 /// An entry whose estimator `Made` has the configuration that `config` returns.
 template <class Made, class MakeConfig>
-EstimatorEntry entry(std::string_view name, std::string_view description, MakeConfig config) {
+EstimatorEntry entry(std::string_view name, std::string_view description, MakeConfig config,
+                     std::string_view preset_of = "") {
   using Config = decltype(config());
-  return {name, description, [config]() -> std::unique_ptr<EstimatorConfig> {
+  return {name, description, preset_of, [config]() -> std::unique_ptr<EstimatorConfig> {
             return std::make_unique<ConfigOf<Config, Made>>(config());
           }};
 }
@@ -29,23 +30,26 @@ EstimatorEntry entry(std::string_view name, std::string_view description, MakeCo
 void add_baselines(std::vector<EstimatorEntry>& all) {
   all.push_back(entry<fast_lio2::FastLio2>("fast_lio2", "FAST-LIO2, set for a narrow corridor",
                                            [] { return fast_lio2::Config(); }));
-  all.push_back(entry<fast_lio2::FastLio2>(
-      "fast_lio2_published", "FAST-LIO2 with its published defaults", fast_lio2::published));
+  all.push_back(entry<fast_lio2::FastLio2>("fast_lio2_published",
+                                           "FAST-LIO2 with its published defaults",
+                                           fast_lio2::published, "fast_lio2"));
   all.push_back(
       entry<loam::Loam>("loam", "LOAM without IMU, set for a narrow corridor", loam::corridor));
-  all.push_back(entry<loam::Loam>("loam_published", "LOAM without IMU, with its published defaults",
-                                  [] { return loam::Config(); }));
-  all.push_back(
-      entry<loam::Loam>("a_loam", "A-LOAM, the published program without IMU", loam::a_loam));
+  all.push_back(entry<loam::Loam>(
+      "loam_published", "LOAM without IMU, with its published defaults",
+      [] { return loam::Config(); }, "loam"));
+  all.push_back(entry<loam::Loam>("a_loam", "A-LOAM, the published program without IMU",
+                                  loam::a_loam, "loam"));
   all.push_back(entry<lego_loam::LegoLoam>(
       "lego_loam", "LeGO-LOAM without IMU, set for a narrow corridor", lego_loam::corridor));
-  all.push_back(entry<lego_loam::LegoLoam>("lego_loam_published",
-                                           "LeGO-LOAM without IMU, with its published defaults",
-                                           [] { return lego_loam::Config(); }));
+  all.push_back(entry<lego_loam::LegoLoam>(
+      "lego_loam_published", "LeGO-LOAM without IMU, with its published defaults",
+      [] { return lego_loam::Config(); }, "lego_loam"));
   all.push_back(entry<leg_kilo::LegKilo>("leg_kilo", "Leg-KILO, set for a narrow corridor",
                                          [] { return leg_kilo::Config(); }));
-  all.push_back(entry<leg_kilo::LegKilo>(
-      "leg_kilo_published", "Leg-KILO with its published defaults", leg_kilo::published));
+  all.push_back(entry<leg_kilo::LegKilo>("leg_kilo_published",
+                                         "Leg-KILO with its published defaults",
+                                         leg_kilo::published, "leg_kilo"));
 }
 
 std::vector<EstimatorEntry> entries() {
@@ -69,6 +73,14 @@ std::span<const EstimatorEntry> estimator_registry() {
 std::vector<std::string> estimator_names() {
   std::vector<std::string> names;
   for (const EstimatorEntry& each : estimator_registry()) names.emplace_back(each.name);
+  return names;
+}
+
+std::vector<std::string> system_names() {
+  std::vector<std::string> names;
+  for (const EstimatorEntry& each : estimator_registry()) {
+    if (each.preset_of.empty()) names.emplace_back(each.name);
+  }
   return names;
 }
 

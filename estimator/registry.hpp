@@ -17,6 +17,8 @@ namespace aims {
 struct EstimatorEntry {
   std::string_view name;
   std::string_view description;  ///< one line
+  /// Name of the entry that it is with other settings, e.g. as published; empty: a system of its own.
+  std::string_view preset_of;
   /// Its default configuration, which states its requirements and creates it.
   std::function<std::unique_ptr<EstimatorConfig>()> config;
 };
@@ -26,6 +28,9 @@ std::span<const EstimatorEntry> estimator_registry();
 
 /// Their names.
 std::vector<std::string> estimator_names();
+
+/// Names of those that are a system of their own.
+std::vector<std::string> system_names();
 
 /// Error for a name that is not registered, with a near match and the list.
 Result<void> check_estimator_name(std::string_view name);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/jobs/job_id.hpp"
 #include "bench/run/scenario.hpp"
 #include "core/files/yaml_config.hpp"
@@ -29,6 +31,18 @@ void expect_contains(const std::string& text, const std::string& part) {
 
 std::string text_in(EstimatorConfig& config, const char* key) {
   return fields_of(config).find(key)->text();
+}
+
+TEST(EstimatorSpec, AllIsEverySystemOnceWithoutOtherPresets) {
+  const std::vector<std::string> specs =
+      joined_specs(std::vector<std::string>{"all", "wide=lio+lidar.voxel=0.4"});
+  EXPECT_EQ(specs.back(), "wide=lio+lidar.voxel=0.4");
+  for (const char* name : {"aims", "leg", "lio", "fast_lio2", "loam", "lego_loam"}) {
+    EXPECT_EQ(std::ranges::count(specs, name), 1) << name;
+  }
+  for (const char* name : {"fast_lio2_published", "a_loam", "all"}) {
+    EXPECT_EQ(std::ranges::count(specs, name), 0) << name;
+  }
 }
 
 TEST(EstimatorSpec, AnEstimatorNameIsItsOwnLabel) {
