@@ -49,6 +49,7 @@ class MeasurementQueue {
   void close() { closed_ = true; }
 
   ImuHistory& imu() { return imu_; }
+  const ImuHistory& imu() const { return imu_; }
   const std::map<std::string, int>& counts() const { return counts_; }
   const InputMonitor& inputs() const { return inputs_; }
   /// Latest arrival; empty before the first.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/baselines/features/feature_matches.hpp"
 
+#include <cmath>
+
 namespace aims::features {
 
 Pose moved(const Pose& pose, const Vector6& step) {
@@ -30,6 +32,21 @@ DistanceRow distance_row(const PlaneMatch& match, const Pose& pose) {
   row.gradient = match.normal;
   row.range = point.norm();
   return row;
+}
+
+void weighted_distances(const FeatureMatches& matches, const Pose& pose,
+                        const DistanceWeight& weighting, const TakeDistance& take) {
+  const auto offer = [&](const Eigen::Vector3d& point, const DistanceRow& row, double scale) {
+    const double weight = 1.0 - weighting.slope * std::abs(row.distance) / scale;
+    if (weight > weighting.least && row.distance != 0.0) take(point, row, weight);
+  };
+  for (const LineMatch& match : matches.lines) {
+    offer(match.point, distance_row(match, pose), 1.0);
+  }
+  for (const PlaneMatch& match : matches.planes) {
+    const DistanceRow row = distance_row(match, pose);
+    offer(match.point, row, std::sqrt(row.range));
+  }
 }
 
 }  // namespace aims::features

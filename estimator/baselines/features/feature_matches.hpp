@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "core/lie.hpp"
@@ -58,5 +59,19 @@ Pose moved(const Pose& pose, const Vector6& step);
 /// The distance at the pose T_target_scan.
 DistanceRow distance_row(const LineMatch& match, const Pose& pose);
 DistanceRow distance_row(const PlaneMatch& match, const Pose& pose);
+
+/// How the weight of a distance falls with the distance (LOAM, section V-C).
+struct DistanceWeight {
+  double slope = 0.0;  ///< weight = 1 - slope |d|, of a plane |d| / sqrt(range) [1/m]
+  double least = 0.0;  ///< distances of no more weight are left out
+};
+
+/// Takes the point in scan axes, its distance and the weight of it.
+using TakeDistance =
+    std::function<void(const Eigen::Vector3d& point, const DistanceRow& row, double weight)>;
+
+/// Hands over the distances at the pose T_target_scan that are not zero and weigh enough.
+void weighted_distances(const FeatureMatches& matches, const Pose& pose,
+                        const DistanceWeight& weighting, const TakeDistance& take);
 
 }  // namespace aims::features

@@ -29,16 +29,11 @@ struct NormalEquations {
 NormalEquations weighted_equations(const FeatureMatches& matches, const Pose& pose,
                                    const SolverConfig& config, bool weighted) {
   NormalEquations equations;
-  const auto add = [&](const DistanceRow& row, double scale) {
-    const double weight =
-        weighted ? 1.0 - config.weight_slope * std::abs(row.distance) / scale : 1.0;
-    if (weight > config.min_weight && row.distance != 0.0) equations.add(row, weight);
-  };
-  for (const LineMatch& match : matches.lines) add(distance_row(match, pose), 1.0);
-  for (const PlaneMatch& match : matches.planes) {
-    const DistanceRow row = distance_row(match, pose);
-    add(row, std::sqrt(row.range));
-  }
+  const DistanceWeight weighting{weighted ? config.weight_slope : 0.0, config.min_weight};
+  weighted_distances(matches, pose, weighting,
+                     [&](const Eigen::Vector3d&, const DistanceRow& row, double weight) {
+                       equations.add(row, weight);
+                     });
   return equations;
 }
 

@@ -8,8 +8,9 @@
 namespace aims::features {
 
 ScanEstimator::ScanEstimator(const QueueConfig& queue, const SensorRig& rig,
-                             std::vector<SeriesInfo> series)
+                             std::vector<SeriesInfo> series, Duration imu_memory)
     : rig_(rig),
+      imu_memory_(imu_memory),
       queue_(queue, ImuPropagationConfig(), rig.imu_rate_hz,
              std::numeric_limits<double>::infinity()) {
   result_.diagnostics.series = std::move(series);
@@ -30,7 +31,7 @@ void ScanEstimator::process_ready() {
     if (const auto* scan = std::get_if<LidarScanPtr>(&*next)) process(**scan);
   }
   if (const std::optional<Time> newest = queue_.imu().newest()) {
-    queue_.imu().forget_before(*newest);
+    queue_.imu().forget_before(*newest - imu_memory_);
   }
   for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
 }

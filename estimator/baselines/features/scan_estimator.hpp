@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "estimator/estimator.hpp"
@@ -8,11 +9,13 @@
 
 namespace aims::features {
 
-/// An estimator that reads scans alone and reports a pose after each of them. The odometry frame is
-/// that of the body at the end of the first scan.
+/// An estimator that reads scans, or scans and IMU, and reports a pose after each scan. The map is
+/// in axes of the LiDAR, the odometry frame in those of the body.
 class ScanEstimator : public Estimator {
  public:
-  ScanEstimator(const QueueConfig& queue, const SensorRig& rig, std::vector<SeriesInfo> series);
+  /// IMU samples are kept for `imu_memory`; 0: none is needed.
+  ScanEstimator(const QueueConfig& queue, const SensorRig& rig, std::vector<SeriesInfo> series,
+                Duration imu_memory = 0);
 
   void consume(const Delivery& delivery) override;
   void finish() override;
@@ -20,19 +23,26 @@ class ScanEstimator : public Estimator {
   std::vector<Eigen::Vector3f> map_points() const override;
 
  protected:
-  /// Registers the scans in order of time; each call reports once.
+  /// Registers the scans in order of time; each call reports once at most.
   virtual void process(const LidarScan& scan) = 0;
 
-  /// Points of the map, in the LiDAR's axes at the end of the first scan [m].
+  /// Points of the map, map axes [m].
   virtual std::vector<Eigen::Vector3f> points_in_lidar_axes() const = 0;
 
-  /// Adds the pose of the LiDAR at the end of a scan, relative to that at the end of the first one.
+  /// Adds the pose of the LiDAR at the end of a scan.
   void report(const Pose& T_map_lidar, ScanRow row);
+
+  /// The samples of the IMU's memory.
+  const ImuHistory& imu() const { return queue_.imu(); }
+
+  /// Adds one to a count of the result.
+  void count(const std::string& name) { ++result_.counts[name]; }
 
  private:
   void process_ready();
 
   SensorRig rig_;
+  Duration imu_memory_;
   MeasurementQueue queue_;
   EstimatorResult result_;
 };

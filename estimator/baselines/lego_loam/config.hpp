@@ -31,7 +31,7 @@ struct MappingConfig {
   double keyframe_distance = 0.3;  ///< a keyframe is kept after this distance [m]
   double submap_radius = 50.0;     ///< keyframes nearer than this make the map [m]
   double keyframe_voxel = 1.0;     ///< one keyframe is used per voxel of their positions [m]
-  features::MapMatchConfig matching;
+  features::MapMatchConfig matching = {};
   features::SolverConfig solver = features::map_solver_config();
 };
 

@@ -95,13 +95,14 @@ features::RingCandidates candidates_of(SegmentedRing ring, const FeatureConfig& 
   return candidates;
 }
 
-/// Orders the features of each ring by their voxels, forwards first, as the published program has
-/// them: its search for neighbours depends on the order.
-void order_by_voxels(features::FeatureCloud& cloud, double voxel) {
+/// Orders the features of each ring by their voxels, as the published programs have them: their
+/// search for neighbours depends on the order.
+void order_by_voxels(features::FeatureCloud& cloud, double voxel, VoxelOrder order) {
   const auto inverse_size = static_cast<float>(1.0 / voxel);
   const auto key = [&](const features::FeaturePoint& point) {
     const VoxelIndex index = voxel_of(point.position, inverse_size);
-    return std::array{point.ring, index.x, index.z, index.y};
+    return order == VoxelOrder::kForwardUpLeft ? std::array{point.ring, index.x, index.z, index.y}
+                                               : std::array{point.ring, index.z, index.y, index.x};
   };
   std::stable_sort(cloud.begin(), cloud.end(),
                    [&](const auto& a, const auto& b) { return key(a) < key(b); });
@@ -114,6 +115,10 @@ void describe(Fields& f, FeatureConfig& c) {
            {{"measured", PointTimes::kMeasured}, {"azimuth", PointTimes::kAzimuth}},
            {"", any(), "firing times of the returns: measured, or from azimuths as published"});
   f.group("selection", c.selection);
+  f.choice("voxel_order", c.voxel_order,
+           {{"forward_up_left", VoxelOrder::kForwardUpLeft},
+            {"up_left_forward", VoxelOrder::kUpLeftForward}},
+           {"", any(), "order of the voxels of less flat features, slowest axis first"});
   f.number("occlusion_gap", c.occlusion_gap,
            {"m", up_to(1e4), "range to the next return from which one hides the other"});
   f.integer("occlusion_columns", c.occlusion_columns,
@@ -143,7 +148,7 @@ SegmentedFeatures segmented_features(const RangeImage& image, const RangeImageCo
     features::select_features(candidates_of(std::move(ring), config), config.selection,
                               result.features);
   }
-  order_by_voxels(result.features.less_flat, config.selection.less_flat_voxel);
+  order_by_voxels(result.features.less_flat, config.selection.less_flat_voxel, config.voxel_order);
   return result;
 }
 

@@ -12,10 +12,18 @@ enum class PointTimes {
   kAzimuth,   ///< from azimuths, as the published program has them: `AzimuthTimes`
 };
 
+/// In which order the voxels of less flat features follow each other, the slowest axis first.
+enum class VoxelOrder {
+  kForwardUpLeft,  ///< the published LeGO-LOAM, which works in axes of a camera
+  kUpLeftForward,  ///< the published LINS
+};
+
 /// Edges and planes of the segmented scan (LeGO-LOAM, section III-C).
 struct FeatureConfig {
   PointTimes point_times = PointTimes::kAzimuth;
   features::SelectionConfig selection;
+  /// The search for neighbours depends on the order where `truncated_search` is on.
+  VoxelOrder voxel_order = VoxelOrder::kForwardUpLeft;
   double occlusion_gap = 0.3;    ///< range to the next return from which one hides the other [m]
   int occlusion_columns = 10;    ///< cells up to which two returns are neighbours
   double parallel_ratio = 0.02;  ///< changes of range on both sides, over the range, above which
