@@ -11,6 +11,7 @@
 #include "estimator/baselines/fast_lio2/fast_lio2.hpp"
 #include "estimator/baselines/leg_kilo/leg_kilo.hpp"
 #include "estimator/baselines/lego_loam/lego_loam.hpp"
+#include "estimator/baselines/lins/lins.hpp"
 #include "estimator/baselines/loam/loam.hpp"
 
 namespace aims {
@@ -50,6 +51,11 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
   all.push_back(entry<leg_kilo::LegKilo>("leg_kilo_published",
                                          "Leg-KILO with its published defaults",
                                          leg_kilo::published, "leg_kilo"));
+  all.push_back(entry<lins::Lins>("lins", "LINS without loop closure, set for a narrow corridor",
+                                  lins::corridor));
+  all.push_back(entry<lins::Lins>(
+      "lins_published", "LINS without loop closure, with its published defaults",
+      [] { return lins::Config(); }, "lins"));
 }
 
 std::vector<EstimatorEntry> entries() {
