@@ -11,10 +11,10 @@
 #include "bench/run/sequence.hpp"
 #include "bench/run/stream.hpp"
 #include "bench/run/tables.hpp"
+#include "core/attitude_filter.hpp"
 #include "core/files/tum.hpp"
 #include "core/stopwatch.hpp"
 #include "recordings/stream/recording_writer.hpp"
-#include "sim/sensors/attitude_filter.hpp"
 #include "sim/simulation.hpp"
 
 namespace aims {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/sensors/attitude_filter.hpp"
+#include "core/attitude_filter.hpp"
 
 #include <algorithm>
 
