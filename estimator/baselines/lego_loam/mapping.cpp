@@ -12,7 +12,7 @@ bool Mapping::is_due(Time stamp) {
 
 void Mapping::build_submap() {
   const auto indices = map_.near(last_position_, config_.submap_radius, config_.keyframe_voxel);
-  const KeyframeMap::Submap submap = map_.submap(indices);
+  const features::KeyframeMap::Submap submap = map_.submap(indices);
   reference_.build(positions_of(voxel_centroids(submap.edges, config_.edge_voxel)),
                    positions_of(voxel_centroids(submap.planes, config_.plane_voxel)));
 }
@@ -39,7 +39,7 @@ std::optional<features::SolverResult> Mapping::update(Time stamp, const Pose& T_
   last_position_ = result.pose.translation;
   const bool moved = map_.empty() || (last_position_ - map_.last_pose().translation).norm() >=
                                          config_.keyframe_distance;
-  if (moved) map_.add({result.pose, edges, keyframe_planes});
+  if (moved) map_.add({result.pose, edges, keyframe_planes, stamp});
   return result;
 }
 

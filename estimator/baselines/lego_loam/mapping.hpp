@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/time.hpp"
+#include "estimator/baselines/features/keyframe_map.hpp"
 #include "estimator/baselines/lego_loam/config.hpp"
-#include "estimator/baselines/lego_loam/keyframe_map.hpp"
 
 namespace aims::lego_loam {
 
@@ -22,14 +22,14 @@ class Mapping {
   /// The pose in the map of an odometry pose, with the last correction of the odometry.
   Pose to_map(const Pose& T_odom_lidar) const { return T_map_odom_ * T_odom_lidar; }
 
-  const KeyframeMap& map() const { return map_; }
+  const features::KeyframeMap& map() const { return map_; }
 
  private:
   bool is_due(Time stamp);
   void build_submap();
 
   MappingConfig config_;
-  KeyframeMap map_;
+  features::KeyframeMap map_;
   features::MapReference reference_;
   Pose T_map_odom_;
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();  ///< of the last registered scan [m]

@@ -13,14 +13,8 @@ namespace aims::lego_loam {
 namespace {
 
 /// The kept returns of one ring, in order of columns.
-struct SegmentedRing {
-  features::FeatureCloud points;
-  std::vector<float> ranges;
-  std::vector<int> columns;
+struct SegmentedRing : features::RangeRing {
   std::vector<bool> ground;
-
-  int size() const { return static_cast<int>(points.size()); }
-  bool neighbors(int i, int reach) const { return columns[i + 1] - columns[i] <= reach; }
 };
 
 bool keeps_column(int column, int columns, int window, int stride) {
@@ -48,50 +42,13 @@ void set_times(features::FeatureCloud& points, AzimuthTimes& times) {
   }
 }
 
-std::vector<float> range_curvature(const std::vector<float>& ranges, int window) {
-  const int count = static_cast<int>(ranges.size());
-  std::vector<float> curvature(ranges.size(), 0.0F);
-  for (int i = window; i < count - window; ++i) {
-    float sum = -2.0F * static_cast<float>(window) * ranges[i];
-    for (int j = 1; j <= window; ++j) sum += ranges[i - j] + ranges[i + j];
-    curvature[i] = sum * sum;
-  }
-  return curvature;
-}
-
-/// Returns on the far side of an occlusion, and on surfaces that the beam nearly follows.
-std::vector<bool> unreliable_returns(const SegmentedRing& ring, const FeatureConfig& config) {
-  const int window = config.selection.half_window;
-  std::vector<bool> unreliable(ring.points.size());
-  for (int i = window; i < ring.size() - window - 1; ++i) {
-    const double step = ring.ranges[i + 1] - ring.ranges[i];
-    if (ring.neighbors(i, config.occlusion_columns - 1)) {
-      if (-step > config.occlusion_gap) {
-        for (int j = i - window; j <= i; ++j) unreliable[j] = true;
-      } else if (step > config.occlusion_gap) {
-        for (int j = i + 1; j <= i + window + 1; ++j) unreliable[j] = true;
-      }
-    }
-    const double limit = config.parallel_ratio * ring.ranges[i];
-    const double before = std::abs(ring.ranges[i - 1] - ring.ranges[i]);
-    if (before > limit && std::abs(step) > limit) unreliable[i] = true;
-  }
-  return unreliable;
-}
-
-features::RingCandidates candidates_of(SegmentedRing ring, const FeatureConfig& config) {
-  features::RingCandidates candidates;
-  candidates.curvature = range_curvature(ring.ranges, config.selection.half_window);
-  candidates.unavailable = unreliable_returns(ring, config);
-  candidates.joined.resize(ring.points.size());
-  for (int i = 0; i + 1 < ring.size(); ++i) {
-    candidates.joined[i] = ring.neighbors(i, config.occlusion_columns);
-  }
+features::RingCandidates candidates_of(const SegmentedRing& ring, const FeatureConfig& config) {
+  features::RingCandidates candidates =
+      features::range_candidates(ring, config.reliability, config.selection.half_window);
   for (const bool ground : ring.ground) {
     candidates.may_be_edge.push_back(!ground);
     candidates.may_be_flat.push_back(ground);
   }
-  candidates.points = std::move(ring.points);
   return candidates;
 }
 
@@ -119,12 +76,7 @@ void describe(Fields& f, FeatureConfig& c) {
            {{"forward_up_left", VoxelOrder::kForwardUpLeft},
             {"up_left_forward", VoxelOrder::kUpLeftForward}},
            {"", any(), "order of the voxels of less flat features, slowest axis first"});
-  f.number("occlusion_gap", c.occlusion_gap,
-           {"m", up_to(1e4), "range to the next return from which one hides the other"});
-  f.integer("occlusion_columns", c.occlusion_columns,
-            {"-", in_range(1, 100000), "cells up to which two returns are neighbours"});
-  f.number("parallel_ratio", c.parallel_ratio,
-           {"-", up_to(10.0), "changes of range over range; more is a parallel surface"});
+  describe(f, c.reliability);
 }
 
 SegmentedFeatures segmented_features(const RangeImage& image, const RangeImageConfig& image_config,
@@ -145,8 +97,7 @@ SegmentedFeatures segmented_features(const RangeImage& image, const RangeImageCo
     SegmentedRing ring =
         segmented_ring(image, row, config.selection.half_window, image_config.stride);
     if (config.point_times == PointTimes::kAzimuth) set_times(ring.points, times);
-    features::select_features(candidates_of(std::move(ring), config), config.selection,
-                              result.features);
+    features::select_features(candidates_of(ring, config), config.selection, result.features);
   }
   order_by_voxels(result.features.less_flat, config.selection.less_flat_voxel, config.voxel_order);
   return result;

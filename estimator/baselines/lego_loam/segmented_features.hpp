@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimator/baselines/features/feature_selection.hpp"
+#include "estimator/baselines/features/range_ring.hpp"
 #include "estimator/baselines/lego_loam/range_image.hpp"
 
 namespace aims::lego_loam {
@@ -24,10 +25,7 @@ struct FeatureConfig {
   features::SelectionConfig selection;
   /// The search for neighbours depends on the order where `truncated_search` is on.
   VoxelOrder voxel_order = VoxelOrder::kForwardUpLeft;
-  double occlusion_gap = 0.3;    ///< range to the next return from which one hides the other [m]
-  int occlusion_columns = 10;    ///< cells up to which two returns are neighbours
-  double parallel_ratio = 0.02;  ///< changes of range on both sides, over the range, above which
-                                 ///< the beam is nearly parallel to the surface
+  features::RangeRingConfig reliability;
 };
 
 void describe(Fields& fields, FeatureConfig& config);

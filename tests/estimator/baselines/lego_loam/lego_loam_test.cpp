@@ -16,6 +16,8 @@ using aims::testing::position_error;
 using aims::testing::room;
 using aims::testing::rotation_error;
 using aims::testing::scan_in;
+using features::Keyframe;
+using features::KeyframeMap;
 
 const Pose kStart{Eigen::Quaterniond::Identity(), {0.3, -0.4, 0.6}};
 const Pose kMotion = pose_of({0.08, 0.03, 0.01}, {0.004, -0.003, 0.02});
@@ -88,6 +90,13 @@ TEST(LegoKeyframeMap, OnTheReturnAVoxelYieldsTheKeyframeOfItsMeanIndex) {
   const std::vector<int> near = map.near({0.5, 0.5, 0.5}, 1.0, 1.0);
   ASSERT_EQ(near.size(), 1U);
   EXPECT_EQ(near[0], 2);  // the far end, as in the published program
+}
+
+TEST(LegoKeyframeMap, OnTheReturnAVoxelYieldsTheKeyframeNearItsMeanPosition) {
+  KeyframeMap map;
+  for (const double x : {0.5, 10.5, 20.5, 10.5, 0.9, 0.9}) map.add(keyframe_at(x));
+  EXPECT_EQ(map.near_means({0.5, 0.5, 0.5}, 1.0, 1.0), std::vector<int>{4});
+  EXPECT_EQ(map.near_means({0.5, 0.5, 0.5}, 12.0, 10.0), (std::vector<int>{4, 1}));
 }
 
 TEST(LegoKeyframeMap, SubmapIsInMapAxes) {

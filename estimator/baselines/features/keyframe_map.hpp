@@ -4,15 +4,17 @@
 #include <vector>
 
 #include "core/lie.hpp"
+#include "core/time.hpp"
 #include "estimator/baselines/features/feature_point.hpp"
 
-namespace aims::lego_loam {
+namespace aims::features {
 
 /// Features of a scan and where it was taken.
 struct Keyframe {
   Pose T_map_lidar;
-  features::FeatureCloud edges;   ///< LiDAR axes
-  features::FeatureCloud planes;  ///< likewise, outliers among them
+  FeatureCloud edges;   ///< LiDAR axes
+  FeatureCloud planes;  ///< likewise
+  Time stamp = 0;
 };
 
 /// The keyframes of a map, and those that a scan is matched with.
@@ -20,17 +22,23 @@ class KeyframeMap {
  public:
   void add(Keyframe keyframe) { keyframes_.push_back(std::move(keyframe)); }
   bool empty() const { return keyframes_.empty(); }
+  int size() const { return static_cast<int>(keyframes_.size()); }
+  const Keyframe& operator[](int index) const { return keyframes_[index]; }
   const Pose& last_pose() const { return keyframes_.back().T_map_lidar; }
+  void set_pose(int index, const Pose& T_map_lidar) { keyframes_[index].T_map_lidar = T_map_lidar; }
 
-  /// Indices of the keyframes within `radius` [m] of a position, thinned as the published program
+  /// Indices of the keyframes within `radius` [m] of a position, thinned as LeGO-LOAM's program
   /// does: a voxel of edge `voxel` [m] yields the keyframe of the mean index in it, whole part.
   /// Where a route returns, that keyframe lies elsewhere.
   std::vector<int> near(const Eigen::Vector3d& position, double radius, double voxel) const;
 
+  /// The same, but a voxel yields the keyframe that is nearest to the mean of the positions in it.
+  std::vector<int> near_means(const Eigen::Vector3d& position, double radius, double voxel) const;
+
   /// Points of these keyframes in map axes.
   struct Submap {
-    features::FeatureCloud edges;
-    features::FeatureCloud planes;
+    FeatureCloud edges;
+    FeatureCloud planes;
   };
   Submap submap(const std::vector<int>& indices) const;
 
@@ -38,7 +46,9 @@ class KeyframeMap {
   std::vector<Eigen::Vector3f> points() const;
 
  private:
+  int nearest(const Eigen::Vector3d& position) const;
+
   std::vector<Keyframe> keyframes_;
 };
 
-}  // namespace aims::lego_loam
+}  // namespace aims::features
