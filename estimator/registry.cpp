@@ -12,6 +12,7 @@
 #include "estimator/baselines/leg_kilo/leg_kilo.hpp"
 #include "estimator/baselines/lego_loam/lego_loam.hpp"
 #include "estimator/baselines/lins/lins.hpp"
+#include "estimator/baselines/lio_sam/lio_sam.hpp"
 #include "estimator/baselines/loam/loam.hpp"
 
 namespace aims {
@@ -56,6 +57,11 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
   all.push_back(entry<lins::Lins>(
       "lins_published", "LINS without loop closure, with its published defaults",
       [] { return lins::Config(); }, "lins"));
+  all.push_back(
+      entry<lio_sam::LioSam>("lio_sam", "LIO-SAM, set for a narrow corridor", lio_sam::corridor));
+  all.push_back(entry<lio_sam::LioSam>(
+      "lio_sam_published", "LIO-SAM with its published defaults",
+      [] { return lio_sam::Config(); }, "lio_sam"));
 }
 
 std::vector<EstimatorEntry> entries() {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/attitude_filter.hpp"
+#include "estimator/baselines/lio_sam/config.hpp"
+#include "estimator/baselines/lio_sam/scan_series.hpp"
+#include "estimator/estimator.hpp"
+
+namespace aims::lio_sam {
+
+/// LIO-SAM: scans registered to keyframes, guessed by an odometry of IMU and LiDAR poses in a
+/// factor graph; keyframes in another graph, with loops (docs/baselines/lio_sam.md). Its odometry
+/// frame is level, at the body's first position and heading.
+class LioSam final : public Estimator {
+ public:
+  LioSam(const Config& config, const SensorRig& rig);
+
+  void consume(const Delivery& delivery) override;
+  void finish() override;
+  const EstimatorResult& result() const override { return result_; }
+  std::vector<Eigen::Vector3f> map_points() const override;
+
+ private:
+  /// A registered scan on its way to the IMU odometry.
+  struct Pending {
+    Time arrival = 0;
+    LidarOdometry scan;
+  };
+
+  void process_ready();
+  void hold(LidarScanPtr scan);
+  void add_samples(Time until);
+  void add_sample(const ImuSample& sample);
+  ImuSample in_lidar_axes(const ImuSample& sample);
+  void process(const LidarScan& scan, Time clock);
+  bool covered_by_imu(const LidarScan& scan, Time last_firing) const;
+  ScanPrior prior_of(const LidarScan& scan, const GyroRotation& rotation);
+  std::optional<Pose> odometry_at(Time begin);
+  Pose between_scans(Time stamp);
+  void report(const LidarScan& scan, const Pose& T_map_lidar, const ScanReport& diagnostics);
+  void set_counts();
+
+  Config config_;
+  SensorRig rig_;
+  MeasurementQueue queue_;
+  EstimatorResult result_;
+  AttitudeFilter attitude_filter_;
+  Mapping mapping_;
+  ImuOdometry imu_odometry_;
+
+  std::optional<Time> last_sample_;
+  std::deque<LidarScanPtr> held_;
+  std::deque<Pending> pending_;
+  std::deque<ImuSample> samples_;       ///< for the next scans, LiDAR axes
+  std::deque<StampedPose> odometry_;    ///< of the IMU, for the next scans
+  std::deque<StampedPose> since_scan_;  ///< likewise, since the last registered scan
+  RollPitchYaw attitude_;               ///< last one at a scan's begin
+  std::optional<StampedPose> registered_;
+  Pose T_odom_map_;
+  int without_orientation_ = 0;
+  int without_imu_ = 0;
+  int rejected_ = 0;
+};
+
+}  // namespace aims::lio_sam

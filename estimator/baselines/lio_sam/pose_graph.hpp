@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "core/config.hpp"
+#include "estimator/baselines/lio_sam/factor_graph.hpp"
+
+namespace aims::lio_sam {
+
+/// Graph of keyframes (LIO-SAM, section III); defaults of the published program.
+struct PoseGraphConfig {
+  double rotation_variance = 1e-6;     ///< between two keyframes [rad^2]
+  double position_variance = 1e-4;     ///< [m^2]
+  double relinearize_threshold = 0.1;  ///< see FactorGraph [rad, m]
+};
+
+void describe(Fields& fields, PoseGraphConfig& config);
+
+/// A keyframe seen again: where the newer one was when it was matched with the older one.
+struct Loop {
+  int newer = 0;
+  int older = 0;
+  Pose T_newer_older;
+  double variance = 0.0;  ///< of each entry of its residual [rad^2, m^2]
+};
+
+/// Poses of keyframes, one after the other, and loops between them.
+class PoseGraph {
+ public:
+  explicit PoseGraph(const PoseGraphConfig& config);
+
+  /// Adds the next keyframe, which moved from the last one as the two poses differ, and loops
+  /// between earlier ones. Whether the other poses may have changed.
+  bool add(const Pose& T_map_lidar, const std::vector<Loop>& loops);
+
+  /// Of a keyframe.
+  const Pose& pose(int keyframe) const { return poses_[keyframe]; }
+
+ private:
+  PoseGraphConfig config_;
+  FactorGraph graph_;
+  std::vector<Pose> poses_;
+};
+
+}  // namespace aims::lio_sam

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/config.hpp"
+#include "core/lie.hpp"
+
+namespace aims::lio_sam {
+
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+/// Biases of the IMU.
+struct ImuBias {
+  Eigen::Vector3d accelerometer = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();           ///< [rad/s]
+};
+
+/// Pose and velocity of the IMU in the map.
+struct NavState {
+  Pose T_map_imu;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< map axes [m/s]
+};
+
+/// Noise of the IMU, as densities; defaults of the published program.
+struct ImuNoiseConfig {
+  double accelerometer = 3.9939570888238808e-03;       ///< [m/s^2/sqrt(Hz)]
+  double gyro = 1.5636343949698187e-03;                ///< [rad/s/sqrt(Hz)]
+  double accelerometer_bias = 6.4356659353532566e-05;  ///< its random walk [m/s^2/sqrt(s)]
+  double gyro_bias = 3.5640318696367613e-05;           ///< its random walk [rad/s/sqrt(s)]
+  double integration = 1e-4;                           ///< of the position [m/sqrt(s)]
+};
+
+void describe(Fields& fields, ImuNoiseConfig& config);
+
+/// Rows and columns of the 9-vector (rotation, velocity, position).
+inline constexpr int kRotation = 0;
+inline constexpr int kVelocity = 3;
+inline constexpr int kPosition = 6;
+
+/// Relative motion between two instants.
+struct MotionDelta {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// IMU samples between two instants as one relative motion in the axes of the first, without
+/// gravity and initial velocity (Forster, Carlone, Dellaert and Scaramuzza, T-RO 2017, sec. VI).
+struct Preintegration {
+  ImuBias bias;           ///< at which the samples were integrated
+  double duration = 0.0;  ///< [s]
+  MotionDelta delta;
+  Matrix9 covariance = Matrix9::Zero();
+  Eigen::Matrix3d rotation_by_gyro = Eigen::Matrix3d::Zero();  ///< d rotation / d bias
+  Eigen::Matrix3d velocity_by_gyro = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d velocity_by_accelerometer = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d position_by_gyro = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d position_by_accelerometer = Eigen::Matrix3d::Zero();
+};
+
+/// Adds a sample that holds for `step` [s]: angular velocity [rad/s] and specific force [m/s^2].
+void integrate(Preintegration& motion, const Eigen::Vector3d& rate, const Eigen::Vector3d& force,
+               double step, const ImuNoiseConfig& noise);
+
+/// The motion at another bias, to first order.
+MotionDelta corrected(const Preintegration& motion, const ImuBias& bias);
+
+/// The state after the motion, with gravity [m/s^2] along -z.
+NavState predicted(const NavState& state, const Preintegration& motion, const ImuBias& bias,
+                   double gravity);
+
+}  // namespace aims::lio_sam
