@@ -60,8 +60,8 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
   all.push_back(
       entry<lio_sam::LioSam>("lio_sam", "LIO-SAM, set for a narrow corridor", lio_sam::corridor));
   all.push_back(entry<lio_sam::LioSam>(
-      "lio_sam_published", "LIO-SAM with its published defaults",
-      [] { return lio_sam::Config(); }, "lio_sam"));
+      "lio_sam_published", "LIO-SAM with its published defaults", [] { return lio_sam::Config(); },
+      "lio_sam"));
 }
 
 std::vector<EstimatorEntry> entries() {

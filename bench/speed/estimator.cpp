@@ -86,6 +86,7 @@ BENCHMARK_CAPTURE(time_per_scan, fast_lio2, "fast_lio2")->Unit(benchmark::kMilli
 BENCHMARK_CAPTURE(time_per_scan, loam, "loam")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, a_loam, "a_loam")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, lego_loam, "lego_loam")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_per_scan, lio_sam, "lio_sam")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, leg_kilo, "leg_kilo")->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -119,6 +119,7 @@ const std::vector<DegeneracyIndex>& degeneracy_indices() {
       {"smallest_eigenvalue", false, "Zhang, Kaess and Singh 2016"},
       {"condition_number", true, "Hinduja, Ho and Kaess 2019"},
       {"localizability", false, "Tuna, Nubert, Nava, Khattak and Hutter 2023"},
+      {"is_degenerate", true, "Shan, Englot, Meyers, Wang, Ratti and Rus 2020"},
       {"weak_weight", false, "this project: real fraction along the weakest axis"},
       {"weak_tilt", false, "this project: tilt of the planes towards the weakest axis"},
       {"points_used", false, "usual practice"}};

@@ -68,7 +68,7 @@ void describe(Fields& f, ImuOdometryConfig& c) {
   f.number("degenerate_sigma", c.degenerate_sigma,
            {"rad, m", sigma, "of a LiDAR pose from a degenerate scan, per axis"});
   f.integer("max_keys", c.max_keys,
-            {"-", in_range(2, 1000), "keys at which the graph starts anew from the last one"});
+            {"-", in_range(2, 1000), "keys at which a new graph starts from the last one"});
   f.number("max_speed", c.max_speed,
            {"m/s", positive_up_to(1e6), "a faster estimate is a failure"});
   f.number("max_bias", c.max_bias,

@@ -74,7 +74,7 @@ features::RangeRing ring_of(const std::vector<std::optional<features::FeaturePoi
 
 void describe(Fields& f, ImageConfig& c) {
   f.number("min_range", c.min_range, {"m", up_to(1e4), "nearer returns are ignored"});
-  f.number("max_range", c.max_range, {"m", positive_up_to(1e4), "farther returns are ignored"});
+  f.number("max_range", c.max_range, {"m", in_range(0.1, 1e4), "farther returns are ignored"});
   f.integer("columns", c.columns,
             {"-", in_range(10, 100000), "cells of one turn; each keeps its first return"});
 }

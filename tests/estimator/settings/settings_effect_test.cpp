@@ -158,8 +158,19 @@ const std::vector<RecordedStream>& streams_for(EstimatorConfig& config) {
   return streams->second;
 }
 
+/// Settings at whose defaults others would not act on a short sequence, and values at which they do.
+const std::map<std::string, std::string>& shortened() {
+  static const std::map<std::string, std::string> all = {{"mapping.loop.min_age", "4"}};
+  return all;
+}
+
 std::unique_ptr<EstimatorConfig> config_of(const std::string& name) {
-  return EstimatorConfigs().find(name)->clone();
+  auto config = EstimatorConfigs().find(name)->clone();
+  const Fields fields = fields_of(*config);
+  for (const auto& [key, value] : shortened()) {
+    if (const Parameter* parameter = fields.find(key)) (void)parameter->assign(value);
+  }
+  return config;
 }
 
 /// Sets the other parameters of a group that a switch has turned on, which may need a long sequence
