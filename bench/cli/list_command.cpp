@@ -17,7 +17,7 @@ namespace {
 void print_entry(const CatalogueEntry& entry) {
   const std::string tags =
       entry.tags.empty() ? "" : fmt::format("  [{}]", fmt::join(entry.tags, ", "));
-  print_out("  {:<16} {}{}\n", entry.name, entry.description, tags);
+  print_out("  {:<20} {}{}\n", entry.name, entry.description, tags);
 }
 
 int list_command(const SharedOptions& shared, bool json) {

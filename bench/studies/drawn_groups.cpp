@@ -21,26 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kGroupsSchema = "aims.groups/1";
 
-/// The drawn value of a run; null when it drew no such key.
-Json drawn_in(const RunRecord& run, const std::string& key) {
-  const auto drawn = run.scores.find("drawn");
-  if (drawn == run.scores.end() || !drawn->is_object()) return {};
-  return drawn->value(key, Json());
-}
-
 std::string text_of(const Json& value) {
   if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
   return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-/// Upper ends of bins of about equal numbers of values, each once; the last is the largest value.
-std::vector<double> upper_ends(std::vector<double> values, std::size_t bins) {
-  std::sort(values.begin(), values.end());
-  std::set<double> different(values.begin(), values.end());
-  if (different.size() <= bins) return {different.begin(), different.end()};
-  std::set<double> ends;
-  for (std::size_t i = 1; i <= bins; ++i) ends.insert(values[i * values.size() / bins - 1]);
-  return {ends.begin(), ends.end()};
 }
 
 GroupScores scores_of(std::span<const RunRecord> runs, const std::string& estimator) {
@@ -123,6 +106,21 @@ tl::unexpected<Error> no_such_key(const StoredResults& results, const std::strin
 }
 
 }  // namespace
+
+Json drawn_in(const RunRecord& run, const std::string& key) {
+  const auto drawn = run.scores.find("drawn");
+  if (drawn == run.scores.end() || !drawn->is_object()) return {};
+  return drawn->value(key, Json());
+}
+
+std::vector<double> upper_ends(std::vector<double> values, std::size_t bins) {
+  std::sort(values.begin(), values.end());
+  std::set<double> different(values.begin(), values.end());
+  if (different.size() <= bins) return {different.begin(), different.end()};
+  std::set<double> ends;
+  for (std::size_t i = 1; i <= bins; ++i) ends.insert(values[i * values.size() / bins - 1]);
+  return {ends.begin(), ends.end()};
+}
 
 Result<std::vector<DrawnGroup>> group_by_drawn(const StoredResults& results, const std::string& key,
                                                std::size_t bins) {

@@ -3,16 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "bench/run/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "render/page/json_access.hpp"
 #include "render/page/map_cloud.hpp"
+#include "render/page/page_pictures.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_series.hpp"
 #include "render/page/scene_geometry.hpp"
@@ -25,14 +25,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Pictures of a run's folder that its page shows, and what they are.
-constexpr std::array<std::pair<const char*, const char*>, 4> kPictures = {
-    {{"robot_start", "The robot at the start"},
-     {"robot_middle", "The robot outbound"},
-     {"robot_turn", "The robot at the turn"},
-     {"trajectories", "Trajectories over the plan; height and error over the distance travelled"}}};
+const std::vector<PagePicture> kPictures = {
+    {"robot_start", "The robot at the start"},
+    {"robot_middle", "The robot outbound"},
+    {"robot_turn", "The robot at the turn"},
+    {"trajectories", "Trajectories over the plan; height and error over the distance travelled"}};
 /// Pictures beyond this size are left out [bytes].
 constexpr std::uintmax_t kLargestPicture = 256 * 1024;
-constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word) {
@@ -115,23 +114,6 @@ Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surfac
   return list;
 }
 
-/// The pictures that the folder holds; one that is no PNG becomes a note.
-Result<Json> pictures_json(const RunFolder& run, Json& notes) {
-  Json list = Json::array();
-  for (const auto& [name, title] : kPictures) {
-    const fs::path file = run.path / (std::string(name) + ".png");
-    if (!fs::is_regular_file(file) || fs::file_size(file) > kLargestPicture) continue;
-    const auto bytes = read_file(file);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (!bytes->starts_with(kPngSignature)) {
-      notes.push_back(file.filename().string() + " is no PNG picture and is left out.");
-      continue;
-    }
-    list.push_back({{"name", name}, {"title", title}, {"png", base64(*bytes)}});
-  }
-  return list;
-}
-
 /// Adds what needs the scene: its geometry, and maps held against its surface.
 Result<void> add_estimators(const RunFolder& run, double start, PageData& page) {
   std::optional<SurfaceDistance> surface;
@@ -180,7 +162,7 @@ Result<PageData> run_page(const fs::path& folder) {
     return tl::unexpected(added.error());
   }
   Json notes = run->notes;
-  auto pictures = pictures_json(*run, notes);
+  auto pictures = pictures_json(run->path, kPictures, kLargestPicture, notes);
   if (!pictures) return tl::unexpected(pictures.error());
   page.json["notes"] = std::move(notes);
   page.json["pictures"] = std::move(*pictures);

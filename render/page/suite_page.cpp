@@ -14,11 +14,13 @@
 #include "bench/jobs/results.hpp"
 #include "bench/run/validity.hpp"
 #include "bench/studies/comparison.hpp"
+#include "bench/studies/paper_study.hpp"
 #include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "render/page/detector_curves.hpp"
 #include "render/page/json_access.hpp"
 #include "render/page/links.hpp"
+#include "render/page/page_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -26,6 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRunPage = "page.html";
+/// Pictures of the paper's experiments beyond this size are left out [bytes].
+constexpr std::uintmax_t kLargestPicture = 2 * 1024 * 1024;
 
 /// Error for a suite.json whose scenarios cannot be gone through.
 Result<void> check_scenarios(const Json& suite, const fs::path& file) {
@@ -126,6 +130,29 @@ Result<Json> detectors_of(const fs::path& folder, const fs::path& asked, PageDat
   return Json();
 }
 
+/// The file of `aims study paper` and its pictures; null in other folders.
+Result<Json> paper_of(const fs::path& folder, Json& notes) {
+  const fs::path file = folder / "paper.json";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return Json();
+  auto paper = read_json_of(file, kPaperSchema);
+  if (!paper) {
+    notes.push_back("paper.json cannot be used: " + paper.error().message);
+    return Json();
+  }
+  std::vector<PagePicture> pictures;
+  for (const Json& each : member(*paper, "experiments")) {
+    const std::string name = text_in(each, "scenario");
+    pictures.push_back(
+        {name + "-trajectories", name + ": trajectories over the plan, height, error"});
+    pictures.push_back({name + "-maps", name + ": maps from above and from the side"});
+  }
+  auto shown = pictures_json(folder, pictures, kLargestPicture, notes);
+  if (!shown) return shown;
+  (*paper)["pictures"] = std::move(*shown);
+  return paper;
+}
+
 /// What changed from `against` to the suite; null when there is nothing to compare with.
 Result<Json> comparison_of(const fs::path& folder, const fs::path& against) {
   if (against.empty()) return Json();
@@ -167,13 +194,15 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
   if (!detectors) return tl::unexpected(detectors.error());
   auto comparison = comparison_of(folder, options.against);
   if (!comparison) return tl::unexpected(comparison.error());
+  auto paper = paper_of(folder, notes);
+  if (!paper) return tl::unexpected(paper.error());
   const fs::path page_folder = options.out_folder.empty() ? folder : options.out_folder;
   Json runs = runs_of(*suite, folder, page_folder, notes);
   page.json = {{"schema", kPageSchema},         {"kind", "suite"},
                {"title", page.title},           {"version", text_in(*suite, "version")},
                {"headline", headline_scores()}, {"runs", std::move(runs)},
                {"roc", std::move(*detectors)},  {"compare", std::move(*comparison)},
-               {"notes", std::move(notes)}};
+               {"paper", std::move(*paper)},    {"notes", std::move(notes)}};
   page.json["suite"] = std::move(*suite);
   return page;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "render/plots/map_sheet.hpp"
@@ -17,31 +16,6 @@ namespace {
 constexpr double kLeft = 84.0;    ///< margins around the strips [px]
 constexpr double kRight = 150.0;  ///< with the colour scale
 constexpr double kMargin = 28.0;  ///< right of the subtitle
-constexpr std::array<std::uint8_t, 3> kDark = {18, 20, 26};
-constexpr std::size_t kTints = 32;  ///< of squares, each colour one shape
-
-void draw_squares(Canvas& canvas, const MapSheet& sheet, int strip, const Panel& panel,
-                  const Rect& area) {
-  std::array<std::vector<Eigen::Vector2d>, kTints> centers;
-  for (const RasterPoint& point : visible_points(sheet, strip)) {
-    const float fraction = std::clamp(point.height, 0.0F, 1.0F);
-    const auto tint = std::min(kTints - 1, static_cast<std::size_t>(fraction * kTints));
-    centers[tint].push_back(to_pixels(panel, area, {point.u, point.v}));
-  }
-  canvas.fill(area, {kDark[0] / 255.0, kDark[1] / 255.0, kDark[2] / 255.0});
-  for (std::size_t tint = 0; tint < kTints; ++tint) {
-    if (centers[tint].empty()) continue;
-    const double fraction = (static_cast<double>(tint) + 0.5) / kTints;
-    canvas.squares(centers[tint], sheet.point_size, height_color(fraction));
-  }
-}
-
-void draw_pixels(Canvas& canvas, const MapSheet& sheet, int strip, const Rect& area) {
-  canvas.image(raster_points(sheet.points, window_of(sheet, strip), static_cast<int>(area.width),
-                             static_cast<int>(area.height), sheet.point_size, kDark),
-               area);
-}
-
 void draw_strip(Canvas& canvas, const MapSheet& sheet, int strip) {
   const MapLayout& layout = sheet.layout;
   const RasterWindow part = window_of(sheet, strip);
@@ -51,18 +25,7 @@ void draw_strip(Canvas& canvas, const MapSheet& sheet, int strip) {
   panel.x = {strip + 1 == layout.strips ? "x [m]" : "", part.u_min, part.u_max};
   panel.y = {sheet.view == MapView::kAbove ? "y [m]" : "z [m]", part.v_min, part.v_max};
   draw_panel(canvas, area, panel);
-  std::vector<Eigen::Vector2d> line;
-  for (const Eigen::Vector2d& point : sheet.track) line.push_back(to_pixels(panel, area, point));
-  canvas.clip(area);
-  if (sheet.squares) {
-    draw_squares(canvas, sheet, strip, panel, area);
-  } else {
-    draw_pixels(canvas, sheet, strip, area);
-  }
-  canvas.line(line, {{0.0, 0.0, 0.0, 0.6}, 2.6});
-  canvas.line(line, {{1.0, 1.0, 1.0}, 1.1});
-  if (!line.empty()) canvas.disc(line.front(), 4.0, {1.0, 1.0, 1.0});
-  canvas.unclip();
+  draw_strip(canvas, sheet, strip, panel, area);
 }
 
 std::string subtitle(const MapPicture& map, MapView view, std::size_t finite, int strips) {

@@ -2,10 +2,12 @@
 #include "render/plots/map_sheet.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "render/plots/palette.hpp"
 #include "render/plots/roof_cut.hpp"
 
 namespace aims {
@@ -152,6 +154,44 @@ void choose_squares(MapSheet& sheet) {
   sheet.squares = true;
 }
 
+constexpr std::array<std::uint8_t, 3> kDark = {18, 20, 26};
+constexpr std::size_t kTints = 32;  ///< of squares, each colour one shape
+
+void draw_squares(Canvas& canvas, const MapSheet& sheet, int strip, const Panel& panel,
+                  const Rect& area) {
+  std::array<std::vector<Eigen::Vector2d>, kTints> centers;
+  for (const RasterPoint& point : visible_points(sheet, strip)) {
+    const float fraction = std::clamp(point.height, 0.0F, 1.0F);
+    const auto tint = std::min(kTints - 1, static_cast<std::size_t>(fraction * kTints));
+    centers[tint].push_back(to_pixels(panel, area, {point.u, point.v}));
+  }
+  canvas.fill(area, {kDark[0] / 255.0, kDark[1] / 255.0, kDark[2] / 255.0});
+  for (std::size_t tint = 0; tint < kTints; ++tint) {
+    if (centers[tint].empty()) continue;
+    const double fraction = (static_cast<double>(tint) + 0.5) / kTints;
+    canvas.squares(centers[tint], sheet.point_size, height_color(fraction));
+  }
+}
+
+void draw_pixels(Canvas& canvas, const MapSheet& sheet, int strip, const Rect& area) {
+  canvas.image(raster_points(sheet.points, window_of(sheet, strip), static_cast<int>(area.width),
+                             static_cast<int>(area.height), sheet.point_size, kDark),
+               area);
+}
+
+/// The sheet without window and layout.
+MapSheet unplaced_sheet(MapView view, const MapPicture& map) {
+  std::vector<Eigen::Vector3f> points = finite_points(map.points);
+  MapSheet sheet;
+  sheet.view = view;
+  sheet.finite = points.size();
+  sheet.heights = map.heights.value_or(map_heights(points));
+  if (view == MapView::kAbove) open_roof(points, map.section);
+  sheet.points = raster_of(view, points, sheet.heights);
+  sheet.track = track_of(view, map.trajectory);
+  return sheet;
+}
+
 }  // namespace
 
 RasterWindow window_of(const MapSheet& sheet, int strip) {
@@ -197,19 +237,38 @@ HeightRange map_heights(const std::vector<Eigen::Vector3f>& points) {
 }
 
 MapSheet map_sheet(MapView view, const MapPicture& map, double width, bool squares) {
-  std::vector<Eigen::Vector3f> points = finite_points(map.points);
-  MapSheet sheet;
-  sheet.view = view;
-  sheet.finite = points.size();
-  sheet.heights = map.heights.value_or(map_heights(points));
-  if (view == MapView::kAbove) open_roof(points, map.section);
-  sheet.points = raster_of(view, points, sheet.heights);
-  sheet.track = track_of(view, map.trajectory);
+  MapSheet sheet = unplaced_sheet(view, map);
   sheet.window = window_of(sheet.points, sheet.track);
   sheet.layout = layout_of(sheet.window, width);
   sheet.point_size = point_size(sheet.points, sheet.layout.scale);
   if (squares) choose_squares(sheet);
   return sheet;
+}
+
+MapSheet map_sheet_of(MapView view, const MapPicture& map, const RasterWindow& window,
+                      double width) {
+  MapSheet sheet = unplaced_sheet(view, map);
+  sheet.window = window;
+  const double scale = width / (window.u_max - window.u_min);
+  sheet.layout = {1, scale, width, std::round(scale * (window.v_max - window.v_min))};
+  sheet.point_size = point_size(sheet.points, scale);
+  return sheet;
+}
+
+void draw_strip(Canvas& canvas, const MapSheet& sheet, int strip, const Panel& panel,
+                const Rect& area) {
+  std::vector<Eigen::Vector2d> line;
+  for (const Eigen::Vector2d& point : sheet.track) line.push_back(to_pixels(panel, area, point));
+  canvas.clip(area);
+  if (sheet.squares) {
+    draw_squares(canvas, sheet, strip, panel, area);
+  } else {
+    draw_pixels(canvas, sheet, strip, area);
+  }
+  canvas.line(line, {{0.0, 0.0, 0.0, 0.6}, 2.6});
+  canvas.line(line, {{1.0, 1.0, 1.0}, 1.1});
+  if (!line.empty()) canvas.disc(line.front(), 4.0, {1.0, 1.0, 1.0});
+  canvas.unclip();
 }
 
 }  // namespace aims

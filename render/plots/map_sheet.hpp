@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/plots/map_picture.hpp"
+#include "render/plots/plot.hpp"
 #include "render/plots/point_raster.hpp"
 
 namespace aims {
@@ -39,8 +40,16 @@ struct MapSheet {
 /// smallest vector squares that are not too many.
 MapSheet map_sheet(MapView view, const MapPicture& map, double width, bool squares);
 
+/// The sheet of a map in one strip that shows `window`, `width` wide [px].
+MapSheet map_sheet_of(MapView view, const MapPicture& map, const RasterWindow& window,
+                      double width);
+
 /// The part of the plane that a strip shows.
 RasterWindow window_of(const MapSheet& sheet, int strip);
+
+/// Draws points and trajectory of a strip into `area`, whose axes are the panel's.
+void draw_strip(Canvas& canvas, const MapSheet& sheet, int strip, const Panel& panel,
+                const Rect& area);
 
 /// The nearest point of each cell of the strip's grid, with the cell as large as a point.
 std::vector<RasterPoint> visible_points(const MapSheet& sheet, int strip);

@@ -14,6 +14,7 @@
 #include "core/files/tum.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "estimator/estimator_spec.hpp"
+#include "render/plots/map_grid.hpp"
 #include "render/plots/trajectory_plot.hpp"
 #include "render/results/estimator_pictures.hpp"
 #include "render/scene/robot_pictures.hpp"
@@ -69,7 +70,7 @@ Result<DrawnRun> read_run(const fs::path& folder) {
   return run;
 }
 
-Result<void> draw_trajectories(const DrawnRun& run, const fs::path& folder) {
+Result<void> draw_trajectories(const DrawnRun& run, const fs::path& file) {
   TrajectoryPlot plot;
   plot.title = run.scenario.name + ": estimated trajectories";
   plot.subtitle = run.subtitle;
@@ -80,7 +81,35 @@ Result<void> draw_trajectories(const DrawnRun& run, const fs::path& folder) {
     plot.estimates.push_back(
         {outcome.name, anchored(outcome.result.trajectory, run.truth, run.scenario.scoring)});
   }
-  return write_trajectory_plot(folder / "trajectories.png", plot);
+  return write_trajectory_plot(file, plot);
+}
+
+/// The estimator's map and trajectory, laid onto the truth.
+MapPicture map_on_truth(const DrawnRun& run, const EstimatorOutcome& outcome) {
+  const Trajectory& estimate = outcome.result.trajectory;
+  const Pose T_world_odom = start_anchor(estimate, run.truth, run.scenario.scoring);
+  MapPicture map;
+  map.title = outcome.name;
+  for (const Eigen::Vector3f& point : outcome.map) {
+    map.points.push_back((T_world_odom * point.cast<double>()).cast<float>());
+  }
+  map.trajectory = thinned(anchored(estimate, run.truth, run.scenario.scoring), kRunSpacing);
+  return map;
+}
+
+Result<void> draw_maps(const DrawnRun& run, const std::vector<std::string>& names,
+                       const fs::path& file) {
+  MapGrid grid;
+  grid.title = run.scenario.name + ": maps";
+  grid.subtitle = run.subtitle +
+                  "  ·  starts laid onto the truth, equal scales; white: trajectory, "
+                  "dot: its start";
+  grid.truth = run.truth;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(run.estimators, name, &EstimatorOutcome::name);
+    if (found != run.estimators.end()) grid.maps.push_back(map_on_truth(run, *found));
+  }
+  return grid.maps.empty() ? Result<void>() : write_map_grid(file, grid);
 }
 
 Result<void> draw_robot(const DrawnRun& run, const fs::path& folder) {
@@ -99,7 +128,7 @@ Result<void> draw_run(const fs::path& folder, const DrawObserver& observer) {
   auto drawn = draw_robot(*run, folder);
   if (drawn) {
     announce(observer, folder / "trajectories.png");
-    drawn = draw_trajectories(*run, folder);
+    drawn = draw_trajectories(*run, folder / "trajectories.png");
   }
   if (drawn) {
     announce(observer, folder / "degeneracy.png");
@@ -112,6 +141,18 @@ Result<void> draw_run(const fs::path& folder, const DrawObserver& observer) {
     drawn = draw_map(run->scenario.name, outcome, folder);
   }
   return drawn;
+}
+
+Result<void> draw_systems(const fs::path& folder, const std::vector<std::string>& maps,
+                          const fs::path& out, const DrawObserver& observer) {
+  const auto run = read_run(folder);
+  if (!run) return tl::unexpected(run.error());
+  const fs::path trajectories = out / (run->scenario.name + "-trajectories.png");
+  announce(observer, trajectories);
+  if (auto drawn = draw_trajectories(*run, trajectories); !drawn) return drawn;
+  const fs::path side_by_side = out / (run->scenario.name + "-maps.png");
+  announce(observer, side_by_side);
+  return draw_maps(*run, maps, side_by_side);
 }
 
 std::vector<fs::path> pictures_in(const fs::path& folder) {

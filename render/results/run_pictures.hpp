@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "bench/run/draw_observer.hpp"
@@ -13,6 +14,12 @@ namespace aims {
 /// estimator's map from above and from the side, every trajectory over the plan, and the degeneracy
 /// index over time.
 Result<void> draw_run(const std::filesystem::path& folder, const DrawObserver& observer = {});
+
+/// Draws the run in `folder` as the paper does: NAME-trajectories.png with every estimator, and
+/// NAME-maps.png with the maps of those estimators of `maps` that ran, side by side. NAME is the
+/// scenario's; both lie in `out`.
+Result<void> draw_systems(const std::filesystem::path& folder, const std::vector<std::string>& maps,
+                          const std::filesystem::path& out, const DrawObserver& observer = {});
 
 /// The pictures in `folder` and below, by name.
 std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { keepPicture, overflows, stage, whySkipped } from "./made_up.mjs";
-import { comparison, detectors, kHostile, suite } from "./suite_fixtures.mjs";
+import { comparison, detectors, paper, kHostile, suite } from "./suite_fixtures.mjs";
 
 const skip = whySkipped();
 let pages;
@@ -115,6 +115,17 @@ test("ROC curves come with the areas under them", { skip }, async () => {
   assert.deepEqual(troubles, []);
 });
 
+test("the paper's figures stand beside ours", { skip }, async () => {
+  const { page, troubles } = await pages.show({ ...suite(), paper: paper() });
+  const row = page.locator('#paper tr[data-row="loam"]');
+  assert.match(await row.innerText(), /LOAM\s+0\/2\s+16\.32\s+– \(–\)/);
+  assert.match(await page.locator('#paper tr[data-row="aims"]').innerText(), /0\.16\s+0\.01 \(0\.02\)/);
+  assert.match(await page.locator('#paper tr[data-row="aims_d"]').innerText(), /^aims_d\s+–\s+2\/2\s+–\s+0\.00/);
+  assert.match(await page.locator('#paper tr[data-row="m_end_m"]').innerText(), /−1\.00\s*−1\.00 to 0\.333/);
+  assert.equal(await page.locator("#paper figure").count(), 1);
+  assert.deepEqual(troubles, []);
+});
+
 test("before and after shows significant changes first", { skip }, async () => {
   const { page } = await pages.show({ ...suite(), compare: comparison() });
   const rows = page.locator("#compare tbody tr");
@@ -129,7 +140,7 @@ test("before and after shows significant changes first", { skip }, async () => {
 
 test("hostile names stay names", { skip }, async () => {
   const names = [kHostile, "__proto__", "constructor", "x".repeat(300)];
-  const data = { ...suite({ first: kHostile, names }), roc: detectors(kHostile), compare: comparison(kHostile), title: kHostile, notes: [kHostile] };
+  const data = { ...suite({ first: kHostile, names }), roc: detectors(kHostile), paper: paper(kHostile, []), compare: comparison(kHostile), title: kHostile, notes: [kHostile] };
   data.suite.families[0].name = kHostile;
   const { page, troubles, ready } = await pages.show(data, { width: 390 });
   assert.equal(ready, "true");
@@ -161,7 +172,7 @@ test("an empty suite, one scenario and values that are none give a page", { skip
 
 test("it fits 1280 and 390 pixels, light and dark", { skip }, async () => {
   for (const [width, dark] of [[1280, false], [1280, true], [390, false], [390, true]]) {
-    const { page, troubles, context } = await pages.show({ ...suite(), roc: detectors(), compare: comparison() }, { width, dark });
+    const { page, troubles, context } = await pages.show({ ...suite(), roc: detectors(), paper: paper(), compare: comparison() }, { width, dark });
     assert.equal(await overflows(page), false, `${width}`);
     await keepPicture(page, `suite-${width}-${dark ? "dark" : "light"}`);
     assert.deepEqual(troubles, []);

@@ -78,6 +78,18 @@ export function comparison(scenario = "severity_1") {
   };
 }
 
+/** The paper's first table with two systems of it and one that it does not have. */
+export function paper(name = "loam", pictures = [{ name: "p", title: "corridor: maps", png: "iVBORw0KGgo=" }]) {
+  const score = (paper, median) => ({ paper, median, worst: median === null ? null : 2 * median, values: [median] });
+  const columns = [{ key: "m_end_m", title: "M_end [m]", systems: 2, tau: -1, tau_low: -1, tau_high: 0.3333 }];
+  const systems = [
+    { estimator: name, method: "LOAM", runs: 2, successes: 0, scores: [score(16.32, null)] },
+    { estimator: "aims", method: "Proposed method", runs: 2, successes: 2, scores: [score(0.16, 0.012)] },
+    { estimator: "aims_d", method: null, runs: 2, successes: 2, scores: [score(null, 0.004)] },
+  ];
+  return { experiments: [{ scenario: "corridor", title: "Table I, corridor", seeds: [1, 2], columns, systems }], pictures };
+}
+
 /** A sweep over a grid of 4 x 3 values, on one or two scenarios and two seeds; score falls with the first parameter. */
 export function tuning({ parameter = "degeneracy.eta", scenarios = ["corridor", "garage"] } = {}) {
   const parameters = [

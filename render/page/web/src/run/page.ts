@@ -2,11 +2,11 @@
 /** The page of one run. */
 import "./run.css";
 import type { RunPayload } from "../contract";
-import { h } from "../dom";
+import { h, section } from "../dom";
 import { formatFixed, isNumber } from "../format";
+import { pictureGrid } from "../pictures";
 import { onTheme, seriesColor, themeButton } from "../theme";
 import { configSection } from "./config";
-import { picturesSection } from "./pictures";
 import { resultsSection } from "./results";
 import { cursorTimes, timeSpan } from "./series";
 import { Store, type Level } from "./store";
@@ -154,7 +154,8 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
   const strips = timeline(data, store);
   const results = h("div", {}, resultsSection(data) ?? "");
   onTheme(() => results.replaceChildren(resultsSection(data) ?? ""));
-  const pictures = picturesSection(data);
+  const grid = pictureGrid(data.pictures);
+  const pictures = grid ? section("pictures", "Pictures", grid) : null;
   const banner = invalidBanner(data);
   root.append(
     header(data),

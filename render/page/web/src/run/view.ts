@@ -6,7 +6,7 @@ import { formatFixed, formatNumber } from "../format";
 import { color, onTheme, seriesColor, theme } from "../theme";
 import type { Preset } from "./camera3d";
 import { heightRange } from "./parts3d";
-import { pictureImage } from "./pictures";
+import { pictureImage } from "../pictures";
 import { ramp, rampGradient } from "./ramps";
 import { indexAt, valueAt, vectorAt, track } from "./series";
 import type { Coloring, State, Store } from "./store";

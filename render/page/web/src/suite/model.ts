@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** The suite page's data, and functions on it. */
-import type { Maybe, PagePayload } from "../contract";
+import type { Maybe, PagePayload, Picture } from "../contract";
 import { own } from "../dom";
 import { isNumber } from "../format";
 
@@ -128,6 +128,46 @@ export interface Comparison {
   only_after: string[];
 }
 
+/** A score of a system in the paper and here. */
+export interface PaperScore {
+  paper: Maybe;
+  median: Maybe;
+  worst: Maybe;
+  values: Maybe[];
+}
+
+export interface PaperSystem {
+  estimator: string;
+  /** Its name in the paper; null when it is not there. */
+  method: string | null;
+  runs: number;
+  successes: number;
+  scores: PaperScore[];
+}
+
+/** A column, and how far both orders of the systems agree in it. */
+export interface PaperColumn {
+  key: string;
+  title: string;
+  systems: number;
+  tau: Maybe;
+  tau_low: Maybe;
+  tau_high: Maybe;
+}
+
+export interface PaperExperiment {
+  scenario: string;
+  title: string;
+  seeds: number[];
+  columns: PaperColumn[];
+  systems: PaperSystem[];
+}
+
+export interface Paper {
+  experiments: PaperExperiment[];
+  pictures?: Picture[];
+}
+
 export interface Headline {
   key: string;
   title: string;
@@ -148,6 +188,7 @@ export interface SuitePayload extends PagePayload {
   runs: Run[];
   roc: Detectors | null;
   compare: Comparison | null;
+  paper?: Paper | null;
   notes?: string[];
 }
 

@@ -9,6 +9,7 @@ import { compareSection } from "./compare";
 import { familySection } from "./families";
 import { matrixSection } from "./matrix";
 import { estimatorsOf, type Expectation, type SuitePayload } from "./model";
+import { paperSection } from "./paper";
 import { rocSection } from "./roc";
 
 type ExpectationRow = Expectation & { scenario: string };
@@ -59,7 +60,7 @@ function invalidBanner(data: SuitePayload): HTMLElement | null {
 export function renderSuite(root: HTMLElement, data: SuitePayload): void {
   const runs = data.runs.length;
   const banner = invalidBanner(data);
-  const sections = [matrixSection(data), familySection(data), rocSection(data), compareSection(data),
+  const sections = [paperSection(data), matrixSection(data), familySection(data), rocSection(data), compareSection(data),
     expectationSection(data), failureSection(data)].filter((each) => each !== null);
   root.append(
     h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()),

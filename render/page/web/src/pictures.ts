@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** The pictures of the folder. */
-import type { Picture, RunPayload } from "../contract";
-import { h, section } from "../dom";
+/** Pictures that a folder holds. */
+import "./pictures.css";
+import type { Picture } from "./contract";
+import { h } from "./dom";
 
 export function pictureImage(picture: Picture): HTMLImageElement {
   const base64 = /^[A-Za-z0-9+/=\s]*$/.test(picture.png) ? picture.png : "";
@@ -38,8 +39,8 @@ function figure(picture: Picture): HTMLElement {
   );
 }
 
-export function picturesSection(data: RunPayload): HTMLElement | null {
-  const pictures = data.pictures ?? [];
-  if (pictures.length === 0) return null;
-  return section("pictures", "Pictures", h("div", { class: "pictures" }, ...pictures.map(figure)));
+/** The pictures beside one another; null without any. */
+export function pictureGrid(pictures: Picture[] | null | undefined): HTMLElement | null {
+  if (!pictures || pictures.length === 0) return null;
+  return h("div", { class: "pictures" }, ...pictures.map(figure));
 }

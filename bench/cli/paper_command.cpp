@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/draw_display.hpp"
+#include "bench/cli/suite_options.hpp"
+#include "bench/cli/terminal.hpp"
+#include "bench/studies/paper_study.hpp"
+#include "bench/studies/run_folder.hpp"
+#include "bench/studies/suite_summary.hpp"
+#include "render/results/paper_pictures.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPaperName = "study paper";
+
+/// The options with what the study sets where nothing is given: the paper's experiments and
+/// systems, sensors as on real robots.
+SharedOptions with_defaults(SharedOptions options) {
+  if (options.named.empty() && options.scenarios.empty() && options.tags.empty()) {
+    for (const PaperTable& table : paper_tables()) options.named.push_back(table.scenario);
+  }
+  if (options.estimators.empty()) options.estimators = paper_estimators();
+  options.settings.insert(options.settings.begin(), "sensors=field");
+  return options;
+}
+
+Result<void> write_results(const Suite& suite, const std::vector<PaperExperiment>& experiments,
+                           const SharedOptions& shared) {
+  const fs::path out = shared.out;
+  auto written = write_suite(suite, out);
+  if (written) written = write_suite_runs(suite, out);
+  if (written) written = write_paper(experiments, suite, out);
+  if (!written) return written;
+  DrawDisplay display(shared.quiet);
+  return draw_paper(experiments, out, display.observer());
+}
+
+int paper_command(const SharedOptions& given) {
+  const SharedOptions shared = with_defaults(given);
+  auto options = suite_options(shared, {1, 2, 3, 4, 5});
+  if (!options) return bad_input(kPaperName, options.error());
+  options->jobs.outputs.trajectories = true;
+  auto scenarios = study_scenarios(shared);
+  if (!scenarios) return bad_input(kPaperName, scenarios.error());
+  const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
+  if (!suite) return bad_input(kPaperName, suite.error());
+  const auto experiments = paper_study(*suite);
+  if (!experiments) return bad_input(kPaperName, experiments.error());
+  if (auto written = write_results(*suite, *experiments, shared); !written) {
+    return bad_input(kPaperName, written.error());
+  }
+  print_out("Each cell: the paper's figure · the median here (the worst)\n\n");
+  for (const PaperExperiment& each : *experiments) {
+    print_out("{}, {}\n{}\n", each.title, each.scenario, to_text(system_table(each)));
+  }
+  print_out("Agreement with the paper's order\n{}\n", to_text(order_table(*experiments)));
+  print_outcome(*suite, shared);
+  print_out("results: {}\n", (fs::path(shared.out) / "paper.md").string());
+  write_pages_of(shared.out, shared.quiet);
+  return exit_code_of(*suite);
+}
+
+}  // namespace
+
+void declare_paper(Command command, const fs::path& scenarios) {
+  auto shared = std::make_shared<SharedOptions>();
+  shared->folder = scenarios.string();
+  add_suite_options(command, *shared, "out/paper", "1-5");
+  add_estimators(command, *shared, "the systems of the paper, leg_kilo, tfs_plus, aims_d");
+  command.footer(
+      "Without scenarios corridor and garage, with sensors=field unless --set has another level.\n"
+      "The same command again continues, and runs only what is missing or has changed.\n"
+      "Examples:\n"
+      "  aims study paper\n"
+      "  aims study paper corridor --seeds 1-10 --estimators fast_lio2,tfs,aims,leg");
+  command.action([shared] { return paper_command(*shared); });
+}
+
+}  // namespace aims

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/metrics/bootstrap.hpp"
+#include "bench/run/score_record.hpp"
+#include "bench/studies/paper_tables.hpp"
+#include "bench/studies/suite.hpp"
+#include "core/error.hpp"
+#include "core/files/table.hpp"
+
+namespace aims {
+
+/// Version of the layout of paper.json; see docs/result-files.md.
+inline constexpr std::string_view kPaperSchema = "aims.paper/1";
+
+/// One score of one system.
+struct PaperCell {
+  std::optional<double> figure;  ///< in the paper
+  std::vector<double> values;    ///< here, by valid run; infinite where a run has none
+  std::optional<double> median;  ///< of them; none where it is infinite
+  std::optional<double> worst;   ///< likewise
+};
+
+struct PaperSystem {
+  std::string estimator;
+  std::string method;            ///< its name in the paper; empty: it is not there
+  std::vector<PaperCell> cells;  ///< by column
+  std::size_t runs = 0;          ///< valid ones in which it finished
+  std::size_t successes = 0;
+};
+
+/// How far the paper's order of its systems and ours agree in one score.
+struct PaperOrder {
+  PaperScore score;
+  std::size_t systems = 0;    ///< with a place in both
+  std::optional<double> tau;  ///< Kendall's, between the paper's figures and the medians here
+  Interval interval;          ///< 95 %, bootstrap over seeds
+};
+
+/// One experiment of the paper, repeated.
+struct PaperExperiment {
+  std::string scenario;
+  std::string title;
+  std::vector<std::uint64_t> seeds;  ///< of the valid runs
+  std::vector<PaperSystem> systems;  ///< those that ran, in the order of the table
+  std::vector<PaperOrder> orders;    ///< by column
+};
+
+/// Kendall's tau between the paper's figures of its systems and the medians of their scores in
+/// `runs`; systems without a run are left out. A "-" of the paper and a median without a value are
+/// last. `systems` becomes the number of those compared.
+std::optional<double> paper_tau(const PaperTable& table, std::size_t column,
+                                std::span<const RunRecord> runs, std::size_t& systems);
+
+/// The experiments of the paper that the suite ran. Error when it ran none.
+Result<std::vector<PaperExperiment>> paper_study(const Suite& suite);
+
+/// "paper · median (worst)" of every score, a row per system.
+TextTable system_table(const PaperExperiment& experiment);
+
+/// Kendall's tau of every score of every experiment.
+TextTable order_table(const std::vector<PaperExperiment>& experiments);
+
+/// What paper.json holds.
+Json paper_json(const std::vector<PaperExperiment>& experiments);
+
+/// Writes paper.md, paper.json and paper.csv into `folder`.
+Result<void> write_paper(const std::vector<PaperExperiment>& experiments, const Suite& suite,
+                         const std::filesystem::path& folder);
+
+}  // namespace aims
