@@ -87,6 +87,7 @@ BENCHMARK_CAPTURE(time_per_scan, loam, "loam")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, a_loam, "a_loam")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, lego_loam, "lego_loam")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, lio_sam, "lio_sam")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(time_per_scan, lins, "lins")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(time_per_scan, leg_kilo, "leg_kilo")->Unit(benchmark::kMillisecond);
 
 }  // namespace
