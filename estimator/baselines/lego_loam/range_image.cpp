@@ -45,7 +45,19 @@ void describe(Fields& f, RangeImageConfig& c) {
             {"-", in_range(1, 1000), "one column in this many keeps ground and outliers"});
 }
 
-RangeImage::RangeImage(const LidarScan& scan, const RangeImageConfig& config) : config_(config) {
+RangeImage::Angle::Angle(double degrees)
+    : sine(std::sin(kRadiansPerDegree * degrees)), cosine(std::cos(kRadiansPerDegree * degrees)) {}
+
+bool RangeImage::Angle::less_than(double opposite, double adjacent) const {
+  return opposite * cosine > adjacent * sine;
+}
+
+RangeImage::RangeImage(const LidarScan& scan, const RangeImageConfig& config)
+    : config_(config),
+      column_angle_(360.0 / config.columns),
+      row_angle_(config.row_angle_deg),
+      segment_angle_(config.segment_angle_deg),
+      ground_slope_(config.ground_slope_deg) {
   project(scan);
   label_ground();
   label_segments();
@@ -84,8 +96,7 @@ void RangeImage::project(const LidarScan& scan) {
 /// Whether the line from a return to that of the next ring is as level as ground.
 bool RangeImage::level(int row, int column) const {
   const Eigen::Vector3f step = point(row + 1, column).position - point(row, column).position;
-  const double slope = std::atan2(step.z(), step.head<2>().norm());
-  return std::abs(slope) <= kRadiansPerDegree * config_.ground_slope_deg;
+  return !ground_slope_.less_than(std::abs(step.z()), step.head<2>().norm());
 }
 
 /// A return whose upper neighbour is missing is no ground, whatever the pair below it.
@@ -130,28 +141,25 @@ void RangeImage::visit_neighbors(std::size_t from, std::vector<std::size_t>& seg
   const auto columns = static_cast<std::size_t>(config_.columns);
   const int row = static_cast<int>(from / columns);
   const int column = static_cast<int>(from % columns);
-  const double column_angle = 2.0 * std::numbers::pi / config_.columns;
-  const double row_angle = kRadiansPerDegree * config_.row_angle_deg;
-  const auto visit = [&](int to_row, int to_column, double angle) {
+  const auto visit = [&](int to_row, int to_column, const Angle& between) {
     if (to_row < 0 || to_row >= config_.rows) return;
     const std::size_t to = cell(to_row, (to_column + config_.columns) % config_.columns);
-    if (kinds_[to] != CellKind::kUnlabelled || !same_object(from, to, angle)) return;
+    if (kinds_[to] != CellKind::kUnlabelled || !same_object(from, to, between)) return;
     kinds_[to] = CellKind::kSegment;
     segment.push_back(to);
   };
-  visit(row - 1, column, row_angle);
-  visit(row, column + 1, column_angle);
-  visit(row, column - 1, column_angle);
-  visit(row + 1, column, row_angle);
+  visit(row - 1, column, row_angle_);
+  visit(row, column + 1, column_angle_);
+  visit(row, column - 1, column_angle_);
+  visit(row + 1, column, row_angle_);
 }
 
-/// Whether the line between two returns, `angle` [rad] apart, meets the beam of the farther one at
-/// more than the angle of the configuration.
-bool RangeImage::same_object(std::size_t a, std::size_t b, double angle) const {
+/// Whether the line between two returns, whose beams are `between` apart, meets the beam of the
+/// farther one at more than the angle of the configuration.
+bool RangeImage::same_object(std::size_t a, std::size_t b, const Angle& between) const {
   const double far = std::max(ranges_[a], ranges_[b]);
   const double near = std::min(ranges_[a], ranges_[b]);
-  const double incidence = std::atan2(near * std::sin(angle), far - near * std::cos(angle));
-  return incidence > kRadiansPerDegree * config_.segment_angle_deg;
+  return segment_angle_.less_than(near * between.sine, far - near * between.cosine);
 }
 
 /// The ring of the first cell counts where others of the segment lie in it.

@@ -53,6 +53,16 @@ class RangeImage {
   double last_azimuth() const { return last_azimuth_; }    ///< of its last return [rad]
 
  private:
+  /// An angle from 0 to 90 degrees.
+  struct Angle {
+    explicit Angle(double degrees);
+    /// Whether it is less than that of a triangle with these sides at the right angle.
+    bool less_than(double opposite, double adjacent) const;
+
+    double sine;
+    double cosine;
+  };
+
   std::size_t cell(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(config_.columns) +
            static_cast<std::size_t>(column);
@@ -63,10 +73,14 @@ class RangeImage {
   void label_segments();
   void grow_segment(int row, int column);
   void visit_neighbors(std::size_t from, std::vector<std::size_t>& segment);
-  bool same_object(std::size_t a, std::size_t b, double angle) const;
+  bool same_object(std::size_t a, std::size_t b, const Angle& between) const;
   bool is_segment(const std::vector<std::size_t>& cells) const;
 
   RangeImageConfig config_;
+  Angle column_angle_;
+  Angle row_angle_;
+  Angle segment_angle_;
+  Angle ground_slope_;
   int count_ = 0;
   double first_azimuth_ = 0.0;
   double last_azimuth_ = 0.0;
