@@ -84,6 +84,7 @@ Distances distances_at(const Pose& motion, const features::FeatureMatches& match
         sum.HtH += h * h.transpose();
         sum.Htd += h * d;
         sum.squared_norm += d * d;
+        sum.gradients.push_back(row.gradient);
       });
   return sum;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "core/config.hpp"
 #include "estimator/baselines/features/feature_matches.hpp"
@@ -29,6 +30,7 @@ struct Distances {
   double squared_norm = 0.0;  ///< of d [m^2]
   int lines = 0;
   int planes = 0;
+  std::vector<Eigen::Vector3d> gradients;  ///< unit, of each distance in its point
 };
 
 /// Derivative of a distance in position and rotation of the motion, as the published program has

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/baselines/lins/scan_series.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "estimator/baselines/points/translation_constraint.hpp"
 
 namespace aims::lins {
 namespace {
@@ -18,15 +19,18 @@ int iterations(const ScanReport& scan) {
   return scan.odometry.update.iterations + mapping;
 }
 
-double smallest_eigenvalue_of(const Update& update) {
-  if (update.iterations == 0 || !update.last.HtH.allFinite()) return kNone;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(update.last.HtH, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0];
+points::TranslationConstraint constraint_of(const Update& update) {
+  const std::vector<Eigen::Vector3d>& gradients = update.last.gradients;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> rows(static_cast<Eigen::Index>(gradients.size()), 3);
+  for (std::size_t i = 0; i < gradients.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = gradients[i].transpose();
+  }
+  return points::translation_constraint(rows);
 }
 
 double residual_rms(const Update& update) {
-  const int count = update.last.lines + update.last.planes;
-  return count > 0 ? std::sqrt(update.last.squared_norm / count) : kNone;
+  const std::size_t count = update.last.gradients.size();
+  return count > 0 ? std::sqrt(update.last.squared_norm / static_cast<double>(count)) : kNone;
 }
 
 constexpr std::array kSeries = {
@@ -50,9 +54,15 @@ constexpr std::array kSeries = {
            [](const ScanReport& s) { return double(s.odometry.update.last.lines); }},
     Series{"residual_rms", "m", "weighted distances in the last iteration",
            [](const ScanReport& s) { return residual_rms(s.odometry.update); }},
-    Series{"filter_smallest_eigenvalue", "-",
-           "smallest eigenvalue of H^T H in the last iteration: position, rotation",
-           [](const ScanReport& s) { return smallest_eigenvalue_of(s.odometry.update); }},
+    Series{"points_used", "-", "distances that weigh enough in the last iteration",
+           [](const ScanReport& s) { return double(s.odometry.update.last.gradients.size()); }},
+    Series{"smallest_eigenvalue", "-",
+           "smallest eigenvalue of the sum of squared gradients in the last iteration: translation",
+           [](const ScanReport& s) { return constraint_of(s.odometry.update).smallest; }},
+    Series{"condition_number", "-", "condition number of that sum",
+           [](const ScanReport& s) { return constraint_of(s.odometry.update).condition; }},
+    Series{"localizability", "-", "sum of the cosines between gradients and the weakest direction",
+           [](const ScanReport& s) { return constraint_of(s.odometry.update).localizability; }},
     Series{"mapping_matches", "-", "lines and planes of the map; NaN: scan not registered",
            [](const ScanReport& s) {
              return s.mapping ? double(s.mapping->lines + s.mapping->planes) : kNone;

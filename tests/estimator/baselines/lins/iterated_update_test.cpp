@@ -87,6 +87,7 @@ TEST(LinsUpdate, SumsWeightedDistances) {
   EXPECT_TRUE(sum.HtH.isApprox(H.transpose() * H, 1e-12)) << "seed " << kSeed;
   EXPECT_TRUE(sum.Htd.isApprox(H.transpose() * d, 1e-12));
   EXPECT_NEAR(sum.squared_norm, d.squaredNorm(), 1e-12);
+  EXPECT_EQ(sum.gradients.size(), static_cast<std::size_t>(row));
   EXPECT_EQ(sum.planes, 20);
   EXPECT_EQ(sum.lines, 20);
 }
