@@ -2,11 +2,20 @@
 #include "estimator/baselines/lego_loam/mapping.hpp"
 
 namespace aims::lego_loam {
+namespace {
+
+/// As ROS has it. Of scans at 10 Hz, the third one may come less than 0.3 s later by rounding.
+double rounded_seconds(Time stamp) {
+  return static_cast<double>(stamp / kSecond) + 1e-9 * static_cast<double>(stamp % kSecond);
+}
+
+}  // namespace
 
 bool Mapping::is_due(Time stamp) {
   if (offered_++ % config_.every_nth != 0) return false;
-  if (last_stamp_ && stamp - *last_stamp_ < from_seconds(config_.min_interval)) return false;
-  last_stamp_ = stamp;
+  const double seconds = rounded_seconds(stamp);
+  if (last_seconds_ && seconds - *last_seconds_ < config_.min_interval) return false;
+  last_seconds_ = seconds;
   return true;
 }
 

@@ -34,7 +34,7 @@ class Mapping {
   Pose T_map_odom_;
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();  ///< of the last registered scan [m]
   int offered_ = 0;
-  std::optional<Time> last_stamp_;
+  std::optional<double> last_seconds_;  ///< stamp of the last registered scan [s]
 };
 
 }  // namespace aims::lego_loam

@@ -52,10 +52,12 @@ void Lins::process(const LidarScan& scan) {
   if (outcome == Outcome::kUnchanged) count("lidar.no_update");
   if (outcome == Outcome::kRegistered) count("filter.diverged");
   if (outcome == Outcome::kRejected) count("filter.rejected");
+  // As published, the pose is on its way before the map has corrected it.
+  const Pose T_map_lidar = mapping_.to_map(odometry_.pose());
   if (outcome != Outcome::kUnchanged && outcome != Outcome::kRejected) {
-    diagnostics.mapping = mapping_.update(scan.end, odometry_.pose(), features);
+    diagnostics.mapping = mapping_.update(scan.stamp, odometry_.pose(), features);
   }
-  report(mapping_.to_map(odometry_.pose()), row_of(diagnostics, scan.end));
+  report(T_map_lidar, row_of(diagnostics, scan.end));
 }
 
 }  // namespace aims::lins

@@ -129,6 +129,19 @@ TEST(LegoMapping, RegistersEverySecondScanAfterTheInterval) {
   EXPECT_EQ(registered, (std::vector<int>{0, 4, 8}));
 }
 
+// 1.0 s - 0.7 s is less than 0.3 s in double precision, 0.7 s - 0.4 s is not.
+TEST(LegoMapping, MeasuresTheIntervalInRoundedSeconds) {
+  MappingConfig config;
+  config.every_nth = 1;
+  Mapping mapping(config);
+  std::vector<int> registered;
+  const SegmentedFeatures scan = features_of(noisy_scan(kStart, Pose(), 1));
+  for (int i = 1; i < 20; ++i) {
+    if (mapping.update(i * 100 * kMillisecond, Pose(), scan)) registered.push_back(i);
+  }
+  EXPECT_EQ(registered, (std::vector<int>{1, 4, 7, 11, 15, 18}));
+}
+
 /// Scans of a LiDAR that moves steadily, one in 100 ms.
 EstimatorResult run(const Config& config, const SensorRig& rig, int scans) {
   LegoLoam estimator(config, rig);
