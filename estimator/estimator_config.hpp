@@ -19,6 +19,7 @@ struct Requirements {
   bool lidar = false;
   bool imu = false;
   bool legs = false;         ///< leg odometry
+  bool joints = false;       ///< of the legs, and contacts of the feet
   bool rings = false;        ///< of the LiDAR's returns
   bool point_times = false;  ///< of the LiDAR's returns, within the scan
   bool orientation = false;  ///< from the IMU

@@ -50,7 +50,7 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   }
 }
 
-/// A sentence for each part of the clouds and of the IMU that an estimator needs and the recording
+/// A sentence for each part of the clouds, of the IMU and of the legs that an estimator needs and the recording
 /// does not hold; where something stands in for it, the notes on the reading state what.
 void note_missing(const EstimateConfig& config, RecordingSetup& setup) {
   for (const std::string& text : config.run) {
@@ -62,6 +62,7 @@ void note_missing(const EstimateConfig& config, RecordingSetup& setup) {
     };
     note(needs.point_times, setup.has_point_times, "the time of each point");
     note(needs.rings, setup.has_rings, "the ring of each point");
+    note(needs.joints, setup.has_joints, "joints and contacts");
     note(needs.orientation, setup.has_orientation, "the orientation of the IMU");
   }
 }

@@ -24,6 +24,10 @@ class LegSurvey {
   void add_contacts(const MessageView& message, const std::string& type,
                     const MessageDecoder& decoder);
 
+  bool has_joints_and_contacts() const {
+    return complete_joint_messages_ > 0 && contact_messages_ > 0;
+  }
+
   /// How contacts are read; appends assumptions to `notes`, as all below.
   ContactRule decide_contacts(std::vector<std::string>& notes) const;
 

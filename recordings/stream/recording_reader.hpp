@@ -21,6 +21,7 @@ struct RecordingSetup {
   TopicsConfig topics;  ///< as used; empty: none
   SensorRig rig;
   bool has_legs = false;
+  bool has_joints = false;       ///< of the legs, and contacts of the feet
   bool has_point_times = false;  ///< else they are derived from the azimuths
   bool has_rings = false;        ///< of the points, or as rows; else derived from the elevations
   bool has_orientation = false;  ///< of the IMU

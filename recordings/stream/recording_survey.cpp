@@ -167,6 +167,7 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) const {
   const bool kinematic = stream.source == LegSource::kKinematics;
   plan.setup.leg_rate_hz = sample_rate(kinematic ? seen(Role::kJoints).stamps : legs.stamps);
   plan.setup.has_legs = stream.source != LegSource::kNone;
+  plan.setup.has_joints = legs_.has_joints_and_contacts();
   plan.setup.rig.leg_geometry = config_.leg_geometry;
   adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz, plan.setup.notes);
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);

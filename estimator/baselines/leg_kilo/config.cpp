@@ -102,7 +102,12 @@ void describe(Fields& f, Config& c) {
 }
 
 Requirements requirements_of(const Config& config) {
-  return {.lidar = true, .imu = true, .legs = config.legs.enabled, .point_times = true};
+  const bool legs = config.legs.enabled;
+  return {.lidar = true,
+          .imu = true,
+          .legs = legs,
+          .joints = legs && config.legs.feet == FeetFrom::kContacts,
+          .point_times = true};
 }
 
 Config published() {

@@ -10,6 +10,7 @@
 #include "bench/run/record.hpp"
 #include "bench/run/trajectory_summary.hpp"
 #include "bench/run/validity.hpp"
+#include "recordings/messages/message_types.hpp"
 #include "tests/bench/short_walk.hpp"
 #include "tests/recordings/stream/robot_recording.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -50,9 +51,9 @@ TEST(Estimate, ThatIsInterruptedIsLabelledSoAndEntersNoAverage) {
   EXPECT_TRUE(estimate_until(options.bag, 1e9).scores->estimates.at(0).scores.success);
 }
 
-/// Whether the notes on a bag of an IMU and of clouds, with times of the points or without, state
-/// that the estimator lacks them.
-bool lacks_times(const std::string& estimator, bool timed) {
+/// Whether the notes on a bag of an IMU, of clouds with times of the points or without, and of leg
+/// odometry without joints state that the estimator lacks `what`.
+bool lacks(const std::string& estimator, const std::string& what, bool timed = true) {
   const TemporaryFolder folder;
   test::RobotRecording robot(folder.path() / "robot.bag");
   robot.add_imu(test::kStart, 50);
@@ -60,6 +61,7 @@ bool lacks_times(const std::string& estimator, bool timed) {
     const Time stamp = test::kStart + k * 100 * kMillisecond;
     const float late = timed ? 0.05F : 0.0F;
     robot.add_cloud(test::RawCloud::of(stamp, {{1, 2, 3, 0}, {2, 1, 3, late}}), stamp);
+    robot.add("/odom", odometry_type(), stamp, odometry_message({0, stamp, "odom"}, "base", {}));
   }
   robot.close();
   EstimateConfig config;
@@ -67,15 +69,16 @@ bool lacks_times(const std::string& estimator, bool timed) {
   const auto result =
       estimate(config, {folder.path() / "robot.bag"}, [](const Progress&) { return true; });
   EXPECT_TRUE(result) << result.error().message;
-  return std::ranges::count(
-             result->setup.notes,
-             estimator + " needs the time of each point, which the recording lacks") == 1;
+  return std::ranges::count(result->setup.notes,
+                            estimator + " needs " + what + ", which the recording lacks") == 1;
 }
 
 TEST(Estimate, NotesWhatTheRecordingLacksForAnEstimator) {
-  EXPECT_TRUE(lacks_times("fast_lio2", false));
-  EXPECT_FALSE(lacks_times("fast_lio2", true));
-  EXPECT_FALSE(lacks_times("lio", false));
+  EXPECT_TRUE(lacks("fast_lio2", "the time of each point", false));
+  EXPECT_FALSE(lacks("fast_lio2", "the time of each point"));
+  EXPECT_FALSE(lacks("lio", "the time of each point", false));
+  EXPECT_TRUE(lacks("leg_kilo", "joints and contacts"));
+  EXPECT_FALSE(lacks("aims", "joints and contacts"));
 }
 
 }  // namespace

@@ -113,6 +113,7 @@ TEST_F(RecordingRoundTrip, ASequenceIsReadBackBitForBit) {
   EXPECT_EQ(setup_.topics.imu, "/imu/data");
   EXPECT_EQ(setup_.topics.leg_odometry, "/leg_odometry");
   EXPECT_TRUE(setup_.has_legs);
+  EXPECT_TRUE(setup_.has_joints);
   EXPECT_NEAR(setup_.imu_rate_hz.value_or(0.0), 50.0, 1e-9);
   EXPECT_NEAR(setup_.leg_rate_hz.value_or(0.0), 200.0, 1e-9);
   EXPECT_TRUE(counts_.empty()) << counts_.begin()->first;

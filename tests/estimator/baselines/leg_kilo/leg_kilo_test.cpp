@@ -294,6 +294,62 @@ TEST(LegKiloInputs, AStateThatRunsAwayEndsTheEstimateWithoutAnException) {
   }
 }
 
+/// An IMU at rest and a scan with returns at the given times after its stamp; the last one, too
+/// near to be used, ends it.
+class StandingRobot {
+ public:
+  StandingRobot() : estimator_(every_return(), SensorRig()) {}
+
+  void imu(Time stamp) {
+    ImuSample sample;
+    sample.stamp = stamp;
+    sample.specific_force = {0.0, 0.0, 9.81};
+    estimator_.consume({stamp, sample});
+  }
+
+  void scan(Time stamp, const std::vector<Duration>& offsets, Duration last) {
+    LidarScan scan{.stamp = stamp, .end = stamp + last, .points = {}};
+    for (const Duration offset : offsets) {
+      const auto x = 5.0F + 2.0F * static_cast<float>(scan.points.size());
+      scan.points.push_back(
+          {.position = {x, 1.0F, 0.5F}, .time_offset_ns = static_cast<std::int32_t>(offset)});
+    }
+    scan.points.push_back(
+        {.position = {0.1F, 0.0F, 0.0F}, .time_offset_ns = static_cast<std::int32_t>(last)});
+    estimator_.consume({stamp + last, std::make_shared<const LidarScan>(scan)});
+  }
+
+  LegKilo& estimator() { return estimator_; }
+
+ private:
+  LegKilo estimator_;
+};
+
+// As published: the covariance is predicted from the last update to each group, so repeatedly while
+// no point lies on a plane, and the sample after the last group is dropped.
+TEST(LegKiloInputs, GroupsWithoutAPlaneRepeatThePredictionOfTheCovariance) {
+  StandingRobot robot;
+  robot.imu(50 * kMillisecond);
+  robot.scan(0, {0}, 100 * kMillisecond);
+  robot.imu(180 * kMillisecond);
+  robot.scan(100 * kMillisecond, {10 * kMillisecond, 20 * kMillisecond, 30 * kMillisecond},
+             90 * kMillisecond);
+  robot.estimator().finish();
+
+  Belief expected;
+  expected.covariance = every_return().start.variance * ErrorMatrix::Identity();
+  for (const double since_update : {0.01, 0.02, 0.03}) {
+    expected.covariance =
+        predicted_covariance(expected.covariance, expected.state, since_update, ProcessNoise());
+    expected.state = predicted(expected.state, 0.01);
+  }
+  ASSERT_EQ(robot.estimator().result().trajectory.size(), 2U);
+  const Belief& belief = robot.estimator().belief();
+  EXPECT_LT((belief.covariance - expected.covariance).norm(), 1e-6 * expected.covariance.norm());
+  EXPECT_LT((belief.state.velocity - expected.state.velocity).norm(), 1e-6);
+  EXPECT_NEAR(belief.state.velocity.z(), -9.81 * 0.03, 1e-6);  // it falls until it is corrected
+}
+
 TEST(LegKiloPresets, ThePublishedMinimumRangeLeavesFewerPoints) {
   const Walk walk(box());
   const EstimatorResult corridor = walk.run(Config());
