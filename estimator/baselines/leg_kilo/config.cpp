@@ -48,10 +48,10 @@ void describe(Fields& f, ImuVariances& c) {
 void describe(Fields& f, Legs& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "use the legs; false: IMU and LiDAR alone", kParameters + ", only_imu_use"});
-  f.choice("feet", c.feet, {{"contacts", FeetFrom::kContacts}, {"twist", FeetFrom::kTwist}},
+  f.choice("feet", c.feet, {{"twist", FeetFrom::kTwist}, {"contacts", FeetFrom::kContacts}},
            {"", any(),
-            "standing feet: those in contact, by their joints (without joints: as twist); or four "
-            "whose joints would report the leg odometry's twist"});
+            "standing feet: four whose joints would report the leg odometry's twist, or those in "
+            "contact, by their joints (without joints: as twist)"});
   f.number("variance", c.variance,
            {"m^2/s^2", positive_up_to(1e6), "of the velocity of a standing foot, per axis",
             kParameters + ", kin_meas_noise"});

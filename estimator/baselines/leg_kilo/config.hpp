@@ -36,14 +36,14 @@ struct ImuVariances {
 
 /// Which feet stand, and how they move.
 enum class FeetFrom {
-  kContacts,  ///< feet in contact, by their joints; without joints in the stream: the twist
   kTwist,     ///< four standing feet, whose joints would report the leg odometry's twist
+  kContacts,  ///< feet in contact, by their joints; without joints in the stream: as kTwist
 };
 
 /// Kinematic observations.
 struct Legs {
   bool enabled = true;
-  FeetFrom feet = FeetFrom::kContacts;
+  FeetFrom feet = FeetFrom::kTwist;
   double variance = 0.1;  ///< of the velocity of a standing foot, per axis [m^2/s^2]
   double max_age = 0.02;  ///< older leg data belong to no IMU sample [s]
 };

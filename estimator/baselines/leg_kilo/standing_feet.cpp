@@ -11,10 +11,11 @@ namespace {
 /// Height of the hips over the feet of a standing robot, of thigh and calf together [-].
 constexpr double kStandingHeight = 0.7;
 
-/// A foot at `position` in base axes that moves at `velocity` there.
+/// A foot at `position` in base axes that moves at `velocity` there. As in the published program,
+/// the IMU is taken to be at the base.
 StandingFoot in_body(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
                      const Pose& T_body_base) {
-  return {T_body_base * position, T_body_base.rotation * velocity};
+  return {T_body_base.rotation * position, T_body_base.rotation * velocity};
 }
 
 }  // namespace

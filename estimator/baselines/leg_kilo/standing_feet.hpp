@@ -9,7 +9,7 @@ namespace aims::leg_kilo {
 
 /// A foot that stands on the ground, as the joints see it.
 struct StandingFoot {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< body axes [m]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< from the base, body axes [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< J dq/dt, body axes [m/s]
 };
 
