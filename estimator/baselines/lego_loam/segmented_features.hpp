@@ -25,7 +25,7 @@ struct FeatureConfig {
   features::SelectionConfig selection;
   /// The search for neighbours depends on the order where `truncated_search` is on.
   VoxelOrder voxel_order = VoxelOrder::kForwardUpLeft;
-  features::RangeRingConfig reliability;
+  features::RangeRingConfig reliability = {};
 };
 
 void describe(Fields& fields, FeatureConfig& config);

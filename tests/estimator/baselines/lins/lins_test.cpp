@@ -103,6 +103,21 @@ TEST_F(LinsInABox, ReportsFromTheSecondScanOnAndItsDegeneracy) {
   EXPECT_LT(registered, static_cast<int>(last / 2));
 }
 
+TEST_F(LinsInABox, TheMapCorrectsThePoseOfTheNextScan) {
+  Config odometry_alone = corridor();
+  odometry_alone.mapping.min_interval = 100.0;
+  const EstimatorResult without = run(odometry_alone);
+  const EstimatorResult with = run(corridor());
+  std::size_t scan = 1;
+  while (std::isnan(with.diagnostics.value(scan, "mapping_matches"))) ++scan;
+  ASSERT_GT(with.diagnostics.value(scan, "mapping_matches"), 50.0);
+  const auto position = [](const EstimatorResult& result, std::size_t i) {
+    return result.trajectory[i].pose.translation;
+  };
+  EXPECT_EQ(position(with, scan), position(without, scan));
+  EXPECT_NE(position(with, scan + 1), position(without, scan + 1));
+}
+
 TEST_F(LinsInABox, ScansWithoutImuAreCountedAndSkipped) {
   const Time begin = deliveries_.front().arrival + 3 * kSecond;
   const EstimatorResult result = run(corridor(), [&](Delivery& each) {
