@@ -162,14 +162,14 @@ TEST(RangeSteps, IgnoresReturnsThatAreNotFinite) {
   ProfileScan seen = scan_of(wall_with_recess(0.3), 0.01, 4, random);
   seen.scan.points[100].position.setConstant(std::numeric_limits<float>::quiet_NaN());
   seen.scan.points[200].position.setZero();
-  for (std::size_t i = 300; i < 340; ++i) {
+  for (std::size_t i = 20; i < 60; ++i) {
     seen.scan.points[i].position.setConstant(std::numeric_limits<float>::infinity());
   }
   RangeSteps steps;
   steps.mark(seen.scan);
   EXPECT_FALSE(steps.mixed(100));
   EXPECT_FALSE(steps.mixed(200));
-  EXPECT_FALSE(steps.mixed(320));
+  EXPECT_FALSE(steps.mixed(40));
   EXPECT_NEAR(steps.range_noise(), 0.01, 0.002);
   EXPECT_GT(marked(steps, seen.scan), 0);
 }
