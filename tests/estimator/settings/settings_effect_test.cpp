@@ -158,17 +158,29 @@ const std::vector<RecordedStream>& streams_for(EstimatorConfig& config) {
   return streams->second;
 }
 
-/// Settings at whose defaults others would not act on a short sequence, and values at which they do.
-const std::map<std::string, std::string>& shortened() {
-  static const std::map<std::string, std::string> all = {{"mapping.loop.min_age", "4"}};
+/// A setting at whose default others would not act on a short sequence, and a value at which they
+/// do.
+struct Preparation {
+  std::string estimator;
+  std::string key;
+  std::string value;
+};
+
+const std::vector<Preparation>& preparations() {
+  static const std::vector<Preparation> all = {
+      {"lio_sam", "mapping.loop.min_age", "4"},
+      {"lio_sam_published", "mapping.loop.min_age", "4"},
+      {"lio_sam_published", "mapping.loop.voxel", "0.1"},
+      // With coarse voxels every scan is degenerate, and the weights of others have no effect.
+      {"lio_sam_published", "mapping.solver.remap_threshold", "20"}};
   return all;
 }
 
 std::unique_ptr<EstimatorConfig> config_of(const std::string& name) {
   auto config = EstimatorConfigs().find(name)->clone();
   const Fields fields = fields_of(*config);
-  for (const auto& [key, value] : shortened()) {
-    if (const Parameter* parameter = fields.find(key)) (void)parameter->assign(value);
+  for (const Preparation& each : preparations()) {
+    if (each.estimator == name) (void)fields.find(each.key)->assign(each.value);
   }
   return config;
 }
