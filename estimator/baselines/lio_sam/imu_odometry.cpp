@@ -75,7 +75,7 @@ void describe(Fields& f, ImuOdometryConfig& c) {
            {"m/s^2, rad/s", positive_up_to(1e6), "a greater bias of either sensor is a failure"});
   f.number(
       "relinearize_threshold", c.relinearize_threshold,
-      {"rad, m, m/s, ...", positive_up_to(1e6),
+      {"rad, m, m/s, ...", in_range(1e-6, 1e6),
        "greatest entry of a step from which a variable gets a new linearization point", "iSAM2"});
 }
 

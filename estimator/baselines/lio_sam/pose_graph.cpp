@@ -30,7 +30,7 @@ void describe(Fields& f, PoseGraphConfig& c) {
   f.number("position_variance", c.position_variance,
            {"m^2", positive_up_to(1e6), "of the position between two keyframes, per axis"});
   f.number("relinearize_threshold", c.relinearize_threshold,
-           {"rad, m", positive_up_to(1e6),
+           {"rad, m", in_range(1e-6, 1e6),
             "greatest entry of a step from which a pose gets a new linearization point", "iSAM2"});
 }
 
