@@ -26,7 +26,7 @@ constexpr const char* kOrderIntroduction =
     "units.\n";
 
 std::string advantage_interval_text(const Interval& interval) {
-  return interval.low ? fmt::format("[{:.2f}, {:.2f}]", *interval.low, *interval.high) : "–";
+  return interval.low ? fmt::format("[{:.3f}, {:.3f}]", *interval.low, *interval.high) : "–";
 }
 
 std::string tau_text(const std::optional<double>& value) {
@@ -109,7 +109,7 @@ std::string order_markdown(const OrderStudy& study, const std::string& source) {
 }
 
 std::string map_cell_text(const std::optional<OrderBin>& bin) {
-  return bin ? fmt::format("{:+.2f} ({}/{})", bin->advantage, bin->better, bin->units) : "–";
+  return bin ? fmt::format("{:+.3f} ({}/{})", bin->advantage, bin->better, bin->units) : "–";
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ TextTable conditions_table(const OrderStudy& study) {
           {first ? condition.key : "", first ? fmt::format("{:+.2f}", condition.association) : "",
            first ? advantage_interval_text(condition.interval) : "", fmt::format("{:.4g}", bin.low),
            fmt::format("{:.4g}", bin.high), std::to_string(bin.units), std::to_string(bin.better),
-           fmt::format("{:+.2f}", bin.advantage), advantage_interval_text(bin.interval),
+           fmt::format("{:+.3f}", bin.advantage), advantage_interval_text(bin.interval),
            tau_text(bin.tau)});
       first = false;
     }
@@ -152,7 +152,7 @@ TextTable map_table(const OrderMap& map) {
 std::string summary_text(const OrderStudy& study) {
   const OrderBin& all = study.all;
   return fmt::format(
-      "{} is better than {} in {} of {} units; median advantage {:+.2f} {}, agreement with the "
+      "{} is better than {} in {} of {} units; median advantage {:+.3f} {}, agreement with the "
       "paper's order {}; {} runs left out",
       study.options.adaptive, study.options.fixed, all.better, all.units, all.advantage,
       advantage_interval_text(all.interval), tau_text(all.tau), study.left_out);

@@ -3,9 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "render/plots/field_plot.hpp"
 
 namespace aims {
+namespace {
+
+/// Whether positive values span more than a factor of ten.
+bool spans_decades(const std::vector<OrderMap::Cell>& cells, double OrderMap::Cell::*place) {
+  const auto [low, high] = std::ranges::minmax(cells, {}, place);
+  return low.*place > 0.0 && high.*place > 10.0 * (low.*place);
+}
+
+}  // namespace
 
 Result<void> draw_order(const OrderStudy& study, const std::filesystem::path& folder) {
   if (!study.map) return {};
@@ -15,6 +26,8 @@ Result<void> draw_order(const OrderStudy& study, const std::filesystem::path& fo
   plot.subtitle = summary_text(study);
   plot.x_label = study.map->x;
   plot.y_label = study.map->y;
+  plot.logarithmic_x = spans_decades(study.map->cells, &OrderMap::Cell::x);
+  plot.logarithmic_y = spans_decades(study.map->cells, &OrderMap::Cell::y);
   plot.value_label = "fraction [-], tau [-]";
   FieldPanel better{"adaptive weights are better", {}};
   FieldPanel agreement{"agreement with the paper's order (Kendall's tau)", {}};
