@@ -21,6 +21,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kGroupsSchema = "aims.groups/1";
 
+/// The drawn value of a run; null when it drew no such key.
+Json drawn_in(const RunRecord& run, const std::string& key) {
+  const auto drawn = run.scores.find("drawn");
+  if (drawn == run.scores.end() || !drawn->is_object()) return {};
+  return drawn->value(key, Json());
+}
+
 std::string text_of(const Json& value) {
   if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
   return value.is_string() ? value.get<std::string>() : value.dump();
@@ -106,12 +113,6 @@ tl::unexpected<Error> no_such_key(const StoredResults& results, const std::strin
 }
 
 }  // namespace
-
-Json drawn_in(const RunRecord& run, const std::string& key) {
-  const auto drawn = run.scores.find("drawn");
-  if (drawn == run.scores.end() || !drawn->is_object()) return {};
-  return drawn->value(key, Json());
-}
 
 std::vector<double> upper_ends(std::vector<double> values, std::size_t bins) {
   std::sort(values.begin(), values.end());

@@ -14,9 +14,6 @@
 
 namespace aims {
 
-/// The value of `key` that the run's seed drew; null when it drew none.
-Json drawn_in(const RunRecord& run, const std::string& key);
-
 /// Upper ends of at most `bins` bins of about equal numbers of values; equal values are in one bin,
 /// and the last end is the largest value.
 std::vector<double> upper_ends(std::vector<double> values, std::size_t bins);

@@ -37,8 +37,7 @@ std::optional<double> agreement(const RunRecord& run) {
   const PaperTable& table = *paper_table_of("corridor");
   std::vector<double> taus;
   for (std::size_t i = 0; i < table.scores.size(); ++i) {
-    std::size_t systems = 0;
-    if (const auto tau = paper_tau(table, i, std::span(&run, 1), systems)) taus.push_back(*tau);
+    if (const auto tau = paper_tau(table, i, std::span(&run, 1)).tau) taus.push_back(*tau);
   }
   return mean(taus);
 }
@@ -54,6 +53,13 @@ std::optional<OrderUnit> unit_of(const std::string& scenario, const RunRecord& r
 std::vector<double> advantages(const Units& units) {
   std::vector<double> values;
   for (const OrderUnit* unit : units) values.push_back(unit->advantage);
+  return values;
+}
+
+/// The condition in each unit, all of which drew it.
+std::vector<double> drawn_values(const Units& units, const std::string& key) {
+  std::vector<double> values;
+  for (const OrderUnit* unit : units) values.push_back(unit->conditions.at(key));
   return values;
 }
 
@@ -87,9 +93,7 @@ OrderBin bin_of(const Units& units) {
 
 /// The units that drew the condition, by bin of it.
 std::vector<Units> binned(const Units& units, const std::string& key, std::size_t bins) {
-  std::vector<double> values;
-  for (const OrderUnit* unit : units) values.push_back(unit->conditions.at(key));
-  const std::vector<double> ends = upper_ends(values, bins);
+  const std::vector<double> ends = upper_ends(drawn_values(units, key), bins);
   std::vector<Units> members(ends.size());
   for (const OrderUnit* unit : units) {
     const auto end = std::ranges::lower_bound(ends, unit->conditions.at(key));
@@ -99,9 +103,7 @@ std::vector<Units> binned(const Units& units, const std::string& key, std::size_
 }
 
 std::optional<double> association_of(const Units& units, const std::string& key) {
-  std::vector<double> values;
-  for (const OrderUnit* unit : units) values.push_back(unit->conditions.at(key));
-  return kendall_tau(values, advantages(units));
+  return kendall_tau(drawn_values(units, key), advantages(units));
 }
 
 std::optional<double> tau_association_of(const Units& units, const std::string& key) {
@@ -141,16 +143,15 @@ Units with_condition(const Units& units, const std::string& key) {
 }
 
 double middle_of(const Units& units, const std::string& key) {
-  std::vector<double> values;
-  for (const OrderUnit* unit : units) values.push_back(unit->conditions.at(key));
-  return median(values).value_or(0.0);
+  return median(drawn_values(units, key)).value_or(0.0);
 }
 
 OrderMap map_of(const Units& all, const std::string& x, const std::string& y, std::size_t bins) {
   OrderMap map{x, y, {}};
   const Units units = with_condition(with_condition(all, x), y);
+  const std::vector<Units> columns = binned(units, x, bins);
   for (const Units& row : binned(units, y, bins)) {
-    for (const Units& column : binned(units, x, bins)) {
+    for (const Units& column : columns) {
       Units cell;
       std::ranges::copy_if(row, std::back_inserter(cell), [&column](const OrderUnit* unit) {
         return std::ranges::find(column, unit) != column.end();

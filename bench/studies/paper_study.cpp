@@ -69,12 +69,13 @@ PaperSystem system_of(std::span<const RunRecord> runs, const PaperTable& table,
 PaperOrder order_of(std::span<const RunRecord> runs, const PaperTable& table, std::size_t column) {
   PaperOrder order;
   order.score = table.scores[column];
-  order.tau = paper_tau(table, column, runs, order.systems);
+  const PaperTau all = paper_tau(table, column, runs);
+  order.tau = all.tau;
+  order.systems = all.systems;
   const auto tau_of = [&](std::span<const std::size_t> chosen) {
     std::vector<RunRecord> drawn;
     for (const std::size_t i : chosen) drawn.push_back(runs[i]);
-    std::size_t unused = 0;
-    return paper_tau(table, column, drawn, unused);
+    return paper_tau(table, column, drawn).tau;
   };
   order.interval = bootstrap_interval(runs.size(), tau_of, kPaperBootstrapSeed);
   return order;
@@ -96,8 +97,7 @@ PaperExperiment experiment_of(const SuiteCase& each, const PaperTable& table) {
 
 }  // namespace
 
-std::optional<double> paper_tau(const PaperTable& table, std::size_t column,
-                                std::span<const RunRecord> runs, std::size_t& systems) {
+PaperTau paper_tau(const PaperTable& table, std::size_t column, std::span<const RunRecord> runs) {
   std::vector<double> paper;
   std::vector<double> here;
   for (const PaperMethod& method : table.methods) {
@@ -107,8 +107,7 @@ std::optional<double> paper_tau(const PaperTable& table, std::size_t column,
     paper.push_back(method.figures[column].value_or(kLast));
     here.push_back(middle(std::move(values)));
   }
-  systems = paper.size();
-  return kendall_tau(paper, here);
+  return {kendall_tau(paper, here), paper.size()};
 }
 
 Result<std::vector<PaperExperiment>> paper_study(const Suite& suite) {

@@ -55,11 +55,15 @@ struct PaperExperiment {
   std::vector<PaperOrder> orders;    ///< by column
 };
 
+struct PaperTau {
+  std::optional<double> tau;
+  std::size_t systems = 0;  ///< compared
+};
+
 /// Kendall's tau between the paper's figures of its systems and the medians of their scores in
 /// `runs`; systems without a run are left out. A "-" of the paper and a median without a value are
-/// last. `systems` becomes the number of those compared.
-std::optional<double> paper_tau(const PaperTable& table, std::size_t column,
-                                std::span<const RunRecord> runs, std::size_t& systems);
+/// last.
+PaperTau paper_tau(const PaperTable& table, std::size_t column, std::span<const RunRecord> runs);
 
 /// The experiments of the paper that the suite ran. Error when it ran none.
 Result<std::vector<PaperExperiment>> paper_study(const Suite& suite);
