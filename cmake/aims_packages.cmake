@@ -34,7 +34,8 @@ Estimators, readers of recordings and trajectory scoring as static libraries
 with headers; CMake finds them by find_package(aims CONFIG).")
 # What aimsConfig.cmake finds.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libboost-dev, libbz2-dev, libeigen3-dev, libexpected-dev, \
-libfmt-dev, liblz4-dev, libyaml-cpp-dev, pkg-config")
+libfmt-dev, liblz4-dev, libyaml-cpp-dev, libzstd-dev, \
+pkg-config")
 
 set(CPACK_DEBIAN_ROS_PACKAGE_NAME aims-node)
 set(CPACK_DEBIAN_ROS_PACKAGE_SECTION science)

@@ -26,6 +26,7 @@ void declare_estimate(Command command, const std::filesystem::path& scenarios);
 void declare_score(Command command, const std::filesystem::path& scenarios);
 void declare_info(Command command, const std::filesystem::path& scenarios);
 void declare_check(Command command, const std::filesystem::path& scenarios);
+void declare_convert(Command command, const std::filesystem::path& scenarios);
 void declare_render(Command command, const std::filesystem::path& scenarios);
 void declare_page(Command command, const std::filesystem::path& scenarios);
 void declare_config(Command command, const std::filesystem::path& scenarios);

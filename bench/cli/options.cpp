@@ -97,6 +97,11 @@ void add_overwrite(Command& command, SharedOptions& options) {
   command.flag("--overwrite", options.overwrite, "Replace results that exist");
 }
 
+void add_compression(Command& command, std::string& compression) {
+  command.choice("--compression", compression, {"none", "lz4", "bz2", "zstd"},
+                 "Of the chunks: bz2 in .bag, zstd in .mcap alone (none)");
+}
+
 void add_quiet(Command& command, SharedOptions& options) {
   command.flag("-q,--quiet", options.quiet, "Show no progress");
 }

@@ -67,6 +67,8 @@ void add_jobs(Command& command, SharedOptions& options);
 void add_retry(Command& command, SharedOptions& options);
 /// --overwrite.
 void add_overwrite(Command& command, SharedOptions& options);
+/// --compression of a recording that is written.
+void add_compression(Command& command, std::string& compression);
 /// --quiet.
 void add_quiet(Command& command, SharedOptions& options);
 

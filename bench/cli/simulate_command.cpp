@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/expectations.hpp"
+#include "bench/run/new_recording.hpp"
 #include "bench/run/record.hpp"
 #include "bench/run/validity.hpp"
 
@@ -24,9 +24,6 @@ struct SimulateArguments {
   std::string compression = "none";
   std::optional<double> fast_imu_hz;
 };
-
-const std::map<std::string, BagCompression> kCompressions = {
-    {"none", BagCompression::kNone}, {"lz4", BagCompression::kLz4}, {"bz2", BagCompression::kBz2}};
 
 /// What was written, and what is wrong with it; `quiet` leaves the first out.
 void print_results(const RecordOutcome& outcome, const RecordOptions& options, bool quiet) {
@@ -60,10 +57,8 @@ bool is_as_demanded(const RecordOutcome& outcome, const Scenario& scenario, std:
 
 int simulate_command(const SimulateArguments& arguments) {
   SharedOptions shared = arguments.shared;
-  if (const fs::path bag = shared.out; bag.extension() != ".bag") {
-    return bad_input("simulate", {fmt::format("--out {}: expected a name that ends in .bag, since "
-                                              "a ROS 1 bag is written",
-                                              bag.string())});
+  if (const auto format = format_of_new(shared.out); !format) {
+    return bad_input("simulate", {"--out " + format.error().message});
   }
   const auto read = check_settings(shared.settings, {"estimators", "run", "scoring"}, true);
   if (!read) return bad_input("simulate", read.error());
@@ -78,7 +73,7 @@ int simulate_command(const SimulateArguments& arguments) {
   options.seed = *seed;
   options.bag = shared.out;
   options.overwrite = shared.overwrite;
-  options.compression = kCompressions.at(arguments.compression);
+  options.compression = *compression_named(arguments.compression);
   watch_interrupt();
   ProgressDisplay display(scenario->name, shared.quiet);
   const auto outcome = record(*scenario, options, [&](const Progress& progress) {
@@ -99,19 +94,20 @@ void declare_simulate(Command command, const fs::path& scenarios) {
   shared.folder = scenarios.string();
   add_scenario(command, shared, Presence::kRequired);
   add_folder(command, shared);
-  command.option("-o,--out", shared.out, "Bag to write, e.g. corridor.bag", Presence::kRequired);
+  command.option("-o,--out", shared.out, "Recording to write, e.g. corridor.bag or corridor.mcap",
+                 Presence::kRequired);
   add_seeds(command, shared, "that of the scenario; one");
   add_settings(command, shared);
   command.option("--fast-imu", arguments->fast_imu_hz, {1.0, 2000.0},
                  "Rate of a second IMU topic [Hz], e.g. 200 (none)");
-  command.choice("--compression", arguments->compression, {"none", "lz4", "bz2"},
-                 "Of the chunks of the bag (none)");
+  add_compression(command, arguments->compression);
   add_overwrite(command, shared);
   add_quiet(command, shared);
   command.footer(
       "Also writes NAME.truth.tum (true poses of the body) and NAME.waypoint_times.csv.\n"
       "Examples:\n"
       "  aims simulate corridor --out corridor.bag\n"
+      "  aims simulate corridor --out corridor.mcap --compression zstd\n"
       "  aims simulate garage --seeds 3 --fast-imu 200 --compression lz4 --out garage.bag");
   command.action([arguments] { return simulate_command(*arguments); });
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/run/code_version.hpp"
+#include "bench/run/new_recording.hpp"
 #include "bench/run/sequence.hpp"
 #include "bench/run/stream.hpp"
 #include "bench/run/tables.hpp"
@@ -95,52 +96,10 @@ fs::path beside(const fs::path& bag, const char* extension) {
   return file.replace_extension(extension);
 }
 
-/// The bag while it is being recorded; what was recorded stays there when that fails.
-fs::path partial_of(const fs::path& bag) {
-  fs::path file = bag;
-  return file += ".partial";
-}
-
-/// Whether nothing is there, or a file that may be replaced.
-Result<void> check_free(const fs::path& file, const RecordOptions& options, const char* what) {
-  std::error_code code;
-  const fs::file_status status = fs::symlink_status(file, code);
-  if (status.type() == fs::file_type::not_found) return {};
-  if (code) return failure(fmt::format("{}: {}", file.string(), code.message()));
-  if (!options.overwrite) {
-    return failure(fmt::format("{}: {}; choose another --out, or --overwrite to replace it",
-                               file.string(), what));
-  }
-  if (!fs::is_regular_file(status)) {
-    return failure(fmt::format("{}: expected a file to overwrite", file.string()));
-  }
-  return {};
-}
-
-/// The name under which recording begins. An existing bag stays until the new one is whole.
-Result<fs::path> make_room(const RecordOptions& options) {
-  std::error_code ignored;
-  if (options.bag.has_parent_path()) fs::create_directories(options.bag.parent_path(), ignored);
-  const fs::path partial = partial_of(options.bag);
-  auto free = check_free(options.bag, options, "exists already");
-  if (free) free = check_free(partial, options, "holds what a stopped simulation recorded");
-  if (!free) return tl::unexpected(free.error());
-  fs::remove(partial, ignored);
-  return partial;
-}
-
 /// What went wrong, and where the recording up to then is.
 tl::unexpected<Error> kept(const fs::path& partial, const Error& error) {
   return failure(
       fmt::format("{}; what was recorded until then is in {}", error.message, partial.string()));
-}
-
-/// Gives the finished bag its name.
-Result<void> publish(const fs::path& partial, const fs::path& bag) {
-  std::error_code code;
-  fs::rename(partial, bag, code);
-  if (code) return failure(fmt::format("{}: cannot be written: {}", bag.string(), code.message()));
-  return {};
 }
 
 /// Simulates to the end or until the observer stops it, and closes the bag.
@@ -167,20 +126,23 @@ Result<void> fill(Simulation& simulation, Recorder& recorder, const Observer& ob
 Result<RecordOutcome> record(const Scenario& given, const RecordOptions& options,
                              const Observer& observer) {
   const Stopwatch stopwatch;
+  const auto format = format_of_new(options.bag);
+  if (!format) return tl::unexpected(format.error());
   const Scenario scenario = scenario_of_seed(given, options.seed);
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
-  const auto partial = make_room(options);
+  const auto partial = begin_recording(options.bag, options.overwrite);
   if (!partial) return tl::unexpected(partial.error());
-  auto writer =
-      RecordingWriter::create(*partial, simulation->rig(), origin_text(scenario, options.seed),
-                              {.compression = options.compression});
+  auto file = create_recording(*partial, *format, {.compression = options.compression});
+  if (!file) return tl::unexpected(file.error());
+  auto writer = RecordingWriter::create(std::move(*file), simulation->rig(),
+                                        origin_text(scenario, options.seed));
   if (!writer) return tl::unexpected(writer.error());
 
   Recorder recorder(std::move(*writer));
   RecordOutcome outcome;
   auto ok = fill(*simulation, recorder, observer, stopwatch, outcome);
-  if (ok) ok = publish(*partial, options.bag);
+  if (ok) ok = publish_recording(*partial, options.bag);
   if (!ok) return kept(*partial, ok.error());
   const Truth& truth = simulation->truth();
   outcome.truth = beside(options.bag, ".truth.tum");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -20,6 +21,15 @@ requires std::is_arithmetic_v<T> T load_number(const std::byte* bytes) {
   T value;
   std::memcpy(&value, bytes, sizeof(T));
   return value;
+}
+
+/// The number at `bytes` in either byte order.
+template <class T>
+requires std::is_arithmetic_v<T> T load_number(const std::byte* bytes, std::endian order) {
+  if (order == std::endian::little) return load_number<T>(bytes);
+  std::byte swapped[sizeof(T)];
+  std::reverse_copy(bytes, bytes + sizeof(T), swapped);
+  return load_number<T>(swapped);
 }
 
 /// Reads untrusted bytes from front to back, with bounds checks.

@@ -12,13 +12,6 @@ namespace {
 /// Largest ratio of unpacked to packed bytes that lz4 can reach.
 constexpr std::uint64_t kMaxLz4Ratio = 256;
 
-/// "FILE: at byte N: in the chunk, at its byte M: WHAT".
-tl::unexpected<Error> refuse_inside(const BagFile& file, const ChunkPlace& place,
-                                    std::size_t offset, const std::string& what) {
-  return file.refuse(place.position,
-                     fmt::format("in this chunk, at byte {} of its content: {}", offset, what));
-}
-
 std::string text_of(const RecordFields& fields, std::string_view name) {
   return std::string(fields.text(name).value_or(""));
 }
@@ -65,7 +58,7 @@ Result<void> check_counts(const BagFile& file, const ChunkPlace& place,
   for (const ChunkMessage& message : content.messages) {
     ++counts[message.connection];
     if (message.time < place.start || message.time > place.end) {
-      return refuse_inside(
+      return refuse_in_chunk(
           file, place, message.offset,
           fmt::format("expected a record time from {} to {} ns, as the index states, found {}",
                       place.start, place.end, message.time));
@@ -106,7 +99,8 @@ Result<void> BagConnections::add(const RecordFields& header, std::span<const std
                            text_of(*fields, "md5sum"),
                            text_of(*fields, "message_definition"),
                            fields->text("latching") == "1",
-                           0};
+                           0,
+                           kRos1Format};
   const auto [place, added] = by_id_.try_emplace(*id, std::move(connection));
   if (added) return {};
   const BagConnection& known = place->second;
@@ -129,10 +123,6 @@ void BagConnections::reset_counts() {
   for (auto& [id, connection] : by_id_) connection.messages = 0;
 }
 
-std::uint64_t ChunkPlace::memory() const {
-  return std::uint64_t{size} + (compression == BagCompression::kNone ? 0 : packed_size);
-}
-
 Result<ChunkPlace> chunk_place(const BagFile& file, const FileRecord& record) {
   if (record.op != BagOp::kChunk) {
     return file.refuse(record.position,
@@ -144,7 +134,7 @@ Result<ChunkPlace> chunk_place(const BagFile& file, const FileRecord& record) {
     return file.refuse(record.position, "expected a chunk with 'compression' and 'size'");
   }
   const auto compression = compression_named(*name);
-  if (!compression) {
+  if (!compression || *compression == BagCompression::kZstd) {
     return file.refuse(
         record.position,
         fmt::format("expected compression none, lz4 or bz2, found '{}'", name->substr(0, 32)));
@@ -168,19 +158,10 @@ Result<ChunkPlace> chunk_place(const BagFile& file, const FileRecord& record) {
 
 Result<void> load_chunk(const BagFile& file, const ChunkPlace& place, BagConnections& connections,
                         ChunkContent& content) {
-  const bool packed = place.compression != BagCompression::kNone;
-  std::vector<std::byte>& raw = packed ? content.packed : content.bytes;
-  raw.resize(place.packed_size);
-  if (auto got = file.read(place.data_position, raw); !got) return got;
-  if (packed) {
-    const auto unpacked = decompress(place.compression, raw, place.size, content.bytes);
-    if (!unpacked) {
-      return file.refuse(place.position, "in this chunk: " + unpacked.error().message);
-    }
-  }
+  if (auto got = unpack_chunk(file, place, content); !got) return got;
   std::size_t offset = 0;
   const auto found = find_messages(connections, content, offset);
-  if (!found) return refuse_inside(file, place, offset, found.error().message);
+  if (!found) return refuse_in_chunk(file, place, offset, found.error().message);
   return {};
 }
 

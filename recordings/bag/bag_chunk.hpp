@@ -4,13 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <vector>
 
 #include "core/error.hpp"
-#include "core/time.hpp"
 #include "recordings/bag/bag_file.hpp"
-#include "recordings/bag/bag_reader.hpp"
-#include "recordings/bag/compression.hpp"
+#include "recordings/bag/chunk.hpp"
+#include "recordings/bag/message_source.hpp"
 
 namespace aims {
 
@@ -28,39 +26,6 @@ class BagConnections {
 
  private:
   std::map<std::uint32_t, BagConnection> by_id_;
-};
-
-/// Position and content of a chunk, without its messages.
-struct ChunkPlace {
-  std::uint64_t position = 0;       ///< of its record in the file
-  std::uint64_t data_position = 0;  ///< of its packed content
-  std::uint32_t packed_size = 0;    ///< [bytes]
-  std::uint32_t size = 0;           ///< unpacked [bytes]
-  BagCompression compression = BagCompression::kNone;
-  Time start = 0;                                 ///< earliest record time
-  Time end = 0;                                   ///< latest
-  std::map<std::uint32_t, std::uint32_t> counts;  ///< messages by connection id
-  std::uint32_t index_records = 0;                ///< behind the chunk
-
-  std::uint64_t end_position() const { return data_position + packed_size; }
-  /// Bytes needed to hold it in memory.
-  std::uint64_t memory() const;
-};
-
-/// A message inside an unpacked chunk.
-struct ChunkMessage {
-  Time time = 0;
-  std::uint32_t connection = 0;   ///< id
-  std::uint32_t offset = 0;       ///< of its record in the chunk
-  std::uint32_t data_offset = 0;  ///< of its bytes
-  std::uint32_t data_size = 0;
-};
-
-/// An unpacked chunk.
-struct ChunkContent {
-  std::vector<std::byte> bytes;
-  std::vector<std::byte> packed;       ///< buffer of the packed bytes, reused for the next chunk
-  std::vector<ChunkMessage> messages;  ///< in the order of the file
 };
 
 /// The chunk of a record, from its header alone: without times and counts.

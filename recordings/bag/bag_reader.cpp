@@ -1,228 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/bag/bag_reader.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <set>
-#include <tuple>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "recordings/bag/bag_index.hpp"
 
 namespace aims {
 namespace {
 
-/// Sort key of the reading order.
-struct MessageKey {
-  Time time = 0;
-  std::uint64_t chunk = 0;   ///< position in the file
-  std::uint32_t offset = 0;  ///< in the chunk
+class BagContainer final : public ChunkContainer {
+ public:
+  BagContainer(BagFile file, BagIndex index, bool recover)
+      : file_(std::move(file)), index_(std::move(index)), recover_(recover) {}
 
-  bool operator<(const MessageKey& other) const {
-    return std::tie(time, chunk, offset) < std::tie(other.time, other.chunk, other.offset);
+  const BagFile& file() const override { return file_; }
+  const std::vector<ChunkPlace>& chunks() const override { return index_.chunks; }
+
+  Result<void> load(const ChunkPlace& place, ChunkContent& content) override {
+    Result<void> got = load_chunk(file_, place, index_.connections, content);
+    if (got && !recover_) got = check_chunk_index(file_, place, content);
+    if (!got) return failure(got.error().message + "; --recover skips damaged chunks");
+    return {};
   }
+
+  std::string_view remedy() const override {
+    return "a copy made by `rosbag filter` has smaller chunks, sorted by time";
+  }
+
+ private:
+  BagFile file_;
+  BagIndex index_;
+  bool recover_;
 };
-
-/// A chunk in memory, its messages in order of reading.
-struct LoadedChunk {
-  const ChunkPlace* place = nullptr;
-  ChunkContent content;
-  std::size_t next = 0;
-
-  std::uint64_t memory() const {
-    return place->memory() + content.messages.size() * sizeof(ChunkMessage);
-  }
-  MessageKey key() const {
-    const ChunkMessage& message = content.messages[next];
-    return {message.time, place->position, message.offset};
-  }
-};
-
-/// Heap order: the chunk with the earliest message on top.
-bool later(const std::unique_ptr<LoadedChunk>& a, const std::unique_ptr<LoadedChunk>& b) {
-  return b->key() < a->key();
-}
-
-BagSummary summarize(const BagFile& file, const BagIndex& index) {
-  BagSummary summary;
-  summary.file_size = file.size();
-  summary.chunks = index.chunks.size();
-  summary.indexed = index.indexed;
-  summary.lost_bytes = index.lost_bytes;
-  std::set<std::string_view> compressions;
-  bool first = true;
-  for (const ChunkPlace& chunk : index.chunks) {
-    summary.start = first ? chunk.start : std::min(summary.start, chunk.start);
-    summary.end = first ? chunk.end : std::max(summary.end, chunk.end);
-    first = false;
-    for (const auto& [id, count] : chunk.counts) summary.messages += count;
-    compressions.insert(name_of(chunk.compression));
-  }
-  summary.compression = fmt::format("{}", fmt::join(compressions, ", "));
-  return summary;
-}
 
 }  // namespace
-
-struct BagReader::Impl {
-  BagFile file;
-  BagOpenOptions options;
-  BagIndex index;
-  BagSummary summary;
-  std::vector<BagConnection> connections;
-  std::map<std::uint32_t, const BagConnection*> chosen = {};  ///< by id
-  std::vector<const ChunkPlace*> pending = {};                ///< latest start first
-  std::vector<std::unique_ptr<LoadedChunk>> loaded = {};
-  std::vector<std::unique_ptr<LoadedChunk>> spare = {};  ///< buffers for reuse
-  std::uint64_t memory = 0;                              ///< of the loaded chunks [bytes]
-  std::optional<MessageKey> last = std::nullopt;         ///< returned
-  bool lent = false;                                     ///< the caller holds the message on top
-
-  void prepare();
-  void release(std::unique_ptr<LoadedChunk> chunk);
-  void step();
-  Result<void> load(const ChunkPlace& place);
-  bool wanted(const ChunkPlace& place) const;
-};
-
-bool BagReader::Impl::wanted(const ChunkPlace& place) const {
-  if (last && place.end < last->time) return false;
-  return std::any_of(place.counts.begin(), place.counts.end(),
-                     [this](const auto& each) { return chosen.contains(each.first); });
-}
-
-/// Lists the chunks that are still to be read from the current position.
-void BagReader::Impl::prepare() {
-  for (auto& chunk : loaded) release(std::move(chunk));
-  loaded.clear();
-  lent = false;
-  pending.clear();
-  for (const ChunkPlace& chunk : index.chunks) {
-    if (wanted(chunk)) pending.push_back(&chunk);
-  }
-  std::stable_sort(pending.begin(), pending.end(), [](const ChunkPlace* a, const ChunkPlace* b) {
-    return std::tie(a->start, a->position) > std::tie(b->start, b->position);
-  });
-}
-
-void BagReader::Impl::release(std::unique_ptr<LoadedChunk> chunk) {
-  constexpr std::size_t kMaxSpareBytes = std::size_t{16} << 20;
-  memory -= chunk->memory();
-  const std::size_t kept = chunk->content.bytes.capacity() + chunk->content.packed.capacity();
-  if (spare.size() < 2 && kept <= kMaxSpareBytes) spare.push_back(std::move(chunk));
-}
-
-/// Drops the message that was lent to the caller.
-void BagReader::Impl::step() {
-  if (!lent) return;
-  lent = false;
-  std::pop_heap(loaded.begin(), loaded.end(), later);
-  if (++loaded.back()->next < loaded.back()->content.messages.size()) {
-    std::push_heap(loaded.begin(), loaded.end(), later);
-    return;
-  }
-  release(std::move(loaded.back()));
-  loaded.pop_back();
-}
-
-Result<void> BagReader::Impl::load(const ChunkPlace& place) {
-  if (place.memory() > options.memory_limit) {
-    return file.refuse(place.position,
-                       fmt::format("this chunk needs {} bytes of memory, more than {}; a copy made "
-                                   "by `rosbag filter` has smaller ones",
-                                   place.memory(), options.memory_limit));
-  }
-  if (memory + place.memory() > options.memory_limit) {
-    return file.refuse(place.position,
-                       fmt::format("{} chunks overlap in time and need more than {} bytes; a copy "
-                                   "made by `rosbag filter` is sorted by time",
-                                   loaded.size() + 1, options.memory_limit));
-  }
-  std::unique_ptr<LoadedChunk> chunk;
-  if (spare.empty()) {
-    chunk = std::make_unique<LoadedChunk>();
-  } else {
-    chunk = std::move(spare.back());
-    spare.pop_back();
-  }
-  chunk->place = &place;
-  chunk->next = 0;
-  ChunkContent& content = chunk->content;
-  Result<void> got = load_chunk(file, place, index.connections, content);
-  if (got && !options.recover) got = check_chunk_index(file, place, content);
-  if (!got) return failure(got.error().message + "; --recover skips damaged chunks");
-  std::erase_if(content.messages, [&](const ChunkMessage& message) {
-    const MessageKey key{message.time, place.position, message.offset};
-    return !chosen.contains(message.connection) || (last && !(*last < key));
-  });
-  std::stable_sort(content.messages.begin(), content.messages.end(),
-                   [](const ChunkMessage& a, const ChunkMessage& b) { return a.time < b.time; });
-  if (content.messages.empty()) return {};
-  memory += chunk->memory();
-  loaded.push_back(std::move(chunk));
-  std::push_heap(loaded.begin(), loaded.end(), later);
-  return {};
-}
-
-BagReader::BagReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-BagReader::BagReader(BagReader&&) noexcept = default;
-BagReader& BagReader::operator=(BagReader&&) noexcept = default;
-BagReader::~BagReader() = default;
 
 Result<BagReader> BagReader::open(const std::filesystem::path& path, BagOpenOptions options) {
   auto file = BagFile::open(path);
   if (!file) return tl::unexpected(file.error());
   auto index = options.recover ? recover_index(*file, options.memory_limit) : read_index(*file);
   if (!index) return tl::unexpected(index.error());
-  const BagSummary summary = summarize(*file, *index);
+  BagSummary summary = summarize(*file, index->chunks);
+  summary.indexed = index->indexed;
+  summary.lost_bytes = index->lost_bytes;
   std::vector<BagConnection> connections;
   for (const auto& [id, connection] : index->connections.all()) connections.push_back(connection);
-  auto impl = std::unique_ptr<Impl>(
-      new Impl{std::move(*file), options, std::move(*index), summary, std::move(connections)});
-  for (const BagConnection& each : impl->connections) impl->chosen[each.id] = &each;
-  impl->prepare();
-  return BagReader(std::move(impl));
-}
-
-const std::filesystem::path& BagReader::file() const { return impl_->file.path(); }
-
-const std::vector<BagConnection>& BagReader::connections() const { return impl_->connections; }
-
-const BagSummary& BagReader::summary() const { return impl_->summary; }
-
-void BagReader::select(std::span<const std::string> topics) {
-  impl_->chosen.clear();
-  for (const BagConnection& each : impl_->connections) {
-    if (std::find(topics.begin(), topics.end(), each.topic) != topics.end()) {
-      impl_->chosen[each.id] = &each;
-    }
-  }
-  impl_->prepare();
-}
-
-Result<std::optional<BagMessage>> BagReader::next() {
-  Impl& bag = *impl_;
-  bag.step();
-  while (!bag.pending.empty() &&
-         (bag.loaded.empty() || bag.pending.back()->start <= bag.loaded.front()->key().time)) {
-    const ChunkPlace& place = *bag.pending.back();
-    if (const auto got = bag.load(place); !got) return tl::unexpected(got.error());
-    bag.pending.pop_back();
-  }
-  if (bag.loaded.empty()) return std::optional<BagMessage>();
-  const LoadedChunk& top = *bag.loaded.front();
-  const ChunkMessage& message = top.content.messages[top.next];
-  bag.lent = true;
-  bag.last = top.key();
-  const std::span<const std::byte> bytes = top.content.bytes;
-  return BagMessage{bag.chosen.at(message.connection), message.time,
-                    bytes.subspan(message.data_offset, message.data_size), top.place->position};
-}
-
-void BagReader::rewind() {
-  impl_->last.reset();
-  impl_->prepare();
+  auto container =
+      std::make_unique<BagContainer>(std::move(*file), std::move(*index), options.recover);
+  return BagReader(std::move(container), std::move(connections), std::move(summary),
+                   options.memory_limit);
 }
 
 }  // namespace aims

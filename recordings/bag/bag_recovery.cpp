@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-
 #include "recordings/bag/bag_index.hpp"
 
 namespace aims {
@@ -14,13 +12,7 @@ bool read_chunk(const BagFile& file, std::size_t memory_limit, BagIndex& index, 
   BagConnections connections = index.connections;
   if (!load_chunk(file, place, connections, content)) return false;
   index.connections = std::move(connections);
-  place.counts.clear();
-  for (const ChunkMessage& message : content.messages) {
-    const bool first = place.counts.empty();
-    place.start = first ? message.time : std::min(place.start, message.time);
-    place.end = first ? message.time : std::max(place.end, message.time);
-    ++place.counts[message.connection];
-  }
+  count_messages(content, place);
   return true;
 }
 

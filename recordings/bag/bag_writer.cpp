@@ -128,6 +128,10 @@ BagWriter::~BagWriter() {
 }
 
 Result<BagWriter> BagWriter::create(const std::filesystem::path& file, BagWriterOptions options) {
+  if (options.compression == BagCompression::kZstd) {
+    return failure(fmt::format("{}: compression zstd: expected none, lz4 or bz2 for a ROS 1 bag",
+                               file.string()));
+  }
   auto output = create_bag_output(file, BagPublisher::empty_bag());
   if (!output) return tl::unexpected(output.error());
   return create(std::move(*output), file.string(), options);

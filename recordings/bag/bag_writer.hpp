@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/time.hpp"
 #include "recordings/bag/compression.hpp"
+#include "recordings/bag/message_sink.hpp"
 #include "recordings/messages/message_type.hpp"
 
 namespace aims {
@@ -24,7 +25,7 @@ struct BagWriterOptions {
 
 /// Writes a ROS 1 bag (format 2.0). After each closed chunk the file on disk is a valid bag with an
 /// index of all closed chunks: a process killed at any moment leaves a readable bag.
-class BagWriter {
+class BagWriter final : public MessageSink {
  public:
   /// Error when the file exists or cannot be written.
   static Result<BagWriter> create(const std::filesystem::path& file, BagWriterOptions options = {});
@@ -33,20 +34,21 @@ class BagWriter {
                                   BagWriterOptions options = {});
   BagWriter(BagWriter&&) noexcept;
   BagWriter& operator=(BagWriter&&) noexcept;
-  ~BagWriter();  ///< closes and ignores errors: call `close` to see them
+  ~BagWriter() override;  ///< closes and ignores errors: call `close` to see them
 
-  /// Announces a topic; returns the id to write with. Late subscribers receive the last message of
-  /// a latching topic.
+  Serialization serialization() const override { return Serialization::kRos1; }
+
   std::uint32_t add_connection(const std::string& topic, const MessageType& type,
-                               bool latching = false);
+                               bool latching = false) override;
 
   /// Appends a message as serialized by ROS 1. Error when the disk is full; the bag then remains
   /// readable up to the last closed chunk. `record_time` > 0: rosbag's own reader skips messages at
   /// 0.
-  Result<void> write(std::uint32_t connection, Time record_time, std::span<const std::byte> data);
+  Result<void> write(std::uint32_t connection, Time record_time,
+                     std::span<const std::byte> data) override;
 
   /// Closes the last chunk and the file. Nothing may be written afterwards.
-  Result<void> close();
+  Result<void> close() override;
 
  private:
   struct Impl;

@@ -4,6 +4,7 @@
 #include <bzlib.h>
 #include <fmt/format.h>
 #include <lz4frame.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,7 @@
 namespace aims {
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames = {"none", "lz4", "bz2"};
+constexpr std::array<std::string_view, 4> kNames = {"none", "lz4", "bz2", "zstd"};
 constexpr int kBz2BlockSize = 9;  ///< in 100 kB, as rosbag uses
 constexpr std::size_t kFirstCapacity = std::size_t{64} << 10;
 
@@ -41,6 +42,15 @@ Result<std::vector<std::byte>> compress_bz2(std::span<const std::byte> bytes) {
       BZ2_bzBuffToBuffCompress(reinterpret_cast<char*>(out.data()), &size, source,
                                static_cast<unsigned>(bytes.size()), kBz2BlockSize, 0, 0);
   if (outcome != BZ_OK) return failure(fmt::format("bz2: error {}", outcome));
+  out.resize(size);
+  return out;
+}
+
+Result<std::vector<std::byte>> compress_zstd(std::span<const std::byte> bytes) {
+  std::vector<std::byte> out(ZSTD_compressBound(bytes.size()));
+  const std::size_t size =
+      ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), ZSTD_CLEVEL_DEFAULT);
+  if (ZSTD_isError(size)) return failure(fmt::format("zstd: {}", ZSTD_getErrorName(size)));
   out.resize(size);
   return out;
 }
@@ -122,6 +132,36 @@ Result<void> decompress_bz2(std::span<const std::byte> packed, std::size_t size,
   return {};
 }
 
+Result<void> decompress_zstd(std::span<const std::byte> packed, std::size_t size,
+                             std::vector<std::byte>& out) {
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(),
+                                                                     &ZSTD_freeDCtx);
+  if (!context) return failure("zstd: no memory");
+  ZSTD_inBuffer input = {packed.data(), packed.size(), 0};
+  std::size_t filled = 0;
+  std::size_t hint = 1;
+  while (hint != 0) {
+    grow(out, filled, size, packed.size());
+    std::byte spare{};
+    const bool full = filled == size;
+    ZSTD_outBuffer output = {full ? &spare : out.data() + filled, full ? 1 : out.size() - filled,
+                             0};
+    const std::size_t before = input.pos;
+    hint = ZSTD_decompressStream(context.get(), &output, &input);
+    if (ZSTD_isError(hint)) return failure(fmt::format("zstd: {}", ZSTD_getErrorName(hint)));
+    if (full && output.pos > 0) return wrong_size(size, "more");
+    filled += output.pos;
+    if (hint != 0 && output.pos == 0 && input.pos == before) {
+      return failure("zstd: the frame ends early");
+    }
+  }
+  if (filled < size) return wrong_size(size, fmt::format("{}", filled).c_str());
+  if (input.pos < packed.size()) {
+    return failure(fmt::format("zstd: {} bytes behind the frame", packed.size() - input.pos));
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string_view name_of(BagCompression compression) {
@@ -141,6 +181,7 @@ Result<std::vector<std::byte>> compress(BagCompression compression,
   }
   if (compression == BagCompression::kLz4) return compress_lz4(bytes);
   if (compression == BagCompression::kBz2) return compress_bz2(bytes);
+  if (compression == BagCompression::kZstd) return compress_zstd(bytes);
   return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
@@ -149,6 +190,7 @@ Result<void> decompress(BagCompression compression, std::span<const std::byte> p
   if (compression != BagCompression::kNone) out.resize(std::min(out.size(), size));
   if (compression == BagCompression::kLz4) return decompress_lz4(packed, size, out);
   if (compression == BagCompression::kBz2) return decompress_bz2(packed, size, out);
+  if (compression == BagCompression::kZstd) return decompress_zstd(packed, size, out);
   if (packed.size() != size) return wrong_size(size, fmt::format("{}", packed.size()).c_str());
   out.assign(packed.begin(), packed.end());
   return {};

@@ -11,14 +11,14 @@
 
 namespace aims {
 
-/// Compression of a bag's chunks.
-enum class BagCompression { kNone, kLz4, kBz2 };
+/// Compression of a recording's chunks: bz2 in ROS 1 bags alone, zstd in MCAP and rosbag2 alone.
+enum class BagCompression { kNone, kLz4, kBz2, kZstd };
 
-/// Its name in bags: "none", "lz4", "bz2".
+/// Its name: "none", "lz4", "bz2", "zstd".
 std::string_view name_of(BagCompression compression);
 std::optional<BagCompression> compression_named(std::string_view name);
 
-/// The packed form of `bytes`: an lz4 frame or a bz2 stream, or the same bytes.
+/// The packed form of `bytes`: an lz4 frame, a bz2 stream, a zstd frame, or the same bytes.
 Result<std::vector<std::byte>> compress(BagCompression compression,
                                         std::span<const std::byte> bytes);
 

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/time.hpp"
+#include "recordings/messages/message_type.hpp"
 
 namespace aims {
 
@@ -17,22 +18,23 @@ namespace aims {
 struct BagConnection {
   std::uint32_t id = 0;
   std::string topic;
-  std::string type;        ///< e.g. "sensor_msgs/PointCloud2"
-  std::string md5;         ///< of the definition
+  std::string type;        ///< e.g. "sensor_msgs/PointCloud2", in ROS 2 too
+  std::string md5;         ///< of the definition; ROS 1 alone
   std::string definition;  ///< text of the message type and of all types that it uses
   bool latching = false;
-  std::uint64_t messages = 0;  ///< number in the bag, by its index
+  std::uint64_t messages = 0;  ///< number in the recording, by its index
+  MessageFormat format = {};
 };
 
 /// One recorded message; valid until the next call of the reader.
 struct BagMessage {
   const BagConnection* connection = nullptr;
   Time record_time = 0;             ///< since the epoch
-  std::span<const std::byte> data;  ///< as serialized by ROS 1, little endian
+  std::span<const std::byte> data;  ///< in the format of the connection
   std::uint64_t offset = 0;         ///< of the chunk that holds it, in the file [bytes]
 };
 
-/// Totals of a bag, from its index.
+/// Totals of a recording, from its index.
 struct BagSummary {
   std::uint64_t file_size = 0;  ///< [bytes]
   std::uint64_t chunks = 0;

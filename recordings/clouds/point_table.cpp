@@ -61,7 +61,7 @@ Result<PointTable> generic_table(const MessageView& message) {
   table.point_step = *point_step;
   // Some writers leave the row step at 0 when there is only one row.
   table.row_step = *row_step == 0 ? *width * *point_step : *row_step;
-  table.big_endian = message.number("is_bigendian").value_or(0.0) != 0.0;
+  if (message.number("is_bigendian").value_or(0.0) != 0.0) table.order = std::endian::big;
   table.bytes = *data;
   return table;
 }
@@ -72,6 +72,7 @@ PointTable livox_table(const MessageView& message, const TableView& points) {
   table.width = points.rows;
   table.point_step = points.stride;
   table.row_step = points.rows * points.stride;
+  table.order = points.order;
   table.bytes = points.bytes;
   const double base = message.number("timebase").value_or(0.0);
   if (base > 0.0 && base < 9e18) table.time_base = static_cast<Time>(base);
@@ -145,15 +146,6 @@ Result<PointTable> point_table(const MessageView& message) {
   table->frame = message.text("header.frame_id").value_or(std::string_view());
   if (auto ok = validate(*table); !ok) return tl::unexpected(ok.error());
   return table;
-}
-
-double PointField::at(const std::byte* point) const {
-  const std::byte* number = point + offset_;
-  if (!big_endian_) return number_at(number, type_);
-  std::array<std::byte, 8> swapped{};
-  const std::size_t size = size_of(type_);
-  std::reverse_copy(number, number + size, swapped.begin());
-  return number_at(swapped.data(), type_);
 }
 
 }  // namespace aims

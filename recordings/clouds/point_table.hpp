@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -21,12 +22,12 @@ struct PointTable {
   Time stamp = 0;          ///< of the header
   std::string_view frame;  ///< of the header
   std::vector<ColumnLayout> columns;
-  std::size_t width = 0;       ///< points in a row
-  std::size_t height = 1;      ///< more than 1: an organised cloud
-  std::size_t point_step = 0;  ///< [bytes]
-  std::size_t row_step = 0;    ///< [bytes]
-  bool big_endian = false;
-  std::optional<Time> time_base;  ///< origin of the points' times, if not the stamp
+  std::size_t width = 0;                    ///< points in a row
+  std::size_t height = 1;                   ///< more than 1: an organised cloud
+  std::size_t point_step = 0;               ///< [bytes]
+  std::size_t row_step = 0;                 ///< [bytes]
+  std::endian order = std::endian::little;  ///< of the numbers
+  std::optional<Time> time_base;            ///< origin of the points' times, if not the stamp
   std::span<const std::byte> bytes;
 
   std::size_t size() const { return width * height; }
@@ -50,14 +51,14 @@ Result<void> validate(const PointTable& table);
 class PointField {
  public:
   PointField(const PointTable& table, const ColumnLayout& column)
-      : type_(column.type), offset_(column.offset), big_endian_(table.big_endian) {}
+      : type_(column.type), offset_(column.offset), order_(table.order) {}
 
-  double at(const std::byte* point) const;
+  double at(const std::byte* point) const { return number_at(point + offset_, type_, order_); }
 
  private:
   NumberType type_;
   std::size_t offset_;
-  bool big_endian_;
+  std::endian order_;
 };
 
 }  // namespace aims

@@ -12,6 +12,7 @@
 #include "recordings/inspection/sensor_inspection.hpp"
 #include "recordings/inspection/topic_statistics.hpp"
 #include "recordings/messages/message_values.hpp"
+#include "recordings/source/recording_file.hpp"
 #include "recordings/stream/recording_reader.hpp"
 #include "recordings/topics/connection_decoders.hpp"
 #include "recordings/topics/topic_choice.hpp"
@@ -145,8 +146,9 @@ const TopicInfo* BagInfo::find(const std::string& topic) const {
 
 Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig& config,
                          BagOpenOptions options) {
-  auto reader = BagReader::open(bag, options);
-  if (!reader) return tl::unexpected(reader.error());
+  auto opened = open_recording(bag, options);
+  if (!opened) return tl::unexpected(opened.error());
+  const std::unique_ptr<MessageSource>& reader = *opened;
   BagInfo info;
   info.file = bag;
   info.summary = reader->summary();

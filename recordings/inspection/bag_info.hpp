@@ -12,7 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/lie.hpp"
-#include "recordings/bag/bag_reader.hpp"
+#include "recordings/bag/chunk_reader.hpp"
 #include "recordings/inspection/clock_offset.hpp"
 #include "recordings/recording_config.hpp"
 

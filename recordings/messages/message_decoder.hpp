@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "recordings/messages/message_type.hpp"
 #include "recordings/messages/message_view.hpp"
 #include "recordings/messages/number_type.hpp"
 
@@ -30,13 +31,14 @@ struct MessageField {
 class MessageDecoder {
  public:
   /// Error for a definition that cannot be read, naming the line and the type.
-  static Result<MessageDecoder> create(std::string_view type, std::string_view definition);
+  static Result<MessageDecoder> create(std::string_view type, std::string_view definition,
+                                       MessageFormat format = kRos1Format);
 
   /// All fields in the order of the definition, those of nested messages in place.
   std::vector<MessageField> fields() const;
 
-  /// Error for too few or too many bytes, naming the field and the offset.
-  /// Memory is bounded by a small multiple of the size of `data`.
+  /// Error for too few or too many bytes, naming the field and the offset; CDR may pad the end by
+  /// up to three bytes. Memory is bounded by a small multiple of the size of `data`.
   Result<MessageView> decode(std::span<const std::byte> data) const;
 
  private:

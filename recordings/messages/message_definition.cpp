@@ -41,50 +41,102 @@ bool is_separator(std::string_view line) {
   return line.size() >= 3 && line.find_first_not_of('=') == std::string_view::npos;
 }
 
-/// Splits "[]" or "[36]" off the type; false when the brackets are malformed.
-bool split_array(std::string_view word, FieldDefinition& field) {
+/// A whole number above 0, or nothing.
+std::optional<std::uint32_t> count_in(std::string_view digits) {
+  std::uint32_t count = 0;
+  const char* last = digits.data() + digits.size();
+  const auto [end, error] = std::from_chars(digits.data(), last, count);
+  if (error != std::errc() || end != last || count == 0) return std::nullopt;
+  return count;
+}
+
+/// Removes the bound of "string<=10"; false when it is malformed.
+bool drop_bound(std::string& type) {
+  const std::size_t bound = type.find("<=");
+  if (bound == std::string::npos) return true;
+  const bool of_text = type.starts_with("string<") || type.starts_with("wstring<");
+  const bool counted = count_in(std::string_view(type).substr(bound + 2)).has_value();
+  type.resize(bound);
+  return of_text && counted;
+}
+
+/// Splits "[]", "[36]" or, in ROS 2, "[<=36]" off the type; false when the brackets are malformed.
+bool split_array(std::string_view word, bool bounds, FieldDefinition& field) {
   const std::size_t bracket = word.find('[');
   field.type = word.substr(0, bracket);
+  if (bounds && !drop_bound(field.type)) return false;
+  field.type = plain_type_name(field.type);
   if (bracket == std::string_view::npos) return true;
   if (!word.ends_with(']')) return false;
-  const std::string_view count = word.substr(bracket + 1, word.size() - bracket - 2);
-  field.array = count.empty() ? ArrayKind::kVariable : ArrayKind::kFixed;
-  if (count.empty()) return true;
-  const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), field.count);
-  return error == std::errc() && end == count.data() + count.size() && field.count > 0;
+  std::string_view count = word.substr(bracket + 1, word.size() - bracket - 2);
+  const bool bounded = bounds && count.starts_with("<=");
+  if (bounded) count.remove_prefix(2);
+  field.array = count.empty() || bounded ? ArrayKind::kVariable : ArrayKind::kFixed;
+  if (count.empty()) return !bounded;
+  const auto entries = count_in(count);
+  if (!entries) return false;
+  field.count = bounded ? 1 : *entries;
+  return true;
+}
+
+tl::unexpected<Error> expected_field(std::string_view line) {
+  return failure(fmt::format("expected 'TYPE NAME', found '{}'", line.substr(0, 80)));
 }
 
 /// The field of a line without comment.
-Result<FieldDefinition> parse_field(std::string_view line) {
+Result<FieldDefinition> parse_field(std::string_view line, bool bounds) {
   const std::size_t gap = line.find_first_of(kBlank);
-  const std::string_view shown = line.substr(0, 80);
-  if (gap == std::string_view::npos) {
-    return failure(fmt::format("expected 'TYPE NAME', found '{}'", shown));
-  }
+  if (gap == std::string_view::npos) return expected_field(line);
   FieldDefinition field;
   field.name = trimmed(line.substr(gap));
-  if (!split_array(line.substr(0, gap), field) || !is_type_name(field.type) ||
+  if (!split_array(line.substr(0, gap), bounds, field) || !is_type_name(field.type) ||
       !is_name(field.name)) {
-    return failure(fmt::format("expected 'TYPE NAME', found '{}'", shown));
+    return expected_field(line);
   }
   return field;
 }
 
-/// A constant has a '=' before any comment.
-bool is_constant(std::string_view line) {
-  const std::size_t equals = line.find('=');
-  return equals != std::string_view::npos && equals < line.find('#') && equals > 0;
+/// Where the '=' of a constant is: before any comment, and not that of a bound.
+std::size_t constant_sign(std::string_view line) {
+  std::size_t equals = line.find('=');
+  while (equals != std::string_view::npos && equals > 0 && line[equals - 1] == '<') {
+    equals = line.find('=', equals + 1);
+  }
+  const bool found = equals != std::string_view::npos && equals < line.find('#') && equals > 0;
+  return found ? equals : std::string_view::npos;
 }
 
-Result<void> add_field(std::string_view line, int number, TypeDefinition& type) {
-  // A constant looks like a field up to its '='; its value may contain a '#'.
-  const bool constant = is_constant(line);
-  line = trimmed(line.substr(0, line.find(constant ? '=' : '#')));
-  if (line.empty()) return {};
-  auto field = parse_field(line);
+/// The line up to the end of the second word: ROS 2 lets a default value follow.
+std::string_view without_default(std::string_view line) {
+  const std::size_t gap = line.find_first_of(kBlank);
+  if (gap == std::string_view::npos) return line;
+  const std::size_t name = line.find_first_not_of(kBlank, gap);
+  return line.substr(0, line.find_first_of(kBlank, name));
+}
+
+/// The value of a constant: a text reaches to the end of the line, with any '#'.
+std::string value_in(std::string_view text, std::string_view type) {
+  const bool is_text = type == "string" || type == "wstring";
+  return std::string(trimmed(is_text ? text : text.substr(0, text.find('#'))));
+}
+
+/// Adds the field or the constant of a line.
+Result<void> add_line(std::string_view line, int number, bool ros2, TypeDefinition& type) {
+  const std::size_t sign = constant_sign(line);
+  const bool constant = sign != std::string_view::npos;
+  std::string_view declared = trimmed(line.substr(0, constant ? sign : line.find('#')));
+  if (declared.empty()) return {};
+  // The name of a default text may hold a '=': "string frame "a=b"".
+  const bool has_default = ros2 && without_default(declared).size() < declared.size();
+  if (has_default) declared = without_default(declared);
+  auto field = parse_field(declared, ros2);
   if (!field) return tl::unexpected(field.error());
-  if (constant && field->array == ArrayKind::kNone) return {};
-  if (constant) return failure(fmt::format("expected 'TYPE NAME', found '{}'", line.substr(0, 80)));
+  if (constant && !has_default) {
+    if (field->array != ArrayKind::kNone) return expected_field(declared);
+    type.constants.push_back(
+        {field->type, field->name, value_in(line.substr(sign + 1), field->type)});
+    return {};
+  }
   if (type.fields.size() >= kMaxFields) {
     return failure(fmt::format("a type of more than {} fields", kMaxFields));
   }
@@ -95,13 +147,28 @@ Result<void> add_field(std::string_view line, int number, TypeDefinition& type) 
 
 }  // namespace
 
-Result<std::vector<TypeDefinition>> parse_definition(std::string_view type, std::string_view text) {
+std::string plain_type_name(std::string_view name) {
+  const std::size_t slash = name.find("/msg/");
+  if (slash == std::string_view::npos) return std::string(name);
+  return fmt::format("{}/{}", name.substr(0, slash), name.substr(slash + 5));
+}
+
+std::string ros2_type_name(std::string_view plain) {
+  const std::size_t slash = plain.find('/');
+  if (slash == std::string_view::npos) return std::string(plain);
+  return fmt::format("{}/msg{}", plain.substr(0, slash), plain.substr(slash));
+}
+
+Result<std::vector<TypeDefinition>> parse_definition(std::string_view given, std::string_view text,
+                                                     DefinitionLanguage language) {
+  const std::string type = plain_type_name(given);
+  const bool ros2 = language != DefinitionLanguage::kRos1Msg;
   const auto refuse = [&](int line, const std::string& what) {
     return failure(fmt::format("definition of '{}', line {}: {}", type.substr(0, 80), line, what));
   };
   if (!is_type_name(type)) return refuse(1, "expected a type's name 'package/Type'");
   std::vector<TypeDefinition> types;
-  types.push_back({std::string(type), {}});
+  types.push_back({type, {}, {}});
   bool expect_name = false;
   int number = 0;
   while (!text.empty()) {
@@ -112,19 +179,36 @@ Result<std::vector<TypeDefinition>> parse_definition(std::string_view type, std:
     if (is_separator(line)) {
       expect_name = true;
     } else if (expect_name && line.starts_with(kSectionWord)) {
-      const std::string_view name = trimmed(line.substr(kSectionWord.size()));
+      const std::string name = plain_type_name(trimmed(line.substr(kSectionWord.size())));
       if (!is_type_name(name)) return refuse(number, "expected 'MSG: package/Type'");
       if (types.size() >= kMaxTypes) return refuse(number, "too many types");
-      types.push_back({std::string(name), {}});
+      types.push_back({name, {}, {}});
       expect_name = false;
     } else if (expect_name && !line.empty()) {
       return refuse(number, "expected 'MSG: package/Type'");
     } else {
-      const auto added = add_field(line, number, types.back());
+      const auto added = add_line(line, number, ros2, types.back());
       if (!added) return refuse(number, added.error().message);
     }
   }
   return types;
+}
+
+std::optional<std::size_t> find_type(const std::vector<TypeDefinition>& types,
+                                     const std::string& name, const std::string& user) {
+  const bool bare = name.find('/') == std::string::npos;
+  const std::string package = user.substr(0, user.find('/'));
+  std::string wanted = name;
+  if (bare) wanted = name == "Header" ? kHeaderType : package + "/" + name;
+  std::optional<std::size_t> alike;
+  for (std::size_t i = 1; i < types.size(); ++i) {
+    if (types[i].name == wanted) return i;
+    if (bare && types[i].name.ends_with("/" + name)) {
+      if (alike) return std::nullopt;
+      alike = i;
+    }
+  }
+  return alike;
 }
 
 }  // namespace aims

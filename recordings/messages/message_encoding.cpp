@@ -17,7 +17,7 @@ constexpr std::uint8_t kPointFloat32 = 7;
 constexpr std::array<std::string_view, 3> kJointsOfLeg = {"hip_joint", "thigh_joint", "calf_joint"};
 
 void put(MessageBytes& out, const MessageHeader& header) {
-  out.put(header.sequence);
+  if (!out.is_cdr()) out.put(header.sequence);
   out.time(header.stamp);
   out.text(header.frame);
 }
@@ -52,8 +52,9 @@ void write_point(const LidarPoint& point, std::byte* bytes) {
 
 }  // namespace
 
-MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan) {
-  MessageBytes out;
+MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan,
+                           Serialization serialization) {
+  MessageBytes out(serialization);
   const auto width = static_cast<std::uint32_t>(scan.points.size());
   out.reserve(256 + kPointStep * scan.points.size());
   put(out, header);
@@ -79,8 +80,9 @@ MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan) {
   return out;
 }
 
-MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample) {
-  MessageBytes out;
+MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample,
+                         Serialization serialization) {
+  MessageBytes out(serialization);
   put(out, header);
   put(out, sample.orientation.value_or(Eigen::Quaterniond::Identity()));
   out.put(sample.orientation ? 0.0 : kNoEstimate);
@@ -93,8 +95,8 @@ MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample) {
 }
 
 MessageBytes odometry_message(const MessageHeader& header, std::string_view child_frame,
-                              const OdometryContent& content) {
-  MessageBytes out;
+                              const OdometryContent& content, Serialization serialization) {
+  MessageBytes out(serialization);
   put(out, header);
   out.text(child_frame);
   put(out, content.pose.translation);
@@ -106,8 +108,9 @@ MessageBytes odometry_message(const MessageHeader& header, std::string_view chil
   return out;
 }
 
-MessageBytes joint_state_message(const MessageHeader& header, const LegOdometrySample& sample) {
-  MessageBytes out;
+MessageBytes joint_state_message(const MessageHeader& header, const LegOdometrySample& sample,
+                                 Serialization serialization) {
+  MessageBytes out(serialization);
   put(out, header);
   out.length(kJointCount);
   for (const std::string_view leg : kLegNames) {
@@ -121,8 +124,9 @@ MessageBytes joint_state_message(const MessageHeader& header, const LegOdometryS
   return out;
 }
 
-MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometrySample& sample) {
-  MessageBytes out;
+MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometrySample& sample,
+                                   Serialization serialization) {
+  MessageBytes out(serialization);
   put(out, header);
   out.length(kLegNames.size());
   for (const std::string_view foot : kLegNames) out.text(foot);
@@ -131,8 +135,9 @@ MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometr
   return out;
 }
 
-MessageBytes transforms_message(Time stamp, const std::vector<FrameTransform>& transforms) {
-  MessageBytes out;
+MessageBytes transforms_message(Time stamp, const std::vector<FrameTransform>& transforms,
+                                Serialization serialization) {
+  MessageBytes out(serialization);
   out.length(transforms.size());
   for (const FrameTransform& each : transforms) {
     put(out, MessageHeader{0, stamp, each.parent});
@@ -143,8 +148,8 @@ MessageBytes transforms_message(Time stamp, const std::vector<FrameTransform>& t
   return out;
 }
 
-MessageBytes string_message(std::string_view text) {
-  MessageBytes out;
+MessageBytes string_message(std::string_view text, Serialization serialization) {
+  MessageBytes out(serialization);
   out.text(text);
   return out;
 }

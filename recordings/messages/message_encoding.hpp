@@ -15,8 +15,8 @@ namespace aims {
 
 /// std_msgs/Header.
 struct MessageHeader {
-  std::uint32_t sequence = 0;
-  Time stamp = 0;  ///< >= 0
+  std::uint32_t sequence = 0;  ///< ROS 1 alone
+  Time stamp = 0;              ///< >= 0
   std::string_view frame;
 };
 
@@ -27,28 +27,37 @@ struct OdometryContent {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in child axes [rad/s]
 };
 
+// Messages in either serialization.
+
 /// sensor_msgs/PointCloud2 with 22 bytes a point: x, y, z, intensity float32 at 0, 4, 8, 12, ring
 /// uint16 at 16, time float32 [s] after the header's stamp at 18; in firing order, height 1.
-MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan);
+MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan,
+                           Serialization serialization = Serialization::kRos1);
 
 /// sensor_msgs/Imu; covariances unknown (zero). Without an orientation the first entry of its
 /// covariance is -1 and the quaternion the identity.
-MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample);
+MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample,
+                         Serialization serialization = Serialization::kRos1);
 
 /// nav_msgs/Odometry; covariances unknown (zero).
 MessageBytes odometry_message(const MessageHeader& header, std::string_view child_frame,
-                              const OdometryContent& content);
+                              const OdometryContent& content,
+                              Serialization serialization = Serialization::kRos1);
 
 /// sensor_msgs/JointState of the twelve joints, leg by leg; no effort.
-MessageBytes joint_state_message(const MessageHeader& header, const LegOdometrySample& sample);
+MessageBytes joint_state_message(const MessageHeader& header, const LegOdometrySample& sample,
+                                 Serialization serialization = Serialization::kRos1);
 
 /// aims_msgs/FootContacts.
-MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometrySample& sample);
+MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometrySample& sample,
+                                   Serialization serialization = Serialization::kRos1);
 
 /// tf2_msgs/TFMessage of fixed transforms, stamped `stamp`.
-MessageBytes transforms_message(Time stamp, const std::vector<FrameTransform>& transforms);
+MessageBytes transforms_message(Time stamp, const std::vector<FrameTransform>& transforms,
+                                Serialization serialization = Serialization::kRos1);
 
 /// std_msgs/String.
-MessageBytes string_message(std::string_view text);
+MessageBytes string_message(std::string_view text,
+                            Serialization serialization = Serialization::kRos1);
 
 }  // namespace aims

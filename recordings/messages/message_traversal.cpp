@@ -6,7 +6,11 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kLength = sizeof(std::uint32_t);
+constexpr std::uint32_t kLength = sizeof(std::uint32_t);
+
+std::size_t place_of(const FieldSlot& slot, std::size_t segment) {
+  return segment + slot.offset[segment % slot.offset.size()];
+}
 
 }  // namespace
 
@@ -16,31 +20,59 @@ std::nullopt_t MessageTraversal::fail(const std::string& field, std::size_t offs
   return std::nullopt;
 }
 
+/// The length at `start`, which moves behind it.
+std::optional<std::uint32_t> MessageTraversal::length_at(const FieldSlot& slot,
+                                                         std::size_t& start) {
+  if (cdr_) start = aligned(start, kLength);
+  if (!has(start, kLength)) return fail(slot.path, start, kLength);
+  const auto length = load_number<std::uint32_t>(bytes_.data() + start, order_);
+  start += kLength;
+  return length;
+}
+
+std::optional<TextPlace> MessageTraversal::text_at(const FieldSlot& slot, std::size_t start) {
+  const auto length = length_at(slot, start);
+  if (!length) return std::nullopt;
+  if (!has(start, *length)) return fail(slot.path, start, *length);
+  // CDR counts the zero that ends the text.
+  const std::size_t size = cdr_ && *length > 0 ? *length - 1 : *length;
+  return TextPlace{start, size, start + *length};
+}
+
 std::optional<std::uint32_t> MessageTraversal::count_of(const FieldSlot& slot, std::size_t& start) {
   if (!slot.counted) return slot.count;
-  if (!has(start, kLength)) return fail(slot.path, start, kLength);
-  const auto count = load_number<std::uint32_t>(bytes_.data() + start);
-  start += kLength;
+  const auto count = length_at(slot, start);
+  // Without entries nothing is aligned to them.
+  if (count && *count > 0) start = aligned(start, slot.alignment);
   return count;
 }
 
+std::size_t MessageTraversal::start_of_entry(const FieldSlot& slot, std::size_t start,
+                                             std::uint32_t entry) {
+  if (slot.entry_size > 0) return start + std::size_t{slot.entry_size} * entry;
+  for (std::uint32_t i = 0; i < entry; ++i) {
+    if (slot.kind == FieldKind::kMessages) {
+      start = end_of(layouts_[slot.element], start).value_or(start);
+    } else if (const auto text = text_at(slot, start)) {
+      start = text->end;
+    }
+  }
+  return start;
+}
+
 std::optional<std::size_t> MessageTraversal::end_of(const FieldSlot& slot, std::size_t start) {
+  const auto count = count_of(slot, start);
+  if (!count) return std::nullopt;
   if (slot.kind == FieldKind::kText || slot.kind == FieldKind::kTexts) {
-    const auto count = count_of(slot, start);
-    if (!count) return std::nullopt;
     for (std::uint32_t i = 0; i < *count; ++i) {
-      if (!has(start, kLength)) return fail(slot.path, start, kLength);
-      const auto size = load_number<std::uint32_t>(bytes_.data() + start);
-      start += kLength;
-      if (!has(start, size)) return fail(slot.path, start, size);
-      start += size;
+      const auto text = text_at(slot, start);
+      if (!text) return std::nullopt;
+      start = text->end;
     }
     return start;
   }
-  const auto count = count_of(slot, start);
-  if (!count) return std::nullopt;
   if (slot.entry_size > 0) {
-    const std::uint64_t size = std::uint64_t{slot.entry_size} * *count;
+    const std::uint64_t size = slot.size_of_entries(*count);
     if (!has(start, size)) return fail(slot.path, start, size);
     return start + size;
   }
@@ -59,15 +91,17 @@ std::optional<std::size_t> MessageTraversal::end_of(const MessageLayout& layout,
                                                     std::uint32_t* segments) {
   for (std::size_t i = 0; i < layout.segment_sizes.size(); ++i) {
     if (segments != nullptr) segments[i] = static_cast<std::uint32_t>(start);
-    if (!has(start, layout.segment_sizes[i])) {
+    const BytesByPhase& sizes = layout.segment_sizes[i];
+    const std::uint32_t known = sizes[start % sizes.size()];
+    if (!has(start, known)) {
       for (const FieldSlot& slot : layout.slots) {
-        const std::uint64_t size = std::uint64_t{slot.entry_size} * slot.count;
-        if (slot.segment == i && !has(start, slot.offset + size)) {
-          return fail(slot.path, start + slot.offset, size);
-        }
+        if (slot.segment != i || slot.is_variable()) continue;
+        const std::size_t place = place_of(slot, start);
+        const std::uint64_t size = slot.size_of_entries(slot.count);
+        if (!has(place, size)) return fail(slot.path, place, size);
       }
     }
-    start += layout.segment_sizes[i];
+    start += known;
     if (i == layout.variable_slots.size()) break;
     const auto end = end_of(layout.slots[layout.variable_slots[i]], start);
     if (!end) return std::nullopt;
@@ -79,10 +113,10 @@ std::optional<std::size_t> MessageTraversal::end_of(const MessageLayout& layout,
 std::size_t MessageTraversal::start_of(const MessageLayout& layout, const FieldSlot& slot,
                                        std::size_t start) {
   for (std::uint32_t i = 0; i < slot.segment; ++i) {
-    start += layout.segment_sizes[i];
-    start = end_of(layout.slots[layout.variable_slots[i]], start).value_or(start);
+    const FieldSlot& variable = layout.slots[layout.variable_slots[i]];
+    start = end_of(variable, place_of(variable, start)).value_or(start);
   }
-  return start + slot.offset;
+  return place_of(slot, start);
 }
 
 }  // namespace aims

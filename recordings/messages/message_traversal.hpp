@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,12 +20,23 @@ struct TraversalError {
   std::uint64_t needed = 0;  ///< bytes that the field needs there
 };
 
+/// Where the characters of a text lie, and where what follows it may begin.
+struct TextPlace {
+  std::size_t start = 0;
+  std::size_t size = 0;
+  std::size_t end = 0;
+};
+
 /// Finds where the parts of serialized messages begin and end. Every length is checked against the
-/// bytes that are there.
+/// bytes that are there. Places count from the first byte, to which CDR aligns.
 class MessageTraversal {
  public:
-  MessageTraversal(const std::vector<MessageLayout>& layouts, std::span<const std::byte> bytes)
-      : layouts_(layouts), bytes_(bytes) {}
+  MessageTraversal(const std::vector<MessageLayout>& layouts, std::span<const std::byte> bytes,
+                   std::endian order)
+      : layouts_(layouts),
+        bytes_(bytes),
+        order_(order),
+        cdr_(layouts.back().serialization == Serialization::kCdr) {}
 
   /// Where the message at `start` ends, or nothing, with the reason in `error()`. `segments`, if
   /// given, receives the starts of its segments.
@@ -36,6 +48,10 @@ class MessageTraversal {
   std::size_t start_of(const MessageLayout& layout, const FieldSlot& slot, std::size_t start);
   /// Entries of the array at `start`, and where its first entry lies.
   std::optional<std::uint32_t> count_of(const FieldSlot& slot, std::size_t& start);
+  /// Where an entry of an array lies whose first is at `start` and whose end was found before.
+  std::size_t start_of_entry(const FieldSlot& slot, std::size_t start, std::uint32_t entry);
+  /// The text at `start`.
+  std::optional<TextPlace> text_at(const FieldSlot& slot, std::size_t start);
 
   const TraversalError& error() const { return error_; }
 
@@ -44,9 +60,12 @@ class MessageTraversal {
   bool has(std::size_t start, std::uint64_t size) const {
     return start <= bytes_.size() && size <= bytes_.size() - start;
   }
+  std::optional<std::uint32_t> length_at(const FieldSlot& slot, std::size_t& start);
 
   const std::vector<MessageLayout>& layouts_;
   std::span<const std::byte> bytes_;
+  std::endian order_;
+  bool cdr_;
   TraversalError error_;
 };
 

@@ -1,99 +1,140 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/messages/message_types.hpp"
 
-#include <initializer_list>
-#include <string_view>
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "recordings/messages/message_definition.hpp"
+#include "recordings/messages/ros2_definition.hpp"
 
 namespace aims {
 namespace {
 
-/// A type that other types contain.
-struct Part {
+/// A type, its fields as ROS 1 writes them, and the md5 of those that AIMS writes.
+struct KnownType {
   std::string_view name;
   std::string_view fields;
+  std::string_view md5 = "";
 };
 
-constexpr Part kHeader = {"std_msgs/Header", "uint32 seq\ntime stamp\nstring frame_id\n"};
-constexpr Part kVector3 = {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"};
-constexpr Part kPoint = {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"};
-constexpr Part kQuaternion = {"geometry_msgs/Quaternion",
-                              "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"};
-constexpr Part kPose = {"geometry_msgs/Pose", "Point position\nQuaternion orientation\n"};
-constexpr Part kTwist = {"geometry_msgs/Twist", "Vector3 linear\nVector3 angular\n"};
-constexpr Part kPoseWithCovariance = {"geometry_msgs/PoseWithCovariance",
-                                      "Pose pose\nfloat64[36] covariance\n"};
-constexpr Part kTwistWithCovariance = {"geometry_msgs/TwistWithCovariance",
-                                       "Twist twist\nfloat64[36] covariance\n"};
-constexpr Part kTransform = {"geometry_msgs/Transform",
-                             "Vector3 translation\nQuaternion rotation\n"};
-constexpr Part kTransformStamped = {"geometry_msgs/TransformStamped",
-                                    "Header header\nstring child_frame_id\nTransform transform\n"};
-constexpr Part kPointField = {
-    "sensor_msgs/PointField",
-    "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n"
-    "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count\n"};
+constexpr std::string_view kLivoxMessage =
+    "Header header\nuint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] rsvd\n"
+    "CustomPoint[] points\n";
+constexpr std::string_view kLivoxPoint =
+    "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\n"
+    "uint8 line\n";
 
-std::string definition(std::string_view fields, std::initializer_list<Part> parts) {
-  std::string text(fields);
-  for (const Part& part : parts) {
-    text += "\n" + std::string(80, '=') + "\nMSG: ";
-    text += part.name;
-    text += "\n";
-    text += part.fields;
+constexpr auto kTypes = std::to_array<KnownType>({
+    {"std_msgs/Header", "uint32 seq\ntime stamp\nstring frame_id\n"},
+    {"std_msgs/String", "string data\n", "992ce8a1687cec8c8bd883ec73ca41d1"},
+    {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"},
+    {"geometry_msgs/Pose", "Point position\nQuaternion orientation\n"},
+    {"geometry_msgs/PoseStamped", "Header header\nPose pose\n"},
+    {"geometry_msgs/PoseWithCovariance", "Pose pose\nfloat64[36] covariance\n"},
+    {"geometry_msgs/PoseWithCovarianceStamped", "Header header\nPoseWithCovariance pose\n"},
+    {"geometry_msgs/Twist", "Vector3 linear\nVector3 angular\n"},
+    {"geometry_msgs/TwistStamped", "Header header\nTwist twist\n"},
+    {"geometry_msgs/TwistWithCovariance", "Twist twist\nfloat64[36] covariance\n"},
+    {"geometry_msgs/TwistWithCovarianceStamped", "Header header\nTwistWithCovariance twist\n"},
+    {"geometry_msgs/Transform", "Vector3 translation\nQuaternion rotation\n"},
+    {"geometry_msgs/TransformStamped",
+     "Header header\nstring child_frame_id\nTransform transform\n"},
+    {"nav_msgs/Path", "Header header\ngeometry_msgs/PoseStamped[] poses\n"},
+    {"nav_msgs/Odometry",
+     "Header header\nstring child_frame_id\n"
+     "geometry_msgs/PoseWithCovariance pose\n"
+     "geometry_msgs/TwistWithCovariance twist\n",
+     "cd5e73d190d741a2f92e81eda573aca7"},
+    {"sensor_msgs/PointField",
+     "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n"
+     "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 "
+     "count\n"},
+    {"sensor_msgs/PointCloud2",
+     "Header header\nuint32 height\nuint32 width\nPointField[] fields\n"
+     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\n"
+     "bool is_dense\n",
+     "1158d486dd51d683ce2f1be655c3c181"},
+    {"sensor_msgs/Imu",
+     "Header header\ngeometry_msgs/Quaternion orientation\n"
+     "float64[9] orientation_covariance\n"
+     "geometry_msgs/Vector3 angular_velocity\n"
+     "float64[9] angular_velocity_covariance\n"
+     "geometry_msgs/Vector3 linear_acceleration\n"
+     "float64[9] linear_acceleration_covariance\n",
+     "6a62c6daae103f4ff57a132d6f95cec2"},
+    {"sensor_msgs/JointState",
+     "Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n"
+     "float64[] effort\n",
+     "3066dcd76a6cfaef579bd0f34173e9fd"},
+    {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n",
+     "94810edda583a504dfda3829e70d7eec"},
+    {"aims_msgs/FootContacts", "Header header\nstring[] foot\nbool[] contact\n",
+     "48d94c73535758dc8b2afaab17ac6a45"},
+    {"livox_ros_driver/CustomMsg", kLivoxMessage},
+    {"livox_ros_driver/CustomPoint", kLivoxPoint},
+    {"livox_ros_driver2/CustomMsg", kLivoxMessage},
+    {"livox_ros_driver2/CustomPoint", kLivoxPoint},
+});
+
+const KnownType* find_known(std::string_view name) {
+  const auto found = std::ranges::find(kTypes, name, &KnownType::name);
+  return found == kTypes.end() ? nullptr : &*found;
+}
+
+/// The types that `user` uses, each in front of those that it uses itself.
+void add_used(const KnownType& user, std::vector<const KnownType*>& used) {
+  const std::string name(user.name);
+  const auto parsed = parse_definition(name, user.fields);
+  if (!parsed) return;
+  const std::string package = name.substr(0, name.find('/') + 1);
+  for (const FieldDefinition& field : parsed->front().fields) {
+    const KnownType* type = find_known(field.type == "Header" ? kHeaderType : field.type);
+    if (type == nullptr) type = find_known(package + field.type);
+    if (type == nullptr || std::ranges::find(used, type) != used.end()) continue;
+    used.push_back(type);
+    add_used(*type, used);
   }
-  return text;
+}
+
+MessageType type_of(const KnownType& known) {
+  std::string definition(known.fields);
+  std::vector<const KnownType*> used;
+  add_used(known, used);
+  for (const KnownType* each : used) {
+    definition += "\n" + std::string(80, '=') + "\nMSG: ";
+    definition += each->name;
+    definition += "\n";
+    definition += each->fields;
+  }
+  return {std::string(known.name), std::string(known.md5), std::move(definition)};
 }
 
 }  // namespace
 
-MessageType string_type() {
-  return {"std_msgs/String", "992ce8a1687cec8c8bd883ec73ca41d1", definition("string data\n", {})};
+MessageType string_type() { return type_of(*find_known("std_msgs/String")); }
+MessageType point_cloud_type() { return type_of(*find_known("sensor_msgs/PointCloud2")); }
+MessageType imu_type() { return type_of(*find_known("sensor_msgs/Imu")); }
+MessageType joint_state_type() { return type_of(*find_known("sensor_msgs/JointState")); }
+MessageType odometry_type() { return type_of(*find_known("nav_msgs/Odometry")); }
+MessageType transforms_type() { return type_of(*find_known("tf2_msgs/TFMessage")); }
+MessageType foot_contacts_type() { return type_of(*find_known("aims_msgs/FootContacts")); }
+
+std::optional<MessageType> known_ros2_type(std::string_view name) {
+  const KnownType* known = find_known(name);
+  if (known == nullptr) return std::nullopt;
+  auto type = ros2_type(type_of(*known));
+  return type ? std::optional(std::move(*type)) : std::nullopt;
 }
 
-MessageType point_cloud_type() {
-  return {"sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181",
-          definition("Header header\nuint32 height\nuint32 width\nPointField[] fields\n"
-                     "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\n"
-                     "bool is_dense\n",
-                     {kHeader, kPointField})};
-}
-
-MessageType imu_type() {
-  return {"sensor_msgs/Imu", "6a62c6daae103f4ff57a132d6f95cec2",
-          definition("Header header\ngeometry_msgs/Quaternion orientation\n"
-                     "float64[9] orientation_covariance\n"
-                     "geometry_msgs/Vector3 angular_velocity\n"
-                     "float64[9] angular_velocity_covariance\n"
-                     "geometry_msgs/Vector3 linear_acceleration\n"
-                     "float64[9] linear_acceleration_covariance\n",
-                     {kHeader, kQuaternion, kVector3})};
-}
-
-MessageType joint_state_type() {
-  return {"sensor_msgs/JointState", "3066dcd76a6cfaef579bd0f34173e9fd",
-          definition("Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n"
-                     "float64[] effort\n",
-                     {kHeader})};
-}
-
-MessageType odometry_type() {
-  return {"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7",
-          definition("Header header\nstring child_frame_id\n"
-                     "geometry_msgs/PoseWithCovariance pose\n"
-                     "geometry_msgs/TwistWithCovariance twist\n",
-                     {kHeader, kPoseWithCovariance, kPose, kPoint, kQuaternion,
-                      kTwistWithCovariance, kTwist, kVector3})};
-}
-
-MessageType transforms_type() {
-  return {"tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec",
-          definition("geometry_msgs/TransformStamped[] transforms\n",
-                     {kTransformStamped, kHeader, kTransform, kVector3, kQuaternion})};
-}
-
-MessageType foot_contacts_type() {
-  return {"aims_msgs/FootContacts", "48d94c73535758dc8b2afaab17ac6a45",
-          definition("Header header\nstring[] foot\nbool[] contact\n", {kHeader})};
+void complete_definition(std::string_view type, std::string& definition, MessageFormat& format) {
+  if (!definition.empty() || format.serialization != Serialization::kCdr) return;
+  auto known = known_ros2_type(type);
+  if (!known) return;
+  definition = std::move(known->definition);
+  format = known->format;
 }
 
 }  // namespace aims

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "recordings/messages/message_type.hpp"
 
 namespace aims {
 
-// The message types that AIMS writes. Definitions hold the fields without comments, which do not
-// enter the md5.
+// The message types that AIMS writes, as ROS 1 has them. Definitions hold the fields without
+// comments, which do not enter the md5.
 MessageType string_type();         ///< std_msgs/String
 MessageType point_cloud_type();    ///< sensor_msgs/PointCloud2
 MessageType imu_type();            ///< sensor_msgs/Imu
@@ -14,5 +18,12 @@ MessageType joint_state_type();    ///< sensor_msgs/JointState
 MessageType odometry_type();       ///< nav_msgs/Odometry
 MessageType transforms_type();     ///< tf2_msgs/TFMessage
 MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: which feet are in contact
+
+/// A usual type as ROS 2 has it, or nothing: what AIMS writes or reads, also of Livox and Unitree.
+std::optional<MessageType> known_ros2_type(std::string_view name);
+
+/// Fills in the definition of a usual type in ROS 2 where a recording has none, as before ROS 2
+/// Iron.
+void complete_definition(std::string_view type, std::string& definition, MessageFormat& format);
 
 }  // namespace aims

@@ -45,35 +45,18 @@ const FieldSlot* slot_named(const MessageLayout& layout, std::string_view path) 
   return found == layout.by_path.end() ? nullptr : &layout.slots[found->second];
 }
 
-/// Moves `start` from the first entry of an array to another.
-void skip_entries(const std::vector<MessageLayout>& layouts, MessageTraversal& traversal,
-                  const FieldSlot& slot, std::uint32_t entries, std::span<const std::byte> bytes,
-                  std::size_t& start) {
-  if (slot.entry_size > 0) {
-    start += std::size_t{slot.entry_size} * entries;
-    return;
-  }
-  for (std::uint32_t i = 0; i < entries; ++i) {
-    start = slot.kind == FieldKind::kMessages
-                ? traversal.end_of(layouts[slot.element], start).value_or(start)
-                : start + sizeof(std::uint32_t) + load_number<std::uint32_t>(&bytes[start]);
-  }
+/// A number of four bytes.
+Time word_at(const std::byte* bytes, NumberType type, std::endian order) {
+  const auto word = load_number<std::uint32_t>(bytes, order);
+  return type == NumberType::kInt32 ? Time{static_cast<std::int32_t>(word)} : Time{word};
 }
 
-std::string_view text_at(std::span<const std::byte> bytes, std::size_t start) {
-  const auto size = load_number<std::uint32_t>(&bytes[start]);
-  return as_text(bytes.subspan(start + sizeof(size), size));
+Time time_at(const std::byte* bytes, const FieldSlot& slot, std::endian order) {
+  return word_at(bytes, slot.number, order) * kSecond + word_at(bytes + 4, slot.fraction, order);
 }
 
-Time time_at(const std::byte* bytes, bool is_signed) {
-  if (is_signed) {
-    return Time{load_number<std::int32_t>(bytes)} * kSecond + load_number<std::int32_t>(bytes + 4);
-  }
-  return Time{load_number<std::uint32_t>(bytes)} * kSecond + load_number<std::uint32_t>(bytes + 4);
-}
-
-double number_of(const std::byte* bytes, const FieldSlot& slot) {
-  const double value = number_at(bytes, slot.number);
+double number_of(const std::byte* bytes, const FieldSlot& slot, std::endian order) {
+  const double value = number_at(bytes, slot.number, order);
   return slot.is_bool ? static_cast<double>(value != 0.0) : value;
 }
 
@@ -88,16 +71,19 @@ bool is_one(const Found& found, FieldKind one, FieldKind many) {
 class FieldLookup {
  public:
   explicit FieldLookup(const MessageView::Impl& message)
-      : message_(message), traversal_(*message.layouts, message.bytes) {}
+      : message_(message), traversal_(*message.layouts, message.bytes, message.order) {}
 
   std::optional<Found> find(std::string_view path) {
     const std::vector<MessageLayout>& layouts = *message_.layouts;
     const MessageLayout* layout = &message_.layout();
     const std::uint32_t* segments = message_.segments();
-    std::size_t message = 0;
+    std::size_t message = message_.start;
     while (true) {
       const auto start_of = [&](const FieldSlot& slot) {
-        if (segments != nullptr) return std::size_t{segments[slot.segment]} + slot.offset;
+        if (segments != nullptr) {
+          const std::size_t segment = segments[slot.segment];
+          return segment + slot.offset[segment % slot.offset.size()];
+        }
         return traversal_.start_of(*layout, slot, message);
       };
       if (const FieldSlot* slot = slot_named(*layout, path)) {
@@ -110,7 +96,7 @@ class FieldLookup {
       std::size_t start = start_of(*slot);
       const auto count = traversal_.count_of(*slot, start);
       if (!count || parts->entry >= *count) return std::nullopt;
-      skip_entries(layouts, traversal_, *slot, parts->entry, message_.bytes, start);
+      start = traversal_.start_of_entry(*slot, start, parts->entry);
       if (slot->kind != FieldKind::kMessages) {
         if (!parts->rest.empty()) return std::nullopt;
         return Found{slot, start, parts->entry};
@@ -131,6 +117,11 @@ class FieldLookup {
     return std::pair(*found, *count);
   }
 
+  /// The text at a place that was found before.
+  TextPlace text(const FieldSlot& slot, std::size_t start) {
+    return traversal_.text_at(slot, start).value_or(TextPlace{});
+  }
+
   /// The same, of entries of that kind alone.
   std::optional<std::pair<Found, std::uint32_t>> array(std::string_view path, FieldKind kind) {
     auto found = array(path);
@@ -146,19 +137,21 @@ class FieldLookup {
 std::optional<double> MessageView::number(std::string_view path) const {
   const auto found = FieldLookup(*impl_).find(path);
   if (!found || !is_one(*found, FieldKind::kNumber, FieldKind::kNumbers)) return std::nullopt;
-  return number_of(impl_->bytes.data() + found->start, *found->slot);
+  return number_of(impl_->bytes.data() + found->start, *found->slot, impl_->order);
 }
 
 std::optional<Time> MessageView::time(std::string_view path) const {
   const auto found = FieldLookup(*impl_).find(path);
   if (!found || !is_one(*found, FieldKind::kTime, FieldKind::kTimes)) return std::nullopt;
-  return time_at(impl_->bytes.data() + found->start, found->slot->is_signed);
+  return time_at(impl_->bytes.data() + found->start, *found->slot, impl_->order);
 }
 
 std::optional<std::string_view> MessageView::text(std::string_view path) const {
-  const auto found = FieldLookup(*impl_).find(path);
+  FieldLookup lookup(*impl_);
+  const auto found = lookup.find(path);
   if (!found || !is_one(*found, FieldKind::kText, FieldKind::kTexts)) return std::nullopt;
-  return text_at(impl_->bytes, found->start);
+  const TextPlace text = lookup.text(*found->slot, found->start);
+  return as_text(impl_->bytes.subspan(text.start, text.size));
 }
 
 std::optional<std::vector<double>> MessageView::numbers(std::string_view path) const {
@@ -168,19 +161,21 @@ std::optional<std::vector<double>> MessageView::numbers(std::string_view path) c
   std::vector<double> values(count);
   const std::byte* bytes = impl_->bytes.data() + found.start;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = number_of(bytes + i * found.slot->entry_size, *found.slot);
+    values[i] = number_of(bytes + i * found.slot->entry_size, *found.slot, impl_->order);
   }
   return values;
 }
 
 std::optional<std::vector<std::string_view>> MessageView::texts(std::string_view path) const {
-  const auto array = FieldLookup(*impl_).array(path, FieldKind::kTexts);
+  FieldLookup lookup(*impl_);
+  const auto array = lookup.array(path, FieldKind::kTexts);
   if (!array) return std::nullopt;
   std::vector<std::string_view> values(array->second);
   std::size_t start = array->first.start;
   for (std::string_view& value : values) {
-    value = text_at(impl_->bytes, start);
-    start += sizeof(std::uint32_t) + value.size();
+    const TextPlace text = lookup.text(*array->first.slot, start);
+    value = as_text(impl_->bytes.subspan(text.start, text.size));
+    start = text.end;
   }
   return values;
 }
@@ -205,17 +200,20 @@ std::optional<std::vector<MessageView>> MessageView::messages(std::string_view p
   const MessageLayout& entry = (*impl_->layouts)[array->first.slot->element];
   if (array->second > impl_->bytes.size()) return std::nullopt;  // entries without a byte
   std::vector<MessageView> views(array->second);
+  MessageTraversal traversal(*impl_->layouts, impl_->bytes, impl_->order);
   std::size_t start = array->first.start;
   for (MessageView& view : views) {
+    start = aligned(start, array->first.slot->alignment);
     auto impl = std::make_shared<Impl>();
     impl->layouts = impl_->layouts;
     impl->root = array->first.slot->element;
+    impl->bytes = impl_->bytes;
+    impl->start = start;
+    impl->order = impl_->order;
     impl->make_room(entry.segment_sizes.size());
-    const std::span<const std::byte> rest = impl_->bytes.subspan(start);
-    const auto size = MessageTraversal(*impl->layouts, rest).end_of(entry, 0, impl->segments());
-    if (!size) return std::nullopt;
-    impl->bytes = rest.first(*size);
-    start += *size;
+    const auto end = traversal.end_of(entry, start, impl->segments());
+    if (!end) return std::nullopt;
+    start = *end;
     view.impl_ = std::move(impl);
   }
   return views;
@@ -227,8 +225,9 @@ std::optional<TableView> MessageView::table(std::string_view path) const {
   const auto& [found, count] = *array;
   const MessageLayout& row = (*impl_->layouts)[found.slot->element];
   if (!row.columns) return std::nullopt;
-  const std::size_t stride = row.fixed_size();
-  return TableView{*row.columns, stride, count, impl_->bytes.subspan(found.start, count * stride)};
+  return TableView{*row.columns, found.slot->entry_size, count,
+                   impl_->bytes.subspan(found.start, found.slot->size_of_entries(count)),
+                   impl_->order};
 }
 
 }  // namespace aims

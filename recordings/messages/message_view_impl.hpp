@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,7 +18,9 @@ namespace aims {
 struct MessageView::Impl {
   std::shared_ptr<const std::vector<MessageLayout>> layouts;
   std::optional<std::uint32_t> root;  ///< layout of an array's entry; none: the type's own
-  std::span<const std::byte> bytes;
+  std::span<const std::byte> bytes;   ///< of the whole message, without the header of CDR
+  std::size_t start = 0;              ///< of an array's entry, in `bytes`
+  std::endian order = std::endian::little;
 
   const MessageLayout& layout() const { return root ? (*layouts)[*root] : layouts->back(); }
 

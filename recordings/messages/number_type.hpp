@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,8 +31,8 @@ std::string_view name_of(NumberType type);
 /// Bytes of one number.
 std::size_t size_of(NumberType type);
 
-/// The number at `bytes`, little endian; `bytes` holds at least `size_of(type)`.
-double number_at(const std::byte* bytes, NumberType type);
+/// The number at `bytes`, which holds at least `size_of(type)`.
+double number_at(const std::byte* bytes, NumberType type, std::endian order = std::endian::little);
 
 /// A field of each row of a table.
 struct ColumnLayout {
@@ -45,12 +46,14 @@ struct ColumnLayout {
 const ColumnLayout* find_column(std::span<const ColumnLayout> columns, std::string_view name);
 
 /// Rows of numbers at a fixed stride: a point cloud's data, or an array of messages of fixed size.
-/// Every column lies within the stride and `rows * stride <= bytes.size()`.
+/// Every column lies within the stride and every row within `bytes`; the last row may lack padding
+/// that separates the others.
 struct TableView {
   std::vector<ColumnLayout> columns;
-  std::size_t stride = 0;  ///< [bytes]
+  std::size_t stride = 0;  ///< from row to row [bytes]
   std::size_t rows = 0;
   std::span<const std::byte> bytes;
+  std::endian order = std::endian::little;  ///< of the numbers
 
   /// The column of that name, or nullptr.
   const ColumnLayout* find(std::string_view name) const { return find_column(columns, name); }

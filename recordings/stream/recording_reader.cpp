@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "recordings/legs/leg_stream.hpp"
+#include "recordings/source/recording_file.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/topics/recording_channels.hpp"
 #include "recordings/topics/topic_choice.hpp"
@@ -175,9 +176,9 @@ void RecordingReader::Impl::take(const BagMessage& message, std::vector<Delivery
 Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
                                               const RecordingConfig& config,
                                               BagOpenOptions options) {
-  auto bag = BagReader::open(file, options);
-  if (!bag) return tl::unexpected(bag.error());
-  return open(std::make_unique<BagReader>(std::move(*bag)), config);
+  auto source = open_recording(file, options);
+  if (!source) return tl::unexpected(source.error());
+  return open(std::move(*source), config);
 }
 
 Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag,

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
-#include "recordings/bag/bag_reader.hpp"
+#include "recordings/bag/chunk_reader.hpp"
 #include "recordings/recording_config.hpp"
 
 namespace aims {

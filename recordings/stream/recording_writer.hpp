@@ -6,11 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 #include "core/error.hpp"
 #include "core/measurements.hpp"
-#include "recordings/bag/bag_writer.hpp"
+#include "recordings/bag/message_sink.hpp"
 #include "recordings/messages/message_bytes.hpp"
 #include "recordings/messages/message_encoding.hpp"
 
@@ -27,15 +28,17 @@ struct BodyMotion {
 /// Which of the two outputs of the IMU a sample comes from.
 enum class ImuOutput { kMain, kFast };
 
-/// Writes sensor data and the truth as a ROS 1 bag with the topics of
+/// Writes sensor data and the truth as a recording with the topics of
 /// `recordings/topics/recording_topics.hpp`. Messages with a negative time are dropped and counted,
 /// since ROS cannot represent them; record time 0 becomes 1 ns, since ROS uses 0 for "never".
 class RecordingWriter {
  public:
-  /// `scenario` is stored as text on `kScenarioTopic`. Error when the file exists or cannot be
-  /// written.
-  static Result<RecordingWriter> create(const std::filesystem::path& file, const SensorRig& rig,
-                                        std::string_view scenario, BagWriterOptions options = {});
+  /// `scenario` is stored as text on `kScenarioTopic`. Error when it cannot be written.
+  static Result<RecordingWriter> create(std::unique_ptr<MessageSink> recording,
+                                        const SensorRig& rig, std::string_view scenario);
+  /// The same as a new ROS 1 bag; error when the file exists.
+  static Result<RecordingWriter> create(const std::filesystem::path& bag, const SensorRig& rig,
+                                        std::string_view scenario);
 
   Result<void> write_imu(ImuOutput output, Time arrival, const ImuSample& sample);
   Result<void> write_scan(Time arrival, const LidarScan& scan);
@@ -68,12 +71,13 @@ class RecordingWriter {
     kTopicCount,
   };
 
-  RecordingWriter(BagWriter bag, const SensorRig& rig);
-  std::uint32_t connection(Topic topic);
+  RecordingWriter(std::unique_ptr<MessageSink> recording, const SensorRig& rig);
+  Result<std::uint32_t> connection(Topic topic);
   MessageHeader header(Topic topic, Time stamp, std::string_view frame);
   Result<void> write(Topic topic, Time record_time, const MessageBytes& message);
 
-  BagWriter bag_;
+  std::unique_ptr<MessageSink> recording_;
+  Serialization serialization_;
   SensorRig rig_;
   std::array<std::int64_t, kTopicCount> connections_;  ///< -1: not announced yet
   std::array<std::uint32_t, kTopicCount> sequences_{};

@@ -19,7 +19,8 @@ class ConnectionDecoders {
     const BagConnection& connection = *message.connection;
     auto found = decoders_.find(connection.id);
     if (found == decoders_.end()) {
-      auto decoder = MessageDecoder::create(connection.type, connection.definition);
+      auto decoder =
+          MessageDecoder::create(connection.type, connection.definition, connection.format);
       found = decoders_.emplace(connection.id, std::move(decoder)).first;
     }
     if (!found->second) return tl::unexpected(found->second.error());

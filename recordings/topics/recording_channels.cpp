@@ -45,7 +45,8 @@ Result<RecordingChannels> RecordingChannels::create(const std::filesystem::path&
                      [](bool each) { return each; })) {
       continue;
     }
-    auto decoder = MessageDecoder::create(connection.type, connection.definition);
+    auto decoder =
+        MessageDecoder::create(connection.type, connection.definition, connection.format);
     if (!decoder) {
       return failure(fmt::format("{}: topic '{}': {}", bag.string(), connection.topic,
                                  decoder.error().message));

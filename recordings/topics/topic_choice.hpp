@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "recordings/bag/bag_reader.hpp"
+#include "recordings/bag/message_source.hpp"
 #include "recordings/recording_config.hpp"
 
 namespace aims {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "recordings/bag/bag_reader.hpp"
 #include "recordings/messages/message_values.hpp"
+#include "recordings/source/recording_file.hpp"
 #include "recordings/topics/connection_decoders.hpp"
 
 namespace aims {
@@ -59,9 +59,9 @@ std::string wanted_types() {
 }
 
 /// The topic to read: the given one, the only one with poses, or the preferred one.
-Result<std::string> choose_topic(const BagReader& bag, const std::string& given,
+Result<std::string> choose_topic(const MessageSource& bag, const std::string& given,
                                  const std::string& preferred, std::vector<std::string>& notes) {
-  const std::string name = bag.file().string();
+  const std::string name = bag.name();
   std::vector<std::string> fitting;
   for (const BagConnection& each : bag.connections()) {
     if (!given.empty() && each.topic == given && layout_of(each.type) == nullptr) {
@@ -91,7 +91,7 @@ Result<std::string> choose_topic(const BagReader& bag, const std::string& given,
   return failure(fmt::format(
       "{}: several topics with poses; expected one of them behind a colon, "
       "as {}:{}; there are {}",
-      name, bag.file().filename().string(), fitting.front(), listed(bag.connections(), true)));
+      name, fs::path(name).filename().string(), fitting.front(), listed(bag.connections(), true)));
 }
 
 /// A quaternion whose norm is 1 within float32 rounding is normalized; others stay unchanged.
@@ -108,7 +108,7 @@ std::optional<StampedPose> pose_in(const MessageView& view, const PoseLayout& la
 /// Reads the poses of one topic.
 class TopicReader {
  public:
-  TopicReader(BagReader& bag, std::string topic) : bag_(bag), topic_(std::move(topic)) {}
+  TopicReader(MessageSource& bag, std::string topic) : bag_(bag), topic_(std::move(topic)) {}
 
   /// Appends every pose and its record time; of paths only those of the last one.
   Result<void> read(Trajectory& poses, std::vector<Time>& record_times) {
@@ -171,11 +171,11 @@ class TopicReader {
   }
 
   tl::unexpected<Error> error(const BagMessage& message, const std::string& what) const {
-    return failure(fmt::format("{}: chunk at {}: {} ({}): {}", bag_.file().string(), message.offset,
-                               topic_, message.connection->type, what));
+    return failure(fmt::format("{}: chunk at {}: {} ({}): {}", bag_.name(), message.offset, topic_,
+                               message.connection->type, what));
   }
 
-  BagReader& bag_;
+  MessageSource& bag_;
   std::string topic_;
   std::string body_frame_;
   ConnectionDecoders decoders_;
@@ -214,19 +214,19 @@ void stamp_by_record_time(Trajectory& poses, const std::vector<Time>& record_tim
 
 Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::string& topic,
                                            const TrajectoryFileOptions& options) {
-  auto bag = BagReader::open(file);
+  auto bag = open_recording(file);
   if (!bag) return tl::unexpected(bag.error());
   TrajectoryFile result;
   result.file = file;
-  const auto chosen = choose_topic(*bag, topic, options.preferred_topic, result.notes);
+  const auto chosen = choose_topic(**bag, topic, options.preferred_topic, result.notes);
   if (!chosen) return tl::unexpected(chosen.error());
   result.topic = *chosen;
   const auto connection =
-      std::find_if(bag->connections().begin(), bag->connections().end(),
+      std::find_if((*bag)->connections().begin(), (*bag)->connections().end(),
                    [&](const BagConnection& each) { return each.topic == *chosen; });
   result.kind = fmt::format("{} on {}", connection->type, *chosen);
   std::vector<Time> record_times;
-  TopicReader reader(*bag, *chosen);
+  TopicReader reader(**bag, *chosen);
   auto read = reader.read(result.trajectory, record_times);
   if (!read) return tl::unexpected(read.error());
   result.body_frame = reader.body_frame();
@@ -238,13 +238,13 @@ Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::stri
 }
 
 Result<std::optional<std::string>> read_bag_text(const fs::path& file, const std::string& topic) {
-  auto bag = BagReader::open(file);
+  auto bag = open_recording(file);
   if (!bag) return tl::unexpected(bag.error());
-  bag->select({&topic, 1});
+  (*bag)->select({&topic, 1});
   ConnectionDecoders decoders;
   std::optional<std::string> text;
   while (true) {
-    const auto message = bag->next();
+    const auto message = (*bag)->next();
     if (!message) return tl::unexpected(message.error());
     if (!*message) return text;
     const auto view = decoders.decode(**message);

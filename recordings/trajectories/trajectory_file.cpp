@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <optional>
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
+#include "recordings/source/recording_file.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
 
 namespace aims {
@@ -83,24 +83,21 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   return result;
 }
 
-}  // namespace
-
-bool is_bag(const fs::path& file) {
-  constexpr std::string_view kMagic = "#ROSBAG";
-  std::string start(kMagic.size(), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return stream && start == kMagic;
+bool is_recording(const fs::path& file) {
+  // A file with the name of a recording is read as one, so that a damaged one gets its reader's
+  // error.
+  return format_by_content(file) || format_by_name(file);
 }
+
+}  // namespace
 
 Result<TrajectoryFile> read_trajectory(const std::string& source,
                                        const TrajectoryFileOptions& options) {
   const auto [file, topic] = split(source);
-  // A file named .bag is read as a bag, so that a damaged one gets the bag reader's error.
-  if (is_bag(file) || file.extension() == ".bag") return read_bag_trajectory(file, topic, options);
+  if (is_recording(file)) return read_bag_trajectory(file, topic, options);
   if (!topic.empty()) {
-    return failure(fmt::format("{}: a topic ({}) needs a ROS 1 bag, which this file is not",
-                               file.string(), topic));
+    return failure(
+        fmt::format("{}: a topic ({}) needs a bag, which this file is not", file.string(), topic));
   }
   return read_text(file, options);
 }

@@ -38,12 +38,10 @@ struct TrajectoryFile {
 };
 
 /// Reads `source`: a text file of TUM lines or KITTI poses, distinguished by the number of columns,
-/// or a ROS 1 bag, recognized by its first bytes, with the topic after a colon ("run.bag:/odom").
-/// Errors name the file, its line or offset, and what was expected; for a topic, the existing ones.
+/// or a recording, recognized by its first bytes or its name, with the topic after a colon
+/// ("run.bag:/odom"). Errors name the file, its line or offset, and what was expected; for a topic,
+/// the existing ones.
 Result<TrajectoryFile> read_trajectory(const std::string& source,
                                        const TrajectoryFileOptions& options);
-
-/// Whether the file begins as a ROS 1 bag does.
-bool is_bag(const std::filesystem::path& file);
 
 }  // namespace aims

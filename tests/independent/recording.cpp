@@ -12,6 +12,7 @@
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
+#include "recordings/source/recording_file.hpp"
 #include "recordings/stream/recording_writer.hpp"
 #include "tests/independent/cells.hpp"
 #include "tests/independent/inertial.hpp"
@@ -171,10 +172,13 @@ Result<void> write_recording(const RecordingOptions& options, const fs::path& ba
   partial += ".partial";
   std::error_code ignored;
   fs::remove(partial, ignored);
-  auto writer = RecordingWriter::create(
-      partial, rig,
-      fmt::format("# independent recording of {}, seed {}\n", options.cell, options.seed),
+  auto file = create_recording(
+      partial, RecordingFormat::kBag,
       {.compression = options.compress ? BagCompression::kLz4 : BagCompression::kNone});
+  if (!file) return tl::unexpected(file.error());
+  auto writer = RecordingWriter::create(
+      std::move(*file), rig,
+      fmt::format("# independent recording of {}, seed {}\n", options.cell, options.seed));
   if (!writer) return tl::unexpected(writer.error());
   Recorder recorder(std::move(*writer), walk, small_deliveries(walk, rig, options));
   if (auto ok = fill(recorder, lidar, walk, cell->world); !ok) return ok;

@@ -2,10 +2,8 @@
 // Reads an MCAP file as Foxglove does (its index, schema parser and CDR decoder), writes each message
 // again with that decoder's counterpart and counts those whose bytes differ. Messages with text beyond
 // ASCII are decoded alone: the counterpart states the length of such text in characters, not bytes.
-import { parse } from "@foxglove/rosmsg";
 import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
-import { McapIndexedReader } from "@mcap/core";
-import { readFile } from "node:fs/promises";
+import { messagesOf, openIndexed } from "./viewer.mjs";
 
 function hasForeignText(value) {
   if (typeof value === "string") return /[^\x00-\x7f]/.test(value);
@@ -13,22 +11,15 @@ function hasForeignText(value) {
   return Object.values(value).some(hasForeignText);
 }
 
-const file = await readFile(process.argv[2]);
-const readable = {
-  size: async () => BigInt(file.length),
-  read: async (offset, size) => file.subarray(Number(offset), Number(offset + size)),
-};
-const mcap = await McapIndexedReader.Initialize({ readable });
+const mcap = await openIndexed(process.argv[2]);
 const codecs = new Map();
-for (const channel of mcap.channelsById.values()) {
-  const schema = mcap.schemasById.get(channel.schemaId);
-  const types = parse(new TextDecoder().decode(schema.data), { ros2: true });
-  codecs.set(channel.id, { reader: new MessageReader(types), writer: new MessageWriter(types) });
+for (const [id, { types }] of mcap.topics) {
+  codecs.set(id, { reader: new MessageReader(types), writer: new MessageWriter(types) });
 }
 let count = 0;
 let different = 0;
 let foreign = 0;
-for await (const message of mcap.readMessages()) {
+for await (const message of messagesOf(mcap)) {
   const { reader, writer } = codecs.get(message.channelId);
   const value = reader.readMessage(message.data);
   ++count;

@@ -140,7 +140,9 @@ TEST_F(CommandLine, ASuiteRunsResumesChecksItsExpectationsAndIsCompared) {
   const std::string suite = "suite --tags short --seeds 1-2 --estimators leg --out here";
   const Outcome first = aims(suite);
   EXPECT_EQ(first.exit_code, 1) << first.output;
-  EXPECT_NE(first.output.find("2 jobs done, 0 found finished, 2 sequences simulated"), std::string::npos) << first.output;
+  EXPECT_NE(first.output.find("2 jobs done, 0 found finished, 2 sequences simulated"),
+            std::string::npos)
+      << first.output;
   EXPECT_NE(first.output.find("walk seed 1,2: leg median ate_m"), std::string::npos);
   EXPECT_NE(
       first.output.find("to repeat: aims run scenarios/walk.yaml --seeds 1,2 --estimators leg"),

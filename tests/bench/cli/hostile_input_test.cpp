@@ -127,12 +127,12 @@ TEST_F(HostileInput, WithoutSpaceTheRecordedPartOfABagStays) {
   EXPECT_FALSE(fs::exists(folder_.path() / "walk.bag.partial"));
 }
 
-TEST_F(HostileInput, OnlyABagIsWrittenAsABag) {
+TEST_F(HostileInput, TheNameOfARecordingStatesItsFormat) {
   const std::string walk = scenario(testing::kMetreWalk);
-  for (const char* name : {"walk.mcap", "walk", "walk.bag.gz"}) {
+  for (const char* name : {"walk.txt", "walk", "walk.bag.gz"}) {
     const Outcome outcome = aims("simulate " + walk + " --out " + name);
     EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-    EXPECT_TRUE(holds(outcome, "expected a name that ends in .bag")) << outcome.output;
+    EXPECT_TRUE(holds(outcome, "expected a name that ends in .bag or .mcap")) << outcome.output;
     EXPECT_FALSE(fs::exists(folder_.path() / name));
   }
 }

@@ -71,6 +71,28 @@ TEST_F(Recordings, EstimatingABagGivesTheBytesOfTheRun) {
   }
 }
 
+TEST_F(Recordings, EveryFormatGivesTheSameTrajectories) {
+  ASSERT_EQ(simulate().exit_code, 0);
+  const std::string estimators = " --estimators aims_d,leg --no-pictures --no-page --quiet --out ";
+  ASSERT_EQ(aims("estimate walk.bag" + estimators + "bag").exit_code, 0);
+  const Outcome made =
+      aims("simulate " + scenario(kShortWalk) + " --quiet --out walk.mcap --compression zstd");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  ASSERT_EQ(aims("convert walk.bag --quiet --out copy.mcap").exit_code, 0);
+  for (const char* file : {"walk.mcap", "copy.mcap"}) {
+    const std::string out = std::string("of-") + file;
+    const Outcome estimate = aims(std::string("estimate ") + file + estimators + out);
+    ASSERT_EQ(estimate.exit_code, 0) << estimate.output;
+    for (const char* name : {"aims_d.tum", "leg.tum", "truth.tum"}) {
+      EXPECT_EQ(text_of("bag/" + std::string(name)), text_of(out + "/" + name)) << file << name;
+    }
+    const Outcome score = aims(std::string("score --truth ") + file + ":/ground_truth/imu" +
+                               " --estimate " + out + "/aims_d.tum --no-pictures --out s-" + file);
+    EXPECT_EQ(score.exit_code, 0) << score.output;
+    EXPECT_EQ(aims(std::string("check ") + file + " --system aims").exit_code, 0) << file;
+  }
+}
+
 TEST_F(Recordings, ABagThatHoldsTheTruthIsScoredAsTheRunIs) {
   const Outcome run =
       aims("run " + scenario(kShortWalk) + " --estimators aims --no-pictures --quiet --out direct");

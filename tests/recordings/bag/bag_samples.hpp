@@ -44,9 +44,10 @@ struct ReadOutcome {
   BagSummary summary;
 };
 
-inline ReadOutcome read_all(const std::filesystem::path& file, BagOpenOptions options = {}) {
+template <class Reader = BagReader>
+ReadOutcome read_all(const std::filesystem::path& file, BagOpenOptions options = {}) {
   ReadOutcome outcome;
-  auto bag = BagReader::open(file, options);
+  auto bag = Reader::open(file, options);
   if (!bag) {
     outcome.error = bag.error().message;
     return outcome;
@@ -66,9 +67,10 @@ inline ReadOutcome read_all(const std::filesystem::path& file, BagOpenOptions op
 }
 
 /// Writes the messages in order to a new bag.
-inline void write_bag(const std::filesystem::path& file, const std::vector<SampleMessage>& messages,
-                      BagWriterOptions options = {}) {
-  auto bag = BagWriter::create(file, options);
+template <class Writer = BagWriter>
+void write_bag(const std::filesystem::path& file, const std::vector<SampleMessage>& messages,
+               BagWriterOptions options = {}) {
+  auto bag = Writer::create(file, options);
   ASSERT_TRUE(bag) << bag.error().message;
   std::vector<std::string> topics;
   for (const SampleMessage& each : messages) {
@@ -76,7 +78,7 @@ inline void write_bag(const std::filesystem::path& file, const std::vector<Sampl
     while (id < topics.size() && topics[id] != each.topic) ++id;
     if (id == topics.size()) {
       topics.push_back(each.topic);
-      bag->add_connection(each.topic, string_type());
+      bag->add_connection(each.topic, string_type(), false);
     }
     const auto written =
         bag->write(static_cast<std::uint32_t>(id), each.time, bytes_of(each.bytes));

@@ -141,6 +141,7 @@ std::string hex(std::string_view text) {
 void print_fields(const MessageView& view, const std::vector<MessageLayout>& layouts,
                   const MessageLayout& layout, const std::string& prefix) {
   for (const FieldSlot& slot : layout.slots) {
+    if (slot.is_placeholder) continue;
     const std::string path = prefix + slot.path;
     if (slot.kind == FieldKind::kMessages) {
       for (std::size_t i = 0; i < view.size(path).value(); ++i) {

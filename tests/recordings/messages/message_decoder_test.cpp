@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "core/files/byte_cursor.hpp"
+#include "recordings/messages/message_definition.hpp"
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/messages/random_message.hpp"
@@ -30,27 +31,65 @@ std::string creation_error(const std::string& definition, const std::string& typ
   return decoder ? "" : decoder.error().message;
 }
 
+MessageFormat format_of(ByteStyle style) {
+  return style == ByteStyle::kRos1 ? kRos1Format : kRos2Format;
+}
+
 RC_GTEST_PROP(MessageDecoder, ReadsEveryValueOfAnyMessage, ()) {
-  const RandomMessage message(*rc::gen::inRange<std::uint32_t>(0, 1'000'000));
-  const auto decoder = MessageDecoder::create(message.type(), message.definition());
-  RC_ASSERT(decoder.has_value());
-  const auto view = decoder->decode(bytes_of(message.bytes()));
-  RC_ASSERT(view.has_value());
-  for (const auto& [path, value] : message.numbers) RC_ASSERT(view->number(path) == value);
-  for (const auto& [path, value] : message.arrays) RC_ASSERT(view->numbers(path) == value);
-  for (const auto& [path, value] : message.times) RC_ASSERT(view->time(path) == value);
-  for (const auto& [path, value] : message.texts) RC_ASSERT(view->text(path) == value);
-  for (const auto& [path, value] : message.sizes) RC_ASSERT(view->size(path) == value);
+  for (const ByteStyle style : {ByteStyle::kRos1, ByteStyle::kCdrLittle, ByteStyle::kCdrBig}) {
+    const RandomMessage message(*rc::gen::inRange<std::uint32_t>(0, 1'000'000), style);
+    const auto decoder =
+        MessageDecoder::create(message.type(), message.definition(), format_of(style));
+    RC_ASSERT(decoder.has_value());
+    const auto view = decoder->decode(bytes_of(message.bytes()));
+    RC_ASSERT(view.has_value());
+    for (const auto& [path, value] : message.numbers) RC_ASSERT(view->number(path) == value);
+    for (const auto& [path, value] : message.arrays) RC_ASSERT(view->numbers(path) == value);
+    for (const auto& [path, value] : message.times) RC_ASSERT(view->time(path) == value);
+    for (const auto& [path, value] : message.texts) RC_ASSERT(view->text(path) == value);
+    for (const auto& [path, value] : message.sizes) RC_ASSERT(view->size(path) == value);
+  }
+}
+
+RC_GTEST_PROP(MessageDecoder, EntriesAndTablesAgreeWithPaths, ()) {
+  for (const ByteStyle style : {ByteStyle::kRos1, ByteStyle::kCdrLittle, ByteStyle::kCdrBig}) {
+    const RandomMessage message(*rc::gen::inRange<std::uint32_t>(0, 1'000'000), style);
+    const auto decoder =
+        MessageDecoder::create(message.type(), message.definition(), format_of(style));
+    const auto view = decoder->decode(bytes_of(message.bytes()));
+    RC_ASSERT(view.has_value());
+    for (const auto& [path, value] : message.numbers) {
+      const std::size_t close = path.find("].");
+      if (close == std::string::npos) continue;
+      const std::size_t open = path.find('[');
+      const std::string array = path.substr(0, open);
+      const std::size_t entry = std::stoul(path.substr(open + 1));
+      const std::string rest = path.substr(close + 2);
+      RC_ASSERT(view->messages(array)->at(entry).number(rest) == value);
+      const auto table = view->table(array);
+      const ColumnLayout* column = table ? table->find(rest) : nullptr;
+      if (column == nullptr) continue;
+      const std::byte* row = table->bytes.data() + entry * table->stride;
+      RC_ASSERT(row + column->offset + size_of(column->type) <=
+                table->bytes.data() + table->bytes.size());
+      RC_ASSERT(number_at(row + column->offset, column->type, table->order) == value);
+    }
+  }
 }
 
 RC_GTEST_PROP(MessageDecoder, RejectsTruncatedAndOverlongMessages, ()) {
-  const RandomMessage message(*rc::gen::inRange<std::uint32_t>(0, 1'000'000));
-  const auto decoder = MessageDecoder::create(message.type(), message.definition());
-  RC_ASSERT(decoder.has_value());
-  for (std::size_t size = 0; size < message.bytes().size(); ++size) {
-    RC_ASSERT(!decoder->decode(bytes_of(message.bytes()).first(size)));
+  for (const ByteStyle style : {ByteStyle::kRos1, ByteStyle::kCdrLittle}) {
+    const RandomMessage message(*rc::gen::inRange<std::uint32_t>(0, 1'000'000), style);
+    const auto decoder =
+        MessageDecoder::create(message.type(), message.definition(), format_of(style));
+    RC_ASSERT(decoder.has_value());
+    for (std::size_t size = 0; size < message.bytes().size(); ++size) {
+      RC_ASSERT(!decoder->decode(bytes_of(message.bytes()).first(size)));
+    }
+    const std::string padding(style == ByteStyle::kRos1 ? 0 : 3, 'x');
+    RC_ASSERT(decoder->decode(bytes_of(message.bytes() + padding)).has_value());
+    RC_ASSERT(!decoder->decode(bytes_of(message.bytes() + padding + "x")));
   }
-  RC_ASSERT(!decoder->decode(bytes_of(message.bytes() + "x")));
 }
 
 TEST(MessageDecoder, PathsOfOtherKindsYieldNothing) {
@@ -196,6 +235,57 @@ TEST(MessageDecoder, ErrorsOfDefinitionsNameTheLine) {
   const std::string empty = std::string("V[] v\n") + kSeparator + "MSG: p/V\n";
   EXPECT_NE(creation_error(empty).find("an array of empty messages"), std::string::npos);
   EXPECT_EQ(creation_error("", "std_msgs/Empty"), "");
+}
+
+TEST(MessageDecoder, TheTextOfRos2HasBoundsDefaultsAndConstants) {
+  const std::string definition =
+      "# a comment\nuint8 KIND=3 # three\nstring<=8 NAME=\"a # b\"\nwstring WIDE='x'\n"
+      "std_msgs/Header header\nint32[<=4] few\nstring<=8[] words\nstring greeting \"a=b # c\"\n"
+      "float64 scale 1.5 # with a default\nint8[3] signs [-1, 0, 1]\nother_msgs/msg/V v\n" +
+      std::string(kSeparator) +
+      "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n" + kSeparator +
+      "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n" + kSeparator +
+      "MSG: other_msgs/msg/V\nbuiltin_interfaces/Duration d\n";
+  const auto types = parse_definition("p/msg/T", definition, DefinitionLanguage::kRos2Msg);
+  ASSERT_TRUE(types) << types.error().message;
+  ASSERT_EQ(types->front().constants.size(), 3U);
+  EXPECT_EQ(types->front().constants[0].value, "3");
+  EXPECT_EQ(types->front().constants[1].value, "\"a # b\"");
+  EXPECT_EQ(types->front().name, "p/T");
+  const auto decoder = MessageDecoder::create("p/msg/T", definition, kRos2Format);
+  ASSERT_TRUE(decoder) << decoder.error().message;
+  std::vector<std::string> paths;
+  for (const MessageField& field : decoder->fields()) paths.push_back(field.path);
+  EXPECT_EQ(paths, (std::vector<std::string>{"header.stamp", "header.frame_id", "few", "words",
+                                             "greeting", "scale", "signs", "v.d"}));
+}
+
+TEST(MessageDecoder, WideTextIsRefusedWhereItWouldBeRead) {
+  const auto refused = MessageDecoder::create("p/T", "int8 a\nwstring<=4 b\n", kRos2Format);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("line 2: field 'b' is a wstring"), std::string::npos)
+      << refused.error().message;
+}
+
+TEST(MessageDecoder, AnEmptyTypeTakesOneByteInCdr) {
+  const auto decoder = MessageDecoder::create("std_msgs/Empty", "# nothing\n", kRos2Format);
+  ASSERT_TRUE(decoder) << decoder.error().message;
+  EXPECT_TRUE(decoder->decode(bytes_of(std::string("\0\1\0\0\0", 5))));
+  EXPECT_FALSE(decoder->decode(bytes_of(std::string("\0\1\0\0", 4))));
+}
+
+TEST(MessageDecoder, OtherEncapsulationsAreRefused) {
+  const auto decoder = MessageDecoder::create("std_msgs/Bool", "bool data\n", kRos2Format);
+  const auto message = [&](const std::string& bytes) {
+    const auto view = decoder->decode(bytes_of(bytes));
+    return view ? "" : view.error().message;
+  };
+  EXPECT_EQ(message(std::string("\0\1\0\0\1", 5)), "");
+  EXPECT_EQ(message(std::string("\0\3\0\0\1", 5)),
+            "std_msgs/Bool: expected a header of plain CDR (00 00 or 00 01), found 00 03");
+  EXPECT_EQ(message("x"), "std_msgs/Bool: expected the 4 bytes of a CDR header, found 1");
+  EXPECT_EQ(message(std::string("\0\1\0\0", 4)),
+            "std_msgs/Bool: field 'data' needs 1 bytes at byte 4, but the message ends at byte 4");
 }
 
 TEST(MessageDecoder, ExpandingDefinitionsAreRejected) {

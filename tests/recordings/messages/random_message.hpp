@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <random>
@@ -12,11 +13,16 @@
 
 namespace aims {
 
+/// How a made-up message is put down.
+enum class ByteStyle { kRos1, kCdrLittle, kCdrBig };
+
 /// A made-up message type with one message of it: definition, bytes, and every value by its path.
 /// Written apart from the decoder: values are put down as the bytes are.
 class RandomMessage {
  public:
-  explicit RandomMessage(std::uint32_t seed) : random_(seed) {
+  explicit RandomMessage(std::uint32_t seed, ByteStyle style = ByteStyle::kRos1)
+      : style_(style), random_(seed) {
+    if (is_cdr()) bytes_ = std::string(style == ByteStyle::kCdrBig ? "\0\0\0\0" : "\0\1\0\0", 4);
     const std::string root = make_type(0);
     for (std::size_t i = 1; i < types_.size(); ++i) {
       definition_ += std::string(80, '=') + "\nMSG: test_msgs/T" + std::to_string(i) + "\n" +
@@ -45,6 +51,8 @@ class RandomMessage {
   };
   using Fields = std::vector<Field>;
 
+  bool is_cdr() const { return style_ != ByteStyle::kRos1; }
+
   std::uint32_t pick(std::uint32_t below) { return static_cast<std::uint32_t>(random_() % below); }
 
   std::string make_type(int depth) {
@@ -64,6 +72,8 @@ class RandomMessage {
         field.type = make_type(depth + 1);
       } else {
         field.type = kBuiltins[pick(16)];
+        if (is_cdr() && field.type == "time") field.type = "builtin_interfaces/Time";
+        if (is_cdr() && field.type == "duration") field.type = "builtin_interfaces/Duration";
       }
       fields.push_back(field);
     }
@@ -76,22 +86,33 @@ class RandomMessage {
     for (const Field& field : fields) {
       const bool full = field.nested >= 0 && pick(2) == 0;
       const std::string brackets =
-          field.count < 0 ? ""
-                          : (field.count == 0 ? "[]" : "[" + std::to_string(field.count) + "]");
-      text += "  " + (full ? "test_msgs/" : std::string()) + field.type + brackets + "\t " +
-              field.name + (pick(2) == 0 ? "# x=1" : "") + (pick(4) == 0 ? "\r\n" : "\n");
+          field.count < 0
+              ? ""
+              : (field.count == 0 ? "[" + bound() + "]" : "[" + std::to_string(field.count) + "]");
+      const std::string package = !full ? "" : (is_cdr() ? "test_msgs/msg/" : "test_msgs/");
+      const std::string length = field.type == "string" ? bound() : "";
+      const bool plain = is_cdr() && field.nested < 0 && field.count < 0 && field.type != "string";
+      text += "  " + package + field.type + length + brackets + "\t " + field.name +
+              (plain && pick(4) == 0 ? " 1" : "") + (pick(2) == 0 ? "# x=1" : "") +
+              (pick(4) == 0 ? "\r\n" : "\n");
     }
     return text;
   }
 
+  std::string bound() { return is_cdr() && pick(2) == 0 ? "<=9" : ""; }
+
   template <class T>
   double put(T value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    while (is_cdr() && (bytes_.size() - 4) % sizeof(T) != 0) bytes_ += '?';  // padding is not read
+    std::string written(reinterpret_cast<const char*>(&value), sizeof(value));
+    if (style_ == ByteStyle::kCdrBig) std::reverse(written.begin(), written.end());
+    bytes_ += written;
     return static_cast<double>(value);
   }
 
   double put_number(const std::string& type) {
     if (type == "bool") return put(static_cast<std::uint8_t>(pick(2)));
+    if (type == "byte" && is_cdr()) return put(static_cast<std::uint8_t>(random_()));
     if (type == "int8" || type == "byte") return put(static_cast<std::int8_t>(random_()));
     if (type == "uint8" || type == "char") return put(static_cast<std::uint8_t>(random_()));
     if (type == "int16") return put(static_cast<std::int16_t>(random_()));
@@ -109,8 +130,15 @@ class RandomMessage {
       write(types_[static_cast<std::size_t>(field.nested)], path + ".");
     } else if (field.type == "string") {
       texts.emplace_back(path, std::string(pick(6), 's'));
-      put(static_cast<std::uint32_t>(texts.back().second.size()));
-      bytes_ += texts.back().second;
+      const std::string zero(is_cdr() ? 1 : 0, '\0');
+      put(static_cast<std::uint32_t>(texts.back().second.size() + zero.size()));
+      bytes_ += texts.back().second + zero;
+    } else if (field.type == "builtin_interfaces/Time" ||
+               field.type == "builtin_interfaces/Duration") {
+      const auto seconds = static_cast<std::int32_t>(random_());
+      put(seconds);
+      put(std::uint32_t{999'999'999});
+      times.emplace_back(path, Time{seconds} * kSecond + 999'999'999);
     } else if (field.type == "time") {
       const auto seconds = static_cast<std::uint32_t>(random_());
       put(seconds);
@@ -143,11 +171,12 @@ class RandomMessage {
         put_one(field, path + "[" + std::to_string(i) + "]", &values);
       }
       const bool is_number = field.nested < 0 && field.type != "string" && field.type != "time" &&
-                             field.type != "duration";
+                             field.type != "duration" && field.type.find('/') == std::string::npos;
       if (is_number) arrays.emplace_back(path, values);
     }
   }
 
+  ByteStyle style_;
   std::mt19937_64 random_;
   std::vector<Fields> types_;
   std::string definition_;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+#include <string>
+
+#include "bench/cli/commands.hpp"
+#include "bench/cli/options.hpp"
+#include "bench/cli/progress.hpp"
+#include "bench/cli/terminal.hpp"
+#include "bench/run/convert.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ConvertArguments {
+  SharedOptions shared;
+  std::string bag;
+  std::string compression = "none";
+  bool recover = false;
+};
+
+int convert_command(const ConvertArguments& arguments) {
+  const SharedOptions& shared = arguments.shared;
+  const ConvertOptions options = {arguments.bag, shared.out, shared.overwrite, arguments.recover,
+                                  *compression_named(arguments.compression)};
+  watch_interrupt();
+  ProgressDisplay display(arguments.bag, shared.quiet, "converted");
+  const auto outcome =
+      convert(options, [&display](const Progress& progress) { return display.show({}, progress); });
+  display.close();
+  if (!outcome) return bad_input("convert", outcome.error());
+  if (!outcome->content.complete) return interrupted_code();
+  if (!shared.quiet) {
+    print_out("{}: {} messages, {} topics, {} bytes\n", shared.out, outcome->content.messages,
+              outcome->content.topics, outcome->bytes);
+  }
+  if (outcome->lost_bytes > 0) {
+    print_out("warning: {} damaged bytes were left out\n", outcome->lost_bytes);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void declare_convert(Command command, const fs::path& /*scenarios*/) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  SharedOptions& shared = arguments->shared;
+  command.argument("bag", arguments->bag, "Recording of any format");
+  command.option("-o,--out", shared.out, "Recording to write, e.g. robot.mcap",
+                 Presence::kRequired);
+  add_compression(command, arguments->compression);
+  command.flag("--recover", arguments->recover, "Read the intact part of a damaged recording");
+  add_overwrite(command, shared);
+  add_quiet(command, shared);
+  command.footer(
+      "Every value and record time is kept. Messages of ROS 1 become those of ROS 2 in .mcap;\n"
+      "from ROS 2 to a ROS 1 bag there is no conversion.\n"
+      "Examples:\n"
+      "  aims convert robot.bag --out robot.mcap --compression zstd\n"
+      "  aims convert damaged.mcap --recover --out intact.mcap");
+  command.action([arguments] { return convert_command(*arguments); });
+}
+
+}  // namespace aims

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/error.hpp"
+#include "recordings/bag/chunk.hpp"
+#include "recordings/mcap/mcap_records.hpp"
+
+namespace aims {
+
+/// A record in a file, of which only opcode and length were read.
+struct McapPlace {
+  McapOp op = McapOp::kHeader;
+  std::uint64_t position = 0;
+  std::uint64_t size = 0;  ///< of its content [bytes]
+
+  std::uint64_t body() const { return position + kMcapPrefix; }
+  std::uint64_t end() const { return body() + size; }
+};
+
+/// The record at `position`, which lies within the file.
+Result<McapPlace> mcap_place(const BagFile& file, std::uint64_t position);
+
+/// The chunk of a record, from its first fields: with times, without counts.
+Result<ChunkPlace> mcap_chunk_place(const BagFile& file, const McapPlace& record);
+
+/// What lies between two positions.
+struct McapScan {
+  std::vector<ChunkPlace> chunks;  ///< and runs of records outside chunks: those are of compression
+                                   ///< none, without times
+  std::uint64_t end = 0;           ///< behind the last complete record
+  std::optional<Error> broken;     ///< why the scan ended before its end
+};
+
+/// Lists chunks and runs of schemas, channels and messages from `position` to `end`, or to the end
+/// of the data section.
+McapScan scan_mcap(const BagFile& file, std::uint64_t position, std::uint64_t end);
+
+}  // namespace aims

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/source/recording_file.hpp"
+
+#include <array>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "recordings/bag/bag_reader.hpp"
+#include "recordings/mcap/mcap_reader.hpp"
+#include "recordings/mcap/mcap_writer.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FormatSign {
+  RecordingFormat format;
+  std::string_view extension;
+  std::string_view first_bytes;
+};
+
+constexpr auto kSigns = std::to_array<FormatSign>({
+    {RecordingFormat::kBag, ".bag", "#ROS"},
+    {RecordingFormat::kMcap, ".mcap", "\x89MCAP"},
+});
+
+template <class Reader>
+Result<std::unique_ptr<MessageSource>> opened(const fs::path& file, BagOpenOptions options) {
+  auto reader = Reader::open(file, options);
+  if (!reader) return tl::unexpected(reader.error());
+  return std::make_unique<Reader>(std::move(*reader));
+}
+
+template <class Writer>
+Result<std::unique_ptr<MessageSink>> created(const fs::path& file, BagWriterOptions options) {
+  auto writer = Writer::create(file, options);
+  if (!writer) return tl::unexpected(writer.error());
+  return std::make_unique<Writer>(std::move(*writer));
+}
+
+}  // namespace
+
+std::optional<RecordingFormat> format_by_content(const fs::path& file) {
+  std::string start(16, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  for (const FormatSign& sign : kSigns) {
+    if (start.starts_with(sign.first_bytes)) return sign.format;
+  }
+  return std::nullopt;
+}
+
+std::optional<RecordingFormat> format_by_name(const fs::path& file) {
+  for (const FormatSign& sign : kSigns) {
+    if (file.extension() == sign.extension) return sign.format;
+  }
+  return std::nullopt;
+}
+
+Result<std::unique_ptr<MessageSource>> open_recording(const fs::path& file,
+                                                      BagOpenOptions options) {
+  // What has no known beginning is refused by the reader for its name, or by that of bags.
+  const auto format = format_by_content(file);
+  if (format.value_or(format_by_name(file).value_or(RecordingFormat::kBag)) ==
+      RecordingFormat::kMcap) {
+    return opened<McapReader>(file, options);
+  }
+  return opened<BagReader>(file, options);
+}
+
+Result<std::unique_ptr<MessageSink>> create_recording(const fs::path& file, RecordingFormat format,
+                                                      BagWriterOptions options) {
+  if (format == RecordingFormat::kMcap) return created<McapWriter>(file, options);
+  return created<BagWriter>(file, options);
+}
+
+}  // namespace aims

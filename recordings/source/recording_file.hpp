@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "core/error.hpp"
+#include "recordings/bag/bag_writer.hpp"
+#include "recordings/bag/chunk_reader.hpp"
+#include "recordings/bag/message_sink.hpp"
+#include "recordings/bag/message_source.hpp"
+
+namespace aims {
+
+/// The containers of a recording.
+enum class RecordingFormat {
+  kBag,   ///< ROS 1 bag, format 2.0
+  kMcap,  ///< MCAP, with messages of ROS 2 or ROS 1
+};
+
+/// The format of a file by its first bytes, or nothing.
+std::optional<RecordingFormat> format_by_content(const std::filesystem::path& file);
+
+/// The format that a name's extension stands for: ".bag" or ".mcap"; else nothing.
+std::optional<RecordingFormat> format_by_name(const std::filesystem::path& file);
+
+/// Opens a recording of any format, by its content. Error for a file of no format, or that its
+/// reader refuses.
+Result<std::unique_ptr<MessageSource>> open_recording(const std::filesystem::path& file,
+                                                      BagOpenOptions options = {});
+
+/// A new recording of ROS 1 messages (bag) or ROS 2 messages (the others). Error when the file
+/// exists or cannot be written, or when the format does not know the compression.
+Result<std::unique_ptr<MessageSink>> create_recording(const std::filesystem::path& file,
+                                                      RecordingFormat format,
+                                                      BagWriterOptions options = {});
+
+}  // namespace aims
