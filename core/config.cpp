@@ -111,6 +111,11 @@ bool is_number(const Parameter& parameter) {
   return parameter.expected.starts_with(kNumber) || is_integer(parameter);
 }
 
+std::string option_proposal(const Parameter& parameter, std::string_view value) {
+  const std::string near = near_match(value, parameter.options);
+  return near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
+}
+
 template <class Number>
 void Fields::add_number(std::string_view name, Number& value, Spec spec, std::string_view what) {
   const Range range = spec.range;
@@ -163,6 +168,25 @@ void Fields::texts(std::string_view name, std::vector<std::string>& value, Spec 
   add(
       name, std::move(spec), "a list of texts like [a, b]",
       [&value] { return sequence_text(value); }, std::move(assign), true);
+}
+
+void Fields::numbers(std::string_view name, std::vector<double>& value, Spec spec) {
+  const Range range = spec.range;
+  auto assign = [&value, range](std::string_view text) {
+    const auto entries = sequence_entries(text);
+    if (!entries) return false;
+    std::vector<double> parsed;
+    for (const std::string& entry : *entries) {
+      const auto number = parse<double>(entry);
+      if (!number || !range.contains(*number)) return false;
+      parsed.push_back(*number);
+    }
+    value = std::move(parsed);
+    return true;
+  };
+  add(
+      name, std::move(spec), with_range("a list of numbers like [a, b], each", range),
+      [&value] { return fmt::format("[{}]", fmt::join(value, ", ")); }, std::move(assign), true);
 }
 
 template <class Vector>

@@ -58,6 +58,7 @@ struct Parameter {
   std::function<bool(std::string_view)> assign;  ///< false: not what was expected
   bool sequence = false;                         ///< holds several scalars, written "[a, b]"
   std::string idle = {};  ///< why the value has no effect now, e.g. "legs.enabled is false"
+  std::vector<std::string> options = {};  ///< of a choice: its names
 };
 
 /// Whether the parameter is one whole number.
@@ -84,6 +85,8 @@ class Fields {
   void flag(std::string_view name, bool& value, Spec spec);
   void text(std::string_view name, std::string& value, Spec spec);
   void texts(std::string_view name, std::vector<std::string>& value, Spec spec);
+  /// Any number of numbers, each within the range.
+  void numbers(std::string_view name, std::vector<double>& value, Spec spec);
   void vector(std::string_view name, Eigen::Vector3d& value, Spec spec);
   void vector(std::string_view name, Eigen::Vector2d& value, Spec spec);
 
@@ -174,6 +177,9 @@ std::optional<std::vector<std::string>> sequence_entries(std::string_view text);
 /// The text "[a, b]" of entries, in double quotes where needed; undone by `sequence_entries`.
 std::string sequence_text(const std::vector<std::string>& entries);
 
+/// "; did you mean 'a'?" for a value that a choice does not have; empty when none is near.
+std::string option_proposal(const Parameter& parameter, std::string_view value);
+
 /// The candidate closest to `word` by edit distance, or empty when none is near.
 std::string near_match(std::string_view word, const std::vector<std::string>& candidates);
 
@@ -203,6 +209,7 @@ void Fields::choice(std::string_view name, Enum& value,
     return false;
   };
   add(name, std::move(spec), std::move(expected), std::move(text), std::move(assign));
+  for (const auto& [label, option] : options) parameters_.back().options.push_back(label);
 }
 
 template <class Config>

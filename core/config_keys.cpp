@@ -168,7 +168,8 @@ Result<void> assign(const Fields& fields, std::string_view key, std::string_view
   if (parameters.empty()) return failure(unknown_key_message(fields, key));
   for (const Parameter* parameter : parameters) {
     if (parameter->assign(value)) continue;
-    return failure(fmt::format("{}: '{}' is not {}", key, value, parameter->expected));
+    return failure(fmt::format("{}: '{}' is not {}{}", key, value, parameter->expected,
+                               option_proposal(*parameter, value)));
   }
   return {};
 }
@@ -208,7 +209,7 @@ std::string unknown_key_message(const Fields& fields, std::string_view key) {
   std::vector<std::string> near = proposals_for(fields, concrete);
   for (std::string& each : near) {
     if (star < each.size()) {
-      each.replace(star, std::min(each.find('.', star), each.size()) - star, "*");
+      each = each.substr(0, star) + "*" + each.substr(std::min(each.find('.', star), each.size()));
     }
   }
   if (std::find(near.begin(), near.end(), key) != near.end()) {

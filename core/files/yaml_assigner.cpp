@@ -103,7 +103,8 @@ Result<void> YamlAssigner::assign_value(const Parameter& parameter, const std::s
                                         const YAML::Node& name, const YAML::Node& value) const {
   const auto refuse = [&] {
     return error(at(name, value), key,
-                 fmt::format("expected {}, found {}", parameter.expected, shown(value)));
+                 fmt::format("expected {}, found {}{}", parameter.expected, shown(value),
+                             option_proposal(parameter, shown(value))));
   };
   if (parameter.sequence != value.IsSequence()) return refuse();
   if (!value.IsSequence() && !value.IsScalar()) return refuse();

@@ -26,6 +26,7 @@ struct Sample {
   bool on = false;
   std::string name = "x";
   std::vector<std::string> names = {"a"};
+  std::vector<double> angles = {0.5};
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();
   Nested nested;
@@ -58,6 +59,7 @@ void describe(Fields& f, Sample& c) {
   f.flag("on", c.on, {});
   f.text("name", c.name, {});
   f.texts("names", c.names, {});
+  f.numbers("angles", c.angles, {.range = within(90.0)});
   f.vector("axis", c.axis, {.range = in_range(-5.0, 5.0)});
   f.vector("corner", c.corner, {});
   f.group("nested", c.nested);
@@ -101,8 +103,8 @@ TEST(Fields, HaveFullKeysInTheOrderOfDescription) {
   std::vector<std::string> keys;
   for (const Parameter& each : fields_of(sample).parameters()) keys.push_back(each.key);
   const std::vector<std::string> expected = {
-      "eta",    "count",        "on",          "name",          "names",        "axis",
-      "corner", "nested.alpha", "nested.foot", "items.0.width", "items.1.width"};
+      "eta",  "count",  "on",           "name",        "names",         "angles",
+      "axis", "corner", "nested.alpha", "nested.foot", "items.0.width", "items.1.width"};
   EXPECT_EQ(keys, expected);
 }
 
@@ -113,6 +115,7 @@ TEST(Fields, AssignmentReachesTheConfiguration) {
   EXPECT_TRUE(assign(fields, "count", "+7"));
   EXPECT_TRUE(assign(fields, "on", "true"));
   EXPECT_TRUE(assign(fields, "names", "[b, \"c, d\"]"));
+  EXPECT_TRUE(assign(fields, "angles", "[1, -2.5]"));
   EXPECT_TRUE(assign(fields, "axis", "[1, 2, -3]"));
   EXPECT_TRUE(assign(fields, "nested.foot", "rolling"));
   EXPECT_TRUE(assign(fields, "items.1.width", "4"));
@@ -120,6 +123,7 @@ TEST(Fields, AssignmentReachesTheConfiguration) {
   EXPECT_EQ(sample.count, 7);
   EXPECT_TRUE(sample.on);
   EXPECT_EQ(sample.names, (std::vector<std::string>{"b", "c, d"}));
+  EXPECT_EQ(sample.angles, (std::vector<double>{1.0, -2.5}));
   EXPECT_EQ(sample.axis, Eigen::Vector3d(1.0, 2.0, -3.0));
   EXPECT_EQ(sample.nested.foot, Foot::kRolling);
   EXPECT_EQ(sample.items[1].width, 4.0);
@@ -142,6 +146,10 @@ TEST(Fields, RejectUnexpectedValues) {
   for (const char* text : {"a", "[a", "[a,]", "[\"a]", "[\"a\" b]"}) {
     EXPECT_FALSE(takes("names", text)) << text;
   }
+  for (const char* text : {"1", "[1, 91]", "[x]", "[1,]", "[nan]"}) {
+    EXPECT_FALSE(takes("angles", text)) << text;
+  }
+  EXPECT_TRUE(takes("angles", "[]"));
 }
 
 TEST(Fields, ARejectedVectorIsUnchanged) {
@@ -154,6 +162,10 @@ TEST(Fields, ErrorsNameKeyAndWhatWasExpected) {
   EXPECT_EQ(message_of("eta", "-1"), "eta: '-1' is not a number in [0, 100]");
   EXPECT_EQ(message_of("count", "0"), "count: '0' is not an integer in [1, 9]");
   EXPECT_EQ(message_of("nested.foot", "x"), "nested.foot: 'x' is not one of point, rolling");
+  EXPECT_EQ(message_of("nested.foot", "rollin"),
+            "nested.foot: 'rollin' is not one of point, rolling; did you mean 'rolling'?");
+  EXPECT_EQ(message_of("angles", "[99]"),
+            "angles: '[99]' is not a list of numbers like [a, b], each in [-90, 90]");
   EXPECT_EQ(message_of("axis", "[1]"),
             "axis: '[1]' is not three numbers like [x, y, z] in [-5, 5]");
 }
@@ -205,7 +217,8 @@ TEST(Fields, TextOfEveryParameterIsTakenBack) {
     const std::string before = each.text();
     EXPECT_TRUE(each.assign(before)) << each.key;
     EXPECT_EQ(each.text(), before);
-    EXPECT_EQ(each.sequence, each.key == "names" || each.key == "axis" || each.key == "corner");
+    EXPECT_EQ(each.sequence, each.key == "names" || each.key == "angles" || each.key == "axis" ||
+                                 each.key == "corner");
   }
   EXPECT_EQ(sample.eta, 0.1 + 0.2);
   EXPECT_EQ(sample.axis.x(), 1.0 / 3.0);
