@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/config.hpp"
+#include "core/lidar_rings.hpp"
 #include "estimator/estimator.hpp"
 
 namespace aims {
@@ -18,11 +19,12 @@ namespace aims {
 struct Requirements {
   bool lidar = false;
   bool imu = false;
-  bool legs = false;         ///< leg odometry
-  bool joints = false;       ///< of the legs, and contacts of the feet
-  bool rings = false;        ///< of the LiDAR's returns
-  bool point_times = false;  ///< of the LiDAR's returns, within the scan
-  bool orientation = false;  ///< from the IMU
+  bool legs = false;            ///< leg odometry
+  bool joints = false;          ///< of the legs, and contacts of the feet
+  bool rings = false;           ///< of the LiDAR's returns
+  bool point_times = false;     ///< of the LiDAR's returns, within the scan
+  bool orientation = false;     ///< from the IMU
+  LidarRings range_image = {};  ///< rows of its range image; none: it has none, or of any size
 };
 
 /// The configuration of one estimator, of whatever type it is, and the way to create it.

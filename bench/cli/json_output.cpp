@@ -70,6 +70,7 @@ Json cloud_json(const CloudInfo& cloud) {
   const PointFieldInfo* time = cloud.time_field();
   const PointFieldInfo* ring = cloud.ring_field();
   return {{"topic", cloud.topic},
+          {"driver", cloud.driver},
           {"fields", std::move(fields)},
           {"mean_points", cloud.mean_points},
           {"not_finite_fraction", cloud.not_finite_fraction},
@@ -140,11 +141,15 @@ Json list_json(const std::filesystem::path& folder, std::span<const ScenarioFile
                {"folder", folder.string()},
                {"scenarios", Json::array()},
                {"families", Json::array()},
+               {"lidars", Json::array()},
                {"estimators", Json::array()}};
   for (const ScenarioFile& each : files) json["scenarios"].push_back(scenario_json(each));
   for (const Family& each : families_of(files)) {
     json["families"].push_back(
         {{"name", each.name}, {"level_unit", each.level_unit}, {"scenarios", each.cases}});
+  }
+  for (const CatalogueEntry& each : lidar_catalogue()) {
+    json["lidars"].push_back({{"name", each.name}, {"description", each.description}});
   }
   for (const CatalogueEntry& each : estimator_catalogue()) {
     json["estimators"].push_back({{"name", each.name}, {"description", each.description}});

@@ -85,6 +85,7 @@ int run_command(const RunArguments& arguments) {
               to_text(score_table(each.runs)));
     print_health(each);
   }
+  print_ring_notes(*suite);
   print_expectations(*suite);
   print_outcome(*suite, shared);
   print_out("results: {}\n", (out / "").string());

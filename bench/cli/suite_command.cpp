@@ -35,6 +35,7 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
   print_matrix("Success", success_table(suite));
   const auto families = family_results(suite);
   if (!families.empty()) print_matrix("Level of failure", breaks_table(families));
+  print_ring_notes(suite);
   print_expectations(suite);
   print_outcome(suite, shared);
   print_out("results: {}, suite.json, suite.csv\n", (fs::path(shared.out) / "suite.md").string());

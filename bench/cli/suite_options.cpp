@@ -2,10 +2,13 @@
 #include "bench/cli/suite_options.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/run/ring_notes.hpp"
 
 namespace aims {
 
@@ -77,6 +80,14 @@ void print_invalid(const Suite& suite) {
 }
 
 }  // namespace
+
+void print_ring_notes(const Suite& suite) {
+  std::set<std::string> notes;
+  for (const SuiteCase& each : suite.cases) {
+    for (std::string& note : ring_notes(each.scenario)) notes.insert(std::move(note));
+  }
+  for (const std::string& note : notes) print_out("note: {}\n", note);
+}
 
 void print_outcome(const Suite& suite, const SharedOptions& options) {
   print_out("{} jobs done, {} found finished, {} sequences simulated\n", suite.run.done,

@@ -29,6 +29,9 @@ Result<Suite> run_with_display(std::vector<ScenarioFile> scenarios, const SuiteO
 /// Prints the expectations that failed, each with the command that repeats it.
 void print_expectations(const Suite& suite);
 
+/// Prints which estimators the LiDARs of the scenarios do not fit, each once.
+void print_ring_notes(const Suite& suite);
+
 /// Prints how many jobs were done, those that failed, and whether the suite was interrupted.
 void print_outcome(const Suite& suite, const SharedOptions& options);
 

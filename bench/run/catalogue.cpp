@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "bench/run/lidar_sheet.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
@@ -107,6 +108,18 @@ std::vector<Family> families_of(std::span<const ScenarioFile> files) {
     families.push_back(std::move(family));
   }
   return families;
+}
+
+std::vector<CatalogueEntry> lidar_catalogue() {
+  std::vector<CatalogueEntry> entries;
+  for (const LidarModel& model : lidar_models()) {
+    LidarConfig config;
+    const auto sheet = apply_lidar_model(model.name, SensorLevel::kIdeal, config);
+    entries.push_back({std::string(model.name),
+                       sheet ? lidar_summary(*sheet, config) : sheet.error().message,
+                       {}});
+  }
+  return entries;
 }
 
 std::vector<CatalogueEntry> estimator_catalogue() {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/run/bag_origin.hpp"
+#include "bench/run/ring_notes.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/stream.hpp"
 #include "core/files/yaml_config.hpp"
@@ -50,8 +51,9 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   }
 }
 
-/// A sentence for each part of the clouds, of the IMU and of the legs that an estimator needs and the recording
-/// does not hold; where something stands in for it, the notes on the reading state what.
+/// A sentence for each part of the clouds, of the IMU and of the legs that an estimator needs and
+/// the recording does not hold; where something stands in for it, the notes on the reading state
+/// what.
 void note_missing(const EstimateConfig& config, RecordingSetup& setup) {
   for (const std::string& text : config.run) {
     const Requirements needs = requirements_of(text, config.estimators);
@@ -61,7 +63,8 @@ void note_missing(const EstimateConfig& config, RecordingSetup& setup) {
           fmt::format("{} needs {}, which the recording lacks", label_of(text), what));
     };
     note(needs.point_times, setup.has_point_times, "the time of each point");
-    note(needs.rings, setup.has_rings, "the ring of each point");
+    const std::string rings = ring_note(label_of(text), needs, setup.rings, "recording");
+    if (!rings.empty()) setup.notes.push_back(rings);
     note(needs.joints, setup.has_joints, "joints and contacts");
     note(needs.orientation, setup.has_orientation, "the orientation of the IMU");
   }

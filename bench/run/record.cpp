@@ -16,6 +16,7 @@
 #include "core/files/tum.hpp"
 #include "core/stopwatch.hpp"
 #include "recordings/stream/recording_writer.hpp"
+#include "sim/sensors/scan_pattern.hpp"
 #include "sim/simulation.hpp"
 
 namespace aims {
@@ -139,6 +140,7 @@ Result<RecordOutcome> record(const Scenario& given, const RecordOptions& options
                                         origin_text(scenario, options.seed));
   if (!writer) return tl::unexpected(writer.error());
 
+  writer->set_cloud_format(cloud_format(scenario.simulation.lidar));
   Recorder recorder(std::move(*writer));
   RecordOutcome outcome;
   auto ok = fill(*simulation, recorder, observer, stopwatch, outcome);

@@ -94,7 +94,7 @@ class Recast {
  public:
   Recast(const SimulationConfig& config, std::uint64_t seed, const Pose& T_body_lidar,
          const Trajectory& poses)
-      : config_(fewer_firings(config.lidar)),
+      : config_(with_fewer_firings(config.lidar, kFewerFirings)),
         caster_(build_scene(config.scene, seed)),
         lidar_(config_, caster_, seed),
         T_body_lidar_(T_body_lidar),
@@ -121,11 +121,6 @@ class Recast {
   }
 
  private:
-  static LidarConfig fewer_firings(LidarConfig config) {
-    config.columns = std::max(16, config.columns / kFewerFirings);
-    return config;
-  }
-
   LidarConfig config_;
   RayCaster caster_;
   Lidar lidar_;

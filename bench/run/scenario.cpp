@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "bench/run/lidar_sheet.hpp"
 #include "bench/run/score_keys.hpp"
 #include "core/file_name.hpp"
 #include "core/files/config_dump.hpp"
@@ -98,7 +99,18 @@ Result<void> apply_presets(const Scenario& chosen, Scenario& scenario) {
     const std::string name = fmt::format("models/sensors/{}.yaml", preset.name);
     if (auto ok = load_config_text(preset.text, name, scenario); !ok) return ok;
   }
+  const auto sheet =
+      apply_lidar_model(chosen.simulation.lidar.model, chosen.sensors, scenario.simulation.lidar);
+  if (!sheet) return tl::unexpected(sheet.error());
   return {};
+}
+
+/// Error for a mode that the LiDAR's model does not have.
+Result<void> check_lidar(const Scenario& scenario) {
+  LidarConfig of_model;
+  const auto sheet = apply_lidar_model(scenario.simulation.lidar.model, scenario.sensors, of_model);
+  if (!sheet) return tl::unexpected(sheet.error());
+  return check_lidar_mode(*sheet, scenario.simulation.lidar);
 }
 
 /// `start` as `load` leaves it, on top of the sensor presets that it chooses.
@@ -115,6 +127,7 @@ Result<Scenario> on_presets(Scenario start, std::vector<AssignedKey>& assigned, 
 Result<void> check(const Scenario& scenario) {
   if (auto names = check_names(scenario); !names) return names;
   if (scenario.run.empty()) return failure("run: expected at least one estimator");
+  if (auto lidar = check_lidar(scenario); !lidar) return lidar;
   if (auto draws = check_draws(scenario); !draws) return draws;
   if (auto segments = check_segments(scenario); !segments) return segments;
   if (auto specs = check_estimator_specs(scenario.run); !specs) {

@@ -172,6 +172,11 @@ Result<void> check_draws(const Scenario& scenario) {
     if (parameter == nullptr) {
       return failure(fmt::format("{}.key: {}", name, unknown_key_message(fields, draw.key)));
     }
+    if (draw.key == "lidar.model") {
+      return failure(name +
+                     ".key: 'lidar.model' chooses figures below the scenario's own keys and cannot "
+                     "be drawn; expected one scenario per model");
+    }
     if (always.contains(draw.key)) {
       return failure(
           fmt::format("{}.key: an entry of '{}' without conditions stands before this "

@@ -91,6 +91,29 @@ LidarConfig field_lidar() {
   return config;
 }
 
+/// An Ouster OS1-128 in the mode of 2048 columns.
+LidarConfig dense_lidar() {
+  LidarConfig config = field_lidar();
+  config.columns = 2048;
+  config.ring_interval_us = 0.0;
+  for (int ring = 0; ring < 128; ++ring) {
+    config.table.elevations_deg.push_back(22.5 - 45.0 * ring / 127.0);
+    config.table.azimuth_offsets_deg.push_back(4.2 - 2.8 * (ring % 4));
+  }
+  return config;
+}
+
+/// A Livox Mid-360, whose beams are computed anew for each scan.
+LidarConfig rosette_lidar() {
+  LidarConfig config = field_lidar();
+  config.pattern = LidarPattern::kRosette;
+  config.rosette = {.point_rate = 2e5,
+                    .prism_deflections_deg = {67.5, 26.5},
+                    .prism_rates = {-182.43, -172.71},
+                    .line_offsets_deg = {-3.0, -1.0, 1.0, 3.0}};
+  return config;
+}
+
 void scan(benchmark::State& state, const SceneConfig& config, const LidarConfig& sensor) {
   const RayCaster caster(build_scene(config, 1));
   Lidar lidar(sensor, caster, 1);
@@ -101,8 +124,10 @@ void scan(benchmark::State& state, const SceneConfig& config, const LidarConfig&
     points = scan.points.size();
     benchmark::DoNotOptimize(scan.points.data());
   }
+  const ScanPattern& pattern = lidar.pattern();
   state.counters["rays/s"] =
-      benchmark::Counter(kRings * kColumns, benchmark::Counter::kIsIterationInvariantRate);
+      benchmark::Counter(static_cast<double>(pattern.lines()) * pattern.max_columns(),
+                         benchmark::Counter::kIsIterationInvariantRate);
   state.counters["points"] = static_cast<double>(points);
 }
 
@@ -112,6 +137,10 @@ BENCHMARK_CAPTURE(cast_rays, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::
 BENCHMARK_CAPTURE(scan, doors_ideal, corridor(0.0, 0.0), LidarConfig{})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, doors_field, corridor(0.0, 0.0), field_lidar())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_os1_128, corridor(0.0, 0.0), dense_lidar())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_mid360, corridor(0.0, 0.0), rosette_lidar())
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, doors_clutter_ideal, corridor(0.0, 1.0), LidarConfig{})
     ->Unit(benchmark::kMillisecond);

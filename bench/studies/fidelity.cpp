@@ -78,9 +78,11 @@ SimulationConfig with_fast_imu(const Scenario& scenario) {
 
 /// The same without a LiDAR worth its time.
 SimulationConfig without_lidar(SimulationConfig config) {
+  const double rate = config.lidar.rate;
+  config.lidar = {};
+  config.lidar.rate = rate;
   config.lidar.rings = 1;
   config.lidar.columns = 16;
-  config.lidar.defects = {};
   return config;
 }
 

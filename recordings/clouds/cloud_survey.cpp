@@ -37,6 +37,12 @@ std::string_view unit_name(double ns) {
   return "?";
 }
 
+/// Largest less smallest value; of at least one.
+double spread(const std::vector<double>& values) {
+  const auto [smallest, largest] = std::ranges::minmax(values);
+  return largest - smallest;
+}
+
 }  // namespace
 
 void CloudSurvey::find_fields(const PointTable& table) {
@@ -129,17 +135,22 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
   reading.time_unit = *unit;
   reading.clock = PointClock::kStamp;
   std::vector<double> delays;  // of the first firing after the stamp, on the stamps' clock [ns]
+  std::vector<double> firsts, cloud_stamps;
   for (const Cloud& cloud : clouds_) {
     if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
     const double first = cloud.ranges[field]->first * *unit;
     const double base = static_cast<double>(cloud.time_base.value_or(0));
     delays.push_back(base + first - static_cast<double>(cloud.stamp));
+    firsts.push_back(first);
+    cloud_stamps.push_back(static_cast<double>(cloud.stamp));
   }
   const double first = *median_first(field) * *unit;
-  const bool from_stamp = std::abs(first) < kMaxRelativeTime;
   const bool has_base = std::any_of(clouds_.begin(), clouds_.end(),
                                     [](const Cloud& cloud) { return cloud.time_base.has_value(); });
   const bool same_clock = std::abs(*upper_median(delays)) < static_cast<double>(kLongestScan);
+  // Stamps may be small themselves; then times of their clock advance with them.
+  const bool advances = spread(firsts) > 0.5 * spread(cloud_stamps);
+  const bool from_stamp = std::abs(first) < kMaxRelativeTime && !(same_clock && advances);
   if (has_base) {
     reading.clock = same_clock ? PointClock::kEpoch : PointClock::kStamp;
   } else if (!from_stamp) {

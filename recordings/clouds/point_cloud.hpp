@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/lidar_rings.hpp"
 #include "core/measurements.hpp"
 #include "recordings/clouds/point_table.hpp"
 #include "recordings/event_counts.hpp"
@@ -34,6 +35,7 @@ struct CloudReading {
   RingSource ring_source = RingSource::kNone;
   std::string ring_field;
   int flipped_rings = 0;                ///< > 0: number of rings, of which ring 0 is the highest
+  LidarRings rings;                     ///< none where rings are derived, or are lines
   std::vector<double> ring_elevations;  ///< ascending, for kElevation [rad]
   std::string intensity_field;          ///< empty: none
   float intensity_scale = 1.0F;         ///< scales it to [0, 1]

@@ -7,11 +7,16 @@
 #include <array>
 #include <cmath>
 
+#include "core/angle.hpp"
+#include "recordings/median.hpp"
+
 namespace aims {
 namespace {
 
 constexpr std::size_t kMaxRings = 256;
 constexpr std::size_t kMaxElevations = 100'000;
+/// Standard deviation of the elevations of a ring, beyond which it is none [rad].
+constexpr double kRingDeviation = 0.07;
 constexpr double kRingGap = 1e-3;  ///< between the elevations of neighbouring rings, at least [rad]
 
 constexpr std::array<std::string_view, 5> kRingFields = {"ring", "line", "channel", "laser_id",
@@ -67,6 +72,7 @@ void RingSurvey::add(const PointTable& table, std::size_t index, const Eigen::Ve
   const auto at = static_cast<std::size_t>(ring);
   if (at >= rings_.size()) rings_.resize(at + 1);
   rings_[at].elevation_sum += elevation;
+  rings_[at].elevation_squares += elevation * elevation;
   ++rings_[at].points;
 }
 
@@ -76,11 +82,35 @@ bool RingSurvey::highest_first() const {
   std::optional<double> below;
   for (const Mean& ring : rings_) {
     if (ring.points == 0) continue;
-    const double mean = ring.elevation_sum / ring.points;
+    const double mean = ring.mean();
     if (below) ++(mean > *below ? rising : falling);
     below = mean;
   }
   return falling >= 3 && rising * 10 <= falling;
+}
+
+double RingSurvey::Mean::deviation() const {
+  return std::sqrt(std::max(0.0, elevation_squares / points - mean() * mean()));
+}
+
+/// Whether the points of a ring are spread over elevations, as those of the lines of a rosette are.
+bool RingSurvey::are_lines() const {
+  std::vector<double> deviations;
+  for (const Mean& ring : rings_) {
+    if (ring.points > 0) deviations.push_back(ring.deviation());
+  }
+  return upper_median(deviations).value_or(0.0) > kRingDeviation;
+}
+
+LidarRings RingSurvey::rings() const {
+  std::vector<double> means;
+  for (const Mean& ring : rings_) {
+    if (ring.points > 0) means.push_back(ring.mean());
+  }
+  if (means.empty()) return {};
+  const auto [lowest, highest] = std::ranges::minmax(means);
+  const double gaps = std::max(1.0, static_cast<double>(means.size()) - 1.0);
+  return {static_cast<int>(rings_.size()), (highest - lowest) / gaps / kRadiansPerDegree};
 }
 
 void RingSurvey::decide(CloudReading& reading, std::vector<std::string>& notes) const {
@@ -101,6 +131,13 @@ void RingSurvey::decide(CloudReading& reading, std::vector<std::string>& notes) 
     notes.push_back(fmt::format("points have no ring: derived from the {} of the organised cloud",
                                 source_ == RingSource::kRow ? "row" : "column"));
   }
+  if (are_lines()) {
+    notes.push_back(
+        fmt::format("points of one {} are spread over elevations: lines of a rosette, not rings",
+                    source_ == RingSource::kField ? "'" + name_ + "'" : "row"));
+    return;
+  }
+  reading.rings = rings();
   if (!highest_first()) return;
   reading.flipped_rings = static_cast<int>(rings_.size());
   notes.push_back("ring 0 is the highest: renumbered from the lowest");

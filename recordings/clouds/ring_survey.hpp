@@ -28,11 +28,17 @@ class RingSurvey {
 
  private:
   struct Mean {
-    double elevation_sum = 0.0;  ///< [rad]
+    double elevation_sum = 0.0;      ///< [rad]
+    double elevation_squares = 0.0;  ///< [rad^2]
     int points = 0;
+
+    double mean() const { return elevation_sum / points; }
+    double deviation() const;
   };
 
   bool highest_first() const;
+  bool are_lines() const;
+  LidarRings rings() const;
 
   bool begun_ = false;
   RingSource source_ = RingSource::kNone;

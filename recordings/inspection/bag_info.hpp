@@ -47,6 +47,7 @@ struct PointFieldInfo {
 /// Layout of the clouds of a topic, from the first ones.
 struct CloudInfo {
   std::string topic;
+  std::string driver;                  ///< whose fields they are, e.g. "ouster-ros"; empty: unknown
   std::vector<PointFieldInfo> fields;  ///< of a Livox CustomMsg, those of its points
   std::size_t point_step = 0;          ///< [bytes]
   std::size_t height = 0;              ///< 1: not organised

@@ -48,6 +48,7 @@ std::string cloud_text(const CloudInfo& cloud) {
   if (cloud.not_finite_fraction > 0.0) {
     text += fmt::format(", {:.1f} % not finite", 100.0 * cloud.not_finite_fraction);
   }
+  if (!cloud.driver.empty()) text += fmt::format("; fields of {}", cloud.driver);
   text += fmt::format("; {} bytes a point:", cloud.point_step);
   for (const PointFieldInfo& each : cloud.fields) {
     text += fmt::format(" {} {}@{}", each.name, each.type, each.offset);

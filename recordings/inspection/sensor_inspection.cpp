@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "recordings/clouds/cloud_driver.hpp"
 #include "recordings/clouds/point_table.hpp"
 #include "recordings/median.hpp"
 #include "recordings/messages/message_values.hpp"
@@ -30,6 +31,7 @@ void CloudInspection::add(const MessageView& message) {
   }
   if (info_.clouds++ == 0) {
     info_.height = table->height;
+    info_.driver = driver_of(*table);
     info_.point_step = table->point_step;
     info_.dense = message.number("is_dense").value_or(1.0) != 0.0;
     for (const ColumnLayout& each : table->columns) {

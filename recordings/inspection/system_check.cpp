@@ -53,9 +53,10 @@ void SystemCheck::point_times(Fulfilment without, const std::string& remedy) {
 void SystemCheck::rings(Fulfilment without, const std::string& remedy) {
   if (!bag_.cloud) return;
   const auto* field = bag_.cloud->ring_field();
-  if (field) return met("ring of each point", field->name + " " + field->type);
+  const bool lines = field != nullptr && field->name == "line";  // of a Livox
+  if (field && !lines) return met("ring of each point", field->name + " " + field->type);
   if (bag_.cloud->height > 1) return met("ring of each point", "rows of the organised cloud");
-  add(without, "ring of each point", "no such field", remedy);
+  add(without, "ring of each point", lines ? "lines, which are no rings" : "no such field", remedy);
 }
 
 void SystemCheck::exact_field(const std::string& name, const std::string& type,

@@ -2,7 +2,6 @@
 #include "recordings/messages/message_encoding.hpp"
 
 #include <array>
-#include <cstring>
 
 #include "core/leg_kinematics.hpp"
 
@@ -11,9 +10,6 @@ namespace {
 
 /// First entry of a covariance whose quantity is not estimated (sensor_msgs/Imu).
 constexpr double kNoEstimate = -1.0;
-constexpr std::size_t kPointStep = 22;
-constexpr std::uint8_t kPointUint16 = 4;
-constexpr std::uint8_t kPointFloat32 = 7;
 constexpr std::array<std::string_view, 3> kJointsOfLeg = {"hip_joint", "thigh_joint", "calf_joint"};
 
 void put(MessageBytes& out, const MessageHeader& header) {
@@ -34,48 +30,28 @@ void put_unknown_covariance(MessageBytes& out, int size) {
   for (int i = 0; i < size * size; ++i) out.put(0.0);
 }
 
-void put_point_field(MessageBytes& out, std::string_view name, std::uint32_t offset,
-                     std::uint8_t type) {
-  out.text(name);
-  out.put(offset);
-  out.put(type);
-  out.put(std::uint32_t{1});
-}
-
-void write_point(const LidarPoint& point, std::byte* bytes) {
-  const auto time = static_cast<float>(point.time_offset_ns * 1e-9);
-  std::memcpy(bytes, point.position.data(), 12);
-  std::memcpy(bytes + 12, &point.intensity, 4);
-  std::memcpy(bytes + 16, &point.ring, 2);
-  std::memcpy(bytes + 18, &time, 4);
-}
-
 }  // namespace
 
 MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan,
-                           Serialization serialization) {
+                           Serialization serialization, const CloudFormat& format) {
+  const PointLayout layout = point_layout(format.layout);
+  const PointBlock points = point_block(scan, format);
   MessageBytes out(serialization);
-  const auto width = static_cast<std::uint32_t>(scan.points.size());
-  out.reserve(256 + kPointStep * scan.points.size());
+  out.reserve(512 + points.bytes.size());
   put(out, header);
-  out.put(std::uint32_t{1});  // height
-  out.put(width);
-  out.length(6);
-  put_point_field(out, "x", 0, kPointFloat32);
-  put_point_field(out, "y", 4, kPointFloat32);
-  put_point_field(out, "z", 8, kPointFloat32);
-  put_point_field(out, "intensity", 12, kPointFloat32);
-  put_point_field(out, "ring", 16, kPointUint16);
-  put_point_field(out, "time", 18, kPointFloat32);
-  out.put(false);  // is_bigendian
-  out.put(static_cast<std::uint32_t>(kPointStep));
-  out.put(static_cast<std::uint32_t>(kPointStep * width));
-  out.length(kPointStep * scan.points.size());
-  std::byte* next = out.extend(kPointStep * scan.points.size());
-  for (const LidarPoint& point : scan.points) {
-    write_point(point, next);
-    next += kPointStep;
+  out.put(points.height);
+  out.put(points.width);
+  out.length(layout.fields.size());
+  for (const PointFieldLayout& field : layout.fields) {
+    out.text(field.name);
+    out.put(field.offset);
+    out.put(field.type);
+    out.put(std::uint32_t{1});  // count
   }
+  out.put(false);  // is_bigendian
+  out.put(layout.point_step);
+  out.put(layout.point_step * points.width);
+  out.array(points.bytes);
   out.put(true);  // is_dense
   return out;
 }

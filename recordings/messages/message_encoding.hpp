@@ -10,6 +10,7 @@
 #include "core/measurements.hpp"
 #include "recordings/messages/message_bytes.hpp"
 #include "recordings/messages/message_values.hpp"
+#include "recordings/messages/point_layout.hpp"
 
 namespace aims {
 
@@ -29,10 +30,12 @@ struct OdometryContent {
 
 // Messages in either serialization.
 
-/// sensor_msgs/PointCloud2 with 22 bytes a point: x, y, z, intensity float32 at 0, 4, 8, 12, ring
-/// uint16 at 16, time float32 [s] after the header's stamp at 18; in firing order, height 1.
+/// sensor_msgs/PointCloud2 in the layout of `format`, see `point_block`. By default 22 bytes a
+/// point: x, y, z, intensity float32 at 0, 4, 8, 12, ring uint16 at 16, time float32 [s] after the
+/// header's stamp at 18; in firing order, height 1.
 MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan,
-                           Serialization serialization = Serialization::kRos1);
+                           Serialization serialization = Serialization::kRos1,
+                           const CloudFormat& format = {});
 
 /// sensor_msgs/Imu; covariances unknown (zero). Without an orientation the first entry of its
 /// covariance is -1 and the quaternion the identity.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/lidar_rings.hpp"
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
 #include "recordings/bag/chunk_reader.hpp"
@@ -23,7 +24,7 @@ struct RecordingSetup {
   bool has_legs = false;
   bool has_joints = false;       ///< of the legs, and contacts of the feet
   bool has_point_times = false;  ///< else they are derived from the azimuths
-  bool has_rings = false;        ///< of the points, or as rows; else derived from the elevations
+  LidarRings rings;              ///< of the points, or as rows; none: derived, or lines
   bool has_orientation = false;  ///< of the IMU
   bool has_truth = false;
   std::optional<double> imu_rate_hz;  ///< from the first stamps

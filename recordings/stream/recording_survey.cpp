@@ -235,8 +235,7 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
     }
     plan.cloud = clouds_.decide(config_, plan.setup.notes);
     plan.setup.has_point_times = plan.cloud.clock != PointClock::kNone;
-    plan.setup.has_rings = plan.cloud.ring_source != RingSource::kNone &&
-                           plan.cloud.ring_source != RingSource::kElevation;
+    plan.setup.rings = plan.cloud.rings;
   }
   decide_stamps(plan);
   decide_imu(plan);

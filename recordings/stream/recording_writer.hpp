@@ -40,6 +40,9 @@ class RecordingWriter {
   static Result<RecordingWriter> create(const std::filesystem::path& bag, const SensorRig& rig,
                                         std::string_view scenario);
 
+  /// How scans are laid out from now on.
+  void set_cloud_format(const CloudFormat& format) { cloud_format_ = format; }
+
   Result<void> write_imu(ImuOutput output, Time arrival, const ImuSample& sample);
   Result<void> write_scan(Time arrival, const LidarScan& scan);
   /// Joint states, contacts, then odometry, with the same record time.
@@ -79,6 +82,7 @@ class RecordingWriter {
   std::unique_ptr<MessageSink> recording_;
   Serialization serialization_;
   SensorRig rig_;
+  CloudFormat cloud_format_;
   std::array<std::int64_t, kTopicCount> connections_;  ///< -1: not announced yet
   std::array<std::uint32_t, kTopicCount> sequences_{};
   int dropped_ = 0;

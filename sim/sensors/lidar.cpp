@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "sim/environment/people.hpp"
 #include "sim/sensors/pose_cursor.hpp"
 
@@ -37,17 +38,21 @@ void append_hit(const RayPacket& rays, const HitPacket& hits, int lane, ScanTrut
 Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed)
     : config_(config),
       caster_(&caster),
+      pattern_(config),
       calibration_(draw_calibration(config, run_seed)),
       model_(config, calibration_),
       noise_(run_seed, "lidar.noise"),
       detection_(run_seed, "lidar.detection"),
       intensity_noise_(run_seed, "lidar.intensity"),
-      beams_(make_beams(config, calibration_, run_seed)),
-      returns_(static_cast<std::size_t>(config.rings)),
+      direction_noise_(run_seed, "lidar.direction"),
+      works_(working_lines(config, run_seed)),
+      beams_(make_beams(config, pattern_, calibration_, works_, 0)),
+      columns_(pattern_.columns(0)),
+      returns_(static_cast<std::size_t>(pattern_.lines())),
       before_(config.beam.is_line() ? 0 : returns_.size()),
       errors_(returns_.size()),
       footprint_(config.beam),
-      edges_(config.rings, config.columns),
+      edges_(pattern_.lines(), pattern_.max_columns()),
       // Six sigma beyond the limit: noise cannot bring farther hits back into range.
       reach_(static_cast<float>(config.range_max + model_.largest_range_error())) {
   for (const Material& material : caster.materials()) {
@@ -59,7 +64,7 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
 }
 
 int Lidar::lanes_of(int block) const {
-  return std::min(kRayPacketSize, config_.columns - block * kRayPacketSize);
+  return std::min(kRayPacketSize, columns_ - block * kRayPacketSize);
 }
 
 LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* truth) {
@@ -67,12 +72,15 @@ LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* tr
   LidarScan scan;
   scan.stamp = start;
   scan.end = start + period();
-  scan.points.reserve(static_cast<std::size_t>(config_.rings) * config_.columns);
+  const std::int64_t index = (start + period() / 2) / period();
+  if (!pattern_.repeats()) take_beams(index);
+  scan.points.reserve(returns_.size() * static_cast<std::size_t>(columns_));
   PoseCursor cursor(T_world_lidar);
   std::vector<Pose> poses(kRayPacketSize + 1);
-  const double column_ns = column_period_ns(config_);
-  const int blocks = (config_.columns + kRayPacketSize - 1) / kRayPacketSize;
-  poses.back() = cursor.at(start);
+  const double column_ns = pattern_.column_period_ns();
+  const double begin_ns = pattern_.first_column_ns(index);
+  const int blocks = (columns_ + kRayPacketSize - 1) / kRayPacketSize;
+  poses.back() = cursor.at(start + std::llround(begin_ns));
   edges_.clear();
   // An edge is known once the next block is cast: with footprints, points follow a block later.
   for (int block = 0; block < blocks; ++block) {
@@ -80,7 +88,7 @@ LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* tr
     poses.front() = poses.back();
     for (int lane = 1; lane <= kRayPacketSize; ++lane) {
       const int column = first + std::min(lane, lanes_of(block));
-      poses[lane] = cursor.at(start + std::llround(column * column_ns));
+      poses[lane] = cursor.at(start + std::llround(column * column_ns + begin_ns));
     }
     aim(block, poses);
     receive(block, start);
@@ -94,6 +102,12 @@ LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* tr
   }
   if (!config_.beam.is_line()) finish_before(blocks - 1, scan, truth);
   return scan;
+}
+
+/// Replaces the beams by those of the pattern's scan `index`.
+void Lidar::take_beams(std::int64_t index) {
+  beams_ = make_beams(config_, pattern_, calibration_, works_, index);
+  columns_ = pattern_.columns(index);
 }
 
 /// Rays of a block of columns: within one column, pose and time are blended linearly between its
@@ -116,11 +130,10 @@ void Lidar::aim(int block, const std::vector<Pose>& column_poses) {
     }
     here = next;
   }
-  for (int ring = 0; ring < config_.rings; ++ring) {
-    const BeamDirections& beams = beams_.actual(block * config_.rings + ring);
-    RayPacket& rays = returns_[ring].rays;
-    const auto fraction =
-        static_cast<float>(ring * ring_interval_ns(config_) / column_period_ns(config_));
+  for (int line = 0; line < pattern_.lines(); ++line) {
+    const BeamDirections& beams = beams_.actual(block * pattern_.lines() + line);
+    RayPacket& rays = returns_[line].rays;
+    const auto fraction = static_cast<float>(pattern_.delay_ns(line) / pattern_.column_period_ns());
     const auto at = [&](int entry, int lane) {
       return begin[entry][lane] + fraction * change[entry][lane];
     };
@@ -155,11 +168,11 @@ void Lidar::cast(const std::array<Time, kRayPacketSize>& stamps, int count, Retu
 }
 
 void Lidar::receive(int block, Time start) {
-  for (int ring = 0; ring < config_.rings; ++ring) {
-    const BeamPacket& beams = beams_.packets[block * config_.rings + ring];
+  for (int line = 0; line < pattern_.lines(); ++line) {
+    const BeamPacket& beams = beams_.packets[block * pattern_.lines() + line];
     std::array<Time, kRayPacketSize> stamps;
     for (int i = 0; i < kRayPacketSize; ++i) stamps[i] = start + beams.time_offset_ns[i];
-    cast(stamps, lanes_of(block), returns_[ring]);
+    cast(stamps, lanes_of(block), returns_[line]);
   }
 }
 
@@ -169,13 +182,13 @@ bool Lidar::detected(float strength, float range) {
 }
 
 void Lidar::find_range_errors(const std::vector<Returns>& returns) {
-  for (int ring = 0; ring < config_.rings; ++ring) {
-    const Returns& each = returns[ring];
-    RangeErrors& errors = errors_[ring];
+  for (int line = 0; line < pattern_.lines(); ++line) {
+    const Returns& each = returns[line];
+    RangeErrors& errors = errors_[line];
     if (model_.noise_differs()) {
       model_.range_sigmas(each.strength, each.hits.distance, errors.sigma);
     }
-    if (model_.has_bias()) model_.range_biases(ring, each.cosine, errors.bias);
+    if (model_.has_bias()) model_.range_biases(line, each.cosine, errors.bias);
   }
 }
 
@@ -194,39 +207,49 @@ float Lidar::measured_intensity(float strength) {
   return static_cast<float>(std::clamp(rounded(intensity, config_.intensity_resolution), 0.0, 1.0));
 }
 
+/// The nominal direction, turned by the noise of the sensor's angles.
+Eigen::Vector3f Lidar::reported_direction(const BeamPacket& beams, int lane) {
+  const Eigen::Vector3f nominal(beams.nominal.x[lane], beams.nominal.y[lane],
+                                beams.nominal.z[lane]);
+  if (config_.direction_sigma_deg == 0.0) return nominal;
+  const double sigma = config_.direction_sigma_deg * kRadiansPerDegree;
+  const auto across = static_cast<float>(sigma * direction_noise_.normal());
+  const auto up = static_cast<float>(sigma * direction_noise_.normal());
+  const Eigen::Vector3f sideways = Eigen::Vector3f::UnitZ().cross(nominal).normalized();
+  return (nominal + across * sideways + up * nominal.cross(sideways)).normalized();
+}
+
 void Lidar::append_points(int block, const std::vector<Returns>& returns, LidarScan& scan,
                           ScanTruth* truth) {
   find_range_errors(returns);
   const int lanes = lanes_of(block);
   for (int lane = 0; lane < lanes; ++lane) {
-    for (int ring = 0; ring < config_.rings; ++ring) {
-      const BeamPacket& beams = beams_.packets[block * config_.rings + ring];
-      const Returns& each = returns[ring];
+    for (const int line : pattern_.firing_order()) {
+      const BeamPacket& beams = beams_.packets[block * pattern_.lines() + line];
+      const Returns& each = returns[line];
       if (each.hits.surface[lane] < 0 || !beams.open[lane]) continue;
       if (!detected(each.strength[lane], each.hits.distance[lane])) continue;
-      const double range = measured_range(each.hits.distance[lane], errors_[ring], lane);
+      const double range = measured_range(each.hits.distance[lane], errors_[line], lane);
       if (range < config_.range_min || range > config_.range_max) continue;
       LidarPoint& point = scan.points.emplace_back();
-      point.position =
-          static_cast<float>(range) *
-          Eigen::Vector3f(beams.nominal.x[lane], beams.nominal.y[lane], beams.nominal.z[lane]);
+      point.position = static_cast<float>(range) * reported_direction(beams, lane);
       point.intensity = measured_intensity(each.strength[lane]);
       point.time_offset_ns = beams.time_offset_ns[lane];
-      point.ring = static_cast<std::uint16_t>(ring);
+      point.ring = static_cast<std::uint16_t>(line);
       if (truth == nullptr) continue;
       append_hit(each.rays, each.hits, lane, *truth);
-      append_noise(ring, block * kRayPacketSize + lane, *truth);
+      append_noise(line, block * kRayPacketSize + lane, *truth);
     }
   }
 }
 
 /// Rounding to a step adds step^2 / 12 to the variance.
-void Lidar::append_noise(int ring, int column, ScanTruth& truth) const {
+void Lidar::append_noise(int line, int column, ScanTruth& truth) const {
   if (config_.beam.is_line() && !model_.noise_differs() && config_.range_resolution == 0.0) return;
   const double sigma =
-      model_.noise_differs() ? errors_[ring].sigma[column % kRayPacketSize] : config_.range_sigma;
+      model_.noise_differs() ? errors_[line].sigma[column % kRayPacketSize] : config_.range_sigma;
   const double rounding = config_.range_resolution * config_.range_resolution / 12.0;
-  truth.range_sigmas.push_back(edges_.marked(ring, column)
+  truth.range_sigmas.push_back(edges_.marked(line, column)
                                    ? std::numeric_limits<float>::infinity()
                                    : static_cast<float>(std::sqrt(sigma * sigma + rounding)));
 }

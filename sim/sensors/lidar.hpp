@@ -34,33 +34,37 @@ struct ScanTruth {
 class Lidar {
  public:
   /// `caster` must outlive the LiDAR. Random streams: "lidar.noise", "lidar.detection",
-  /// "lidar.intensity", "lidar.calibration", "lidar.defects".
+  /// "lidar.intensity", "lidar.direction", "lidar.calibration", "lidar.defects".
   Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed);
 
   /// Nominal length of one scan.
   Duration period() const { return scan_period(config_); }
 
+  const ScanPattern& pattern() const { return pattern_; }
+
   /// The errors drawn for this run; no estimator may see them.
   const LidarCalibration& calibration() const { return calibration_; }
 
-  /// The scan that starts at `start`; each firing leaves from the pose at its own time.
-  /// `T_world_lidar` should cover the scan; beyond its ends the first or last pose holds.
+  /// The scan that starts at `start`, the pattern's scan of that time; each firing leaves from the
+  /// pose at its own time. `T_world_lidar` should cover the scan; beyond its ends the first or last
+  /// pose holds.
   LidarScan scan(Time start, const Trajectory& T_world_lidar, ScanTruth* truth = nullptr);
 
  private:
-  /// One ring's firings of a block of columns and their returns.
+  /// One line's firings of a block of columns and their returns.
   struct Returns {
     RayPacket rays;
     HitPacket hits;
     LaneValues cosine;    ///< of the incidence [-]
     LaneValues strength;  ///< see `ReturnModel` [-]
   };
-  /// Range errors of one ring's firings of a block.
+  /// Range errors of one line's firings of a block.
   struct RangeErrors {
     LaneValues sigma;  ///< white noise [m]
     LaneValues bias;   ///< [m]
   };
 
+  void take_beams(std::int64_t index);
   void aim(int block, const std::vector<Pose>& column_poses);
   void receive(int block, Time start);
   void cast(const std::array<Time, kRayPacketSize>& stamps, int count, Returns& each) const;
@@ -72,24 +76,29 @@ class Lidar {
   void finish_before(int block, LidarScan& scan, ScanTruth* truth);
   void append_points(int block, const std::vector<Returns>& returns, LidarScan& scan,
                      ScanTruth* truth);
-  void append_noise(int ring, int column, ScanTruth& truth) const;
+  void append_noise(int line, int column, ScanTruth& truth) const;
   void find_range_errors(const std::vector<Returns>& returns);
   bool detected(float strength, float range);
   double measured_range(float distance, const RangeErrors& errors, int lane);
   float measured_intensity(float strength);
+  Eigen::Vector3f reported_direction(const BeamPacket& beams, int lane);
   int lanes_of(int block) const;
 
   LidarConfig config_;
   const RayCaster* caster_;
+  ScanPattern pattern_;
   LidarCalibration calibration_;
   ReturnModel model_;
   RandomStream noise_;
   RandomStream detection_;
   RandomStream intensity_noise_;
+  RandomStream direction_noise_;
   std::vector<float> reflectivity_;  ///< by surface
-  LidarBeams beams_;
-  std::vector<Returns> returns_;  ///< of the newest block, by ring
-  std::vector<Returns> before_;   ///< of the block before, by ring; only with footprints
+  std::vector<bool> works_;          ///< by line
+  LidarBeams beams_;                 ///< of the present scan
+  int columns_;                      ///< of the present scan
+  std::vector<Returns> returns_;     ///< of the newest block, by line
+  std::vector<Returns> before_;      ///< of the block before, by line; only with footprints
   std::vector<RangeErrors> errors_;
   BeamFootprint footprint_;
   EdgeMap edges_;

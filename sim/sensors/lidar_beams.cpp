@@ -12,25 +12,6 @@
 namespace aims {
 namespace {
 
-/// Direction of a beam in the LiDAR frame.
-struct BeamAngles {
-  double azimuth = 0.0;    ///< from +x to +y [rad]
-  double elevation = 0.0;  ///< [rad]
-
-  Eigen::Vector3d direction() const {
-    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-            std::sin(elevation)};
-  }
-};
-
-BeamAngles nominal_angles(const LidarConfig& config, int ring, double time_offset_ns) {
-  const double turned = time_offset_ns / static_cast<double>(scan_period(config));
-  const double fraction = config.rings > 1 ? static_cast<double>(ring) / (config.rings - 1) : 0.0;
-  return {
-      config.start_azimuth_deg * kRadiansPerDegree - 2.0 * std::numbers::pi * turned,
-      kRadiansPerDegree * std::lerp(config.elevation_min_deg, config.elevation_max_deg, fraction)};
-}
-
 BeamAngles true_angles(const LidarCalibration& calibration, int ring, const BeamAngles& nominal) {
   return {nominal.azimuth + calibration.azimuth_cosine * std::cos(nominal.azimuth) +
               calibration.azimuth_sine * std::sin(nominal.azimuth),
@@ -51,20 +32,6 @@ bool enters_body_mask(const LidarConfig& config, const Eigen::Vector3d& directio
   return enter <= leave;
 }
 
-/// The working rings: the dead ones are drawn without replacement.
-std::vector<bool> working_rings(const LidarConfig& config, std::uint64_t run_seed) {
-  RandomStream random = rng(run_seed, "lidar.defects");
-  std::vector<bool> works(static_cast<std::size_t>(config.rings), true);
-  const auto dead = std::lround(config.defects.dead_ring_fraction * config.rings);
-  for (long lost = 0; lost < dead;) {
-    const auto ring = static_cast<std::size_t>(random.uniform(0.0, config.rings));
-    if (ring >= works.size() || !works[ring]) continue;
-    works[ring] = false;
-    ++lost;
-  }
-  return works;
-}
-
 /// The time offset of a firing [ns], rounded to float32 seconds as in a recording.
 std::int32_t sensor_time_offset(double offset_ns) {
   const auto seconds = static_cast<float>(offset_ns * 1e-9);
@@ -79,21 +46,23 @@ bool is_blocked(const LidarDefectConfig& defects, const Eigen::Vector3d& directi
          0.5 * defects.blocked_sector_width_deg * kRadiansPerDegree;
 }
 
-/// Fills the lanes of a packet; lanes beyond the last column repeat it.
-void fill(const LidarConfig& config, const LidarCalibration& calibration, int block, int ring,
-          BeamPacket& beams, BeamDirections& actual) {
+/// Fills the lanes of a packet with the firings of a line from column `first` on; lanes beyond the
+/// last column repeat it.
+void fill(const LidarConfig& config, const LidarCalibration& calibration,
+          const ScanPattern& pattern, std::int64_t scan, int first, int line, BeamPacket& beams,
+          BeamDirections& actual) {
+  const int last = pattern.columns(scan) - 1;
   for (int lane = 0; lane < kRayPacketSize; ++lane) {
-    const int column = std::min(block * kRayPacketSize + lane, config.columns - 1);
-    const double offset = column * column_period_ns(config) + ring * ring_interval_ns(config);
-    const BeamAngles nominal = nominal_angles(config, ring, offset);
-    const Eigen::Vector3d direction = nominal.direction();
-    const Eigen::Vector3d fired = true_angles(calibration, ring, nominal).direction();
+    const Firing firing = pattern.firing(scan, std::min(first + lane, last), line);
+    const Eigen::Vector3d direction = firing.beam.direction();
     beams.nominal.x[lane] = static_cast<float>(direction.x());
     beams.nominal.y[lane] = static_cast<float>(direction.y());
     beams.nominal.z[lane] = static_cast<float>(direction.z());
-    beams.time_offset_ns[lane] = sensor_time_offset(offset);
+    beams.time_offset_ns[lane] = sensor_time_offset(firing.time_offset_ns);
     beams.open[lane] =
         !is_blocked(config.defects, direction) && !enters_body_mask(config, direction);
+    if (calibration.directions_are_nominal()) continue;
+    const Eigen::Vector3d fired = true_angles(calibration, line, firing.beam).direction();
     actual.x[lane] = static_cast<float>(fired.x());
     actual.y[lane] = static_cast<float>(fired.y());
     actual.z[lane] = static_cast<float>(fired.z());
@@ -102,29 +71,41 @@ void fill(const LidarConfig& config, const LidarCalibration& calibration, int bl
 
 }  // namespace
 
-Duration scan_period(const LidarConfig& config) { return from_seconds(1.0 / config.rate); }
-
-double column_period_ns(const LidarConfig& config) {
-  return static_cast<double>(scan_period(config)) / config.columns;
+std::vector<bool> working_lines(const LidarConfig& config, std::uint64_t run_seed) {
+  RandomStream random = rng(run_seed, "lidar.defects");
+  const int lines = line_count(config);
+  std::vector<bool> works(static_cast<std::size_t>(lines), true);
+  if (config.pattern == LidarPattern::kRosette) return works;
+  // Drawn without replacement.
+  const auto dead = std::lround(config.defects.dead_ring_fraction * lines);
+  for (long lost = 0; lost < dead;) {
+    const auto ring = static_cast<std::size_t>(random.uniform(0.0, lines));
+    if (ring >= works.size() || !works[ring]) continue;
+    works[ring] = false;
+    ++lost;
+  }
+  return works;
 }
 
-double ring_interval_ns(const LidarConfig& config) {
-  return std::min(1e3 * config.ring_interval_us, column_period_ns(config) / config.rings);
-}
-
-LidarBeams make_beams(const LidarConfig& config, const LidarCalibration& calibration,
-                      std::uint64_t run_seed) {
-  const std::vector<bool> works = working_rings(config, run_seed);
-  const int blocks = (config.columns + kRayPacketSize - 1) / kRayPacketSize;
+LidarBeams make_beams(const LidarConfig& config, const ScanPattern& pattern,
+                      const LidarCalibration& calibration, const std::vector<bool>& works,
+                      std::int64_t scan) {
+  const int columns = pattern.columns(scan);
+  const auto packets =
+      static_cast<std::size_t>((columns + kRayPacketSize - 1) / kRayPacketSize * pattern.lines());
+  const bool nominal = calibration.directions_are_nominal();
   LidarBeams result;
-  for (int block = 0; block < blocks; ++block) {
-    for (int ring = 0; ring < config.rings; ++ring) {
+  result.packets.reserve(packets);
+  if (!nominal) result.deviating.reserve(packets);
+  BeamDirections unused;
+  for (int first = 0; first < columns; first += kRayPacketSize) {
+    for (int line = 0; line < pattern.lines(); ++line) {
       BeamPacket& beams = result.packets.emplace_back();
-      fill(config, calibration, block, ring, beams, result.deviating.emplace_back());
-      if (!works[static_cast<std::size_t>(ring)]) beams.open.fill(false);
+      fill(config, calibration, pattern, scan, first, line, beams,
+           nominal ? unused : result.deviating.emplace_back());
+      if (!works[static_cast<std::size_t>(line)]) beams.open.fill(false);
     }
   }
-  if (calibration.directions_are_nominal()) result.deviating = {};
   return result;
 }
 

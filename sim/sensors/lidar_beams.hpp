@@ -5,28 +5,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/time.hpp"
 #include "sim/environment/ray_caster.hpp"
 #include "sim/sensors/lidar_calibration.hpp"
 #include "sim/sensors/lidar_config.hpp"
+#include "sim/sensors/scan_pattern.hpp"
 
 namespace aims {
-
-/// Nominal length of one scan.
-Duration scan_period(const LidarConfig& config);
-
-/// Time between the firings of neighbouring columns [ns].
-double column_period_ns(const LidarConfig& config);
-
-/// Time between the firings of neighbouring rings of a column [ns].
-double ring_interval_ns(const LidarConfig& config);
 
 /// Unit directions of sixteen beams in the LiDAR frame.
 struct alignas(64) BeamDirections {
   RayPacket::Lanes x, y, z;
 };
 
-/// Sixteen neighbouring firings of one ring.
+/// Sixteen neighbouring firings of one ring or line.
 struct alignas(64) BeamPacket {
   BeamDirections nominal;                                   ///< as the sensor reports them
   std::array<std::int32_t, kRayPacketSize> time_offset_ns;  ///< after the scan's start
@@ -35,7 +26,7 @@ struct alignas(64) BeamPacket {
 
 /// The firings of a scan.
 struct LidarBeams {
-  std::vector<BeamPacket> packets;  ///< block of columns by block, ring by ring
+  std::vector<BeamPacket> packets;  ///< block of columns by block, line by line
   /// True directions, as `packets`; empty when they are the nominal ones.
   std::vector<BeamDirections> deviating;
 
@@ -45,8 +36,12 @@ struct LidarBeams {
   }
 };
 
-/// The beams of a run; dead rings are drawn from "lidar.defects".
-LidarBeams make_beams(const LidarConfig& config, const LidarCalibration& calibration,
-                      std::uint64_t run_seed);
+/// The rings or lines that work; the dead rings of a run are drawn from "lidar.defects".
+std::vector<bool> working_lines(const LidarConfig& config, std::uint64_t run_seed);
+
+/// The beams of scan `scan`.
+LidarBeams make_beams(const LidarConfig& config, const ScanPattern& pattern,
+                      const LidarCalibration& calibration, const std::vector<bool>& works,
+                      std::int64_t scan);
 
 }  // namespace aims

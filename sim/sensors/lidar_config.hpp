@@ -2,7 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "core/cloud_layout.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
 
@@ -47,10 +51,42 @@ struct LidarBeamConfig {
 
 void describe(Fields& fields, LidarBeamConfig& config);
 
-/// A spinning multi-ring LiDAR.
+/// How the beams of a LiDAR move.
+enum class LidarPattern {
+  kSpinning,  ///< rings at fixed elevations turn about the vertical axis
+  kRosette,   ///< rotating prisms deflect a few beams, and no scan repeats the one before
+};
+
+/// The channels of a spinning sensor, one entry each, in the order of its datasheet.
+struct LidarTableConfig {
+  std::vector<double> elevations_deg;  ///< [deg]; empty: uniform, from the other keys
+  /// Of the beam ahead of the housing's azimuth, positive clockwise [deg]; empty: none.
+  std::vector<double> azimuth_offsets_deg;
+  std::vector<double> firing_delays_us;  ///< after the column's begin [us]; empty: by the rings
+};
+
+void describe(Fields& fields, LidarTableConfig& config);
+
+/// Beams deflected by rotating prisms. Deflections add as vectors in the plane whose polar
+/// coordinates are the angle from the z axis and the azimuth.
+struct LidarRosetteConfig {
+  double point_rate = 0.0;                    ///< firings of all beams together [Hz]
+  std::vector<double> prism_deflections_deg;  ///< [deg]
+  std::vector<double> prism_rates;            ///< positive from +x to +y [Hz]
+  std::vector<double> line_offsets_deg;       ///< of each beam from the axis of the prisms [deg]
+  double line_azimuth_deg = 0.0;              ///< in which the offsets lie [deg]
+};
+
+void describe(Fields& fields, LidarRosetteConfig& config);
+
+/// A LiDAR with one return per firing. The defaults are those of the model `generic`.
 struct LidarConfig {
+  std::string model = "generic";  ///< of models/lidars; its figures lie below a scenario's own keys
+  LidarPattern pattern = LidarPattern::kSpinning;
+  CloudLayout layout = CloudLayout::kAims;  ///< of the clouds in a recording
   int rings = 16;
   int columns = 1800;                ///< firings of each ring per scan
+  double column_interval_us = 0.0;   ///< fixed time between columns [us]; 0: `columns` a scan
   double rate = 10.0;                ///< scans per second [Hz]
   double elevation_min_deg = -15.0;  ///< of ring 0 [deg]
   double elevation_max_deg = 15.0;   ///< of the last ring [deg]
@@ -62,8 +98,9 @@ struct LidarConfig {
   /// White noise on top at the power of the detection threshold [m]; the variance falls as one over
   /// the received power.
   double range_sigma_at_threshold = 0.0;
-  double range_resolution = 0.0;    ///< step of the reported range [m]; 0: continuous
-  double miss_probability = 0.005;  ///< of a return lost at random [-]
+  double direction_sigma_deg = 0.0;  ///< white noise of the reported direction, per axis [deg]
+  double range_resolution = 0.0;     ///< step of the reported range [m]; 0: continuous
+  double miss_probability = 0.005;   ///< of a return lost at random [-]
   /// Range at which half the returns of a facing target of 10 % reflectivity are detected [m].
   double range_at_10_percent = 50.0;
   double detection_steepness = 6.0;  ///< of the detection probability in the received power [-]
@@ -77,6 +114,8 @@ struct LidarConfig {
   /// box masks nothing.
   Eigen::Vector3d body_mask_min = Eigen::Vector3d(-0.10, -0.15, -0.32);
   Eigen::Vector3d body_mask_max = Eigen::Vector3d(0.42, 0.15, -0.085);
+  LidarTableConfig table;
+  LidarRosetteConfig rosette;
   LidarBeamConfig beam;
   LidarCalibrationConfig calibration;
   LidarDefectConfig defects;
@@ -84,7 +123,22 @@ struct LidarConfig {
 
 void describe(Fields& fields, LidarConfig& config);
 
-/// Error for limits in the wrong order.
+/// Error for limits in the wrong order, and for tables that do not fit together.
 Result<void> validate(const LidarConfig& config);
+
+/// Beams that fire one after the other in each column: rings, or the lines of a rosette.
+int line_count(const LidarConfig& config);
+
+/// The same sensor with one firing in `factor`.
+LidarConfig with_fewer_firings(LidarConfig config, int factor);
+
+/// A file of models/lidars, part of the program.
+struct LidarModel {
+  std::string_view name;  ///< of the file, without its ending
+  std::string_view text;  ///< YAML
+};
+
+/// Every LiDAR model; the first is the default.
+std::vector<LidarModel> lidar_models();
 
 }  // namespace aims

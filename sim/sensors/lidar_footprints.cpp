@@ -2,7 +2,6 @@
 // Footprints over edges: where they may be, and what they return.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim/sensors/lidar.hpp"
 
@@ -13,7 +12,7 @@ namespace aims {
 void Lidar::mark_edges(int block) {
   const int lanes = lanes_of(block);
   const int first = block * kRayPacketSize;
-  for (int ring = 0; ring < config_.rings; ++ring) {
+  for (int ring = 0; ring < pattern_.lines(); ++ring) {
     const Returns& each = returns_[ring];
     const auto& surface = each.hits.surface;
     if (block > 0) mark_edge(ring, first - 1, before_[ring], kRayPacketSize - 1, each, 0);
@@ -21,7 +20,7 @@ void Lidar::mark_edges(int block) {
       if (surface[lane] == surface[lane + 1]) continue;  // most pairs: no call
       mark_edge(ring, first + lane, each, lane, each, lane + 1);
     }
-    if (ring + 1 == config_.rings) continue;
+    if (!pattern_.has_rings() || ring + 1 == pattern_.lines()) continue;
     const Returns& above = returns_[ring + 1];
     for (int lane = 0; lane < lanes; ++lane) {
       if (surface[lane] == above.hits.surface[lane]) continue;
@@ -37,8 +36,7 @@ void Lidar::mark_edge(int ring, int column, const Returns& a, int lane_a, const 
                       int lane_b) {
   if (!range_steps_between(a.rays, a.hits, lane_a, b.rays, b.hits, lane_b)) return;
   const double nearer = std::min(a.hits.distance[lane_a], b.hits.distance[lane_b]);
-  const double column_angle = 2.0 * std::numbers::pi / config_.columns;
-  const double reach = std::ceil(footprint_.half_angle(nearer) / column_angle);
+  const double reach = std::ceil(footprint_.half_angle(nearer) / pattern_.column_angle());
   edges_.mark_beside(ring, column, static_cast<int>(std::min<double>(reach, kRayPacketSize - 1)));
 }
 
@@ -51,7 +49,7 @@ void Lidar::probe_borders(int block, int ring, EdgeMap::Place place, Time start)
   Returns border;
   border.rays = footprint_.border(each.rays, place == EdgeMap::kAbove ? 1 : -1);
   std::array<Time, kRayPacketSize> stamps;
-  const BeamPacket& beams = beams_.packets[block * config_.rings + ring];
+  const BeamPacket& beams = beams_.packets[block * pattern_.lines() + ring];
   for (int i = 0; i < kRayPacketSize; ++i) stamps[i] = start + beams.time_offset_ns[i];
   cast(stamps, lanes_of(block), border);
   for (int lane = 0; lane < lanes_of(block); ++lane) {
@@ -64,7 +62,7 @@ void Lidar::probe_borders(int block, int ring, EdgeMap::Place place, Time start)
 /// Resolves the footprints over edges in the block before the newest.
 void Lidar::spread_beams(int block, Time start) {
   const int first = block * kRayPacketSize;
-  for (int ring = 0; ring < config_.rings; ++ring) {
+  for (int ring = 0; ring < pattern_.lines(); ++ring) {
     probe_borders(block, ring, EdgeMap::kAbove, start);
     probe_borders(block, ring, EdgeMap::kBelow, start);
     if (!edges_.any(ring, first, EdgeMap::kBeside | EdgeMap::kAbove | EdgeMap::kBelow)) continue;
@@ -81,7 +79,7 @@ void Lidar::resolve_footprint(int block, int ring, int lane, Time start) {
   Returns parts;
   parts.rays = footprint_.parts(each.rays, lane);
   std::array<Time, kRayPacketSize> stamps;
-  stamps.fill(start + beams_.packets[block * config_.rings + ring].time_offset_ns[lane]);
+  stamps.fill(start + beams_.packets[block * pattern_.lines() + ring].time_offset_ns[lane]);
   cast(stamps, kRayPacketSize, parts);
   if (std::ranges::count(parts.hits.surface, each.hits.surface[lane]) == kRayPacketSize) {
     edges_.unmark(ring, block * kRayPacketSize + lane);

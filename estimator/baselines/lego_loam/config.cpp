@@ -44,7 +44,8 @@ void describe(Fields& f, Config& c) {
 Requirements requirements_of(const Config& config) {
   return {.lidar = true,
           .rings = true,
-          .point_times = config.features.point_times == PointTimes::kMeasured};
+          .point_times = config.features.point_times == PointTimes::kMeasured,
+          .range_image = {config.image.rows, config.image.row_angle_deg}};
 }
 
 Config corridor() {

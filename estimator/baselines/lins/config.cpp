@@ -49,7 +49,8 @@ Requirements requirements_of(const Config& config) {
   return {.lidar = true,
           .imu = true,
           .rings = true,
-          .point_times = config.features.point_times == lego_loam::PointTimes::kMeasured};
+          .point_times = config.features.point_times == lego_loam::PointTimes::kMeasured,
+          .range_image = {config.image.rows, config.image.row_angle_deg}};
 }
 
 Config corridor() {

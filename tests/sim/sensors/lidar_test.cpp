@@ -130,6 +130,56 @@ TEST(Lidar, TimesAreThoseThatFloat32SecondsHold) {
   }
 }
 
+TEST(Lidar, FiringsOfEveryPatternLeaveFromTheirOwnPoses) {
+  LidarConfig table = perfect();
+  table.column_interval_us = 55.296;
+  table.table.elevations_deg = {-15.0, 1.0, -13.0, 3.0};
+  table.table.azimuth_offsets_deg = {1.4, -4.2, 4.2, -1.4};
+  table.table.firing_delays_us = {0.0, 2.304, 4.608, 6.912};
+  LidarConfig rosette = perfect();
+  rosette.pattern = LidarPattern::kRosette;
+  rosette.rosette = {.point_rate = 2e5,
+                     .prism_deflections_deg = {67.5, 26.5},
+                     .prism_rates = {-182.43, -172.71},
+                     .line_offsets_deg = {-3.0, -1.0, 1.0, 3.0}};
+  const Trajectory poses = rough_motion();
+  for (const LidarConfig& config : {table, rosette}) {
+    const LidarScan scan = one_scan(plain_corridor(), config, poses);
+    ASSERT_EQ(scan.points.size(), ScanPattern(config).firings(10).size()) << "the scan of 1 s";
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+      const LidarPoint& point = scan.points[i];
+      if (i > 0) {
+        ASSERT_GE(point.time_offset_ns, scan.points[i - 1].time_offset_ns);
+      }
+      const auto pose = pose_at(poses, scan.stamp + point.time_offset_ns);
+      ASSERT_TRUE(pose);
+      ASSERT_LT(off_surface(*pose * point.position.cast<double>()), 1e-3);
+    }
+  }
+}
+
+TEST(Lidar, AnglesHaveTheConfiguredNoiseAcrossAndUp) {
+  LidarConfig config = perfect();
+  const LidarScan exact = one_scan(plain_corridor(), config, still());
+  config.direction_sigma_deg = 0.15;
+  const LidarScan noisy = one_scan(plain_corridor(), config, still());
+  ASSERT_EQ(exact.points.size(), noisy.points.size());
+  double across = 0.0;
+  double up = 0.0;
+  for (std::size_t i = 0; i < exact.points.size(); ++i) {
+    const Vector3d beam = exact.points[i].position.cast<double>().normalized();
+    const Vector3d turned = noisy.points[i].position.cast<double>().normalized();
+    const Vector3d sideways = Vector3d::UnitZ().cross(beam).normalized();
+    across += std::pow(turned.dot(sideways), 2);
+    up += std::pow(turned.dot(beam.cross(sideways)), 2);
+    ASSERT_NEAR(exact.points[i].position.norm(), noisy.points[i].position.norm(), 1e-4);
+  }
+  const auto count = static_cast<double>(exact.points.size());
+  const double sigma = 0.15 * std::numbers::pi / 180.0;
+  EXPECT_NEAR(std::sqrt(across / count), sigma, 0.02 * sigma);
+  EXPECT_NEAR(std::sqrt(up / count), sigma, 0.02 * sigma);
+}
+
 TEST(Lidar, ColumnsNeedNotFillTheLastPacket) {
   LidarConfig config = perfect();
   config.columns = 1000 + 7;
@@ -304,7 +354,7 @@ TEST(Lidar, RepeatsBitForBitWithItsSeedAndOnlyWithIt) {
 TEST(LidarConfig, EveryParameterTakesItsOwnText) {
   LidarConfig config;
   const Fields fields = fields_of(config);
-  EXPECT_EQ(fields.parameters().size(), 34U);
+  EXPECT_EQ(fields.parameters().size(), 47U);
   for (const Parameter& each : fields.parameters()) {
     EXPECT_TRUE(each.assign(each.text())) << each.key << " = " << each.text();
   }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/lidar_sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/files/yaml_config.hpp"
+#include "sim/sensors/scan_pattern.hpp"
+
+namespace aims {
+namespace {
+
+/// A file of models/lidars: its sheet, and what each level adds. A level that is not wanted goes
+/// nowhere.
+struct LidarModelFile {
+  LidarSheet& sheet;
+  LidarConfig& ideal;
+  LidarConfig& datasheet;
+  LidarConfig& field;
+};
+
+void describe(Fields& f, LidarModelFile& file) {
+  f.group("sheet", file.sheet);
+  f.group("ideal", file.ideal);
+  f.group("datasheet", file.datasheet);
+  f.group("field", file.field);
+}
+
+std::string mode_error(std::string_view key, const LidarConfig& config,
+                       const std::vector<double>& modes, double got) {
+  return fmt::format("lidar.{}: expected one of {} of {}, got {}", key, fmt::join(modes, ", "),
+                     config.model, got);
+}
+
+bool offers(const std::vector<double>& modes, double value) {
+  return modes.empty() || std::ranges::find(modes, value) != modes.end();
+}
+
+}  // namespace
+
+void describe(Fields& f, LidarSheet& s) {
+  f.text("description", s.description, {.meaning = "maker and model"});
+  f.number("wavelength_nm", s.wavelength_nm,
+           {.unit = "nm", .range = up_to(1e4), .meaning = "of the laser"});
+  f.integer("returns", s.returns,
+            {.unit = "-", .range = in_range(1, 10), .meaning = "that the sensor can report"});
+  f.numbers("rates", s.rates,
+            {.unit = "Hz", .range = up_to(1e3), .meaning = "scans per second to choose from"});
+  f.numbers("columns", s.columns,
+            {.unit = "-", .range = up_to(1e5), .meaning = "columns per scan to choose from"});
+  f.text("imu", s.imu, {.meaning = "built-in IMU"});
+  f.number("imu_rate", s.imu_rate,
+           {.unit = "Hz", .range = up_to(1e4), .meaning = "of the built-in IMU"});
+}
+
+Result<LidarSheet> apply_lidar_model(std::string_view model, SensorLevel level,
+                                     LidarConfig& config) {
+  const std::vector<LidarModel> models = lidar_models();
+  const auto found = std::ranges::find(models, model, &LidarModel::name);
+  if (found == models.end()) return failure(fmt::format("lidar.model: no model '{}'", model));
+  LidarSheet sheet;
+  LidarConfig unused;
+  LidarModelFile file{sheet, config, level == SensorLevel::kIdeal ? unused : config,
+                      level == SensorLevel::kField ? config : unused};
+  auto ok = load_config_text(found->text, fmt::format("models/lidars/{}.yaml", model), file);
+  if (!ok) return tl::unexpected(ok.error());
+  return sheet;
+}
+
+Result<void> check_lidar_mode(const LidarSheet& sheet, const LidarConfig& config) {
+  if (!offers(sheet.rates, config.rate)) {
+    return failure(mode_error("rate", config, sheet.rates, config.rate));
+  }
+  if (!offers(sheet.columns, config.columns)) {
+    return failure(mode_error("columns", config, sheet.columns, config.columns));
+  }
+  return {};
+}
+
+double points_per_second(const LidarConfig& config) {
+  const ScanPattern pattern(config);
+  return 1e9 * pattern.lines() / pattern.column_period_ns();
+}
+
+std::string lidar_summary(const LidarSheet& sheet, const LidarConfig& config) {
+  const ScanPattern pattern(config);
+  const std::string imu =
+      sheet.imu.empty() ? "" : fmt::format(", IMU {} at {:g} Hz", sheet.imu, sheet.imu_rate);
+  return fmt::format("{}: {} {}, {:.0f} k points/s, {:g} to {:g} m{}", sheet.description,
+                     pattern.lines(), pattern.has_rings() ? "rings" : "lines of a rosette",
+                     1e-3 * points_per_second(config), config.range_min, config.range_max, imu);
+}
+
+}  // namespace aims

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/error.hpp"
+#include "sim/sensors/lidar_config.hpp"
+#include "sim/sensors/sensor_level.hpp"
+
+namespace aims {
+
+/// What a file of models/lidars states of the sensor, apart from the keys of the group `lidar`.
+struct LidarSheet {
+  std::string description;      ///< one line
+  double wavelength_nm = 0.0;   ///< [nm]; 0: not stated
+  int returns = 1;              ///< of one firing, that the sensor can report; one is simulated
+  std::vector<double> rates;    ///< scans per second that it can be set to [Hz]; empty: any
+  std::vector<double> columns;  ///< per scan, that it can be set to; empty: any
+  std::string imu;              ///< part of the built-in IMU; empty: none
+  double imu_rate = 0.0;        ///< of the built-in IMU [Hz]
+};
+
+void describe(Fields& fields, LidarSheet& sheet);
+
+/// Sets the keys of `config` that the model's file gives at that level, and returns its sheet.
+/// Error for a model that there is not, or for a file that cannot be read.
+Result<LidarSheet> apply_lidar_model(std::string_view model, SensorLevel level,
+                                     LidarConfig& config);
+
+/// Error for a rate or a number of columns that the sensor of the sheet cannot be set to.
+Result<void> check_lidar_mode(const LidarSheet& sheet, const LidarConfig& config);
+
+/// Firings of all lines per second.
+double points_per_second(const LidarConfig& config);
+
+/// One line on what a model fires, for listings.
+std::string lidar_summary(const LidarSheet& sheet, const LidarConfig& config);
+
+}  // namespace aims

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/run/scenario.hpp"
+#include "core/lidar_rings.hpp"
+#include "estimator/estimator_config.hpp"
+
+namespace aims {
+
+/// What an estimator with these requirements lacks of a LiDAR with these rings: it needs rings and
+/// there are none, or its range image has other rows. `label` names the estimator, `source` what
+/// lacks them ("recording"). One sentence; empty when nothing is lacking.
+std::string ring_note(std::string_view label, const Requirements& needs, const LidarRings& rings,
+                      std::string_view source);
+
+/// The rings of a simulated LiDAR.
+LidarRings rings_of(const LidarConfig& config);
+
+/// A sentence for each estimator of the scenario that its LiDAR does not fit.
+std::vector<std::string> ring_notes(const Scenario& scenario);
+
+}  // namespace aims
