@@ -209,7 +209,7 @@ std::string unknown_key_message(const Fields& fields, std::string_view key) {
   std::vector<std::string> near = proposals_for(fields, concrete);
   for (std::string& each : near) {
     if (star < each.size()) {
-      each = each.substr(0, star) + "*" + each.substr(std::min(each.find('.', star), each.size()));
+      each.replace(star, std::min(each.find('.', star), each.size()) - star, "*");
     }
   }
   if (std::find(near.begin(), near.end(), key) != near.end()) {

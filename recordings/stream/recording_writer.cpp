@@ -103,9 +103,9 @@ Result<void> RecordingWriter::write_imu(ImuOutput output, Time arrival, const Im
 
 Result<void> RecordingWriter::write_scan(Time arrival, const LidarScan& scan) {
   if (scan.stamp < 0) return ++dropped_, Result<void>{};
-  return write(kLidar, arrival,
-               cloud_message(header(kLidar, scan.stamp, kLidarFrame), scan, serialization_,
-                             cloud_format_));
+  return write(
+      kLidar, arrival,
+      cloud_message(header(kLidar, scan.stamp, kLidarFrame), scan, serialization_, cloud_format_));
 }
 
 Result<void> RecordingWriter::write_legs(Time arrival, const LegOdometrySample& sample) {

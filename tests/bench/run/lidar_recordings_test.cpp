@@ -58,7 +58,9 @@ std::map<std::pair<std::int32_t, int>, Eigen::Vector3f> fired(const LidarConfig&
 TEST_P(LidarRecordings, GiveBackTheDirectionsAndTimesThatWereFired) {
   const Scenario scenario = standing(GetParam());
   const LidarConfig& lidar = scenario.simulation.lidar;
-  const RecordOptions options = {.seed = 3, .bag = folder_.path() / "standing.bag"};
+  const bool ros2 = GetParam() == std::string("vlp32c") || GetParam() == std::string("mid360");
+  const RecordOptions options = {.seed = 3,
+                                 .bag = folder_.path() / (ros2 ? "standing.mcap" : "standing.bag")};
   const auto recorded = record(scenario, options, [](const Progress&) { return true; });
   ASSERT_TRUE(recorded) << recorded.error().message;
   auto reader = RecordingReader::open(options.bag, {});
