@@ -72,6 +72,7 @@ PointTable livox_table(const MessageView& message, const TableView& points) {
   table.width = points.rows;
   table.point_step = points.stride;
   table.row_step = points.rows * points.stride;
+  table.padding = table.row_step - points.bytes.size();
   table.order = points.order;
   table.bytes = points.bytes;
   const double base = message.number("timebase").value_or(0.0);
@@ -117,16 +118,17 @@ Result<void> validate(const PointTable& table) {
   for (const ColumnLayout& column : table.columns) {
     const std::size_t numbers = std::max<std::size_t>(column.count, 1);
     if (column.offset > table.point_step ||
-        numbers > (table.point_step - column.offset) / size_of(column.type)) {
+        numbers > (table.point_step - column.offset) / size_of(column.type) ||
+        column.offset + numbers * size_of(column.type) > table.point_step - table.padding) {
       return failure(fmt::format("point field '{}' at {} lies beyond the point's {} bytes",
                                  column.name, column.offset, table.point_step));
     }
   }
   if (table.width == 0 || table.height == 0) return {};
-  if (table.width > table.bytes.size() / table.point_step ||
-      table.row_step < table.width * table.point_step || table.row_step > table.bytes.size() ||
-      table.height - 1 > table.bytes.size() ||
-      (table.height - 1) * table.row_step + table.width * table.point_step > table.bytes.size()) {
+  const std::size_t size = table.bytes.size() + table.padding;
+  if (table.width > size / table.point_step || table.row_step < table.width * table.point_step ||
+      table.row_step > size || table.height - 1 > size ||
+      (table.height - 1) * table.row_step + table.width * table.point_step > size) {
     return failure(fmt::format(
         "{} x {} points of {} bytes, rows of {}: more than the {} bytes of data", table.width,
         table.height, table.point_step, table.row_step, table.bytes.size()));

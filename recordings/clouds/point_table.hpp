@@ -26,6 +26,7 @@ struct PointTable {
   std::size_t height = 1;                   ///< more than 1: an organised cloud
   std::size_t point_step = 0;               ///< [bytes]
   std::size_t row_step = 0;                 ///< [bytes]
+  std::size_t padding = 0;                  ///< between points, which the last one may lack [bytes]
   std::endian order = std::endian::little;  ///< of the numbers
   std::optional<Time> time_base;            ///< origin of the points' times, if not the stamp
   std::span<const std::byte> bytes;

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 
+#include "recordings/clouds/point_table.hpp"
 #include "recordings/mcap/crc32.hpp"
 #include "recordings/mcap/mcap_reader.hpp"
 #include "recordings/mcap/mcap_record_builder.hpp"
 #include "recordings/mcap/mcap_writer.hpp"
+#include "recordings/messages/message_bytes.hpp"
 #include "recordings/messages/quality_of_service.hpp"
 #include "recordings/messages/ros2_definition.hpp"
 #include "recordings/source/conversion.hpp"
@@ -267,6 +269,43 @@ TEST_F(Mcap, MessagesOfOtherEncodingsAreListedAndNotDecoded) {
   const auto view = ConnectionDecoders().decode(**message);
   ASSERT_FALSE(view);
   EXPECT_EQ(view.error().message, "std_msgs/String: expected messages serialized as ros1 or cdr");
+}
+
+TEST(McapClouds, LivoxPointsOfRos2LieTwentyBytesApart) {
+  const auto type = known_ros2_type("livox_ros_driver2/CustomMsg");
+  ASSERT_TRUE(type);
+  const auto decoder = MessageDecoder::create(type->name, type->definition, type->format);
+  ASSERT_TRUE(decoder) << decoder.error().message;
+  MessageBytes bytes(Serialization::kCdr);
+  bytes.time(3 * kSecond);
+  bytes.text("livox");
+  bytes.put(std::uint64_t{2'900'000'000});  // timebase
+  bytes.put(std::uint32_t{3});
+  for (int i = 0; i < 4; ++i) bytes.put(std::uint8_t{0});
+  bytes.length(3);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    bytes.put(1000 * i);
+    for (const float offset : {0.0F, 0.25F, 0.5F}) bytes.put(static_cast<float>(i) + offset);
+    for (const std::uint32_t value : {200, 16, 5}) {
+      bytes.put(static_cast<std::uint8_t>(value + i));
+    }
+  }
+  const auto view = decoder->decode(bytes.view());
+  ASSERT_TRUE(view) << view.error().message;
+  const auto cloud = point_table(*view);
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  ASSERT_EQ(cloud->size(), 3U);
+  EXPECT_EQ(cloud->stamp, 3 * kSecond);
+  EXPECT_EQ(cloud->time_base, 2'900'000'000);
+  EXPECT_EQ(cloud->bytes.data() + cloud->bytes.size(), bytes.view().data() + bytes.view().size());
+  const auto value = [&](const char* field, std::size_t point) {
+    return PointField(*cloud, *cloud->find(field)).at(cloud->point(point));
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(value("offset_time", i), 1000.0 * static_cast<double>(i));
+    EXPECT_EQ(value("z", i), static_cast<double>(i) + 0.5);
+    EXPECT_EQ(value("line", i), 5.0 + static_cast<double>(i));
+  }
 }
 
 TEST_F(Mcap, ConvertingABagKeepsValuesTimesAndOrder) {
