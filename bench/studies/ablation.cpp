@@ -12,7 +12,8 @@ namespace {
 
 bool is_flag(const Parameter& parameter) { return parameter.expected == "true or false"; }
 
-/// "ground_constraint" of "ground_constraint.enabled", "leg_states_scale" of "leg_states.scale".
+/// "ground_constraint" of "ground_constraint.enabled", "lidar_leave_out_mixed" of
+/// "lidar.leave_out_mixed".
 std::string part_of(std::string key) {
   constexpr std::string_view kEnabled = ".enabled";
   if (key.ends_with(kEnabled)) key.resize(key.size() - kEnabled.size());

@@ -6,11 +6,7 @@ namespace {
 
 void state_dependencies(Fields& f, const EskfConfig& c) {
   f.idle_if(c.leg_noise.enabled, "leg_noise.enabled is true",
-            {"legs.velocity_sigma", "legs.correlation_time", "legs.scale_sigma"});
-  f.idle_if(!c.leg_states.scale, "leg_states.scale is false",
-            {"leg_states.scale_sigma", "leg_states.scale_walk"});
-  f.idle_if(!c.leg_states.bias, "leg_states.bias is false",
-            {"leg_states.bias_sigma", "leg_states.bias_walk"});
+            {"legs.velocity_sigma", "legs.scale_sigma"});
   f.idle_if(!c.legs.enabled, "legs.enabled is false",
             {"leg_noise", "leg_states", "zero_velocity", "degeneracy.gamma_min"});
 }
@@ -31,7 +27,6 @@ void describe(Fields& f, EskfConfig& c) {
   f.group("robust_kernel", c.robust_kernel);
   f.group("map", c.map);
   f.group("map_covariance", c.map_covariance);
-  f.group("forgetting", c.forgetting);
   f.group("degeneracy", c.degeneracy);
   f.group("cross_validation", c.cross_validation);
   f.group("queue", c.queue);

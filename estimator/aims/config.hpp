@@ -34,7 +34,6 @@ struct EskfConfig {
   RobustKernelConfig robust_kernel;
   MapConfig map;
   MapCovarianceConfig map_covariance;
-  ForgettingConfig forgetting;
   DegeneracyConfig degeneracy;
   CrossValidationConfig cross_validation;
   QueueConfig queue;

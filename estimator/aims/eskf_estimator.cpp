@@ -25,9 +25,10 @@ void record_covariance(const Belief& belief, const Eigen::Matrix3d& map_covarian
 /// Without corrections for longer, the IMU is the clock of the poses.
 constexpr Duration kCoastAfter = kSecond;
 
-/// Without fusion, leg packets are only a clock: none is out of range.
+/// Faster than any legged robot walks [m/s]. Without fusion, leg packets are only a clock: none is
+/// out of range.
 double max_leg_speed(const EskfConfig& config) {
-  return config.legs.enabled ? config.legs.max_speed : std::numeric_limits<double>::infinity();
+  return config.legs.enabled ? 5.0 : std::numeric_limits<double>::infinity();
 }
 
 /// Without fusion, the leg states stay fixed.
@@ -47,7 +48,6 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
       map_(config_.map),
       ground_(config_.ground_constraint),
       leg_noise_(config_.leg_noise, rig),
-      zero_velocity_(config_.zero_velocity),
       health_({.lidar = true, .legs = config_.legs.enabled, .imu = true}, config_.imu.gravity) {
   result_.diagnostics.series = scan_series();
 }
@@ -77,11 +77,9 @@ void EskfEstimator::process_ready() {
 
 bool EskfEstimator::start() {
   const auto& samples = queue_.imu().samples();
-  const StaticInitializationConfig& limits = config_.static_initialization;
-  const auto initial =
-      limits.enabled
-          ? initialize_static(samples, config_.initialization, limits, config_.imu.gravity)
-          : initialize(samples, config_.initialization, config_.imu.gravity);
+  const auto initial = config_.static_initialization.enabled
+                           ? initialize_static(samples, config_.initialization, config_.imu.gravity)
+                           : initialize(samples, config_.initialization, config_.imu.gravity);
   if (!initial) return false;
   if (!initial->stood_still) ++result_.counts["initialization.moving"];
   belief_ = open_leg_states(initial->belief, leg_states_of(config_));
@@ -158,8 +156,7 @@ Eigen::Matrix3d EskfEstimator::leg_covariance(const LegOdometrySample& sample,
 /// While the robot stands, zero velocity and zero rate replace the leg velocity; true then. The leg
 /// states are not corrected, since they describe walking.
 bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
-  const ZeroVelocityConfig& config = config_.zero_velocity;
-  if (!config.enabled) return false;
+  if (!config_.zero_velocity.enabled) return false;
   const bool standing = zero_velocity_.update(
       sample, queue_.imu().samples(), belief_.state.gyro_bias, queue_.imu().noise().white());
   if (!standing) return false;
@@ -167,8 +164,8 @@ bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
   if (!statistics) return true;
   ++result_.counts["zero_velocity.used"];
   const ErrorMatrix mask = consider_legs(lidar_update_.odometry_mask());
-  accept(fuse(belief_, zero_velocity_model(belief_.state, config.sigma_velocity), mask));
-  accept(fuse(belief_, zero_rate_model(belief_.state, statistics->rate, config.sigma_rate), mask));
+  accept(fuse(belief_, zero_velocity_model(belief_.state, kSigmaZeroVelocity), mask));
+  accept(fuse(belief_, zero_rate_model(belief_.state, statistics->rate, kSigmaZeroRate), mask));
   return true;
 }
 
@@ -277,7 +274,7 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 }
 
 void EskfEstimator::fuse_ground_constraint() {
-  const auto plane = fit_ground(insert_points_, config_.ground_constraint);
+  const auto plane = fit_ground(insert_points_);
   const auto measurement = ground_.measure(belief_, plane);
   if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];
   if (ground_.status() == GroundStatus::kSloped) ++result_.counts["ground.not_level"];
@@ -294,7 +291,6 @@ void EskfEstimator::extend_map() {
   const Eigen::Matrix3d position =
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
   map_.insert(insert_points_, t, (position + lidar_update_.map_covariance()).cast<float>());
-  if (config_.forgetting.enabled) map_.forget_unseen(config_.forgetting.after);
 }
 
 void EskfEstimator::accept(const Belief& updated) {

@@ -10,6 +10,12 @@
 namespace aims {
 namespace {
 
+/// Larger steps of an iteration search the planes again, smaller ones end it.
+constexpr double kRematchRotation = 2e-3;    ///< [rad]
+constexpr double kRematchPosition = 1e-2;    ///< [m]
+constexpr double kConvergedRotation = 1e-4;  ///< [rad]
+constexpr double kConvergedPosition = 1e-3;  ///< [m]
+
 /// Smallest eigenvalue and condition number of the translation information with unknown rotation
 /// (its Schur complement).
 void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagnostics) {
@@ -31,11 +37,11 @@ bool moved(const NominalState& state, const NominalState& since, double rotation
 }  // namespace
 
 LidarUpdate::LidarUpdate(const EskfConfig& config)
-    : lidar_(config.lidar),
+    : max_iterations_(config.lidar.max_iterations),
       degeneracy_(config.degeneracy),
       cross_validation_(config.cross_validation),
       map_covariance_enabled_(config.map_covariance.enabled),
-      matcher_(config.lidar, config.robust_kernel, config.map.plane_thickness),
+      matcher_(config.lidar.correlated_points, config.robust_kernel),
       severity_(config.degeneracy.alpha) {}
 
 /// The scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies its information
@@ -70,7 +76,7 @@ IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
   matcher_.match(matched_at, points, map);
   bool first = true;
   const auto linearize = [&](const NominalState& at) -> std::optional<Linearization<NominalState>> {
-    if (moved(at, matched_at, lidar_.rematch_rotation, lidar_.rematch_position)) {
+    if (moved(at, matched_at, kRematchRotation, kRematchPosition)) {
       matched_at = at;
       matcher_.match(matched_at, points, map);
     }
@@ -80,16 +86,16 @@ IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
       diagnostics.residual_sigma_prior =
           std::sqrt(residual_statistics(matcher_.residuals()).variance);
     }
-    if (scan.used < lidar_.min_matches) return std::nullopt;
+    if (scan.used < kMinMatches) return std::nullopt;
     matcher_.start_robust_weights();
     if (first && cross_validation_.enabled) fraction_.add(scan.halves, at.position);
     first = false;
     return fused(scan, 1.0, at);
   };
   const auto converged = [&](const NominalState& before, const NominalState& after) {
-    return !moved(after, before, lidar_.convergence_rotation, lidar_.convergence_position);
+    return !moved(after, before, kConvergedRotation, kConvergedPosition);
   };
-  return iterated_update(predicted, prior_information, lidar_.max_iterations, linearize, converged);
+  return iterated_update(predicted, prior_information, max_iterations_, linearize, converged);
 }
 
 void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_information,
@@ -158,7 +164,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
   }
   // The residual gate may leave fewer matches at the result of the trial than before it.
   Belief belief = predicted;
-  if (scan.used >= lidar_.min_matches) {
+  if (scan.used >= kMinMatches) {
     diagnostics.iterations = trial.iterations;
     diagnostics.converged = trial.converged;
     record_localizability(scan.halves, diagnostics);

@@ -15,6 +15,9 @@
 
 namespace aims {
 
+/// Planes needed for an update.
+inline constexpr int kMinMatches = 30;
+
 /// The LiDAR correction: an iterated trial update with the nominal noise, the degeneracy index from
 /// its residuals and innovation, and the final update with the noise scaled by the index. With
 /// `cross_validation` the information that comes from the noise of the map is removed.
@@ -63,7 +66,7 @@ class LidarUpdate {
                               const MatchInformation& scan) const;
   void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);
 
-  LidarUpdateConfig lidar_;
+  int max_iterations_;            ///< of the trial update
   CalibrationModel calibration_;  ///< of the present scan
   DegeneracyConfig degeneracy_;
   CrossValidationConfig cross_validation_;

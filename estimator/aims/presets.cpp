@@ -12,8 +12,7 @@ namespace {
 EskfConfig without_directional_weights() {
   EskfConfig config;
   config.static_initialization.enabled = true;
-  config.leg_states.scale = true;
-  config.leg_states.bias = true;
+  config.leg_states.enabled = true;
   config.zero_velocity.enabled = true;
   config.ground_constraint.enabled = true;
   config.robust_kernel.enabled = true;
@@ -27,7 +26,8 @@ constexpr std::array kPresets = {
                  config.degeneracy.enabled = true;
                  return config;
                }},
-    EskfPreset{"aims_d", "beyond the paper: real information per axis, leg scale, ground constraint",
+    EskfPreset{"aims_d",
+               "beyond the paper: real information per axis, leg scale, ground constraint",
                [] {
                  EskfConfig config = without_directional_weights();
                  config.leg_noise.enabled = true;

@@ -9,10 +9,6 @@ void describe(Fields& f, ImuPropagationConfig& c) {
            {"rad/s^2/sqrt(Hz)", positive_up_to(1e3), "random walk of the gyro bias"});
   f.number("accelerometer_bias_walk", c.accelerometer_bias_walk,
            {"m/s^3/sqrt(Hz)", positive_up_to(1e3), "random walk of the accelerometer bias"});
-  f.number("max_rate", c.max_rate,
-           {"rad/s", positive_up_to(1e4), "samples above this rate are rejected"});
-  f.number("max_force", c.max_force,
-           {"m/s^2", positive_up_to(1e5), "samples above this specific force are rejected"});
 }
 
 namespace {

@@ -15,8 +15,6 @@ struct ImuPropagationConfig {
   double gravity = 9.81;                  ///< [m/s^2]
   double gyro_bias_walk = 2e-5;           ///< [rad/s^2/sqrt(Hz)]
   double accelerometer_bias_walk = 2e-4;  ///< [m/s^3/sqrt(Hz)]
-  double max_rate = 40.0;                 ///< faster samples are rejected [rad/s]
-  double max_force = 300.0;               ///< samples with a greater force are rejected [m/s^2]
 };
 
 void describe(Fields& fields, ImuPropagationConfig& config);

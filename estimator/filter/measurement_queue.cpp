@@ -9,6 +9,13 @@ namespace {
 
 constexpr double kMaxWait = 60.0;  ///< bound on configured waiting times [s]
 
+/// Beyond the ranges of inertial sensors on robots: 2000 deg/s are 35 rad/s, 30 g 294 m/s^2.
+constexpr double kMaxRate = 40.0;    ///< [rad/s]
+constexpr double kMaxForce = 300.0;  ///< [m/s^2]
+
+/// Corrections wait this long for the IMU to cover them.
+constexpr Duration kImuWait = 300 * kMillisecond;
+
 constexpr int kLegKind = 0;
 constexpr int kLidarKind = 1;
 
@@ -24,17 +31,13 @@ bool is_finite(const Pose& pose) {
 void describe(Fields& f, QueueConfig& c) {
   f.number("lag", c.lag,
            {"s", in_range(0.0, kMaxWait), "measurements wait this long for earlier ones"});
-  f.number("imu_wait", c.imu_wait,
-           {"s", in_range(0.0, kMaxWait), "corrections wait this long for the IMU"});
   f.number("max_ahead", c.max_ahead,
            {"s", positive_up_to(1e6), "a stamp further ahead of its arrival is rejected"});
-  f.integer("max_held", c.max_held,
-            {"-", in_range(100, 1000000), "bound on measurements held back"});
 }
 
 MeasurementQueue::MeasurementQueue(const QueueConfig& config, const ImuPropagationConfig& imu,
                                    double imu_rate_hz, double max_leg_speed)
-    : config_(config), imu_config_(imu), max_leg_speed_(max_leg_speed), imu_(imu, imu_rate_hz) {}
+    : config_(config), max_leg_speed_(max_leg_speed), imu_(imu, imu_rate_hz) {}
 
 /// "imu", "leg" or "lidar": how the names of the counts begin.
 void MeasurementQueue::count(Sensor sensor, const char* what, int times) {
@@ -75,15 +78,14 @@ void MeasurementQueue::accept(const ImuSample& sample) {
   if (!sample.angular_velocity.allFinite() || !sample.specific_force.allFinite()) {
     return reject(Sensor::kImu, "non_finite");
   }
-  if (sample.angular_velocity.norm() > imu_config_.max_rate ||
-      sample.specific_force.norm() > imu_config_.max_force) {
+  if (sample.angular_velocity.norm() > kMaxRate || sample.specific_force.norm() > kMaxForce) {
     return reject(Sensor::kImu, "out_of_range");
   }
   if (last_popped_ && sample.stamp <= last_popped_->first) return reject(Sensor::kImu, "late");
   if (!imu_.insert(sample)) return count(Sensor::kImu, "duplicate");
   inputs_.accepted(Sensor::kImu, *now_);
   inputs_.accepted_force(sample.specific_force);
-  if (imu_.samples().size() > static_cast<std::size_t>(config_.max_held)) {
+  if (imu_.samples().size() > kMaxHeld) {
     imu_.forget_before(imu_.samples()[1].stamp + 1);
   }
 }
@@ -109,7 +111,7 @@ void MeasurementQueue::hold(const Key& key, Sensor sensor, Correction correction
   if (last_popped_ && key < *last_popped_) return reject(sensor, "late");
   if (!held_.try_emplace(key, std::move(correction)).second) return count(sensor, "duplicate");
   inputs_.accepted(sensor, *now_);
-  if (held_.size() > static_cast<std::size_t>(config_.max_held)) {
+  if (held_.size() > kMaxHeld) {
     held_.erase(held_.begin());
     ++counts_["queue.overflow"];
   }
@@ -121,7 +123,7 @@ bool MeasurementQueue::ready(Time stamp) const {
   const Time last_needed = stamp + std::max<Duration>(imu_.delay(), 0);
   if (*now_ < last_needed + from_seconds(config_.lag)) return false;
   const std::optional<Time> newest = imu_.newest();
-  return (newest && *newest >= stamp) || *now_ >= stamp + from_seconds(config_.imu_wait);
+  return (newest && *newest >= stamp) || *now_ >= stamp + kImuWait;
 }
 
 std::optional<Correction> MeasurementQueue::pop() {

@@ -17,12 +17,13 @@
 
 namespace aims {
 
+/// Bound on measurements held back.
+inline constexpr std::size_t kMaxHeld = 5000;
+
 /// Order and completeness of the measurements.
 struct QueueConfig {
   double lag = 0.05;       ///< measurements wait this long for earlier ones [s]
-  double imu_wait = 0.3;   ///< corrections wait this long for the IMU to cover them [s]
   double max_ahead = 5.0;  ///< a stamp further ahead of its arrival is rejected [s]
-  int max_held = 5000;     ///< bound on measurements held back
 };
 
 void describe(Fields& fields, QueueConfig& config);
@@ -42,7 +43,7 @@ class MeasurementQueue {
   void push(const Delivery& delivery);
 
   /// The next correction in order of stamp, once the lag has passed and the IMU covers it or
-  /// `imu_wait` has passed.
+  /// 0.3 s have passed.
   std::optional<Correction> pop();
 
   /// The stream has ended: everything held becomes ready.
@@ -69,7 +70,6 @@ class MeasurementQueue {
   void count(Sensor sensor, const char* what, int times = 1);
 
   QueueConfig config_;
-  ImuPropagationConfig imu_config_;
   double max_leg_speed_;
   ImuHistory imu_;
   std::map<Key, Correction> held_;

@@ -10,6 +10,31 @@ namespace {
 
 constexpr double kMaxDuration = 60.0;  ///< bound on configured durations [s]
 
+/// Part of the standing start that is not averaged: the robot settles [-].
+constexpr double kSettling = 0.5;
+
+/// A faster turn [rad/s] and a larger deviation of the specific force from gravity [m/s^2] are
+/// motion.
+constexpr double kMaxRate = 0.15;
+constexpr double kMaxForceFromGravity = 0.8;
+
+/// A larger deviation of the specific force from its mean ends a static interval, beyond white
+/// noise [m/s^2].
+constexpr double kMaxForceDeviation = 0.1;
+
+/// Shortest intervals that give the tilt and the gyro bias [s]: 5 mrad of sway in 0.3 s are 17
+/// mrad/s.
+constexpr double kMinDuration = 0.2;
+constexpr double kMinDurationGyroBias = 0.9;
+
+/// The odometry frame defines yaw [rad] and position [m].
+constexpr double kSigmaYaw = 1e-4;
+constexpr double kSigmaPosition = 1e-4;
+
+/// Initial velocity of a robot that stands, and of one that moves [m/s].
+constexpr double kSigmaVelocity = 2e-2;
+constexpr double kSigmaVelocityMoving = 1.0;
+
 /// Fewer standing samples than this give no biases.
 constexpr int kMinSamples = 5;
 
@@ -58,9 +83,9 @@ struct StaticInterval {
 };
 
 /// Whether the sample is consistent with a robot that stands still.
-bool is_still(const ImuSample& sample, const InitializationConfig& config, double gravity) {
-  return sample.angular_velocity.norm() <= config.max_rate &&
-         std::abs(sample.specific_force.norm() - gravity) <= config.max_force_deviation;
+bool is_still(const ImuSample& sample, double gravity) {
+  return sample.angular_velocity.norm() <= kMaxRate &&
+         std::abs(sample.specific_force.norm() - gravity) <= kMaxForceFromGravity;
 }
 
 /// Means from `settling_time` [s] after the first sample to the end of the standing start or the
@@ -72,7 +97,7 @@ StaticInterval average_start(const std::deque<ImuSample>& samples, double settli
   for (const ImuSample& sample : samples) {
     if (sample.stamp - first > from_seconds(config.duration)) break;
     if (sample.stamp - first < from_seconds(settling_time)) continue;
-    interval.moved = !is_still(sample, config, gravity);
+    interval.moved = !is_still(sample, gravity);
     if (interval.moved) break;
     interval.rate += sample.angular_velocity;
     interval.force += sample.specific_force;
@@ -89,11 +114,9 @@ StaticInterval average_start(const std::deque<ImuSample>& samples, double settli
 /// The interval from sample `begin` on in which each sample stays close to the mean of those before
 /// it and none shows motion.
 StaticInterval static_interval_from(const std::deque<ImuSample>& samples, std::size_t begin,
-                                    const InitializationConfig& config,
-                                    const StaticInitializationConfig& limits,
                                     const WhiteDeviation& noise, double gravity) {
   const double max_rate_deviation = kMaxRateDeviation + kLargestNoise * noise.rate;
-  const double max_force_deviation = limits.max_force_deviation + kLargestNoise * noise.force;
+  const double max_force_deviation = kMaxForceDeviation + kLargestNoise * noise.force;
   StaticInterval interval;
   for (std::size_t i = begin; i < samples.size(); ++i) {
     const ImuSample& sample = samples[i];
@@ -101,7 +124,7 @@ StaticInterval static_interval_from(const std::deque<ImuSample>& samples, std::s
     const double force_deviation = (sample.specific_force - interval.force).norm();
     const bool close = interval.count == 0 || (rate_deviation <= max_rate_deviation &&
                                                force_deviation <= max_force_deviation);
-    interval.moved = !close || !is_still(sample, config, gravity);
+    interval.moved = !close || !is_still(sample, gravity);
     if (interval.moved) break;
     ++interval.count;
     interval.rate += (sample.angular_velocity - interval.rate) / interval.count;
@@ -120,15 +143,12 @@ struct LongestInterval {
 
 /// The longest static interval; of equally long ones the last, since the robot settles with time.
 LongestInterval longest_static_interval(const std::deque<ImuSample>& samples,
-                                        const InitializationConfig& config,
-                                        const StaticInitializationConfig& limits,
                                         const WhiteDeviation& noise, double gravity) {
   LongestInterval longest;
   for (std::size_t begin = 0; begin < samples.size(); ++begin) {
     const Time from = samples[begin].stamp;
     if (samples.back().stamp - from < from_seconds(longest.duration)) break;
-    const StaticInterval found =
-        static_interval_from(samples, begin, config, limits, noise, gravity);
+    const StaticInterval found = static_interval_from(samples, begin, noise, gravity);
     if (found.count == 0 || to_seconds(found.end - from) < longest.duration) continue;
     longest = {found, begin, to_seconds(found.end - from)};
   }
@@ -158,24 +178,23 @@ void set_tilt_and_bias(const InitializationConfig& config, const Eigen::Vector3d
   const double tilt = (bias + variance_of(sigma_force)) / (gravity * gravity);
   const Eigen::Matrix3d vertical = up * up.transpose();
   block(P, E::kRotation, E::kRotation) =
-      tilt * (Eigen::Matrix3d::Identity() - vertical) + variance_of(config.sigma_yaw) * vertical;
+      tilt * (Eigen::Matrix3d::Identity() - vertical) + variance_of(kSigmaYaw) * vertical;
   block(P, E::kRotation, E::kAccelerometerBias) = bias / gravity * hat(up);
   block(P, E::kAccelerometerBias, E::kRotation) = bias / gravity * hat(up).transpose();
   block(P, E::kAccelerometerBias, E::kAccelerometerBias) = bias * Eigen::Matrix3d::Identity();
 }
 
 /// An unmeasured gyro bias gets ten times the configured deviation, an unmeasured velocity its own.
-ErrorMatrix initial_covariance(const InitializationConfig& config, const Eigen::Vector3d& up,
-                               bool stood_still, bool gyro_bias_measured, double gravity) {
+ErrorMatrix initial_covariance(const InitializationConfig& config, double sigma_force,
+                               const Eigen::Vector3d& up, bool stood_still, bool gyro_bias_measured,
+                               double gravity) {
   using E = ErrorState;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   ErrorMatrix P = ErrorMatrix::Zero();
-  set_tilt_and_bias(config, up,
-                    stood_still ? config.sigma_mean_force : config.sigma_mean_force_moving, gravity,
-                    P);
-  block(P, E::kPosition, E::kPosition) = I * variance_of(config.sigma_position);
+  set_tilt_and_bias(config, up, sigma_force, gravity, P);
+  block(P, E::kPosition, E::kPosition) = I * variance_of(kSigmaPosition);
   block(P, E::kVelocity, E::kVelocity) =
-      I * variance_of(stood_still ? config.sigma_velocity : config.sigma_velocity_moving);
+      I * variance_of(stood_still ? kSigmaVelocity : kSigmaVelocityMoving);
   block(P, E::kGyroBias, E::kGyroBias) =
       I * variance_of((gyro_bias_measured ? 1.0 : 10.0) * config.sigma_gyro_bias);
   // Raised by open_leg_states() and open_calibration() where they are estimated.
@@ -193,7 +212,8 @@ InitialBelief begin_with(const std::deque<ImuSample>& samples, const StaticInter
                          InitializationConfig config, double gravity) {
   // The mean of white noise adds to the errors of the means.
   const double root_count = std::sqrt(std::max(1, interval.count));
-  config.sigma_mean_force = std::hypot(config.sigma_mean_force, noise.force / root_count);
+  const double sigma_force =
+      enough ? std::hypot(kSigmaMeanForce, noise.force / root_count) : kSigmaMeanForceMoving;
   config.sigma_gyro_bias = std::hypot(config.sigma_gyro_bias, noise.rate / root_count);
   InitialBelief initial;
   initial.stamp = enough ? interval.end : samples.back().stamp;
@@ -201,7 +221,8 @@ InitialBelief begin_with(const std::deque<ImuSample>& samples, const StaticInter
   initial.belief.state.rotation = level(enough ? interval.force : mean_force(samples));
   if (gyro_bias_measured) initial.belief.state.gyro_bias = interval.rate;
   const Eigen::Vector3d up = initial.belief.state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  initial.belief.covariance = initial_covariance(config, up, enough, gyro_bias_measured, gravity);
+  initial.belief.covariance =
+      initial_covariance(config, sigma_force, up, enough, gyro_bias_measured, gravity);
   return initial;
 }
 
@@ -209,25 +230,8 @@ InitialBelief begin_with(const std::deque<ImuSample>& samples, const StaticInter
 
 void describe(Fields& f, InitializationConfig& c) {
   f.number("duration", c.duration,
-           {"s", in_range(0.1, kMaxDuration), "standing time at the start"});
-  f.number("settling_time", c.settling_time,
-           {"s", in_range(0.0, kMaxDuration), "initial part of it that is not averaged"});
-  f.number("max_rate", c.max_rate,
-           {"rad/s", positive_up_to(1e4), "angular rate above which the robot moves"});
-  f.number("max_force_deviation", c.max_force_deviation,
-           {"m/s^2", positive_up_to(1e5),
-            "deviation of the specific force from gravity that means motion"});
-  f.number("sigma_mean_force", c.sigma_mean_force,
-           {"m/s^2", positive_up_to(1e5), "error of the mean specific force of a standing start"});
-  f.number("sigma_mean_force_moving", c.sigma_mean_force_moving,
-           {"m/s^2", positive_up_to(1e5), "error of the mean specific force of a start in motion"});
-  f.number("sigma_yaw", c.sigma_yaw,
-           {"rad", positive_up_to(100.0), "initial yaw, defined by the frame"});
-  f.number("sigma_position", c.sigma_position,
-           {"m", positive_up_to(1e4), "initial position, defined by the frame"});
-  f.number("sigma_velocity", c.sigma_velocity, {"m/s", positive_up_to(1e3), "initial velocity"});
-  f.number("sigma_velocity_moving", c.sigma_velocity_moving,
-           {"m/s", positive_up_to(1e3), "initial velocity after a start in motion"});
+           {"s", in_range(0.1, kMaxDuration),
+            "standing time at the start; its second half is averaged"});
   f.number("sigma_gyro_bias", c.sigma_gyro_bias,
            {"rad/s", positive_up_to(1e4), "gyro bias after averaging"});
   f.number(
@@ -238,19 +242,12 @@ void describe(Fields& f, InitializationConfig& c) {
 void describe(Fields& f, StaticInitializationConfig& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "initialize from the longest undisturbed interval of the start"});
-  f.number("max_force_deviation", c.max_force_deviation,
-           {"m/s^2", positive_up_to(1e5),
-            "deviation from the mean specific force that ends an interval"});
-  f.number("min_duration", c.min_duration,
-           {"s", in_range(0.05, 1e4), "shortest interval that gives the tilt"});
-  f.number("min_duration_gyro_bias", c.min_duration_gyro_bias,
-           {"s", in_range(0.05, 1e4), "shortest interval that gives the gyro bias"});
 }
 
 std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
                                         const InitializationConfig& config, double gravity) {
   if (samples.empty()) return std::nullopt;
-  StaticInterval start = average_start(samples, config.settling_time, config, gravity);
+  StaticInterval start = average_start(samples, kSettling * config.duration, config, gravity);
   const Duration span = samples.back().stamp - samples.front().stamp;
   if (span < from_seconds(config.duration) && !start.moved) return std::nullopt;
   if (start.count < kMinSamples) start = average_start(samples, 0.0, config, gravity);
@@ -259,25 +256,22 @@ std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
 }
 
 std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samples,
-                                               const InitializationConfig& config,
-                                               const StaticInitializationConfig& limits,
-                                               double gravity) {
+                                               const InitializationConfig& config, double gravity) {
   if (samples.empty()) return std::nullopt;
   const Duration span = samples.back().stamp - samples.front().stamp;
-  if (span < from_seconds(config.settling_time)) return std::nullopt;
+  if (span < from_seconds(kSettling * config.duration)) return std::nullopt;
   const WhiteDeviation noise = sample_noise(samples);
-  auto [best, begin, duration] = longest_static_interval(samples, config, limits, noise, gravity);
+  auto [best, begin, duration] = longest_static_interval(samples, noise, gravity);
   if (best.count > 0) {
     // Only the end of a long interval is averaged: before it the robot settles.
-    const double averaged_s = std::max(0.0, config.duration - config.settling_time);
-    const Time averaged = best.end - from_seconds(averaged_s);
+    const Time averaged = best.end - from_seconds((1.0 - kSettling) * config.duration);
     while (samples[begin].stamp < averaged) ++begin;
-    best = static_interval_from(samples, begin, config, limits, noise, gravity);
+    best = static_interval_from(samples, begin, noise, gravity);
   }
   const bool still_standing = best.count > 0 && !best.moved;
   if (span < from_seconds(config.duration) && still_standing) return std::nullopt;
-  const bool enough = best.count >= kMinSamples && duration >= limits.min_duration;
-  const bool gyro_bias_measured = enough && duration >= limits.min_duration_gyro_bias;
+  const bool enough = best.count >= kMinSamples && duration >= kMinDuration;
+  const bool gyro_bias_measured = enough && duration >= kMinDurationGyroBias;
   return begin_with(samples, best, enough, gyro_bias_measured, noise, config, gravity);
 }
 

@@ -11,20 +11,14 @@
 
 namespace aims {
 
+/// Error of the mean specific force at the start, besides the bias [m/s^2].
+inline constexpr double kSigmaMeanForce = 5e-3;
+inline constexpr double kSigmaMeanForceMoving = 0.5;
+
 /// Initialization of a robot that stands still at the start.
 struct InitializationConfig {
-  double duration = 2.0;             ///< of the standing start [s]
-  double settling_time = 1.0;        ///< initial part that is not averaged [s]
-  double max_rate = 0.15;            ///< a faster turn is motion [rad/s]
-  double max_force_deviation = 0.8;  ///< larger deviations from gravity are motion [m/s^2]
-  /// Error of the mean specific force of a standing start, besides the bias [m/s^2].
-  double sigma_mean_force = 5e-3;
-  double sigma_mean_force_moving = 0.5;   ///< of a start in motion [m/s^2]
-  double sigma_yaw = 1e-4;                ///< the odometry frame defines yaw [rad]
-  double sigma_position = 1e-4;           ///< the odometry frame defines position [m]
-  double sigma_velocity = 2e-2;           ///< [m/s]
-  double sigma_velocity_moving = 1.0;     ///< after a start in motion [m/s]
-  double sigma_gyro_bias = 1e-3;          ///< after averaging [rad/s]
+  double duration = 2.0;          ///< of the standing start; its second half is averaged [s]
+  double sigma_gyro_bias = 1e-3;  ///< after averaging [rad/s]
   double sigma_accelerometer_bias = 0.25;  ///< [m/s^2]; ICM-20948: +-50 mg as two sigma
 };
 
@@ -33,10 +27,6 @@ void describe(Fields& fields, InitializationConfig& config);
 /// Search for the longest undisturbed interval of a standing start.
 struct StaticInitializationConfig {
   bool enabled = false;
-  double max_force_deviation = 0.1;  ///< from the interval's mean; more ends the interval [m/s^2]
-  double min_duration = 0.2;         ///< of an interval that gives the tilt [s]
-  /// Of an interval that gives the gyro bias [s]: 5 mrad of sway in 0.3 s are 17 mrad/s.
-  double min_duration_gyro_bias = 0.9;
 };
 
 void describe(Fields& fields, StaticInitializationConfig& config);
@@ -61,8 +51,6 @@ std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
 /// close to their own mean, in direction as well as magnitude, so that a lateral push is not taken
 /// as tilt. The start ends at the first disturbance after the settling time.
 std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samples,
-                                               const InitializationConfig& config,
-                                               const StaticInitializationConfig& limits,
-                                               double gravity);
+                                               const InitializationConfig& config, double gravity);
 
 }  // namespace aims

@@ -39,7 +39,7 @@ void FloorTracker::update(const NominalState& state, const GroundPlane& plane) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F.row(2).head<2>() = -motion.head<2>().transpose();  // a floor z = -(n_x x + n_y y)
   floor_ = F * floor_;
-  const double bends = moved_ / config_.level_distance;
+  const double bends = moved_ / kLevelDistance;
   covariance_ = F * covariance_ * F.transpose() +
                 bends * variances(config_.sigma_slope, config_.sigma_level());
   const Eigen::Matrix3d gain = covariance_ * (covariance_ + noise_).inverse();

@@ -8,6 +8,9 @@
 namespace aims {
 namespace {
 
+/// Correlation length of the tilt of level ground along the path [m].
+constexpr double kCorrelationLength = 0.7;
+
 /// Bound on the heights that are kept.
 constexpr std::size_t kMaxLevels = 32;
 
@@ -23,15 +26,15 @@ Eigen::Vector3d unevenness(const GroundConstraintConfig& config) {
 }
 
 /// The same of a plane that is fitted to ground which bends away from it within half its radius.
-Eigen::Vector3d misfit(const GroundConstraintConfig& config, const GroundPlane& plane) {
-  const double slope = 2.0 * plane.bend / config.radius;
+Eigen::Vector3d misfit(const GroundPlane& plane) {
+  const double slope = 2.0 * plane.bend / kGroundRadius;
   return {slope * slope, slope * slope, 0.25 * plane.bend * plane.bend};
 }
 
 /// How much likelier the bend of the ground is on level ground than at the ends of slopes.
 double bend_ratio(const GroundConstraintConfig& config, const GroundPlane& plane) {
   const double level = config.sigma_height * config.sigma_height;
-  const double kink = 0.25 * config.radius * config.sigma_slope;
+  const double kink = 0.25 * kGroundRadius * config.sigma_slope;
   const double sloped = level + kink * kink;
   const double square = plane.bend * plane.bend;
   return std::exp(0.5 * square / sloped - 0.5 * square / level) * std::sqrt(sloped / level);
@@ -65,7 +68,7 @@ std::optional<LinearMeasurement> GroundConstraint::measure(
     return std::nullopt;
   }
   last_height_ = tracker_.floor().z();
-  if (!measured_) distance_since_used_ = 2.0 * config_.correlation_length;
+  if (!measured_) distance_since_used_ = 2.0 * kCorrelationLength;
   if (!(distance_since_used_ > 0.0)) return std::nullopt;  // the same ground again
   measured_ = true;
   const LinearMeasurement m = rows(belief, tracker_.measured());
@@ -83,7 +86,7 @@ void GroundConstraint::weigh(const Belief& belief) {
   Eigen::Matrix3d sloped = step;
   sloped.diagonal().head<2>().array() += std::pow(config_.sigma_slope, 2);
 
-  const double change = std::min(0.5, config_.radius / config_.level_distance);
+  const double change = std::min(0.5, kGroundRadius / kLevelDistance);
   const Eigen::Vector3d zero_height(tracker_.floor().x(), tracker_.floor().y(), 0.0);
   const double weight_sloped = change * density(zero_height, sloped);
   const double weight_new = change * density(zero_height, step);
@@ -138,9 +141,9 @@ LinearMeasurement GroundConstraint::rows(const Belief& belief, const Eigen::Vect
   m.noise = tracker_.noise();
   // Variance of a mean of correlated errors: twice the correlation length over the distance. Not of
   // the height, which must outweigh a map whose own error is as correlated.
-  const double samples = std::max(1.0, 2.0 * config_.correlation_length / distance_since_used_);
-  m.noise.diagonal() += (unevenness(config_) + misfit(config_, *plane_))
-                            .cwiseProduct(Eigen::Vector3d(samples, samples, 1.0));
+  const double samples = std::max(1.0, 2.0 * kCorrelationLength / distance_since_used_);
+  m.noise.diagonal() +=
+      (unevenness(config_) + misfit(*plane_)).cwiseProduct(Eigen::Vector3d(samples, samples, 1.0));
   m.noise(2, 2) += levels_[*current_].variance;
   m.noise /= level_probability_;
   return m;

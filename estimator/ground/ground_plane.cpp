@@ -54,13 +54,12 @@ struct HeightFit {
 /// furniture and legs.
 class Columns {
  public:
-  Columns(std::span<const Eigen::Vector3f> points, const GroundConstraintConfig& config)
-      : radius_(config.radius),
-        cells_(static_cast<int>(std::ceil(2.0 * config.radius / kCell))),
+  explicit Columns(std::span<const Eigen::Vector3f> points)
+      : cells_(static_cast<int>(std::ceil(2.0 * kGroundRadius / kCell))),
         tops_(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_), -kHigh) {
     for (const Eigen::Vector3f& point : points) {
       const double z = point.z();
-      if (!(point.head<2>().norm() < radius_) || !(z < kHigh)) continue;
+      if (!(point.head<2>().norm() < kGroundRadius) || !(z < kHigh)) continue;
       double& top = tops_[at(point.cast<double>())];
       top = std::max(top, z);
     }
@@ -76,26 +75,24 @@ class Columns {
 
   std::size_t at(const Eigen::Vector3d& p) const {
     const auto cell = [this](double x) {
-      return std::clamp(static_cast<int>((x + radius_) / kCell), 0, cells_ - 1);
+      return std::clamp(static_cast<int>((x + kGroundRadius) / kCell), 0, cells_ - 1);
     };
     return static_cast<std::size_t>(cell(p.x()) * cells_ + cell(p.y()));
   }
 
-  double radius_;
   int cells_;
   std::vector<double> tops_;  ///< [m]
 };
 
 /// Candidate ground points: near enough, below the body, and with nothing on them.
-std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points,
-                                   const GroundConstraintConfig& config) {
-  const Columns columns(points, config);
+std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points) {
+  const Columns columns(points);
   std::vector<Eigen::Vector3d> kept;
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3d p = point.cast<double>();
     const double away = p.head<2>().norm();
     const double tilted = kMaxSlope * away;
-    if (!(away < config.radius) || p.z() > tilted - kMinHeight || p.z() < -tilted - kMaxHeight) {
+    if (!(away < kGroundRadius) || p.z() > tilted - kMinHeight || p.z() < -tilted - kMaxHeight) {
       continue;
     }
     if (columns.is_free(p)) kept.push_back(p);
@@ -104,13 +101,12 @@ std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points,
 }
 
 /// The lowest well-filled height [m] of the points within half the radius.
-std::optional<double> lowest_mode(const std::vector<Eigen::Vector3d>& points,
-                                  const GroundConstraintConfig& config) {
+std::optional<double> lowest_mode(const std::vector<Eigen::Vector3d>& points) {
   const auto bins = static_cast<std::size_t>((kMaxHeight - kMinHeight) / kBin) + 1;
   std::vector<int> counts(bins, 0);
   for (const Eigen::Vector3d& p : points) {
     const double down = -p.z() - kMinHeight;
-    if (down < 0.0 || p.head<2>().norm() > 0.5 * config.radius) continue;
+    if (down < 0.0 || p.head<2>().norm() > 0.5 * kGroundRadius) continue;
     ++counts[std::min(bins - 1, static_cast<std::size_t>(down / kBin))];
   }
   const int most = *std::max_element(counts.begin(), counts.end());
@@ -195,21 +191,15 @@ GroundPlane plane_of(const HeightFit& fit) {
 
 void describe(Fields& f, GroundConstraintConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "constrain height and tilt by level ground"});
-  f.number("radius", c.radius, {"m", positive_up_to(1e4), "horizontal radius of the points used"});
   f.number("sigma_height", c.sigma_height,
            {"m", positive_up_to(1e4), "unevenness of level ground"});
-  f.number("correlation_length", c.correlation_length,
-           {"m", positive_up_to(1e4), "correlation length of the tilt of level ground"});
   f.number("sigma_slope", c.sigma_slope, {"rad", positive_up_to(10.0), "slope of ramps, 1 sigma"});
-  f.number("level_distance", c.level_distance,
-           {"m", positive_up_to(1e4), "mean distance between changes of slope or height"});
 }
 
-std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points,
-                                      const GroundConstraintConfig& config) {
-  const std::vector<Eigen::Vector3d> candidates = below(points, config);
+std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points) {
+  const std::vector<Eigen::Vector3d> candidates = below(points);
   if (candidates.size() < static_cast<std::size_t>(kMinPoints)) return std::nullopt;
-  const std::optional<double> mode = lowest_mode(candidates, config);
+  const std::optional<double> mode = lowest_mode(candidates);
   if (!mode) return std::nullopt;
   HeightFit fit;
   fit.coefficients(0) = *mode;
@@ -221,7 +211,7 @@ std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points,
   GroundPlane plane = plane_of(fit);
   if (!plane.normal.allFinite() || !(plane.residual <= kMaxResidual)) return std::nullopt;
   if (plane.height < kMinHeight || plane.height > kMaxHeight) return std::nullopt;
-  plane.bend = bend_of(candidates, fit, config.radius);
+  plane.bend = bend_of(candidates, fit, kGroundRadius);
   return plane;
 }
 

@@ -9,22 +9,25 @@
 
 namespace aims {
 
+/// Horizontal radius of the points used [m].
+inline constexpr double kGroundRadius = 6.0;
+
+/// Mean distance between changes of slope or height [m].
+inline constexpr double kLevelDistance = 20.0;
+
 /// Ground constraint: the floors that a robot walks on, as a prior.
 struct GroundConstraintConfig {
   bool enabled = false;
-  double radius = 6.0;  ///< horizontal radius of the points used [m]
   /// Unevenness of level ground, 1 sigma: a third of what DIN 18202 allows over 15 m [m].
   double sigma_height = 5e-3;
-  double correlation_length = 0.7;  ///< of the tilt of level ground along the path [m]
   /// Slope of ramps, 1 sigma: the 8 % that accessible ramps may have are two of it [rad].
   double sigma_slope = 0.04;
-  double level_distance = 20.0;  ///< mean distance between changes of slope or height [m]
 
   /// Unevenness as tilt of a plane of this radius, per axis [rad].
-  double sigma_tilt() const { return sigma_height / radius; }
+  double sigma_tilt() const { return sigma_height / kGroundRadius; }
 
   /// Difference of height between two levels, 1 sigma [m].
-  double sigma_level() const { return sigma_slope * level_distance; }
+  double sigma_level() const { return sigma_slope * kLevelDistance; }
 };
 
 void describe(Fields& fields, GroundConstraintConfig& config);
@@ -46,7 +49,6 @@ struct GroundPlane {
 /// near the robot, then least squares within a band that shrinks to 4 cm. Empty when the inliers
 /// are few, badly spread or scattered, or the height is that of no legged robot. Deterministic.
 /// `points` are deskewed returns in body axes at the scan's end [m].
-std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points,
-                                      const GroundConstraintConfig& config);
+std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points);
 
 }  // namespace aims

@@ -8,6 +8,14 @@
 namespace aims {
 namespace {
 
+/// Added with a single stance foot [m/s], per yaw rate [m] and per time without packets [m/s^2].
+constexpr double kOneFootSigma = 0.05;
+constexpr double kYawLever = 0.03;
+constexpr double kGapGrowth = 0.1;
+
+/// A longer innovation is not a slip.
+constexpr Duration kMaxSlipDuration = 500 * kMillisecond;
+
 double squared(double x) { return x * x; }
 
 }  // namespace
@@ -18,22 +26,8 @@ void describe(Fields& f, LegNoiseConfig& c) {
   f.vector(
       "velocity_sigma", c.velocity_sigma,
       {"m/s", positive_up_to(1e3), "error of one sample with consistent stance feet, base axes"});
-  f.number("correlation_time", c.correlation_time,
-           {"s", in_range(0.0, 10.0), "correlation time of that error"});
   f.number("nominal_spread", c.nominal_spread,
            {"m/s", up_to(1e3), "spread of the velocities from feet that do not slip"});
-  f.number("one_foot_sigma", c.one_foot_sigma,
-           {"m/s", up_to(1e3), "added with a single stance foot"});
-  f.number("no_foot_sigma", c.no_foot_sigma,
-           {"m/s", up_to(1e3), "added without a stance foot; bounds the gap term"});
-  f.number("yaw_lever", c.yaw_lever, {"m", up_to(1e3), "added per yaw rate"});
-  f.number("gap_growth", c.gap_growth, {"m/s^2", up_to(1e5), "added per time without packets"});
-  f.number("gate", c.gate,
-           {"-", positive_up_to(1e6), "chi-square above which the noise grows", "3 dof, 99.9 %"});
-  f.number("max_variance_growth", c.max_variance_growth,
-           {"-", in_range(1.0, 1e9), "growth of the variance above which a sample is rejected"});
-  f.number("max_slip_duration", c.max_slip_duration,
-           {"s", up_to(1e6), "an innovation that lasts longer is not a slip and is accepted"});
 }
 
 StanceFeet compare_stance_feet(const LegOdometrySample& sample,
@@ -67,17 +61,17 @@ Eigen::Matrix3d sample_covariance(const LegNoiseConfig& config, const StanceFeet
   Eigen::Array3d variance = config.velocity_sigma.cwiseAbs2();
   if (feet.measured) {
     variance += (feet.spread.array().square() - squared(config.nominal_spread)).max(0.0);
-    if (feet.count == 1) variance += squared(config.one_foot_sigma);
-    if (feet.count == 0) variance += squared(config.no_foot_sigma);
+    if (feet.count == 1) variance += squared(kOneFootSigma);
+    if (feet.count == 0) variance += squared(kNoFootSigma);
   }
-  variance += squared(config.yaw_lever * conditions.yaw_rate);
-  variance += squared(std::min(config.gap_growth * conditions.gap, config.no_foot_sigma));
+  variance += squared(kYawLever * conditions.yaw_rate);
+  variance += squared(std::min(kGapGrowth * conditions.gap, kNoFootSigma));
   return variance.matrix().asDiagonal();
 }
 
-std::optional<double> gate_inflation(const LegNoiseConfig& config, double distance) {
-  const double factor = distance / config.gate;
-  if (!(factor <= config.max_variance_growth)) return std::nullopt;
+std::optional<double> gate_inflation(double distance) {
+  const double factor = distance / kLegGate;
+  if (!(factor <= kMaxVarianceGrowth)) return std::nullopt;
   return std::max(1.0, factor);
 }
 
@@ -85,7 +79,7 @@ LegNoiseModel::LegNoiseModel(const LegNoiseConfig& config, const SensorRig& rig)
     : config_(config),
       geometry_(rig.leg_geometry),
       period_(1.0 / rig.leg_rate_hz),
-      correlated_samples_(std::max(1.0, 2.0 * config.correlation_time * rig.leg_rate_hz)) {}
+      correlated_samples_(std::max(1.0, 2.0 * kLegCorrelationTime * rig.leg_rate_hz)) {}
 
 Eigen::Matrix3d LegNoiseModel::noise(const LegOdometrySample& sample,
                                      const Eigen::Vector3d& angular_velocity) {
@@ -111,13 +105,13 @@ std::optional<double> LegNoiseModel::inflation(const LinearMeasurement& measurem
   const Eigen::Matrix3d expected =
       jacobian * covariance * jacobian.transpose() + measurement.noise / correlated_samples_;
   const double distance = measurement.residual.dot(expected.llt().solve(measurement.residual));
-  if (distance <= config_.gate || !last_) {
+  if (distance <= kLegGate || !last_) {
     outside_since_.reset();
     return 1.0;
   }
   if (!outside_since_) outside_since_ = last_;
-  if (*last_ - *outside_since_ > from_seconds(config_.max_slip_duration)) return 1.0;
-  return gate_inflation(config_, distance);
+  if (*last_ - *outside_since_ > kMaxSlipDuration) return 1.0;
+  return gate_inflation(distance);
 }
 
 }  // namespace aims

@@ -11,20 +11,21 @@
 
 namespace aims {
 
+/// Velocity noise without a stance foot; also the most that a gap adds [m/s].
+inline constexpr double kNoFootSigma = 0.5;
+
+/// Squared Mahalanobis distance above which the noise of a sample grows: chi-square, 3 dof, 99.9 %.
+inline constexpr double kLegGate = 16.3;
+
+/// Growth of the variance above which a sample is rejected [-].
+inline constexpr double kMaxVarianceGrowth = 100.0;
+
 /// Noise of each leg sample from its stance feet, the yaw rate, lost packets and its innovation.
 struct LegNoiseConfig {
   bool enabled = false;
   /// Of one sample with consistent stance feet, base axes [m/s]; the scale is a separate state.
   Eigen::Vector3d velocity_sigma{0.07, 0.07, 0.07};
-  double correlation_time = 0.1;       ///< of that error, which consecutive samples share [s]
-  double nominal_spread = 0.2;         ///< of the velocities from feet that do not slip [m/s]
-  double one_foot_sigma = 0.05;        ///< added with a single stance foot [m/s]
-  double no_foot_sigma = 0.5;          ///< added without a stance foot; bounds the gap term [m/s]
-  double yaw_lever = 0.03;             ///< added per yaw rate [m]
-  double gap_growth = 0.1;             ///< added per time without packets [m/s^2]
-  double gate = 16.3;                  ///< chi-square, 3 dof, 99.9 %: above it the noise grows [-]
-  double max_variance_growth = 100.0;  ///< more, and the sample is rejected [-]
-  double max_slip_duration = 0.5;      ///< a longer innovation is not a slip [s]
+  double nominal_spread = 0.2;  ///< of the velocities from feet that do not slip [m/s]
 };
 
 void describe(Fields& fields, LegNoiseConfig& config);
@@ -57,7 +58,7 @@ Eigen::Matrix3d sample_covariance(const LegNoiseConfig& config, const StanceFeet
 
 /// Factor on the covariance of a sample whose innovation has the squared Mahalanobis distance
 /// `distance` (3 dof): 1 within the gate, distance / gate beyond it, empty for a rejected sample.
-std::optional<double> gate_inflation(const LegNoiseConfig& config, double distance);
+std::optional<double> gate_inflation(double distance);
 
 /// Leg noise model over a sequence of samples.
 class LegNoiseModel {
@@ -70,7 +71,7 @@ class LegNoiseModel {
 
   /// Factor on the noise of `measurement`, of the sample last given to noise(), under the state
   /// covariance `covariance`; empty for a rejected sample. A large innovation that lasts longer
-  /// than `max_slip_duration` is accepted.
+  /// than a slip does (0.5 s) is accepted.
   std::optional<double> inflation(const LinearMeasurement& measurement,
                                   const ErrorMatrix& covariance);
 

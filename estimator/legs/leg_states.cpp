@@ -17,29 +17,24 @@ void add_variance(ErrorMatrix& covariance, ErrorState::Block at, double sigma, d
 }  // namespace
 
 void describe(Fields& f, LegStatesConfig& c) {
-  f.flag("scale", c.scale, {"", any(), "estimate the scale of the leg odometry"});
-  f.flag("bias", c.bias, {"", any(), "estimate the bias of the leg odometry"});
+  f.flag("enabled", c.enabled, {"", any(), "estimate scale and bias of the leg odometry"});
   f.number("scale_sigma", c.scale_sigma,
            {"-", positive_up_to(1e6), "initial deviation of the scale"});
-  f.number("scale_walk", c.scale_walk, {"1/sqrt(s)", up_to(1e3), "random walk of the scale"});
   f.number("bias_sigma", c.bias_sigma,
            {"m/s", positive_up_to(1e3), "initial deviation of the bias"});
-  f.number("bias_walk", c.bias_walk, {"m/s/sqrt(s)", up_to(1e3), "random walk of the bias"});
 }
 
 Belief open_leg_states(Belief belief, const LegStatesConfig& config) {
-  if (config.scale) {
-    add_variance(belief.covariance, ErrorState::kLegScale, config.scale_sigma, 1.0);
-  }
-  if (config.bias) {
-    add_variance(belief.covariance, ErrorState::kLegBias, config.bias_sigma, 1.0);
-  }
+  if (!config.enabled) return belief;
+  add_variance(belief.covariance, ErrorState::kLegScale, config.scale_sigma, 1.0);
+  add_variance(belief.covariance, ErrorState::kLegBias, config.bias_sigma, 1.0);
   return belief;
 }
 
 void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt) {
-  if (config.scale) add_variance(belief.covariance, ErrorState::kLegScale, config.scale_walk, dt);
-  if (config.bias) add_variance(belief.covariance, ErrorState::kLegBias, config.bias_walk, dt);
+  if (!config.enabled) return;
+  add_variance(belief.covariance, ErrorState::kLegScale, kLegScaleWalk, dt);
+  add_variance(belief.covariance, ErrorState::kLegBias, kLegBiasWalk, dt);
 }
 
 const Eigen::Vector3d& StrideMean::update(const LegOdometrySample& sample) {

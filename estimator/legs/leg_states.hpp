@@ -9,19 +9,20 @@
 
 namespace aims {
 
+/// Random walks of the scale [1/sqrt(s)] and the bias [m/s/sqrt(s)].
+inline constexpr double kLegScaleWalk = 1e-3;
+inline constexpr double kLegBiasWalk = 1e-4;
+
 /// Scale and bias of the leg odometry as filter states.
 struct LegStatesConfig {
-  bool scale = false;         ///< estimate a scale per axis
-  bool bias = false;          ///< estimate a bias per axis
+  bool enabled = false;       ///< estimate a scale and a bias per axis
   double scale_sigma = 0.12;  ///< initial [-]
-  double scale_walk = 1e-3;   ///< [1/sqrt(s)]
   double bias_sigma = 0.01;   ///< initial [m/s]
-  double bias_walk = 1e-4;    ///< [m/s/sqrt(s)]
 };
 
 void describe(Fields& fields, LegStatesConfig& config);
 
-/// The belief with the initial variances of the enabled leg states.
+/// The belief with the initial variances of the leg states, where they are enabled.
 Belief open_leg_states(Belief belief, const LegStatesConfig& config);
 
 /// Adds the random walk of the enabled leg states over `dt` [s].

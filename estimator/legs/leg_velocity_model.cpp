@@ -11,13 +11,8 @@ void describe(Fields& f, LegConfig& c) {
          {"", any(), "repeat the last packet while packets are lost (zero-order hold)"});
   f.vector("velocity_sigma", c.velocity_sigma,
            {"m/s", positive_up_to(1e3), "error of one sample along the base axes, R_leg"});
-  f.number(
-      "correlation_time", c.correlation_time,
-      {"s", in_range(0.0, 60.0),
-       "correlation time of that error; multiplies R_leg by the number of correlated samples"});
   f.number("scale_sigma", c.scale_sigma,
            {"-", up_to(1e6), "error proportional to the speed, R_leg"});
-  f.number("max_speed", c.max_speed, {"m/s", positive_up_to(1e3), "faster samples are rejected"});
 }
 
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
@@ -48,7 +43,7 @@ Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
 
 Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
                                    const Eigen::Vector3d& measured) {
-  const double repeats = std::max(1.0, 2.0 * config.correlation_time * rate_hz);
+  const double repeats = std::max(1.0, 2.0 * kLegCorrelationTime * rate_hz);
   const double scale_error = config.scale_sigma * measured.norm();
   const Eigen::Vector3d variance =
       config.velocity_sigma.cwiseAbs2() + Eigen::Vector3d::Constant(scale_error * scale_error);

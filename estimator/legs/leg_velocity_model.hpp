@@ -7,14 +7,15 @@
 
 namespace aims {
 
+/// Correlation time of the error of a leg sample, which consecutive samples share [s].
+inline constexpr double kLegCorrelationTime = 0.1;
+
 /// Leg odometry.
 struct LegConfig {
   bool enabled = true;
   bool repeat_lost = false;                       ///< zero-order hold of lost packets
   Eigen::Vector3d velocity_sigma{0.1, 0.1, 0.1};  ///< of one sample, base axes [m/s]
-  double correlation_time = 0.1;  ///< of that error, which consecutive samples share [s]
-  double scale_sigma = 0.05;      ///< error proportional to the speed [-]
-  double max_speed = 5.0;         ///< faster samples are rejected [m/s]
+  double scale_sigma = 0.05;                      ///< error proportional to the speed [-]
 };
 
 void describe(Fields& fields, LegConfig& config);

@@ -13,6 +13,20 @@ namespace {
 /// Longest gap between packets that the smoothing bridges.
 constexpr Duration kMaxGap = 100 * kMillisecond;
 
+/// Largest mean angular rate and deviation from it [rad/s], and largest deviation of the specific
+/// force from its mean [m/s^2], of a standing robot, beyond white noise.
+constexpr double kMaxRate = 0.03;
+constexpr double kMaxForceDeviation = 0.3;
+
+/// Largest speed from leg odometry [m/s] and root mean square rate of the joints [rad/s] of a
+/// standing robot, smoothed with this time constant [s].
+constexpr double kMaxLegSpeed = 0.02;
+constexpr double kMaxJointRate = 0.15;
+constexpr double kLegSmoothing = 0.05;
+
+/// Factor on the limits once the robot stands.
+constexpr double kHysteresis = 1.5;
+
 /// Largest norm that white noise of deviation 1 per axis reaches: 99.9 % of the samples.
 constexpr double kLargestNoise = 4.0;
 
@@ -20,25 +34,6 @@ constexpr double kLargestNoise = 4.0;
 
 void describe(Fields& f, ZeroVelocityConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "zero-velocity update while the robot stands still"});
-  f.number("window", c.window,
-           {"s", in_range(0.05, 0.9), "of the detection; one measurement per window"});
-  f.number(
-      "max_rate", c.max_rate,
-      {"rad/s", positive_up_to(1e4), "largest mean rate, and deviation from it, while standing"});
-  f.number("max_force_deviation", c.max_force_deviation,
-           {"m/s^2", positive_up_to(1e5), "largest deviation of the specific force from its mean"});
-  f.number("max_leg_speed", c.max_leg_speed,
-           {"m/s", positive_up_to(1e3), "largest speed from leg odometry while standing"});
-  f.number(
-      "max_joint_rate", c.max_joint_rate,
-      {"rad/s", positive_up_to(1e4), "largest root mean square rate of the joints while standing"});
-  f.number("leg_smoothing", c.leg_smoothing,
-           {"s", positive_up_to(1e6), "time constant of leg speed and joint rate"});
-  f.number("hysteresis", c.hysteresis,
-           {"-", in_range(1.0, 1e3), "factor on the limits once the robot stands"});
-  f.number("sigma_velocity", c.sigma_velocity,
-           {"m/s", positive_up_to(1e3), "of the zero velocity"});
-  f.number("sigma_rate", c.sigma_rate, {"rad/s", positive_up_to(1e4), "of the zero mean rate"});
 }
 
 std::optional<ImuStatistics> imu_statistics(const std::deque<ImuSample>& samples, Time end,
@@ -89,7 +84,7 @@ LinearMeasurement zero_rate_model(const NominalState& state, const Eigen::Vector
 /// All feet are in contact, and the smoothed speeds of joints and base are small.
 bool ZeroVelocityDetector::legs_still(const LegOdometrySample& legs, double factor) {
   const bool gap = !last_ || legs.stamp - *last_ > kMaxGap;
-  const double dt = gap ? 1.0 : to_seconds(legs.stamp - *last_) / config_.leg_smoothing;
+  const double dt = gap ? 1.0 : to_seconds(legs.stamp - *last_) / kLegSmoothing;
   const double gain = std::clamp(dt, 0.0, 1.0);
   last_ = legs.stamp;
   const Eigen::Map<const JointVector> position(legs.joint_position.data());
@@ -99,39 +94,38 @@ bool ZeroVelocityDetector::legs_still(const LegOdometrySample& legs, double fact
   const bool has_joints = !position.isZero(0.0);  // some recordings have no joints and contacts
   const bool all_stand =
       std::all_of(legs.contact.begin(), legs.contact.end(), [](bool stands) { return stands; });
-  return !gap && (!has_joints || all_stand) &&
-         smoothed_velocity_.norm() <= factor * config_.max_leg_speed &&
-         std::sqrt(smoothed_joint_square_) <= factor * config_.max_joint_rate;
+  return !gap && (!has_joints || all_stand) && smoothed_velocity_.norm() <= factor * kMaxLegSpeed &&
+         std::sqrt(smoothed_joint_square_) <= factor * kMaxJointRate;
 }
 
 /// The samples of the window deviate no more than the limits and white noise allow.
 bool ZeroVelocityDetector::imu_still(const Eigen::Vector3d& gyro_bias, double factor) const {
   if (!statistics_) return false;
-  const double max_rate = factor * (config_.max_rate + kLargestNoise * quiet_->rate);
-  const double max_force = factor * (config_.max_force_deviation + kLargestNoise * quiet_->force);
+  const double max_rate = factor * (kMaxRate + kLargestNoise * quiet_->rate);
+  const double max_force = factor * (kMaxForceDeviation + kLargestNoise * quiet_->force);
   return statistics_->rate_deviation <= max_rate && statistics_->force_deviation <= max_force &&
          (statistics_->rate - gyro_bias).norm() <= max_rate;
 }
 
 bool ZeroVelocityDetector::update(const LegOdometrySample& legs, const std::deque<ImuSample>& imu,
                                   const Eigen::Vector3d& gyro_bias, const WhiteDeviation& white) {
-  const double factor = standing_ ? config_.hysteresis : 1.0;
+  const double factor = standing_ ? kHysteresis : 1.0;
   if (!quiet_) quiet_ = white;
   quiet_ = {std::min(quiet_->rate, white.rate), std::min(quiet_->force, white.force)};
-  statistics_ = imu_statistics(imu, legs.stamp, from_seconds(config_.window));
+  statistics_ = imu_statistics(imu, legs.stamp, kStandingWindow);
   if (!legs_still(legs, factor) || !imu_still(gyro_bias, factor)) {
     still_since_.reset();
     standing_ = false;
     return false;
   }
   if (!still_since_) still_since_ = legs.stamp;
-  standing_ = standing_ || legs.stamp - *still_since_ >= from_seconds(config_.window);
+  standing_ = standing_ || legs.stamp - *still_since_ >= kStandingWindow;
   return standing_;
 }
 
 std::optional<ImuStatistics> ZeroVelocityDetector::due_measurement() {
   if (!standing_ || !last_) return std::nullopt;
-  if (last_measured_ && *last_ - *last_measured_ < from_seconds(config_.window)) {
+  if (last_measured_ && *last_ - *last_measured_ < kStandingWindow) {
     return std::nullopt;
   }
   last_measured_ = last_;

@@ -11,18 +11,16 @@
 
 namespace aims {
 
+/// The detection looks at windows of this length, and each gives one measurement.
+inline constexpr Duration kStandingWindow = 300 * kMillisecond;
+
+/// Noise of the zero velocity [m/s] and the zero mean rate [rad/s] of a standing robot.
+inline constexpr double kSigmaZeroVelocity = 0.01;
+inline constexpr double kSigmaZeroRate = 3e-3;
+
 /// Zero-velocity update (ZUPT).
 struct ZeroVelocityConfig {
   bool enabled = false;
-  double window = 0.3;               ///< of the detection; one measurement per window [s]
-  double max_rate = 0.03;            ///< mean angular rate, and deviation from the mean [rad/s]
-  double max_force_deviation = 0.3;  ///< of the specific force from its mean [m/s^2]
-  double max_leg_speed = 0.02;       ///< speed from leg odometry, smoothed [m/s]
-  double max_joint_rate = 0.15;      ///< root mean square over the joints, smoothed [rad/s]
-  double leg_smoothing = 0.05;       ///< time constant of both [s]
-  double hysteresis = 1.5;           ///< factor on the limits once the robot stands [-]
-  double sigma_velocity = 0.01;      ///< of the zero velocity [m/s]
-  double sigma_rate = 3e-3;          ///< of the zero mean rate [rad/s]
 };
 
 void describe(Fields& fields, ZeroVelocityConfig& config);
@@ -48,8 +46,6 @@ LinearMeasurement zero_rate_model(const NominalState& state, const Eigen::Vector
 /// Detects standing still from IMU and legs; both must agree, with hysteresis.
 class ZeroVelocityDetector {
  public:
-  explicit ZeroVelocityDetector(const ZeroVelocityConfig& config) : config_(config) {}
-
   /// Adds a leg sample, with the IMU samples up to it; `gyro_bias` is the current estimate [rad/s],
   /// `white` the deviation of one IMU sample, whose least so far is what a standing robot shows.
   /// True while the robot stands.
@@ -65,7 +61,6 @@ class ZeroVelocityDetector {
 
   bool imu_still(const Eigen::Vector3d& gyro_bias, double factor) const;
 
-  ZeroVelocityConfig config_;
   std::optional<WhiteDeviation> quiet_;  ///< the least so far
   bool standing_ = false;
   Eigen::Vector3d smoothed_velocity_ = Eigen::Vector3d::Zero();  ///< from leg odometry [m/s]

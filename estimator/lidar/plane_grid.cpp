@@ -50,10 +50,10 @@ void PlaneSums::add(const Eigen::Vector3f& offset) {
   octant.sum += offset;
 }
 
-Plane PlaneSums::plane(double edge, const MapConfig& config) const {
+Plane PlaneSums::plane(double edge) const {
   if (count_ < kMinCount) return {};
   const Eigen::Vector3d mean = sum_ / count_;
-  PrincipalPlane fit = principal_plane(mean, squares_ / count_ - mean * mean.transpose(), config);
+  PrincipalPlane fit = principal_plane(mean, squares_ / count_ - mean * mean.transpose());
   fit.plane.valid = fit.plane.valid && quarters_agree(fit.plane, fit.variance) &&
                     !cut_off(fit.plane, fit.variance, edge);
   fit.plane.thickness = kLargestOfFive * std::sqrt(fit.variance);
@@ -79,9 +79,6 @@ bool PlaneSums::quarters_agree(const Plane& plane, double variance) const {
   return between - noise <= kMaxBetween * count_ * variance;
 }
 
-PlaneGrid::PlaneGrid(double edge, const MapConfig& config)
-    : config_(config), edge_(static_cast<float>(edge)) {}
-
 void PlaneGrid::insert(const Eigen::Vector3f& point, std::size_t half) {
   const VoxelIndex at = voxel_of(point, 1.0F / edge_);
   Cell& cell = cells_.touch(voxel_key(at));
@@ -97,7 +94,7 @@ void PlaneGrid::end_insertion() {
       const int count = half.sums.count();
       if (count < PlaneSums::kMinCount || count < (1.0 + kGrowth) * half.fitted) continue;
       half.fitted = count;
-      half.plane = half.sums.plane(edge_, config_);
+      half.plane = half.sums.plane(edge_);
       half.plane.point += cell.middle.cast<double>();
     }
   });

@@ -20,9 +20,9 @@ class PlaneSums {
   int count() const { return count_; }
 
   /// The least-squares plane in a cube with this edge [m], its point relative to the middle; valid
-  /// when spread and ratio of the configuration hold, the quarters of the cube beside each other
+  /// when principal_plane() says so, the quarters of the cube beside each other
   /// along the plane agree about it, and no side of the cube cuts off part of its returns.
-  Plane plane(double edge, const MapConfig& config) const;
+  Plane plane(double edge) const;
 
   static constexpr int kMinCount = 20;
   static constexpr int kMaxCount = 400;
@@ -46,7 +46,7 @@ class PlaneSums {
 /// information along a corridor (docs/estimators.md).
 class PlaneGrid {
  public:
-  PlaneGrid(double edge, const MapConfig& config);
+  explicit PlaneGrid(double edge) : edge_(static_cast<float>(edge)) {}
 
   void begin_insertion() { cells_.begin_insertion(); }
 
@@ -61,7 +61,6 @@ class PlaneGrid {
 
   /// As VoxelStore.
   void limit(std::size_t max_count, const Eigen::Vector3f& center);
-  void forget_unseen(int insertions) { cells_.forget_unseen(insertions); }
   std::size_t memory() const { return cells_.memory(); }
 
  private:
@@ -77,7 +76,6 @@ class PlaneGrid {
     std::uint32_t seen = 0;
   };
 
-  MapConfig config_;
   float edge_;
   VoxelStore<Cell> cells_;
 };

@@ -6,9 +6,18 @@
 #include <cmath>
 
 namespace aims {
+namespace {
 
-PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter,
-                               const MapConfig& config) {
+/// Smallest second principal deviation of the points of a plane: the jamb of a door 15 cm deep has
+/// 4.3 cm (docs/decisions.md) [m].
+constexpr double kMinSpread = 0.05;
+
+/// Smallest ratio of the second to the smallest principal variance; docs/decisions.md.
+constexpr double kMinRatio = 10.0;
+
+}  // namespace
+
+PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter) {
   PrincipalPlane fit;
   Plane& plane = fit.plane;
   plane.point = mean;
@@ -18,13 +27,12 @@ PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3
   const double across = std::max(solver.eigenvalues()(0), 0.0);
   fit.variance = across;
   const double second = solver.eigenvalues()(1);
-  plane.valid = plane.normal.allFinite() &&
-                second >= config.plane_min_spread * config.plane_min_spread &&
-                second >= config.plane_min_ratio * across;
+  plane.valid =
+      plane.normal.allFinite() && second >= kMinSpread * kMinSpread && second >= kMinRatio * across;
   return fit;
 }
 
-Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config) {
+Plane fit_plane(std::span<const Eigen::Vector3f> points) {
   if (points.size() < 3) return {};
   const auto count = static_cast<double>(points.size());
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -36,7 +44,7 @@ Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config
     scatter.noalias() += d * d.transpose();
   }
   scatter /= count;
-  Plane plane = principal_plane(mean, scatter, config).plane;
+  Plane plane = principal_plane(mean, scatter).plane;
   if (!plane.valid) return plane;
   for (const Eigen::Vector3f& p : points) {
     const double distance = plane.normal.dot(p.cast<double>() - plane.point);

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "estimator/filter/error_state.hpp"
-#include "estimator/lidar/lidar_config.hpp"
 
 namespace aims {
 
@@ -34,13 +33,12 @@ struct PrincipalPlane {
 };
 
 /// The least-squares plane of points with this mean and scatter [m^2]; valid when they spread in
-/// two directions, and by the ratio of the configuration more than across the plane.
-PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter,
-                               const MapConfig& config);
+/// two directions, and much more than across the plane.
+PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter);
 
-/// The least-squares plane of `points`; valid when they satisfy spread and ratio of the
-/// configuration, which five points of one scan line do not.
-Plane fit_plane(std::span<const Eigen::Vector3f> points, const MapConfig& config);
+/// The least-squares plane of `points`; valid when principal_plane() says so of their mean and
+/// scatter, which it does not of five points of one scan line.
+Plane fit_plane(std::span<const Eigen::Vector3f> points);
 
 /// One row of the point-to-plane model.
 struct PlaneRow {

@@ -7,6 +7,14 @@
 namespace aims {
 namespace {
 
+/// Largest distance of the neighbours from their plane, and the residual at which a robust weight
+/// is one half, in deviations of a residual [-].
+constexpr double kMaxThickness = 3.0;
+constexpr double kKernelScale = 3.0;
+
+/// Larger residuals are rejected [m].
+constexpr double kMaxResidual = 0.2;
+
 /// The row with the sign of its normal turned to that of `other`.
 PlaneRow aligned(PlaneRow row, const PlaneRow& other) {
   using E = ErrorState;
@@ -30,9 +38,8 @@ void add(const PlaneRow& a, const PlaneRow& b, double weight, HalvesInformation&
 
 }  // namespace
 
-ScanMatcher::ScanMatcher(const LidarUpdateConfig& config, const RobustKernelConfig& kernel,
-                         double plane_thickness)
-    : config_(config), kernel_(kernel), plane_thickness_(plane_thickness) {}
+ScanMatcher::ScanMatcher(double correlated_points, const RobustKernelConfig& kernel)
+    : correlated_points_(correlated_points), kernel_(kernel) {}
 
 void ScanMatcher::reset(const Eigen::Vector3d& sensor) {
   sensor_ = sensor;
@@ -49,7 +56,7 @@ void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector
     if (!planes.valid()) continue;
     const double cosine = std::abs(planes.a.normal.dot(R * (p_body - sensor_).normalized()));
     const double thickest = std::max(planes.a.thickness, planes.b.thickness);
-    if (thickest <= plane_thickness_ * noise_.sigma(cosine)) {
+    if (thickest <= kMaxThickness * noise_.sigma(cosine)) {
       matches_.push_back({p_body, planes, cosine});
     }
   }
@@ -64,10 +71,10 @@ MatchInformation ScanMatcher::linearize(const NominalState& state) {
     const PlaneRow a = plane_row(match.planes.a, match.p_body, R, state.position);
     const PlaneRow b = aligned(plane_row(match.planes.b, match.p_body, R, state.position), a);
     const double residual = 0.5 * (a.residual + b.residual);
-    if (!(std::abs(residual) <= config_.residual_gate)) continue;
+    if (!(std::abs(residual) <= kMaxResidual)) continue;
     const double sigma = noise_.sigma(match.cosine);
-    const double ratio = robust_ ? residual / (kernel_.scale * sigma) : 0.0;
-    const double weight = 1.0 / (config_.correlated_points * sigma * sigma);
+    const double ratio = robust_ ? residual / (kKernelScale * sigma) : 0.0;
+    const double weight = 1.0 / (correlated_points_ * sigma * sigma);
     add(a, b, weight / (1.0 + ratio * ratio), sum.halves);  // Cauchy
     residuals_.push_back(residual);
     incident_residuals_.push_back({residual, match.cosine});

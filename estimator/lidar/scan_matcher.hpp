@@ -23,9 +23,8 @@ struct MatchInformation {
 /// Matches the points of a scan with the planes of the map and linearizes eq. (2).
 class ScanMatcher {
  public:
-  /// `plane_thickness`: MapConfig::plane_thickness.
-  ScanMatcher(const LidarUpdateConfig& config, const RobustKernelConfig& kernel,
-              double plane_thickness);
+  /// `correlated_points`: LidarUpdateConfig::correlated_points.
+  ScanMatcher(double correlated_points, const RobustKernelConfig& kernel);
 
   /// Starts a scan that was taken from `sensor` (body axes) [m]: no robust weights until
   /// start_robust_weights().
@@ -58,9 +57,8 @@ class ScanMatcher {
     double cosine;  ///< of the incidence
   };
 
-  LidarUpdateConfig config_;
+  double correlated_points_;
   RobustKernelConfig kernel_;
-  double plane_thickness_;
   ResidualNoise noise_;
   Eigen::Vector3d sensor_ = Eigen::Vector3d::Zero();
   bool robust_ = false;

@@ -22,10 +22,7 @@ void describe(Fields& f, CalibrationConfig& c) {
   f.number("delay_sigma", c.delay_sigma,
            {"s", positive_up_to(0.1), "initial error of the clocks",
             "clocks set over a network: 1 to 5 ms"});
-  f.number("mount_walk", c.mount_walk, {"rad/sqrt(s)", up_to(1.0), "random walk of the mount"});
-  f.number("delay_walk", c.delay_walk, {"s/sqrt(s)", up_to(1.0), "random walk of the delay"});
-  f.idle_if(!c.enabled, "enabled is false",
-            {"mount_sigma", "delay_sigma", "mount_walk", "delay_walk"});
+  f.idle_if(!c.enabled, "enabled is false", {"mount_sigma", "delay_sigma"});
 }
 
 Belief open_calibration(Belief belief, const CalibrationConfig& config, double imu_rate_hz) {
@@ -39,8 +36,7 @@ Belief open_calibration(Belief belief, const CalibrationConfig& config, double i
 
 void walk_calibration(Belief& belief, const CalibrationConfig& config, double dt) {
   if (!config.enabled) return;
-  add_variance(belief.covariance, config.mount_walk * std::sqrt(dt),
-               config.delay_walk * std::sqrt(dt));
+  add_variance(belief.covariance, kMountWalk * std::sqrt(dt), kDelayWalk * std::sqrt(dt));
 }
 
 Pose corrected_mount(const NominalState& state, const Pose& nominal) {

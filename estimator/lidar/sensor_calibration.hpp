@@ -11,13 +11,15 @@
 
 namespace aims {
 
+/// Random walks of the mount [rad/sqrt(s)] and the delay [s/sqrt(s)].
+inline constexpr double kMountWalk = 1e-5;
+inline constexpr double kDelayWalk = 5e-5;
+
 /// Rotation of the LiDAR's mount and delay of the IMU's stamps as filter states.
 struct CalibrationConfig {
   bool enabled = true;        ///< false: both are known exactly
   double mount_sigma = 5e-3;  ///< initial, per axis [rad]
   double delay_sigma = 2e-3;  ///< initial, beyond how the IMU averages [s]
-  double mount_walk = 1e-5;   ///< [rad/sqrt(s)]
-  double delay_walk = 5e-5;   ///< [s/sqrt(s)]
 };
 
 void describe(Fields& fields, CalibrationConfig& config);

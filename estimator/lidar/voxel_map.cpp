@@ -36,16 +36,12 @@ float squared_gap(float inside, float size, int offset) {
 }  // namespace
 
 VoxelMap::VoxelMap(const MapConfig& config)
-    : config_(config),
-      inverse_size_(static_cast<float>(1.0 / config.voxel_size)),
+    : inverse_size_(static_cast<float>(1.0 / config.voxel_size)),
       size_(static_cast<float>(config.voxel_size)),
-      gate_(static_cast<float>(std::min(config.neighbor_gate, config.voxel_size))),
       spacing_(static_cast<float>(config.point_spacing)),
-      max_points_per_voxel_(std::clamp(config.max_points_per_voxel, 1, kCapacity)),
-      max_merges_(std::clamp(config.max_merges, 1, 255)),
       max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {
   for (const double edge : {2.0 * config.voxel_size, config.voxel_size}) {
-    grids_.emplace_back(edge, config);
+    grids_.emplace_back(edge);
   }
 }
 
@@ -82,8 +78,8 @@ PlanePair VoxelMap::planes_at(const Eigen::Vector3f& query) const {
     if (half.count < Neighbors::kWanted) return {};
   }
   PlanePair planes;
-  planes.a = fit_plane(neighbors[0].points, config_);
-  if (planes.a.valid) planes.b = fit_plane(neighbors[1].points, config_);
+  planes.a = fit_plane(neighbors[0].points);
+  if (planes.a.valid) planes.b = fit_plane(neighbors[1].points);
   return planes;
 }
 
@@ -110,12 +106,12 @@ void VoxelMap::insert(const Eigen::Vector3f& point, Half& half) const {
     }
   }
   if (closest >= 0) {
-    if (half.merged[closest] >= max_merges_) return;
+    if (half.merged[closest] >= kMaxMerges) return;
     const float weight = 1.0F / static_cast<float>(++half.merged[closest]);
     half.x[closest] += weight * (point.x() - half.x[closest]);
     half.y[closest] += weight * (point.y() - half.y[closest]);
     half.z[closest] += weight * (point.z() - half.z[closest]);
-  } else if (half.count < max_points_per_voxel_) {
+  } else if (half.count < kCapacity) {
     const int i = half.count++;
     half.x[i] = point.x();
     half.y[i] = point.y();
@@ -161,7 +157,7 @@ void VoxelMap::nearest(const Eigen::Vector3f& query,
   const Eigen::Vector3f inside =
       query - size_ * Eigen::Vector3f(static_cast<float>(home.x), static_cast<float>(home.y),
                                       static_cast<float>(home.z));
-  const float gate = gate_ * gate_;
+  const float gate = size_ * size_;
   const auto reach = [gate](const Neighbors& found) {
     return found.count == Neighbors::kWanted ? found.squared_distances[Neighbors::kWanted - 1]
                                              : gate;
@@ -177,11 +173,6 @@ void VoxelMap::nearest(const Eigen::Vector3f& query,
       search(voxel->halves[half], query, gate, neighbors[half]);
     }
   }
-}
-
-void VoxelMap::forget_unseen(int insertions) {
-  voxels_.forget_unseen(insertions);
-  for (PlaneGrid& grid : grids_) grid.forget_unseen(insertions);
 }
 
 std::size_t VoxelMap::memory() const {

@@ -35,13 +35,10 @@ class VoxelMap {
   void insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
               const Eigen::Matrix3f& covariance = Eigen::Matrix3f::Zero());
 
-  /// Drops the voxels that got no point in the last `insertions` calls of `insert`.
-  void forget_unseen(int insertions);
-
   /// The covariance stored in the voxel around `point`; zero where there is none [m^2].
   Eigen::Matrix3f covariance_at(const Eigen::Vector3f& point) const;
 
-  /// The nearest points of each half, up to five, within the gate (at most one voxel edge); exact.
+  /// The nearest points of each half, up to five, within one voxel edge; exact.
   void nearest(const Eigen::Vector3f& query, std::array<Neighbors, kHalves>& neighbors) const;
 
   /// The planes at `query`: of the largest cell around it whose returns lie on one in both halves,
@@ -58,7 +55,8 @@ class VoxelMap {
   std::vector<Eigen::Vector3f> points() const;
 
  private:
-  static constexpr int kCapacity = 32;  ///< points of one half in a voxel
+  static constexpr int kCapacity = 32;   ///< points of one half in a voxel
+  static constexpr int kMaxMerges = 20;  ///< returns averaged by a map point
   /// Consecutive insertions into one half: 2 s of scans at 10 Hz. Scans of one stride share the
   /// error of the pose from which they are mapped, and with it the tilt of their planes.
   static constexpr int kLongestBlock = 20;
@@ -86,13 +84,9 @@ class VoxelMap {
   static void search(const Half& half, const Eigen::Vector3f& query, float gate,
                      Neighbors& neighbors);
 
-  MapConfig config_;
   float inverse_size_;
   float size_;
-  float gate_;
   float spacing_;
-  int max_points_per_voxel_;
-  int max_merges_;
   std::size_t max_voxels_;
   std::size_t half_ = 0;  ///< of the next insertion
   int in_block_ = 0;      ///< insertions in the present block

@@ -52,12 +52,6 @@ class VoxelStore {
     drop_if([&, farthest = *last](const Voxel& v) { return squared_distance(v) >= farthest; });
   }
 
-  /// Drops the voxels not touched by the last `insertions`.
-  void forget_unseen(int insertions) {
-    const auto age = static_cast<std::uint32_t>(std::max(insertions, 0));
-    drop_if([&](const Voxel& v) { return insertions_ - v.seen >= age; });
-  }
-
   /// Memory held [bytes].
   std::size_t memory() const { return voxels_.capacity() * sizeof(Voxel) + index_.memory(); }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace aims {
 namespace {
 
@@ -62,12 +64,21 @@ TEST(EstimatorConfigs, ReasonsOfIdleSettingsNameTheSwitch) {
   EXPECT_EQ(idle("aims.degeneracy.eta"), "");
   EXPECT_EQ(idle("tfs.degeneracy.eta"), "degeneracy.enabled is false");
   EXPECT_EQ(idle("tfs.degeneracy.enabled"), "");
-  EXPECT_EQ(idle("lio.legs.max_speed"), "legs.enabled is false");
+  EXPECT_EQ(idle("lio.legs.repeat_lost"), "legs.enabled is false");
   EXPECT_EQ(idle("lio.leg_noise.enabled"), "legs.enabled is false");
   EXPECT_EQ(idle("aims_d.legs.velocity_sigma"), "leg_noise.enabled is true");
-  EXPECT_EQ(idle("lio.leg_states.scale"), "legs.enabled is false");
-  EXPECT_EQ(idle("aims.leg_states.scale_sigma"), "leg_states.scale is false");
+  EXPECT_EQ(idle("lio.leg_states.enabled"), "legs.enabled is false");
+  EXPECT_EQ(idle("aims.leg_states.scale_sigma"), "leg_states.enabled is false");
   EXPECT_EQ(idle("aims.calibration.mount_sigma"), "");
+}
+
+TEST(EstimatorConfigs, AimsDHasFortySettingsWithAnEffect) {
+  EstimatorConfigs configs;
+  const Fields fields = fields_of(configs);
+  const auto acts = [](const Parameter& parameter) {
+    return parameter.key.starts_with("aims_d.") && parameter.idle.empty();
+  };
+  EXPECT_LE(std::ranges::count_if(fields.parameters(), acts), 40);
 }
 
 }  // namespace

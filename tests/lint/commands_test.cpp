@@ -153,7 +153,7 @@ std::set<std::string> configuration_keys() {
   const std::regex relative("estimators\\.[a-z_]+\\.(.*)");
   std::istringstream stream(
       output_of("config corridor --set 'run=[aims, aims_d, tfs, tfs_clean, tfs_plus, lio, leg, "
-                "all=aims_d+degeneracy.enabled=true+forgetting.enabled=true]'"));
+                "all=aims_d+degeneracy.enabled=true]'"));
   for (std::string line; std::getline(stream, line);) {
     std::smatch match;
     if (!std::regex_match(line, match, entry)) continue;

@@ -29,7 +29,7 @@ TEST(NodeConfig, RejectsWhatHasNoEffectInANode) {
 TEST(NodeConfig, TakesASpecAndRejectsItsSettingsWithoutEffect) {
   NodeOptions options;
   options.estimator = "aims+ground_constraint.enabled=true";
-  options.overrides = {"estimators.aims.ground_constraint.radius=4"};
+  options.overrides = {"estimators.aims.ground_constraint.sigma_height=0.01"};
   EXPECT_TRUE(load_node_config(options));
   options.estimator = "aims";
   const auto config = load_node_config(options);

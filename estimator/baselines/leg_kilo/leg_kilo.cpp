@@ -50,7 +50,7 @@ void LegKilo::process_ready() {
       process(**scan);
     } else if (config_.legs.enabled) {
       legs_.push_back(std::get<LegOdometrySample>(*next));
-      if (legs_.size() > static_cast<std::size_t>(config_.queue.max_held)) legs_.pop_front();
+      if (legs_.size() > kMaxHeld) legs_.pop_front();
     }
   }
   for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;

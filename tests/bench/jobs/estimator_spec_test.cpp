@@ -54,7 +54,7 @@ TEST(EstimatorSpec, AnEstimatorNameIsItsOwnLabel) {
 
 TEST(EstimatorSpec, HoldsLabelNameAndSettingsInOrder) {
   const EstimatorSpec spec =
-      parsed("no_ground=aims_d+ground_constraint.enabled=false+leg_noise.gate=10");
+      parsed("no_ground=aims_d+ground_constraint.enabled=false+leg_noise.nominal_spread=10");
   EXPECT_EQ(spec.label, "no_ground");
   EXPECT_EQ(spec.name, "aims_d");
   ASSERT_EQ(spec.settings.size(), 2U);
@@ -63,7 +63,7 @@ TEST(EstimatorSpec, HoldsLabelNameAndSettingsInOrder) {
   const auto config = config_with(spec, {});
   ASSERT_TRUE(config);
   EXPECT_EQ(text_in(**config, "ground_constraint.enabled"), "false");
-  EXPECT_EQ(text_in(**config, "leg_noise.gate"), "10");
+  EXPECT_EQ(text_in(**config, "leg_noise.nominal_spread"), "10");
 }
 
 TEST(EstimatorSpec, TextReadsBackAsTheSameSpec) {
@@ -77,9 +77,9 @@ TEST(EstimatorSpec, TextReadsBackAsTheSameSpec) {
 }
 
 TEST(EstimatorSpec, APlusInsideANumberStartsNoSetting) {
-  const auto config = config_with(parsed("x=aims+legs.max_speed=1e+1+degeneracy.eta=5"), {});
+  const auto config = config_with(parsed("x=aims+legs.scale_sigma=1e+1+degeneracy.eta=5"), {});
   ASSERT_TRUE(config);
-  EXPECT_EQ(text_in(**config, "legs.max_speed"), "10");
+  EXPECT_EQ(text_in(**config, "legs.scale_sigma"), "10");
   EXPECT_EQ(text_in(**config, "degeneracy.eta"), "5");
 }
 
@@ -140,23 +140,23 @@ std::string refusal_of(std::vector<std::string> settings) {
 }
 
 TEST(SettingsWithoutEffect, AreRefusedWithTheReason) {
-  expect_contains(refusal_of({"estimators.lio.legs.max_speed=3"}),
-                  "estimators.lio.legs.max_speed: has no effect: legs.enabled is false");
-  expect_contains(refusal_of({"estimators.aims.ground_constraint.radius=3"}),
+  expect_contains(refusal_of({"estimators.lio.legs.scale_sigma=3"}),
+                  "estimators.lio.legs.scale_sigma: has no effect: legs.enabled is false");
+  expect_contains(refusal_of({"estimators.aims.ground_constraint.sigma_height=3"}),
                   "has no effect: ground_constraint.enabled is false");
   expect_contains(refusal_of({"run=[lio]", "estimators.aims.degeneracy.eta=2"}),
                   "estimators.aims.degeneracy.eta: has no effect: aims does not run");
-  expect_contains(refusal_of({"run=[x=lio+legs.max_speed=3]"}),
-                  "legs.max_speed: has no effect: legs.enabled is false");
+  expect_contains(refusal_of({"run=[x=lio+legs.scale_sigma=3]"}),
+                  "legs.scale_sigma: has no effect: legs.enabled is false");
 }
 
 TEST(SettingsWithoutEffect, AreFoundInTheFinalConfigurationWhateverTheOrder) {
   const std::string on = "estimators.aims.ground_constraint.enabled=true";
-  const std::string radius = "estimators.aims.ground_constraint.radius=3";
-  EXPECT_EQ(refusal_of({on, radius}), "");
-  EXPECT_EQ(refusal_of({radius, on}), "");
-  EXPECT_EQ(refusal_of({radius, "run=[aims, x=aims+ground_constraint.enabled=true]"}), "");
-  EXPECT_NE(refusal_of({radius, on, "estimators.aims.ground_constraint.enabled=false"}), "");
+  const std::string height = "estimators.aims.ground_constraint.sigma_height=3";
+  EXPECT_EQ(refusal_of({on, height}), "");
+  EXPECT_EQ(refusal_of({height, on}), "");
+  EXPECT_EQ(refusal_of({height, "run=[aims, x=aims+ground_constraint.enabled=true]"}), "");
+  EXPECT_NE(refusal_of({height, on, "estimators.aims.ground_constraint.enabled=false"}), "");
 }
 
 TEST(SettingsWithoutEffect, AWildcardNeedsOneEstimatorThatRuns) {
@@ -174,11 +174,13 @@ TEST(SettingsWithoutEffect, AWildcardNeedsOneEstimatorThatRuns) {
 
 TEST(SettingsWithoutEffect, AreNotInTheTextOfAConfigurationThatLoadsBack) {
   const std::string run = "run=[aims, x=lio+imu.gravity=9.8]";
-  EXPECT_NE(refusal_of({run, "estimators.lio.leg_noise.gate=10"}), "") << "no legs in lio";
+  EXPECT_NE(refusal_of({run, "estimators.lio.leg_noise.nominal_spread=10"}), "")
+      << "no legs in lio";
   const auto good = default_scenario(std::vector<std::string>{run, "estimators.lio.queue.lag=0.1"});
   ASSERT_TRUE(good) << good.error().message;
   const std::string text = config_text(*good);
-  EXPECT_EQ(text.find("max_speed: 5\n"), text.rfind("max_speed: 5\n")) << "only that of aims";
+  EXPECT_EQ(text.find("scale_sigma: 0.05\n"), text.rfind("scale_sigma: 0.05\n"))
+      << "only that of aims";
   EXPECT_EQ(text.find("tfs"), std::string::npos);
   Scenario again;
   ASSERT_TRUE(load_config_text(text, "again.yaml", again));

@@ -33,7 +33,7 @@ TEST(AblationSpecs, AreTheWholeAndItselfWithoutEachPartThatIsOn) {
   EXPECT_EQ(specs->front(), "aims_d");
   for (const char* spec :
        {"no_ground_constraint=aims_d+ground_constraint.enabled=false",
-        "no_leg_states_scale=aims_d+leg_states.scale=false",
+        "no_leg_states=aims_d+leg_states.enabled=false",
         "no_cross_validation=aims_d+cross_validation.enabled=false",
         "no_calibration=aims_d+calibration.enabled=false", "no_legs=aims_d+legs.enabled=false"}) {
     EXPECT_TRUE(contains(*specs, spec)) << spec;
@@ -43,11 +43,11 @@ TEST(AblationSpecs, AreTheWholeAndItselfWithoutEachPartThatIsOn) {
 }
 
 TEST(AblationSpecs, APartThatItsOwnSettingsNeedStays) {
-  const auto specs = ablation_specs("mine=aims_d+leg_noise.gate=10", {}, {});
+  const auto specs = ablation_specs("mine=aims_d+leg_noise.nominal_spread=10", {}, {});
   ASSERT_TRUE(specs) << specs.error().message;
   for (const std::string& spec : *specs) EXPECT_FALSE(spec.starts_with("no_leg_noise=")) << spec;
-  EXPECT_TRUE(
-      contains(*specs, "no_robust_kernel=aims_d+leg_noise.gate=10+robust_kernel.enabled=false"));
+  EXPECT_TRUE(contains(
+      *specs, "no_robust_kernel=aims_d+leg_noise.nominal_spread=10+robust_kernel.enabled=false"));
 }
 
 TEST(AblationSpecs, TurnOnWhatTheScenarioOrTheSpecTurnsOff) {

@@ -78,7 +78,7 @@ TEST(RangeKey, IsHeldAgainstTheScenario) {
   EXPECT_TRUE(says(refusal_of("leg_odometry.foot_model=0:1:2"), "only numbers"));
   EXPECT_TRUE(says(refusal_of("seed=1:5:5"), "seeds are listed by 'seeds'"));
   EXPECT_TRUE(says(refusal_of("level=1:5:5"), "decides no number of a run"));
-  EXPECT_TRUE(says(refusal_of("ground_constraint.radius=1:5:5"),
+  EXPECT_TRUE(says(refusal_of("ground_constraint.sigma_height=1:5:5"),
                    "has no effect on aims: ground_constraint.enabled is false"));
   EXPECT_TRUE(says(refusal_of("estimators.lio.lidar.correlated_points=1:9:5"),
                    "a key of lio, but aims is varied"));

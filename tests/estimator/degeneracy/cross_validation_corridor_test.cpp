@@ -124,7 +124,7 @@ class MappedCorridor {
   LidarUpdateConfig lidar_;
   MapConfig map_config_;
   ScanSelection selection_{lidar_};
-  ScanMatcher matcher_{lidar_, RobustKernelConfig{}, map_config_.plane_thickness};
+  ScanMatcher matcher_{LidarUpdateConfig{}.correlated_points, RobustKernelConfig{}};
   VoxelMap map_{map_config_};
   VoxelMap exact_map_{map_config_};
   Eigen::Vector3d sensor_ = Eigen::Vector3d::Zero();

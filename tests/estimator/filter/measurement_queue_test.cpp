@@ -65,7 +65,7 @@ TEST(MeasurementQueue, HoldsCorrectionsThatTheImuDoesNotCoverYet) {
 }
 
 TEST(MeasurementQueue, StopsWaitingForAMissingImu) {
-  MeasurementQueue queue = make_queue({.imu_wait = 0.3});
+  MeasurementQueue queue = make_queue({});
   queue.push(leg(10));
   queue.push(leg(200));
   EXPECT_TRUE(drain(queue).empty());
@@ -112,12 +112,12 @@ TEST(MeasurementQueue, RejectsImplausibleMeasurements) {
 }
 
 TEST(MeasurementQueue, MemoryIsBounded) {
-  MeasurementQueue queue = make_queue({.max_held = 100});
-  for (int i = 0; i < 1000; ++i) {
+  MeasurementQueue queue = make_queue({.max_ahead = 10.0});
+  for (int i = 0; i < static_cast<int>(kMaxHeld) + 900; ++i) {
     queue.push(leg(i, 0));
     queue.push(imu(i, 0));
   }
-  EXPECT_LE(queue.imu().samples().size(), 100U);
+  EXPECT_LE(queue.imu().samples().size(), kMaxHeld);
   EXPECT_EQ(queue.counts().at("queue.overflow"), 900);
 }
 

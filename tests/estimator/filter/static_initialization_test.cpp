@@ -96,7 +96,7 @@ TiltErrors errors_of_a_start(RandomStream& random, bool moving) {
   const Eigen::Quaterniond tilt =
       so3_exp({0.0, 0.05 * random.normal(), 0.0}) * so3_exp({0.05 * random.normal(), 0.0, 0.0});
   const Eigen::Vector3d bias = config.sigma_accelerometer_bias * random.normal3();
-  const double sigma = moving ? config.sigma_mean_force_moving : config.sigma_mean_force;
+  const double sigma = moving ? kSigmaMeanForceMoving : kSigmaMeanForce;
   auto samples = standing(tilt, Eigen::Vector3d::Zero(), 110);
   const Eigen::Vector3d error = bias + sigma * random.normal3();
   for (ImuSample& sample : samples) {
@@ -139,7 +139,7 @@ TEST(Initialization, TheCovarianceOfTiltAndBiasIsThatOfTheirErrors) {
 }
 
 std::optional<InitialBelief> run_static(const std::deque<ImuSample>& samples) {
-  return initialize_static(samples, InitializationConfig{}, StaticInitializationConfig{}, kGravity);
+  return initialize_static(samples, InitializationConfig{}, kGravity);
 }
 
 /// The samples with a force [m/s^2] from the side added in [begin, end) [s].
@@ -198,10 +198,10 @@ TEST(StaticInitialization, AShortIntervalGivesTheTiltButNoGyroBias) {
               10.0 * InitializationConfig{}.sigma_gyro_bias, 1e-12);
 }
 
-TEST(StaticInitialization, AStartShorterThanItsSettlingTimeIsStillAStart) {
+TEST(StaticInitialization, AShortStandingTimeIsStillAStart) {
   const auto samples = standing(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(), 101);
-  const InitializationConfig config = {.duration = 0.5, .settling_time = 1.0};
-  const auto found = initialize_static(samples, config, {.enabled = true}, 9.81);
+  const InitializationConfig config = {.duration = 0.5};
+  const auto found = initialize_static(samples, config, 9.81);
   ASSERT_TRUE(found);
   EXPECT_LT(found->belief.state.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-6);
 }

@@ -189,7 +189,7 @@ struct Sequence {
     truth = next;
     block(belief.covariance, E::kRotation, E::kRotation) += Eigen::Matrix3d::Identity() * 1e-7;
     block(belief.covariance, E::kPosition, E::kPosition) += Eigen::Matrix3d::Identity() * 1e-6;
-    auto plane = fit_ground(test::scan_ground(scene, truth, random), GroundConstraintConfig{});
+    auto plane = fit_ground(test::scan_ground(scene, truth, random));
     if (plane) {
       const Eigen::Vector3d error(random.normal(), random.normal(), 0.0);
       plane->normal = so3_exp(scan_noise * error) * plane->normal;

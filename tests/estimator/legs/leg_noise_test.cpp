@@ -126,17 +126,14 @@ TEST(LegNoise, NoiseGrowsWithSlipMissingFeetTurningAndGaps) {
   EXPECT_GT(grown(none, {}), grown(one_foot, {}));
   EXPECT_GT(grown(fixed, {.yaw_rate = -0.9}), 0.0);
   EXPECT_GT(grown(fixed, {.gap = 0.5}), 0.0);
-  EXPECT_LE(grown(fixed, {.gap = 1e6}), 1.001 * config.no_foot_sigma * config.no_foot_sigma);
+  EXPECT_LE(grown(fixed, {.gap = 1e6}), 1.001 * kNoFootSigma * kNoFootSigma);
 }
 
 TEST(LegNoise, TheGateInflatesBeforeItRejects) {
-  LegNoiseConfig config;
-  config.gate = 10.0;
-  config.max_variance_growth = 8.0;
-  EXPECT_EQ(gate_inflation(config, 9.9), 1.0);
-  EXPECT_NEAR(gate_inflation(config, 40.0).value(), 4.0, 1e-12);
-  EXPECT_FALSE(gate_inflation(config, 81.0).has_value());
-  EXPECT_FALSE(gate_inflation(config, std::numeric_limits<double>::quiet_NaN()).has_value());
+  EXPECT_EQ(gate_inflation(0.99 * kLegGate), 1.0);
+  EXPECT_NEAR(gate_inflation(4.0 * kLegGate).value(), 4.0, 1e-12);
+  EXPECT_FALSE(gate_inflation(1.01 * kMaxVarianceGrowth * kLegGate).has_value());
+  EXPECT_FALSE(gate_inflation(std::numeric_limits<double>::quiet_NaN()).has_value());
 }
 
 TEST(LegNoise, APacketAfterAGapHasMoreNoise) {

@@ -18,23 +18,25 @@ Belief fixed_legs() {
 
 TEST(LegStates, OnlyEnabledStatesGetVariance) {
   LegStatesConfig config;
-  config.scale = true;
   config.scale_sigma = 0.1;
-  const Belief belief = open_leg_states(fixed_legs(), config);
-  EXPECT_NEAR(block(belief.covariance, E::kLegScale, E::kLegScale)(1, 1), 0.01, 1e-12);
-  EXPECT_LT(block(belief.covariance, E::kLegBias, E::kLegBias)(1, 1), 1e-15);
+  config.bias_sigma = 0.02;
+  const Belief fixed = open_leg_states(fixed_legs(), config);
+  EXPECT_EQ(fixed.covariance, fixed_legs().covariance);
+  config.enabled = true;
+  const Belief open = open_leg_states(fixed_legs(), config);
+  EXPECT_NEAR(block(open.covariance, E::kLegScale, E::kLegScale)(1, 1), 0.01, 1e-12);
+  EXPECT_NEAR(block(open.covariance, E::kLegBias, E::kLegBias)(1, 1), 0.0004, 1e-12);
 }
 
 TEST(LegStates, VarianceGrowsWithTime) {
   LegStatesConfig config;
-  config.scale = true;
-  config.bias = true;
-  config.scale_walk = 1e-3;
-  config.bias_walk = 2e-3;
+  config.enabled = true;
   Belief belief = fixed_legs();
   for (int i = 0; i < 100; ++i) walk_leg_states(belief, config, 0.05);
-  EXPECT_NEAR(block(belief.covariance, E::kLegScale, E::kLegScale)(0, 0), 5e-6, 1e-12);
-  EXPECT_NEAR(block(belief.covariance, E::kLegBias, E::kLegBias)(2, 2), 2e-5, 1e-12);
+  EXPECT_NEAR(block(belief.covariance, E::kLegScale, E::kLegScale)(0, 0),
+              5.0 * kLegScaleWalk * kLegScaleWalk, 1e-12);
+  EXPECT_NEAR(block(belief.covariance, E::kLegBias, E::kLegBias)(2, 2),
+              5.0 * kLegBiasWalk * kLegBiasWalk, 1e-14);
 }
 
 TEST(LegStates, StrideMeanKeepsTheMeanAndDampsTheOscillation) {

@@ -67,7 +67,7 @@ bool is_walking(const Truth& truth, Time stamp) {
 }
 
 Outcome observe(const SimulatedSequence& sequence) {
-  ZeroVelocityDetector detector{ZeroVelocityConfig{}};
+  ZeroVelocityDetector detector;
   std::deque<ImuSample> imu;
   Outcome outcome;
   for (const Delivery& delivery : sequence.deliveries) {

@@ -29,7 +29,7 @@ struct Outcome {
 
 Outcome observe(const Rig& rig, double seconds = 3.0) {
   RandomStream random(7, "standstill.test");
-  ZeroVelocityDetector detector{ZeroVelocityConfig{}};
+  ZeroVelocityDetector detector;
   std::deque<ImuSample> imu;
   Outcome outcome;
   for (Time t = 0; t < from_seconds(seconds); t += kLegPeriod) {
@@ -56,7 +56,7 @@ Outcome observe(const Rig& rig, double seconds = 3.0) {
 
 TEST(ZeroVelocity, DetectsAfterOneWindowAndMeasuresOncePerWindow) {
   const Outcome outcome = observe({});
-  EXPECT_GE(outcome.first, ZeroVelocityConfig{}.window);
+  EXPECT_GE(outcome.first, to_seconds(kStandingWindow));
   EXPECT_LT(outcome.first, 1.0);
   EXPECT_GT(outcome.standing, 400);
   EXPECT_GE(outcome.measurements, 6);
@@ -107,7 +107,7 @@ TEST(ZeroVelocity, TurningAndSlidingAreNotStanding) {
 }
 
 TEST(ZeroVelocity, NotDetectedWithoutImuSamples) {
-  ZeroVelocityDetector detector{ZeroVelocityConfig{}};
+  ZeroVelocityDetector detector;
   LegOdometrySample legs;
   for (Time t = 0; t < kSecond; t += kLegPeriod) {
     legs.stamp = t;

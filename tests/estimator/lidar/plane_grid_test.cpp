@@ -36,7 +36,7 @@ TEST(PlaneSums, NormalScattersAsTheReturnsAllow) {
   double squares = 0.0;
   int valid = 0;
   for (int run = 0; run < kRuns; ++run) {
-    const Plane plane = sums_of_plane(kCount, random).plane(1.0, MapConfig{});
+    const Plane plane = sums_of_plane(kCount, random).plane(1.0);
     valid += plane.valid ? 1 : 0;
     squares += kNormal.cross(plane.normal).squaredNorm() / 2.0;
   }
@@ -47,23 +47,23 @@ TEST(PlaneSums, NormalScattersAsTheReturnsAllow) {
 
 TEST(PlaneSums, SaysHowThickThePlaneIs) {
   RandomStream random(2, "plane_grid.test");
-  const Plane plane = sums_of_plane(300, random).plane(1.0, MapConfig{});
+  const Plane plane = sums_of_plane(300, random).plane(1.0);
   EXPECT_NEAR(plane.thickness, 1.5 * kNoise, 0.15 * kNoise);
   EXPECT_LT(std::abs(kNormal.dot(plane.point)), 0.2 * kNoise);
 }
 
 TEST(PlaneSums, FewReturnsGiveNoPlane) {
   RandomStream random(3, "plane_grid.test");
-  EXPECT_FALSE(sums_of_plane(PlaneSums::kMinCount - 1, random).plane(1.0, MapConfig{}).valid);
-  EXPECT_TRUE(sums_of_plane(PlaneSums::kMinCount, random).plane(1.0, MapConfig{}).valid);
+  EXPECT_FALSE(sums_of_plane(PlaneSums::kMinCount - 1, random).plane(1.0).valid);
+  EXPECT_TRUE(sums_of_plane(PlaneSums::kMinCount, random).plane(1.0).valid);
 }
 
 TEST(PlaneSums, OldPlacesStay) {
   RandomStream random(4, "plane_grid.test");
   PlaneSums sums = sums_of_plane(PlaneSums::kMaxCount, random);
-  const Plane before = sums.plane(1.0, MapConfig{});
+  const Plane before = sums.plane(1.0);
   for (int i = 0; i < 100; ++i) sums.add(Eigen::Vector3f(0.0F, 0.0F, 0.4F));
-  EXPECT_EQ(sums.plane(1.0, MapConfig{}).point, before.point);
+  EXPECT_EQ(sums.plane(1.0).point, before.point);
 }
 
 /// Fraction of floors accepted, whose two diagonal quarters are higher than the others.
@@ -78,7 +78,7 @@ double accepted(double height, int runs) {
       const double z = (x * y > 0.0 ? height : 0.0) + kNoise * random.normal() - 0.1;
       sums.add(Eigen::Vector3d(x, y, z).cast<float>());
     }
-    valid += sums.plane(1.0, MapConfig{}).valid;
+    valid += sums.plane(1.0).valid;
   }
   return static_cast<double>(valid) / runs;
 }
@@ -100,7 +100,7 @@ TEST(PlaneSums, APlaneThatTheCubeCutsOffIsNone) {
       sums.add(
           Eigen::Vector3d(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), z).cast<float>());
     }
-    EXPECT_EQ(sums.plane(1.0, MapConfig{}).valid, clearance > 0.1);
+    EXPECT_EQ(sums.plane(1.0).valid, clearance > 0.1);
   }
 }
 
@@ -113,12 +113,12 @@ TEST(PlaneSums, APlaneThroughTheMiddleIsWhole) {
                             kNoise * random.normal());
     sums.add(p.cast<float>());
   }
-  EXPECT_TRUE(sums.plane(1.0, MapConfig{}).valid);
+  EXPECT_TRUE(sums.plane(1.0).valid);
 }
 
 TEST(PlaneGrid, FitsEachHalfAndNeedsBoth) {
   RandomStream random(7, "plane_grid.test");
-  PlaneGrid grid(1.0, MapConfig{});
+  PlaneGrid grid(1.0);
   const Eigen::Vector3f query(7.5F, -2.5F, 0.5F);
   const auto fill = [&](std::size_t half) {
     grid.begin_insertion();

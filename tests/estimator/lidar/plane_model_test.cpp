@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "estimator/lidar/lidar_config.hpp"
 #include "tests/estimator/finite_differences.hpp"
 
 namespace aims {
@@ -46,7 +47,7 @@ TEST(PlaneModel, FitsExactPlanes) {
   RandomStream random(1, "plane");
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d normal = random.normal3().normalized();
-    const Plane plane = fit_plane(spread_on_plane(normal, 0.0, random), MapConfig{});
+    const Plane plane = fit_plane(spread_on_plane(normal, 0.0, random));
     ASSERT_TRUE(plane.valid);
     EXPECT_GT(std::abs(plane.normal.dot(normal)), 1.0 - 1e-6);
   }
@@ -56,7 +57,7 @@ TEST(PlaneModel, RejectsOneScanLine) {
   std::vector<Eigen::Vector3f> line;
   for (int i = 0; i < 5; ++i)
     line.emplace_back(0.1F * static_cast<float>(i), 1.0F, 0.001F * (i % 2));
-  EXPECT_FALSE(fit_plane(line, MapConfig{}).valid);
+  EXPECT_FALSE(fit_plane(line).valid);
 }
 
 // One ring crosses from a wall to the ground: its five points lie in the cone of the beams, and the
@@ -67,16 +68,16 @@ TEST(PlaneModel, RejectsOneScanLineBentAroundACorner) {
                                              {1.2F, 1.1F, -0.20F},
                                              {1.3F, 1.05F, -0.21F},
                                              {1.35F, 1.0F, -0.21F}};
-  EXPECT_FALSE(fit_plane(bent, MapConfig{}).valid);
+  EXPECT_FALSE(fit_plane(bent).valid);
 }
 
 // Whether that is too thick depends on the noise of the residuals, which the matcher knows.
 TEST(PlaneModel, StatesTheLargestDistanceFromIt) {
   RandomStream random(1, "plane");
   auto points = spread_on_plane(Eigen::Vector3d::UnitZ(), 0.0, random);
-  EXPECT_LT(fit_plane(points, MapConfig{}).thickness, 1e-6);
+  EXPECT_LT(fit_plane(points).thickness, 1e-6);
   for (std::size_t i : {0, 1}) points[i].z() += 0.02F;
-  const Plane plane = fit_plane(points, MapConfig{});
+  const Plane plane = fit_plane(points);
   ASSERT_TRUE(plane.valid);
   double largest = 0.0;
   for (const Eigen::Vector3f& p : points) {
@@ -90,12 +91,12 @@ TEST(PlaneModel, RejectsPointsFarOffThePlane) {
   RandomStream random(1, "plane");
   auto points = spread_on_plane(Eigen::Vector3d::UnitZ(), 0.0, random);
   points[4].z() += 0.3F;
-  EXPECT_FALSE(fit_plane(points, MapConfig{}).valid);
+  EXPECT_FALSE(fit_plane(points).valid);
 }
 
 TEST(PlaneModel, RejectsIdenticalPoints) {
   const std::vector<Eigen::Vector3f> points(5, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
-  EXPECT_FALSE(fit_plane(points, MapConfig{}).valid);
+  EXPECT_FALSE(fit_plane(points).valid);
 }
 
 }  // namespace

@@ -81,8 +81,8 @@ TEST(SensorCalibration, WalksWithTime) {
   belief.covariance.setZero();
   CalibrationConfig config;
   for (int i = 0; i < 100; ++i) walk_calibration(belief, config, 0.1);
-  const double delay = config.delay_walk * config.delay_walk * 10.0;
-  const double mount = config.mount_walk * config.mount_walk * 10.0;
+  const double delay = kDelayWalk * kDelayWalk * 10.0;
+  const double mount = kMountWalk * kMountWalk * 10.0;
   EXPECT_NEAR(belief.covariance(E::kDelay, E::kDelay), delay, 1e-6 * delay);
   EXPECT_NEAR(belief.covariance(E::kMount.offset, E::kMount.offset), mount, 1e-6 * mount);
   EXPECT_EQ((belief.covariance.topLeftCorner<21, 21>().norm()), 0.0);
