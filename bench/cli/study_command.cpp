@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "bench/studies/consistency_study.hpp"
 #include "bench/studies/detector_summary.hpp"
 #include "bench/studies/detectors.hpp"
+#include "bench/studies/sensitivity.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "render/results/consistency_pictures.hpp"
@@ -102,6 +104,69 @@ void declare_ablation(Command command, const fs::path& scenarios) {
                  "  aims study ablation --tags severity --seeds 1-5 --baselines lio,tfs_clean\n"
                  "  aims study ablation severity_5 --groups leg_states");
   command.action([arguments] { return ablation_command(*arguments); });
+}
+
+struct SensitivityArguments {
+  SharedOptions shared;
+  std::vector<std::string> factors;
+};
+
+/// The factors of --factors; those of the study without any.
+Result<std::vector<double>> factors_of(const std::vector<std::string>& texts) {
+  if (texts.empty()) return SensitivityOptions().factors;
+  std::vector<double> factors;
+  for (const std::string& text : texts) {
+    double factor = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, factor);
+    if (error != std::errc() || at != end || !(factor > 0.0 && factor < 1e6) || factor == 1.0) {
+      return failure(fmt::format("--factors: expected numbers above 0, not 1, found '{}'", text));
+    }
+    factors.push_back(factor);
+  }
+  return factors;
+}
+
+int sensitivity_command(const SensitivityArguments& arguments) {
+  constexpr const char* kName = "study sensitivity";
+  SharedOptions shared = arguments.shared;
+  const auto estimator = one_estimator(shared, "aims_d");
+  if (!estimator) return bad_input(kName, estimator.error());
+  shared.estimators.clear();  // the study sets its own
+  const auto options = suite_options(shared, {});
+  if (!options) return bad_input(kName, options.error());
+  auto scenarios = study_scenarios(shared);
+  if (!scenarios) return bad_input(kName, scenarios.error());
+  const auto factors = factors_of(arguments.factors);
+  if (!factors) return bad_input(kName, factors.error());
+  const auto variants = set_setting_variants({*estimator, *factors}, *scenarios);
+  if (!variants) return bad_input(kName, variants.error());
+  const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
+  if (!suite) return bad_input(kName, suite.error());
+  const SettingSensitivity sensitivity = sensitivity_of(*suite, label_of(*estimator), *variants);
+  auto written = write_suite(*suite, shared.out);
+  if (written) written = write_sensitivity(sensitivity, *suite, shared.out);
+  if (!written) return bad_input(kName, written.error());
+  print_out("{}\n", to_text(sensitivity_table(sensitivity)));
+  print_outcome(*suite, shared);
+  print_out("results: {}, sensitivity.json, sensitivity.csv\n",
+            (fs::path(shared.out) / "sensitivity.md").string());
+  return exit_code_of(*suite);
+}
+
+void declare_sensitivity(Command command, const fs::path& scenarios) {
+  auto arguments = std::make_shared<SensitivityArguments>();
+  SharedOptions& shared = arguments->shared;
+  shared.folder = scenarios.string();
+  add_suite_options(command, shared, "out/sensitivity", "those of each scenario");
+  add_estimators(command, shared, "aims_d; one");
+  command.list("--factors", arguments->factors, "On each number, one setting at a time (0.5,2)");
+  command.footer(
+      std::string(kContinues) +
+      "Examples:\n"
+      "  aims study sensitivity random_corridor --seeds 1-10\n"
+      "  aims study sensitivity severity_3 --estimators fast_lio2 --factors 0.25,0.5,2,4");
+  command.action([arguments] { return sensitivity_command(*arguments); });
 }
 
 Result<void> write_results(const Suite& suite, const ConsistencyStudy& study, const fs::path& out) {
@@ -259,6 +324,9 @@ void declare_compare(Command command) {
 void declare_study(Command command, const fs::path& scenarios) {
   declare_ablation(
       command.subcommand("ablation", "The effect of each switch of an estimator on its scores"),
+      scenarios);
+  declare_sensitivity(
+      command.subcommand("sensitivity", "The effect of halving and doubling each setting"),
       scenarios);
   declare_consistency(
       command.subcommand("consistency",

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "bench/run/code_version.hpp"
+#include "bench/run/json_text.hpp"
+#include "bench/run/score_record.hpp"
+#include "bench/studies/sensitivity.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/csv.hpp"
+
+namespace aims {
+namespace {
+
+constexpr const char* kSensitivityIntroduction =
+    "# Sensitivity of `{0}` to its settings\n"
+    "\n"
+    "One setting at a time, its number times a factor, on the same {1} sequences; all else as\n"
+    "before. Ratios are of the median ATE ({2}), above 1 where the change makes it worse; in\n"
+    "brackets the sequences on which `{0}` alone succeeds (-) and the variant alone (+). A dash\n"
+    "stands where the setting does not allow the value.\n";
+
+std::string sensitivity_cell_text(const SensitivityCell& cell) {
+  if (!cell.ratio) return "-";
+  std::string text = fmt::format("{:.3f}", *cell.ratio);
+  if (cell.lost > 0) text += fmt::format(" (-{})", cell.lost);
+  if (cell.won > 0) text += fmt::format(" (+{})", cell.won);
+  return text;
+}
+
+std::string sensitivity_markdown(const SettingSensitivity& sensitivity, const Suite& suite) {
+  const std::string ate =
+      sensitivity.median_ate ? fmt::format("{:.3f} m", *sensitivity.median_ate) : "none";
+  std::string text =
+      fmt::format(kSensitivityIntroduction, sensitivity.estimator, sensitivity.sequences, ate);
+  if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
+  text += "\n" + to_markdown(sensitivity_table(sensitivity));
+  for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}", line);
+  for (const SuiteFailure& each : suite.failures) {
+    text += fmt::format("\n- failed: {}", text_of(each));
+  }
+  return text;
+}
+
+CsvTable sensitivity_csv(const SettingSensitivity& sensitivity) {
+  CsvTable table({"setting", "value", "factor", "ate_ratio", "pairs", "lost", "won"});
+  for (const SensitivityRow& row : sensitivity.rows) {
+    for (const SensitivityCell& cell : row.cells) {
+      table.add(row.key).add(row.value).add(cell.factor).add(cell.ratio);
+      table.add(static_cast<std::int64_t>(cell.pairs)).add(static_cast<std::int64_t>(cell.lost));
+      table.add(static_cast<std::int64_t>(cell.won)).end_row();
+    }
+  }
+  return table;
+}
+
+Json sensitivity_json(const SettingSensitivity& sensitivity, const Suite& suite) {
+  Json json = {{"schema", kSensitivitySchema},
+               {"version", AIMS_VERSION},
+               {"code", code_version()},
+               {"complete", suite.complete},
+               {"estimator", sensitivity.estimator},
+               {"sequences", sensitivity.sequences},
+               {"median_ate_m", json_of(sensitivity.median_ate)},
+               {"settings", Json::object()}};
+  for (const SensitivityRow& row : sensitivity.rows) {
+    Json cells = Json::array();
+    for (const SensitivityCell& cell : row.cells) {
+      cells.push_back({{"factor", cell.factor},
+                       {"ate_ratio", json_of(cell.ratio)},
+                       {"pairs", cell.pairs},
+                       {"lost", cell.lost},
+                       {"won", cell.won}});
+    }
+    json["settings"][row.key] = {{"value", row.value}, {"changes", std::move(cells)}};
+  }
+  json["invalid"] = invalid_json(suite);
+  return json;
+}
+
+}  // namespace
+
+TextTable sensitivity_table(const SettingSensitivity& sensitivity) {
+  TextTable table;
+  table.header = {"setting", "value"};
+  if (sensitivity.rows.empty()) return table;
+  for (const SensitivityCell& cell : sensitivity.rows.front().cells) {
+    table.header.push_back(fmt::format("x {:g}", cell.factor));
+  }
+  for (const SensitivityRow& row : sensitivity.rows) {
+    std::vector<std::string> cells = {row.key, row.value};
+    for (const SensitivityCell& cell : row.cells) cells.push_back(sensitivity_cell_text(cell));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+Result<void> write_sensitivity(const SettingSensitivity& sensitivity, const Suite& suite,
+                               const std::filesystem::path& folder) {
+  auto written =
+      write_file_atomically(folder / "sensitivity.md", sensitivity_markdown(sensitivity, suite));
+  if (written) written = write_csv(folder / "sensitivity.csv", sensitivity_csv(sensitivity));
+  if (!written) return written;
+  return write_file_atomically(folder / "sensitivity.json",
+                               json_text(sensitivity_json(sensitivity, suite), 2) + "\n");
+}
+
+}  // namespace aims
