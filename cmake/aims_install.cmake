@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What is installed, in three components. `runtime`: the program with its scenarios and scripts. `ros`:
-# the live node (ros/CMakeLists.txt). `dev`: the libraries that another program needs to estimate, read
-# recordings and score. Simulation and rendering stay inside the program: neither `ros` nor `dev`
-# depends on MuJoCo, Embree, pagmo or SQLite.
+# What is installed, in components. `runtime`: the program with its scenarios and scripts. `ros`: the live
+# node (ros/CMakeLists.txt). `python` and `python_sim`: the Python package without and with the
+# simulation (python/CMakeLists.txt). `dev`: the libraries that another program needs to estimate, read
+# recordings and score. Simulation and rendering stay inside the program: neither `ros`, `python` nor
+# `dev` depends on MuJoCo, Embree, pagmo or SQLite.
 include(CMakePackageConfigHelpers)
 
 set(exported_libraries core files estimator metrics recordings)
@@ -43,6 +44,12 @@ install(FILES ${PROJECT_BINARY_DIR}/aimsConfig.cmake ${PROJECT_BINARY_DIR}/aimsC
   DESTINATION ${cmake_folder} COMPONENT dev)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libaims-dev RENAME copyright
   COMPONENT dev)
+if(TARGET aims_python_core)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-aims RENAME copyright
+    COMPONENT python)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-aims-sim RENAME copyright
+    COMPONENT python_sim)
+endif()
 if(TARGET aims_node)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/aims-node RENAME copyright
     COMPONENT ros)

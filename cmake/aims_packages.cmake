@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # `cpack -G DEB` in the build folder: aims_VERSION_ARCH.deb, the program; libaims-dev_..., for
-# programs of others; and, where it was built, aims-node_..., for the robot.
+# programs of others; where they were built, aims-node_..., for the robot, and
+# python3-aims_... and python3-aims-sim_....
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME aims)
 set(CPACK_PACKAGE_VENDOR "the AIMS authors")
@@ -11,6 +12,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL runtime dev)
 if(TARGET aims_node)
   list(APPEND CPACK_COMPONENTS_ALL ros)
+endif()
+if(TARGET aims_python_core)
+  list(APPEND CPACK_COMPONENTS_ALL python python_sim)
 endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -44,4 +48,28 @@ set(CPACK_COMPONENT_ROS_DESCRIPTION
 Estimates a legged robot's motion live from its LiDAR, IMU and legs. Needs
 nothing of the simulation.")
 set(CPACK_DEBIAN_ROS_PACKAGE_SHLIBDEPS ON)
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-aims)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+  "legged-robot localization in degenerate corridors, Python package
+Estimators, recordings and scores with NumPy arrays. Needs nothing of the
+simulation.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+# An extension module is for one minor version of Python.
+if(Python3_VERSION_MINOR)
+  math(EXPR python_next "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${python_next}), python3-numpy")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-aims-sim, python3-pandas, python3-matplotlib")
+
+set(CPACK_DEBIAN_PYTHON_SIM_PACKAGE_NAME python3-aims-sim)
+set(CPACK_DEBIAN_PYTHON_SIM_PACKAGE_SECTION python)
+set(CPACK_COMPONENT_PYTHON_SIM_DESCRIPTION
+  "legged-robot localization in degenerate corridors, simulation for Python
+Scenarios and the simulated robot, for the package python3-aims.")
+set(CPACK_DEBIAN_PYTHON_SIM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_SIM_PACKAGE_DEPENDS
+  "python3-aims (= ${PROJECT_VERSION}), aims (= ${PROJECT_VERSION})")
 include(CPack)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
 #include "estimator/diagnostics.hpp"
@@ -26,6 +27,10 @@ struct EstimatorResult {
   Diagnostics diagnostics;            ///< one row per scan (empty for `leg`)
   std::map<std::string, int> counts;  ///< e.g. late, duplicate, non-finite measurements
   std::vector<HealthRow> health;      ///< in order of time
+  /// Why the estimator has ended before its stream, e.g. an exception of one in Python: the rest
+  /// holds what came before.
+  std::optional<Error> failure;
+  double external_cpu_s = 0.0;  ///< CPU time in another process [s]
 };
 
 /// Turns a stream of deliveries into a trajectory. Never throws on data, never reads a clock.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/estimator_config.hpp"
 
+#include "estimator/python/python_estimator.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
@@ -18,6 +19,14 @@ EstimatorConfigs::EstimatorConfigs(const EstimatorConfigs& other) {
 EstimatorConfigs& EstimatorConfigs::operator=(const EstimatorConfigs& other) {
   if (this != &other) *this = EstimatorConfigs(other);
   return *this;
+}
+
+Result<void> EstimatorConfigs::add_python(std::string_view name) {
+  if (!is_python_name(name) || configs_.contains(name)) return {};
+  auto config = PythonConfig::load(name);
+  if (!config) return tl::unexpected(config.error());
+  configs_.emplace(name, std::make_unique<PythonConfig>(std::move(*config)));
+  return {};
 }
 
 EstimatorConfig* EstimatorConfigs::find(std::string_view name) {

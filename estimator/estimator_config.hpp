@@ -33,6 +33,8 @@ class EstimatorConfig {
   virtual ~EstimatorConfig() = default;
   virtual void describe(Fields& fields) = 0;
   virtual Requirements requirements() const = 0;
+  /// Error for values that do not go together, beyond what each parameter allows.
+  virtual Result<void> check() const { return {}; }
   virtual std::unique_ptr<Estimator> create(const SensorRig& rig) const = 0;
   virtual std::unique_ptr<EstimatorConfig> clone() const = 0;
 };
@@ -65,7 +67,8 @@ class ConfigOf final : public EstimatorConfig {
   Config config_;
 };
 
-/// One configuration per registered estimator, by its name; copies are deep.
+/// One configuration per registered estimator, by its name, and of those in Python that were added;
+/// copies are deep.
 class EstimatorConfigs {
  public:
   /// The defaults of every estimator.
@@ -75,6 +78,10 @@ class EstimatorConfigs {
   EstimatorConfigs& operator=(const EstimatorConfigs& other);
   EstimatorConfigs& operator=(EstimatorConfigs&&) noexcept = default;
   ~EstimatorConfigs() = default;
+
+  /// Adds the class of a name like "python:module.Class" unless it is there. Error when it cannot
+  /// be imported (estimator/python/python_estimator.hpp); nothing for other names.
+  Result<void> add_python(std::string_view name);
 
   /// The configuration of the estimator `name`, or nullptr.
   EstimatorConfig* find(std::string_view name);

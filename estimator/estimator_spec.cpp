@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/file_name.hpp"
+#include "estimator/python/python_estimator.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
@@ -65,6 +66,13 @@ EstimatorSpec split(std::string_view text) {
 Result<std::unique_ptr<EstimatorConfig>> assigned_config(const EstimatorSpec& spec,
                                                          const EstimatorConfigs& base) {
   const EstimatorConfig* own = base.find(spec.name);
+  if (own == nullptr && is_python_name(spec.name)) {
+    EstimatorConfigs with_python;
+    if (auto added = with_python.add_python(spec.name); !added) {
+      return tl::unexpected(added.error());
+    }
+    return assigned_config(spec, with_python);
+  }
   if (own == nullptr) return tl::unexpected(check_estimator_name(spec.name).error());
   std::unique_ptr<EstimatorConfig> config = own->clone();
   const Fields fields = fields_of(*config);
@@ -123,12 +131,15 @@ Result<void> check_label(const EstimatorSpec& spec, std::string_view text) {
 
 Result<EstimatorSpec> parse_estimator_spec(std::string_view text) {
   EstimatorSpec spec = split(text);
-  if (auto known = check_estimator_name(spec.name); !known) return tl::unexpected(known.error());
+  const bool is_python = is_python_name(spec.name);
+  const auto known = is_python ? check_python_name(spec.name) : check_estimator_name(spec.name);
+  if (!known) return tl::unexpected(known.error());
   if (auto fits = check_label(spec, text); !fits) return tl::unexpected(fits.error());
   for (const auto& [key, value] : spec.settings) {
     if (!key.empty() && !value.empty()) continue;
     return failure(fmt::format("'{}': expected key=value after each '+'", text));
   }
+  if (is_python) return spec;
   if (auto config = assigned_config(spec, {}); !config) {
     return failure(fmt::format("'{}': {}", text, config.error().message));
   }
@@ -154,12 +165,20 @@ Result<std::unique_ptr<EstimatorConfig>> config_with(const EstimatorSpec& spec,
   if (auto acts = check_effect(fields_of(**config), assigned); !acts) {
     return tl::unexpected(acts.error());
   }
+  if (auto right = (*config)->check(); !right) return tl::unexpected(right.error());
   return config;
 }
 
 Requirements requirements_of(std::string_view spec, const EstimatorConfigs& base) {
   const auto config = assigned_config(split(spec), base);
   return config ? (*config)->requirements() : Requirements();
+}
+
+Result<void> add_python_estimators(std::span<const std::string> run, EstimatorConfigs& configs) {
+  for (const std::string& text : run) {
+    if (auto added = configs.add_python(split(text).name); !added) return added;
+  }
+  return {};
 }
 
 void describe_estimators(Fields& fields, const std::vector<std::string>& run,

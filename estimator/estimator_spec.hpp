@@ -16,16 +16,18 @@ namespace aims {
 
 /// Specification of an estimator: its name, its label in the results, and settings that override
 /// its configuration. Written `NAME`, `LABEL=NAME` or `LABEL=NAME+key=value+key=value`, keys
-/// relative to `estimators.NAME.`; e.g. `no_ground=aims_d+ground_constraint.enabled=false`.
+/// relative to `estimators.NAME.`; e.g. `no_ground=aims_d+ground_constraint.enabled=false`. A name
+/// `python:module.Class` is a class in Python, whose settings are keywords of its constructor.
 struct EstimatorSpec {
   std::string label;  ///< of results and files: letters, digits, - and _
-  std::string name;   ///< in the registry
+  std::string name;   ///< in the registry, or python:module.Class
   std::vector<std::pair<std::string, std::string>> settings;  ///< key and value, in order
 };
 
 /// Parses `text`. Without a label, one is made of name and settings. Error for an unknown estimator
 /// or key (both with a near match), a value that is not allowed, a label with other characters, or
-/// a label that is the name of another estimator.
+/// a label that is the name of another estimator. Settings of a class in Python are not checked
+/// here.
 Result<EstimatorSpec> parse_estimator_spec(std::string_view text);
 
 /// The text that `parse_estimator_spec` reads.
@@ -41,6 +43,10 @@ Result<std::unique_ptr<EstimatorConfig>> config_with(const EstimatorSpec& spec,
 
 /// What the spec's estimator requires; nothing for a spec that cannot be read.
 Requirements requirements_of(std::string_view spec, const EstimatorConfigs& base);
+
+/// Adds the classes in Python that `run` names to `configs`, so that each is imported once. Error
+/// when one cannot be imported.
+Result<void> add_python_estimators(std::span<const std::string> run, EstimatorConfigs& configs);
 
 /// Adds the group `estimators` to `fields`. A setting is idle where it has no effect in any spec of
 /// `run`.

@@ -62,8 +62,13 @@ void print_results(const EstimateResult& result, const fs::path& folder,
   if (fs::exists(folder / kPageFile)) print_out("page: {}\n", (folder / kPageFile).string());
 }
 
-/// Error code when an estimate must not be used: it has no poses, or was invalid at some time.
+/// Error code when an estimator broke, or when an estimate must not be used: it has no poses, or
+/// was invalid at some time.
 int exit_code_of(const EstimateResult& result) {
+  for (const EstimatorFailure& each : result.failures) {
+    print_failure(fmt::format("aims estimate: {}: FAILED: {}", each.name, each.message));
+  }
+  if (!result.failures.empty()) return kBadInput;
   int code = kOk;
   for (const EstimatorOutcome& each : result.estimators) {
     const bool no_poses = each.result.trajectory.empty();

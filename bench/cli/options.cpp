@@ -48,7 +48,7 @@ void add_seeds(Command& command, SharedOptions& options, const std::string& abse
 void add_estimators(Command& command, SharedOptions& options, const std::string& absent) {
   command.list("--estimators", options.estimators,
                fmt::format("Estimators, each NAME or LABEL=NAME+key=value with\n"
-                           "keys below estimators.NAME. ({})",
+                           "keys below estimators.NAME, or\nLABEL=python:module.Class+key=value ({})",
                            absent));
 }
 
@@ -199,7 +199,7 @@ void print_pruned(const CachePruned& pruned, const SharedOptions& options) {
 }
 
 int bad_input(const char* command, const Error& error) {
-  print_error(fmt::format("aims {}: {}", command, error.message));
+  print_failure(fmt::format("aims {}: {}", command, error.message));
   return kBadInput;
 }
 

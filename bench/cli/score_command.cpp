@@ -8,6 +8,7 @@
 #include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/run/scoring_config.hpp"
 #include "bench/run/scoring_input.hpp"
 #include "bench/run/trajectory_summary.hpp"
 #include "core/file_name.hpp"
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 struct ScoreArguments {
   SharedOptions shared;
   ScoringRequest request;
+  fs::path config;
   bool no_pictures = false;
   bool no_page = false;
   bool json = false;
@@ -68,7 +70,10 @@ void draw(const TrajectoryScores& scores, const fs::path& folder, const ScoreArg
 int score_command(const ScoreArguments& arguments) {
   const SharedOptions& shared = arguments.shared;
   ScoringRequest request = arguments.request;
-  request.overrides = shared.settings;
+  const auto scoring = scoring_config(arguments.config, shared.settings);
+  if (!scoring) return bad_input("score", scoring.error());
+  request.scoring = *scoring;
+  request.is_configured = !arguments.config.empty();
   auto input = read_scoring_input(request);
   if (!input) return bad_input("score", input.error());
   const auto scores = score_trajectories(std::move(*input));
@@ -92,7 +97,8 @@ int score_command(const ScoreArguments& arguments) {
   return std::ranges::any_of(scores->estimates, too_little) ? kInvalidRun : kOk;
 }
 
-void add_inputs(Command& command, ScoringRequest& request) {
+void add_inputs(Command& command, ScoreArguments& arguments) {
+  ScoringRequest& request = arguments.request;
   command.option("--truth", request.truth, "Ground-truth trajectory", Presence::kRequired);
   command.repeatable("--estimate", request.estimates, "Estimated trajectory", Presence::kRequired);
   command.repeatable("--name", request.names, "Name of each estimate, in their order");
@@ -107,7 +113,7 @@ void add_inputs(Command& command, ScoringRequest& request) {
   command.option("--segments", request.segments,
                  "Segments of M_list: a-b=12.5:110.2 in seconds of the truth,\n"
                  "or a-d between waypoints; separated by commas");
-  command.option("--config", request.config, "YAML file; its group scoring is used");
+  command.option("--config", arguments.config, "YAML file; its group scoring is used");
 }
 
 }  // namespace
@@ -116,7 +122,7 @@ void declare_score(Command command, const fs::path& /*scenarios*/) {
   auto arguments = std::make_shared<ScoreArguments>();
   SharedOptions& shared = arguments->shared;
   shared.out = "out/score";
-  add_inputs(command, arguments->request);
+  add_inputs(command, *arguments);
   add_settings(command, shared, "the configuration: keys of scoring");
   add_out(command, shared, "out/score");
   add_overwrite(command, shared);

@@ -12,6 +12,7 @@
 #include "bench/run/expectations.hpp"
 #include "bench/run/new_recording.hpp"
 #include "bench/run/record.hpp"
+#include "bench/run/sequence_record.hpp"
 #include "bench/run/validity.hpp"
 
 namespace aims {

@@ -2,6 +2,8 @@
 #include "bench/cli/terminal.hpp"
 
 #include <cerrno>
+#include <sstream>
+#include <string>
 #include <system_error>
 
 #include "core/text.hpp"
@@ -14,6 +16,14 @@ void write_terminal(std::FILE* stream, std::string_view text) {
 }
 
 void print_error(std::string_view message) { write_terminal(stderr, line_text(message) + "\n"); }
+
+void print_failure(std::string_view message) {
+  const std::size_t begin = message.find("\nTraceback (most recent call last):");
+  print_error(message.substr(0, begin));
+  if (begin == std::string_view::npos) return;
+  std::istringstream lines{std::string(message.substr(begin + 1))};
+  for (std::string line; std::getline(lines, line);) print_error(line);
+}
 
 Result<void> finish_output() {
   errno = 0;

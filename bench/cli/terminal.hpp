@@ -25,6 +25,9 @@ void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments
 /// An error or a note on standard error, in one line.
 void print_error(std::string_view message);
 
+/// Prints an error; the traceback of one in Python line by line below it.
+void print_failure(std::string_view message);
+
 /// Flushes standard output. Error when not all of it could be written.
 Result<void> finish_output();
 

@@ -11,6 +11,7 @@
 #include "bench/run/json_text.hpp"
 #include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
+#include "bench/run/sequence_record.hpp"
 #include "bench/run/validity.hpp"
 #include "bench/run/weak_axis_series.hpp"
 #include "core/files/csv.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "bench/run/scenario.hpp"
+#include "bench/metrics/scores.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "core/files/yaml_config.hpp"
@@ -18,9 +18,14 @@ namespace {
 
 /// The scenario's own choice; none when another version wrote it in words unknown today.
 std::vector<std::string> segments_of_scenario(const std::string& yaml) {
-  Scenario scenario;
-  if (!load_config_text(yaml, std::string(kScenarioTopic), scenario)) return {};
-  return scenario.scoring.segments;
+  ScoreConfig scoring;
+  const auto fields = [&scoring] {
+    Fields all;
+    all.group("scoring", scoring);
+    return all;
+  };
+  if (!load_group_text(yaml, std::string(kScenarioTopic), "scoring", fields)) return {};
+  return scoring.segments;
 }
 
 /// The scenario's choice as a bag holds it.

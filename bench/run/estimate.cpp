@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bench/run/bag_origin.hpp"
-#include "bench/run/ring_notes.hpp"
+#include "bench/run/ring_note.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/stream.hpp"
 #include "core/files/yaml_config.hpp"
@@ -16,6 +16,16 @@
 
 namespace aims {
 namespace {
+
+/// Nothing that ended before its stream is a success.
+void withdraw_successes(EstimateResult& result) {
+  for (ScoredEstimate& each : result.scores->estimates) {
+    const bool broke = std::ranges::any_of(result.estimators, [&](const EstimatorOutcome& outcome) {
+      return outcome.name == each.given.name && outcome.result.failure;
+    });
+    if (!result.complete || broke) withdraw_success(each.scores, FailureReason::kInterrupted);
+  }
+}
 
 /// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
 void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
@@ -42,13 +52,20 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   auto scores = score_trajectories(std::move(input));
   if (scores) {
     result.scores = std::move(*scores);
-    if (result.complete) return;
-    for (ScoredEstimate& each : result.scores->estimates) {
-      withdraw_success(each.scores, FailureReason::kInterrupted);
-    }
+    withdraw_successes(result);
   } else {
     result.setup.notes.push_back("not scored: " + scores.error().message);
   }
+}
+
+/// Lists those that broke; without any pose there is nothing of them to score.
+void set_failed_apart(EstimateResult& result) {
+  for (const EstimatorOutcome& each : result.estimators) {
+    if (each.result.failure) result.failures.push_back({each.name, each.result.failure->message});
+  }
+  std::erase_if(result.estimators, [](const EstimatorOutcome& each) {
+    return each.result.failure && each.result.trajectory.empty();
+  });
 }
 
 /// A sentence for each part of the clouds, of the IMU and of the legs that an estimator needs and
@@ -105,6 +122,9 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
   if (auto specs = check_estimator_specs(config.run); !specs) {
     return failure("run: " + specs.error().message);
   }
+  if (auto added = add_python_estimators(config.run, config.estimators); !added) {
+    return failure("run: " + added.error().message);
+  }
   const bool chosen = std::ranges::any_of(overrides, is_run_setting);
   const auto acts =
       check_effects(fields_of(config), std::move(assigned), chosen, config.run, config.estimators);
@@ -140,6 +160,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.truth = reader->truth();
   result.recorded_s = to_seconds(reader->position());
   for (const TimedEstimator& each : *estimators) result.estimators.push_back(outcome_of(each));
+  set_failed_apart(result);
   score_against_truth(config, result);
   result.wall_s = stopwatch.seconds();
   return result;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/metrics/scores.hpp"
-#include "bench/run/evaluate.hpp"
+#include "bench/run/outcome.hpp"
 #include "bench/run/progress.hpp"
 #include "bench/run/trajectory_scoring.hpp"
 #include "core/error.hpp"
@@ -40,6 +40,12 @@ struct EstimateOptions {
   int jobs = 1;          ///< threads; the trajectories do not depend on it
 };
 
+/// An estimator that broke before the end of its stream.
+struct EstimatorFailure {
+  std::string name;
+  std::string message;  ///< of an exception in Python with its traceback, in several lines
+};
+
 /// What estimating a recording yields, before it is written.
 struct EstimateResult {
   std::filesystem::path bag;
@@ -51,6 +57,7 @@ struct EstimateResult {
   double recorded_s = 0.0;            ///< of the recording that was read
   double wall_s = 0.0;
   std::vector<EstimatorOutcome> estimators;  ///< their scores are in `scores`
+  std::vector<EstimatorFailure> failures;    ///< those with poses are in `estimators` too
   Trajectory truth;                          ///< of the body; empty: the recording has none
   /// Of the online trajectories, then of the re-optimized ones; none without a truth.
   std::optional<TrajectoryScores> scores;

@@ -53,6 +53,24 @@ Json pose_json(const Pose& pose) {
           {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
+/// The configuration, which repeats the estimate.
+std::string config_text(const EstimateConfig& config) {
+  EstimateConfig used = config;
+  return dump_config(fields_of(used));
+}
+
+/// Writes scores.json and scores.csv.
+Result<void> write_scores(const EstimateResult& result, const fs::path& folder) {
+  const RunRecord record = estimate_record(result);
+  auto written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
+  if (written) {
+    written = write_file_atomically(folder / "scores.json", json_text(record.scores, 2) + "\n");
+  }
+  return written;
+}
+
+}  // namespace
+
 Json estimate_json(const EstimateResult& result) {
   const TopicsConfig& topics = result.setup.topics;
   Json json = {{"schema", "aims.estimate/1"},
@@ -78,17 +96,12 @@ Json estimate_json(const EstimateResult& result) {
   for (const EstimatorOutcome& each : result.estimators) {
     json["estimators"][each.name] = estimator_json(result, each);
   }
+  json["failures"] = Json::object();
+  for (const EstimatorFailure& each : result.failures) json["failures"][each.name] = each.message;
   return json;
 }
 
-/// The configuration, which repeats the estimate.
-std::string config_text(const EstimateConfig& config) {
-  EstimateConfig used = config;
-  return dump_config(fields_of(used));
-}
-
-/// What `aims run` calls a run's record, with the times of this estimate.
-Result<void> write_scores(const EstimateResult& result, const fs::path& folder) {
+RunRecord estimate_record(const EstimateResult& result) {
   RunRecord record = record_of(*result.scores);
   record.scores["complete"] = result.complete && !result.broken;
   if (!result.complete) record.scores["interrupted"] = true;
@@ -105,14 +118,8 @@ Result<void> write_scores(const EstimateResult& result, const fs::path& folder) 
     estimators.erase(label);
     estimators[each.name]["optimized"] = std::move(optimized);
   }
-  auto written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
-  if (written) {
-    written = write_file_atomically(folder / "scores.json", json_text(record.scores, 2) + "\n");
-  }
-  return written;
+  return record;
 }
-
-}  // namespace
 
 TextTable estimate_table(const EstimateResult& result) {
   TextTable table;

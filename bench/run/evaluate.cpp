@@ -24,16 +24,6 @@ Result<void> stream_into(const Sequence& sequence, TimedEstimator& estimator,
 
 }  // namespace
 
-EstimatorOutcome outcome_of(const TimedEstimator& timed) {
-  EstimatorOutcome outcome;
-  outcome.name = timed.name();
-  outcome.result = timed.estimator().result();
-  outcome.map = timed.estimator().map_points();
-  outcome.scan_times = timed.scan_times();
-  outcome.wall_s = timed.total_seconds();
-  return outcome;
-}
-
 void add_scores(const Sequence& sequence, const Scenario& scenario, EstimatorOutcome& outcome) {
   const auto scores_of = [&](const Trajectory& trajectory) {
     return score(trajectory, sequence.truth_trajectory, sequence.waypoint_times, scenario.scoring);
@@ -58,6 +48,7 @@ Result<EstimatorOutcome> evaluate(const Sequence& sequence, const Scenario& scen
   auto streamed = stream_into(sequence, estimators->front(), observer);
   if (!streamed) return tl::unexpected(streamed.error());
   EstimatorOutcome outcome = outcome_of(estimators->front());
+  if (outcome.result.failure) return tl::unexpected(*outcome.result.failure);
   add_scores(sequence, scenario, outcome);
   return outcome;
 }

@@ -2,34 +2,14 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "bench/metrics/scores.hpp"
+#include "bench/run/outcome.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/sequence.hpp"
-#include "bench/run/timed_estimator.hpp"
 #include "core/error.hpp"
-#include "estimator/estimator.hpp"
 
 namespace aims {
-
-/// What one estimator came to on one stream.
-struct EstimatorOutcome {
-  std::string name;
-  EstimatorResult result;
-  std::vector<Eigen::Vector3f> map;             ///< in its odometry frame [m]
-  Scores scores;                                ///< of the online trajectory
-  std::optional<Scores> optimized;              ///< of the re-optimized one
-  std::vector<WeakAxisError> weak_axis_errors;  ///< along what the LiDAR cannot see, by scan
-  std::vector<WeakAxisScore> weak_axis;         ///< summary of them
-  ScanTimes scan_times;
-  double wall_s = 0.0;
-};
-
-/// What an estimator that has finished came to, but for scores.
-EstimatorOutcome outcome_of(const TimedEstimator& timed);
 
 /// Scores an outcome against the truth of its sequence, the re-optimized trajectory by the same
 /// rules as the online one. On an invalid run (bench/run/validity.hpp) neither is a success.

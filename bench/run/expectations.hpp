@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/scenario.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/validity.hpp"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/run/evaluate.hpp"
+#include "bench/run/outcome.hpp"
 #include "core/error.hpp"
 
 namespace aims {

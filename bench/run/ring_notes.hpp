@@ -2,20 +2,12 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "bench/run/ring_note.hpp"
 #include "bench/run/scenario.hpp"
-#include "core/lidar_rings.hpp"
-#include "estimator/estimator_config.hpp"
 
 namespace aims {
-
-/// What an estimator with these requirements lacks of a LiDAR with these rings: it needs rings and
-/// there are none, or its range image has other rows. `label` names the estimator, `source` what
-/// lacks them ("recording"). One sentence; empty when nothing is lacking.
-std::string ring_note(std::string_view label, const Requirements& needs, const LidarRings& rings,
-                      std::string_view source);
 
 /// The rings of a simulated LiDAR.
 LidarRings rings_of(const LidarConfig& config);

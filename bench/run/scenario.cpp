@@ -250,6 +250,9 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
   if (auto valid = check(*loaded); !valid) {
     return tl::unexpected(located(*loaded, valid.error()));
   }
+  if (auto added = add_python_estimators(loaded->run, loaded->estimators); !added) {
+    return tl::unexpected(located(*loaded, {"run: " + added.error().message}));
+  }
   keep_expectations_of_level(*loaded);
   if (auto acts = check_effects_in(*loaded, std::move(assigned)); !acts) {
     return tl::unexpected(acts.error());
@@ -268,6 +271,9 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides) {
                            });
   if (!loaded) return loaded;
   follow_scene(*loaded);
+  if (auto added = add_python_estimators(loaded->run, loaded->estimators); !added) {
+    return tl::unexpected(added.error());
+  }
   if (auto acts = check_effects_in(*loaded, std::move(assigned)); !acts) {
     return tl::unexpected(acts.error());
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bench/run/score_record.hpp"
+#include "bench/run/sequence_record.hpp"
 
 namespace aims {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/run/health_summary.hpp"
-#include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
@@ -64,33 +63,6 @@ Json weak_axis_json(const std::vector<WeakAxisScore>& scores) {
                          {"nees", json_of(score.nees)}};
   }
   return json;
-}
-
-/// What the scans constrain, whoever estimates.
-Json localizability_json(const RunLocalizability& run) {
-  std::vector<double> returns;
-  for (const Localizability& scan : run.scans) returns.push_back(scan.equivalent_returns);
-  Json fraction = Json::object();
-  for (const DegeneracyLevel& level : kDegeneracyLevels) {
-    const auto degenerate =
-        std::count_if(run.scans.begin(), run.scans.end(),
-                      [&level](const Localizability& scan) { return is_degenerate(scan, level); });
-    fraction[std::string(level.name)] =
-        run.scans.empty()
-            ? Json()
-            : Json(static_cast<double>(degenerate) / static_cast<double>(run.scans.size()));
-  }
-  Json bound;
-  if (!run.bounds.empty()) {
-    const PosteriorBound& end = run.bounds.back();
-    bound = {{"longitudinal", json_of(end.longitudinal)},
-             {"lateral", json_of(end.lateral)},
-             {"vertical", json_of(end.vertical)}};
-  }
-  return {{"scans", run.scans.size()},
-          {"median_equivalent_returns", json_of(median(returns))},
-          {"degenerate_fraction", std::move(fraction)},
-          {"bound_end_m", std::move(bound)}};
 }
 
 /// The number at a dotted key; a flag is 1 or 0.
@@ -168,36 +140,6 @@ Json segments_json(const Scores& scores) {
     segments.push_back({{"name", distance.segment.name}, {"length_m", distance.true_distance_m}});
   }
   return segments;
-}
-
-Json robot_json(const WalkOutcome& walk) {
-  return {{"fell", walk.end == WalkEnd::kFell},
-          {"end", name_of(walk.end)},
-          {"touched_wall", walk.touched_wall},
-          {"wall_contact_fraction", walk.wall_contact_fraction}};
-}
-
-Json sequence_json(double simulated_s, const WalkOutcome& walk, const Scores& scores,
-                   const RunLocalizability& localizability) {
-  Json json = {{"simulated_s", simulated_s},
-               {"robot", robot_json(walk)},
-               {"segments", segments_json(scores)},
-               {"localizability", localizability_json(localizability)}};
-  mark_validity(json);
-  return json;
-}
-
-Json sequence_json(const Sequence& sequence, const Scores& scores) {
-  return sequence_json(to_seconds(sequence.end()), sequence.walk, scores, sequence.localizability);
-}
-
-Json drawn_json(const std::vector<DrawnValue>& drawn) {
-  Json json = Json::object();
-  for (const DrawnValue& each : drawn) {
-    const Json value = Json::parse(each.value, nullptr, false);
-    json[each.key] = value.is_number() || value.is_boolean() ? value : Json(each.value);
-  }
-  return json;
 }
 
 const Json& estimator_in(const RunRecord& record, const std::string& estimator) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "bench/run/evaluate.hpp"
 #include "bench/run/json_text.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/run/outcome.hpp"
 
 namespace aims {
 
@@ -37,18 +37,6 @@ Json estimator_json(const EstimatorOutcome& outcome);
 
 /// The segments with their true straight lengths, which are the same for every estimate.
 Json segments_json(const Scores& scores);
-
-/// How the robot fared, without whether the run is valid.
-Json robot_json(const WalkOutcome& walk);
-
-/// What the seed drew: numbers as numbers, by their full keys.
-Json drawn_json(const std::vector<DrawnValue>& drawn);
-
-/// What scores.json holds of a run whoever estimates: duration, robot, segments, localizability.
-/// `scores` are of any estimator.
-Json sequence_json(const Sequence& sequence, const Scores& scores);
-Json sequence_json(double simulated_s, const WalkOutcome& walk, const Scores& scores,
-                   const RunLocalizability& localizability);
 
 /// What the record holds of that estimator; null when there is nothing.
 const Json& estimator_in(const RunRecord& record, const std::string& estimator);

@@ -9,43 +9,17 @@
 #include <utility>
 
 #include "bench/run/bag_origin.hpp"
-#include "bench/run/scenario.hpp"
 #include "bench/run/segment_list.hpp"
 #include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
 #include "core/files/waypoint_times.hpp"
-#include "core/files/yaml_config.hpp"
 #include "recordings/topics/recording_topics.hpp"
 #include "recordings/trajectories/trajectory_file.hpp"
 
 namespace aims {
 namespace {
-
-/// The part of a configuration that scoring reads.
-struct ScoringSettings {
-  ScoreConfig scoring;
-};
-
-void describe(Fields& fields, ScoringSettings& settings) {
-  fields.group("scoring", settings.scoring);
-}
-
-Result<ScoreConfig> scoring_of(const ScoringRequest& request) {
-  ScoringSettings settings;
-  if (!request.config.empty()) {
-    // Any scenario, or the config.yaml of a run, may be given: the rest of it is checked and left.
-    Scenario scenario;
-    if (auto loaded = load_config(request.config, scenario); !loaded) {
-      return tl::unexpected(loaded.error());
-    }
-    settings.scoring = scenario.scoring;
-  }
-  auto applied = apply_overrides(settings, request.overrides);
-  if (!applied) return tl::unexpected(applied.error());
-  return settings.scoring;
-}
 
 Result<Pose> extrinsic_of(const std::string& text) {
   if (text.empty()) return Pose();
@@ -68,12 +42,24 @@ Result<Pose> extrinsic_of(const std::string& text) {
 /// "run/odom" of run.bag:/odom, "aims" of out/aims.tum.
 std::string name_of(const TrajectoryFile& file) { return file.file.stem().string() + file.topic; }
 
+/// Reads a trajectory of the request, unless it is in memory.
+Result<TrajectoryFile> trajectory_of(const ScoringRequest& request, const std::string& source,
+                                     const TrajectoryFileOptions& options) {
+  const auto known = request.in_memory.find(source);
+  if (known == request.in_memory.end()) return read_trajectory(source, options);
+  TrajectoryFile file;
+  file.trajectory = known->second;
+  file.kind = "in memory";
+  file.file = source;
+  return file;
+}
+
 /// Fills in the truth; yields the bag that it is from, or an empty path.
 Result<std::filesystem::path> read_truth(const ScoringRequest& request,
                                          const std::vector<StampList>& stamps,
                                          ScoringInput& input) {
-  auto file =
-      read_trajectory(request.truth, {PoseRules::kStrict, std::string(kTruthImuTopic), stamps});
+  auto file = trajectory_of(request, request.truth,
+                            {PoseRules::kStrict, std::string(kTruthImuTopic), stamps});
   if (!file) return tl::unexpected(file.error());
   input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
   input.truth = {name_of(*file), request.truth, file->kind, std::move(file->trajectory),
@@ -112,7 +98,7 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
   }
   for (std::size_t i = 0; i < request.estimates.size(); ++i) {
     const std::string& source = request.estimates[i];
-    auto file = read_trajectory(source, {PoseRules::kAsGiven, "", stamps});
+    auto file = trajectory_of(request, source, {PoseRules::kAsGiven, "", stamps});
     if (!file) return tl::unexpected(file.error());
     input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
     const bool moved = !request.extrinsic.empty();
@@ -137,7 +123,7 @@ Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem
   if (!text) return tl::unexpected(text.error());
   auto waypoint_times = parse_waypoint_times(*text, request.waypoint_times.string());
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
-  const bool asked = !request.segments.empty() || !request.config.empty();
+  const bool asked = !request.segments.empty() || request.is_configured;
   const StatedSegments stated = asked ? StatedSegments() : segments_beside(request.waypoint_times);
   if (!stated.names.empty()) {
     notes.push_back(fmt::format("segments {}: as {} states", fmt::join(stated.names, ", "),
@@ -186,9 +172,7 @@ Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
     if (auto right = check_file_name("--name", name); !right) return tl::unexpected(right.error());
   }
   ScoringInput input;
-  auto scoring = scoring_of(request);
-  if (!scoring) return tl::unexpected(scoring.error());
-  input.scoring = std::move(*scoring);
+  input.scoring = request.scoring;
   const auto stamps = stamps_of(request.times);
   if (!stamps) return tl::unexpected(stamps.error());
   const auto bag = read_truth(request, *stamps, input);

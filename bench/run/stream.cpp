@@ -20,7 +20,9 @@ Result<std::vector<TimedEstimator>> make_estimators(std::span<const std::string>
     if (!spec) return tl::unexpected(spec.error());
     const auto own = config_with(*spec, configs);
     if (!own) return tl::unexpected(own.error());
-    estimators.emplace_back(spec->label, (*own)->create(rig));
+    auto made = (*own)->create(rig);
+    if (const auto& broken = made->result().failure) return tl::unexpected(*broken);
+    estimators.emplace_back(spec->label, std::move(made));
   }
   return estimators;
 }

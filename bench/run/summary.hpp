@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 
+#include "bench/run/scenario.hpp"
 #include "bench/run/score_record.hpp"
 #include "core/error.hpp"
 

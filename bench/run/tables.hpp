@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/run/evaluate.hpp"
+#include "bench/run/outcome.hpp"
 #include "bench/run/score_record.hpp"
 #include "core/files/csv.hpp"
 #include "core/trajectory.hpp"

@@ -33,10 +33,11 @@ template <class Work>
 void TimedEstimator::timed(const Work& work) {
   const EstimatorResult& result = estimator_->result();
   const std::size_t scans_before = scans_in(result);
+  const double external_before = result.external_cpu_s;
   const Stopwatch wall;
   const ThreadStopwatch cpu;
   work();
-  cpu_since_scan_ += cpu.seconds();
+  cpu_since_scan_ += cpu.seconds() + result.external_cpu_s - external_before;
   const double seconds = wall.seconds();
   total_seconds_ += seconds;
   wall_since_scan_ += seconds;

@@ -14,7 +14,7 @@ namespace aims {
 /// the scan before [ms].
 struct ScanTimes {
   std::vector<double> wall_ms;  ///< grows on a busy machine
-  std::vector<double> cpu_ms;   ///< of the thread; an estimator runs on one
+  std::vector<double> cpu_ms;   ///< of the thread, and of the process of one in Python
 };
 
 /// An estimator and the time that it takes: estimators themselves never read a clock.

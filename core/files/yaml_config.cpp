@@ -133,6 +133,20 @@ Result<void> load_config_text(std::string_view text, const std::string& name,
   });
 }
 
+Result<void> load_group_text(std::string_view text, const std::string& name,
+                             const std::string& group, const CollectFields& collect) {
+  return reported(name, [&]() -> Result<void> {
+    const auto document = parse_document(std::string(text), name);
+    if (!document) return tl::unexpected(document.error());
+    YAML::Node alone(YAML::NodeType::Map);
+    for (const auto& entry : *document) {
+      if (entry.first.IsScalar() && entry.first.Scalar() == group)
+        alone[entry.first] = entry.second;
+    }
+    return YamlAssigner({name}, {collect, nullptr, {}}).assign_map(alone, "");
+  });
+}
+
 Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings,
                              std::vector<AssignedKey>* assigned, const fs::path& named) {
   const SettingTarget target = {collect, assigned, named};

@@ -35,6 +35,10 @@ Result<void> load_config(const std::filesystem::path& file, const CollectFields&
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect);
 
+/// As `load_config_text` of the group `group` of the text alone, whatever stands outside of it.
+Result<void> load_group_text(std::string_view text, const std::string& name,
+                             const std::string& group, const CollectFields& collect);
+
 /// Applies settings in order: "key=value", "list=[...]" in YAML's form, which replaces the list, or
 /// "@FILE" for a YAML file as of `load_config`. Errors name the offending `--set`, or the file. The
 /// keys that were set are appended to `assigned`.

@@ -17,7 +17,12 @@ enum class WalkEnd {
 };
 
 /// "running", "route_done", "fell", "left_scene", "no_progress", "time_limit", "unstable_physics".
-std::string_view name_of(WalkEnd end);
+constexpr std::string_view name_of(WalkEnd end) {
+  constexpr std::string_view kNames[] = {"running",         "route_done",  "fell",
+                                         "left_scene",      "no_progress", "time_limit",
+                                         "unstable_physics"};
+  return kNames[static_cast<int>(end)];
+}
 
 /// What became of a walk, whatever its sensors delivered.
 struct WalkOutcome {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -55,6 +56,7 @@ void set_in_turn(const std::string& text) {
 }  // namespace
 
 void fuzz_yaml(std::span<const std::uint8_t> input) {
+  ::setenv("AIMS_PYTHON", "/bin/false", 1);  // `run: [python:...]` would import any module
   const std::string text(text_of(input));
   if (text.starts_with(kSet)) return set_in_turn(text);
   const MemoryFile file(std::as_bytes(input));

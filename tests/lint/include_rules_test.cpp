@@ -33,6 +33,8 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
      {"core/", "estimator/diagnostics.hpp", "estimator/estimator.hpp",
       "estimator/estimator_config.hpp", "estimator/health.hpp", "estimator/filter/",
       "estimator/lidar/", "estimator/baselines/"}},
+    {"estimator/python",
+     {"core/", "estimator/estimator.hpp", "estimator/estimator_config.hpp", "estimator/python/"}},
     {"sim", {"core/", "sim/"}},
     {"sim/environment", {"core/", "sim/environment/"}},
     {"sim/robot", {"core/", "sim/environment/", "sim/robot/"}},
@@ -86,6 +88,9 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
       "render/plots/", "render/scene/", "render/results/", "sim/"}},
     {"render/page", {"core/", "bench/", "render/page/", "sim/environment/"}},
     {"ros", {"core/", "estimator/", "recordings/", "ros/"}},
+    {"python",
+     {"core/", "estimator/", "sim/simulation.hpp", "recordings/", "bench/run/", "bench/jobs/",
+      "python/"}},
     {"tests/independent",
      {"core/", "recordings/", "tests/independent/", "tests/support/temporary_folder.hpp"}},
 };
@@ -108,6 +113,7 @@ const std::vector<Confinement> kConfined = {
     {"webp/", {"render/film"}, false},
     {"CLI/", {"bench/cli", "ros", "tests/independent"}, true},
     {"ros/ros.h", {"ros"}, false},
+    {"pybind11/", {"python"}, true},
 };
 
 bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {

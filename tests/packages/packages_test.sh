@@ -20,7 +20,11 @@ program=$(echo "$work"/aims_*.deb)
 libraries=$(echo "$work"/libaims-dev_*.deb)
 node=()  # only where ROS is installed
 if [ -e "$build/ros/aims_node" ]; then node=("$work"/aims-node_*.deb); fi
-all=("$program" "$libraries" "${node[@]}")
+python=()  # only where Python's headers are
+if [ -e "$build/python/aims/py.typed" ]; then python=("$work"/python3-aims_*.deb); fi
+simulation=()
+if [ ${#python[@]} -gt 0 ]; then simulation=("$work"/python3-aims-sim_*.deb); fi
+all=("$program" "$libraries" "${node[@]}" "${python[@]}" "${simulation[@]}")
 
 # contents PACKAGE FILE...: the package holds each file.
 contents() {
@@ -44,6 +48,14 @@ if [ ${#node[@]} -gt 0 ]; then
   contents "${node[0]}" bin/aims_node share/doc/aims-node/copyright
   grep -qE '\.hpp$|\.a$|\.yaml$' "$work/contents" && fail "what a robot does not need is in ${node[0]}"
 fi
+if [ ${#python[@]} -gt 0 ]; then
+  modules=lib/python3/dist-packages/aims
+  contents "${python[0]}" $modules/__init__.py $modules/py.typed share/doc/python3-aims/copyright \
+    "$modules/_core\..*\.so"
+  grep -qE '\.hpp$|\.a$|\.yaml$|__pycache__|_sim\..*so' "$work/contents" &&
+    fail "what a program does not import is in ${python[0]}"
+  contents "${simulation[0]}" "$modules/_sim\..*\.so" share/doc/python3-aims-sim/copyright
+fi
 for package in "${all[@]}"; do
   dpkg-deb -c "$package" | awk '$2 != "root/root" || $6 !~ "^./(usr/.*)?$"' | grep . &&
     fail "$package: the files above are not root's, or not under /usr"
@@ -58,21 +70,34 @@ for name in libeigen3-dev libfmt-dev libexpected-dev libyaml-cpp-dev libboost-de
   libbz2-dev; do
   depends "$libraries" | grep -xF "$name" >"$work/found" || fail "$libraries does not depend on $name"
 done
-for package in "$libraries" "${node[@]}"; do
-  depends "$package" | grep -iE 'mujoco|embree|pagmo|sqlite|tbb|cairo|osmesa' &&
+for package in "$libraries" "${node[@]}" "${python[@]}"; do
+  depends "$package" | grep -iE 'mujoco|embree|pagmo|sqlite|cairo|osmesa' &&
     fail "$package depends on what only the simulation and the bench need"
 done
+if [ ${#python[@]} -gt 0 ]; then
+  for name in libc6 libfmt9 libyaml-cpp0.7 python3 python3-numpy; do
+    depends "${python[0]}" | grep -xF "$name" >"$work/found" ||
+      fail "${python[0]} does not depend on $name"
+  done
+fi
 if [ ${#node[@]} -gt 0 ]; then
   for name in libc6 libfmt9 libyaml-cpp0.7; do
     depends "${node[0]}" | grep -xF "$name" >"$work/found" || fail "${node[0]} does not depend on $name"
   done
   depends "${node[0]}" | grep -q '^libroscpp' || fail "${node[0]} does not depend on roscpp"
 fi
+if [ ${#simulation[@]} -gt 0 ]; then
+  for name in python3-aims aims libmujoco2.2.2; do
+    depends "${simulation[0]}" | grep -xF "$name" >"$work/found" ||
+      fail "${simulation[0]} does not depend on $name"
+  done
+fi
 if command -v apt-cache >/dev/null; then
   names=$(for package in "${all[@]}"; do depends "$package"; done | sort -u)
   # shellcheck disable=SC2086
   apt-cache show --no-all-versions $names >"$work/known" 2>/dev/null || true
   for name in $names; do
+    case $name in aims | python3-aims) continue ;; esac  # made here
     grep -qxF "Package: $name" "$work/known" || fail "no Debian package $name"
   done
 else
@@ -92,6 +117,18 @@ else
   for package in "${all[@]}"; do dpkg-deb -x "$package" "$root"; done
 fi
 cd /
+if [ ${#python[@]} -gt 0 ]; then
+  # An estimate over a recording, by the installed package alone.
+  printf 'scene: {corridor: {length: 10}}\nlidar: {columns: 450}\nroute: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n' >"$work/walk.yaml"
+  "$root/usr/bin/aims" simulate "$work/walk.yaml" --quiet -o "$work/walk.bag" >"$work/simulate.log"
+  env -i PATH=/usr/bin:/bin PYTHONPATH="$root/usr/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 \
+    /usr/bin/python3 -c "
+import aims
+result = aims.estimate('$work/walk.bag', ['aims_d'])
+assert result.scores['aims_d']['ate_m'] < 0.2, result.scores['aims_d']
+assert 'mujoco' not in open('/proc/self/maps').read()
+" || fail "the installed Python package does not estimate"
+fi
 version=$("$root/usr/bin/aims" --version)
 [ "$version" = "aims $(dpkg-deb -f "$program" Version)" ] || fail "it says '$version'"
 "$root/usr/bin/aims" list >"$work/list"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "bench/run/scoring_config.hpp"
 #include "core/files/tum.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_encoding.hpp"
@@ -105,9 +106,9 @@ TEST_F(ScoringInputs, WaypointTimesOfARunAreScoredOverItsScenariosSegments) {
   EXPECT_EQ(names_of(*stated), (std::vector<std::string>{"a-d", "d-h", "h-d", "d-a"}));
   ASSERT_EQ(stated->notes.size(), 1U);
   EXPECT_NE(stated->notes[0].find("segments a-d, d-h, h-d, d-a: as "), std::string::npos);
-  request.overrides = {"scoring.segments=[a-d]"};
+  request.scoring.segments = {"a-d"};
   EXPECT_EQ(names_of(*read_scoring_input(request)), std::vector<std::string>{"a-d"});
-  request.overrides.clear();
+  request.scoring.segments.clear();
   request.segments = "d-h";
   EXPECT_EQ(names_of(*read_scoring_input(request)), std::vector<std::string>{"d-h"});
   request.segments.clear();
@@ -210,17 +211,19 @@ TEST_F(ScoringInputs, EstimatesOfOneNameAreNumbered) {
 }
 
 TEST_F(ScoringInputs, OnlyTheScoringOfAConfigurationCounts) {
-  ScoringRequest request = plain();
-  request.config = file("run.yaml", "lidar: {range_max: 30}\nscoring: {max_gap: 7}\n");
-  request.overrides = {"scoring.anchor=pose"};
-  const auto input = read_scoring_input(request);
-  ASSERT_TRUE(input) << input.error().message;
-  EXPECT_EQ(input->scoring.max_gap, 7.0);
-  EXPECT_EQ(input->scoring.anchor, AlignmentKind::kStartPose);
-  request.overrides = {"scoring.ancor=pose"};
-  EXPECT_NE(message_of(request).find("did you mean 'scoring.anchor'?"), std::string::npos);
-  request.overrides = {"lidar.range_max=3"};
-  EXPECT_NE(message_of(request).find("unknown key 'lidar.range_max'"), std::string::npos);
+  const std::string config = file("run.yaml", "lidar: {range_max: 30}\nscoring: {max_gap: 7}\n");
+  const auto scoring_with = [&](const std::string& setting) {
+    return scoring_config(config, std::vector<std::string>{setting});
+  };
+  const auto scoring = scoring_with("scoring.anchor=pose");
+  ASSERT_TRUE(scoring) << scoring.error().message;
+  EXPECT_EQ(scoring->max_gap, 7.0);
+  EXPECT_EQ(scoring->anchor, AlignmentKind::kStartPose);
+  EXPECT_NE(
+      scoring_with("scoring.ancor=pose").error().message.find("did you mean 'scoring.anchor'?"),
+      std::string::npos);
+  EXPECT_NE(scoring_with("lidar.range_max=3").error().message.find("unknown key 'lidar.range_max'"),
+            std::string::npos);
 }
 
 TEST_F(ScoringInputs, BadArgumentsAreNamed) {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "estimator/estimator_config.hpp"
+
+namespace aims {
+
+/// Beginning of the name of an estimator that is a class of a Python module: "python:module.Class".
+inline constexpr std::string_view kPythonPrefix = "python:";
+
+/// Whether `name` is that of a class in Python.
+inline bool is_python_name(std::string_view name) { return name.starts_with(kPythonPrefix); }
+
+/// Error for such a name that names no module and class.
+Result<void> check_python_name(std::string_view name);
+
+/// One keyword of the class's constructor.
+struct PythonSetting {
+  std::string key;
+  std::string default_text;
+  bool has_default = false;
+  std::string text;  ///< its value: a Python literal, true, false, null, or a text
+};
+
+/// An estimator that runs in a process of Python (estimator/python/worker.py). Its parameters are
+/// the keywords of its constructor and `code_hash`, which stands for its code in the identity of
+/// results.
+class PythonConfig final : public EstimatorConfig {
+ public:
+  /// Imports the class in a process of its own. Error, with Python's traceback, when that fails,
+  /// and for a class without any of the methods add_imu, add_legs and add_scan.
+  static Result<PythonConfig> load(std::string_view name);
+
+  void describe(Fields& fields) override;
+  Requirements requirements() const override { return {}; }
+  std::unique_ptr<Estimator> create(const SensorRig& rig) const override;
+  std::unique_ptr<EstimatorConfig> clone() const override;
+
+  const std::string& name() const { return name_; }
+  const std::vector<PythonSetting>& settings() const { return settings_; }
+  bool has(std::string_view method) const;
+  /// Error when a keyword without default has no value, or `code_hash` was set to another.
+  Result<void> check() const override;
+
+ private:
+  std::string name_;
+  std::vector<std::string> methods_;
+  std::vector<PythonSetting> settings_;
+  std::string found_hash_;
+  std::string code_hash_;
+};
+
+}  // namespace aims

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Estimators in Python for the tests: sound ones, and each kind of failure."""
+
+import ctypes
+import os
+
+import numpy as np
+
+
+class Legs:
+    """The robot's own odometry, relative to the first pose, `scale` times as long."""
+
+    def __init__(self, rig, scale=1.0, only_first=0):
+        self.T_base_body = np.linalg.inv(rig.T_body_base)
+        self.scale = scale
+        self.only_first = only_first
+        self.T_start_odom = None
+        self.count = 0
+
+    def add_legs(self, stamp, pose, linear_velocity, angular_velocity, contact, joint_position,
+                 joint_velocity):
+        T_odom_body = pose @ self.T_base_body
+        if self.T_start_odom is None:
+            self.T_start_odom = np.linalg.inv(T_odom_body)
+        self.count += 1
+        if self.only_first and self.count > self.only_first:
+            return None
+        relative = self.T_start_odom @ T_odom_body
+        relative[:3, 3] *= self.scale
+        return relative
+
+
+class Keeps:
+    """Keeps every scan, and raises at the end if one of them has changed since."""
+
+    def __init__(self, rig):
+        self.kept = []
+        self.samples = []
+
+    def add_imu(self, stamp, specific_force, angular_velocity, orientation):
+        self.samples.append((specific_force, specific_force.sum()))
+
+    def add_scan(self, stamp, xyz, offsets, rings, intensity, end):
+        assert end > stamp and offsets.min() >= 0 and rings.max() < 16
+        assert not xyz.flags.writeable
+        if len(self.kept) % 3 != 2:  # some are given back
+            self.kept.append((xyz, xyz.sum(), offsets[::2], offsets[::2].sum()))
+        else:
+            self.kept.append((xyz[:0], 0.0, offsets[:0], 0))
+        return (end, np.eye(4))
+
+    def finish(self):
+        assert len(self.kept) > 20
+        for xyz, total, offsets, sum_of_offsets in self.kept:
+            assert xyz.sum() == total and offsets.sum() == sum_of_offsets, "a scan has changed"
+        for force, total in self.samples:
+            assert force.sum() == total, "a sample has changed"
+
+    def map_points(self):
+        return np.concatenate([each[0] for each in self.kept])[:500]
+
+
+class Fails(Legs):
+    """Fails in the way that `how` names, after some time."""
+
+    def __init__(self, rig, how="raise"):
+        super().__init__(rig)
+        self.how = how
+        if how == "constructor":
+            raise RuntimeError("the constructor fails")
+
+    def add_legs(self, stamp, pose, *rest):
+        if self.count < 200 or self.how == "finish":
+            return super().add_legs(stamp, pose, *rest)
+        if self.how == "raise":
+            return 1 / 0
+        if self.how == "exit":
+            os._exit(7)
+        if self.how == "leave":
+            raise SystemExit(3)
+        if self.how == "crash":
+            ctypes.string_at(0)
+        if self.how == "shape":
+            return np.eye(3)
+        return None
+
+    def finish(self):
+        if self.how == "finish":
+            raise ValueError("the end fails")
+
+
+class Poor(Legs):
+    """Poses that are none, and stamps that go back."""
+
+    def add_legs(self, stamp, pose, *rest):
+        good = super().add_legs(stamp, pose, *rest)
+        return [(stamp, good), (stamp - 1, good), (stamp + 1, np.full((4, 4), np.nan)),
+                (stamp + 2, 2 * np.eye(4))]
+
+
+class Needs:
+    """A keyword without default."""
+
+    def __init__(self, rig, factor):
+        assert factor == 2.5
+
+    def add_scan(self, stamp, *rest):
+        return np.eye(4)
+
+
+class Nothing:
+    """None of the methods."""
+
+
+NO_CLASS = 3

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Estimators in Python inside the program."""
+
+import json
+import pathlib
+import shutil
+import sys
+
+import aims
+import numpy as np
+import pytest
+from conftest import program
+from own_estimators import Keeps, Legs
+
+HERE = pathlib.Path(__file__).parent
+
+
+@pytest.fixture(scope="module")
+def own(folder):
+    """A folder with walk.yaml, walk.bag and the module of estimators."""
+    shutil.copy(HERE / "own_estimators.py", folder)
+    return folder
+
+
+def run(folder, command, *arguments, code=0):
+    env = {"AIMS_PYTHON": sys.executable}
+    extra = () if command == "suite" else ("--no-pictures",)
+    return program(command, *arguments, "--quiet", "--no-page", *extra, cwd=folder, code=code, env=env)
+
+
+def test_run_and_suite_score_it_like_any_other(own):
+    out, _ = run(own, "run", "walk.yaml", "--seeds", "3", "--estimators",
+                 "leg,mine=python:own_estimators.Legs,long=python:own_estimators.Legs+scale=1.5",
+                 "-o", "run")
+    assert "3 jobs done" in out
+    scores = json.loads((own / "run" / "scores.json").read_text())["estimators"]
+    assert set(scores) == {"leg", "mine", "long"}
+    # Oracle: the same class in this process, and the length that it is told to err by.
+    here = aims.run(own / "walk.yaml", {"mine": Legs, "leg": "leg"}, seed=3, cache=own / "cache")
+    for key in ("ate_m", "m_end_m", "coverage", "m_list_percent", "rpe_1m", "success"):
+        assert scores["mine"][key] == here.scores["mine"][key], key
+        assert scores["leg"][key] == here.scores["leg"][key], key
+    mine = aims.read_trajectory(own / "run" / "mine.tum")
+    long = aims.read_trajectory(own / "run" / "long.tum")
+    np.testing.assert_allclose(long.positions, 1.5 * mine.positions, atol=1e-12)
+    assert scores["mine"]["cpu_per_scan_ms"]["mean"] > 0
+    out, _ = run(own, "suite", "walk.yaml", "--seeds", "3", "--estimators",
+                 "mine=python:own_estimators.Legs", "-o", "suite")
+    suite = json.loads((own / "suite" / "suite.json").read_text())
+    assert "mine" in json.dumps(suite)
+
+
+def test_an_unchanged_class_is_not_run_again_and_a_changed_one_is(own):
+    (own / "part.py").write_text("FACTOR = 1.0\n")
+    (own / "changing.py").write_text(
+        "import own_estimators, part\n"
+        "class Mine(own_estimators.Legs):\n"
+        "    def __init__(self, rig):\n"
+        "        super().__init__(rig, part.FACTOR)\n"
+    )
+    arguments = ("walk.yaml", "--estimators", "python:changing.Mine", "-o", "changing")
+    assert "1 jobs done" in run(own, "run", *arguments)[0]
+    assert "0 jobs done, 1 found finished" in run(own, "run", *arguments)[0]
+    (own / "part.py").write_text("FACTOR = 2.00\n")
+    assert "1 jobs done, 0 found finished" in run(own, "run", *arguments)[0]
+
+
+def test_estimate_gives_the_same_bytes_each_time(own):
+    for name in ("first", "second"):
+        run(own, "estimate", "walk.bag", "--estimators",
+            "keeps=python:own_estimators.Keeps,mine=python:own_estimators.Legs,leg", "-o", name)
+    for file in ("keeps.tum", "mine.tum", "leg.tum", "keeps.map.ply"):
+        assert (own / "first" / file).read_bytes() == (own / "second" / file).read_bytes()
+    recording = aims.Recording(own / "walk.bag")
+    here = aims.replay(recording, Legs(recording.rig))
+    written = aims.read_trajectory(own / "first" / "mine.tum")
+    np.testing.assert_array_equal(here.stamps, written.stamps)
+    np.testing.assert_array_equal(here.positions, written.positions)
+    assert len(aims.replay(recording, Keeps(recording.rig))) == len(
+        aims.read_trajectory(own / "first" / "keeps.tum"))
+
+
+@pytest.mark.parametrize(
+    "how, message",
+    [
+        ("raise", "add_legs: ZeroDivisionError: division by zero"),
+        ("exit", "ended by itself with status 7"),
+        ("leave", "add_legs: SystemExit: 3"),
+        ("crash", "ended by signal 11"),
+        ("shape", r"got shape \(3, 3\)"),
+        ("finish", "finish: ValueError: the end fails"),
+    ],
+)
+def test_one_that_fails_is_named_and_the_others_are_kept(own, how, message):
+    spec = f"bad=python:own_estimators.Fails+how={how}"
+    out = f"failed-{how}"
+    _, error = run(own, "estimate", "walk.bag", "--estimators", f"leg,{spec}", "-o", out, code=2)
+    assert "bad: FAILED: python:own_estimators.Fails: " in error
+    summary = json.loads((own / out / "estimate.json").read_text())
+    (failure,) = summary["failures"].values()
+    assert pytest.importorskip("re").search(message, failure), failure
+    assert len(aims.read_trajectory(own / out / "leg.tum")) > 20
+    scores = json.loads((own / out / "scores.json").read_text())["estimators"]
+    assert scores["leg"]["success"] and not scores["bad"]["success"]
+    if how == "raise":
+        assert "Traceback" in error and "own_estimators.py" in error and "1 / 0" in error
+    # What came before is kept.
+    assert len(aims.read_trajectory(own / out / "bad.tum")) >= 100
+
+
+def test_a_failed_job_is_recorded_and_the_others_are_done(own):
+    out, _ = run(own, "run", "walk.yaml", "--estimators",
+                 "leg,bad=python:own_estimators.Fails", "-o", "failed-job", code=2)
+    assert "FAILED: walk seed 1 bad: python:own_estimators.Fails: add_legs: ZeroDivisionError" in out
+    assert 'own_estimators.py", line' in out
+    scores = json.loads((own / "failed-job" / "scores.json").read_text())
+    assert list(scores["estimators"]) == ["leg"] and not scores["complete"]
+
+
+@pytest.mark.parametrize(
+    "spec, message",
+    [
+        ("python:own_estimators", "expected python:module.Class"),
+        ("python:no_such_module.Mine", "import: ModuleNotFoundError: No module named"),
+        ("python:own_estimators.NoSuch", "AttributeError: module 'own_estimators' has no attribute"),
+        ("python:own_estimators.Nothing", "has none of the methods add_imu, add_legs, add_scan"),
+        ("python:own_estimators.NO_CLASS", "is no class"),
+        ("python:own_estimators.Fails+how=constructor", "constructor: RuntimeError: the constructor"),
+        ("python:own_estimators.Legs+scal=2", "unknown key 'scal'; did you mean 'scale'"),
+        ("python:own_estimators.Needs", "factor: expected a value"),
+        ("python:own_estimators.Legs+code_hash=0", "code_hash: expected 0, as set; the files have"),
+        ("leg=python:own_estimators.Legs", "the label 'leg' is the name of another estimator"),
+    ],
+)
+def test_a_wrong_class_is_an_error_before_the_work(own, spec, message):
+    for command, given in (("estimate", "walk.bag"), ("run", "walk.yaml")):
+        if command == "run" and "constructor" in spec:
+            continue  # a job of its own
+        out, error = run(own, command, given, "--estimators", spec, "-o", "wrong", code=2)
+        assert message in error, (out, error)
+        assert not (own / "wrong").exists()
+
+
+def test_settings_are_values_of_python(own):
+    run(own, "estimate", "walk.bag", "--estimators", "n=python:own_estimators.Needs+factor=2.5",
+        "-o", "needs")
+    assert len(aims.read_trajectory(own / "needs" / "n.tum")) > 20
+
+
+def test_poses_that_are_none_are_left_out_and_counted(own):
+    run(own, "estimate", "walk.bag", "--estimators",
+        "mine=python:own_estimators.Legs,poor=python:own_estimators.Poor", "-o", "poor")
+    assert (own / "poor" / "poor.tum").read_bytes() == (own / "poor" / "mine.tum").read_bytes()
+    counts = json.loads((own / "poor" / "estimate.json").read_text())["estimators"]["poor"]["counts"]
+    assert counts["pose_not_rigid"] == 2 * counts["pose_stamp_not_increasing"] > 200
+
+
+def test_an_interpreter_that_is_none_is_named(own):
+    _, error = program("estimate", "walk.bag", "--estimators", "python:own_estimators.Legs", "-o",
+                       "none", cwd=own, code=2, env={"AIMS_PYTHON": "/no/python"})
+    assert "no Python interpreter '/no/python'; AIMS_PYTHON names another" in error
