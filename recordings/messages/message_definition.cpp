@@ -167,6 +167,9 @@ Result<std::vector<TypeDefinition>> parse_definition(std::string_view given, std
     return failure(fmt::format("definition of '{}', line {}: {}", type.substr(0, 80), line, what));
   };
   if (!is_type_name(type)) return refuse(1, "expected a type's name 'package/Type'");
+  if (language == DefinitionLanguage::kRos2Idl) {
+    return refuse(1, "written in OMG IDL (ros2idl); expected a definition in .msg (ros2msg)");
+  }
   std::vector<TypeDefinition> types;
   types.push_back({type, {}, {}});
   bool expect_name = false;

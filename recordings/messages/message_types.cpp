@@ -130,7 +130,8 @@ std::optional<MessageType> known_ros2_type(std::string_view name) {
 }
 
 void complete_definition(std::string_view type, std::string& definition, MessageFormat& format) {
-  if (!definition.empty() || format.serialization != Serialization::kCdr) return;
+  const bool readable = !definition.empty() && format.language != DefinitionLanguage::kRos2Idl;
+  if (readable || format.serialization != Serialization::kCdr) return;
   auto known = known_ros2_type(type);
   if (!known) return;
   definition = std::move(known->definition);

@@ -271,6 +271,26 @@ TEST_F(Mcap, MessagesOfOtherEncodingsAreListedAndNotDecoded) {
   EXPECT_EQ(view.error().message, "std_msgs/String: expected messages serialized as ros1 or cdr");
 }
 
+TEST(McapDefinitions, AUsualTypeInIdlGetsItsBuiltInDefinition) {
+  MessageFormat format{Serialization::kCdr, DefinitionLanguage::kRos2Idl};
+  std::string definition = "module sensor_msgs { module msg { struct Imu {}; }; };";
+  complete_definition("sensor_msgs/Imu", definition, format);
+  EXPECT_EQ(format.language, DefinitionLanguage::kRos2Msg);
+  EXPECT_EQ(definition, known_ros2_type("sensor_msgs/Imu")->definition);
+}
+
+TEST(McapDefinitions, AnotherTypeInIdlIsRefusedByName) {
+  MessageFormat format{Serialization::kCdr, DefinitionLanguage::kRos2Idl};
+  std::string definition = "module my { module msg { struct Own {}; }; };";
+  complete_definition("my/Own", definition, format);
+  const auto decoder = MessageDecoder::create("my/Own", definition, format);
+  ASSERT_FALSE(decoder);
+  EXPECT_EQ(
+      decoder.error().message,
+      "definition of 'my/Own', line 1: written in OMG IDL (ros2idl); expected a definition in "
+      ".msg (ros2msg)");
+}
+
 TEST(McapClouds, LivoxPointsOfRos2LieTwentyBytesApart) {
   const auto type = known_ros2_type("livox_ros_driver2/CustomMsg");
   ASSERT_TRUE(type);
