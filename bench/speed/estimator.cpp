@@ -55,8 +55,7 @@ void plane_fit(benchmark::State& state) {
       Eigen::Vector3f(0.1F, 0.0F, 1.0F), Eigen::Vector3f(-0.1F, 0.02F, 1.01F),
       Eigen::Vector3f(0.0F, 0.1F, 0.99F), Eigen::Vector3f(0.03F, -0.1F, 1.0F),
       Eigen::Vector3f(0.0F, 0.0F, 1.005F)};
-  const MapConfig config;
-  for (auto _ : state) benchmark::DoNotOptimize(fit_plane(points, config));
+  for (auto _ : state) benchmark::DoNotOptimize(fit_plane(points));
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(plane_fit);
