@@ -44,7 +44,7 @@ TEST_F(Completion, OfCommands) {
 TEST_F(Completion, OfOptionsAndTheirValues) {
   EXPECT_EQ(in_bash("aims run --no-p"), Words({"--no-pictures", "--no-page"}));
   EXPECT_EQ(in_bash("aims study compare --fail"), Words({"--fail-on-worse"}));
-  EXPECT_EQ(in_bash("aims simulate --compression \"\""), Words({"none", "lz4", "bz2"}));
+  EXPECT_EQ(in_bash("aims simulate --compression \"\""), Words({"none", "lz4", "bz2", "zstd"}));
   EXPECT_EQ(in_bash("aims simulate --compression = b"), Words({"bz2"}));
   EXPECT_TRUE(in_bash("aims run --set \"\"").empty()) << "any text";
 }
