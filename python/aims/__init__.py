@@ -5,6 +5,9 @@ Estimators, recordings and scores need nothing but NumPy. Scenarios and the simu
 extension module of their own, which is imported when they are first used.
 """
 
+import os
+import sys
+
 from ._core import ImuSample, LegSample, LidarScan, Rig, __version__
 from .errors import Error, MissingPackage
 from .estimator import Estimator, estimators, parameters
@@ -22,6 +25,9 @@ from .simulation import (
     simulate,
 )
 from .trajectory import Trajectory, read_trajectory
+
+# Estimators in Python run under the interpreter that imported this package.
+os.environ.setdefault("AIMS_PYTHON", sys.executable)
 
 __all__ = [
     "Error",
