@@ -47,17 +47,21 @@ void declare_convert(Command command, const fs::path& /*scenarios*/) {
   auto arguments = std::make_shared<ConvertArguments>();
   SharedOptions& shared = arguments->shared;
   command.argument("bag", arguments->bag, "Recording of any format");
-  command.option("-o,--out", shared.out, "Recording to write, e.g. robot.mcap",
+  command.option("-o,--out", shared.out,
+                 "Recording to write: NAME.bag, NAME.mcap, or NAME/ for rosbag2",
                  Presence::kRequired);
   add_compression(command, arguments->compression);
   command.flag("--recover", arguments->recover, "Read the intact part of a damaged recording");
   add_overwrite(command, shared);
   add_quiet(command, shared);
   command.footer(
-      "Every value and record time is kept. Messages of ROS 1 become those of ROS 2 in .mcap;\n"
-      "from ROS 2 to a ROS 1 bag there is no conversion.\n"
+      "Every value and record time is kept. Messages of ROS 1 become those of ROS 2 in .mcap and "
+      "in\n"
+      "folders of rosbag2, whose names end in /; from ROS 2 to a ROS 1 bag there is no "
+      "conversion.\n"
       "Examples:\n"
       "  aims convert robot.bag --out robot.mcap --compression zstd\n"
+      "  aims convert robot.mcap --out robot/\n"
       "  aims convert damaged.mcap --recover --out intact.mcap");
   command.action([arguments] { return convert_command(*arguments); });
 }

@@ -26,7 +26,7 @@ constexpr std::array kCommands = {
                  aims::declare_tune},
     CommandEntry{"study", "Ablation, consistency, degeneracy detectors, comparison of results",
                  aims::declare_study},
-    CommandEntry{"simulate", "Record the measurements of a scenario as a ROS 1 bag or MCAP",
+    CommandEntry{"simulate", "Record the measurements of a scenario for ROS 1 or ROS 2",
                  aims::declare_simulate},
     CommandEntry{"estimate", "Run estimators on a recorded bag", aims::declare_estimate},
     CommandEntry{"score", "Score trajectories of any system against ground truth",

@@ -46,10 +46,11 @@ void add_seeds(Command& command, SharedOptions& options, const std::string& abse
 }
 
 void add_estimators(Command& command, SharedOptions& options, const std::string& absent) {
-  command.list("--estimators", options.estimators,
-               fmt::format("Estimators, each NAME or LABEL=NAME+key=value with\n"
-                           "keys below estimators.NAME, or\nLABEL=python:module.Class+key=value ({})",
-                           absent));
+  command.list(
+      "--estimators", options.estimators,
+      fmt::format("Estimators, each NAME or LABEL=NAME+key=value with\n"
+                  "keys below estimators.NAME, or\nLABEL=python:module.Class+key=value ({})",
+                  absent));
 }
 
 void add_settings(Command& command, SharedOptions& options, const std::string& on) {
@@ -99,7 +100,7 @@ void add_overwrite(Command& command, SharedOptions& options) {
 
 void add_compression(Command& command, std::string& compression) {
   command.choice("--compression", compression, {"none", "lz4", "bz2", "zstd"},
-                 "Of the chunks: bz2 in .bag, zstd in .mcap alone (none)");
+                 "Of the chunks: bz2 in .bag, zstd in .mcap, none in rosbag2 (none)");
 }
 
 void add_quiet(Command& command, SharedOptions& options) {

@@ -95,7 +95,8 @@ void declare_simulate(Command command, const fs::path& scenarios) {
   shared.folder = scenarios.string();
   add_scenario(command, shared, Presence::kRequired);
   add_folder(command, shared);
-  command.option("-o,--out", shared.out, "Recording to write, e.g. corridor.bag or corridor.mcap",
+  command.option("-o,--out", shared.out,
+                 "Recording to write: NAME.bag, NAME.mcap, or NAME/ for rosbag2",
                  Presence::kRequired);
   add_seeds(command, shared, "that of the scenario; one");
   add_settings(command, shared);
@@ -109,6 +110,7 @@ void declare_simulate(Command command, const fs::path& scenarios) {
       "Examples:\n"
       "  aims simulate corridor --out corridor.bag\n"
       "  aims simulate corridor --out corridor.mcap --compression zstd\n"
+      "  aims simulate corridor --out corridor/\n"
       "  aims simulate garage --seeds 3 --fast-imu 200 --compression lz4 --out garage.bag");
   command.action([arguments] { return simulate_command(*arguments); });
 }

@@ -10,6 +10,7 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "core/files/yaml_config.hpp"
+#include "recordings/source/recording_file.hpp"
 #include "recordings/topics/recording_topics.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
 
@@ -63,9 +64,12 @@ StatedSegments segments_beside(const std::filesystem::path& waypoint_times) {
     return {text ? segments_of_scenario(*text) : std::vector<std::string>(), config};
   }
   if (!name.ends_with(fmt::format(".{}", kName))) return {};
-  const fs::path bag = folder / (name.substr(0, name.size() - kName.size()) + "bag");
-  if (!fs::is_regular_file(bag, code)) return {};
-  return {segments_in_bag(bag), bag};
+  const fs::path stem = folder / name.substr(0, name.size() - kName.size() - 1);
+  for (const char* extension : {".bag", ".mcap", ""}) {
+    const fs::path recording = fs::path(stem) += extension;
+    if (format_by_content(recording)) return {segments_in_bag(recording), recording};
+  }
+  return {};
 }
 
 }  // namespace aims

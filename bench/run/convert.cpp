@@ -34,11 +34,11 @@ Result<ConvertOutcome> convert(const ConvertOptions& options, const Observer& ob
   auto source = open_recording(options.from, {.recover = options.recover});
   if (!source) return tl::unexpected(source.error());
   std::error_code ignored;
-  if (fs::equivalent(options.from, options.to, ignored)) {
+  if (fs::equivalent(options.from, path_of_new(options.to), ignored)) {
     return failure(
         fmt::format("{}: is the recording itself; choose another --out", options.to.string()));
   }
-  const auto partial = begin_recording(options.to, options.overwrite);
+  const auto partial = begin_recording(path_of_new(options.to), options.overwrite);
   if (!partial) return tl::unexpected(partial.error());
   ConvertOutcome outcome;
   outcome.lost_bytes = (*source)->summary().lost_bytes;
@@ -46,12 +46,12 @@ Result<ConvertOutcome> convert(const ConvertOptions& options, const Observer& ob
   Result<void> ok;
   if (content && content->complete) {
     outcome.content = *content;
-    outcome.bytes = fs::file_size(*partial);
-    ok = publish_recording(*partial, options.to);
+    outcome.bytes = recording_size(*partial);
+    ok = publish_recording(*partial, path_of_new(options.to));
   } else if (!content) {
     ok = tl::unexpected(content.error());
   }
-  fs::remove(*partial, ignored);
+  fs::remove_all(*partial, ignored);
   if (!ok) return tl::unexpected(ok.error());
   return outcome;
 }

@@ -13,7 +13,7 @@ namespace aims {
 
 struct ConvertOptions {
   std::filesystem::path from;  ///< recording of any format
-  std::filesystem::path to;    ///< .bag or .mcap to write; it must not exist
+  std::filesystem::path to;    ///< .bag, .mcap or folder/ to write; it must not exist
   bool overwrite = false;      ///< unless this is set
   bool recover = false;        ///< read the intact part of a damaged recording
   BagCompression compression = BagCompression::kNone;

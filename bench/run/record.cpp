@@ -91,9 +91,10 @@ std::string origin_text(const Scenario& scenario, std::uint64_t seed) {
                      scenario.name, seed, effective_config(scenario, seed));
 }
 
-/// `bag` with another extension: walk.bag -> walk.truth.tum.
-fs::path beside(const fs::path& bag, const char* extension) {
-  fs::path file = bag;
+/// `recording` with another extension: walk.bag or walk/ -> walk.truth.tum.
+fs::path beside(const fs::path& recording, const char* extension) {
+  if (!recording.has_filename()) return path_of_new(recording) += extension;
+  fs::path file = recording;
   return file.replace_extension(extension);
 }
 
@@ -132,7 +133,7 @@ Result<RecordOutcome> record(const Scenario& given, const RecordOptions& options
   const Scenario scenario = scenario_of_seed(given, options.seed);
   auto simulation = Simulation::create(scenario.simulation, options.seed);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
-  const auto partial = begin_recording(options.bag, options.overwrite);
+  const auto partial = begin_recording(path_of_new(options.bag), options.overwrite);
   if (!partial) return tl::unexpected(partial.error());
   auto file = create_recording(*partial, *format, {.compression = options.compression});
   if (!file) return tl::unexpected(file.error());
@@ -144,7 +145,7 @@ Result<RecordOutcome> record(const Scenario& given, const RecordOptions& options
   Recorder recorder(std::move(*writer));
   RecordOutcome outcome;
   auto ok = fill(*simulation, recorder, observer, stopwatch, outcome);
-  if (ok) ok = publish_recording(*partial, options.bag);
+  if (ok) ok = publish_recording(*partial, path_of_new(options.bag));
   if (!ok) return kept(*partial, ok.error());
   const Truth& truth = simulation->truth();
   outcome.truth = beside(options.bag, ".truth.tum");
@@ -155,7 +156,7 @@ Result<RecordOutcome> record(const Scenario& given, const RecordOptions& options
   outcome.simulated_s = to_seconds(simulation->now());
   outcome.walk = truth.walk;
   outcome.left_out = recorder.writer().dropped();
-  outcome.bag_bytes = fs::file_size(options.bag);
+  outcome.bag_bytes = recording_size(options.bag);
   outcome.wall_s = stopwatch.seconds();
   return outcome;
 }

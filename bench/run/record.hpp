@@ -14,7 +14,7 @@ namespace aims {
 
 struct RecordOptions {
   std::uint64_t seed = 1;
-  std::filesystem::path bag;  ///< .bag or .mcap to write; it must not exist
+  std::filesystem::path bag;  ///< .bag, .mcap or folder/ to write; it must not exist
   bool overwrite = false;     ///< unless this is set
   BagCompression compression = BagCompression::kNone;
 };
@@ -31,10 +31,10 @@ struct RecordOutcome {
   std::filesystem::path waypoint_times;  ///< NAME.waypoint_times.csv
 };
 
-/// Simulates the scenario and records what its sensors deliver, and the truth, as a ROS 1 bag
-/// or an MCAP file, by the name; truth and waypoint times of the reference points also beside it.
-/// The file is NAME.partial until it is whole; killed at any moment, or without space, this leaves
-/// a bag that opens there, or an MCAP file whose closed chunks `--recover` reads. Error when the
+/// Simulates the scenario and records what its sensors deliver, and the truth, as a ROS 1 bag, an
+/// MCAP file or a folder of rosbag2, by the name; truth and waypoint times of the reference points
+/// also beside it. It is NAME.partial until it is whole; killed at any moment, or without space,
+/// this leaves a bag that opens there, or what `--recover` reads of the others. Error when the
 /// scenario cannot be simulated or a file cannot be written.
 Result<RecordOutcome> record(const Scenario& scenario, const RecordOptions& options,
                              const Observer& observer);

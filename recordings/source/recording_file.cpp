@@ -5,11 +5,15 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/mcap/mcap_reader.hpp"
 #include "recordings/mcap/mcap_writer.hpp"
+#include "recordings/rosbag2/rosbag2_metadata.hpp"
+#include "recordings/rosbag2/rosbag2_reader.hpp"
+#include "recordings/rosbag2/rosbag2_writer.hpp"
 
 namespace aims {
 namespace {
@@ -25,6 +29,7 @@ struct FormatSign {
 constexpr auto kSigns = std::to_array<FormatSign>({
     {RecordingFormat::kBag, ".bag", "#ROS"},
     {RecordingFormat::kMcap, ".mcap", "\x89MCAP"},
+    {RecordingFormat::kRosbag2, ".db3", "SQLite format 3"},
 });
 
 template <class Reader>
@@ -44,6 +49,8 @@ Result<std::unique_ptr<MessageSink>> created(const fs::path& file, BagWriterOpti
 }  // namespace
 
 std::optional<RecordingFormat> format_by_content(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::exists(file / kRosbag2Metadata, ignored)) return RecordingFormat::kRosbag2;
   std::string start(16, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));
@@ -63,17 +70,19 @@ std::optional<RecordingFormat> format_by_name(const fs::path& file) {
 Result<std::unique_ptr<MessageSource>> open_recording(const fs::path& file,
                                                       BagOpenOptions options) {
   // What has no known beginning is refused by the reader for its name, or by that of bags.
-  const auto format = format_by_content(file);
-  if (format.value_or(format_by_name(file).value_or(RecordingFormat::kBag)) ==
-      RecordingFormat::kMcap) {
-    return opened<McapReader>(file, options);
-  }
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) return opened<Rosbag2Reader>(file, options);
+  const auto known = format_by_content(file);
+  const auto format = known ? known : format_by_name(file);
+  if (format == RecordingFormat::kMcap) return opened<McapReader>(file, options);
+  if (format == RecordingFormat::kRosbag2) return opened<Rosbag2Reader>(file, options);
   return opened<BagReader>(file, options);
 }
 
 Result<std::unique_ptr<MessageSink>> create_recording(const fs::path& file, RecordingFormat format,
                                                       BagWriterOptions options) {
   if (format == RecordingFormat::kMcap) return created<McapWriter>(file, options);
+  if (format == RecordingFormat::kRosbag2) return created<Rosbag2Writer>(file, options);
   return created<BagWriter>(file, options);
 }
 

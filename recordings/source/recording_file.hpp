@@ -15,14 +15,15 @@ namespace aims {
 
 /// The containers of a recording.
 enum class RecordingFormat {
-  kBag,   ///< ROS 1 bag, format 2.0
-  kMcap,  ///< MCAP, with messages of ROS 2 or ROS 1
+  kBag,      ///< ROS 1 bag, format 2.0
+  kMcap,     ///< MCAP, with messages of ROS 2 or ROS 1
+  kRosbag2,  ///< folder of rosbag2, with SQLite or MCAP files, or one such SQLite file
 };
 
-/// The format of a file by its first bytes, or nothing.
+/// The format of a file by its first bytes, or of a folder by its metadata.yaml; else nothing.
 std::optional<RecordingFormat> format_by_content(const std::filesystem::path& file);
 
-/// The format that a name's extension stands for: ".bag" or ".mcap"; else nothing.
+/// The format that a name's extension stands for: ".bag", ".mcap" or ".db3"; else nothing.
 std::optional<RecordingFormat> format_by_name(const std::filesystem::path& file);
 
 /// Opens a recording of any format, by its content. Error for a file of no format, or that its
@@ -30,8 +31,8 @@ std::optional<RecordingFormat> format_by_name(const std::filesystem::path& file)
 Result<std::unique_ptr<MessageSource>> open_recording(const std::filesystem::path& file,
                                                       BagOpenOptions options = {});
 
-/// A new recording of ROS 1 messages (bag) or ROS 2 messages (the others). Error when the file
-/// exists or cannot be written, or when the format does not know the compression.
+/// A new recording of ROS 1 messages (bag) or ROS 2 messages (the others). Error when the file or
+/// folder exists or cannot be written, or when the format does not know the compression.
 Result<std::unique_ptr<MessageSink>> create_recording(const std::filesystem::path& file,
                                                       RecordingFormat format,
                                                       BagWriterOptions options = {});

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "recordings/rosbag2/sqlite_library.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace aims {
+
+class SqliteDatabase;
+
+/// A prepared statement; it must not outlive its database. Columns are counted from 0, parameters
+/// from 1.
+class SqliteStatement {
+ public:
+  SqliteStatement(SqliteStatement&&) noexcept;
+  SqliteStatement& operator=(SqliteStatement&&) noexcept;
+  ~SqliteStatement();
+
+  SqliteStatement& bind(int parameter, std::int64_t value);
+  /// The bytes must stay until the statement has run.
+  SqliteStatement& bind(int parameter, std::string_view text);
+  SqliteStatement& bind(int parameter, std::span<const std::byte> bytes);
+
+  /// Runs to the next row; false behind the last one.
+  Result<bool> step();
+  /// Runs to the end and makes the statement ready for the next run.
+  Result<void> finish();
+  void reset();
+
+  int columns() const;
+  bool is_integer(int column) const;
+  std::int64_t integer(int column) const;
+  /// Of a text or a blob, valid until the next step or reset.
+  std::span<const std::byte> bytes(int column) const;
+  std::string text(int column) const;
+
+ private:
+  friend class SqliteDatabase;
+  SqliteStatement(const SqliteDatabase& database, sqlite3_stmt* statement);
+  const SqliteFunctions* functions_;
+  std::string name_;
+  sqlite3* database_;
+  sqlite3_stmt* statement_;
+  int bound_;
+};
+
+/// A database file. Errors are "FILE: SQLite: WHAT".
+class SqliteDatabase {
+ public:
+  /// For reading alone. No value may be longer than `max_value` bytes, and nothing that the schema
+  /// of a foreign file defines runs: no views, triggers or functions with effects.
+  static Result<SqliteDatabase> open(const std::filesystem::path& file, std::size_t max_value);
+  /// A new file; error when it exists.
+  static Result<SqliteDatabase> create(const std::filesystem::path& file);
+  SqliteDatabase(SqliteDatabase&&) noexcept;
+  SqliteDatabase& operator=(SqliteDatabase&&) noexcept;
+  ~SqliteDatabase();
+
+  const std::filesystem::path& file() const { return file_; }
+  Result<SqliteStatement> prepare(const std::string& sql) const;
+  /// Runs statements that return nothing.
+  Result<void> run(const std::string& sql) const;
+
+ private:
+  friend class SqliteStatement;
+  SqliteDatabase(std::shared_ptr<const SqliteFunctions> functions, std::filesystem::path file,
+                 sqlite3* database);
+  static Result<SqliteDatabase> open_as(const std::filesystem::path& file, const std::string& uri,
+                                        int flags);
+  void harden(std::size_t max_value) const;
+
+  std::shared_ptr<const SqliteFunctions> functions_;
+  std::filesystem::path file_;
+  sqlite3* database_;
+};
+
+}  // namespace aims
