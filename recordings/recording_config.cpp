@@ -45,6 +45,13 @@ void describe_clouds(Fields& f, RecordingConfig& c) {
 void describe_legs(Fields& f, RecordingConfig& c) {
   f.text("contacts_field", c.contacts_field,
          dimensionless("path of the array of contacts; empty: the first array of numbers"));
+  f.choice("contact_detection", c.contact_detection,
+           {{"auto", ContactDetection::kAuto},
+            {"threshold", ContactDetection::kThreshold},
+            {"learned", ContactDetection::kLearned}},
+           dimensionless("contact from a load: above contact_threshold, or in the upper of two "
+                         "classes learned from the recording; auto: learned for raw counts of "
+                         "unitree_go"));
   f.number("contact_threshold", c.contact_threshold,
            {.unit = "N",
             .range = within(1e6),
@@ -65,10 +72,12 @@ void describe_legs(Fields& f, RecordingConfig& c) {
 
 void describe(Fields& f, TopicsConfig& c) {
   f.text("lidar", c.lidar, dimensionless("sensor_msgs/PointCloud2 or livox CustomMsg"));
-  f.text("imu", c.imu, dimensionless("sensor_msgs/Imu"));
+  f.text("imu", c.imu, dimensionless("sensor_msgs/Imu, or a state of unitree_go"));
   f.text("leg_odometry", c.leg_odometry,
-         dimensionless("nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist"));
-  f.text("joint_states", c.joint_states, dimensionless("sensor_msgs/JointState"));
+         dimensionless("nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist, "
+                       "unitree_go/SportModeState"));
+  f.text("joint_states", c.joint_states,
+         dimensionless("sensor_msgs/JointState or unitree_go/LowState"));
   f.text("contacts", c.contacts,
          dimensionless("any message with an array of numbers, one per foot"));
   f.text("truth", c.truth,

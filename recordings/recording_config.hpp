@@ -14,9 +14,11 @@ namespace aims {
 /// suitable type. "none": not used.
 struct TopicsConfig {
   std::string lidar;         ///< sensor_msgs/PointCloud2 or livox_ros_driver(2)/CustomMsg
-  std::string imu;           ///< sensor_msgs/Imu
-  std::string leg_odometry;  ///< nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist
-  std::string joint_states;  ///< sensor_msgs/JointState, for legs without odometry
+  std::string imu;           ///< sensor_msgs/Imu, or a state of unitree_go
+  std::string leg_odometry;  ///< nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist,
+                             ///< unitree_go/SportModeState
+  std::string joint_states;  ///< sensor_msgs/JointState or unitree_go/LowState, for legs without
+                             ///< odometry
   std::string contacts;      ///< any message with an array of numbers, one per foot
   std::string truth;         ///< nav_msgs/Odometry or PoseStamped; read for scoring only
 };
@@ -32,6 +34,13 @@ enum class ImuUnit { kAuto, kMetres, kGravities };
 enum class PointTimeUnit { kAuto, kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 /// Instant of the scan that a cloud's header stamp marks.
 enum class CloudStamp { kAuto, kStart, kEnd };
+
+/// How a foot's load becomes a contact.
+enum class ContactDetection {
+  kAuto,       ///< learned for counts without calibration, else by the threshold
+  kThreshold,  ///< by contact_threshold
+  kLearned,    ///< two classes of loads, learned from the recording
+};
 
 /// How a recording is read.
 struct RecordingConfig {
@@ -50,10 +59,11 @@ struct RecordingConfig {
   double lidar_delay = 0.0;     ///< subtracted from the stamps of the LiDAR [s]
   double leg_delay = 0.0;       ///< subtracted from the stamps of the legs [s]
   std::string contacts_field;   ///< path of the array; empty: the first array of numbers
+  ContactDetection contact_detection = ContactDetection::kAuto;
   double contact_threshold =
       20.0;  ///< smallest value of a foot in contact [N or the message's unit]
-  std::vector<std::string> foot_names;       ///< of the array's entries, e.g. [FR, FL, RR, RL]
-  std::vector<std::string> joint_names;      ///< of the 12 joints, leg by leg; empty: detected
+  std::vector<std::string> foot_names;   ///< of the array's entries, e.g. [FR, FL, RR, RL]
+  std::vector<std::string> joint_names;  ///< of the 12 joints, leg by leg; empty: detected
   /// Of the robot; by default that of the simulated one.
   LegGeometry leg_geometry{0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
   FootModel foot_model = FootModel::kPoint;  ///< for legs without odometry

@@ -38,7 +38,7 @@ class Survey {
     }
     if (is_cloud_type(connection.type)) {
       clouds_.try_emplace(connection.topic, connection.topic).first->second.add(*view);
-    } else if (connection.type == "sensor_msgs/Imu") {
+    } else if (is_imu_type(connection.type)) {
       imus_.try_emplace(connection.topic, connection.topic)
           .first->second.add(*view, stamp.value_or(message.record_time));
       add_turn_rate(connection.topic, *view, "angular_velocity", stamp);

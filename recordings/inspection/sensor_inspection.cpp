@@ -59,17 +59,13 @@ CloudInfo CloudInspection::finish() const {
 ImuInspection::ImuInspection(std::string topic) { info_.topic = std::move(topic); }
 
 void ImuInspection::add(const MessageView& message, Time stamp) {
-  const auto rate = vector_at(message, "angular_velocity");
-  const auto force = vector_at(message, "linear_acceleration");
-  if (!rate || !force || !force->allFinite()) return;
-  ImuSample sample;
-  sample.stamp = stamp;
-  sample.angular_velocity = *rate;
-  sample.specific_force = *force;
-  if (unit_known_) return add_in_si(sample);
-  first_.push_back(sample);
   EventCounts ignored;
-  info_.oriented = imu_orientation(message, ignored).has_value();
+  auto sample = imu_at(message, stamp, ignored);
+  if (!sample || !sample->specific_force.allFinite()) return;
+  sample->stamp = stamp;
+  if (unit_known_) return add_in_si(*sample);
+  first_.push_back(*sample);
+  info_.oriented = sample->orientation.has_value();
   if (first_.size() == kUnitSamples) decide_unit();
 }
 

@@ -23,6 +23,24 @@ std::vector<std::string_view> names_at(const MessageView& message) {
   return {};
 }
 
+/// The joints of a unitree_go/LowState: motors leg by leg, each abduction, hip, knee.
+std::optional<JointReading> unitree_joints_at(const MessageView& message, Time record_time) {
+  const auto motors = message.messages("motor_state");
+  if (!motors || motors->size() < std::size_t{kJointCount}) return std::nullopt;
+  JointReading reading;
+  reading.stamp = header_stamp(message, record_time);
+  reading.velocity.emplace();
+  for (std::size_t i = 0; i < std::size_t{kJointCount}; ++i) {
+    const auto angle = (*motors)[i].number("q");
+    const auto rate = (*motors)[i].number("dq");
+    if (!angle || !rate) return std::nullopt;
+    const auto leg = static_cast<std::size_t>(*leg_of_name(kUnitreeFeet[i / 3]));
+    reading.position[3 * leg + i % 3] = *angle;
+    (*reading.velocity)[3 * leg + i % 3] = *rate;
+  }
+  return reading;
+}
+
 std::array<double, kJointCount> ordered(const std::vector<double>& values,
                                         const JointOrder& order) {
   std::array<double, kJointCount> result{};
@@ -63,7 +81,7 @@ std::optional<LegOdometrySample> twist_at(const MessageView& message, Time recor
 std::optional<JointReading> joints_at(const MessageView& message, Time record_time,
                                       const std::vector<std::string>& joint_names) {
   const auto position = message.numbers("position");
-  if (!position) return std::nullopt;
+  if (!position) return unitree_joints_at(message, record_time);
   const auto order = joint_order(names_at(message), joint_names, position->size());
   if (!order) return std::nullopt;
   JointReading reading;
@@ -76,28 +94,31 @@ std::optional<JointReading> joints_at(const MessageView& message, Time record_ti
   return reading;
 }
 
-std::optional<std::array<double, kLegCount>> loads_at(const MessageView& message,
-                                                      const ContactRule& rule) {
+std::optional<FootLoads> loads_at(const MessageView& message, const ContactRule& rule) {
   const auto numbers = numbers_at(message, rule.field);
   if (!numbers) return std::nullopt;
   const auto order = foot_order(names_at(message), rule.foot_names, numbers->size());
   if (!order) return std::nullopt;
-  std::array<double, kLegCount> loads{};
+  FootLoads loads{};
   for (std::size_t i = 0; i < order->size(); ++i) {
     if ((*order)[i] >= 0) loads[static_cast<std::size_t>((*order)[i])] = (*numbers)[i];
   }
   return loads;
 }
 
-std::optional<ContactReading> contacts_at(const MessageView& message, Time record_time,
-                                          const ContactRule& rule) {
-  const auto loads = loads_at(message, rule);
-  if (!loads) return std::nullopt;
-  ContactReading reading;
+std::optional<FeetReading> feet_at(const MessageView& message, Time record_time) {
+  const auto position = message.numbers("foot_position_body");
+  const auto velocity = message.numbers("foot_speed_body");
+  constexpr std::size_t kNumbers = 3 * std::size_t{kLegCount};
+  if (!position || !velocity || position->size() != kNumbers || velocity->size() != kNumbers) {
+    return std::nullopt;
+  }
+  FeetReading reading;
   reading.stamp = header_stamp(message, record_time);
-  for (std::size_t leg = 0; leg < loads->size(); ++leg) {
-    // The torque of a loaded knee has either sign.
-    reading.contact[leg] = std::abs((*loads)[leg]) >= rule.threshold;
+  for (std::size_t i = 0; i < kUnitreeFeet.size(); ++i) {
+    const auto leg = static_cast<std::size_t>(*leg_of_name(kUnitreeFeet[i]));
+    reading.position[leg] = Eigen::Vector3d(&(*position)[3 * i]);
+    reading.velocity[leg] = Eigen::Vector3d(&(*velocity)[3 * i]);
   }
   return reading;
 }

@@ -8,6 +8,7 @@
 
 #include "core/measurements.hpp"
 #include "recordings/event_counts.hpp"
+#include "recordings/legs/contact_detector.hpp"
 #include "recordings/legs/leg_names.hpp"
 #include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/message_values.hpp"
@@ -33,22 +34,31 @@ std::optional<LegOdometrySample> odometry_at(const MessageView& message, EventCo
 /// The sample of a geometry_msgs/TwistStamped or Twist, without a pose.
 std::optional<LegOdometrySample> twist_at(const MessageView& message, Time record_time);
 
-/// The joints of a sensor_msgs/JointState; nothing when one is missing.
+/// The joints of a sensor_msgs/JointState or a unitree_go/LowState; nothing when one is missing.
 std::optional<JointReading> joints_at(const MessageView& message, Time record_time,
                                       const std::vector<std::string>& joint_names);
+
+/// The feet at an instant, without the joints above them.
+struct FeetReading {
+  Time stamp = 0;
+  std::array<Eigen::Vector3d, kLegCount> position;  ///< in the base [m]
+  std::array<Eigen::Vector3d, kLegCount> velocity;  ///< relative to the base, in its axes [m/s]
+};
 
 /// How contacts are read.
 struct ContactRule {
   std::string field;
-  double threshold = 20.0;  ///< smallest value of a foot in contact
+  std::array<ContactThreshold, kLegCount> thresholds;
   std::vector<std::string> foot_names;
 };
 
 /// The numbers of the contact field, one per foot in the order of the legs.
-std::optional<std::array<double, kLegCount>> loads_at(const MessageView& message,
-                                                      const ContactRule& rule);
+std::optional<FootLoads> loads_at(const MessageView& message, const ContactRule& rule);
 
-std::optional<ContactReading> contacts_at(const MessageView& message, Time record_time,
-                                          const ContactRule& rule);
+/// The feet of a unitree_go/SportModeState.
+std::optional<FeetReading> feet_at(const MessageView& message, Time record_time);
+
+/// The order in which Unitree's states list the feet.
+inline constexpr std::array<const char*, kLegCount> kUnitreeFeet = {"FR", "FL", "RR", "RL"};
 
 }  // namespace aims

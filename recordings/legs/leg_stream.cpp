@@ -104,15 +104,20 @@ void LegStream::differentiate(JointReading& reading) const {
   }
 }
 
+/// Whether gyro and contacts are known; otherwise what is missing is counted.
+bool LegStream::has_contacts_at(Time stamp, EventCounts& counts) const {
+  if (!imu_ || !contacts_) return ++counts["legs_incomplete"], false;
+  if (stamp - contacts_->stamp > kMaxContactAge) return ++counts["legs_without_contacts"], false;
+  return true;
+}
+
 /// Velocity of the base by leg kinematics: the mean over the feet in contact, or the last value
 /// without contacts.
 std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReading& joints,
                                                                EventCounts& counts) {
   joints_wait_ = false;
-  if (!joints.velocity || !imu_ || !contacts_) return ++counts["legs_incomplete"], std::nullopt;
-  if (joints.stamp - contacts_->stamp > kMaxContactAge) {
-    return ++counts["legs_without_contacts"], std::nullopt;
-  }
+  if (!joints.velocity) return ++counts["legs_incomplete"], std::nullopt;
+  if (!has_contacts_at(joints.stamp, counts)) return std::nullopt;
   LegOdometrySample sample;
   sample.stamp = joints.stamp;
   sample.joint_position = joints.position;
@@ -132,6 +137,30 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReadin
                  : velocity_from_foot(leg, motion, config_.geometry);
     ++feet;
   }
+  return finish(std::move(sample), sum, feet, counts);
+}
+
+std::optional<LegOdometrySample> LegStream::add_feet(const FeetReading& reading,
+                                                     EventCounts& counts) {
+  if (!has_contacts_at(reading.stamp, counts)) return std::nullopt;
+  LegOdometrySample sample;
+  sample.stamp = reading.stamp;
+  sample.contact = contacts_->contact;
+  sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int feet = 0;
+  for (std::size_t leg = 0; leg < reading.position.size(); ++leg) {
+    if (!sample.contact[leg]) continue;
+    sum -= reading.velocity[leg] + sample.angular_velocity.cross(reading.position[leg]);
+    ++feet;
+  }
+  return finish(std::move(sample), sum, feet, counts);
+}
+
+/// Completes a sample with the mean velocity of so many feet.
+std::optional<LegOdometrySample> LegStream::finish(LegOdometrySample sample,
+                                                   const Eigen::Vector3d& sum, int feet,
+                                                   EventCounts& counts) {
   if (feet > 0) velocity_ = sum / feet;
   if (feet == 0) ++counts["legs_no_contact"];
   if (!velocity_.allFinite()) {

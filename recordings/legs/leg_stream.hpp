@@ -24,7 +24,7 @@ class UpDirection {
 };
 
 /// Source of leg odometry.
-enum class LegSource { kNone, kOdometry, kTwist, kKinematics };
+enum class LegSource { kNone, kOdometry, kTwist, kKinematics, kFeet };
 
 struct LegStreamConfig {
   LegSource source = LegSource::kNone;
@@ -45,6 +45,8 @@ class LegStream {
   /// A sample without a pose: the pose is integrated.
   LegOdometrySample add_twist(LegOdometrySample sample);
   std::optional<LegOdometrySample> add_joints(JointReading reading, EventCounts& counts);
+  /// Feet without joints; contacts of the same instant come first.
+  std::optional<LegOdometrySample> add_feet(const FeetReading& reading, EventCounts& counts);
   std::optional<LegOdometrySample> add_contacts(const ContactReading& reading, EventCounts& counts);
 
  private:
@@ -54,6 +56,9 @@ class LegStream {
   void differentiate(JointReading& reading) const;
   std::optional<LegOdometrySample> forward_kinematics(const JointReading& joints,
                                                       EventCounts& counts);
+  std::optional<LegOdometrySample> finish(LegOdometrySample sample, const Eigen::Vector3d& sum,
+                                          int feet, EventCounts& counts);
+  bool has_contacts_at(Time stamp, EventCounts& counts) const;
   std::optional<Eigen::Vector3d> up_in_base() const;
 
   LegStreamConfig config_;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recordings/messages/message_types.hpp"
+
 namespace aims {
 
 bool is_world_frame(const std::string& frame) {
@@ -21,6 +23,11 @@ void LegSurvey::add_joints(const MessageView& message, Time record_time) {
 
 void LegSurvey::choose_contact_field(const std::string& type, const MessageDecoder& decoder) {
   contact_field_ = config_.contacts_field;
+  contacts_are_raw_ = type == kUnitreeLowState || type == kUnitreeSportState;
+  if (contact_field_.empty() && contacts_are_raw_) contact_field_ = "foot_force";
+  if (contacts_are_raw_ && config_.foot_names.empty()) {
+    config_.foot_names.assign(kUnitreeFeet.begin(), kUnitreeFeet.end());
+  }
   if (contact_field_.empty() && type == "sensor_msgs/JointState") contact_field_ = "effort";
   for (const MessageField& field : decoder.fields()) {
     if (field.kind != FieldKind::kNumbers) continue;
@@ -32,7 +39,7 @@ void LegSurvey::choose_contact_field(const std::string& type, const MessageDecod
 void LegSurvey::add_contacts(const MessageView& message, const std::string& type,
                              const MessageDecoder& decoder) {
   if (contact_field_.empty()) choose_contact_field(type, decoder);
-  const auto loads = loads_at(message, {contact_field_, 0.0, config_.foot_names});
+  const auto loads = loads_at(message, rule_of(0.0));
   if (!loads) return;
   ++contact_messages_;
   for (const double load : *loads) {
@@ -40,8 +47,52 @@ void LegSurvey::add_contacts(const MessageView& message, const std::string& type
   }
 }
 
-ContactRule LegSurvey::decide_contacts(std::vector<std::string>& notes) const {
-  ContactRule rule = {contact_field_, config_.contact_threshold, config_.foot_names};
+void LegSurvey::add_feet(const MessageView& message) {
+  const auto feet = feet_at(message, 0);
+  if (!feet) return;
+  for (const Eigen::Vector3d& foot : feet->position) {
+    if (foot.allFinite()) farthest_foot_ = std::max(farthest_foot_, foot.norm());
+  }
+}
+
+bool LegSurvey::learns_contacts() const {
+  if (contact_messages_ == 0 || contacts_are_flags_) return false;
+  if (config_.contact_detection == ContactDetection::kAuto) return contacts_are_raw_;
+  return config_.contact_detection == ContactDetection::kLearned;
+}
+
+void LegSurvey::add_loads(const MessageView& message) {
+  if (const auto loads = loads_at(message, rule_of(0.0))) loads_.push_back(*loads);
+}
+
+ContactRule LegSurvey::rule_of(double threshold) const {
+  ContactRule rule = {contact_field_, {}, config_.foot_names};
+  rule.thresholds.fill({threshold, threshold});
+  return rule;
+}
+
+Result<ContactRule> LegSurvey::learned_rule(std::vector<std::string>& notes) const {
+  const auto thresholds = learn_contact_thresholds(loads_);
+  if (!thresholds) {
+    return failure(
+        fmt::format("topic '{}', field '{}': no threshold of contact can be learned: {}; "
+                    "set contact_detection: threshold with contact_threshold, or "
+                    "topics.contacts: none",
+                    topics_.contacts, contact_field_, thresholds.error().message));
+  }
+  std::string list;
+  for (const ContactThreshold& each : *thresholds) {
+    list += fmt::format("{}{:.1f}/{:.1f}", list.empty() ? "" : ", ", each.begin, each.end);
+  }
+  notes.push_back(
+      fmt::format("{}: contacts begin/end at '{}' of {} (FL, FR, RL, RR), learned from "
+                  "{} messages (contact_detection)",
+                  topics_.contacts, contact_field_, list, loads_.size()));
+  return ContactRule{contact_field_, *thresholds, config_.foot_names};
+}
+
+Result<ContactRule> LegSurvey::decide_contacts(std::vector<std::string>& notes) const {
+  ContactRule rule = rule_of(config_.contact_threshold);
   if (topics_.contacts.empty()) return rule;
   if (contact_messages_ == 0) {
     notes.push_back(fmt::format(
@@ -49,8 +100,9 @@ ContactRule LegSurvey::decide_contacts(std::vector<std::string>& notes) const {
         topics_.contacts, contact_field_));
     return rule;
   }
+  if (learns_contacts()) return learned_rule(notes);
   if (!contacts_are_flags_ && largest_load_ > 1.0) return rule;
-  rule.threshold = 0.5;
+  rule = rule_of(0.5);
   if (!contacts_are_flags_) {
     notes.push_back(fmt::format("{}: '{}' is at most 1 at the start: a flag, threshold 0.5",
                                 topics_.contacts, contact_field_));
@@ -72,6 +124,17 @@ void LegSurvey::note_twist(const std::string& type, const std::string& frame,
   }
 }
 
+LegSource LegSurvey::decide_feet(std::vector<std::string>& notes) const {
+  if (farthest_foot_ > 0.0 && contact_messages_ > 0) {
+    notes.push_back("leg odometry: from feet, contacts and gyro");
+    return LegSource::kFeet;
+  }
+  notes.push_back(
+      fmt::format("{}: {}: estimators run without legs", topics_.leg_odometry,
+                  farthest_foot_ > 0.0 ? "no contacts of the feet" : "foot_position_body is zero"));
+  return LegSource::kNone;
+}
+
 LegSource LegSurvey::decide_source(const std::string& type, const std::string& frame,
                                    std::vector<std::string>& notes) const {
   const bool has_joints = complete_joint_messages_ > 0;
@@ -81,6 +144,7 @@ LegSource LegSurvey::decide_source(const std::string& type, const std::string& f
   }
   if (!topics_.leg_odometry.empty()) {
     if (type == "nav_msgs/Odometry") return LegSource::kOdometry;
+    if (type == kUnitreeSportState) return decide_feet(notes);
     note_twist(type, frame, notes);
     return LegSource::kTwist;
   }

@@ -73,6 +73,27 @@ constexpr auto kTypes = std::to_array<KnownType>({
      "94810edda583a504dfda3829e70d7eec"},
     {"aims_msgs/FootContacts", "Header header\nstring[] foot\nbool[] contact\n",
      "48d94c73535758dc8b2afaab17ac6a45"},
+    {kUnitreeLowState,
+     "uint8[2] head\nuint8 level_flag\nuint8 frame_reserve\nuint32[2] sn\nuint32[2] version\n"
+     "uint16 bandwidth\nIMUState imu_state\nMotorState[20] motor_state\nBmsState bms_state\n"
+     "int16[4] foot_force\nint16[4] foot_force_est\nuint32 tick\nuint8[40] wireless_remote\n"
+     "uint8 bit_flag\nfloat32 adc_reel\nint8 temperature_ntc1\nint8 temperature_ntc2\n"
+     "float32 power_v\nfloat32 power_a\nuint16[4] fan_frequency\nuint32 reserve\nuint32 crc\n"},
+    {kUnitreeSportState,
+     "TimeSpec stamp\nuint32 error_code\nIMUState imu_state\nuint8 mode\nfloat32 progress\n"
+     "uint8 gait_type\nfloat32 foot_raise_height\nfloat32[3] position\nfloat32 body_height\n"
+     "float32[3] velocity\nfloat32 yaw_speed\nfloat32[4] range_obstacle\nint16[4] foot_force\n"
+     "float32[12] foot_position_body\nfloat32[12] foot_speed_body\n"},
+    {"unitree_go/IMUState",
+     "float32[4] quaternion\nfloat32[3] gyroscope\nfloat32[3] accelerometer\nfloat32[3] rpy\n"
+     "int8 temperature\n"},
+    {"unitree_go/MotorState",
+     "uint8 mode\nfloat32 q\nfloat32 dq\nfloat32 ddq\nfloat32 tau_est\nfloat32 q_raw\n"
+     "float32 dq_raw\nfloat32 ddq_raw\nint8 temperature\nuint32 lost\nuint32[2] reserve\n"},
+    {"unitree_go/BmsState",
+     "uint8 version_high\nuint8 version_low\nuint8 status\nuint8 soc\nint32 current\n"
+     "uint16 cycle\nint8[2] bq_ntc\nint8[2] mcu_ntc\nuint16[15] cell_vol\n"},
+    {"unitree_go/TimeSpec", "int32 sec\nuint32 nanosec\n"},
     {"livox_ros_driver/CustomMsg", kLivoxMessage},
     {"livox_ros_driver/CustomPoint", kLivoxPoint},
     {"livox_ros_driver2/CustomMsg", kLivoxMessage},

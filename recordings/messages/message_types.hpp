@@ -9,6 +9,10 @@
 
 namespace aims {
 
+// States of Unitree's robots under ROS 2, which hold an IMU, joints or feet, and loads of the feet.
+inline constexpr std::string_view kUnitreeLowState = "unitree_go/LowState";
+inline constexpr std::string_view kUnitreeSportState = "unitree_go/SportModeState";
+
 // The message types that AIMS writes, as ROS 1 has them. Definitions hold the fields without
 // comments, which do not enter the md5.
 MessageType string_type();         ///< std_msgs/String

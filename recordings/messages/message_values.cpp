@@ -9,10 +9,26 @@ namespace {
 
 using NoMessages = std::vector<MessageView>;
 
+/// A rotation, normalized unless it is no rotation at all, which is counted.
+std::optional<Eigen::Quaterniond> valid_orientation(Eigen::Quaterniond rotation,
+                                                    EventCounts& counts) {
+  const double norm = rotation.norm();
+  if (!(norm > 0.5) || !(norm < 2.0)) {
+    ++counts["imu_orientation_invalid"];
+    return std::nullopt;
+  }
+  if (is_off_unit(rotation)) rotation.normalize();
+  return rotation;
+}
+
 }  // namespace
 
 Time header_stamp(const MessageView& message, Time record_time) {
-  return message.time("header.stamp").value_or(record_time);
+  if (const auto stamp = message.time("header.stamp")) return *stamp;
+  const auto seconds = message.number("stamp.sec");
+  const auto rest = message.number("stamp.nanosec");
+  if (!seconds || !rest) return record_time;
+  return static_cast<Time>(*seconds) * kSecond + static_cast<Time>(*rest);
 }
 
 std::optional<Eigen::Vector3d> vector_at(const MessageView& message, std::string_view path) {
@@ -55,13 +71,32 @@ std::optional<Eigen::Quaterniond> imu_orientation(const MessageView& message, Ev
   const auto covariance = message.numbers("orientation_covariance");
   const bool estimated = !covariance || covariance->empty() || covariance->front() != -1.0;
   if (!rotation || !estimated) return std::nullopt;
-  const double norm = rotation->norm();
-  if (!(norm > 0.5) || !(norm < 2.0)) {
-    ++counts["imu_orientation_invalid"];
+  return valid_orientation(*rotation, counts);
+}
+
+std::optional<ImuSample> imu_at(const MessageView& message, Time record_time, EventCounts& counts) {
+  ImuSample sample;
+  sample.stamp = header_stamp(message, record_time);
+  const auto turn = vector_at(message, "angular_velocity");
+  const auto force = vector_at(message, "linear_acceleration");
+  if (turn && force) {
+    sample.angular_velocity = *turn;
+    sample.specific_force = *force;
+    sample.orientation = imu_orientation(message, counts);
+    return sample;
+  }
+  const auto gyroscope = message.numbers("imu_state.gyroscope");
+  const auto accelerometer = message.numbers("imu_state.accelerometer");
+  const auto rotation = message.numbers("imu_state.quaternion");
+  if (!gyroscope || !accelerometer || !rotation) return std::nullopt;
+  if (gyroscope->size() != 3 || accelerometer->size() != 3 || rotation->size() != 4) {
     return std::nullopt;
   }
-  if (is_off_unit(*rotation)) rotation->normalize();
-  return rotation;
+  sample.angular_velocity = Eigen::Vector3d(gyroscope->data());
+  sample.specific_force = Eigen::Vector3d(accelerometer->data());
+  const std::vector<double>& q = *rotation;
+  sample.orientation = valid_orientation(Eigen::Quaterniond(q[0], q[1], q[2], q[3]), counts);
+  return sample;
 }
 
 std::optional<Pose> message_pose(const MessageView& message, std::string_view path,

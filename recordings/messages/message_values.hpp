@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "core/lie.hpp"
+#include "core/measurements.hpp"
 #include "core/time.hpp"
 #include "recordings/event_counts.hpp"
 #include "recordings/messages/message_decoder.hpp"
 
 namespace aims {
 
-/// The stamp of a message's header, or its record time when it has none.
+/// The stamp of a message's header, or its own one, or its record time when it has none.
 Time header_stamp(const MessageView& message, Time record_time);
 
 /// A vector "x", "y", "z" below `path`, or nothing.
@@ -41,6 +42,10 @@ std::optional<Eigen::Quaterniond> quaternion_at(const MessageView& message, std:
 /// entry of its covariance is -1; a quaternion with a norm outside (0.5, 2), e.g. zero or
 /// not finite, is none too and counted as "imu_orientation_invalid".
 std::optional<Eigen::Quaterniond> imu_orientation(const MessageView& message, EventCounts& counts);
+
+/// The sample of a sensor_msgs/Imu or of a state of a Unitree robot, in the recorded unit; nothing
+/// for other messages. Invalid orientations are counted as "imu_orientation_invalid".
+std::optional<ImuSample> imu_at(const MessageView& message, Time record_time, EventCounts& counts);
 
 /// Whether the norm differs from 1 by more than rounding.
 bool is_off_unit(const Eigen::Quaterniond& rotation);

@@ -18,6 +18,7 @@ constexpr std::size_t kSurveyMessages = 50'000;
 constexpr std::size_t kSurveyBytes = std::size_t{512} << 20;
 constexpr std::size_t kTransformMessages = 2000;
 constexpr std::size_t kFixedTransformMessages = 100;
+constexpr std::size_t kLoadMessages = 500'000;  ///< 1000 s of a Unitree robot
 
 /// Reads the first messages of one tf topic.
 Result<void> survey_transforms(MessageSource& bag, const std::string& topic, bool fixed,
@@ -63,6 +64,20 @@ Result<void> survey_sensors(MessageSource& bag, const RecordingChannels& channel
   return {};
 }
 
+/// Reads the loads of the feet of the whole recording: a robot may stand at its start.
+void survey_loads(MessageSource& bag, const std::string& topic, RecordingSurvey& survey) {
+  ConnectionDecoders decoders;
+  bag.select(std::vector<std::string>{topic});
+  bag.rewind();
+  for (std::size_t i = 0; i < kLoadMessages; ++i) {
+    const auto message = bag.next();
+    // The reader reports an error when it gets there.
+    if (!message || !*message) return;
+    const auto view = decoders.decode(**message);
+    if (view) survey.add_loads(*view);
+  }
+}
+
 }  // namespace
 
 Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& config,
@@ -76,6 +91,7 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
     return tl::unexpected(ok.error());
   }
   if (auto ok = survey_sensors(bag, channels, survey); !ok) return tl::unexpected(ok.error());
+  if (survey.learns_contacts()) survey_loads(bag, topics.contacts, survey);
   return survey.decide(bag.name(), std::move(notes));
 }
 

@@ -29,13 +29,15 @@ struct RecordingReader::Impl {
         channels(std::move(chosen)),
         plan(std::move(decided)),
         config(configured),
-        legs(plan.legs) {}
+        legs(plan.legs),
+        contact_detector(plan.contacts.thresholds) {}
 
   Result<void> fetch();
   void take(const BagMessage& message, std::vector<Delivery>& out);
   void take_cloud(const MessageView& view, std::vector<Delivery>& out);
   void take_imu(const MessageView& view, std::vector<Delivery>& out);
   void take_legs(const MessageView& view, std::vector<Delivery>& out);
+  void take_feet(const MessageView& view, std::vector<Delivery>& out);
   void take_joints(const MessageView& view, std::vector<Delivery>& out);
   void take_contacts(const MessageView& view, std::vector<Delivery>& out);
   void take_truth(const MessageView& view);
@@ -49,6 +51,7 @@ struct RecordingReader::Impl {
   RecordingPlan plan;
   RecordingConfig config;
   LegStream legs;
+  ContactDetector contact_detector;
   std::optional<BagMessage> next;  ///< read, not yet delivered
   bool started = false;
   Time until = 0;        ///< record time up to which messages have been delivered
@@ -103,25 +106,32 @@ void RecordingReader::Impl::take_cloud(const MessageView& view, std::vector<Deli
 }
 
 void RecordingReader::Impl::take_imu(const MessageView& view, std::vector<Delivery>& out) {
-  const auto turn = vector_at(view, "angular_velocity");
-  const auto force = vector_at(view, "linear_acceleration");
-  if (!turn || !force) return malformed(Role::kImu);
-  ImuSample sample;
-  sample.stamp = stamp_of(Role::kImu, header_stamp(view, record_time), config.imu_delay);
-  sample.angular_velocity = *turn;
-  sample.specific_force = plan.force_scale == 1.0 ? *force : plan.force_scale * *force;
-  sample.orientation = imu_orientation(view, counts);
-  if (!turn->allFinite() || !force->allFinite()) ++counts["imu_not_finite"];
+  const auto recorded = imu_at(view, record_time, counts);
+  if (!recorded) return malformed(Role::kImu);
+  ImuSample sample = *recorded;
+  sample.stamp = stamp_of(Role::kImu, recorded->stamp, config.imu_delay);
+  if (plan.force_scale != 1.0) sample.specific_force *= plan.force_scale;
+  const bool finite = sample.angular_velocity.allFinite() && recorded->specific_force.allFinite();
+  if (!finite) ++counts["imu_not_finite"];
   legs.add_imu(sample);
   deliver(Role::kImu, sample, sample.stamp, out);
 }
 
 void RecordingReader::Impl::take_legs(const MessageView& view, std::vector<Delivery>& out) {
+  if (plan.legs.source == LegSource::kFeet) return take_feet(view, out);
+  if (plan.legs.source == LegSource::kNone) return;
   const bool twist = plan.legs.source == LegSource::kTwist;
   auto sample = twist ? twist_at(view, record_time) : odometry_at(view, counts);
   if (!sample) return malformed(Role::kLegs);
   sample->stamp = stamp_of(Role::kLegs, sample->stamp, config.leg_delay);
   deliver(twist ? legs.add_twist(*sample) : legs.add_odometry(*sample, counts), out);
+}
+
+void RecordingReader::Impl::take_feet(const MessageView& view, std::vector<Delivery>& out) {
+  auto feet = feet_at(view, record_time);
+  if (!feet) return malformed(Role::kLegs);
+  feet->stamp = stamp_of(Role::kLegs, feet->stamp, config.leg_delay);
+  deliver(legs.add_feet(*feet, counts), out);
 }
 
 void RecordingReader::Impl::take_joints(const MessageView& view, std::vector<Delivery>& out) {
@@ -132,10 +142,12 @@ void RecordingReader::Impl::take_joints(const MessageView& view, std::vector<Del
 }
 
 void RecordingReader::Impl::take_contacts(const MessageView& view, std::vector<Delivery>& out) {
-  auto contacts = contacts_at(view, record_time, plan.contacts);
-  if (!contacts) return malformed(Role::kContacts);
-  contacts->stamp = stamp_of(Role::kContacts, contacts->stamp, config.leg_delay);
-  deliver(legs.add_contacts(*contacts, counts), out);
+  const auto loads = loads_at(view, plan.contacts);
+  if (!loads) return malformed(Role::kContacts);
+  const Time stamp = header_stamp(view, record_time);
+  const ContactReading contacts = {stamp_of(Role::kContacts, stamp, config.leg_delay),
+                                   contact_detector.detect(*loads)};
+  deliver(legs.add_contacts(contacts, counts), out);
 }
 
 void RecordingReader::Impl::take_truth(const MessageView& view) {

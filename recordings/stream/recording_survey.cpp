@@ -8,6 +8,7 @@
 
 #include "recordings/clouds/scan_period.hpp"
 #include "recordings/median.hpp"
+#include "recordings/messages/message_types.hpp"
 #include "recordings/stream/gravity_unit.hpp"
 
 namespace aims {
@@ -58,6 +59,7 @@ void RecordingSurvey::add(const BagMessage& message, const Channel& channel) {
   }
   if (channel.is(Role::kLidar)) add_cloud(*view, message.record_time);
   if (channel.is(Role::kImu)) add_imu(*view);
+  if (channel.is(Role::kLegs)) legs_.add_feet(*view);
   if (channel.is(Role::kJoints)) legs_.add_joints(*view, message.record_time);
   if (channel.is(Role::kContacts)) {
     legs_.add_contacts(*view, channel.connection->type, channel.decoder);
@@ -71,13 +73,13 @@ void RecordingSurvey::add_cloud(const MessageView& view, Time record_time) {
 }
 
 void RecordingSurvey::add_imu(const MessageView& view) {
-  const auto force = vector_at(view, "linear_acceleration");
-  const auto turn = vector_at(view, "angular_velocity");
-  if (!force || !turn || !force->allFinite() || !turn->allFinite()) return;
-  if (forces_.size() < kMaxSamples) forces_.push_back(force->norm());
-  largest_turn_rate_ = std::max(largest_turn_rate_, turn->norm());
   EventCounts ignored;
-  oriented_ = oriented_ || imu_orientation(view, ignored).has_value();
+  const auto sample = imu_at(view, 0, ignored);
+  if (!sample || !sample->specific_force.allFinite()) return;
+  if (!sample->angular_velocity.allFinite()) return;
+  if (forces_.size() < kMaxSamples) forces_.push_back(sample->specific_force.norm());
+  largest_turn_rate_ = std::max(largest_turn_rate_, sample->angular_velocity.norm());
+  oriented_ = oriented_ || sample->orientation.has_value();
 }
 
 bool RecordingSurvey::has_all_topics() const {
@@ -151,15 +153,20 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
     notes.push_back(
         fmt::format("IMU in g ({:.3f} at the start): multiplied by {}", force, kStandardGravity));
   }
+  if (seen(Role::kImu).type == kUnitreeLowState) {
+    notes.push_back(fmt::format("{} has no stamp: record times are used", kUnitreeLowState));
+  }
   if (largest_turn_rate_ > kMaxTurnRate) {
     notes.push_back(fmt::format(
         "angular velocity up to {:.3g}: rad/s are expected, are these deg/s?", largest_turn_rate_));
   }
 }
 
-void RecordingSurvey::decide_legs(RecordingPlan& plan) const {
+Result<void> RecordingSurvey::decide_legs(RecordingPlan& plan) const {
   const Seen& legs = seen(Role::kLegs);
-  plan.contacts = legs_.decide_contacts(plan.setup.notes);
+  auto contacts = legs_.decide_contacts(plan.setup.notes);
+  if (!contacts) return tl::unexpected(contacts.error());
+  plan.contacts = std::move(*contacts);
   LegStreamConfig& stream = plan.legs;
   stream.geometry = config_.leg_geometry;
   stream.foot_model = config_.foot_model;
@@ -172,6 +179,7 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) const {
   adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz, plan.setup.notes);
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);
   stream.half_period = from_seconds(std::clamp(0.5 / rate, 1e-9, 0.5));
+  return {};
 }
 
 std::string RecordingSurvey::imu_frame() const {
@@ -239,7 +247,9 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   }
   decide_stamps(plan);
   decide_imu(plan);
-  decide_legs(plan);
+  if (auto legs = decide_legs(plan); !legs) {
+    return failure(fmt::format("{}: {}", bag.string(), legs.error().message));
+  }
   decide_frames(plan);
   decide_truth(plan);
   for (const auto& [what, times] : frames_.counts()) {

@@ -26,12 +26,17 @@ class RecordingSurvey {
   /// Adds a message of tf; `fixed`: of /tf_static.
   void add_transforms(const MessageView& message, bool fixed) { frames_.add(message, fixed); }
 
+  /// Whether the loads of all contacts are to be added, and those of a message.
+  bool learns_contacts() const { return legs_.learns_contacts(); }
+  void add_loads(const MessageView& contacts) { legs_.add_loads(contacts); }
+
   /// Whether there are enough messages of every chosen topic.
   bool enough() const;
   /// Whether there is a message of every chosen topic.
   bool has_all_topics() const;
 
-  /// Decides; appends to `notes`, which become those of the setup. Error when no cloud is readable.
+  /// Decides; appends to `notes`, which become those of the setup. Error when no cloud is
+  /// readable, or no contact can be learned.
   Result<RecordingPlan> decide(const std::filesystem::path& bag, std::vector<std::string> notes);
 
  private:
@@ -52,7 +57,7 @@ class RecordingSurvey {
 
   void decide_stamps(RecordingPlan& plan) const;
   void decide_imu(RecordingPlan& plan) const;
-  void decide_legs(RecordingPlan& plan) const;
+  Result<void> decide_legs(RecordingPlan& plan) const;
   void decide_frames(RecordingPlan& plan) const;
   void decide_truth(RecordingPlan& plan) const;
   std::string imu_frame() const;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "recordings/messages/message_types.hpp"
 #include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
@@ -24,13 +25,17 @@ bool holds(std::string_view text, std::string_view part) {
 
 bool is_cloud(const BagConnection& c) { return is_cloud_type(c.type); }
 bool is_imu(const BagConnection& c) { return c.type == "sensor_msgs/Imu"; }
+bool may_be_imu(const BagConnection& c) { return is_imu_type(c.type); }
+bool is_low_state(const BagConnection& c) { return c.type == kUnitreeLowState; }
+bool is_sport_state(const BagConnection& c) { return c.type == kUnitreeSportState; }
 bool is_odometry(const BagConnection& c) { return c.type == "nav_msgs/Odometry"; }
 bool is_twist(const BagConnection& c) {
   return c.type == "geometry_msgs/TwistStamped" ||
          c.type == "geometry_msgs/TwistWithCovarianceStamped" || c.type == "geometry_msgs/Twist";
 }
-bool is_legs(const BagConnection& c) { return is_odometry(c) || is_twist(c); }
+bool is_legs(const BagConnection& c) { return is_odometry(c) || is_twist(c) || is_sport_state(c); }
 bool is_joints(const BagConnection& c) { return c.type == "sensor_msgs/JointState"; }
+bool may_be_joints(const BagConnection& c) { return is_joints(c) || is_low_state(c); }
 bool is_anything(const BagConnection&) { return true; }
 bool is_truth(const BagConnection& c) {
   return is_odometry(c) || c.type == "geometry_msgs/PoseStamped" ||
@@ -127,6 +132,24 @@ class Chooser {
   std::span<const BagConnection> connections_;
 };
 
+/// The topic of a Unitree robot's state; several are an error.
+Result<std::string> unitree_state(const Chooser& chooser, std::string_view key) {
+  auto low = chooser.found({key, kUnitreeLowState, is_low_state}, "/lowstate");
+  if (!low || !low->empty()) return low;
+  return chooser.found({key, kUnitreeSportState, is_sport_state}, "/sportmodestate");
+}
+
+/// The IMU, if need be that of a Unitree robot's state.
+Result<std::string> imu_topic(const Chooser& chooser, const std::string& configured) {
+  const Request request = {"imu", "sensor_msgs/Imu or a state of unitree_go", may_be_imu};
+  if (configured == kNone) return std::string();
+  if (!configured.empty()) return chooser.requested(request, configured);
+  auto topic = chooser.found({"imu", "sensor_msgs/Imu", is_imu}, kImuTopic);
+  if (topic && topic->empty()) topic = unitree_state(chooser, "imu");
+  if (topic && topic->empty()) return chooser.missing({"imu", "sensor_msgs/Imu", is_imu});
+  return topic;
+}
+
 /// A required topic.
 Result<std::string> required_topic(const Chooser& chooser, const Request& request,
                                    const std::string& configured, std::string_view default_topic) {
@@ -138,14 +161,32 @@ Result<std::string> required_topic(const Chooser& chooser, const Request& reques
 }
 
 Result<std::string> legs(const Chooser& chooser, const std::string& configured) {
-  constexpr std::string_view kExpected = "nav_msgs/Odometry or geometry_msgs/TwistStamped";
+  constexpr std::string_view kExpected =
+      "nav_msgs/Odometry, geometry_msgs/TwistStamped or unitree_go/SportModeState";
   if (configured == kNone) return std::string();
   if (!configured.empty())
     return chooser.requested({"leg_odometry", kExpected, is_legs}, configured);
   auto topic =
       chooser.found({"leg_odometry", "nav_msgs/Odometry", may_be_odometry}, kLegOdometryTopic);
   if (!topic || !topic->empty()) return topic;
-  return chooser.found({"leg_odometry", "geometry_msgs/TwistStamped", may_be_twist}, "");
+  topic = chooser.found({"leg_odometry", "geometry_msgs/TwistStamped", may_be_twist}, "");
+  if (!topic || !topic->empty()) return topic;
+  // Joints give more than the feet of the other state.
+  topic = unitree_state(chooser, "leg_odometry");
+  const BagConnection* state = topic ? chooser.find(*topic) : nullptr;
+  if (state != nullptr && is_low_state(*state)) return std::string();
+  return topic;
+}
+
+/// Joints or contacts of a Unitree robot where no other topic has them.
+void add_unitree_state(const Chooser& chooser, const TopicsConfig& configured,
+                       TopicsConfig& topics) {
+  const auto found = unitree_state(chooser, "joint_states");
+  const BagConnection* state = found ? chooser.find(*found) : nullptr;
+  if (state == nullptr) return;
+  const bool joints = configured.joint_states.empty() && topics.joint_states.empty();
+  if (joints && is_low_state(*state)) topics.joint_states = state->topic;
+  if (configured.contacts.empty() && topics.contacts.empty()) topics.contacts = state->topic;
 }
 
 /// An optional topic. Of several suitable ones none is chosen.
@@ -178,18 +219,19 @@ struct Choice {
 Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                  std::vector<std::string>& notes) {
   const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
-  const Request imu = {"imu", "sensor_msgs/Imu", is_imu};
-  const Request joints = {"joint_states", "sensor_msgs/JointState", is_joints};
+  const Request joints = {"joint_states", "sensor_msgs/JointState or unitree_go/LowState",
+                          may_be_joints};
   const Request contacts = {"contacts", "contacts of feet", is_anything};
   Choice choice;
   TopicsConfig& topics = choice.topics;
   choice.keep(topics.lidar, required_topic(chooser, lidar, configured.lidar, kLidarTopic));
-  choice.keep(topics.imu, required_topic(chooser, imu, configured.imu, kImuTopic));
+  choice.keep(topics.imu, imu_topic(chooser, configured.imu));
   choice.keep(topics.leg_odometry, legs(chooser, configured.leg_odometry));
   choice.keep(topics.joint_states, optional_topic(chooser, joints, configured.joint_states,
                                                   kJointStatesTopic, is_joints, notes));
   choice.keep(topics.contacts, optional_topic(chooser, contacts, configured.contacts,
                                               kFootContactsTopic, may_be_contacts, notes));
+  add_unitree_state(chooser, configured, topics);
   if (!configured.truth.empty() && configured.truth != kNone) {
     const Request truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
     choice.keep(topics.truth, chooser.requested(truth, configured.truth));
@@ -204,6 +246,10 @@ Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
 
 bool is_cloud_type(std::string_view type) {
   return type == "sensor_msgs/PointCloud2" || type.ends_with("/CustomMsg");
+}
+
+bool is_imu_type(std::string_view type) {
+  return type == "sensor_msgs/Imu" || type == kUnitreeLowState || type == kUnitreeSportState;
 }
 
 std::string_view type_of(std::span<const BagConnection> connections, std::string_view topic) {

@@ -16,6 +16,9 @@ namespace aims {
 /// Whether the type is a readable cloud: PointCloud2 or livox CustomMsg.
 bool is_cloud_type(std::string_view type);
 
+/// Whether the type holds an IMU: sensor_msgs/Imu or a state of a Unitree robot.
+bool is_imu_type(std::string_view type);
+
 /// The topics to read; empty where the recording has none or none is requested. Errors name the
 /// file and list the existing topics: for a missing topic, a wrong type, or several suitable ones.
 Result<TopicsConfig> choose_topics(const std::filesystem::path& bag,
