@@ -137,7 +137,7 @@ Result<void> add_diagnostics(const CsvColumns& table, const Trajectory& poses, P
   auto values = covariances_of(table, *rows);
   if (!values) return tl::unexpected(values.error());
   covariances = std::move(*values);
-  json["position_covariance"] = column(covariances, page);
+  json["position_covariance"] = column(covariances, page, 6);
   return {};
 }
 

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "bench/run/json_text.hpp"
@@ -35,14 +36,38 @@ std::string deflated(const std::string& bytes) {
   return stream;
 }
 
+/// Appends numbers byte by byte: the lowest byte of each, then the next.
+template <class Number>
+void append_planes(const std::vector<Number>& numbers, std::string& bytes) {
+  for (std::size_t plane = 0; plane < sizeof(Number); ++plane) {
+    for (const Number number : numbers) bytes += static_cast<char>(number >> 8U * plane & 0xFFU);
+  }
+}
+
+/// From each code to the next, modulo 2^16; small differences of either sign become small numbers.
+std::vector<std::uint16_t> folded_differences(const std::vector<std::uint16_t>& codes) {
+  std::vector<std::uint16_t> differences;
+  differences.reserve(codes.size());
+  std::uint16_t before = 0;
+  for (const std::uint16_t code : codes) {
+    const auto difference = static_cast<std::int16_t>(code - before);
+    differences.push_back(
+        static_cast<std::uint16_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
+    before = code;
+  }
+  return differences;
+}
+
 }  // namespace
 
 PageData::Json PageData::append(const char* type, const void* values, std::size_t bytes,
                                 std::size_t count) {
   pad(block_, kArrayAlignment);
-  const std::size_t at = block_.size();
-  if (bytes > 0) block_.append(static_cast<const char*>(values), bytes);
-  return {{"$", type}, {"at", at}, {"n", count}};
+  std::string text;
+  if (bytes > 0) text.assign(static_cast<const char*>(values), bytes);
+  const auto [place, fresh] = places_.try_emplace(std::move(text), block_.size());
+  if (fresh) block_ += place->first;
+  return {{"$", type}, {"at", place->second}, {"n", count}};
 }
 
 PageData::Json PageData::f32(std::span<const float> values) {
@@ -60,6 +85,30 @@ PageData::Json PageData::u16(std::span<const std::uint16_t> values) {
 
 PageData::Json PageData::u8(std::span<const std::uint8_t> values) {
   return append("u8", values.data(), values.size_bytes(), values.size());
+}
+
+PageData::Json PageData::q16(std::span<const double> values, std::size_t components,
+                             const Precision& precision) {
+  std::string bytes;
+  Json columns = Json::array();
+  for (std::size_t k = 0; k < components; ++k) {
+    std::vector<double> column;
+    for (std::size_t i = k; i < values.size(); i += components) column.push_back(values[i]);
+    if (const auto codes = quantized(column, precision)) {
+      columns.push_back({{"low", codes->low}, {"step", codes->step}, {"log", codes->logarithmic}});
+      append_planes(folded_differences(codes->codes), bytes);
+    } else {
+      std::vector<std::uint32_t> single;
+      for (const double value : column) {
+        single.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+      }
+      columns.push_back(nullptr);
+      append_planes(single, bytes);
+    }
+  }
+  Json reference = append("q16", bytes.data(), bytes.size(), values.size());
+  reference["columns"] = std::move(columns);
+  return reference;
 }
 
 std::string payload_bytes(const PageData& page) {

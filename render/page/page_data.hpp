@@ -6,11 +6,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+
+#include "render/page/quantized.hpp"
 
 namespace aims {
 
 /// Version of the layout of a page's data; see web/src/contract.ts.
-inline constexpr std::string_view kPageSchema = "aims.page/1";
+inline constexpr std::string_view kPageSchema = "aims.page/2";
 
 /// What a page shows: a JSON document, and the arrays that it refers to as one block of bytes.
 class PageData {
@@ -21,11 +24,20 @@ class PageData {
   Json json = Json::object();
 
   /// Each appends an array to the block and gives the reference to put into `json`:
-  /// {"$": type, "at": offset in bytes, "n": count}. NaN stands for no value.
+  /// {"$": type, "at": offset in bytes, "n": count}. NaN stands for no value. Equal arrays are
+  /// stored once.
   Json f32(std::span<const float> values);
   Json f32(std::span<const double> values);
   Json u16(std::span<const std::uint16_t> values);
   Json u8(std::span<const std::uint8_t> values);
+
+  /// The values of `components` columns, a row after the other, each column quantized on its own:
+  /// "columns" has {"low", "step", "log"} of each, null for one that stays f32 since 16 bits would
+  /// miss the precision. In the block each column is whole: differences of the codes from one to
+  /// the next, signs folded in (0, -1, 1, -2, ...), the low bytes before the high ones; a f32
+  /// column as its four planes of bytes.
+  Json q16(std::span<const double> values, std::size_t components = 1,
+           const Precision& precision = {});
 
   /// The block, little-endian; every array begins at a multiple of four.
   const std::string& block() const { return block_; }
@@ -34,6 +46,7 @@ class PageData {
   Json append(const char* type, const void* values, std::size_t bytes, std::size_t count);
 
   std::string block_;
+  std::unordered_map<std::string, std::size_t> places_;  ///< of the arrays in the block
 };
 
 /// The payload before compression: length of the JSON text (u32, little-endian), the text in UTF-8

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,9 +27,9 @@ namespace fs = std::filesystem;
 
 /// Pictures of a run's folder that its page shows, and what they are.
 const std::vector<PagePicture> kPictures = {
-    {"robot_start", "The robot at the start"},
-    {"robot_middle", "The robot outbound"},
-    {"robot_turn", "The robot at the turn"},
+    {"robot_start", "The robot near the start"},
+    {"robot_middle", "The robot half-way to its farthest point"},
+    {"robot_turn", "The robot at its farthest point from the start"},
     {"trajectories", "Trajectories over the plan; height and error over the distance travelled"}};
 /// Pictures beyond this size are left out [bytes].
 constexpr std::uintmax_t kLargestPicture = 256 * 1024;
@@ -96,8 +97,15 @@ Json health_json(const RunFolder& run, const std::string& name) {
   return member(member(member(record, "estimators"), name), "health");
 }
 
-Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surface, double start,
+/// `scene`: null when it is not known.
+Result<Json> estimators_json(const RunFolder& run, const Scene* scene, double start,
                              PageData& page) {
+  const auto surface =
+      scene != nullptr ? std::optional<SurfaceDistance>(std::in_place, *scene) : std::nullopt;
+  const bool roofed =
+      scene == nullptr || std::ranges::any_of(scene->solids, [](const Solid& s) { return s.roof; });
+  const auto maps = static_cast<std::size_t>(
+      std::ranges::count_if(run.estimators, [](const auto& each) { return !each.map.empty(); }));
   Json list = Json::array();
   for (const EstimatorFiles& each : run.estimators) {
     auto series = series_json(each, run, start, page);
@@ -108,23 +116,22 @@ Result<Json> estimators_json(const RunFolder& run, const SurfaceDistance* surfac
          {"health", health_json(run, each.name)},
          {"colour_index", list.size()},
          {"series", std::move(*series)},
-         {"map", map_json(each.map, start_anchor(each.trajectory, run.truth, run.scoring), surface,
-                          page)}});
+         {"map", map_json(each.map, start_anchor(each.trajectory, run.truth, run.scoring),
+                          surface ? &*surface : nullptr, most_points(maps), roofed, page)}});
   }
   return list;
 }
 
 /// Adds what needs the scene: its geometry, and maps held against its surface.
 Result<void> add_estimators(const RunFolder& run, double start, PageData& page) {
-  std::optional<SurfaceDistance> surface;
+  std::optional<Scene> scene;
   page.json["scene"] = Json();
   if (run.scenario) {
-    const Scene scene =
+    scene =
         build_scene(run.scenario->simulation.scene, static_cast<std::uint64_t>(run.scenario->seed));
-    page.json["scene"] = scene_json(scene, page);
-    surface.emplace(scene);
+    page.json["scene"] = scene_json(*scene, page);
   }
-  auto estimators = estimators_json(run, surface ? &*surface : nullptr, start, page);
+  auto estimators = estimators_json(run, scene ? &*scene : nullptr, start, page);
   if (!estimators) return tl::unexpected(estimators.error());
   page.json["estimators"] = std::move(*estimators);
   return {};

@@ -59,7 +59,7 @@ Result<Json> columns_json(const CsvColumns& table, const ColumnNames& names, con
                           PageData& page) {
   Numbers t;
   for (const std::size_t row : shown(table.rows())) t.push_back(stamps[row]);
-  Json json = {{"t", column(t, page)}};
+  Json json = {{"t", stamp_column(t, page)}};
   auto added = add_columns(table, names, shown_rows(table), page, json);
   if (!added) return tl::unexpected(added.error());
   return json;
@@ -76,7 +76,7 @@ Result<Json> weak_axis_json(const CsvColumns& table, PageData& page) {
   Numbers values;
   for (std::size_t i = 0; i < axes[0].size(); ++i)
     append({axes[0][i], axes[1][i], axes[2][i]}, values);
-  return column(values, page);
+  return column(values, page, 3);
 }
 
 }  // namespace

@@ -50,14 +50,13 @@ void add_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
   for (const Vector3d* corner : {&a, &b, &c}) triangles.push_back(corner->cast<float>());
 }
 
-void add_solid(const Solid& solid, SceneGeometry& geometry) {
+void add_solid(const Solid& solid, SurfaceGeometry& geometry) {
   const auto [bottom, top] = prism_of(solid);
   for (std::size_t i = 0; i < bottom.size(); ++i) {
     const std::size_t next = (i + 1) % bottom.size();
     add_line(bottom[i], bottom[next], geometry.edges);
     add_line(top[i], top[next], geometry.edges);
     add_line(bottom[i], top[i], geometry.edges);
-    if (solid.roof) continue;
     add_triangle(bottom[i], bottom[next], top[next], geometry.triangles);
     add_triangle(bottom[i], top[next], top[i], geometry.triangles);
     if (i == 0 || next == 0) continue;
@@ -71,7 +70,7 @@ int shown_cells(const Floor& floor, int points) {
   return floor.heights.empty() ? 1 : std::clamp(points - 1, 1, kMostFloorCells);
 }
 
-void add_floor(const Floor& floor, SceneGeometry& geometry) {
+void add_floor(const Floor& floor, SurfaceGeometry& geometry) {
   const int columns = shown_cells(floor, floor.columns);
   const int rows = shown_cells(floor, floor.rows);
   const auto at = [&](int column, int row) {
@@ -97,6 +96,19 @@ void add_floor(const Floor& floor, SceneGeometry& geometry) {
   }
 }
 
+PageData::Json people_json(const Scene& scene) {
+  PageData::Json list = PageData::Json::array();
+  for (const Person& person : scene.people) {
+    list.push_back({{"from", {person.from.x(), person.from.y()}},
+                    {"to", {person.to.x(), person.to.y()}},
+                    {"speed", person.speed},
+                    {"start", person.start},
+                    {"radius", person.radius},
+                    {"height", person.height}});
+  }
+  return list;
+}
+
 std::vector<float> numbers_of(const std::vector<Vector3f>& points) {
   std::vector<float> numbers;
   for (const Vector3f& p : points) numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});
@@ -107,18 +119,18 @@ std::vector<float> numbers_of(const std::vector<Vector3f>& points) {
 
 SceneGeometry scene_geometry(const Scene& scene) {
   SceneGeometry geometry;
-  add_floor(scene.floor, geometry);
+  add_floor(scene.floor, geometry.open);
   for (const Solid& solid : scene.solids) {
-    if (solid.visible) add_solid(solid, geometry);
+    if (solid.visible) add_solid(solid, solid.roof ? geometry.roofs : geometry.open);
   }
   return geometry;
 }
 
 PageData::Json scene_json(const Scene& scene, PageData& page) {
   const SceneGeometry geometry = scene_geometry(scene);
-  Vector3f min = geometry.edges.front();
+  Vector3f min = geometry.open.edges.front();
   Vector3f max = min;
-  for (const Vector3f& point : geometry.edges) {
+  for (const Vector3f& point : geometry.open.edges) {
     min = min.cwiseMin(point);
     max = max.cwiseMax(point);
   }
@@ -128,8 +140,11 @@ PageData::Json scene_json(const Scene& scene, PageData& page) {
             {"max", {floor.max_corner.x(), floor.max_corner.y()}},
             {"flat", floor.heights.empty()}}},
           {"bounds", {{"min", {min.x(), min.y(), min.z()}}, {"max", {max.x(), max.y(), max.z()}}}},
-          {"edges", page.f32(numbers_of(geometry.edges))},
-          {"triangles", page.f32(numbers_of(geometry.triangles))}};
+          {"edges", page.f32(numbers_of(geometry.open.edges))},
+          {"triangles", page.f32(numbers_of(geometry.open.triangles))},
+          {"roof_edges", page.f32(numbers_of(geometry.roofs.edges))},
+          {"roof_triangles", page.f32(numbers_of(geometry.roofs.triangles))},
+          {"people", people_json(scene)}};
 }
 
 }  // namespace aims

@@ -9,17 +9,23 @@
 
 namespace aims {
 
-/// A scene as lines and triangles to look at, in the world [m].
-struct SceneGeometry {
+/// Surfaces as lines and triangles to look at, in the world [m].
+struct SurfaceGeometry {
   std::vector<Eigen::Vector3f> edges;      ///< two per line: outlines of solids and of the floor
-  std::vector<Eigen::Vector3f> triangles;  ///< three each; without roofs, so that one looks inside
+  std::vector<Eigen::Vector3f> triangles;  ///< three each
+};
+
+/// A scene to look at; the roofs are apart, so that one can look inside.
+struct SceneGeometry {
+  SurfaceGeometry open;
+  SurfaceGeometry roofs;
 };
 
 /// Geometry of the visible solids and the floor; people are left out, cylinders have few sides, and
 /// a floor of many cells is shown by fewer.
 SceneGeometry scene_geometry(const Scene& scene);
 
-/// `scene_geometry` with the floor's extent and the bounds of all of it.
+/// `scene_geometry` with the floor's extent, the bounds of all of it, and how the people walk.
 PageData::Json scene_json(const Scene& scene, PageData& page);
 
 }  // namespace aims

@@ -9,6 +9,14 @@ namespace aims {
 
 using Json = PageData::Json;
 
+namespace {
+
+bool has_number(const Numbers& values) {
+  return std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); });
+}
+
+}  // namespace
+
 std::vector<std::size_t> shown(std::size_t count) {
   const std::size_t stride = (count + kLongestSeries - 1) / kLongestSeries;
   std::vector<std::size_t> indices;
@@ -17,10 +25,12 @@ std::vector<std::size_t> shown(std::size_t count) {
   return indices;
 }
 
-Json column(const Numbers& values, PageData& page) {
-  const bool any =
-      std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); });
-  return any ? page.f32(values) : Json();
+Json column(const Numbers& values, PageData& page, std::size_t components) {
+  return has_number(values) ? page.q16(values, components) : Json();
+}
+
+Json stamp_column(const Numbers& values, PageData& page) {
+  return has_number(values) ? page.f32(values) : Json();
 }
 
 Result<Numbers> numbers_at(const CsvColumns& table, const std::string& name,
@@ -59,7 +69,7 @@ Json poses_json(const Trajectory& poses, double start, PageData& page) {
     const Eigen::Quaterniond& rotation = each.pose.rotation;
     q.insert(q.end(), {rotation.x(), rotation.y(), rotation.z(), rotation.w()});
   }
-  return {{"t", column(t, page)}, {"p", column(p, page)}, {"q", column(q, page)}};
+  return {{"t", stamp_column(t, page)}, {"p", column(p, page, 3)}, {"q", column(q, page, 4)}};
 }
 
 }  // namespace aims

@@ -23,8 +23,12 @@ using Numbers = std::vector<double>;
 /// Indices of the samples that are shown of `count`: evenly spaced, with the last one.
 std::vector<std::size_t> shown(std::size_t count);
 
-/// Reference to the values, or null when none of them is a number.
-PageData::Json column(const Numbers& values, PageData& page);
+/// Reference to the values of `components` quantized columns, a row after the other; null when none
+/// of them is a number.
+PageData::Json column(const Numbers& values, PageData& page, std::size_t components = 1);
+
+/// Reference to stamps, which are not quantized; null when none of them is a number.
+PageData::Json stamp_column(const Numbers& values, PageData& page);
 
 /// The numbers of a table's column at those rows: NaN at row -1, and everywhere when the table has
 /// no such column.

@@ -124,8 +124,8 @@ Result<std::vector<std::filesystem::path>> write_robot_pictures(
     const char* where;
   };
   constexpr std::array<Shot, 3> kShots = {{{"robot_start.png", "near the start"},
-                                           {"robot_middle.png", "outbound"},
-                                           {"robot_turn.png", "at the turn"}}};
+                                           {"robot_middle.png", "half-way to the farthest point"},
+                                           {"robot_turn.png", "at the farthest point"}}};
   const std::vector<std::size_t> notable = notable_snapshots(snapshots);
   if (notable.empty()) return failure("no snapshot of the robot to draw");
   const MjcfOptions options{.image_width = config.width, .image_height = config.height};

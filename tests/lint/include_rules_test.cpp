@@ -89,7 +89,7 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
     {"render/results",
      {"core/", "estimator/", "bench/metrics/", "bench/run/", "bench/studies/", "bench/tuning/",
       "render/plots/", "render/scene/", "render/results/", "sim/"}},
-    {"render/page", {"core/", "bench/", "render/page/", "sim/environment/"}},
+    {"render/page", {"core/", "bench/", "render/page/", "render/plots/", "sim/"}},
     {"ros", {"core/", "estimator/", "recordings/", "ros/"}},
     {"python",
      {"core/", "estimator/", "sim/simulation.hpp", "recordings/", "bench/run/", "bench/jobs/",

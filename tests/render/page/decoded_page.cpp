@@ -5,7 +5,9 @@
 
 #include <boost/archive/iterators/binary_from_base64.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 namespace aims::testing {
@@ -28,6 +30,43 @@ std::string inflated(const std::string& stream) {
   inflateEnd(&state);
   if (code != Z_STREAM_END) throw std::runtime_error("the zlib stream has no end");
   return bytes;
+}
+
+/// Byte of a plane: plane k of a column holds byte k of each of its rows.
+std::uint32_t byte_of(const std::string& block, std::size_t at, std::size_t plane, std::size_t rows,
+                      std::size_t row) {
+  return static_cast<unsigned char>(block.at(at + plane * rows + row));
+}
+
+std::vector<float> dequantized(const DecodedPage& page, const nlohmann::json& reference) {
+  const auto& columns = reference.at("columns");
+  const auto count = reference.at("n").get<std::size_t>();
+  const std::size_t rows = count / columns.size();
+  auto at = reference.at("at").get<std::size_t>();
+  std::vector<float> values(count);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto& column = columns[k];
+    int code = 0;
+    for (std::size_t i = 0; i < rows; ++i) {
+      float& value = values[i * columns.size() + k];
+      std::uint32_t bits = 0;
+      const std::size_t width = column.is_null() ? 4 : 2;
+      for (std::size_t plane = 0; plane < width; ++plane) {
+        bits |= byte_of(page.block, at, plane, rows, i) << 8U * plane;
+      }
+      if (column.is_null()) {
+        std::memcpy(&value, &bits, sizeof(value));
+        continue;
+      }
+      const int folded = static_cast<int>(bits);
+      code = (code + (folded % 2 == 0 ? folded / 2 : -(folded + 1) / 2) + 65536) % 65536;
+      const double place = column.at("low").get<double>() + column.at("step").get<double>() * code;
+      value = static_cast<float>(column.at("log").get<bool>() ? std::exp(place) : place);
+      if (code == 65535) value = std::numeric_limits<float>::quiet_NaN();
+    }
+    at += rows * (column.is_null() ? 4 : 2);
+  }
+  return values;
 }
 
 }  // namespace
@@ -73,7 +112,8 @@ template std::vector<std::uint16_t> DecodedPage::array<std::uint16_t>(const nloh
 template std::vector<std::uint8_t> DecodedPage::array<std::uint8_t>(const nlohmann::json&) const;
 
 std::vector<float> DecodedPage::f32(const nlohmann::json& reference) const {
-  if (reference.at("$") != "f32") throw std::runtime_error("expected f32");
+  if (reference.at("$") == "q16") return dequantized(*this, reference);
+  if (reference.at("$") != "f32") throw std::runtime_error("expected f32 or q16");
   return array<float>(reference);
 }
 

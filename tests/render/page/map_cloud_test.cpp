@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/random.hpp"
@@ -45,40 +46,75 @@ TEST(ThinnedCloud, LeavesNoPartOfALargeOneEmpty) {
   EXPECT_LT(farthest, 1.5F) << "seed " << kSeed;
 }
 
+/// Nearest of the points, by its index.
+std::size_t nearest(const std::vector<Vector3f>& points, const Vector3f& to) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if ((points[i] - to).squaredNorm() < (points[best] - to).squaredNorm()) best = i;
+  }
+  return best;
+}
+
 TEST(MapJson, PlacesAreExactToHalfAStepAndErrorsAreThoseOfTheSurface) {
   const auto points = random_cloud(1000);
   const Pose T_world_odom = {yaw_rotation(0.5), {3.0, -2.0, 0.1}};
+  std::vector<Vector3f> expected;
+  for (const Vector3f& point : points) {
+    expected.push_back((T_world_odom * point.cast<double>()).cast<float>());
+  }
   const SurfaceDistance surface{Scene{}};  // a flat floor: the distance is the height
   PageData page;
-  page.json["map"] = map_json(points, T_world_odom, &surface, page);
+  page.json["map"] = map_json(points, T_world_odom, &surface, kMostMapPoints, false, page);
   const auto back = testing::decoded(payload_text(page));
   const auto& map = back.json["map"];
-  const auto places = back.array<std::uint16_t>(map["p"]);
+  const auto places = back.f32(map["p"]);
   const auto errors = back.array<std::uint8_t>(map["error"]);
   ASSERT_EQ(errors.size(), points.size());
+  EXPECT_EQ(map["below"], points.size()) << "without a roof nothing is cut";
+  std::vector<bool> found(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d expected = T_world_odom * points[i].cast<double>();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double min = map["min"][axis];
-      const double size = map["max"][axis].get<double>() - min;
-      EXPECT_NEAR(min + size * places[3 * i + axis] / 65535.0, expected[static_cast<int>(axis)],
-                  0.51 * size / 65535.0 + 1e-5);
+    const Vector3f place(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
+    const std::size_t k = nearest(expected, place);
+    found[k] = true;
+    EXPECT_LT((place - expected[k]).cwiseAbs().maxCoeff(), 0.51 * kMapStep + 1e-5);
+    if (expected[k].head<2>().cwiseAbs().maxCoeff() < 10.0F) {
+      EXPECT_NEAR(errors[i] / 255.0 * 0.5, std::min(expected[k].z(), 0.5F), 1.1e-3);
     }
-    const bool over_floor = expected.head<2>().cwiseAbs().maxCoeff() < 10.0;
-    if (over_floor) {
-      EXPECT_NEAR(errors[i] / 255.0 * 0.5, std::min(expected.z(), 0.5), 1.1e-3);
-    }
+  }
+  EXPECT_EQ(std::count(found.begin(), found.end(), false), 0) << "seed " << kSeed;
+}
+
+TEST(MapJson, PutsWhatIsBelowTheCeilingFirst) {
+  std::vector<Vector3f> points;
+  for (int i = 0; i < 300; ++i) {
+    const float x = 0.01F * static_cast<float>(i);
+    points.emplace_back(x, 0.0F, i % 3 == 0 ? 2.6F : 0.5F * static_cast<float>(i % 3 - 1));
+  }
+  PageData page;
+  page.json["map"] = map_json(points, {}, nullptr, kMostMapPoints, true, page);
+  const auto back = testing::decoded(payload_text(page));
+  const auto places = back.f32(back.json["map"]["p"]);
+  const std::size_t below = back.json["map"]["below"];
+  EXPECT_EQ(below, 200U);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(places[3 * i + 2] < 2.0F, i < below) << i;
   }
 }
 
 TEST(MapJson, TakesOnePointAndNone) {
   PageData page;
-  EXPECT_TRUE(map_json({}, {}, nullptr, page).is_null());
+  EXPECT_TRUE(map_json({}, {}, nullptr, kMostMapPoints, true, page).is_null());
   const std::vector<Vector3f> one = {{1.0F, 2.0F, 3.0F}};
-  page.json["map"] = map_json(one, {}, nullptr, page);
+  page.json["map"] = map_json(one, {}, nullptr, kMostMapPoints, true, page);
   const auto back = testing::decoded(payload_text(page));
-  EXPECT_EQ(back.array<std::uint16_t>(back.json["map"]["p"]), (std::vector<std::uint16_t>(3, 0)));
+  EXPECT_EQ(back.f32(back.json["map"]["p"]), (std::vector<float>{1.0F, 2.0F, 3.0F}));
   EXPECT_TRUE(back.json["map"]["error"].is_null());
+}
+
+TEST(MapJson, OfManySystemsSharesTheBudgetOfThePage) {
+  EXPECT_EQ(most_points(1), kMostMapPoints);
+  EXPECT_EQ(most_points(0), kMostMapPoints);
+  EXPECT_LE(13 * most_points(13), kMostPagePoints);
 }
 
 }  // namespace

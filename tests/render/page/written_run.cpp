@@ -2,6 +2,7 @@
 #include "tests/render/page/written_run.hpp"
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "bench/run/scenario.hpp"
@@ -34,8 +35,8 @@ Trajectory straight(const WrittenRun& run, const Eigen::Vector3d& first, double 
 }
 
 /// Points anywhere in the corridor around the start, in the odometry frame.
-std::vector<Eigen::Vector3f> cloud(const WrittenRun& run) {
-  RandomStream stream(kSeed, "cloud");
+std::vector<Eigen::Vector3f> cloud(const WrittenRun& run, const std::string& name) {
+  RandomStream stream(kSeed, "cloud " + name);
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < run.map_points; ++i) {
     const Eigen::Vector3d point(stream.uniform(-5.0, 70.0), stream.uniform(-1.3, 1.3),
@@ -46,26 +47,28 @@ std::vector<Eigen::Vector3f> cloud(const WrittenRun& run) {
 }
 
 void write_estimator(const fs::path& folder, const WrittenRun& run, const std::string& name,
-                     double step) {
+                     double step, double noise = 0.0) {
   RandomStream stream(kSeed, name);
+  const auto noisy = [&] { return noise * stream.uniform(-1.0, 1.0); };
   EstimatorOutcome outcome;
   outcome.name = name;
   outcome.result.trajectory = straight(run, Eigen::Vector3d::Zero(), step);
   outcome.result.diagnostics.series = scan_series();
-  for (const StampedPose& pose : outcome.result.trajectory) {
+  for (StampedPose& pose : outcome.result.trajectory) {
+    pose.pose.translation += Eigen::Vector3d(noisy(), noisy(), noisy());
     ScanDiagnostics scan;
     scan.stamp = pose.stamp;
     scan.D = stream.uniform();
     scan.C_IL = stream.uniform();
     scan.gamma_lidar = stream.uniform();
-    scan.innovation_position = {3e-3, 4e-3, 0.0};
-    scan.covariance.position = kCovariance * Eigen::Matrix3d::Identity();
+    scan.innovation_position = {3e-3 + noisy(), 4e-3 + noisy(), 0.0};
+    scan.covariance.position = kCovariance * (1.0 + noisy()) * Eigen::Matrix3d::Identity();
     outcome.result.diagnostics.scans.push_back(row_of(scan));
     outcome.scan_times.wall_ms.push_back(stream.uniform(1.0, 30.0));
   }
   put(folder / (name + ".tum"), tum_text(outcome.result.trajectory));
   put(folder / (name + ".diagnostics.csv"), diagnostics_table(outcome).text());
-  if (run.map_points > 0) put(folder / (name + ".map.ply"), ply_text(cloud(run)));
+  if (run.map_points > 0) put(folder / (name + ".map.ply"), ply_text(cloud(run, name)));
 }
 
 std::string localizability_text(const WrittenRun& run) {
@@ -76,6 +79,12 @@ std::string localizability_text(const WrittenRun& run) {
     table.add(false).add(i >= 10 && i < 20).end_row();
   }
   return table.text();
+}
+
+std::vector<std::string> names_of(const WrittenRun& run) {
+  std::vector<std::string> names(std::begin(kMadeUpEstimators), std::end(kMadeUpEstimators));
+  for (int i = 0; i < run.noisy; ++i) names.push_back("noisy_" + std::to_string(i));
+  return names;
 }
 
 std::string scores_text(const WrittenRun& run) {
@@ -89,7 +98,7 @@ std::string scores_text(const WrittenRun& run) {
       {"robot",
        {{"fell", false}, {"touched_wall", false}, {"valid", true}, {"invalid_reason", nullptr}}},
       {"segments", Json::array()}};
-  for (const char* name : kMadeUpEstimators) {
+  for (const std::string& name : names_of(run)) {
     scores["estimators"][name] = {{"success", true}, {"diverged_at_s", nullptr}, {"ate_m", 0.125}};
   }
   return scores.dump(2) + "\n";
@@ -117,8 +126,10 @@ void write_run(const fs::path& folder, const WrittenRun& run) {
   put(folder / "truth.tum", tum_text(straight(run, {1.0, 0.2, 0.3}, kStep)));
   put(folder / "localizability.csv", localizability_text(run));
   put(folder / "waypoint_times.csv", "point,stamp_s\n");
-  write_estimator(folder, run, "exact", kStep);
-  write_estimator(folder, run, "ahead", 1.1 * kStep);
+  for (const std::string& name : names_of(run)) {
+    const bool noisy = name.starts_with("noisy");
+    write_estimator(folder, run, name, (name == "exact" ? 1.0 : 1.1) * kStep, noisy ? 0.05 : 0.0);
+  }
 }
 
 }  // namespace aims::testing

@@ -12,11 +12,13 @@ struct WrittenRun {
   int scans = 50;
   int map_points = 500;  ///< of each estimator
   double start_s = 0.0;  ///< of the clock
+  int noisy = 0;         ///< more estimators: "noisy_0", ... with noise in every series
 };
 
 /// Estimators of a made-up run: "exact" walks along +x with the truth, "ahead" 10 % too far.
 inline constexpr const char* kMadeUpEstimators[] = {"exact", "ahead"};
-/// Distance [m] that the robot truly walks between two scans, along the world's x axis from (1, 0.2).
+/// Distance [m] that the robot truly walks between two scans, along the world's x axis from (1,
+/// 0.2).
 inline constexpr double kStep = 0.05;
 
 /// Writes a folder as `aims run` does, of a robot that walks straight along a corridor, with the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** What a page is handed, `aims.page/1`, after payload.ts has turned references into arrays. */
+/** What a page is handed, `aims.page/2`, after payload.ts has turned references into arrays. */
 
 /** A number that may have no value; NaN plays this part inside arrays. */
 export type Maybe = number | null;
@@ -27,8 +27,24 @@ export interface Scene {
   edges: Numbers | null;
   /** Corners of triangles, xyz each, world [m]. */
   triangles: Numbers | null;
-  /** Least and greatest corner, xyz each, world [m]. */
+  /** The same of the ceilings. */
+  roof_edges?: Numbers | null;
+  roof_triangles?: Numbers | null;
+  /** Least and greatest corner of what is no ceiling, xyz each, world [m]. */
   bounds?: { min: number[]; max: number[] } | null;
+  people?: Person[] | null;
+}
+
+/** Walks up and down between two points at constant speed. */
+export interface Person {
+  from: [number, number];
+  to: [number, number];
+  /** [m/s] */
+  speed: number;
+  /** Distance walked at time zero [m]. */
+  start: number;
+  radius: number;
+  height: number;
 }
 
 export interface WaypointTime {
@@ -84,10 +100,12 @@ export interface EstimatorSeries {
 
 export interface CloudMap {
   n: number;
-  min: number[];
-  max: number[];
-  /** xyz, each spread over [min, max] by 0..65535. */
-  p: Uint16Array;
+  /** Of the map that these were chosen from. */
+  points?: Maybe;
+  /** The first so many lie below the ceiling. */
+  below?: Maybe;
+  /** Positions, xyz each, world [m]. */
+  p: Numbers;
   /** Distance to the true surface, 0..255 for 0..0.5 m. */
   error: Uint8Array | null;
 }

@@ -11,6 +11,17 @@ interface Reference {
   n: number;
 }
 
+/** Code of NaN in a quantized column. */
+const kNoCode = 65535;
+
+/** `n` values in `columns` columns: value = low + step * code, or exp of that; null: 32-bit floats. */
+interface Quantized {
+  $: "q16";
+  at: number;
+  n: number;
+  columns: ({ low: number; step: number; log: boolean } | null)[];
+}
+
 function isReference(value: object): value is Reference {
   const { $, at, n } = value as Partial<Reference>;
   return (
@@ -19,6 +30,51 @@ function isReference(value: object): value is Reference {
     Number.isInteger(at) &&
     Number.isInteger(n)
   );
+}
+
+function isQuantized(value: object): value is Quantized {
+  const { $, at, n, columns } = value as Partial<Quantized>;
+  return $ === "q16" && Number.isInteger(at) && Number.isInteger(n) && Array.isArray(columns);
+}
+
+/** Values of quantized columns, a row after the other; see PageData::q16. */
+function dequantize({ at, n, columns }: Quantized, blob: ArrayBuffer, start: number): Float32Array {
+  const rows = n / columns.length;
+  const size = columns.reduce((sum, column) => sum + (column ? 2 : 4) * rows, 0);
+  if (!Number.isInteger(rows) || at < 0 || n < 0 || start + at + size > blob.byteLength)
+    throw new Error(`data: ${n} quantized values at ${at} do not fit into the block`);
+  const values = new Float32Array(n);
+  let from = start + at;
+  columns.forEach((column, k) => {
+    const bytes = new Uint8Array(blob, from, (column ? 2 : 4) * rows);
+    from += bytes.length;
+    if (column) fillQuantized(values, k, columns.length, bytes, column);
+    else fillFloats(values, k, columns.length, bytes);
+  });
+  return values;
+}
+
+function fillQuantized(
+  values: Float32Array, k: number, stride: number, bytes: Uint8Array,
+  { low, step, log }: { low: number; step: number; log: boolean },
+): void {
+  const rows = bytes.length / 2;
+  let code = 0;
+  for (let i = 0; i < rows; ++i) {
+    const folded = bytes[i]! | (bytes[rows + i]! << 8);
+    code = (code + (folded & 1 ? -((folded + 1) >> 1) : folded >> 1)) & 0xffff;
+    const value = low + step * code;
+    values[k + i * stride] = code === kNoCode ? NaN : log ? Math.exp(value) : value;
+  }
+}
+
+function fillFloats(values: Float32Array, k: number, stride: number, bytes: Uint8Array): void {
+  const rows = bytes.length / 4;
+  const bits = new DataView(new ArrayBuffer(4));
+  for (let i = 0; i < rows; ++i) {
+    for (let plane = 0; plane < 4; ++plane) bits.setUint8(plane, bytes[plane * rows + i]!);
+    values[k + i * stride] = bits.getFloat32(0, true);
+  }
 }
 
 function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
@@ -54,6 +110,8 @@ function link(node: unknown, blob: ArrayBuffer, start: number): void {
     if (typeof value !== "object" || value === null) continue;
     if (isReference(value)) {
       (node as Record<string, unknown>)[key] = resolve(value, blob, start);
+    } else if (isQuantized(value)) {
+      (node as Record<string, unknown>)[key] = dequantize(value, blob, start);
     } else {
       link(value, blob, start);
     }
@@ -69,8 +127,8 @@ export async function decodePayload(base64: string): Promise<PagePayload> {
   const payload = JSON.parse(
     new TextDecoder().decode(new Uint8Array(buffer, 4, length)),
   ) as PagePayload;
-  if (payload.schema !== "aims.page/1") {
-    throw new Error(`data: schema ${String(payload.schema)}, expected aims.page/1`);
+  if (payload.schema !== "aims.page/2") {
+    throw new Error(`data: schema ${String(payload.schema)}, expected aims.page/2`);
   }
   link(payload, buffer, Math.ceil((4 + length) / 8) * 8);
   return payload;

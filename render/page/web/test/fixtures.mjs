@@ -55,9 +55,24 @@ function notNumbers() {
   return page;
 }
 
+function failed() {
+  const page = run({ count: 100, points: 200 });
+  page.scenario.robot = {
+    fell: true,
+    touched_wall: false,
+    valid: false,
+    invalid_reason: "the robot fell at 3.2 s",
+  };
+  page.scores.expectations = [
+    { estimator: "aims", score: "ate_m", min: null, max: 0.5, value: 0.2, holds: true },
+    { estimator: "lio", score: "ate_m", min: null, max: 0.1, value: 0.4, holds: false },
+  ];
+  return page;
+}
+
 function empty() {
   return {
-    schema: "aims.page/1",
+    schema: "aims.page/2",
     kind: "run",
     title: "empty",
     version: "0.0.0",
@@ -95,6 +110,7 @@ export const kCases = {
     }),
   hostile,
   "not-numbers": notNumbers,
+  failed,
   "one-scan": () => run({ count: 1, points: 30 }),
   empty,
 };

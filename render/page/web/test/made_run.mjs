@@ -53,25 +53,21 @@ function scene() {
 }
 
 function map(count, drift, random) {
-  const min = [-3, -1.3, -0.2];
-  const max = [kLength + 3, 1.3, 2.9];
-  const p = new Uint16Array(3 * count);
-  const error = new Uint8Array(count);
-  for (let i = 0; i < count; ++i) {
+  const places = Array.from({ length: count }, () => {
     const x = -3 + (kLength + 6) * random();
     const wall = random();
     const lift = drift * (x / kLength) ** 2;
     const y = wall < 0.35 ? -1.1 : wall < 0.7 ? 1.1 : -1.1 + 2.2 * random();
     const z = (wall < 0.7 ? 2.6 * random() : wall < 0.9 ? 0 : 2.6) + lift;
-    [x, y, z].forEach((value, axis) => {
-      p[3 * i + axis] = Math.round(
-        (65535 * Math.min(Math.max(value - min[axis], 0), max[axis] - min[axis])) /
-          (max[axis] - min[axis]),
-      );
-    });
-    error[i] = Math.min(255, Math.round((255 * Math.abs(lift)) / 0.5));
-  }
-  return { n: count, min, max, p, error };
+    return { p: [x, y, z], lift };
+  }).sort((a, b) => (a.p[2] > 2) - (b.p[2] > 2));
+  return {
+    n: count,
+    points: 5 * count,
+    below: places.filter(({ p }) => p[2] <= 2).length,
+    p: Float32Array.from(places.flatMap(({ p }) => p)),
+    error: Uint8Array.from(places, ({ lift }) => Math.min(255, (255 * Math.abs(lift)) / 0.5)),
+  };
 }
 
 /** Columns of an estimator that drifts by so much [m] and stops when it diverges. */
@@ -239,7 +235,7 @@ export function run({
     slip: truth.t.map(() => (random() > 0.98 ? 0.4 * random() : 0.02)),
   };
   return {
-    schema: "aims.page/1",
+    schema: "aims.page/2",
     kind: "run",
     title,
     version: "0.0.0",

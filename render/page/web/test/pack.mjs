@@ -8,7 +8,7 @@ const kKinds = new Map([
   [Uint8Array, "u8"],
 ]);
 
-/** base64 of the payload of `aims.page/1`; typed arrays go into the blob. */
+/** base64 of the payload of `aims.page/2`; typed arrays go into the blob. */
 export function pack(payload) {
   const parts = [];
   let size = 0;
@@ -39,6 +39,29 @@ export function fillTemplate(template, payload) {
   return template.replace(/__AIMS_TITLE__|__AIMS_DATA__/g, (mark) => fills[mark]);
 }
 
+/** Quantized columns, row by row. */
+function dequantized({ at, n, columns }, blob) {
+  const rows = n / columns.length;
+  const values = new Float32Array(n);
+  let from = at;
+  columns.forEach((column, k) => {
+    let code = 0;
+    for (let i = 0; i < rows; ++i) {
+      if (column === null) {
+        const bytes = [0, 1, 2, 3].map((plane) => blob[from + plane * rows + i]);
+        values[i * columns.length + k] = Buffer.from(bytes).readFloatLE();
+        continue;
+      }
+      const folded = blob[from + i] + 256 * blob[from + rows + i];
+      code = (code + 65536 + (folded % 2 ? -(folded + 1) / 2 : folded / 2)) % 65536;
+      const place = column.low + column.step * code;
+      values[i * columns.length + k] = code === 65535 ? NaN : column.log ? Math.exp(place) : place;
+    }
+    from += (column === null ? 4 : 2) * rows;
+  });
+  return values;
+}
+
 /** Payload of a page as an object, its arrays in place: the other way round. */
 export function payloadOf(html) {
   const base64 = html.match(/<script id="aims-data" type="text\/plain">([^<]*)<\/script>/)[1];
@@ -47,6 +70,7 @@ export function payloadOf(html) {
   const blob = bytes.subarray(Math.ceil((4 + length) / 8) * 8);
   const types = { f32: Float32Array, u16: Uint16Array, u8: Uint8Array };
   return JSON.parse(bytes.subarray(4, 4 + length).toString("utf8"), (_key, value) => {
+    if (value?.$ === "q16") return dequantized(value, blob);
     const type = types[value?.$];
     if (!type) return value;
     return new type(

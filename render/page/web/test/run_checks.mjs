@@ -87,6 +87,57 @@ function tableCells(page, selector) {
   }, selector);
 }
 
+/** The page leads with the verdict and the table, then come the time series, then the rest. */
+async function assertLeadsWithResult(page, height) {
+  const tops = await page.evaluate(() =>
+    [".verdict", '[data-table="paper"] table', ".timeline", ".view", "#details"].map(
+      (selector) => document.querySelector(selector).getBoundingClientRect().top + scrollY,
+    ),
+  );
+  assert.deepEqual(
+    tops,
+    [...tops].sort((a, b) => a - b),
+    "verdict, table, time series, 3D view, details",
+  );
+  assert.ok(tops[1] < height, `the table begins at ${tops[1]} px of a window of ${height}`);
+}
+
+/** Pixels of the 3D canvas that are not its background, as fractions of its width and height that they span. */
+function canvasSpan(page) {
+  return page.evaluate(() => {
+    const source = document.querySelector(".view-frame canvas");
+    const { width, height } = source;
+    const copy = Object.assign(document.createElement("canvas"), { width, height });
+    const context = copy.getContext("2d");
+    context.drawImage(source, 0, 0);
+    const data = new Uint32Array(context.getImageData(0, 0, width, height).data.buffer);
+    let [left, right, top, bottom] = [width, 0, height, 0];
+    for (let y = 0; y < height; ++y) {
+      for (let x = 0; x < width; ++x) {
+        if (data[y * width + x] === data[0]) continue;
+        [left, right] = [Math.min(left, x), Math.max(right, x)];
+        [top, bottom] = [Math.min(top, y), Math.max(bottom, y)];
+      }
+    }
+    return [(right - left) / width, (bottom - top) / height];
+  });
+}
+
+/** The ceiling is cut away until it is asked for. */
+async function assertCeilingSwitches(page) {
+  const ceiling = page.locator('[data-control="ceiling"]');
+  assert.equal(await ceiling.isChecked(), false, "the ceiling is cut away at first");
+  const shot = () =>
+    page.evaluate(() => document.querySelector(".view-frame canvas").toDataURL());
+  const open = await shot();
+  await ceiling.check();
+  await settle(page);
+  const closed = await shot();
+  assert.notEqual(closed, open, "the ceiling is drawn");
+  await ceiling.uncheck();
+  await settle(page);
+}
+
 /** Every number of the first two tables equals that of scores.json. */
 async function assertTablesEqual(page, scores) {
   const near = (cell, value, what) => {
@@ -105,6 +156,9 @@ async function assertTablesEqual(page, scores) {
       );
     }
     near(cells["M_end m"], scores.estimators[name].m_end_m, `${name} M_end`);
+    near(cells["ATE m"], scores.estimators[name].ate_m, `${name} ATE`);
+    if (scores.robot?.valid !== false)
+      assert.equal(cells["Success"].text === "yes", scores.estimators[name].success === true, `${name} success`);
   }
   for (const { name, cells } of await tableCells(page, '[data-table="errors"]')) {
     const own = scores.estimators[name];
@@ -286,6 +340,10 @@ export async function assertRunPage(browser, file, name, scores) {
   await shoot(page, `${name}-light`);
   assert.ok((await canvasColors(page)) > 20, "the 3D view drew");
   assert.ok((await stripInk(page, "index")) > 0.01, "the strips drew");
+  const [wide, high] = await canvasSpan(page);
+  assert.ok(wide > 0.6 && high > 0.5, `the scene spans ${wide} by ${high} of the view`);
+  await assertLeadsWithResult(page, 800);
+  await assertCeilingSwitches(page);
   await assertTablesEqual(page, scores);
   await assertBestIsBold(page, scores);
   await assertCursorMoves(page, payload);

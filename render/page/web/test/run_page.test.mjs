@@ -52,6 +52,22 @@ describe(
       assert.equal(await page.textContent("h1"), kCases.hostile().title);
       await context.close();
     });
+    test("the verdict names why a run is invalid, and expectations that do not hold", async () => {
+      const { page, context } = await open(browser, files.failed);
+      const verdict = page.locator("[data-verdict]");
+      assert.equal(await verdict.getAttribute("data-verdict"), "bad");
+      const text = await verdict.innerText();
+      assert.match(text, /Invalid run: the robot fell at 3\.2 s\./);
+      assert.match(text, /1 of 2 expectations do not hold: lio ate_m is 0\.400, expected at most 0\.100\./);
+      assert.deepEqual(
+        await page.locator('[data-table="paper"] tbody td:last-child').allInnerTexts(),
+        Array(4).fill("invalid run"),
+      );
+      await context.close();
+      const held = await open(browser, files.run);
+      assert.match(await held.page.innerText("[data-verdict]"), /^3 of 4 estimators succeeded\. tfs diverged at 181 s\./);
+      await held.context.close();
+    });
     test("six thousand samples of five estimators answer a key within a few frames", async () => {
       const { page, context, troubles } = await open(browser, files.large);
       await page.locator(".strips").focus();

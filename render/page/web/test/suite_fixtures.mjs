@@ -45,7 +45,7 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
     },
   })));
   return {
-    schema: "aims.page/1", kind: "suite", title: "Suite made up", version: "0.1.0", headline: kHeadline, runs, roc: null, compare: null, notes: [],
+    schema: "aims.page/2", kind: "suite", title: "Suite made up", version: "0.1.0", headline: kHeadline, runs, roc: null, compare: null, notes: [],
     suite: {
       schema: "aims.suite/1", version: "0.1.0", code: "0123456789abcdef", complete: true, scenarios, failures: [],
       families: [{ name: "severity", level_unit: "step", mildest_level: 1, median_equivalent_returns: [900, 80, null],
@@ -114,7 +114,7 @@ export function tuning({ parameter = "degeneracy.eta", scenarios = ["corridor", 
     maps: [slice(0, { second: 1, y: Float32Array.from(grid, ([, y]) => y) }, grid)],
   };
   return {
-    schema: "aims.page/1", kind: "tuning", title: "Sweep made up", source: "sweep", plan: `over: ["${parameter}=0:6:4"]\n`,
+    schema: "aims.page/2", kind: "tuning", title: "Sweep made up", source: "sweep", plan: `over: ["${parameter}=0:6:4"]\n`,
     jobs: { total: 60, done: rows.length - 1, failed: 1, crashed: 0, timed_out: 0, missing: 60 - rows.length, others: 0 },
     held_out_jobs: { total: 0, done: 0 }, scores: ["ate_m", "m_end_m"], sequences, notes: [],
     estimators: [{

@@ -2,6 +2,7 @@
 /** Where the 3D view is seen from: presets, following the robot, sizes on the screen. */
 import { Box3, OrthographicCamera, PerspectiveCamera, Vector3, type Camera } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { bestShot } from "./framing";
 import type { Bounds } from "./parts3d";
 
 export type Preset = "orbit" | "top" | "side";
@@ -90,43 +91,27 @@ export class CameraRig {
     box.max.z *= this.heightScale;
     const center = box.getCenter(new Vector3());
     this.controls.target.copy(center);
-    if (preset === "orbit") this.showOrbit(box, center);
+    if (preset === "orbit") this.showOrbit(box);
     else this.showFlat(preset, box, center);
     this.controls.enableRotate = preset === "orbit";
     this.controls.update();
     if (this.follows && target) this.approach(target);
   }
 
-  /** From the side and above, as near as all corners of the box allow. */
-  private showOrbit(box: Box3, center: Vector3): void {
-    const size = box.getSize(new Vector3());
-    const longX = size.x >= size.y;
-    const away = new Vector3(longX ? -0.9 : -0.4, longX ? -0.4 : -0.9, 0.45).normalize();
+  /** From where the box fills the window best. */
+  private showOrbit(box: Box3): void {
     const camera = this.perspective;
-    const tangent = Math.tan((camera.fov * Math.PI) / 360);
-    const right = new Vector3().crossVectors(new Vector3(0, 0, 1), away).normalize();
-    const up = new Vector3().crossVectors(away, right);
-    let distance = 1;
-    for (let i = 0; i < 8; ++i) {
-      const corner = new Vector3(
-        i & 1 ? box.max.x : box.min.x,
-        i & 2 ? box.max.y : box.min.y,
-        i & 4 ? box.max.z : box.min.z,
-      ).sub(center);
-      const across = Math.max(
-        Math.abs(corner.dot(right)) / camera.aspect,
-        Math.abs(corner.dot(up)),
-      );
-      distance = Math.max(distance, corner.dot(away) + (1.04 * across) / tangent);
-    }
-    camera.position.copy(center).addScaledVector(away, distance);
+    const shot = bestShot(box, Math.tan((camera.fov * Math.PI) / 360), camera.aspect);
+    camera.position.copy(shot.position);
+    this.controls.target.copy(shot.target);
     this.controls.object = camera;
   }
 
   private showFlat(preset: Preset, box: Box3, center: Vector3): void {
     const size = box.getSize(new Vector3());
     const reach = Math.max(size.length(), 2);
-    const longX = size.x >= size.y;
+    // The longer side of the plan lies along the longer side of the window.
+    const longX = size.x >= size.y === (preset === "side" || this.perspective.aspect >= 1);
     const up =
       preset === "top"
         ? longX

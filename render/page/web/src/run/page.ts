@@ -7,26 +7,15 @@ import { formatFixed, isNumber } from "../format";
 import { pictureGrid } from "../pictures";
 import { onTheme, seriesColor, themeButton } from "../theme";
 import { configSection } from "./config";
-import { resultsSection } from "./results";
+import { detailSection, leadSection } from "./results";
 import { cursorTimes, timeSpan } from "./series";
 import { Store, type Level } from "./store";
 import { timeline } from "./timeline";
+import { verdictBox } from "./verdict";
 import { viewCard } from "./view";
 
 function badge(text: string, kind: "good" | "bad" | "plain"): HTMLElement {
   return h("span", { class: `badge ${kind}` }, text);
-}
-
-/** What stands above everything else on the page of an invalid run. */
-function invalidBanner(data: RunPayload): HTMLElement | null {
-  const robot = data.scenario.robot;
-  if (robot?.valid !== false) return null;
-  return h(
-    "p",
-    { class: "banner", role: "alert" },
-    h("strong", {}, `Invalid run: ${robot.invalid_reason ?? "its robot did not finish"}.`),
-    " No estimator counts as a success on it, and its scores enter no statistics.",
-  );
 }
 
 function header(data: RunPayload): HTMLElement {
@@ -133,6 +122,13 @@ function firstLevel(data: RunPayload): Level {
   );
 }
 
+/** What is drawn again in the colours of each theme. */
+function themed(make: () => HTMLElement | null): HTMLElement {
+  const frame = h("div", {}, make() ?? "");
+  onTheme(() => frame.replaceChildren(make() ?? ""));
+  return frame;
+}
+
 export function renderRun(root: HTMLElement, data: RunPayload): void {
   data.estimators ??= [];
   const times = cursorTimes(data);
@@ -145,6 +141,7 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
       chosen: firstChoice(data),
       level: firstLevel(data),
       coloring: "height",
+      ceiling: false,
       errorScale: "chosen",
     },
     times,
@@ -152,21 +149,16 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
   );
   const view = viewCard(data, store);
   const strips = timeline(data, store);
-  const results = h("div", {}, resultsSection(data) ?? "");
-  onTheme(() => results.replaceChildren(resultsSection(data) ?? ""));
+  const lead = themed(() => leadSection(data));
+  const rest = themed(() => detailSection(data));
   const grid = pictureGrid(data.pictures);
   const pictures = grid ? section("pictures", "Pictures", grid) : null;
-  const banner = invalidBanner(data);
   root.append(
     header(data),
-    ...(banner ? [banner] : []),
-    h(
-      "div",
-      { class: "explore" },
-      h("div", { class: "left" }, chooser(data, store) ?? "", view.element),
-      strips.element,
-    ),
-    results,
+    verdictBox(data),
+    lead,
+    h("div", { class: "explore" }, strips.controls, chooser(data, store) ?? "", strips.element, view.element),
+    rest,
     configSection(data) ?? "",
     ...(pictures ? [pictures] : []),
   );

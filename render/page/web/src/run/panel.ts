@@ -219,6 +219,12 @@ export class Panel {
     this.plot.setSize({ width, height: this.plot.height });
   }
 
+  /** Is a point of the window in this strip's column? */
+  spans(clientX: number): boolean {
+    const { left, right } = this.plot.over.getBoundingClientRect();
+    return clientX >= left && clientX <= right;
+  }
+
   /** Time under a point of the window, in its coordinates [px], null beside the chart. */
   timeAt(clientX: number): number {
     return this.plot.posToVal(clientX - this.plot.over.getBoundingClientRect().left, "x");

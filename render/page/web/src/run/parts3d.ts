@@ -27,7 +27,7 @@ import {
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import type { CloudMap, Numbers, Scene } from "../contract";
+import type { CloudMap, Numbers, Person, Scene } from "../contract";
 import { ramp, rampTable } from "./ramps";
 
 export type Bounds = { min: Vector3; max: Vector3 };
@@ -47,96 +47,141 @@ function geometry(list: Float32Array): BufferGeometry {
   return new BufferGeometry().setAttribute("position", new BufferAttribute(list, 3));
 }
 
-/** Faint wire and fainter surfaces of the scene. */
-export function sceneParts(scene: Scene, wire: ColorRepresentation): Group {
+/** Faint wire and fainter surfaces of the scene, with its ceiling or without. */
+export function sceneParts(scene: Scene, wire: ColorRepresentation, ceiling: boolean): Group {
   const group = new Group();
-  if (scene.triangles?.length) {
+  const surfaces = (list: Numbers | null | undefined, opacity: number) => {
+    if (!list?.length) return;
     const material = new MeshBasicMaterial({
       color: wire,
       transparent: true,
-      opacity: 0.05,
+      opacity,
       side: DoubleSide,
       depthWrite: false,
     });
-    group.add(new Mesh(geometry(scene.triangles), material));
-  }
-  if (scene.edges?.length) {
-    group.add(
-      new LineSegments(
-        geometry(scene.edges),
-        new LineBasicMaterial({ color: wire, transparent: true, opacity: 0.5 }),
-      ),
-    );
+    group.add(new Mesh(geometry(list), material));
+  };
+  const lines = (list: Numbers | null | undefined) => {
+    if (!list?.length) return;
+    const material = new LineBasicMaterial({ color: wire, transparent: true, opacity: 0.5 });
+    group.add(new LineSegments(geometry(list), material));
+  };
+  surfaces(scene.triangles, 0.09);
+  lines(scene.edges);
+  if (ceiling) {
+    surfaces(scene.roof_triangles, 0.09);
+    lines(scene.roof_edges);
   }
   return group;
 }
 
+/** Where a person stands at a time of the simulation [m]. */
+export function personAt(person: Person, seconds: number): [number, number] {
+  const along = [person.to[0] - person.from[0], person.to[1] - person.from[1]] as const;
+  const length = Math.hypot(...along);
+  if (!(length > 0)) return person.from;
+  const walked = (person.start + person.speed * seconds) % (2 * length);
+  const fraction = (walked > length ? 2 * length - walked : walked) / length;
+  return [person.from[0] + fraction * along[0], person.from[1] + fraction * along[1]];
+}
+
+/** An upright cylinder with its outline, standing on the floor. */
+export function person({ radius, height }: Person, ink: ColorRepresentation): Group {
+  const group = new Group();
+  const shape = new CylinderGeometry(radius, radius, height, 20)
+    .rotateX(Math.PI / 2)
+    .translate(0, 0, height / 2);
+  const faces = new MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.45 });
+  const edges = new LineBasicMaterial({ color: ink });
+  group.add(new Mesh(shape, faces), new LineSegments(new EdgesGeometry(shape, 30), edges));
+  return group;
+}
+
+/** Points of a map that are shown: all, or those below the ceiling. */
+export function shownPoints(map: CloudMap, ceiling: boolean): number {
+  return ceiling ? map.n : Math.min(map.below ?? map.n, map.n);
+}
+
 /** Heights [m] between which a map's colours run: all but two percent at either end. */
-export function heightRange(map: CloudMap): [number, number] {
-  const heights = new Uint16Array(map.n);
-  for (let i = 0; i < map.n; ++i) heights[i] = map.p[3 * i + 2]!;
-  heights.sort();
-  const low = map.min[2] ?? 0;
-  const scale = ((map.max[2] ?? 0) - low) / 65535;
+export function heightRange(map: CloudMap, ceiling: boolean): [number, number] {
+  const count = shownPoints(map, ceiling);
+  const heights = Float32Array.from({ length: count }, (_, i) => map.p[3 * i + 2]!).sort();
   const pick = (fraction: number) =>
-    low + scale * (heights[Math.min(map.n - 1, Math.floor(fraction * map.n))] ?? 0);
+    heights[Math.min(count - 1, Math.floor(fraction * count))] ?? 0;
   return [pick(0.02), pick(0.98)];
 }
 
-/** Positions of a map [m]. */
-export function mapPositions(map: CloudMap): Float32Array {
-  const out = new Float32Array(3 * map.n);
-  for (let i = 0; i < out.length; ++i) {
-    const low = map.min[i % 3] ?? 0;
-    out[i] = low + (((map.max[i % 3] ?? 0) - low) * map.p[i]!) / 65535;
-  }
-  return out;
+/** Points of a map coloured by height or by error. */
+export function cloud(
+  map: CloudMap,
+  coloring: "height" | "error",
+  dark: boolean,
+  ceiling: boolean,
+): Points {
+  const count = shownPoints(map, ceiling);
+  const [low, high] = heightRange(map, ceiling);
+  const fractions = Float32Array.from({ length: count }, (_, i) =>
+    coloring === "error"
+      ? (map.error?.[i] ?? 0) / 255
+      : (map.p[3 * i + 2]! - low) / (high - low || 1),
+  );
+  return coloredPoints(map.p.subarray(0, 3 * count), fractions, rampTable(ramp(coloring, dark)), 2);
 }
 
-/** Points of a map coloured by height or by error. */
-export function cloud(map: CloudMap, coloring: "height" | "error", dark: boolean): Points {
-  const positions = mapPositions(map);
-  const table = rampTable(ramp(coloring, dark));
-  const [low, high] = heightRange(map);
-  const colors = new Uint8Array(3 * map.n);
-  for (let i = 0; i < map.n; ++i) {
-    const fraction =
-      coloring === "error"
-        ? (map.error?.[i] ?? 0) / 255
-        : (positions[3 * i + 2]! - low) / (high - low || 1);
-    const index = 3 * Math.round(255 * Math.min(Math.max(fraction, 0), 1));
+/** Points with colours of a ramp; `pixels`: their size. */
+export function coloredPoints(
+  positions: Numbers,
+  fractions: ArrayLike<number>,
+  table: Uint8Array,
+  pixels: number,
+): Points {
+  const colors = new Uint8Array(positions.length);
+  for (let i = 0; i < fractions.length; ++i) {
+    const index = 3 * Math.round(255 * Math.min(Math.max(fractions[i]!, 0), 1));
     colors.set(table.subarray(index, index + 3), 3 * i);
   }
   const points = geometry(positions).setAttribute("color", new BufferAttribute(colors, 3, true));
   return new Points(
     points,
-    new PointsMaterial({ size: 2, sizeAttenuation: false, vertexColors: true }),
+    new PointsMaterial({ size: pixels, sizeAttenuation: false, vertexColors: true }),
   );
 }
 
-/** A trajectory, so many pixels wide, broken where a pose has no value; null without any. */
-export function trajectoryLine(
+/** A trajectory as a tube with a rim, broken where a pose has no value. */
+export interface Tube {
+  group: Group;
+  /** Makes it so many pixels wide. */
+  setWidth: (pixels: number) => void;
+}
+
+/** Null without any two poses in a row. */
+export function tube(
   positions: Numbers,
   ink: ColorRepresentation,
-  width: number,
+  rim: ColorRepresentation,
   opacity: number,
-): LineSegments2 | null {
+): Tube | null {
   const pairs: number[] = [];
   for (let i = 3; i + 2 < positions.length; i += 3) {
     const pair = Array.from(positions.subarray(i - 3, i + 3));
     if (pair.every(Number.isFinite)) pairs.push(...pair);
   }
   if (pairs.length === 0) return null;
-  const material = new LineMaterial({
-    color: ink,
-    linewidth: width,
-    transparent: true,
-    opacity,
-    depthTest: false,
-  });
-  const line = new LineSegments2(new LineSegmentsGeometry().setPositions(pairs), material);
-  line.renderOrder = 2;
-  return line;
+  const shape = new LineSegmentsGeometry().setPositions(pairs);
+  const line = (color: ColorRepresentation, order: number) => {
+    const material = new LineMaterial({ color, transparent: true, opacity, depthTest: false });
+    const part = new LineSegments2(shape, material);
+    part.renderOrder = order;
+    return part;
+  };
+  const parts = [line(rim, 1.9), line(ink, 2)] as const;
+  return {
+    group: new Group().add(...parts),
+    setWidth: (pixels) => {
+      parts[0].material.linewidth = pixels + 2;
+      parts[1].material.linewidth = pixels;
+    },
+  };
 }
 
 /** Ring that keeps its size on the screen, to find half a metre of robot in a hundred. */

@@ -5,6 +5,7 @@ import { at, h, own, section, type Child } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type CellValue, type Column } from "../table";
 import { seriesColor } from "../theme";
+import { expectationsOf, limitsOf } from "./verdict";
 
 interface Row {
   name: string;
@@ -54,6 +55,8 @@ function score(title: string, unit: string, path: string[], hint?: string): Colu
   };
 }
 
+const ateColumn = score("ATE", "m", ["ate_m"], "RMSE of position, anchored at the start");
+
 function segmentNames(data: RunPayload): string[] {
   const segments = own<unknown>(data.scores, "segments");
   return Array.isArray(segments) ? segments.map((item) => String(own(item, "name") ?? "")) : [];
@@ -71,12 +74,13 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
       ),
     ),
     score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
-    { title: "Outcome", value: (row) => outcome(data, row) },
+    ateColumn,
+    { title: "Success", value: (row) => outcome(data, row) },
   ];
   return sortableTable(list, columns, {
     caption:
-      "As tables I and II of the paper. –: no value. Bold: best of the estimators that did not diverge. " +
-      "One sequence has no intervals; a suite over several seeds has them.",
+      "M_list and M_end as tables I and II of the paper. –: no value. Bold: best of the estimators that did not " +
+      "diverge. One sequence has no intervals; a suite over several seeds has them.",
     rowName: (row) => row.name,
   });
 }
@@ -86,13 +90,13 @@ function outcome(data: RunPayload, row: Row): string {
   if (data.scenario.robot?.valid === false) return "invalid run";
   const divergedAt = at(row.scores, "diverged_at_s");
   if (isNumber(divergedAt)) return `diverged at ${formatFixed(divergedAt, 1)} s`;
-  return success(row) ? "success" : "failed";
+  return success(row) ? "yes" : "no";
 }
 
 /** Columns in which at least one estimator has a value. */
 function errorTable(list: Row[]): HTMLElement {
   const scores: Column<Row>[] = [
-    score("ATE", "m", ["ate_m"], "RMSE of position, anchored at the start"),
+    ateColumn,
     score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
     score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
     score("max z", "m", ["max_error_z_m"], "Largest height error"),
@@ -194,25 +198,17 @@ function healthTable(data: RunPayload): HTMLElement | null {
   );
 }
 
-function gateTable(data: RunPayload): HTMLElement | null {
-  const gates = own<unknown>(data.scores, "expectations");
-  if (!Array.isArray(gates) || gates.length === 0) return null;
-  const text = (row: unknown, key: string) => String(own(row, key) ?? "");
-  const limit = (row: unknown, key: string) =>
-    isNumber(own(row, key)) ? formatNumber(own(row, key)) : kNone;
-  const met = (row: unknown) => own(row, "holds");
-  return sortableTable<unknown>(
-    gates,
+function expectationTable(data: RunPayload): HTMLElement | null {
+  const all = expectationsOf(data);
+  if (all.length === 0) return null;
+  return sortableTable(
+    all,
     [
-      { title: "Estimator", value: (row) => text(row, "estimator") || "the run itself" },
-      { title: "Score", value: (row) => text(row, "score") || text(row, "metric") },
-      { title: "at least", value: (row) => numberAt(row, "min"), show: (row) => limit(row, "min") },
-      { title: "at most", value: (row) => numberAt(row, "max"), show: (row) => limit(row, "max") },
-      { title: "value", value: (row) => numberAt(row, "value") },
-      {
-        title: "met",
-        value: (row) => (met(row) === true ? "yes" : met(row) === false ? "no" : kNone),
-      },
+      { title: "Expected of", value: (row) => row.estimator || "the run itself" },
+      { title: "Score", value: (row) => row.score ?? "" },
+      { title: "Limits", value: limitsOf },
+      { title: "Value", value: (row) => row.value },
+      { title: "Holds", value: (row) => row.holds, show: (row) => (row.holds ? "yes" : "✕ no") },
     ],
     { caption: "Expectations of the scenario" },
   );
@@ -237,32 +233,37 @@ function truthLine(data: RunPayload): HTMLElement | null {
   );
 }
 
-/** Without scores, as of an estimate without a truth: the health alone, or null. */
-export function resultsSection(data: RunPayload): HTMLElement | null {
-  if (!data.scores) {
-    const health = healthTable(data);
-    return health ? section("results", "Results", health) : null;
-  }
-  const list = rows(data);
-  if (list.length === 0)
-    return section(
-      "results",
-      "Results",
-      h("p", { class: "nothing" }, "No estimator was scored."),
-      healthTable(data),
-    );
+/** What the page leads with: the paper's scores with the expectations, or the health without scores. */
+export function leadSection(data: RunPayload): HTMLElement | null {
+  const list = data.scores ? rows(data) : [];
+  const health = healthTable(data);
+  if (list.length === 0) return health ? section("results", "Results", health) : null;
   return section(
     "results",
     "Results",
-    truthLine(data),
     h(
       "div",
       { class: "tables" },
       h("div", { "data-table": "paper" }, paperTable(data, list)),
+      expectationTable(data) ?? health,
+    ),
+  );
+}
+
+/** What else was scored; null without scores. */
+export function detailSection(data: RunPayload): HTMLElement | null {
+  const list = data.scores ? rows(data) : [];
+  if (list.length === 0) return null;
+  return section(
+    "details",
+    "Details",
+    truthLine(data),
+    h(
+      "div",
+      { class: "tables" },
       h("div", { "data-table": "errors" }, errorTable(list)),
       weakTable(list),
-      healthTable(data),
-      gateTable(data),
+      expectationsOf(data).length > 0 ? healthTable(data) : null,
     ),
   );
 }

@@ -16,6 +16,8 @@ export interface State {
   /** Level at which degenerate intervals are shaded. */
   level: Level;
   coloring: Coloring;
+  /** Is the ceiling drawn? */
+  ceiling: boolean;
   errorScale: ErrorScale;
 }
 

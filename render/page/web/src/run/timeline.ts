@@ -129,7 +129,12 @@ function choices(data: RunPayload, store: Store): HTMLElement {
 }
 
 /** Dragging moves the cursor, with shift it marks where to zoom; so do two fingers, ctrl+wheel. */
-function pointer(stack: HTMLElement, store: Store, timeAt: (clientX: number) => number): void {
+function pointer(
+  stack: HTMLElement,
+  store: Store,
+  hold: (clientX: number) => void,
+  timeAt: (clientX: number) => number,
+): void {
   const down = new Map<number, number>();
   const selection = h("div", { class: "selection", hidden: true });
   stack.append(selection);
@@ -143,6 +148,7 @@ function pointer(stack: HTMLElement, store: Store, timeAt: (clientX: number) => 
   };
   stack.addEventListener("pointerdown", (event) => {
     if (event.button !== 0 || !(event.target as Element).closest(".u-over")) return;
+    if (down.size === 0) hold(event.clientX);
     down.set(event.pointerId, event.clientX);
     stack.setPointerCapture(event.pointerId);
     if (down.size === 2) {
@@ -193,6 +199,7 @@ function pointer(stack: HTMLElement, store: Store, timeAt: (clientX: number) => 
     (event) => {
       if (!(event.ctrlKey || event.shiftKey || event.metaKey)) return;
       event.preventDefault();
+      hold(event.clientX);
       const amount = event.deltaY || event.deltaX;
       store.zoomBy(
         Math.exp(Math.sign(amount) * Math.min(Math.abs(amount), 100) * 0.003),
@@ -203,23 +210,26 @@ function pointer(stack: HTMLElement, store: Store, timeAt: (clientX: number) => 
   );
 }
 
-/** The timeline, filled once it is in the document and has a width. */
+/** Strips stand in two columns where each is at least this wide [px]. */
+const kLeastColumn = 480;
+const kColumnGap = 18;
+
+/** The timeline, filled once it is in the document and has a width; `controls` move its cursor. */
 export function timeline(
   data: RunPayload,
   store: Store,
-): { element: HTMLElement; start: () => void } {
+): { controls: HTMLElement; element: HTMLElement; start: () => void } {
   const stack = h("div", {
     class: "strips",
     tabindex: 0,
     role: "group",
     "aria-label": "Timeline: arrow keys move the cursor, plus and minus zoom",
   });
-  const strips = h("div");
+  const strips = h("div", { class: "columns" });
   stack.append(strips);
   const element = h(
     "section",
     { class: "card timeline", "aria-label": "Timeline" },
-    controls(store),
     choices(data, store),
     stack,
     h("p", { class: "soft hint" }, matchMedia("(pointer: coarse)").matches ? kTouchHint : kHint),
@@ -227,16 +237,24 @@ export function timeline(
   const window = { from: store.state.from, to: store.state.to };
   const behind: Backdrop = { shaded: [], marks: [] };
   let panels: Panel[] = [];
-  const width = () => Math.max(stack.clientWidth, 160);
+  /** The strip in which a drag began: its column counts, wherever the pointer goes. */
+  let held: Panel | undefined;
+  const columns = () => (stack.clientWidth >= 2 * kLeastColumn + kColumnGap ? 2 : 1);
+  const width = () =>
+    Math.max(Math.floor((stack.clientWidth - (columns() - 1) * kColumnGap) / columns()), 160);
   const cursor = () => {
     for (const panel of panels) panel.showCursor(store.state.cursor);
   };
   const build = () => {
     for (const panel of panels) panel.destroy();
+    held = undefined;
     Object.assign(behind, backdrop(data, store.state));
     const specs = panelSpecs(data, store.state);
+    const side = columns();
+    strips.style.gridTemplateColumns = `repeat(${side}, minmax(0, 1fr))`;
     panels = specs.map(
-      (spec, i) => new Panel(spec, behind, width(), window, i === 0, i === specs.length - 1),
+      (spec, i) =>
+        new Panel(spec, behind, width(), window, i < side, i >= specs.length - side),
     );
     strips.replaceChildren(...panels.map((panel) => panel.element));
     if (panels.length === 0)
@@ -247,7 +265,14 @@ export function timeline(
     Object.assign(window, { from: store.state.from, to: store.state.to });
     for (const panel of panels) panel.showWindow();
   };
-  pointer(stack, store, (clientX) => panels[0]?.timeAt(clientX) ?? store.state.cursor);
+  pointer(
+    stack,
+    store,
+    (clientX) => {
+      held = panels.find((panel) => panel.spans(clientX)) ?? panels[0];
+    },
+    (clientX) => (held ?? panels[0])?.timeAt(clientX) ?? store.state.cursor,
+  );
   store.on(["chosen", "errorScale", "level"], build);
   store.on(["from", "to"], () => {
     redraw();
@@ -255,17 +280,20 @@ export function timeline(
   });
   store.on(["cursor"], cursor);
   onTheme(build);
-  let drawn = 0;
+  let drawn = { width: 0, columns: 0 };
   const fit = () => {
-    if (width() === drawn) return;
-    drawn = width();
-    for (const panel of panels) panel.resize(drawn);
+    const before = drawn;
+    drawn = { width: width(), columns: columns() };
+    if (drawn.columns !== before.columns) return build();
+    if (drawn.width === before.width) return;
+    for (const panel of panels) panel.resize(drawn.width);
     requestAnimationFrame(cursor);
   };
   return {
+    controls: controls(store),
     element,
     start: () => {
-      drawn = width();
+      drawn = { width: width(), columns: columns() };
       build();
       new ResizeObserver(fit).observe(stack);
     },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** The 3D view in its frame: presets, colours, legend; a picture where WebGL is missing. */
-import type { RunPayload } from "../contract";
+import type { CloudMap, RunPayload } from "../contract";
 import { h } from "../dom";
 import { formatFixed, formatNumber } from "../format";
 import { color, onTheme, seriesColor, theme } from "../theme";
@@ -83,6 +83,14 @@ function controls(data: RunPayload, store: Store, view: View3D): HTMLElement {
     { "data-control": "height-scale", onchange: () => view.setHeightScale(Number(heightScale.value)) },
     ...[1, 5, 20].map((factor) => h("option", { value: factor }, `${factor}×`)),
   );
+  const ceiling = h("input", {
+    type: "checkbox",
+    "data-control": "ceiling",
+    onchange: () => store.set({ ceiling: ceiling.checked }),
+  });
+  const roofed =
+    (data.scene?.roof_edges?.length ?? 0) > 0 ||
+    data.estimators.some(({ map }) => map && (map.below ?? map.n) < map.n);
   const maps = data.estimators.some((item) => item.map && item.map.n > 0);
   return h(
     "div",
@@ -91,7 +99,15 @@ function controls(data: RunPayload, store: Store, view: View3D): HTMLElement {
     follow,
     maps ? h("label", {}, "map colour ", coloring) : null,
     h("label", {}, "height scale ", heightScale),
+    roofed ? h("label", {}, ceiling, " ceiling") : null,
   );
+}
+
+/** How much of a map is shown, where it is not all. */
+function thinned(map: CloudMap): string {
+  if (!map.points || map.points <= map.n) return "";
+  const count = (n: number) => n.toLocaleString("en");
+  return `, ${count(map.n)} of its ${count(map.points)} points, to 1 cm`;
 }
 
 /** Ramp of the map's colours with its ends. */
@@ -99,7 +115,7 @@ function mapKey(data: RunPayload, state: Readonly<State>): HTMLElement | null {
   const map = data.estimators[state.chosen]?.map;
   if (!map || !(map.n > 0)) return null;
   const byError = state.coloring === "error" && map.error !== null;
-  const [low, high] = byError ? [0, 0.5] : heightRange(map);
+  const [low, high] = byError ? [0, 0.5] : heightRange(map, state.ceiling);
   const bar = h("i", { class: "ramp" });
   bar.style.background = rampGradient(ramp(byError ? "error" : "height", theme() === "dark"));
   return h(
@@ -110,6 +126,7 @@ function mapKey(data: RunPayload, state: Readonly<State>): HTMLElement | null {
     formatFixed(low, 2),
     bar,
     `${formatFixed(high, 2)}${byError ? "+" : ""} m`,
+    thinned(map),
   );
 }
 
@@ -128,6 +145,7 @@ function legend(data: RunPayload, state: Readonly<State>, scale: number): HTMLEl
     data.truth ? inkKey("truth", color("--truth")) : null,
     chosen ? inkKey(chosen.name, seriesColor(chosen.colour_index)) : null,
     data.localizability?.weak_axis ? inkKey("weak axis", color("--weak")) : null,
+    data.scene?.people?.length ? inkKey("people", color("--person"), "dot") : null,
     covariance && chosen
       ? inkKey(
           `3σ ellipsoid${scale > 1 ? `, drawn ${scale}×` : ""}`,
@@ -191,7 +209,7 @@ export function viewCard(
   showKey();
   element.append(controls(data, store, view), frame, key, words);
   store.on(["cursor"], () => view.update(store.state, false));
-  store.on(["chosen", "coloring"], () => {
+  store.on(["chosen", "coloring", "ceiling"], () => {
     view.update(store.state, true);
     showKey();
   });

@@ -23,9 +23,12 @@ import {
   ellipsoidMatrix,
   extend,
   robot,
+  person,
+  personAt,
   sceneParts,
-  trajectoryLine,
+  tube,
   type Bounds,
+  type Tube,
 } from "./parts3d";
 import { indexAt, quaternionAt, vectorAt } from "./series";
 import type { State } from "./store";
@@ -55,19 +58,32 @@ function dispose(object: Object3D): void {
   object.removeFromParent();
 }
 
-/** What the presets show: truth and scene; estimates only without these, since diverged ones run far. */
+/** Of the scene no more is shown at first than lies so near to the walked path [m]. */
+const kAround = 12;
+
+/** What the presets show: the truth and the scene around it; estimates only without these, since diverged ones run far. */
 function extent(data: RunPayload): Bounds {
-  const bounds: Bounds = {
+  const empty = (): Bounds => ({
     min: new Vector3(Infinity, Infinity, Infinity),
     max: new Vector3(-Infinity, -Infinity, -Infinity),
+  });
+  const scene = empty();
+  extend(scene, data.scene?.edges);
+  const path = empty();
+  extend(path, data.truth?.p);
+  if (path.min.x > path.max.x && scene.min.x > scene.max.x)
+    for (const item of data.estimators) extend(path, item.series?.p);
+  if (path.min.x > path.max.x) {
+    return scene.min.x <= scene.max.x
+      ? scene
+      : { min: new Vector3(-1, -1, 0), max: new Vector3(1, 1, 1) };
+  }
+  if (scene.min.x > scene.max.x) return path;
+  const around = new Vector3(kAround, kAround, kAround);
+  return {
+    min: scene.min.clone().max(path.min.clone().sub(around)).min(path.min),
+    max: scene.max.clone().min(path.max.clone().add(around)).max(path.max),
   };
-  extend(bounds, data.scene?.edges);
-  extend(bounds, data.truth?.p);
-  if (bounds.min.x > bounds.max.x)
-    for (const item of data.estimators) extend(bounds, item.series?.p);
-  if (bounds.min.x > bounds.max.x)
-    return { min: new Vector3(-1, -1, 0), max: new Vector3(1, 1, 1) };
-  return bounds;
 }
 
 /** Power of ten that makes the largest last ellipsoid visible beside the robot. */
@@ -95,7 +111,9 @@ export class View3D {
     estimate: ReturnType<typeof robot>;
     axis: Group;
     cloud: Group;
+    people: Group[];
   } | null = null;
+  private tubes: { tube: Tube; pixels: number; radius: number }[] = [];
   private preset: Preset = "orbit";
   private pending = false;
   /** How much larger than three sigma the ellipsoid is drawn. */
@@ -125,7 +143,7 @@ export class View3D {
   private build(): void {
     for (const child of [...this.world.children]) dispose(child);
     this.stage.background = new Color(color("--scene"));
-    if (this.data.scene) this.world.add(sceneParts(this.data.scene, color("--wire")));
+    if (this.data.scene) this.world.add(sceneParts(this.data.scene, color("--wire"), this.state.ceiling));
     this.addCloud();
     this.addTrajectories();
     const ink = seriesColor(this.data.estimators[this.state.chosen]?.colour_index ?? 0);
@@ -134,12 +152,14 @@ export class View3D {
       estimate: robot(ink),
       axis: axisArrow(color("--weak")),
       cloud: ellipsoid(ink),
+      people: (this.data.scene?.people ?? []).map((each) => person(each, color("--person"))),
     };
     this.world.add(
       this.moving.truth.group,
       this.moving.estimate.group,
       this.moving.axis,
       this.moving.cloud,
+      ...this.moving.people,
     );
     this.move();
   }
@@ -148,28 +168,32 @@ export class View3D {
     const map = this.data.estimators[this.state.chosen]?.map;
     if (!map || !(map.n > 0)) return;
     const coloring = this.state.coloring === "error" && map.error ? "error" : "height";
-    this.world.add(new Group().add(cloud(map, coloring, theme() === "dark")));
+    this.world.add(new Group().add(cloud(map, coloring, theme() === "dark", this.state.ceiling)));
   }
 
   /** The chosen one and the truth are thick, and drawn last. */
   private addTrajectories(): void {
     const { estimators, truth } = this.data;
+    this.tubes = [];
     const add = (
       positions: Float32Array | null | undefined,
       ink: string,
-      width: number,
+      pixels: number,
+      radius: number,
       opacity: number,
     ) => {
-      const line = positions ? trajectoryLine(positions, ink, width, opacity) : null;
-      if (line) this.world.add(line);
+      const made = positions ? tube(positions, ink, color("--scene"), opacity) : null;
+      if (!made) return;
+      this.world.add(made.group);
+      this.tubes.push({ tube: made, pixels, radius });
     };
     estimators.forEach((item, index) => {
       if (index !== this.state.chosen)
-        add(item.series?.p, seriesColor(item.colour_index), 1.25, 0.7);
+        add(item.series?.p, seriesColor(item.colour_index), 1.5, 0.01, 0.6);
     });
     const chosen = estimators[this.state.chosen];
-    add(chosen?.series?.p, seriesColor(chosen?.colour_index ?? 0), 3, 1);
-    add(truth?.p, color("--truth"), 1.5, 1);
+    add(chosen?.series?.p, seriesColor(chosen?.colour_index ?? 0), 4, 0.03, 1);
+    add(truth?.p, color("--truth"), 2, 0.015, 1);
   }
 
   /** Puts what stands at the cursor in its place. */
@@ -198,6 +222,10 @@ export class View3D {
         : null;
     shape.visible = matrix !== null;
     if (matrix) shape.matrix.copy(matrix);
+    const simulated = seconds + (this.data.t0_s ?? 0);
+    this.data.scene?.people?.forEach((each, i) => {
+      this.moving!.people[i]?.position.set(...personAt(each, simulated), 0);
+    });
     const target = here ?? there;
     if (target) this.rig.track(target);
     this.draw();
@@ -278,5 +306,7 @@ export class View3D {
       sprite.visible = 30 * metres > 0.6;
     }
     this.moving.axis.scale.setScalar(Math.max(1, 34 * metres));
+    for (const { tube: each, pixels, radius } of this.tubes)
+      each.setWidth(Math.min(Math.max(pixels, (2 * radius) / metres), 8 * pixels));
   }
 }

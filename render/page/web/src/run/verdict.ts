@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** What came of the run, in sentences: validity, expectations, successes. */
+import type { RunPayload } from "../contract";
+import { at, h, own } from "../dom";
+import { formatFixed, formatNumber, isNumber } from "../format";
+
+export type Mood = "good" | "bad" | "plain";
+
+export interface Sentence {
+  mood: Mood;
+  lead: string;
+  rest: string;
+}
+
+/** An expectation of scores.json. */
+export interface Expectation {
+  estimator?: string;
+  score?: string;
+  min?: number | null;
+  max?: number | null;
+  value?: number | null;
+  holds?: boolean;
+}
+
+export function expectationsOf(data: RunPayload): Expectation[] {
+  const list = own<unknown>(data.scores, "expectations");
+  return Array.isArray(list) ? list : [];
+}
+
+/** Limits of an expectation: "at least 1, at most 2". */
+export function limitsOf({ min, max }: Expectation): string {
+  return [
+    isNumber(min) ? `at least ${formatNumber(min)}` : "",
+    isNumber(max) ? `at most ${formatNumber(max)}` : "",
+  ]
+    .filter((part) => part !== "")
+    .join(", ");
+}
+
+function robotSentence(data: RunPayload): Sentence | null {
+  const robot = data.scenario.robot;
+  if (robot?.valid === false) {
+    return {
+      mood: "bad",
+      lead: `Invalid run: ${robot.invalid_reason ?? "its robot did not finish"}.`,
+      rest: "No estimator counts as a success on it, and its scores enter no statistics.",
+    };
+  }
+  if (data.scenario.complete === false)
+    return { mood: "bad", lead: "Interrupted:", rest: "the run did not reach its end." };
+  return null;
+}
+
+function expectationSentence(data: RunPayload): Sentence | null {
+  const all = expectationsOf(data);
+  if (all.length === 0) return null;
+  const missed = all.filter((each) => each.holds !== true);
+  if (missed.length === 0)
+    return { mood: "good", lead: `All ${all.length} expectations hold.`, rest: "" };
+  const text = missed.map(
+    (each) =>
+      `${each.estimator || "the run"} ${each.score ?? ""} is ${formatNumber(each.value)}, ` +
+      `expected ${limitsOf(each)}`,
+  );
+  return {
+    mood: "bad",
+    lead: `${missed.length} of ${all.length} expectations do not hold:`,
+    rest: `${text.join("; ")}.`,
+  };
+}
+
+function successSentence(data: RunPayload): Sentence | null {
+  const scores = Object.entries(own<object>(data.scores, "estimators") ?? {});
+  if (scores.length === 0) return null;
+  const failed = scores.filter(([, own]) => at(own, "success") !== true);
+  const reasons = failed.map(([name, own]) => {
+    const divergedAt = at(own, "diverged_at_s");
+    return isNumber(divergedAt) ? `${name} diverged at ${formatFixed(divergedAt, 0)} s` : `${name} failed`;
+  });
+  return {
+    mood: failed.length === 0 ? "good" : "plain",
+    lead: `${scores.length - failed.length} of ${scores.length} estimators succeeded.`,
+    rest: failed.length > 0 ? `${reasons.join(", ")}.` : "",
+  };
+}
+
+/** What is said of a run, the gravest first. */
+export function verdict(data: RunPayload): Sentence[] {
+  const robot = robotSentence(data);
+  const successes = data.scenario.robot?.valid === false ? null : successSentence(data);
+  const found = [robot, expectationSentence(data), successes].filter((each) => each !== null);
+  if (successes && expectationsOf(data).length === 0)
+    found.push({ mood: "plain", lead: "", rest: "The scenario states no expectations of these estimators." });
+  if (found.length > 0) return found;
+  return [
+    {
+      mood: "plain",
+      lead: data.truth ? "No estimator was scored." : "No truth:",
+      rest: data.truth ? "" : "errors are unknown; the health is what each estimator reports of itself.",
+    },
+  ];
+}
+
+/** The sentences in a box that is red for what failed. */
+export function verdictBox(data: RunPayload): HTMLElement {
+  const sentences = verdict(data);
+  const mood = (["bad", "good", "plain"] as const).find((each) =>
+    sentences.some((sentence) => sentence.mood === each),
+  );
+  return h(
+    "div",
+    { class: `verdict ${mood}`, "data-verdict": mood, role: mood === "bad" ? "alert" : "status" },
+    ...sentences.map(({ mood: own, lead, rest }) =>
+      h("p", {}, lead ? h("strong", { class: own }, `${lead} `) : null, rest),
+    ),
+  );
+}
