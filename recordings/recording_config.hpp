@@ -64,7 +64,7 @@ struct RecordingConfig {
       20.0;  ///< smallest value of a foot in contact [N or the message's unit]
   std::vector<std::string> foot_names;   ///< of the array's entries, e.g. [FR, FL, RR, RL]
   std::vector<std::string> joint_names;  ///< of the 12 joints, leg by leg; empty: detected
-  /// Of the robot; by default that of the simulated one.
+  /// Of the robot; by default what a simulated recording states, else that of the default robot.
   LegGeometry leg_geometry{0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
   FootModel foot_model = FootModel::kPoint;  ///< for legs without odometry
 };

@@ -10,8 +10,6 @@
 #include "sim/environment/ray_caster.hpp"
 #include "sim/environment/scene_mjcf.hpp"
 #include "sim/links/arrivals.hpp"
-#include "sim/robot/quadruped_model.hpp"
-#include "sim/robot/robot_geometry.hpp"
 #include "sim/robot/route_check.hpp"
 #include "sim/robot/scene_route.hpp"
 #include "sim/robot/walk_monitor.hpp"
@@ -25,12 +23,20 @@ constexpr Duration kSnapshotPeriod = 100 * kMillisecond;
 
 Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene,
                                std::uint64_t seed) {
-  auto mjcf = scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics,
+  const RobotConfig& robot = config.robot;
+  const auto model = robot_model(robot.model);
+  if (!model) return tl::unexpected(model.error());
+  auto mjcf = scene_mjcf(scene, model->mjcf, MjcfPurpose::kPhysics,
                          {.floor_friction = config.scene.floor_friction});
   if (!mjcf) return tl::unexpected(mjcf.error());
-  return WorldSetup{std::move(*mjcf), height_field_data(scene.floor), config.physics.timestep,
+  return WorldSetup{std::move(*mjcf),
+                    height_field_data(scene.floor),
+                    config.physics.timestep,
                     config.scene.floor_friction,
-                    built_legs(config.leg_odometry.link_length_error, seed)};
+                    built_legs(robot.legs, config.leg_odometry.link_length_error, seed),
+                    robot.legs,
+                    robot.gait.body_height,
+                    robot.gait.stance_width};
 }
 
 /// The second output of the IMU: the same random draws give the same turn-on biases and scales.
@@ -42,16 +48,10 @@ std::optional<Imu> second_output(const SimulationConfig& config, Duration timest
   return Imu(fast, timestep, seed);
 }
 
-/// Where the model has the IMU and the LiDAR.
-Mounts nominal_mounts(const World& world) {
-  const Pose T_base_body = world.T_base_site("imu");
-  return {T_base_body, T_base_body.inverse() * world.T_base_site("lidar")};
-}
-
 /// What the estimators are told of the robot: no drawn error is part of it.
-SensorRig nominal_rig(const World& world, const SimulationConfig& config) {
-  const Mounts mounts = nominal_mounts(world);
-  return {mounts.T_body_lidar, mounts.T_base_body.inverse(), kRobotGeometry, config.imu.rate,
+SensorRig nominal_rig(const SimulationConfig& config) {
+  const Mounts mounts = nominal_mounts(config.robot.mounts);
+  return {mounts.T_body_lidar, mounts.T_base_body.inverse(), config.robot.legs, config.imu.rate,
           config.leg_odometry.rate};
 }
 
@@ -83,7 +83,8 @@ std::vector<WaypointTime> waypoint_times_since(const RouteFollower& route, Time 
 
 /// Error when the route cannot be walked, or the robot would start in contact with a solid.
 Result<void> check_route(const SimulationConfig& config, const Scene& scene, const World& world) {
-  auto walkable = check_walkable(config.route, scene, config.robot.gait.body_height);
+  auto walkable =
+      check_walkable(config.route, scene, {config.robot.gait.body_height, config.robot.half_width});
   if (!walkable) return walkable;
   if (world.robot_inside_solid()) {
     return failure("route.points.0: the robot would start inside a wall or object of the scene");
@@ -137,12 +138,12 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene buil
       lidar(config.lidar, caster, seed),
       imu(config.imu, walker.world().timestep(), seed),
       fast_imu(second_output(config, walker.world().timestep(), seed)),
-      legs(config.leg_odometry, walker.world().timestep(), seed),
+      legs(config.leg_odometry, config.robot.legs, walker.world().timestep(), seed),
       imu_link(config.links.imu, seed, "imu"),
       leg_link(config.links.leg_odometry, seed, "leg_odometry"),
       lidar_link(config.links.lidar, seed, "lidar"),
-      rig(nominal_rig(walker.world(), config)) {
-  truth.mounts = true_mounts(nominal_mounts(walker.world()), config.calibration, seed);
+      rig(nominal_rig(config)) {
+  truth.mounts = true_mounts(nominal_mounts(config.robot.mounts), config.calibration, seed);
   record();
 }
 

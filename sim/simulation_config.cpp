@@ -21,18 +21,6 @@ void describe(Fields& f, PhysicsConfig& c) {
             .source = "2.5 ms divides the periods of 50 Hz and 200 Hz, 2 ms does not"});
 }
 
-void describe(Fields& f, RobotConfig& c) {
-  f.number("start_position_sigma", c.start_position_sigma,
-           {.unit = "m",
-            .range = in_range(0.0, 0.05),
-            .meaning = "Standard deviation per axis of the start position about the first point."});
-  f.number("start_heading_sigma", c.start_heading_sigma,
-           {.unit = "rad",
-            .range = in_range(0.0, 0.1),
-            .meaning = "Standard deviation of the heading at the start."});
-  f.group("gait", c.gait);
-}
-
 void describe(Fields& f, LinksConfig& c) {
   f.group("imu", c.imu);
   f.group("leg_odometry", c.leg_odometry);

@@ -4,9 +4,9 @@
 #include "core/config.hpp"
 #include "sim/environment/scene_config.hpp"
 #include "sim/links/link.hpp"
-#include "sim/robot/gait.hpp"
 #include "sim/robot/mounts.hpp"
 #include "sim/robot/push.hpp"
+#include "sim/robot/robot_config.hpp"
 #include "sim/robot/route.hpp"
 #include "sim/sensors/imu.hpp"
 #include "sim/sensors/leg_odometry.hpp"
@@ -19,14 +19,6 @@ struct PhysicsConfig {
   double timestep = 0.0025;  ///< [s]
 };
 void describe(Fields& f, PhysicsConfig& c);
-
-/// The robot, apart from its sensors.
-struct RobotConfig {
-  GaitConfig gait;
-  double start_position_sigma = 0.02;  ///< of the start about the first point, per axis [m]
-  double start_heading_sigma = 0.02;   ///< of the heading at the start [rad]
-};
-void describe(Fields& f, RobotConfig& c);
 
 /// Links of the three sensors. By default only leg odometry loses packets.
 struct LinksConfig {

@@ -137,16 +137,17 @@ void add_json(Command& command, bool& json) {
 void print_json(const Json& json) { print_out("{}\n", json_text(json, 2)); }
 
 Json list_json(const std::filesystem::path& folder, std::span<const ScenarioFile> files) {
-  Json json = {{"schema", "aims.list/1"},
-               {"folder", folder.string()},
-               {"scenarios", Json::array()},
-               {"families", Json::array()},
-               {"lidars", Json::array()},
+  Json json = {{"schema", "aims.list/1"},    {"folder", folder.string()},
+               {"scenarios", Json::array()}, {"families", Json::array()},
+               {"robots", Json::array()},    {"lidars", Json::array()},
                {"estimators", Json::array()}};
   for (const ScenarioFile& each : files) json["scenarios"].push_back(scenario_json(each));
   for (const Family& each : families_of(files)) {
     json["families"].push_back(
         {{"name", each.name}, {"level_unit", each.level_unit}, {"scenarios", each.cases}});
+  }
+  for (const CatalogueEntry& each : robot_catalogue()) {
+    json["robots"].push_back({{"name", each.name}, {"description", each.description}});
   }
   for (const CatalogueEntry& each : lidar_catalogue()) {
     json["lidars"].push_back({{"name", each.name}, {"description", each.description}});

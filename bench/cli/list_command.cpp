@@ -35,6 +35,8 @@ int list_command(const SharedOptions& shared, bool json) {
     print_out("  {:<16} [{}], {} scenarios: {}\n", family.name, family.level_unit,
               family.cases.size(), fmt::join(family.cases, ", "));
   }
+  print_out("Robots, for robot.model:\n");
+  for (const CatalogueEntry& entry : robot_catalogue()) print_entry(entry);
   print_out("LiDAR models, for lidar.model:\n");
   for (const CatalogueEntry& entry : lidar_catalogue()) print_entry(entry);
   print_out("Estimators:\n");

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/run/lidar_sheet.hpp"
+#include "bench/run/robot_sheet.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
@@ -108,6 +109,18 @@ std::vector<Family> families_of(std::span<const ScenarioFile> files) {
     families.push_back(std::move(family));
   }
   return families;
+}
+
+std::vector<CatalogueEntry> robot_catalogue() {
+  std::vector<CatalogueEntry> entries;
+  for (const RobotModel& model : robot_models()) {
+    SimulationConfig config;
+    const auto sheet = apply_robot_model(model.name, SensorLevel::kIdeal, config);
+    entries.push_back({std::string(model.name),
+                       sheet ? robot_summary(*sheet, config) : sheet.error().message,
+                       {}});
+  }
+  return entries;
 }
 
 std::vector<CatalogueEntry> lidar_catalogue() {

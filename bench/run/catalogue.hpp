@@ -52,6 +52,9 @@ std::vector<CatalogueEntry> scenario_catalogue(std::span<const ScenarioFile> fil
 /// The families of those scenarios, by name.
 std::vector<Family> families_of(std::span<const ScenarioFile> files);
 
+/// Every robot, with its mass and legs.
+std::vector<CatalogueEntry> robot_catalogue();
+
 /// Every LiDAR model, with what it fires.
 std::vector<CatalogueEntry> lidar_catalogue();
 

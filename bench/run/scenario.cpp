@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bench/run/lidar_sheet.hpp"
+#include "bench/run/robot_sheet.hpp"
 #include "bench/run/score_keys.hpp"
 #include "core/file_name.hpp"
 #include "core/files/config_dump.hpp"
@@ -102,6 +103,9 @@ Result<void> apply_presets(const Scenario& chosen, Scenario& scenario) {
   const auto sheet =
       apply_lidar_model(chosen.simulation.lidar.model, chosen.sensors, scenario.simulation.lidar);
   if (!sheet) return tl::unexpected(sheet.error());
+  const auto robot =
+      apply_robot_model(chosen.simulation.robot.model, chosen.sensors, scenario.simulation);
+  if (!robot) return tl::unexpected(robot.error());
   return {};
 }
 

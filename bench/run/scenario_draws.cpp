@@ -172,10 +172,11 @@ Result<void> check_draws(const Scenario& scenario) {
     if (parameter == nullptr) {
       return failure(fmt::format("{}.key: {}", name, unknown_key_message(fields, draw.key)));
     }
-    if (draw.key == "lidar.model") {
-      return failure(name +
-                     ".key: 'lidar.model' chooses figures below the scenario's own keys and cannot "
-                     "be drawn; expected one scenario per model");
+    if (draw.key == "lidar.model" || draw.key == "robot.model") {
+      return failure(
+          fmt::format("{}.key: '{}' chooses figures below the scenario's own keys and cannot be "
+                      "drawn; expected one scenario per model",
+                      name, draw.key));
     }
     if (always.contains(draw.key)) {
       return failure(

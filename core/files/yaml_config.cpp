@@ -88,6 +88,19 @@ Result<void> set_list(const ListField& list, const std::string& setting, const s
   });
 }
 
+/// The dotted group `group` of a map within maps that hold nothing else; an empty map without it.
+YAML::Node group_alone(const YAML::Node& map, const std::string& group) {
+  YAML::Node alone(YAML::NodeType::Map);
+  if (!map.IsMap()) return alone;
+  const std::size_t dot = group.find('.');
+  for (const auto& entry : map) {
+    if (!entry.first.IsScalar() || entry.first.Scalar() != group.substr(0, dot)) continue;
+    alone[entry.first] =
+        dot == std::string::npos ? entry.second : group_alone(entry.second, group.substr(dot + 1));
+  }
+  return alone;
+}
+
 /// The list that a setting "list=[...]" replaces, or nullptr.
 const ListField* named_list(const std::string& setting, const Fields& fields) {
   const std::string key = setting.substr(0, setting.find('='));
@@ -138,11 +151,7 @@ Result<void> load_group_text(std::string_view text, const std::string& name,
   return reported(name, [&]() -> Result<void> {
     const auto document = parse_document(std::string(text), name);
     if (!document) return tl::unexpected(document.error());
-    YAML::Node alone(YAML::NodeType::Map);
-    for (const auto& entry : *document) {
-      if (entry.first.IsScalar() && entry.first.Scalar() == group)
-        alone[entry.first] = entry.second;
-    }
+    const YAML::Node alone = group_alone(*document, group);
     return YamlAssigner({name}, {collect, nullptr, {}}).assign_map(alone, "");
   });
 }

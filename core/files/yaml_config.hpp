@@ -35,7 +35,8 @@ Result<void> load_config(const std::filesystem::path& file, const CollectFields&
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect);
 
-/// As `load_config_text` of the group `group` of the text alone, whatever stands outside of it.
+/// As `load_config_text` of the group `group` ("a" or "a.b") of the text alone, whatever stands
+/// outside of it.
 Result<void> load_group_text(std::string_view text, const std::string& name,
                              const std::string& group, const CollectFields& collect);
 

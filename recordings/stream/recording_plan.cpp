@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "recordings/stream/recorded_legs.hpp"
 #include "recordings/stream/recording_survey.hpp"
 #include "recordings/topics/connection_decoders.hpp"
 #include "recordings/topics/topic_choice.hpp"
@@ -78,11 +79,24 @@ void survey_loads(MessageSource& bag, const std::string& topic, RecordingSurvey&
   }
 }
 
+/// The configuration with the legs that a simulated recording states, unless it names its own.
+RecordingConfig with_recorded_legs(const RecordingConfig& given, MessageSource& bag,
+                                   std::vector<std::string>& notes) {
+  RecordingConfig config = given;
+  if (given.leg_geometry != RecordingConfig().leg_geometry) return config;
+  const auto legs = recorded_legs(bag);
+  if (!legs || *legs == given.leg_geometry) return config;
+  config.leg_geometry = *legs;
+  notes.push_back("leg geometry: as the recording's scenario states it (robot.legs)");
+  return config;
+}
+
 }  // namespace
 
-Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& config,
+Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& given,
                                      const TopicsConfig& topics, const RecordingChannels& channels,
                                      std::vector<std::string> notes) {
+  const RecordingConfig config = with_recorded_legs(given, bag, notes);
   RecordingSurvey survey(config, topics);
   if (auto ok = survey_transforms(bag, "/tf_static", true, survey); !ok) {
     return tl::unexpected(ok.error());

@@ -17,7 +17,7 @@
 #include "render/scene/scene_edges.hpp"
 #include "render/scene/scene_view.hpp"
 #include "sim/environment/scene_mjcf.hpp"
-#include "sim/robot/quadruped_model.hpp"
+#include "sim/robot/robot_config.hpp"
 
 namespace aims {
 namespace {
@@ -131,8 +131,9 @@ Result<void> Film::Impl::show_scene(Time stamp) {
   Scene scene = bare(sequence.scene);
   scene.people = sequence.scene.people;
   const MjcfOptions options{.image_width = config.width, .image_height = config.height};
-  const auto mjcf =
-      scene_mjcf(scene_at(scene, stamp), quadruped_mjcf(), MjcfPurpose::kRender, options);
+  const auto robot = robot_model(sequence.robot);
+  if (!robot) return tl::unexpected(robot.error());
+  const auto mjcf = scene_mjcf(scene_at(scene, stamp), robot->mjcf, MjcfPurpose::kRender, options);
   if (!mjcf) return tl::unexpected(mjcf.error());
   const ViewConfig how{.width = config.width, .height = config.height, .sky = kGround};
   auto made = SceneView::create(*mjcf, height_field_data(scene.floor), how);

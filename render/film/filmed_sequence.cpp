@@ -24,6 +24,7 @@ FilmedSequence sequence_of(const Scenario& scenario, const Simulation& simulatio
                            const std::vector<TimedEstimator>& estimators) {
   FilmedSequence sequence;
   sequence.scenario = scenario.name;
+  sequence.robot = scenario.simulation.robot.model;
   sequence.scene = simulation.scene();
   const Trajectory truth = body_trajectory(simulation.truth());
   sequence.truth = thinned(truth, kDrawnSpacing);

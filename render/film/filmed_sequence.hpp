@@ -12,6 +12,7 @@
 #include "render/film/map_growth.hpp"
 #include "render/plots/trajectory_plot.hpp"
 #include "sim/environment/scene.hpp"
+#include "sim/robot/robot_config.hpp"
 #include "sim/robot/truth.hpp"
 
 namespace aims {
@@ -20,7 +21,8 @@ namespace aims {
 struct FilmedSequence {
   std::string scenario;
   std::uint64_t seed = 0;
-  bool complete = true;  ///< false when the observer ended it early
+  bool complete = true;                     ///< false when the observer ended it early
+  std::string robot = RobotConfig().model;  ///< of models/
   Scene scene;
   Trajectory truth;                      ///< T_world_body, at 10 Hz
   std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz; none when the sequence comes from files

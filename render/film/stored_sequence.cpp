@@ -67,6 +67,7 @@ Result<FilmedSequence> stored_sequence(const fs::path& folder, const std::string
   if (!scenario) return tl::unexpected(scenario.error());
   FilmedSequence sequence;
   sequence.scenario = scenario->name;
+  sequence.robot = scenario->simulation.robot.model;
   sequence.seed = static_cast<std::uint64_t>(scenario->seed);
   sequence.scene = build_scene(scenario->simulation.scene, sequence.seed);
   auto truth = read_tum(folder / "truth.tum");

@@ -63,6 +63,16 @@ std::string name_of(const RunFolder& run) {
   return bag.is_string() ? fs::path(bag.get<std::string>()).stem().string() : "run";
 }
 
+/// What the 3D view draws of the robot [m]; `trunk`: its centre in body axes, the IMU's.
+Json body_json(const RobotConfig& robot) {
+  const Mounts mounts = nominal_mounts(robot.mounts);
+  const Eigen::Vector3d trunk = mounts.T_base_body.inverse().translation;
+  return {{"trunk", {trunk.x(), trunk.y(), trunk.z()}},
+          {"hip_x", robot.legs.hip_x},
+          {"leg_y", robot.legs.hip_y + robot.legs.abduction},
+          {"height", robot.gait.body_height}};
+}
+
 Json scenario_json(const RunFolder& run) {
   const bool recorded = run.estimate.is_object();
   const Json& record = recorded ? run.estimate : run.scores;
@@ -71,7 +81,8 @@ Json scenario_json(const RunFolder& run) {
           {"seed", recorded || is_foreign(run) ? Json() : member(run.scores, "seed")},
           {"simulated_s", member(record, recorded ? "recorded_s" : "simulated_s")},
           {"complete", member(record, "complete")},
-          {"robot", member(run.scores, "robot")}};
+          {"robot", member(run.scores, "robot")},
+          {"body", run.scenario ? body_json(run.scenario->simulation.robot) : Json()}};
 }
 
 Json changes_json(const RunFolder& run) {

@@ -19,7 +19,7 @@
 #include "render/results/estimator_pictures.hpp"
 #include "render/scene/robot_pictures.hpp"
 #include "sim/environment/scene_config.hpp"
-#include "sim/robot/quadruped_model.hpp"
+#include "sim/robot/robot_config.hpp"
 
 namespace aims {
 namespace {
@@ -113,8 +113,10 @@ Result<void> draw_maps(const DrawnRun& run, const std::vector<std::string>& name
 }
 
 Result<void> draw_robot(const DrawnRun& run, const fs::path& folder) {
+  const auto robot = robot_model(run.scenario.simulation.robot.model);
+  if (!robot) return tl::unexpected(robot.error());
   const auto drawn =
-      write_robot_pictures(folder, run.scenario.name, run.scene, quadruped_mjcf(), run.snapshots);
+      write_robot_pictures(folder, run.scenario.name, run.scene, robot->mjcf, run.snapshots);
   if (!drawn) return tl::unexpected(drawn.error());
   return {};
 }

@@ -73,9 +73,12 @@ std::array<double, 3> view_headings(const std::vector<RobotSnapshot>& snapshots,
 
 Camera robot_camera(const Scene& scene, const std::vector<double>& qpos, double heading) {
   constexpr double kElevation = -14.0;
+  constexpr double kUsualHeight = 0.35;  ///< of a trunk over the floor; a higher one needs room [m]
   const double heading_deg = heading * 180.0 / std::numbers::pi;
   const Eigen::Vector3d target = position_of(qpos) + Eigen::Vector3d(0.0, 0.0, 0.03);
-  for (const double distance : {1.4, 1.1, 0.8}) {
+  const double over_floor = target.z() - floor_height(scene.floor, target.x(), target.y());
+  const double size = std::max(1.0, over_floor / kUsualHeight);
+  for (const double distance : {1.4 * size, 1.1 * size, 0.8 * size}) {
     for (const double turn : {0.0, 180.0}) {
       for (const double aside : {25.0, -25.0, 15.0, -15.0, 0.0}) {
         const Camera camera{target, distance, heading_deg + turn + aside, kElevation};
@@ -83,7 +86,7 @@ Camera robot_camera(const Scene& scene, const std::vector<double>& qpos, double 
       }
     }
   }
-  return {target, 0.8, heading_deg, kElevation};
+  return {target, 0.8 * size, heading_deg, kElevation};
 }
 
 std::vector<std::size_t> notable_snapshots(const std::vector<RobotSnapshot>& snapshots) {

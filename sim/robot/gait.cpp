@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/robot/robot_geometry.hpp"
-
 namespace aims {
 namespace {
 
 constexpr double kGravity = 9.81;            ///< [m/s^2]
-constexpr double kSwingStiffness = 80.0;     ///< [N m/rad]
-constexpr double kSwingDamping = 2.0;        ///< [N m s/rad]
 constexpr double kTouchdownDepth = 0.01;     ///< aim below the ground [m]
 constexpr double kTouchdownFeedback = 0.06;  ///< foot placement by velocity error [s]
 constexpr double kLatchProgress = 0.6;       ///< fraction of the swing after which contact ends it
-constexpr double kContactLoad = 15.0;        ///< [N]
 constexpr double kGroundFilter = 0.1;        ///< time constant [s]
 constexpr double kHeldTolerance = 0.02;      ///< of the feet about the place held [m]
 constexpr double kVelocityIntegralLimit = 0.25;  ///< [m/s]
@@ -55,7 +50,7 @@ struct GaitController::View {
         velocity(state.velocity),
         turning(R_world_base * state.angular_velocity) {
     for (int leg = 0; leg < kLegCount; ++leg) {
-      feet[leg] = state.T_world_base * foot_in_base(leg, joints_of(state.q, leg), kRobotGeometry);
+      feet[leg] = state.T_world_base * foot_in_base(leg, joints_of(state.q, leg), body.legs);
     }
   }
 
@@ -65,7 +60,7 @@ struct GaitController::View {
 };
 
 GaitController::GaitController(const GaitConfig& config, const BodyModel& body, double timestep)
-    : config_(config), body_(body), dt_(timestep) {
+    : config_(config), body_(body), dt_(timestep), hold_feet_(config.hold) {
   stands_.fill(true);
 }
 
@@ -154,7 +149,7 @@ void GaitController::schedule_feet(const RobotState& state, const View& now) {
       continue;
     }
     if (stands_[leg] && !latched_[leg]) liftoff_[leg] = now.feet[leg];
-    const bool touches = state.foot_load[leg] > kContactLoad;
+    const bool touches = state.foot_load[leg] > config_.contact_load;
     latched_[leg] = latched_[leg] || (progress > kLatchProgress && touches);
     stands_[leg] = latched_[leg];
   }
@@ -199,7 +194,7 @@ Eigen::Vector3d GaitController::touchdown(int leg, const View& now) const {
   const double time_left =
       (1.0 - swing_progress(leg)) * (1.0 - config_.duty_factor) * config_.period;
   const double stance_time = config_.duty_factor * config_.period;
-  Eigen::Vector3d under_hip = hip_in_base(leg, kRobotGeometry);
+  Eigen::Vector3d under_hip = hip_in_base(leg, body_.legs);
   under_hip.y() += side_of(leg) * config_.stance_width;
   const double yaw_then = now.yaw + now.turning.z() * time_left;
   const Eigen::Vector3d hip = yaw_rotation(yaw_then) * under_hip;
@@ -208,7 +203,7 @@ Eigen::Vector3d GaitController::touchdown(int leg, const View& now) const {
   const Eigen::Vector3d error = now.velocity - desired_velocity(now);
   Eigen::Vector3d foot = now.position + hip + now.velocity * time_left +
                          0.5 * stance_time * hip_velocity + kTouchdownFeedback * error;
-  foot.z() = ground_ + kRobotGeometry.foot_radius - kTouchdownDepth;
+  foot.z() = ground_ + body_.legs.foot_radius - kTouchdownDepth;
   return foot;
 }
 
@@ -221,7 +216,7 @@ Eigen::Vector3d GaitController::swing_torques(int leg, const RobotState& state,
   Eigen::Vector3d goal = from + blend(s) * (to - from);
   Eigen::Vector3d goal_velocity = blend_rate(s) / swing_time * (to - from);
   // Height: up to the apex in the first half, down in the second.
-  const double apex = ground_ + kRobotGeometry.foot_radius + config_.swing_height;
+  const double apex = ground_ + body_.legs.foot_radius + config_.swing_height;
   const bool rising = s < 0.5;
   const double half = rising ? 2.0 * s : 2.0 * s - 1.0;
   const double start = rising ? from.z() : apex;
@@ -234,18 +229,18 @@ Eigen::Vector3d GaitController::swing_torques(int leg, const RobotState& state,
   const Eigen::Vector3d rate_in_base =
       R * (goal_velocity - now.velocity) - state.angular_velocity.cross(in_base);
   const Eigen::Vector3d q = joints_of(state.q, leg);
-  const Eigen::Matrix3d J = foot_jacobian(leg, q, kRobotGeometry);
+  const Eigen::Matrix3d J = foot_jacobian(leg, q, body_.legs);
   const Eigen::Matrix3d damped = J.transpose() * J + 1e-4 * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d desired_rate = damped.inverse() * (J.transpose() * rate_in_base);
-  return kSwingStiffness * (leg_angles(leg, in_base, kRobotGeometry) - q) +
-         kSwingDamping * (desired_rate - joints_of(state.qd, leg));
+  return config_.swing_stiffness * (leg_angles(leg, in_base, body_.legs) - q) +
+         config_.swing_damping * (desired_rate - joints_of(state.qd, leg));
 }
 
 JointVector GaitController::torques(const RobotState& state, const VelocityCommand& command) {
   const View now(state, body_);
   double foot_height = 0.0;
   for (int leg = 0; leg < kLegCount; ++leg) {
-    if (stands_[leg]) foot_height += now.feet[leg].z() - kRobotGeometry.foot_radius;
+    if (stands_[leg]) foot_height += now.feet[leg].z() - body_.legs.foot_radius;
   }
   foot_height /= std::max<double>(1.0, std::count(stands_.begin(), stands_.end(), true));
   if (!started_) {
@@ -265,7 +260,7 @@ JointVector GaitController::torques(const RobotState& state, const VelocityComma
   }
   JointVector torques;
   for (int leg = 0; leg < kLegCount; ++leg) {
-    const Eigen::Matrix3d J = foot_jacobian(leg, joints_of(state.q, leg), kRobotGeometry);
+    const Eigen::Matrix3d J = foot_jacobian(leg, joints_of(state.q, leg), body_.legs);
     torques.segment<3>(3 * leg) =
         stands_[leg] ? Eigen::Vector3d(-J.transpose() * now.R_world_base.transpose() * forces[leg])
                      : swing_torques(leg, state, now);

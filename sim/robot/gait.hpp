@@ -28,6 +28,10 @@ struct GaitConfig {
   double integral_gain = 0.8;      ///< of velocity and yaw rate [1/s]
   double acceleration = 1.0;       ///< limit of the velocity command [m/s^2]
   double yaw_acceleration = 3.0;   ///< limit of the yaw-rate command [rad/s^2]
+  double swing_stiffness = 80.0;   ///< of a joint while its foot swings [N m/rad]
+  double swing_damping = 2.0;      ///< of the same [N m s/rad]
+  double contact_load = 15.0;      ///< of a swinging foot, above which it has touched down [N]
+  StanceHoldConfig hold;
   TrunkMotionConfig trunk;
   StanceForceConfig forces;
 };

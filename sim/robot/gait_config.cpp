@@ -14,7 +14,7 @@ void describe(Fields& f, GaitConfig& c) {
             .meaning = "Fraction of the stride that a foot is on the ground."});
   f.number("body_height", c.body_height,
            {.unit = "m",
-            .range = in_range(0.2, 0.36),
+            .range = in_range(0.2, 0.8),
             .meaning = "Height of the trunk above the ground."});
   f.number("swing_height", c.swing_height,
            {.unit = "m",
@@ -22,7 +22,7 @@ void describe(Fields& f, GaitConfig& c) {
             .meaning = "Height of a foot above the ground in mid-swing."});
   f.number("stance_width", c.stance_width,
            {.unit = "m",
-            .range = in_range(0.0, 0.15),
+            .range = in_range(0.0, 0.3),
             .meaning = "Lateral distance of a standing foot from its hip."});
   f.number(
       "velocity_gain", c.velocity_gain,
@@ -53,6 +53,19 @@ void describe(Fields& f, GaitConfig& c) {
            {.unit = "rad/s^2",
             .range = positive_up_to(1e5),
             .meaning = "Largest rate of change of the yaw-rate command."});
+  f.number("swing_stiffness", c.swing_stiffness,
+           {.unit = "N m/rad",
+            .range = positive_up_to(1e5),
+            .meaning = "Stiffness of the joints of a leg that swings."});
+  f.number("swing_damping", c.swing_damping,
+           {.unit = "N m s/rad",
+            .range = up_to(1e4),
+            .meaning = "Damping of the joints of a leg that swings."});
+  f.number("contact_load", c.contact_load,
+           {.unit = "N",
+            .range = positive_up_to(1e4),
+            .meaning = "Load of a swinging foot above which it has touched down."});
+  f.group("hold", c.hold);
   f.group("trunk", c.trunk);
   f.group("forces", c.forces);
 }

@@ -12,13 +12,13 @@ namespace aims {
 
 using LegGeometries = std::array<LegGeometry, kLegCount>;
 
-/// Four legs as the drawings say.
+/// Four legs as the drawings of the default robot have them.
 inline constexpr LegGeometries kNominalLegs = {kRobotGeometry, kRobotGeometry, kRobotGeometry,
                                                kRobotGeometry};
 
 /// Legs of one built robot: thighs and calves differ from the drawings by a relative error of
 /// standard deviation `error`. Half of its variance is common to the four legs, as a wrong drawing
 /// is, half is each leg's own, as wear is. Random stream: "leg.lengths".
-LegGeometries built_legs(double error, std::uint64_t run_seed);
+LegGeometries built_legs(const LegGeometry& drawn, double error, std::uint64_t run_seed);
 
 }  // namespace aims

@@ -5,7 +5,7 @@
 
 namespace aims {
 
-/// Dimensions of the simulated robot; a test compares them with the model in `models/`.
+/// Legs of the default robot, `models/quadruped`; a test compares them with its files.
 inline constexpr LegGeometry kRobotGeometry{.hip_x = 0.188,
                                             .hip_y = 0.047,
                                             .abduction = 0.08,

@@ -10,10 +10,9 @@
 namespace aims {
 namespace {
 
-constexpr double kHalfWidth = 0.16;  ///< of the robot with its feet, as far as a wall must be [m]
-constexpr double kStartClearance = 0.15;  ///< of the trunk at a point from any solid [m]
-constexpr double kStep = 0.05;            ///< between places that are looked at on the way [m]
-constexpr double kRoofMargin = 0.05;      ///< by which ceilings may miss each other [m]
+constexpr double kSlack = 0.01;       ///< by which loose objects at a point may be nearer [m]
+constexpr double kStep = 0.05;        ///< between places that are looked at on the way [m]
+constexpr double kRoofMargin = 0.05;  ///< by which ceilings may miss each other [m]
 
 Eigen::Vector2d place(const RoutePoint& point) { return {point.x, point.y}; }
 
@@ -56,16 +55,17 @@ Scene obstacles_of(const Scene& scene) {
 
 /// The first place on the way where the robot would touch a solid.
 std::optional<Eigen::Vector2d> first_obstacle(const Scene& obstacles, const Eigen::Vector2d& from,
-                                              const Eigen::Vector2d& to, double body_height) {
+                                              const Eigen::Vector2d& to, const BodySize& body) {
   const double steps = std::max(1.0, std::ceil((to - from).norm() / kStep));
   for (double i = 0.0; i <= steps; i += 1.0) {
     const Eigen::Vector2d at = from + i / steps * (to - from);
-    if (is_inside_solid(obstacles, trunk_at(obstacles, at, body_height), kHalfWidth)) return at;
+    if (is_inside_solid(obstacles, trunk_at(obstacles, at, body.height), body.half_width))
+      return at;
   }
   return std::nullopt;
 }
 
-Result<void> check_points(const RouteConfig& route, const Scene& scene, double body_height) {
+Result<void> check_points(const RouteConfig& route, const Scene& scene, const BodySize& body) {
   for (std::size_t i = 0; i < route.points.size(); ++i) {
     const Eigen::Vector2d at = place(route.points[i]);
     if (!is_inside_building(scene, at)) {
@@ -73,7 +73,7 @@ Result<void> check_points(const RouteConfig& route, const Scene& scene, double b
           "route.points.{}: {} is outside the building, whose floor extends from {} to {} m", i,
           text_of(at), text_of(scene.floor.min_corner), text_of(scene.floor.max_corner)));
     }
-    if (is_inside_solid(scene, trunk_at(scene, at, body_height), kStartClearance)) {
+    if (is_inside_solid(scene, trunk_at(scene, at, body.height), body.half_width - kSlack)) {
       return failure(fmt::format("route.points.{}: {} is inside a wall or object of the scene", i,
                                  text_of(at)));
     }
@@ -83,13 +83,13 @@ Result<void> check_points(const RouteConfig& route, const Scene& scene, double b
 
 }  // namespace
 
-Result<void> check_walkable(const RouteConfig& route, const Scene& scene, double body_height) {
-  if (auto ok = check_points(route, scene, body_height); !ok) return ok;
+Result<void> check_walkable(const RouteConfig& route, const Scene& scene, const BodySize& body) {
+  if (auto ok = check_points(route, scene, body); !ok) return ok;
   const Scene obstacles = obstacles_of(scene);
   for (std::size_t i = 1; i < route.points.size(); ++i) {
     const Eigen::Vector2d from = place(route.points[i - 1]);
     const Eigen::Vector2d to = place(route.points[i]);
-    if (const auto hit = first_obstacle(obstacles, from, to, body_height)) {
+    if (const auto hit = first_obstacle(obstacles, from, to, body)) {
       return failure(fmt::format(
           "route.points.{}: a wall or object of the scene stands in the way from {} (points.{}) to "
           "{}; the robot would touch it at {}",

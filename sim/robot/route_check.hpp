@@ -7,9 +7,15 @@
 
 namespace aims {
 
+/// The room that a walking robot takes.
+struct BodySize {
+  double height = 0.29;      ///< of the trunk above the floor [m]
+  double half_width = 0.16;  ///< with its feet, as far as a wall must be [m]
+};
+
 /// Error when the robot cannot walk the route in that scene: a point is outside the building or
 /// inside a solid, or a solid that collides is in the way between two points. People are no
-/// obstacles. `body_height`: of the trunk above the floor [m].
-Result<void> check_walkable(const RouteConfig& route, const Scene& scene, double body_height);
+/// obstacles.
+Result<void> check_walkable(const RouteConfig& route, const Scene& scene, const BodySize& body);
 
 }  // namespace aims

@@ -17,9 +17,6 @@ using SquareStack =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxForces, kMaxForces>;
 using ForceToAcceleration = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxForces>;
 
-/// Penalty of the splitting, of the order of the linear part's curvature 1/m^2 [1/kg^2].
-constexpr double kPenalty = 0.02;
-
 /// M^-1 A: what unit forces at the standing feet do to the trunk.
 ForceToAcceleration force_to_acceleration(const StanceProblem& problem, int feet) {
   ForceToAcceleration B(6, 3 * feet);
@@ -67,10 +64,10 @@ Stack minimize(const SquareStack& H, const Stack& gradient, const StanceForceCon
   const Stack free_minimum = H.llt().solve(gradient);
   Stack feasible = project_stack(free_minimum, config);
   if (feasible == free_minimum) return feasible;
-  const SquareStack inverse = (H + kPenalty * identity).llt().solve(identity);
+  const SquareStack inverse = (H + config.penalty * identity).llt().solve(identity);
   Stack multiplier = Stack::Zero(size);
   for (int i = 0; i < config.iterations; ++i) {
-    const Stack forces = inverse * (gradient + kPenalty * (feasible - multiplier));
+    const Stack forces = inverse * (gradient + config.penalty * (feasible - multiplier));
     feasible = project_stack(forces + multiplier, config);
     multiplier += forces - feasible;
   }
@@ -94,6 +91,10 @@ void describe(Fields& f, StanceForceConfig& c) {
            {.unit = "1/kg^2",
             .range = positive_up_to(1e3),
             .meaning = "Weight of the squared forces against the acceleration error."});
+  f.number("penalty", c.penalty,
+           {.unit = "1/kg^2",
+            .range = positive_up_to(1e3),
+            .meaning = "Penalty of the splitting, of the order of one over the squared mass."});
   f.integer("iterations", c.iterations,
             {.unit = "-",
              .range = in_range(1, 1000),

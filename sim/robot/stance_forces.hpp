@@ -15,6 +15,7 @@ struct StanceForceConfig {
   double min_normal = 5.0;       ///< normal force of a standing foot [N]
   double max_normal = 160.0;     ///< [N]
   double regularization = 1e-4;  ///< weight of |f|^2 against accelerations [1/kg^2]
+  double penalty = 0.02;         ///< of the splitting, of the order of 1/m^2 [1/kg^2]
   int iterations = 25;           ///< of the alternating direction method of multipliers (ADMM)
 };
 void describe(Fields& f, StanceForceConfig& c);

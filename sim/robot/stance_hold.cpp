@@ -8,9 +8,7 @@
 namespace aims {
 namespace {
 
-constexpr double kTolerance = 0.01;     ///< of the feet's places, root mean square [m]
-constexpr double kStiffness = 1000.0;   ///< beyond the tolerance [N/m]
-constexpr double kLargestForce = 10.0;  ///< on a foot, root mean square [N]
+constexpr double kTolerance = 0.01;  ///< of the feet's places, root mean square [m]
 
 /// The feet about their mean, in the horizontal plane.
 StanceHold::Offsets about_mean(const StanceHold::Feet& feet) {
@@ -28,6 +26,15 @@ Eigen::Matrix2d best_rotation(const StanceHold::Offsets& from, const StanceHold:
 
 }  // namespace
 
+void describe(Fields& f, StanceHoldConfig& c) {
+  f.number("stiffness", c.stiffness,
+           {.unit = "N/m",
+            .range = up_to(1e6),
+            .meaning = "Force per distance of a standing robot's foot from its place."});
+  f.number("max_force", c.max_force,
+           {.unit = "N", .range = up_to(1e4), .meaning = "Largest such force on a foot."});
+}
+
 void StanceHold::begin(const Feet& feet) { places_ = about_mean(feet); }
 
 StanceHold::Offsets StanceHold::forces(const Feet& feet) const {
@@ -36,7 +43,7 @@ StanceHold::Offsets StanceHold::forces(const Feet& feet) const {
   const double distance = std::sqrt(moved.squaredNorm() / kLegCount);
   if (distance <= kTolerance) return Offsets::Zero();
   // A foot creeps along the force that it exerts, which is opposite to that of the ground.
-  const double force = std::min(kStiffness * (distance - kTolerance), kLargestForce);
+  const double force = std::min(config_.stiffness * (distance - kTolerance), config_.max_force);
   return force / distance * moved;
 }
 

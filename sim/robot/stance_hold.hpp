@@ -4,9 +4,17 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "core/config.hpp"
 #include "core/measurements.hpp"
 
 namespace aims {
+
+/// How strongly a standing robot keeps its feet apart.
+struct StanceHoldConfig {
+  double stiffness = 1000.0;  ///< beyond the tolerance [N/m]
+  double max_force = 10.0;    ///< on a foot, root mean square [N]
+};
+void describe(Fields& f, StanceHoldConfig& c);
 
 /// Keeps the feet of a standing robot apart as they were when it came to stand.
 ///
@@ -18,6 +26,8 @@ class StanceHold {
   using Feet = std::array<Eigen::Vector3d, kLegCount>;  ///< positions in the world [m]
   using Offsets = Eigen::Matrix<double, 2, kLegCount>;  ///< one column per foot, world axes
 
+  explicit StanceHold(const StanceHoldConfig& config = {}) : config_(config) {}
+
   /// The feet stand where they are to stay.
   void begin(const Feet& feet);
 
@@ -27,6 +37,7 @@ class StanceHold {
   Offsets forces(const Feet& feet) const;
 
  private:
+  StanceHoldConfig config_;
   Offsets places_ = Offsets::Zero();  ///< of the feet about their mean [m]
 };
 

@@ -7,14 +7,11 @@
 #include <string>
 
 #include "sim/environment/mujoco_model.hpp"
-#include "sim/robot/robot_geometry.hpp"
 
 namespace aims {
 namespace {
 
-constexpr double kNominalHeight = 0.29;   ///< [m]
-constexpr double kHighestBump = 0.02;     ///< of a floor with bumps [m]
-constexpr double kNominalLateral = 0.09;  ///< [m]
+constexpr double kHighestBump = 0.02;  ///< of a floor with bumps [m]
 
 int id_of(const mjModel* model, mjtObj type, const std::string& name) {
   return mj_name2id(model, type, name.c_str());
@@ -28,12 +25,12 @@ Eigen::Quaterniond quaternion_at(const mjtNum* data) {
 
 }  // namespace
 
-JointVector standing_joints(double height, double lateral) {
+JointVector standing_joints(const LegGeometry& legs, double height, double lateral) {
   JointVector q;
   for (int leg = 0; leg < kLegCount; ++leg) {
     const Eigen::Vector3d foot =
-        hip_in_base(leg, kRobotGeometry) + Eigen::Vector3d(0.0, side_of(leg) * lateral, -height);
-    q.segment<3>(3 * leg) = leg_angles(leg, foot, kRobotGeometry);
+        hip_in_base(leg, legs) + Eigen::Vector3d(0.0, side_of(leg) * lateral, -height);
+    q.segment<3>(3 * leg) = leg_angles(leg, foot, legs);
   }
   return q;
 }
@@ -46,12 +43,16 @@ struct World::Impl {
   std::array<int, kLegCount> foot_geom{};
   std::array<int, kLegCount> calf_body{};
   LegGeometries legs;
+  double body_height = 0.0;   ///< at the start [m]
+  double stance_width = 0.0;  ///< at the start [m]
   BodyModel body;
   RobotState state;
 
   Result<void> find_parts();
   void set_options(const WorldSetup& setup);
-  /// The lengths of the robot as built; constants of the model that follow from them.
+  /// Dimensions of a leg in the model.
+  LegGeometry leg_in_model(int leg) const;
+  /// The dimensions of the robot as built; constants of the model that follow from them.
   void set_legs(const LegGeometries& built);
   void put(double x, double y, double z, double yaw);
   /// Height [m] of the grid point of the floor nearest to (x, y).
@@ -89,15 +90,41 @@ void World::Impl::set_options(const WorldSetup& setup) {
   for (const int geom : foot_geom) model->geom_friction[3 * geom] = setup.friction;
 }
 
+LegGeometry World::Impl::leg_in_model(int leg) const {
+  const mjModel* m = model.get();
+  const int calf = calf_body[leg];
+  const int thigh = m->body_parentid[calf];
+  const int hip = m->body_parentid[thigh];
+  const int foot = foot_geom[leg];
+  return {.hip_x = std::abs(m->body_pos[3 * hip]),
+          .hip_y = std::abs(m->body_pos[3 * hip + 1]),
+          .abduction = std::abs(m->body_pos[3 * thigh + 1]),
+          .thigh = -m->body_pos[3 * calf + 2],
+          .calf = -m->geom_pos[3 * foot + 2],
+          .foot_radius = m->geom_size[3 * foot]};
+}
+
 void World::Impl::set_legs(const LegGeometries& built) {
   legs = built;
-  if (built == kNominalLegs) return;
+  bool as_in_model = true;
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    as_in_model = as_in_model && built[leg] == leg_in_model(leg);
+  }
+  if (as_in_model) return;
   mjModel* m = model.get();
   for (int leg = 0; leg < kLegCount; ++leg) {
+    const LegGeometry& as_built = built[leg];
+    const int calf = calf_body[leg];
+    const int thigh = m->body_parentid[calf];
+    const Eigen::Vector3d at_hip = hip_in_base(leg, as_built);
+    std::copy_n(at_hip.data(), 2, m->body_pos + 3 * m->body_parentid[thigh]);
+    m->body_pos[3 * thigh + 1] = side_of(leg) * as_built.abduction;
+    m->body_pos[3 * calf + 2] = -as_built.thigh;
+    m->geom_pos[3 * foot_geom[leg] + 2] = -as_built.calf;
+    m->geom_size[3 * foot_geom[leg]] = as_built.foot_radius;
+    m->geom_rbound[foot_geom[leg]] = as_built.foot_radius;
     const int foot_site = id_of(m, mjOBJ_SITE, std::string(kLegNames[leg]) + "_foot");
-    m->body_pos[3 * calf_body[leg] + 2] = -built[leg].thigh;
-    m->geom_pos[3 * foot_geom[leg] + 2] = -built[leg].calf;
-    if (foot_site >= 0) m->site_pos[3 * foot_site + 2] = -built[leg].calf;
+    if (foot_site >= 0) m->site_pos[3 * foot_site + 2] = -as_built.calf;
   }
   mj_setConst(m, data.get());
 }
@@ -123,14 +150,14 @@ void World::Impl::put(double x, double y, double z, double yaw) {
   const std::array<double, 7> root = {x, y, z, q.w(), q.x(), q.y(), q.z()};
   std::copy(root.begin(), root.end(), data->qpos);
   const JointVector joints =
-      standing_joints(kNominalHeight - kRobotGeometry.foot_radius, kNominalLateral);
+      standing_joints(body.legs, body_height - body.legs.foot_radius, stance_width);
   std::copy(joints.begin(), joints.end(), data->qpos + 7);
   mj_forward(model.get(), data.get());
 }
 
 /// Total mass, centre of mass and inertia, from the free joint's block of the mass matrix.
 void World::Impl::measure_body() {
-  put(0.0, 0.0, kNominalHeight, 0.0);
+  put(0.0, 0.0, body_height, 0.0);
   const int nv = model->nv;
   std::vector<mjtNum> full(static_cast<std::size_t>(nv) * nv);
   mj_fullM(model.get(), full.data(), data->qM);
@@ -211,6 +238,9 @@ Result<World> World::create(const WorldSetup& setup) {
   if (auto found = impl->find_parts(); !found) return tl::unexpected(found.error());
   impl->set_options(setup);
   impl->data.reset(mj_makeData(impl->model.get()));
+  impl->body.legs = setup.drawn;
+  impl->body_height = setup.body_height;
+  impl->stance_width = setup.stance_width;
   impl->set_legs(setup.legs);
   impl->measure_body();
   World world(std::move(impl));
@@ -220,7 +250,7 @@ Result<World> World::create(const WorldSetup& setup) {
 
 void World::place(double x, double y, double yaw) {
   // Lifted step by step until no foot is inside a bump of the floor; a ramp is higher than that.
-  double z = kNominalHeight + std::max(0.0, impl_->field_height(x, y) - kHighestBump);
+  double z = impl_->body_height + std::max(0.0, impl_->field_height(x, y) - kHighestBump);
   impl_->put(x, y, z, yaw);
   for (int lift = 0; lift < 20; ++lift) {
     bool sunk = false;
@@ -275,7 +305,7 @@ std::array<double, kLegCount> World::slip_speed() const {
     const Eigen::Vector3d in_base =
         s.angular_velocity.cross(foot_in_base(leg, q, impl_->legs[leg])) +
         foot_jacobian(leg, q, impl_->legs[leg]) * rate;
-    const Eigen::Vector3d down(0.0, 0.0, -kRobotGeometry.foot_radius);
+    const Eigen::Vector3d down(0.0, 0.0, -impl_->body.legs.foot_radius);
     const Eigen::Quaterniond& R = s.T_world_base.rotation;
     const Eigen::Vector3d patch = s.velocity + R * in_base + (R * turning).cross(down);
     speed[leg] = patch.head<2>().norm();

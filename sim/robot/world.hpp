@@ -19,11 +19,14 @@ namespace aims {
 
 /// Everything that defines a world.
 struct WorldSetup {
-  std::string mjcf;            ///< the robot (see quadruped_mjcf) with the scene's solids around it
+  std::string mjcf;            ///< a robot (see RobotModel) with the scene's solids around it
   std::vector<float> heights;  ///< of the height field in [0, 1], row by row; empty: flat floor
   double timestep = 0.0025;    ///< of the integrator [s]
   double friction = 0.7;       ///< of the feet on the floor [-]
-  LegGeometries legs = kNominalLegs;  ///< true lengths of thighs and calves
+  LegGeometries legs = kNominalLegs;   ///< as built
+  LegGeometry drawn = kRobotGeometry;  ///< as the gait controller and the estimators have them
+  double body_height = 0.29;           ///< of the trunk's centre over the ground at the start [m]
+  double stance_width = 0.09;          ///< of a foot beside its hip at the start [m]
 };
 
 /// State of the robot after a physics step. The base frame is the trunk's centre.
@@ -43,16 +46,18 @@ struct RobotState {
   bool touches_wall = false;    ///< any part touches a solid other than the floor
 };
 
-/// Mass properties of the whole robot, standing with its legs in the nominal position.
+/// Mass properties of the whole robot, standing with its legs in the nominal position, and its
+/// dimensions.
 struct BodyModel {
   double mass = 0.0;                                      ///< [kg]
   Eigen::Vector3d com_in_base = Eigen::Vector3d::Zero();  ///< centre of mass [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();  ///< about it, base axes [kg m^2]
+  LegGeometry legs = kRobotGeometry;                      ///< as drawn
 };
 
 /// Joint angles [rad] with every foot `height` [m] below the base and `lateral` [m] outside the
 /// hip.
-JointVector standing_joints(double height, double lateral);
+JointVector standing_joints(const LegGeometry& legs, double height, double lateral);
 
 /// The dynamics of one robot in one scene, stepped at a fixed rate.
 class World {

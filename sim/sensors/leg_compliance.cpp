@@ -4,8 +4,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "sim/robot/robot_geometry.hpp"
-
 namespace aims {
 namespace {
 
@@ -13,8 +11,10 @@ double inverse_or_zero(double stiffness) { return stiffness > 0.0 ? 1.0 / stiffn
 
 }  // namespace
 
-LegCompliance::LegCompliance(const LegOdometryConfig& config, Duration timestep)
-    : joint_compliance_(inverse_or_zero(config.joint_stiffness)),
+LegCompliance::LegCompliance(const LegOdometryConfig& config, const LegGeometry& legs,
+                             Duration timestep)
+    : legs_(legs),
+      joint_compliance_(inverse_or_zero(config.joint_stiffness)),
       foot_compliance_(inverse_or_zero(config.foot_stiffness)),
       gain_(1.0 - std::exp(-to_seconds(timestep) / config.compliance_time)),
       timestep_(to_seconds(timestep)) {}
@@ -22,7 +22,7 @@ LegCompliance::LegCompliance(const LegOdometryConfig& config, Duration timestep)
 /// Displacement of the joint angles by the force on the foot [rad].
 Eigen::Vector3d LegCompliance::static_deflection(int leg, const RobotState& truth) const {
   const Eigen::Vector3d force = truth.T_world_base.rotation.conjugate() * truth.foot_force[leg];
-  const Eigen::Matrix3d J = foot_jacobian(leg, joints_of(truth.q, leg), kRobotGeometry);
+  const Eigen::Matrix3d J = foot_jacobian(leg, joints_of(truth.q, leg), legs_);
   // The damping bounds the answer where the leg is straight and J has no inverse.
   const Eigen::Matrix3d damped = J.transpose() * J + 1e-6 * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d torque = J.transpose() * force;

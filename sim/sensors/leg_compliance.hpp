@@ -14,7 +14,8 @@ namespace aims {
 /// constant (rubber damps).
 class LegCompliance {
  public:
-  LegCompliance(const LegOdometryConfig& config, Duration timestep);
+  /// `legs` as drawn.
+  LegCompliance(const LegOdometryConfig& config, const LegGeometry& legs, Duration timestep);
 
   /// Joint motion at the encoders after a physics step; call once per step.
   JointMotion update(const RobotState& truth);
@@ -22,6 +23,7 @@ class LegCompliance {
  private:
   Eigen::Vector3d static_deflection(int leg, const RobotState& truth) const;
 
+  LegGeometry legs_;
   double joint_compliance_;  ///< [rad/(N m)]
   double foot_compliance_;   ///< [m/N]
   double gain_;              ///< of the low-pass, per physics step

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/leg_kinematics.hpp"
-#include "sim/robot/robot_geometry.hpp"
 #include "sim/sensors/sampling.hpp"
 
 namespace aims {
@@ -30,12 +29,14 @@ LegRunErrors draw_errors(const LegOdometryConfig& config, std::uint64_t run_seed
 
 }  // namespace
 
-LegOdometry::LegOdometry(const LegOdometryConfig& config, Duration timestep, std::uint64_t run_seed)
+LegOdometry::LegOdometry(const LegOdometryConfig& config, const LegGeometry& legs,
+                         Duration timestep, std::uint64_t run_seed)
     : config_(config),
+      legs_(legs),
       steps_(*steps_per_sample("leg_odometry.rate", config.rate, timestep)),
       interval_(1.0 / config.rate),
       errors_(draw_errors(config, run_seed)),
-      compliance_(config, timestep),
+      compliance_(config, legs, timestep),
       encoders_(config, timestep, errors_.angle_offset, run_seed),
       contacts_(config, timestep, run_seed),
       gyro_(run_seed, "leg.gyro"),
@@ -70,10 +71,10 @@ Eigen::Vector3d LegOdometry::foot_velocity(int leg, const LegOdometrySample& sam
   const LegMotion motion{joints_of(joints_in(sample.joint_position), leg),
                          joints_of(joints_in(sample.joint_velocity), leg), sample.angular_velocity};
   if (config_.foot_model == FootModel::kPoint) {
-    return velocity_from_foot(leg, motion, kRobotGeometry);
+    return velocity_from_foot(leg, motion, legs_);
   }
   const Eigen::Vector3d up = T_odom_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  return velocity_from_rolling_foot(leg, motion, up, kRobotGeometry);
+  return velocity_from_rolling_foot(leg, motion, up, legs_);
 }
 
 /// Mean over the standing feet; without any, the last velocity.

@@ -28,8 +28,10 @@ struct LegRunErrors {
 /// and pitch are corrected by gravity, as by an attitude filter.
 class LegOdometry {
  public:
-  /// `config` is valid. Random streams: "leg.run", "leg.gyro", "leg.slip" and those of the parts.
-  LegOdometry(const LegOdometryConfig& config, Duration timestep, std::uint64_t run_seed);
+  /// `config` is valid; `legs` as drawn. Random streams: "leg.run", "leg.gyro", "leg.slip" and
+  /// those of the parts.
+  LegOdometry(const LegOdometryConfig& config, const LegGeometry& legs, Duration timestep,
+              std::uint64_t run_seed);
 
   /// Processes the true state before the first and after each physics step; returns a sample at
   /// the end of each interval.
@@ -43,6 +45,7 @@ class LegOdometry {
   Eigen::Vector3d slip_error(const Eigen::Vector3d& velocity);
 
   LegOdometryConfig config_;
+  LegGeometry legs_;
   int steps_;
   double interval_;  ///< [s]
   LegRunErrors errors_;

@@ -156,7 +156,7 @@ TEST(BentCorridor, RouteStaysInsideAndComesBack) {
       route.follow_scene = true;
       route = route_in(config, route);
       ASSERT_TRUE(validate(route));
-      const auto walkable = check_walkable(route, build_scene(config, 1), 0.29);
+      const auto walkable = check_walkable(route, build_scene(config, 1), BodySize{});
       EXPECT_TRUE(walkable) << walkable.error().message;
       const Place end = place_at(config, 20.0);
       const RoutePoint& far = route.points[route.points.size() / 2];

@@ -14,8 +14,9 @@ testing::Walk walk_through(double angle_deg, double width, double speed) {
   config.corridor.width = width;
   config.corridor.bends = {{0.33, angle_deg, Side::kLeft}, {0.67, angle_deg, Side::kRight}};
   const Scene scene = build_scene(config, 1);
-  const WorldSetup setup = {scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics).value(),
-                            height_field_data(scene.floor), testing::kTimestep, 0.7};
+  const WorldSetup setup = {
+      scene_mjcf(scene, robot_models().front().mjcf, MjcfPurpose::kPhysics).value(),
+      height_field_data(scene.floor), testing::kTimestep, 0.7};
   RouteConfig route;
   route.follow_scene = true;
   route.speed = speed;

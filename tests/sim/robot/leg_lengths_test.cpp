@@ -10,14 +10,16 @@
 namespace aims {
 namespace {
 
-TEST(LegLengths, WithoutErrorTheLegsAreTheDrawn) { EXPECT_EQ(built_legs(0.0, 7), kNominalLegs); }
+TEST(LegLengths, WithoutErrorTheLegsAreTheDrawn) {
+  EXPECT_EQ(built_legs(kRobotGeometry, 0.0, 7), kNominalLegs);
+}
 
 TEST(LegLengths, ErrorsHaveTheirStandardDeviationAndHalfOfItIsCommon) {
   double squares = 0.0;
   double products = 0.0;
   constexpr int kRuns = 500;
   for (int seed = 1; seed <= kRuns; ++seed) {
-    const LegGeometries legs = built_legs(0.01, seed);
+    const LegGeometries legs = built_legs(kRobotGeometry, 0.01, seed);
     const double front = legs[0].calf / kRobotGeometry.calf - 1.0;
     const double rear = legs[3].calf / kRobotGeometry.calf - 1.0;
     squares += 0.5 * (front * front + rear * rear);
@@ -44,7 +46,7 @@ double short_reading(double longer) {
   config.joint_angle_noise = config.joint_angle_offset = config.joint_rate_noise = 0.0;
   config.gyro_noise_density = config.gyro_bias = config.gyro_scale_error = 0.0;
   config.velocity_scale_error = config.slip_rate = 0.0;
-  LegOdometry odometry(config, from_seconds(testing::kTimestep), 1);
+  LegOdometry odometry(config, kRobotGeometry, from_seconds(testing::kTimestep), 1);
   Eigen::Vector3d end = Eigen::Vector3d::Zero();
   for (const RobotState& state : walk.states) {
     if (const auto sample = odometry.sample(state)) end = sample->T_odom_base.translation;

@@ -21,8 +21,9 @@ SceneConfig ramp_scene(double grade) {
 
 TEST(RampWalk, ClimbsAndDescendsTenPercentWithItsFeetOnTheFloor) {
   const Scene scene = build_scene(ramp_scene(0.1), 1);
-  const WorldSetup setup = {scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics).value(),
-                            height_field_data(scene.floor), testing::kTimestep, 0.7};
+  const WorldSetup setup = {
+      scene_mjcf(scene, robot_models().front().mjcf, MjcfPurpose::kPhysics).value(),
+      height_field_data(scene.floor), testing::kTimestep, 0.7};
   const testing::Walk walk = testing::walk(setup, testing::there_and_back(6.0));
   EXPECT_TRUE(walk.done);
   EXPECT_FALSE(walk.fell);

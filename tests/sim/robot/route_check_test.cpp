@@ -10,8 +10,6 @@
 namespace aims {
 namespace {
 
-constexpr double kBodyHeight = 0.29;  ///< [m]
-
 RouteConfig route_of(std::initializer_list<Eigen::Vector2d> points) {
   RouteConfig route;
   route.points.clear();
@@ -20,7 +18,7 @@ RouteConfig route_of(std::initializer_list<Eigen::Vector2d> points) {
 }
 
 std::string refusal(const SceneConfig& config, const RouteConfig& route) {
-  const auto checked = check_walkable(route, build_scene(config, 1), kBodyHeight);
+  const auto checked = check_walkable(route, build_scene(config, 1), BodySize{});
   return checked ? "" : checked.error().message;
 }
 
@@ -39,6 +37,13 @@ SceneConfig corridor(double length) {
 
 TEST(RouteCheck, ARouteWithinTheCorridorIsWalkable) {
   EXPECT_EQ(refusal(corridor(6.0), route_of({{0.0, 0.0}, {6.0, 0.5}, {0.0, -0.5}})), "");
+}
+
+TEST(RouteCheck, AWiderRobotNeedsMoreRoom) {
+  const Scene scene = build_scene(corridor(6.0), 1);  // walls at 1.1 m
+  const RouteConfig beside = route_of({{0.0, 0.0}, {6.0, 0.9}});
+  EXPECT_TRUE(check_walkable(beside, scene, {.height = 0.5, .half_width = 0.16}));
+  EXPECT_FALSE(check_walkable(beside, scene, {.height = 0.5, .half_width = 0.26}));
 }
 
 TEST(RouteCheck, APointOutsideTheBuildingIsNamedWithTheExtentOfTheFloor) {

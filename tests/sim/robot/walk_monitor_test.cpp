@@ -25,8 +25,9 @@ struct Walked {
 Walked watch(const SceneConfig& config, const RouteConfig& route, const PushConfig& push = {},
              double limit = kLimit) {
   const Scene scene = build_scene(config, 1);
-  const WorldSetup setup = {scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics).value(),
-                            height_field_data(scene.floor), kTimestep, config.floor_friction};
+  const WorldSetup setup = {
+      scene_mjcf(scene, robot_models().front().mjcf, MjcfPurpose::kPhysics).value(),
+      height_field_data(scene.floor), kTimestep, config.floor_friction};
   Walker walker = Walker::create(setup, {}, route).value();
   WalkMonitor monitor(route, GaitConfig{}.period, limit);
   const Pushes pushes(push, 1);

@@ -7,7 +7,7 @@
 
 #include "sim/environment/scene_config.hpp"
 #include "sim/environment/scene_mjcf.hpp"
-#include "sim/robot/quadruped_model.hpp"
+#include "sim/robot/robot_config.hpp"
 #include "sim/robot/truth.hpp"
 #include "sim/robot/walker.hpp"
 #include "sim/sensors/leg_odometry.hpp"
@@ -23,7 +23,7 @@ inline WorldSetup corridor_world(double length, double friction, double bump_hei
   config.corridor.length = length;
   config.bumps.height = bump_height;
   const Scene scene = build_scene(config, seed);
-  return {scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics).value(),
+  return {scene_mjcf(scene, robot_models().front().mjcf, MjcfPurpose::kPhysics).value(),
           height_field_data(scene.floor), kTimestep, friction};
 }
 

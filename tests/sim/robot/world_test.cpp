@@ -80,6 +80,30 @@ TEST(World, LongerLegsReachTheFloorWithTheirOwnKinematics) {
   for (const double slip : world.slip_speed()) EXPECT_LT(slip, 0.01);
 }
 
+/// Hips apart, longer legs and rounder feet than the model's: the feet stand where the kinematics
+/// of these legs have them.
+TEST(World, TakesAllDimensionsOfTheLegs) {
+  WorldSetup setup = corridor_world(10.0, 0.7, 0.0);
+  setup.drawn = {.hip_x = 0.22,
+                 .hip_y = 0.06,
+                 .abduction = 0.09,
+                 .thigh = 0.23,
+                 .calf = 0.225,
+                 .foot_radius = 0.03};
+  setup.legs.fill(setup.drawn);
+  World world = World::create(setup).value();
+  EXPECT_EQ(world.body().legs, setup.drawn);
+  GaitController gait({}, world.body(), kTimestep);
+  for (int i = 0; i < 800; ++i) world.step(gait.torques(world.state(), {}));
+  const RobotState& state = world.state();
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const Eigen::Vector3d foot =
+        state.T_world_base * foot_in_base(leg, joints_of(state.q, leg), setup.drawn);
+    EXPECT_NEAR(foot.z(), setup.drawn.foot_radius, 1.5e-3) << kLegNames[leg];
+  }
+  EXPECT_NEAR(state.T_world_base.translation.z(), GaitConfig().body_height, 0.01);
+}
+
 TEST(World, SensorsSitLevelOnTheRearOfTheTrunk) {
   const World world = World::create(corridor_world(10.0, 0.7, 0.0)).value();
   for (const char* site : {"imu", "lidar"}) {

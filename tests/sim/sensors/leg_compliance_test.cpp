@@ -14,7 +14,7 @@ constexpr Duration kStep = 2'500'000;
 RobotState loaded_state(const Eigen::Vector3d& force) {
   RobotState state;
   state.T_world_base.rotation = so3_exp(Eigen::Vector3d(0.1, -0.2, 0.7));
-  state.q = standing_joints(0.27, 0.09);
+  state.q = standing_joints(kRobotGeometry, 0.27, 0.09);
   state.foot_force[2] = force;
   state.foot_load[2] = force.z();
   return state;
@@ -26,7 +26,7 @@ Eigen::Vector3d foot(const JointVector& q) {
 
 TEST(LegCompliance, ARigidLegChangesNothing) {
   const RobotState state = loaded_state({5.0, 2.0, 60.0});
-  LegCompliance legs({}, kStep);
+  LegCompliance legs({}, kRobotGeometry, kStep);
   EXPECT_EQ(legs.update(state).angle, state.q);
   EXPECT_EQ(legs.update(state).rate, state.qd);
 }
@@ -36,7 +36,7 @@ TEST(LegCompliance, TheRubberFootYieldsByForceOverStiffness) {
   LegOdometryConfig config;
   config.foot_stiffness = 2e4;
   const RobotState state = loaded_state({8.0, -6.0, 60.0});
-  const JointMotion measured = LegCompliance(config, kStep).update(state);
+  const JointMotion measured = LegCompliance(config, kRobotGeometry, kStep).update(state);
   const Eigen::Vector3d shift =
       state.T_world_base.rotation * (foot(measured.angle) - foot(state.q));
   EXPECT_LT((shift + state.foot_force[2] / 2e4).norm(), 1e-4);
@@ -48,7 +48,7 @@ TEST(LegCompliance, AJointYieldsByTorqueOverStiffness) {
   LegOdometryConfig config;
   config.joint_stiffness = 250.0;
   const RobotState state = loaded_state({8.0, -6.0, 60.0});
-  const JointMotion measured = LegCompliance(config, kStep).update(state);
+  const JointMotion measured = LegCompliance(config, kRobotGeometry, kStep).update(state);
   for (int joint = 0; joint < 3; ++joint) {
     JointVector moved = state.q;
     moved[6 + joint] += 1e-6;
@@ -63,7 +63,7 @@ TEST(LegCompliance, TheRateIsTheDerivativeOfTheAngle) {
   LegOdometryConfig config;
   config.joint_stiffness = 250.0;
   config.compliance_time = 0.01;
-  LegCompliance legs(config, kStep);
+  LegCompliance legs(config, kRobotGeometry, kStep);
   JointVector before = legs.update(loaded_state(Eigen::Vector3d::Zero())).angle;
   JointMotion now;
   for (int i = 0; i < 40; ++i) {
@@ -71,7 +71,8 @@ TEST(LegCompliance, TheRateIsTheDerivativeOfTheAngle) {
     EXPECT_LT((now.rate - (now.angle - before) / to_seconds(kStep)).norm(), 1e-9);
     before = now.angle;
   }
-  const JointVector settled = LegCompliance(config, kStep).update(loaded_state({0, 0, 60})).angle;
+  const JointVector settled =
+      LegCompliance(config, kRobotGeometry, kStep).update(loaded_state({0, 0, 60})).angle;
   EXPECT_LT((now.angle - settled).norm(), 1e-4);
 }
 

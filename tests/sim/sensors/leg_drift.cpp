@@ -22,7 +22,7 @@ struct Place {
 /// Places at the samples of the odometry.
 std::vector<Place> places_of(const Walk& walk, const LegOdometryConfig& config,
                              std::uint64_t seed) {
-  LegOdometry odometry(config, from_seconds(kTimestep), seed);
+  LegOdometry odometry(config, kRobotGeometry, from_seconds(kTimestep), seed);
   std::vector<Place> places;
   for (const RobotState& state : walk.states) {
     if (const auto sample = odometry.sample(state)) {
@@ -65,7 +65,7 @@ LegOdometryConfig without_errors(const LegOdometryConfig& config) {
 
 Walk drift_walk(const SimulationConfig& config, double friction, std::uint64_t seed) {
   WorldSetup setup = corridor_world(kLength, friction, 0.0, seed);
-  setup.legs = built_legs(config.leg_odometry.link_length_error, seed);
+  setup.legs = built_legs(kRobotGeometry, config.leg_odometry.link_length_error, seed);
   return walk(setup, there_and_back(kLength), config.robot.gait);
 }
 
@@ -74,11 +74,12 @@ Walk square_walk(const SimulationConfig& config, double friction, std::uint64_t 
   hall.corridor.length = 10.0;
   hall.corridor.width = 10.0;
   const Scene scene = build_scene(hall, seed);
-  const WorldSetup setup = {scene_mjcf(scene, quadruped_mjcf(), MjcfPurpose::kPhysics).value(),
-                            {},
-                            kTimestep,
-                            friction,
-                            built_legs(config.leg_odometry.link_length_error, seed)};
+  const WorldSetup setup = {
+      scene_mjcf(scene, robot_models().front().mjcf, MjcfPurpose::kPhysics).value(),
+      {},
+      kTimestep,
+      friction,
+      built_legs(kRobotGeometry, config.leg_odometry.link_length_error, seed)};
   RouteConfig route;
   route.points = {{"a", 0.0, 0.0}, {"", 3.2, 0.0}, {"", 3.2, 3.4}, {"", 0.0, 3.4}, {"a", 0.0, 0.0}};
   route.stand_before = 0.5;

@@ -36,7 +36,7 @@ const testing::Walk& recorded_walk() {
 }
 
 std::vector<LegOdometrySample> measure(const LegOdometryConfig& config, std::uint64_t seed = 1) {
-  LegOdometry odometry(config, kStep, seed);
+  LegOdometry odometry(config, kRobotGeometry, kStep, seed);
   std::vector<LegOdometrySample> samples;
   for (const RobotState& state : recorded_walk().states) {
     if (auto sample = odometry.sample(state)) samples.push_back(*sample);

@@ -143,6 +143,18 @@ export interface Robot {
   invalid_reason?: string | null;
 }
 
+/** Dimensions of the robot [m]. */
+export interface Body {
+  /** Its trunk's centre in body axes. */
+  trunk: [number, number, number];
+  /** Hips ahead of the trunk's centre and behind it. */
+  hip_x: number;
+  /** Legs to either side of the trunk's centre. */
+  leg_y: number;
+  /** Of the trunk's centre over the ground. */
+  height: number;
+}
+
 export interface RunPayload extends PagePayload {
   kind: "run";
   /** What could not be read. */
@@ -156,6 +168,7 @@ export interface RunPayload extends PagePayload {
     simulated_s: Maybe;
     complete: boolean | null;
     robot?: Robot | null;
+    body?: Body | null;
   };
   command?: string | null;
   config_yaml?: string | null;

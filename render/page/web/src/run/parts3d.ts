@@ -27,7 +27,7 @@ import {
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import type { CloudMap, Numbers, Person, Scene } from "../contract";
+import type { Body, CloudMap, Numbers, Person, Scene } from "../contract";
 import { ramp, rampTable } from "./ramps";
 
 export type Bounds = { min: Vector3; max: Vector3 };
@@ -205,8 +205,11 @@ function marker(ink: string): Sprite {
   return sprite;
 }
 
-/** Trunk with legs, body axes: the body's origin is at the rear of the trunk. */
-export function robot(ink: string): { group: Group; ring: Sprite } {
+/** Of the robot in recordings without a scenario: the default one of the simulation. */
+const USUAL_BODY: Body = { trunk: [0.17, 0, -0.02], hip_x: 0.188, leg_y: 0.127, height: 0.29 };
+
+/** Trunk with head and legs, body axes. */
+export function robot(ink: string, body: Body | null | undefined): { group: Group; ring: Sprite } {
   const group = new Group();
   const faces = new MeshBasicMaterial({
     color: ink,
@@ -223,15 +226,19 @@ export function robot(ink: string): { group: Group; ring: Sprite } {
     outline.renderOrder = 4;
     group.add(solid, outline);
   };
-  box(0.55, 0.24, 0.12, 0.18, 0, -0.04);
-  box(0.12, 0.12, 0.1, 0.5, 0, 0);
-  for (const [x, y] of [
-    [0, 1],
-    [0, -1],
-    [0.36, 1],
-    [0.36, -1],
+  const { trunk, hip_x, leg_y, height } = body ?? USUAL_BODY;
+  const [x, y, z] = trunk;
+  const thickness = 0.4 * height;
+  box(2.9 * hip_x, 1.9 * leg_y, thickness, x, y, z);
+  box(0.65 * hip_x, leg_y, 0.8 * thickness, x + 1.75 * hip_x, y, z + 0.1 * height);
+  const leg = height - 0.2 * thickness;
+  for (const [ahead, left] of [
+    [1, 1],
+    [1, -1],
+    [-1, 1],
+    [-1, -1],
   ] as const)
-    box(0.04, 0.04, 0.3, x, 0.13 * y, -0.22);
+    box(0.15 * height, 0.15 * height, leg, x + ahead * hip_x, y + left * leg_y, z - height + leg / 2);
   const ring = marker(ink);
   group.add(ring);
   return { group, ring };

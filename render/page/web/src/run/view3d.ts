@@ -148,8 +148,8 @@ export class View3D {
     this.addTrajectories();
     const ink = seriesColor(this.data.estimators[this.state.chosen]?.colour_index ?? 0);
     this.moving = {
-      truth: robot(color("--truth")),
-      estimate: robot(ink),
+      truth: robot(color("--truth"), this.data.scenario.body),
+      estimate: robot(ink, this.data.scenario.body),
       axis: axisArrow(color("--weak")),
       cloud: ellipsoid(ink),
       people: (this.data.scene?.people ?? []).map((each) => person(each, color("--person"))),
