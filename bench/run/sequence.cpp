@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/run/run_legs.hpp"
+#include "bench/run/shown_scans.hpp"
 #include "bench/run/tables.hpp"
 #include "core/files/csv_columns.hpp"
 #include "core/files/tum.hpp"
@@ -55,6 +56,8 @@ Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
   const Truth truth = sequence.reader.truth();
   const auto legs = legs_of(sequence, scenario, truth);
   if (!legs) return tl::unexpected(legs.error());
+  const auto scans = shown_scans(sequence.reader, sequence.truth_trajectory);
+  if (!scans) return tl::unexpected(scans.error());
   auto written = write_tum(folder / "truth.tum", thinned(sequence.truth_trajectory, kTruthSpacing));
   const auto write = [&](const char* name, const CsvTable& table) {
     if (written) written = write_csv(folder / name, table);
@@ -63,6 +66,7 @@ Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
   write("localizability.csv", localizability_table(sequence.localizability));
   write("legs.csv", legs_table(*legs));
   write("snapshots.csv", snapshots_table(truth.snapshots));
+  write("scans.csv", shown_scans_table(*scans));
   return written;
 }
 

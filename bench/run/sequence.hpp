@@ -32,13 +32,15 @@ Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario
                                std::uint64_t seed);
 
 /// Writes what is known of the sequence whoever estimates: truth.tum, waypoint_times.csv,
-/// localizability.csv, legs.csv and snapshots.csv (the robot's joints at 10 Hz, for pictures).
+/// localizability.csv, legs.csv, and for pictures snapshots.csv (the robot's joints at 10 Hz) and
+/// scans.csv (bench/run/shown_scans.hpp).
 Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
                             const std::filesystem::path& folder);
 
 /// Names of the files that `write_sequence` writes.
-inline constexpr const char* kSequenceFiles[] = {"truth.tum", "waypoint_times.csv",
-                                                 "localizability.csv", "legs.csv", "snapshots.csv"};
+inline constexpr const char* kSequenceFiles[] = {"truth.tum",          "waypoint_times.csv",
+                                                 "localizability.csv", "legs.csv",
+                                                 "snapshots.csv",      "scans.csv"};
 
 /// Reads snapshots.csv.
 Result<std::vector<RobotSnapshot>> read_snapshots(const std::filesystem::path& file);

@@ -116,14 +116,14 @@ LidarPoint point_at(const std::byte* bytes) {
   return point;
 }
 
-bool take_scan(ByteCursor& cursor, LidarScan& scan, bool with_points) {
+bool take_scan(ByteCursor& cursor, LidarScan& scan, const ScanFilter& with_points) {
   std::size_t count = 0;
   if (!take_number(cursor, scan.stamp) || !take_number(cursor, scan.end) ||
       !take_count(cursor, kPointSize, count)) {
     return false;
   }
   const std::byte* bytes = cursor.take(count * kPointSize)->data();
-  if (!with_points) return true;
+  if (!with_points(scan)) return true;
   scan.points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) scan.points.push_back(point_at(bytes + i * kPointSize));
   return true;
@@ -248,7 +248,7 @@ void append_delivery(std::vector<std::byte>& out, const Delivery& delivery) {
   }
 }
 
-std::optional<Delivery> take_delivery(ByteCursor& cursor, bool with_points) {
+std::optional<Delivery> take_delivery(ByteCursor& cursor, const ScanFilter& with_points) {
   std::uint8_t kind = 0;
   Delivery delivery;
   if (!take_number(cursor, kind) || !take_number(cursor, delivery.arrival)) return std::nullopt;

@@ -96,20 +96,20 @@ Truth SequenceReader::truth() const {
 }
 
 Result<void> SequenceReader::replay(const std::function<void(const Delivery&)>& visit) const {
-  return replay(visit, true);
+  return replay_some_points([](const LidarScan&) { return true; }, visit);
 }
 
 Result<void> SequenceReader::replay_without_points(
     const std::function<void(const Delivery&)>& visit) const {
-  return replay(visit, false);
+  return replay_some_points([](const LidarScan&) { return false; }, visit);
 }
 
-Result<void> SequenceReader::replay(const std::function<void(const Delivery&)>& visit,
-                                    bool with_points) const {
+Result<void> SequenceReader::replay_some_points(
+    const ScanFilter& wanted, const std::function<void(const Delivery&)>& visit) const {
   ByteCursor cursor(deliveries_);
   while (cursor.left() > 0) {
     const std::size_t at = cursor.position();
-    const auto delivery = take_delivery(cursor, with_points);
+    const auto delivery = take_delivery(cursor, wanted);
     if (!delivery) {
       return failure(
           fmt::format("{}: no delivery at byte {} of the stream; delete the file and it "

@@ -28,7 +28,7 @@ class SequenceWriter {
  public:
   /// `origin` is kept as text: what the sequence is of.
   static Result<SequenceWriter> create(const std::filesystem::path& file, const SensorRig& rig,
-                                   std::string_view origin);
+                                       std::string_view origin);
 
   Result<void> write(std::span<const Delivery> deliveries);
   /// Appends the truth and puts the file in its place.
@@ -43,8 +43,11 @@ class SequenceWriter {
   std::size_t flushed_ = 0;  ///< bytes in the file
 };
 
-/// Reads what `SequenceWriter` wrote. Measurements are read as they are asked for: memory is that of
-/// one scan, and processes that read one sequence have its pages in common.
+/// Whether something is to be done with a scan.
+using ScanFilter = std::function<bool(const LidarScan&)>;
+
+/// Reads what `SequenceWriter` wrote. Measurements are read as they are asked for: memory is that
+/// of one scan, and processes that read one sequence have its pages in common.
 class SequenceReader {
  public:
   /// Error when the file is no sequence, of another format, or cut short.
@@ -60,12 +63,14 @@ class SequenceReader {
   Result<void> replay(const std::function<void(const Delivery&)>& visit) const;
   /// The same with scans that have no points, at a fraction of the time.
   Result<void> replay_without_points(const std::function<void(const Delivery&)>& visit) const;
+  /// The same with the points of those scans alone for which `wanted` holds; it gets them without.
+  Result<void> replay_some_points(const ScanFilter& wanted,
+                                  const std::function<void(const Delivery&)>& visit) const;
 
  private:
   SequenceReader(std::filesystem::path path, MappedFile file)
       : path_(std::move(path)), file_(std::move(file)) {}
   bool read_header();
-  Result<void> replay(const std::function<void(const Delivery&)>& visit, bool with_points) const;
 
   std::filesystem::path path_;
   MappedFile file_;

@@ -219,6 +219,7 @@ Result<RunFolder> read_run_folder(const fs::path& folder) {
   if (done) done = read_waypoint_times(run);
   if (done) done = read_table_into(folder / "localizability.csv", run.localizability);
   if (done) done = read_table_into(folder / "legs.csv", run.legs);
+  if (done) done = read_table_into(folder / "scans.csv", run.scans);
   if (!done) return tl::unexpected(done.error());
   for (const std::string& name : estimator_names(run)) {
     auto files = read_estimator(folder, name);

@@ -46,6 +46,7 @@ struct RunFolder {
   std::vector<WaypointTime> waypoint_times;
   std::optional<CsvColumns> localizability;
   std::optional<CsvColumns> legs;
+  std::optional<CsvColumns> scans;
   std::vector<EstimatorFiles> estimators;  ///< as in scores.json, then by name
   std::vector<std::string> notes;          ///< what could not be used, a sentence each
 };

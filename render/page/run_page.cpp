@@ -16,6 +16,7 @@
 #include "render/page/page_pictures.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_series.hpp"
+#include "render/page/scan_series.hpp"
 #include "render/page/scene_geometry.hpp"
 #include "render/page/surface_distance.hpp"
 #include "sim/environment/scene_config.hpp"
@@ -108,13 +109,17 @@ Json health_json(const RunFolder& run, const std::string& name) {
   return member(member(member(record, "estimators"), name), "health");
 }
 
+/// Whether a scene has a ceiling; one that is not known may have.
+bool may_be_roofed(const Scene* scene) {
+  return scene == nullptr ||
+         std::ranges::any_of(scene->solids, [](const Solid& solid) { return solid.roof; });
+}
+
 /// `scene`: null when it is not known.
 Result<Json> estimators_json(const RunFolder& run, const Scene* scene, double start,
                              PageData& page) {
   const auto surface =
       scene != nullptr ? std::optional<SurfaceDistance>(std::in_place, *scene) : std::nullopt;
-  const bool roofed =
-      scene == nullptr || std::ranges::any_of(scene->solids, [](const Solid& s) { return s.roof; });
   const auto maps = static_cast<std::size_t>(
       std::ranges::count_if(run.estimators, [](const auto& each) { return !each.map.empty(); }));
   Json list = Json::array();
@@ -127,13 +132,14 @@ Result<Json> estimators_json(const RunFolder& run, const Scene* scene, double st
          {"health", health_json(run, each.name)},
          {"colour_index", list.size()},
          {"series", std::move(*series)},
-         {"map", map_json(each.map, start_anchor(each.trajectory, run.truth, run.scoring),
-                          surface ? &*surface : nullptr, most_points(maps), roofed, page)}});
+         {"map",
+          map_json(each.map, start_anchor(each.trajectory, run.truth, run.scoring),
+                   surface ? &*surface : nullptr, most_points(maps), may_be_roofed(scene), page)}});
   }
   return list;
 }
 
-/// Adds what needs the scene: its geometry, and maps held against its surface.
+/// Adds what needs the scene: its geometry, scans, and maps compared with its surface.
 Result<void> add_estimators(const RunFolder& run, double start, PageData& page) {
   std::optional<Scene> scene;
   page.json["scene"] = Json();
@@ -142,6 +148,10 @@ Result<void> add_estimators(const RunFolder& run, double start, PageData& page) 
         build_scene(run.scenario->simulation.scene, static_cast<std::uint64_t>(run.scenario->seed));
     page.json["scene"] = scene_json(*scene, page);
   }
+  const bool cut = scene && may_be_roofed(&*scene);
+  auto scans = scans_json(run, cut ? &*scene : nullptr, start, page);
+  if (!scans) return tl::unexpected(scans.error());
+  page.json["scans"] = std::move(*scans);
   auto estimators = estimators_json(run, scene ? &*scene : nullptr, start, page);
   if (!estimators) return tl::unexpected(estimators.error());
   page.json["estimators"] = std::move(*estimators);

@@ -119,6 +119,25 @@ TEST_F(RunPage, ThinsLongSeriesAndLargeMapsAndKeepsTheLastPose) {
   EXPECT_EQ(first["map"]["error"]["n"], points);
 }
 
+TEST_F(RunPage, HoldsTheScansWithWhatIsBelowTheCeilingFirst) {
+  testing::write_run(folder_.path() / "run", {});  // at 1 s the body is at (1.45, 0.2, 0.3)
+  testing::put(folder_.path() / "run" / "scans.csv",
+               "stamp_s,returns,x,y,z,intensity\n"
+               "1,900,2,0,2.4,1\n"
+               "1,900,3,0.5,0.2,0.5\n"
+               "2,800,1,0,0,0\n");
+  const DecodedPage page = read();
+  const auto& scans = page.json["scans"];
+  EXPECT_EQ(page.f32(scans["t"]), (std::vector<float>{1.0F, 2.0F}));
+  EXPECT_EQ(page.f32(scans["first"]), (std::vector<float>{0.0F, 2.0F}));
+  EXPECT_EQ(page.f32(scans["returns"]), (std::vector<float>{900.0F, 800.0F}));
+  EXPECT_EQ(page.f32(scans["below"]), (std::vector<float>{1.0F, 1.0F}));
+  const auto p = page.f32(scans["p"]);
+  const std::vector<float> expected = {3.0F, 0.5F, 0.2F, 2.0F, 0.0F, 2.4F, 1.0F, 0.0F, 0.0F};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(p[i], expected[i], 0.0051F);
+  EXPECT_EQ(page.array<std::uint8_t>(scans["intensity"]), (std::vector<std::uint8_t>{128, 255, 0}));
+}
+
 TEST_F(RunPage, CountsSecondsFromTheStartOfAnEpochsClock) {
   const DecodedPage page = page_of({.scans = 20, .start_s = 1.7e9});
   EXPECT_EQ(page.json["t0_s"], 1.7e9);
@@ -141,8 +160,9 @@ TEST_F(RunPage, OfThirteenSystemsAlongTheCorridorStaysUnderFiveMegabytes) {
   constexpr int kSystems = 13;
   testing::write_run(folder_.path() / "run",
                      {.scans = 2400, .map_points = 30000, .noisy = kSystems - 2});
+  testing::put(folder_.path() / "run" / "scans.csv", testing::noisy_scans());
   const auto page = run_page(folder_.path() / "run");
-  ASSERT_TRUE(page);
+  ASSERT_TRUE(page) << page.error().message;
   ASSERT_EQ(page->json["estimators"].size(), std::size_t{kSystems});
   const std::size_t data = payload_text(*page).size();
   const auto pictures = 4U * 100U * 1024U * 4U / 3U;

@@ -7,6 +7,7 @@
 
 #include "bench/run/scenario.hpp"
 #include "bench/run/score_record.hpp"
+#include "bench/run/shown_scans.hpp"
 #include "bench/run/tables.hpp"
 #include "core/files/csv.hpp"
 #include "core/files/ply.hpp"
@@ -105,6 +106,20 @@ std::string scores_text(const WrittenRun& run) {
 }
 
 }  // namespace
+
+std::string noisy_scans() {
+  RandomStream stream(kSeed, "scans");
+  std::vector<ShownScan> scans(kMostShownScans);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    scans[i] = {from_seconds(static_cast<double>(i + 1)), 28000, {}};
+    for (std::size_t k = 0; k < kMostShownReturns; ++k) {
+      const Eigen::Vector3d p(stream.uniform(-30.0, 30.0), stream.uniform(-1.3, 1.3),
+                              stream.uniform(-0.3, 2.3));
+      scans[i].shown.push_back({p.cast<float>(), static_cast<float>(stream.uniform())});
+    }
+  }
+  return shown_scans_table(scans).text();
+}
 
 void put(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;

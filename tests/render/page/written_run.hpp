@@ -25,6 +25,10 @@ inline constexpr double kStep = 0.05;
 /// given estimators.
 void write_run(const std::filesystem::path& folder, const WrittenRun& run);
 
+/// A scans.csv of as many scans and returns as `aims run` keeps, each return at random in the
+/// corridor.
+std::string noisy_scans();
+
 /// Puts `text` into a file.
 void put(const std::filesystem::path& file, const std::string& text);
 

@@ -128,6 +128,22 @@ export interface Estimator {
   map: CloudMap | null;
 }
 
+/** Some scans of the run, thinned; points of one follow those of the one before. */
+export interface Scans {
+  /** Ends of the scans [s]. */
+  t: Numbers;
+  /** Index of each scan's first point. */
+  first: Numbers;
+  /** Returns that each scan had. */
+  returns: Numbers;
+  /** How many of each scan's points, its first ones, lie below the ceiling. */
+  below: Numbers;
+  /** xyz each, in the body frame at the scan's end [m]. */
+  p: Numbers;
+  /** 0..255 for 0..1. */
+  intensity: Uint8Array;
+}
+
 export interface Picture {
   name: string;
   title: string;
@@ -180,6 +196,7 @@ export interface RunPayload extends PagePayload {
   truth: Poses | null;
   localizability: Localizability | null;
   legs: Legs | null;
+  scans?: Scans | null;
   estimators: Estimator[];
   pictures: Picture[] | null;
 }

@@ -49,7 +49,17 @@ function scene() {
   const edges = boxEdges([-3, -1.1, 0], [kLength + 3, 1.1, 2.6]);
   for (let x = 4; x < kLength; x += 8)
     edges.push(...boxEdges([x, -1.25, 0], [x + 0.9, -1.1, 2.05]));
-  return { floor: null, edges: Float32Array.from(edges), triangles: null, bounds: null };
+  const [x0, x1] = [-3, kLength + 3];
+  const wall = (y) => [x0, y, 0, x1, y, 0, x1, y, 2.6, x0, y, 0, x1, y, 2.6, x0, y, 2.6];
+  return {
+    floor: null,
+    edges: Float32Array.from(edges),
+    triangles: Float32Array.from([...wall(-1.1), ...wall(1.1)]),
+    roof_edges: Float32Array.from([x0, -1.1, 2.6, x1, 1.1, 2.6]),
+    roof_triangles: Float32Array.from([x0, -1.1, 2.6, x1, -1.1, 2.6, x1, 1.1, 2.6]),
+    bounds: null,
+    people: [{ from: [10, -0.5], to: [20, -0.5], speed: 1, start: 3, radius: 0.25, height: 1.75 }],
+  };
 }
 
 function map(count, drift, random) {
@@ -182,6 +192,25 @@ function scoresOf(item, random) {
   };
 }
 
+/** A scan every two seconds: both walls and the floor, seen from the body. */
+function scans(seconds, random) {
+  const each = 60;
+  const t = Float32Array.from({ length: Math.floor(seconds / 2) }, (_, i) => 2 + 2 * i);
+  const points = Array.from({ length: t.length * each }, () => [
+    10 * random() - 5,
+    random() < 0.5 ? -1.1 : 1.1,
+    1.5 * random() - 0.4,
+  ]);
+  return {
+    t,
+    first: t.map((_, i) => i * each),
+    returns: t.map(() => 28000),
+    below: t.map(() => each - 10),
+    p: Float32Array.from(points.flat()),
+    intensity: Uint8Array.from(points, () => 255 * random()),
+  };
+}
+
 /** A run along a corridor; options: names, count of samples, points per map. */
 export function run({
   names = ["aims_d", "aims", "lio", "tfs"],
@@ -290,6 +319,7 @@ export function run({
       },
     },
     legs,
+    scans: scans(seconds, random),
     estimators,
     pictures: [
       { name: "trajectories", title: "Trajectories", png: picture(320, 200) },

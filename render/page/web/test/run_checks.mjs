@@ -138,6 +138,28 @@ async function assertCeilingSwitches(page) {
   await settle(page);
 }
 
+/** The scan at the cursor is drawn in each of its colours, and the page states which scan it is. */
+async function assertScanColors(page, payload) {
+  if (!payload.scans) return;
+  const key = page.locator('[data-key="scan"]');
+  const text = await key.innerText();
+  const cursor = await cursorOf(page);
+  const at = nearest(payload.scans.t, cursor);
+  assert.ok(text.includes(`at ${payload.scans.t[at].toFixed(1)} s`), `${text} near ${cursor} s`);
+  assert.ok(text.includes(payload.scans.returns[at].toLocaleString("en")), text);
+  const pictures = new Set();
+  const select = page.locator('[data-control="scan-coloring"]');
+  for (const name of ["intensity", "range", "residual", "none"]) {
+    await select.selectOption(name);
+    await settle(page);
+    pictures.add(await page.evaluate(() => document.querySelector(".view-frame canvas").toDataURL()));
+    assert.equal(await key.count(), name === "none" ? 0 : 1, name);
+  }
+  assert.equal(pictures.size, 4, "each colouring looks different");
+  await select.selectOption("intensity");
+  await settle(page);
+}
+
 /** Every number of the first two tables equals that of scores.json. */
 async function assertTablesEqual(page, scores) {
   const near = (cell, value, what) => {
@@ -344,6 +366,7 @@ export async function assertRunPage(browser, file, name, scores) {
   assert.ok(wide > 0.6 && high > 0.5, `the scene spans ${wide} by ${high} of the view`);
   await assertLeadsWithResult(page, 800);
   await assertCeilingSwitches(page);
+  await assertScanColors(page, payload);
   await assertTablesEqual(page, scores);
   await assertBestIsBold(page, scores);
   await assertCursorMoves(page, payload);

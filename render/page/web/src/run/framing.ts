@@ -11,10 +11,10 @@ export interface Shot {
 
 /** Room around the box, as a factor. */
 const kMargin = 1.04;
-const kElevations = [25, 35, 45];
-const kAzimuthStep = 15;
+const kElevations = [30, 40, 50];
+const kAzimuthStep = 5;
 /** How much it counts against a direction that the far end is small: power of the ratio of depths. */
-const kEvenness = 0.35;
+const kEvenness = 0.25;
 
 function corners({ min, max }: Bounds): Vector3[] {
   return Array.from({ length: 8 }, (_, i) =>

@@ -142,6 +142,7 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
       level: firstLevel(data),
       coloring: "height",
       ceiling: false,
+      scanColoring: "intensity",
       errorScale: "chosen",
     },
     times,

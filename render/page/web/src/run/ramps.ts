@@ -28,7 +28,19 @@ const kError: Rgb[] = [
 /** On a dark ground the ramp of heights starts lighter. */
 const kHeightDark: Rgb[] = [[62, 92, 160], [92, 108, 150], [112, 120, 140], ...kHeight.slice(5)];
 
-export function ramp(kind: "height" | "error", dark: boolean): Rgb[] {
+/** From dark red to bright: stands out from a map in the colours of heights. */
+const kScan: Rgb[] = [
+  [90, 0, 60],
+  [170, 20, 70],
+  [225, 75, 50],
+  [245, 145, 40],
+  [255, 215, 90],
+];
+
+export type Ramp = "height" | "error" | "scan";
+
+export function ramp(kind: Ramp, dark: boolean): Rgb[] {
+  if (kind === "scan") return kScan;
   return kind === "error" ? kError : dark ? kHeightDark : kHeight;
 }
 

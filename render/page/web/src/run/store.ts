@@ -3,6 +3,7 @@
 
 export type Level = "n10" | "n100" | "n1000";
 export type Coloring = "height" | "error";
+export type ScanColoring = "intensity" | "range" | "residual" | "none";
 export type ErrorScale = "chosen" | "all";
 
 export interface State {
@@ -16,6 +17,8 @@ export interface State {
   /** Level at which degenerate intervals are shaded. */
   level: Level;
   coloring: Coloring;
+  /** What the colours of the scan show; is it drawn? */
+  scanColoring: ScanColoring;
   /** Is the ceiling drawn? */
   ceiling: boolean;
   errorScale: ErrorScale;

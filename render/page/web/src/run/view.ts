@@ -8,8 +8,10 @@ import type { Preset } from "./camera3d";
 import { heightRange } from "./parts3d";
 import { pictureImage } from "../pictures";
 import { ramp, rampGradient } from "./ramps";
+import { ScanPlacer } from "./scan";
+import { Surface } from "./surface";
 import { indexAt, valueAt, vectorAt, track } from "./series";
-import type { Coloring, State, Store } from "./store";
+import type { Coloring, ScanColoring, State, Store } from "./store";
 import { View3D, webGlKind } from "./view3d";
 
 function fallback(data: RunPayload): HTMLElement {
@@ -55,7 +57,12 @@ function presets(view: View3D): HTMLElement {
   return h("span", { class: "segmented", role: "group", "aria-label": "View from" }, ...buttons);
 }
 
-function controls(data: RunPayload, store: Store, view: View3D): HTMLElement {
+function controls(
+  data: RunPayload,
+  store: Store,
+  view: View3D,
+  placer: ScanPlacer,
+): HTMLElement {
   const follow = h(
     "button",
     {
@@ -83,6 +90,16 @@ function controls(data: RunPayload, store: Store, view: View3D): HTMLElement {
     { "data-control": "height-scale", onchange: () => view.setHeightScale(Number(heightScale.value)) },
     ...[1, 5, 20].map((factor) => h("option", { value: factor }, `${factor}×`)),
   );
+  const scanColoring = h(
+    "select",
+    {
+      "data-control": "scan-coloring",
+      onchange: () => store.set({ scanColoring: scanColoring.value as ScanColoring }),
+    },
+    ...placer
+      .colorings()
+      .map((name) => h("option", { value: name }, name === "none" ? "not shown" : name)),
+  );
   const ceiling = h("input", {
     type: "checkbox",
     "data-control": "ceiling",
@@ -98,6 +115,7 @@ function controls(data: RunPayload, store: Store, view: View3D): HTMLElement {
     presets(view),
     follow,
     maps ? h("label", {}, "map colour ", coloring) : null,
+    data.scans ? h("label", {}, "scan colour ", scanColoring) : null,
     h("label", {}, "height scale ", heightScale),
     roofed ? h("label", {}, ceiling, " ceiling") : null,
   );
@@ -130,13 +148,38 @@ function mapKey(data: RunPayload, state: Readonly<State>): HTMLElement | null {
   );
 }
 
+/** What the scan at the cursor shows, and by whose pose it is placed. */
+function scanKey(placer: ScanPlacer, state: Readonly<State>): HTMLElement | null {
+  const scan = placer.place(state);
+  if (!scan) return null;
+  const residual = state.scanColoring === "residual";
+  const bar = h("i", { class: "ramp" });
+  bar.style.background = rampGradient(ramp(residual ? "error" : "scan", theme() === "dark"));
+  const names = { intensity: "intensity", range: "range", residual: "distance to the true surface", none: "" };
+  const unit = state.scanColoring === "intensity" ? "" : " m";
+  return h(
+    "span",
+    { class: "legend-item", "data-key": "scan" },
+    `scan, ${names[state.scanColoring]} ${formatFixed(scan.low, 1)}`,
+    bar,
+    `${formatFixed(scan.high, 1)}${residual ? "+" : ""}${unit}: ${scan.values.length} of `,
+    `${scan.returns.toLocaleString("en")} returns at ${formatFixed(scan.t, 1)} s, placed by `,
+    h("bdi", {}, scan.by),
+  );
+}
+
 function inkKey(text: string, ink: string, kind = ""): HTMLElement {
   const swatch = h("i", { class: `swatch ${kind}`.trim() });
   swatch.style.background = ink;
   return h("span", { class: "legend-item" }, swatch, h("bdi", {}, text));
 }
 
-function legend(data: RunPayload, state: Readonly<State>, scale: number): HTMLElement {
+function legend(
+  data: RunPayload,
+  state: Readonly<State>,
+  placer: ScanPlacer,
+  scale: number,
+): HTMLElement {
   const chosen = data.estimators[state.chosen];
   const covariance = chosen?.series?.position_covariance;
   return h(
@@ -154,6 +197,7 @@ function legend(data: RunPayload, state: Readonly<State>, scale: number): HTMLEl
         )
       : null,
     mapKey(data, state),
+    scanKey(placer, state),
   );
 }
 
@@ -196,7 +240,8 @@ export function viewCard(
   const words = h("div", {}, readout(data, store.state));
   store.on(["cursor", "chosen"], () => words.replaceChildren(readout(data, store.state)));
   const element = h("section", { class: "card view", "aria-label": "3D view" });
-  const view = create(data, store);
+  const placer = new ScanPlacer(data, data.scene ? new Surface(data.scene) : null);
+  const view = create(data, store, placer);
   if (!view) {
     element.append(fallback(data), words);
     return { element, start: () => {} };
@@ -205,10 +250,13 @@ export function viewCard(
   view.canvas.setAttribute("role", "img");
   view.canvas.setAttribute("aria-label", "Scene, map, trajectories and the robot at the cursor");
   const key = h("div");
-  const showKey = () => key.replaceChildren(legend(data, store.state, view.ellipsoidScale));
+  const showKey = () => key.replaceChildren(legend(data, store.state, placer, view.ellipsoidScale));
   showKey();
-  element.append(controls(data, store, view), frame, key, words);
-  store.on(["cursor"], () => view.update(store.state, false));
+  element.append(controls(data, store, view, placer), frame, key, words);
+  store.on(["cursor", "scanColoring"], () => {
+    view.update(store.state, false);
+    showKey();
+  });
   store.on(["chosen", "coloring", "ceiling"], () => {
     view.update(store.state, true);
     showKey();
@@ -227,10 +275,10 @@ export function viewCard(
   };
 }
 
-function create(data: RunPayload, store: Store): View3D | null {
+function create(data: RunPayload, store: Store, placer: ScanPlacer): View3D | null {
   try {
     const kind = webGlKind();
-    return kind ? new View3D(data, store.state, kind === "card") : null;
+    return kind ? new View3D(data, store.state, placer, kind === "card") : null;
   } catch {
     return null;
   }

@@ -18,6 +18,7 @@ import { color, seriesColor, theme } from "../theme";
 import { CameraRig, type Preset } from "./camera3d";
 import {
   axisArrow,
+  coloredPoints,
   cloud,
   ellipsoid,
   ellipsoidMatrix,
@@ -30,6 +31,8 @@ import {
   type Bounds,
   type Tube,
 } from "./parts3d";
+import { ramp, rampTable } from "./ramps";
+import type { ScanPlacer } from "./scan";
 import { indexAt, quaternionAt, vectorAt } from "./series";
 import type { State } from "./store";
 
@@ -59,7 +62,7 @@ function dispose(object: Object3D): void {
 }
 
 /** Of the scene no more is shown at first than lies so near to the walked path [m]. */
-const kAround = 12;
+const kAround = 6;
 
 /** What the presets show: the truth and the scene around it; estimates only without these, since diverged ones run far. */
 function extent(data: RunPayload): Bounds {
@@ -113,6 +116,7 @@ export class View3D {
     cloud: Group;
     people: Group[];
   } | null = null;
+  private scan: Points | null = null;
   private tubes: { tube: Tube; pixels: number; radius: number }[] = [];
   private preset: Preset = "orbit";
   private pending = false;
@@ -123,6 +127,7 @@ export class View3D {
   constructor(
     private readonly data: RunPayload,
     private state: Readonly<State>,
+    private readonly placer: ScanPlacer,
     smooth: boolean,
   ) {
     this.renderer = new WebGLRenderer({
@@ -161,6 +166,7 @@ export class View3D {
       this.moving.cloud,
       ...this.moving.people,
     );
+    this.scan = null;
     this.move();
   }
 
@@ -226,9 +232,23 @@ export class View3D {
     this.data.scene?.people?.forEach((each, i) => {
       this.moving!.people[i]?.position.set(...personAt(each, simulated), 0);
     });
+    this.showScan();
     const target = here ?? there;
     if (target) this.rig.track(target);
     this.draw();
+  }
+
+  /** Draws the scan at the cursor, over the map. */
+  private showScan(): void {
+    if (this.scan) dispose(this.scan);
+    this.scan = null;
+    const placed = this.placer.place(this.state);
+    if (!placed || placed.values.length === 0) return;
+    const kind = this.state.scanColoring === "residual" ? "error" : "scan";
+    const fractions = placed.values.map((value) => value / placed.high);
+    this.scan = coloredPoints(placed.p, fractions, rampTable(ramp(kind, theme() === "dark")), 3.5);
+    this.scan.renderOrder = 1;
+    this.world.add(this.scan);
   }
 
   private place(
