@@ -40,6 +40,39 @@ test("a diverged run is stated in words, not by colour alone", { skip }, async (
   assert.equal(await page.locator("#matrix tbody tr").count(), 1);
 });
 
+test("each run has a small chart, the worst first, that links to its page", { skip }, async () => {
+  const data = suite();
+  const { page, troubles } = await pages.show(data);
+  const charts = page.locator("#runs .small");
+  assert.equal(await charts.count(), data.runs.length);
+  const order = await charts.evaluateAll((list) => list.map((each) => each.dataset.run));
+  // b diverges on severity_3; of its seeds the third has the largest errors of a, yet b's are alike.
+  assert.deepEqual(new Set(order.slice(0, 3)), new Set([1, 2, 3].map((seed) => `severity_3, seed ${seed}`)));
+  assert.match(await charts.first().innerText(), /b[^]*0\.500[^]*✕ at 13 s/);
+  const linked = data.runs.filter((run) => run.href).map((run) => `${run.scenario}, seed ${run.seed}`);
+  assert.deepEqual(new Set(await page.locator("#runs .small a").allInnerTexts()), new Set(linked));
+  const link = page.locator('#runs [data-run="severity_1, seed 1"] a');
+  assert.equal(await link.getAttribute("href"), "runs/severity_1/seed-1/page.html");
+  const widths = await page.locator('#runs [data-run="alone, seed 1"] .small-bar')
+    .evaluateAll((bars) => bars.map((bar) => bar.getBoundingClientRect().width));
+  assert.ok(widths[1] > widths[0], "0.5 m is longer than 0.01 m");
+  await page.locator("#runs").getByLabel("Score").selectOption("m_end_m");
+  assert.match(await page.locator("#runs .soft").first().innerText(), /^M_end \[m\]/);
+  assert.deepEqual(troubles, []);
+});
+
+test("of many runs the worst are shown until all are asked for", { skip }, async () => {
+  const data = suite();
+  data.runs = Array.from({ length: 60 }, (_, i) => ({ ...data.runs[0], seed: i, href: null,
+    estimators: { a: { success: true, diverged_at_s: null, diverged_reason: "", ate_m: 0.01 * ((7 * i) % 60), m_end_m: 0 } } }));
+  const { page } = await pages.show(data);
+  const charts = page.locator("#runs .small");
+  assert.equal(await charts.count(), 24);
+  assert.match(await charts.first().innerText(), /0\.590/);
+  await page.getByRole("button", { name: "Show all 60 runs" }).click();
+  assert.equal(await charts.count(), 60);
+});
+
 test("invalid runs are stated above all, and are no runs of a cell", { skip }, async () => {
   const data = suite();
   const reason = "the robot fell at 1.2 s";

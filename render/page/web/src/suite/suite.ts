@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** The page of a suite: matrix, families, detectors, before and after, expectations. */
+/** The page of a suite: matrix, runs, families, detectors, before and after, expectations. */
 import "./suite.css";
 import { facts, notes } from "../charts/controls";
 import { h, section } from "../dom";
@@ -9,6 +9,7 @@ import { compareSection } from "./compare";
 import { familySection } from "./families";
 import { matrixSection } from "./matrix";
 import { estimatorsOf, type Expectation, type SuitePayload } from "./model";
+import { multiplesSection } from "./multiples";
 import { paperSection } from "./paper";
 import { rocSection } from "./roc";
 
@@ -60,7 +61,7 @@ function invalidBanner(data: SuitePayload): HTMLElement | null {
 export function renderSuite(root: HTMLElement, data: SuitePayload): void {
   const runs = data.runs.length;
   const banner = invalidBanner(data);
-  const sections = [paperSection(data), matrixSection(data), familySection(data), rocSection(data), compareSection(data),
+  const sections = [paperSection(data), matrixSection(data), multiplesSection(data), familySection(data), rocSection(data), compareSection(data),
     expectationSection(data), failureSection(data)].filter((each) => each !== null);
   root.append(
     h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()),

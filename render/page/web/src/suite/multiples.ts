@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** One small chart per run, the worst first: a score of every estimator on one common axis. */
+import { unitScale } from "../charts/axis";
+import { choice } from "../charts/controls";
+import { seriesPaint } from "../charts/svg";
+import { h, section } from "../dom";
+import { formatFixed, formatNumber, isNumber, kNone } from "../format";
+import { estimatorsOf, titleOf, type Run, type SuitePayload } from "./model";
+
+/** Charts shown before the reader asks for all. */
+const kShown = 24;
+
+interface Bar {
+  estimator: string;
+  index: number;
+  value: number | null;
+  diverged: boolean;
+  at: number | null;
+}
+
+function barsOf(run: Run, estimators: string[], score: string): Bar[] {
+  return estimators.flatMap((estimator, index): Bar[] => {
+    if (!Object.hasOwn(run.estimators, estimator)) return [];
+    const found = run.estimators[estimator]!;
+    const value = Object.hasOwn(found, score) ? found[score] : null;
+    const at = found["diverged_at_s"];
+    return [
+      {
+        estimator,
+        index,
+        value: isNumber(value) ? value : null,
+        diverged: found["success"] === false,
+        at: isNumber(at) ? at : null,
+      },
+    ];
+  });
+}
+
+/** Runs by how many estimators diverged, then by their largest score; invalid runs come last. */
+export function worstFirst(runs: Run[], estimators: string[], score: string): Run[] {
+  const key = (run: Run) => {
+    const bars = barsOf(run, estimators, score);
+    const values = bars.flatMap((bar) => (bar.value === null ? [] : [Math.abs(bar.value)]));
+    return {
+      run,
+      invalid: run.invalid ? 1 : 0,
+      diverged: bars.filter((bar) => bar.diverged).length,
+      largest: Math.max(-1, ...values),
+    };
+  };
+  return runs
+    .map(key)
+    .sort(
+      (a, b) => a.invalid - b.invalid || b.diverged - a.diverged || b.largest - a.largest,
+    )
+    .map(({ run }) => run);
+}
+
+function barRow(bar: Bar, at: (value: number) => number): HTMLElement {
+  const width = bar.value === null ? 0 : 4 + 96 * at(Math.abs(bar.value));
+  const mark = h("i", { class: bar.diverged ? "small-bar diverged" : "small-bar" });
+  mark.style.width = `${width.toFixed(1)}%`;
+  mark.style.setProperty("--paint", seriesPaint(bar.index));
+  const diverged = bar.at === null ? "✕ diverged" : `✕ at ${formatFixed(bar.at, 0)} s`;
+  return h(
+    "div",
+    { class: "small-row", "data-estimator": bar.estimator },
+    h("span", { class: "small-name", title: bar.estimator }, h("bdi", {}, bar.estimator)),
+    h("span", { class: "small-track" }, mark),
+    h(
+      "span",
+      { class: "small-value" },
+      bar.value === null && !bar.diverged ? kNone : bar.value === null ? "" : formatNumber(bar.value),
+      bar.diverged ? h("b", {}, ` ${diverged}`) : null,
+    ),
+  );
+}
+
+function chart(run: Run, bars: Bar[], at: (value: number) => number): HTMLElement {
+  const title = `${run.scenario}, seed ${run.seed}`;
+  return h(
+    "article",
+    { class: "small", "data-run": title },
+    h("h3", {}, run.href ? h("a", { href: run.href }, title) : title),
+    run.invalid
+      ? h("p", { class: "soft" }, `✕ invalid run: ${run.invalid}`)
+      : h("div", {}, ...bars.map((bar) => barRow(bar, at))),
+  );
+}
+
+/** Null without runs. */
+export function multiplesSection(data: SuitePayload): HTMLElement | null {
+  if (data.runs.length === 0 || data.headline.length === 0) return null;
+  const estimators = estimatorsOf(data);
+  const charts = h("div", { class: "smalls" });
+  const words = h("p", { class: "soft" });
+  const more = h("button", { type: "button" }, `Show all ${data.runs.length} runs`);
+  let score = data.headline.find((each) => each.key === "ate_m")?.key ?? data.headline[0]!.key;
+  let all = data.runs.length <= kShown;
+  const draw = () => {
+    const ordered = worstFirst(data.runs, estimators, score);
+    const values = data.runs.flatMap((run) =>
+      run.invalid ? [] : barsOf(run, estimators, score).flatMap((bar) => (bar.value === null ? [] : [Math.abs(bar.value)])));
+    const scale = unitScale(values);
+    const { title, unit } = titleOf(data.headline, score);
+    words.textContent =
+      values.length === 0
+        ? `No run has a value of ${title}.`
+        : `${title} [${unit}] of each run on one axis from ${formatNumber(scale.low)} to ` +
+      `${formatNumber(scale.high)}${scale.law}; worst first: most diverged estimators, then the largest value.`;
+    charts.replaceChildren(
+      ...(all ? ordered : ordered.slice(0, kShown)).map((run) =>
+        chart(run, barsOf(run, estimators, score), scale.at)),
+    );
+    more.hidden = all;
+  };
+  more.addEventListener("click", () => {
+    all = true;
+    draw();
+  });
+  draw();
+  return section(
+    "runs",
+    "Runs",
+    h(
+      "div",
+      { class: "toolbar" },
+      choice(
+        "Score",
+        data.headline.map((each) => ({ value: each.key, label: `${each.title} [${each.unit}]` })),
+        score,
+        (value) => {
+          score = value;
+          draw();
+        },
+      ),
+    ),
+    words,
+    charts,
+    more,
+  );
+}
