@@ -27,6 +27,10 @@ constexpr Color kGround{0.070, 0.080, 0.105};
 constexpr std::array<std::uint8_t, 4> kEdge = {150, 165, 190, 70};
 constexpr std::array<std::uint8_t, 4> kTruth = {255, 255, 255, 255};
 constexpr std::array<std::uint8_t, 4> kEstimate = {255, 120, 40, 255};
+constexpr std::array<std::uint8_t, 4> kScan = {255, 90, 210, 255};
+constexpr float kScanLift = 0.03F;  ///< of the scan towards the camera, over the map [m]
+constexpr std::array kAsides = {38.0, -38.0, 12.0, -12.0};  ///< of the camera's heading [deg]
+constexpr double kRobotReach = 0.3;                         ///< around its middle [m]
 constexpr Duration kSmoothing = kSecond;  ///< the camera does not sway with the robot
 
 Color color_of(const std::array<std::uint8_t, 4>& rgba) {
@@ -102,6 +106,20 @@ std::vector<GrownPoint> cut_map(const std::vector<GrownPoint>& map) {
   return result;
 }
 
+/// Whether a person stands between the eye and a point.
+bool is_hidden(const Eigen::Vector3d& point, const Eigen::Vector3d& eye, const Scene& scene,
+               Time stamp) {
+  constexpr int kSteps = 40;
+  for (const Person& person : scene.people) {
+    for (int i = 0; i < kSteps; ++i) {
+      const Eigen::Vector3d p = point + (eye - point) * i / kSteps;
+      const double away = (p.head<2>() - person.position(stamp)).norm();
+      if (p.z() < person.height && away < person.radius + kRobotReach) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 struct Film::Impl {
@@ -109,6 +127,7 @@ struct Film::Impl {
   FilmConfig config;
   std::vector<GrownPoint> map;    ///< without what is above the cut
   std::vector<ViewPoint> points;  ///< of the same
+  std::vector<ViewPoint> shown;   ///< map and scan of a picture
   std::vector<ViewLine> edges;
   std::optional<FilmPlan> plan;
   double azimuth_deg = 0.0;
@@ -119,6 +138,8 @@ struct Film::Impl {
   Result<void> show_scene(Time stamp);
   void color_points();
   Camera camera(Time stamp) const;
+  Camera camera_from(double aside_deg, Time stamp) const;
+  void show_points(Time stamp);
   ViewOverlay overlay(Time stamp) const;
   std::size_t count(Time stamp) const;
   void label(Canvas& canvas, Time stamp) const;
@@ -163,11 +184,11 @@ void Film::Impl::color_points() {
 
 /// The robot stands above the middle, since the plan lies below it; the camera looks outbound
 /// from a little aside, and steeply enough to see over the near wall.
-Camera Film::Impl::camera(Time stamp) const {
+Camera Film::Impl::camera_from(double aside_deg, Time stamp) const {
   Camera result;
   const bool top = config.view == FilmView::kTop;
-  result.azimuth_deg = top ? azimuth_deg + 90.0 : azimuth_deg + 17.0;
-  result.elevation_deg = top ? -90.0 : -33.0;
+  result.azimuth_deg = top ? azimuth_deg + 90.0 : azimuth_deg + aside_deg;
+  result.elevation_deg = top ? -90.0 : -47.0;
   result.distance = (top ? 13.0 : 8.5) * (config.still ? 0.55 : 1.0);
   const double azimuth = result.azimuth_deg * std::numbers::pi / 180.0;
   const Eigen::Vector3d ahead(std::cos(azimuth), std::sin(azimuth), 0.0);
@@ -175,9 +196,35 @@ Camera Film::Impl::camera(Time stamp) const {
   return result;
 }
 
+/// From the right; a still from the first side on which no person hides the robot. A film does not
+/// change sides.
+Camera Film::Impl::camera(Time stamp) const {
+  const auto robot = pose_at(sequence.truth, stamp);
+  if (!config.still || !robot) return camera_from(kAsides.front(), stamp);
+  for (const double aside_deg : kAsides) {
+    const Camera camera = camera_from(aside_deg, stamp);
+    if (!is_hidden(robot->translation, camera.position(), sequence.scene, stamp)) return camera;
+  }
+  return camera_from(kAsides.front(), stamp);
+}
+
+/// The map so far and, a little before it, the last scan, without what is above the cut.
+void Film::Impl::show_points(Time stamp) {
+  shown.assign(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count(stamp)));
+  const auto after =
+      std::upper_bound(sequence.scans.begin(), sequence.scans.end(), stamp,
+                       [](Time value, const PlacedScan& scan) { return value < scan.end; });
+  if (after == sequence.scans.begin()) return;
+  const Eigen::Vector3f eye = camera(stamp).position().cast<float>();
+  for (const Eigen::Vector3f& p : std::prev(after)->points) {
+    const double top = floor_height(sequence.scene.floor, p.x(), p.y()) + kSection;
+    if (p.z() <= top) shown.push_back({p + kScanLift * (eye - p).normalized(), kScan});
+  }
+}
+
 ViewOverlay Film::Impl::overlay(Time stamp) const {
   ViewOverlay result;
-  result.points = {points.data(), count(stamp)};
+  result.points = shown;
   result.point_diameter = config.still ? 0.020F : 0.045F;
   const auto unit = static_cast<float>(config.height / 400.0);
   result.least_diameter = 1.2F * unit;
@@ -217,6 +264,17 @@ void Film::Impl::label(Canvas& canvas, Time stamp) const {
     state += fmt::format(",  error {:.2f} m", (truth->translation - estimate->translation).norm());
   }
   canvas.text({left, 39.0 * unit}, state, {.size = 12.0 * unit, .color = light});
+  const TextStyle small{.size = 12.0 * unit, .color = light, .horizontal = Align::kEnd};
+  const std::string scan = sequence.scene.people.empty()
+                               ? "current scan"
+                               : "current scan; people left out of the map by their true places";
+  if (!sequence.scans.empty()) {
+    const double right = config.width - left;
+    canvas.text({right, 39.0 * unit}, scan, small);
+    const double end = right - canvas.text_width(scan, small) - 6.0 * unit;
+    canvas.line({{end - 16.0 * unit, 39.0 * unit}, {end, 39.0 * unit}},
+                {color_of(kScan), 2.5 * unit});
+  }
   double x = config.width - left;
   for (const auto& [name, color] :
        {std::pair{"trajectory and map of " + shown.name, color_of(kEstimate)},
@@ -259,6 +317,7 @@ Result<Image> Film::picture(Time wanted) {
       });
   const Time stamp = nearest->stamp;
   if (auto shown = impl_->show_scene(stamp); !shown) return tl::unexpected(shown.error());
+  impl_->show_points(stamp);
   auto picture = impl_->view->draw(nearest->qpos, impl_->camera(stamp), impl_->overlay(stamp));
   if (!picture) return picture;
   Canvas canvas = Canvas::over(*picture);

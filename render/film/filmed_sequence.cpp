@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/film/filmed_sequence.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "bench/metrics/association.hpp"
 #include "bench/run/start_anchor.hpp"
 #include "bench/run/stream.hpp"
 #include "core/stopwatch.hpp"
+#include "render/film/moving_returns.hpp"
 #include "sim/simulation.hpp"
 
 namespace aims {
@@ -12,11 +16,33 @@ namespace {
 
 constexpr Duration kDrawnSpacing = 100 * kMillisecond;
 
-void hand_over(const std::vector<Delivery>& batch, std::size_t from,
-               std::vector<LidarScanPtr>& to) {
+/// The truth that a batch of scans may belong to.
+constexpr Duration kRecent = 5 * kSecond;
+
+struct FilmedScan {
+  LidarScanPtr scan;
+  std::vector<bool> moving;  ///< its returns of people
+};
+
+/// The last part of the truth.
+Trajectory recent_truth(const Truth& truth) {
+  Truth recent;
+  const auto is_old = [&](const TruthSample& sample) {
+    return sample.stamp < truth.samples.back().stamp - kRecent;
+  };
+  const auto first = std::partition_point(truth.samples.begin(), truth.samples.end(), is_old);
+  recent.samples.assign(first, truth.samples.end());
+  return body_trajectory(recent);
+}
+
+void hand_over(const std::vector<Delivery>& batch, std::size_t from, const Simulation& simulation,
+               std::vector<FilmedScan>& to) {
+  const Scene& scene = simulation.scene();
+  const Trajectory truth = scene.people.empty() ? Trajectory() : recent_truth(simulation.truth());
   for (std::size_t i = from; i < batch.size(); ++i) {
     const auto* scan = std::get_if<LidarScanPtr>(&batch[i].measurement);
-    if (scan != nullptr) to.push_back(*scan);
+    if (scan == nullptr) continue;
+    to.push_back({*scan, moving_returns(**scan, scene, truth, simulation.rig().T_body_lidar)});
   }
 }
 
@@ -52,18 +78,18 @@ Result<FilmedSequence> film_sequence(const Scenario& given, const RunOptions& op
     return estimators->front().estimator().result();
   };
   MapGrowth growth(simulation->rig().T_body_lidar);
-  std::vector<LidarScanPtr> scans;  // while estimators work on one batch the next is simulated
+  std::vector<FilmedScan> scans;  // while estimators work on one batch the next is simulated
   const double expected_s = to_seconds(simulation->expected_duration());
   const StreamEnd end = stream(
       [&](std::vector<Delivery>& batch) {
         const std::size_t from = batch.size();
         const bool more = simulation->advance(kStreamBatch, batch);
-        hand_over(batch, from, scans);
+        hand_over(batch, from, *simulation, scans);
         return more;
       },
       *estimators, options.jobs,
       [&] {
-        for (const LidarScanPtr& scan : scans) growth.add(scan);
+        for (FilmedScan& each : scans) growth.add(each.scan, std::move(each.moving));
         scans.clear();
         growth.settle(result().trajectory);
         return observer({to_seconds(simulation->now()), expected_s, stopwatch.seconds()});
@@ -77,6 +103,10 @@ Result<FilmedSequence> film_sequence(const Scenario& given, const RunOptions& op
       start_anchor(result().trajectory, body_trajectory(simulation->truth()), scenario.scoring);
   for (GrownPoint& point : sequence.map) {
     point.position = (T_world_odom * point.position.cast<double>()).cast<float>();
+  }
+  sequence.scans = growth.scans();
+  for (PlacedScan& scan : sequence.scans) {
+    for (Eigen::Vector3f& p : scan.points) p = (T_world_odom * p.cast<double>()).cast<float>();
   }
   return sequence;
 }

@@ -28,7 +28,8 @@ struct FilmedSequence {
   std::vector<RobotSnapshot> snapshots;  ///< at 10 Hz; none when the sequence comes from files
   std::vector<WaypointTime> waypoint_times;
   std::vector<NamedTrajectory> estimates;  ///< aligned at the start; the map is that of the first
-  std::vector<GrownPoint> map;             ///< in order of time
+  std::vector<GrownPoint> map;             ///< in order of time, without the returns of people
+  std::vector<PlacedScan> scans;  ///< in order of time; none when the sequence comes from files
 };
 
 /// Simulates the scenario and runs its estimators; the first of them makes the map. Error when the

@@ -2,6 +2,7 @@
 #include "render/film/map_growth.hpp"
 
 #include <optional>
+#include <utility>
 
 namespace aims {
 namespace {
@@ -14,22 +15,26 @@ constexpr Duration kSamePose = 2 * kMillisecond;
 MapGrowth::MapGrowth(const Pose& T_body_lidar, const MapGrowthConfig& config)
     : T_body_lidar_(T_body_lidar), config_(config) {}
 
-void MapGrowth::add(const LidarScanPtr& scan) {
-  if (scans_++ % config_.every_scan == 0) waiting_.push_back(scan);
+void MapGrowth::add(const LidarScanPtr& scan, std::vector<bool> moving) {
+  if (scans_++ % config_.every_scan == 0) waiting_.push_back({scan, std::move(moving)});
 }
 
 void MapGrowth::settle(const Trajectory& trajectory) {
   while (!waiting_.empty() && !trajectory.empty() &&
-         waiting_.front()->end <= trajectory.back().stamp) {
-    insert(*waiting_.front(), trajectory);
+         waiting_.front().scan->end <= trajectory.back().stamp) {
+    insert(waiting_.front(), trajectory);
     waiting_.pop_front();
   }
 }
 
-void MapGrowth::insert(const LidarScan& scan, const Trajectory& trajectory) {
+void MapGrowth::insert(const Waiting& each, const Trajectory& trajectory) {
+  const LidarScan& scan = *each.scan;
+  PlacedScan& placed = placed_.emplace_back(PlacedScan{scan.end, {}});
+  const std::size_t step = scan.points.size() / static_cast<std::size_t>(config_.scan_returns) + 1;
   std::optional<Pose> T_odom_lidar;
   Time looked_up = scan.stamp - kSecond;
-  for (const LidarPoint& point : scan.points) {
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const LidarPoint& point = scan.points[i];
     const Time fired = scan.stamp + point.time_offset_ns;
     if (std::abs(fired - looked_up) >= kSamePose) {
       looked_up = fired;
@@ -40,6 +45,8 @@ void MapGrowth::insert(const LidarScan& scan, const Trajectory& trajectory) {
     if (point.position.norm() > config_.reach) continue;
     const Eigen::Vector3f position = (*T_odom_lidar * point.position.cast<double>()).cast<float>();
     if (!position.allFinite() || position.norm() > 1e4F) continue;  // of an estimator that diverged
+    if (i % step == 0) placed.points.push_back(position);
+    if (!each.moving.empty() && each.moving[i]) continue;
     const auto fresh = static_cast<std::int32_t>(points_.size());
     const std::uint64_t cube = voxel_key(voxel_of(position, 1.0F / config_.spacing));
     if (cubes_.find_or_insert(cube, fresh) != fresh) continue;

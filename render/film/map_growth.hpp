@@ -17,11 +17,18 @@ struct GrownPoint {
   Time seen = 0;
 };
 
+/// A scan at its place: some of its returns.
+struct PlacedScan {
+  Time end = 0;
+  std::vector<Eigen::Vector3f> points;  ///< [m]
+};
+
 /// How scans become the map that a film shows.
 struct MapGrowthConfig {
-  float spacing = 0.04F;  ///< edge of a voxel [m]
-  float reach = 15.0F;    ///< longest range of a return that is kept [m]
-  int every_scan = 2;     ///< every n-th scan is inserted
+  float spacing = 0.04F;    ///< edge of a voxel [m]
+  float reach = 15.0F;      ///< longest range of a return that is kept [m]
+  int every_scan = 2;       ///< every n-th scan is inserted
+  int scan_returns = 2000;  ///< most returns of a placed scan
 };
 
 /// The map of a trajectory: each return of a scan is placed by the pose at its own firing time, and
@@ -31,23 +38,31 @@ class MapGrowth {
  public:
   explicit MapGrowth(const Pose& T_body_lidar, const MapGrowthConfig& config = {});
 
-  /// Queues a scan until the trajectory covers it.
-  void add(const LidarScanPtr& scan);
+  /// Queues a scan until the trajectory covers it. `moving`: its returns that are no part of the
+  /// map; empty: none.
+  void add(const LidarScanPtr& scan, std::vector<bool> moving = {});
   /// Inserts the scans that `trajectory` (T_odom_body) covers by now.
   void settle(const Trajectory& trajectory);
 
   /// In the odometry frame, in order of time.
   const std::vector<GrownPoint>& points() const { return points_; }
+  /// The inserted scans in the odometry frame, in order of time.
+  const std::vector<PlacedScan>& scans() const { return placed_; }
 
  private:
-  void insert(const LidarScan& scan, const Trajectory& trajectory);
+  struct Waiting {
+    LidarScanPtr scan;
+    std::vector<bool> moving;
+  };
+  void insert(const Waiting& each, const Trajectory& trajectory);
 
   Pose T_body_lidar_;
   MapGrowthConfig config_;
   int scans_ = 0;
-  std::deque<LidarScanPtr> waiting_;
+  std::deque<Waiting> waiting_;
   VoxelHash cubes_;
   std::vector<GrownPoint> points_;
+  std::vector<PlacedScan> placed_;
 };
 
 }  // namespace aims

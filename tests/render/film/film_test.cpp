@@ -7,6 +7,7 @@
 #include "render/film/film_files.hpp"
 #include "render/film/film_movie.hpp"
 #include "render/film/map_growth.hpp"
+#include "render/film/moving_returns.hpp"
 
 namespace aims {
 namespace {
@@ -63,6 +64,43 @@ TEST(MapGrowth, WaitsUntilTheTrajectoryCoversTheScan) {
   growth.settle(trajectory);
   ASSERT_FALSE(growth.points().empty());
   EXPECT_GE(growth.points().front().seen, 500 * kMillisecond);
+}
+
+TEST(MapGrowth, KeepsReturnsOfPeopleInTheScanAloneAndNotInTheMap) {
+  const Trajectory trajectory = turning_walk();
+  const Eigen::Vector3d place(5.02, 1.02, 0.62);
+  MapGrowth growth({}, {.every_scan = 1, .scan_returns = 20});
+  const auto scan = scan_of(place, trajectory, {}, 0);
+  growth.add(scan, std::vector<bool>(scan->points.size(), true));
+  growth.settle(trajectory);
+  EXPECT_TRUE(growth.points().empty());
+  ASSERT_EQ(growth.scans().size(), 1U);
+  EXPECT_EQ(growth.scans()[0].end, scan->end);
+  EXPECT_LE(growth.scans()[0].points.size(), 20U);
+  ASSERT_GE(growth.scans()[0].points.size(), 10U);
+  for (const Eigen::Vector3f& p : growth.scans()[0].points) {
+    EXPECT_LT((p.cast<double>() - place).norm(), 0.01);
+  }
+}
+
+TEST(MovingReturns, AreThoseAtThePlaceOfAPersonWhenTheyWereFired) {
+  const Trajectory trajectory = turning_walk();
+  const Pose T_body_lidar{yaw_rotation(0.4), {0.2, 0.0, 0.1}};
+  Scene scene;
+  scene.people = {{.from = {5.0, 0.0}, .to = {5.0, 10.0}, .speed = 1.0, .start = 0.5}};
+  // The axis of the person passes y = 1 half a second into the scan, and is 0.5 m away at its ends.
+  const auto scan = scan_of({5.0, 1.0, 1.0}, trajectory, T_body_lidar, 0);
+  const auto moving = moving_returns(*scan, scene, trajectory, T_body_lidar);
+  ASSERT_EQ(moving.size(), scan->points.size());
+  EXPECT_TRUE(moving[50]);
+  EXPECT_FALSE(moving[0]);
+  EXPECT_FALSE(moving[100]);
+  const auto floor = scan_of({5.0, 1.0, 0.0}, trajectory, T_body_lidar, 0);
+  for (const bool each : moving_returns(*floor, scene, trajectory, T_body_lidar)) {
+    EXPECT_FALSE(each);
+  }
+  scene.people.clear();
+  EXPECT_TRUE(moving_returns(*scan, scene, trajectory, T_body_lidar).empty());
 }
 
 TEST(MapGrowth, LeavesOutWhatIsFarAndWhatIsNone) {
