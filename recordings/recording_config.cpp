@@ -51,7 +51,7 @@ void describe_legs(Fields& f, RecordingConfig& c) {
             {"learned", ContactDetection::kLearned}},
            dimensionless("contact from a load: above contact_threshold, or in the upper of two "
                          "classes learned from the recording; auto: learned for raw counts of "
-                         "unitree_go"));
+                         "unitree_go and for tables"));
   f.number("contact_threshold", c.contact_threshold,
            {.unit = "N",
             .range = within(1e6),

@@ -50,7 +50,7 @@ Result<void> check_free(const fs::path& file, bool overwrite, const char* what) 
 Result<RecordingFormat> format_of_new(const fs::path& file) {
   if (!file.has_filename()) return RecordingFormat::kRosbag2;
   const auto format = format_by_name(file);
-  if (format && *format != RecordingFormat::kRosbag2) return *format;
+  if (format == RecordingFormat::kBag || format == RecordingFormat::kMcap) return *format;
   return failure(
       fmt::format("{}: expected a name that ends in .bag, .mcap, or / for a folder of "
                   "rosbag2",

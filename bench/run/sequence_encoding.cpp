@@ -75,6 +75,17 @@ void append_legs(std::vector<std::byte>& out, const LegOdometrySample& sample) {
   for (const bool contact : sample.contact) append_number(out, std::uint8_t{contact});
   append_numbers(out, sample.joint_position);
   append_numbers(out, sample.joint_velocity);
+  append_number(out, std::uint8_t{sample.contact_force.has_value()});
+  if (sample.contact_force) append_numbers(out, *sample.contact_force);
+}
+
+/// Forces of the feet, if there are any.
+bool take_force(ByteCursor& cursor, std::optional<FootLoads>& force) {
+  std::uint8_t present = 0;
+  if (!take_number(cursor, present)) return false;
+  if (present == 0) return true;
+  force.emplace();
+  return take_numbers(cursor, force->data(), force->size());
 }
 
 bool take_legs(ByteCursor& cursor, LegOdometrySample& sample) {
@@ -84,7 +95,8 @@ bool take_legs(ByteCursor& cursor, LegOdometrySample& sample) {
       take_matrix(cursor, sample.linear_velocity) && take_matrix(cursor, sample.angular_velocity) &&
       take_numbers(cursor, contact.data(), contact.size()) &&
       take_numbers(cursor, sample.joint_position.data(), sample.joint_position.size()) &&
-      take_numbers(cursor, sample.joint_velocity.data(), sample.joint_velocity.size());
+      take_numbers(cursor, sample.joint_velocity.data(), sample.joint_velocity.size()) &&
+      take_force(cursor, sample.contact_force);
   for (std::size_t i = 0; i < contact.size(); ++i) sample.contact[i] = contact[i] != 0;
   return complete;
 }

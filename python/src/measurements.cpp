@@ -149,6 +149,13 @@ void bind_legs(py::module_& module) {
           "contact", [](const ArrivedLegs& self) { return array_from(self.value.contact); },
           "(4,) bool: which feet touch the ground.")
       .def_property_readonly(
+          "contact_force",
+          [](const ArrivedLegs& self) -> py::object {
+            if (!self.value.contact_force) return py::none();
+            return array_from(*self.value.contact_force);
+          },
+          "(4,) normal force on each foot [N], or None where it is not reported.")
+      .def_property_readonly(
           "joint_position",
           [](const ArrivedLegs& self) { return array_from(self.value.joint_position); },
           "(12,) [rad], leg by leg: abduction, hip, knee.")

@@ -11,17 +11,14 @@
 
 namespace aims {
 
-/// Loads of the feet or knees at an instant, FL, FR, RL, RR, in the recorded unit.
-using FootLoads = std::array<double, kLegCount>;
-
 /// A foot is in contact from a load of `begin` on, until its load falls below `end` <= `begin`.
 struct ContactThreshold {
   double begin = 0.0;
   double end = 0.0;
 };
 
-/// Detects contacts in a sequence of loads. The sign of a load is ignored: the torque of a loaded
-/// knee has either one.
+/// Detects contacts in a sequence of loads, in newtons or any other unit. The sign of a load is
+/// ignored: the torque of a loaded knee has either one.
 class ContactDetector {
  public:
   ContactDetector() = default;

@@ -106,6 +106,11 @@ std::optional<FootLoads> loads_at(const MessageView& message, const ContactRule&
   return loads;
 }
 
+std::optional<FootLoads> forces_at(const MessageView& message, const ContactRule& rule) {
+  if (!message.texts("foot")) return std::nullopt;
+  return loads_at(message, {"force", {}, rule.foot_names});
+}
+
 std::optional<FeetReading> feet_at(const MessageView& message, Time record_time) {
   const auto position = message.numbers("foot_position_body");
   const auto velocity = message.numbers("foot_speed_body");

@@ -26,6 +26,7 @@ struct JointReading {
 struct ContactReading {
   Time stamp = 0;
   std::array<bool, kLegCount> contact{};
+  std::optional<FootLoads> force = std::nullopt;  ///< if the message has them in newtons
 };
 
 /// The sample of a nav_msgs/Odometry, without contacts and joints.
@@ -54,6 +55,9 @@ struct ContactRule {
 
 /// The numbers of the contact field, one per foot in the order of the legs.
 std::optional<FootLoads> loads_at(const MessageView& message, const ContactRule& rule);
+
+/// The forces in an aims_msgs/FootContacts; none in those of earlier versions.
+std::optional<FootLoads> forces_at(const MessageView& message, const ContactRule& rule);
 
 /// The feet of a unitree_go/SportModeState.
 std::optional<FeetReading> feet_at(const MessageView& message, Time record_time);

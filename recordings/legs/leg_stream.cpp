@@ -47,6 +47,7 @@ void LegStream::attach(LegOdometrySample& sample) const {
   }
   if (contacts_ && same_instant(contacts_->stamp, sample.stamp)) {
     sample.contact = contacts_->contact;
+    sample.contact_force = contacts_->force;
   }
 }
 
@@ -123,6 +124,7 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReadin
   sample.joint_position = joints.position;
   sample.joint_velocity = *joints.velocity;
   sample.contact = contacts_->contact;
+  sample.contact_force = contacts_->force;
   sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int feet = 0;

@@ -23,9 +23,10 @@ void LegSurvey::add_joints(const MessageView& message, Time record_time) {
 
 void LegSurvey::choose_contact_field(const std::string& type, const MessageDecoder& decoder) {
   contact_field_ = config_.contacts_field;
-  contacts_are_raw_ = type == kUnitreeLowState || type == kUnitreeSportState;
-  if (contact_field_.empty() && contacts_are_raw_) contact_field_ = "foot_force";
-  if (contacts_are_raw_ && config_.foot_names.empty()) {
+  const bool unitree = type == kUnitreeLowState || type == kUnitreeSportState;
+  contacts_are_raw_ = unitree || type == kFootForces;
+  if (contact_field_.empty() && unitree) contact_field_ = "foot_force";
+  if (unitree && config_.foot_names.empty()) {
     config_.foot_names.assign(kUnitreeFeet.begin(), kUnitreeFeet.end());
   }
   if (contact_field_.empty() && type == "sensor_msgs/JointState") contact_field_ = "effort";

@@ -108,6 +108,9 @@ MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometr
   for (const std::string_view foot : kLegNames) out.text(foot);
   out.length(sample.contact.size());
   for (const bool in_contact : sample.contact) out.put(in_contact);
+  const FootLoads none{};
+  const std::size_t forces = sample.contact_force ? none.size() : 0;
+  out.array(std::span(sample.contact_force ? *sample.contact_force : none).first(forces));
   return out;
 }
 

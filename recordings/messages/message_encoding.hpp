@@ -51,7 +51,7 @@ MessageBytes odometry_message(const MessageHeader& header, std::string_view chil
 MessageBytes joint_state_message(const MessageHeader& header, const LegOdometrySample& sample,
                                  Serialization serialization = Serialization::kRos1);
 
-/// aims_msgs/FootContacts.
+/// aims_msgs/FootContacts; without forces where the sample has none.
 MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometrySample& sample,
                                    Serialization serialization = Serialization::kRos1);
 

@@ -71,8 +71,10 @@ constexpr auto kTypes = std::to_array<KnownType>({
      "3066dcd76a6cfaef579bd0f34173e9fd"},
     {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n",
      "94810edda583a504dfda3829e70d7eec"},
-    {"aims_msgs/FootContacts", "Header header\nstring[] foot\nbool[] contact\n",
-     "48d94c73535758dc8b2afaab17ac6a45"},
+    {"aims_msgs/FootContacts", "Header header\nstring[] foot\nbool[] contact\nfloat64[] force\n",
+     "8b09c12c9b63045360d7dd28104f0e10"},
+    {kFootForces, "Header header\nstring[] foot\nfloat64[] force\n",
+     "0e9adc5ef17fe874de1d5f3df81ec97a"},
     {kUnitreeLowState,
      "uint8[2] head\nuint8 level_flag\nuint8 frame_reserve\nuint32[2] sn\nuint32[2] version\n"
      "uint16 bandwidth\nIMUState imu_state\nMotorState[20] motor_state\nBmsState bms_state\n"
@@ -141,6 +143,7 @@ MessageType imu_type() { return type_of(*find_known("sensor_msgs/Imu")); }
 MessageType joint_state_type() { return type_of(*find_known("sensor_msgs/JointState")); }
 MessageType odometry_type() { return type_of(*find_known("nav_msgs/Odometry")); }
 MessageType transforms_type() { return type_of(*find_known("tf2_msgs/TFMessage")); }
+MessageType foot_forces_type() { return type_of(*find_known(kFootForces)); }
 MessageType foot_contacts_type() { return type_of(*find_known("aims_msgs/FootContacts")); }
 
 std::optional<MessageType> known_ros2_type(std::string_view name) {

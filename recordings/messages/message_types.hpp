@@ -13,6 +13,9 @@ namespace aims {
 inline constexpr std::string_view kUnitreeLowState = "unitree_go/LowState";
 inline constexpr std::string_view kUnitreeSportState = "unitree_go/SportModeState";
 
+/// Loads of the feet in any unit, of a table of comma-separated values.
+inline constexpr std::string_view kFootForces = "aims_msgs/FootForces";
+
 // The message types that AIMS writes, as ROS 1 has them. Definitions hold the fields without
 // comments, which do not enter the md5.
 MessageType string_type();         ///< std_msgs/String
@@ -21,7 +24,8 @@ MessageType imu_type();            ///< sensor_msgs/Imu
 MessageType joint_state_type();    ///< sensor_msgs/JointState
 MessageType odometry_type();       ///< nav_msgs/Odometry
 MessageType transforms_type();     ///< tf2_msgs/TFMessage
-MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: which feet are in contact
+MessageType foot_forces_type();    ///< aims_msgs/FootForces: loads in any unit
+MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: contacts and forces of the feet
 
 /// A usual type as ROS 2 has it, or nothing: what AIMS writes or reads, also of Livox and Unitree.
 std::optional<MessageType> known_ros2_type(std::string_view name);

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "recordings/bag/bag_reader.hpp"
+#include "recordings/csv/csv_reader.hpp"
 #include "recordings/mcap/mcap_reader.hpp"
 #include "recordings/mcap/mcap_writer.hpp"
+#include "recordings/pcap/pcap_reader.hpp"
 #include "recordings/rosbag2/rosbag2_metadata.hpp"
 #include "recordings/rosbag2/rosbag2_reader.hpp"
 #include "recordings/rosbag2/rosbag2_writer.hpp"
@@ -23,13 +25,19 @@ namespace fs = std::filesystem;
 struct FormatSign {
   RecordingFormat format;
   std::string_view extension;
-  std::string_view first_bytes;
+  std::string_view first_bytes;  ///< empty: known by its name alone
 };
 
 constexpr auto kSigns = std::to_array<FormatSign>({
     {RecordingFormat::kBag, ".bag", "#ROS"},
     {RecordingFormat::kMcap, ".mcap", "\x89MCAP"},
     {RecordingFormat::kRosbag2, ".db3", "SQLite format 3"},
+    {RecordingFormat::kPcap, ".pcap", "\xd4\xc3\xb2\xa1"},
+    {RecordingFormat::kPcap, ".pcap", "\xa1\xb2\xc3\xd4"},
+    {RecordingFormat::kPcap, ".pcap", "\x4d\x3c\xb2\xa1"},
+    {RecordingFormat::kPcap, ".pcap", "\xa1\xb2\x3c\x4d"},
+    {RecordingFormat::kPcap, ".pcapng", "\x0a\x0d\x0d\x0a"},
+    {RecordingFormat::kCsv, ".yaml", ""},
 });
 
 template <class Reader>
@@ -55,7 +63,7 @@ std::optional<RecordingFormat> format_by_content(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));
   for (const FormatSign& sign : kSigns) {
-    if (start.starts_with(sign.first_bytes)) return sign.format;
+    if (!sign.first_bytes.empty() && start.starts_with(sign.first_bytes)) return sign.format;
   }
   return std::nullopt;
 }
@@ -76,6 +84,8 @@ Result<std::unique_ptr<MessageSource>> open_recording(const fs::path& file,
   const auto format = known ? known : format_by_name(file);
   if (format == RecordingFormat::kMcap) return opened<McapReader>(file, options);
   if (format == RecordingFormat::kRosbag2) return opened<Rosbag2Reader>(file, options);
+  if (format == RecordingFormat::kPcap) return opened<PcapReader>(file, options);
+  if (format == RecordingFormat::kCsv) return opened<CsvReader>(file, options);
   return opened<BagReader>(file, options);
 }
 

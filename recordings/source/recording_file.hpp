@@ -18,12 +18,15 @@ enum class RecordingFormat {
   kBag,      ///< ROS 1 bag, format 2.0
   kMcap,     ///< MCAP, with messages of ROS 2 or ROS 1
   kRosbag2,  ///< folder of rosbag2, with SQLite or MCAP files, or one such SQLite file
+  kPcap,     ///< capture of the packets of a Velodyne or Ouster
+  kCsv,      ///< table of comma-separated values: the YAML file that maps its columns
 };
 
 /// The format of a file by its first bytes, or of a folder by its metadata.yaml; else nothing.
 std::optional<RecordingFormat> format_by_content(const std::filesystem::path& file);
 
-/// The format that a name's extension stands for: ".bag", ".mcap" or ".db3"; else nothing.
+/// The format that a name's extension stands for: ".bag", ".mcap", ".db3", ".pcap" or
+/// ".yaml"; else nothing.
 std::optional<RecordingFormat> format_by_name(const std::filesystem::path& file);
 
 /// Opens a recording of any format, by its content. Error for a file of no format, or that its

@@ -146,7 +146,7 @@ void RecordingReader::Impl::take_contacts(const MessageView& view, std::vector<D
   if (!loads) return malformed(Role::kContacts);
   const Time stamp = header_stamp(view, record_time);
   const ContactReading contacts = {stamp_of(Role::kContacts, stamp, config.leg_delay),
-                                   contact_detector.detect(*loads)};
+                                   contact_detector.detect(*loads), forces_at(view, plan.contacts)};
   deliver(legs.add_contacts(contacts, counts), out);
 }
 

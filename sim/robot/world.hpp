@@ -12,7 +12,6 @@
 #include "core/leg_kinematics.hpp"
 #include "core/lie.hpp"
 #include "core/measurements.hpp"
-#include "sim/robot/foot_loads.hpp"
 #include "sim/robot/leg_lengths.hpp"
 
 namespace aims {

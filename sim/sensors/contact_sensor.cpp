@@ -45,8 +45,8 @@ double ContactSensor::load(int leg) const {
 std::array<bool, kLegCount> ContactSensor::detect(double interval) {
   std::array<bool, kLegCount> contact{};
   for (int leg = 0; leg < kLegCount; ++leg) {
-    const double measured = load(leg) + config_.load_noise * noise_.normal();
-    loaded_[leg] = measured > (loaded_[leg] ? config_.contact_off : config_.contact_on);
+    measured_[leg] = load(leg) + config_.load_noise * noise_.normal();
+    loaded_[leg] = measured_[leg] > (loaded_[leg] ? config_.contact_off : config_.contact_on);
     loaded_time_[leg] = loaded_[leg] ? loaded_time_[leg] + interval : 0.0;
     contact[leg] = loaded_[leg] && loaded_time_[leg] > config_.contact_debounce;
   }

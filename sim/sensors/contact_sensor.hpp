@@ -7,7 +7,6 @@
 
 #include "core/measurements.hpp"
 #include "core/random.hpp"
-#include "sim/robot/foot_loads.hpp"
 #include "sim/sensors/leg_odometry_config.hpp"
 
 namespace aims {
@@ -28,6 +27,9 @@ class ContactSensor {
   /// Contacts at the end of an interval of `interval` [s].
   std::array<bool, kLegCount> detect(double interval);
 
+  /// The loads by which the last call of `detect` decided.
+  const FootLoads& measured() const { return measured_; }
+
   /// What the sensor of that foot reads, without noise [N].
   double load(int leg) const;
 
@@ -40,6 +42,7 @@ class ContactSensor {
   std::array<double, kLegCount> scale_{};  ///< measured over true load
   FootLoads filtered_{};                   ///< present output of the low-pass [N]
   std::deque<FootLoads> delayed_;          ///< that output, oldest first [N]
+  FootLoads measured_{};                   ///< with noise [N]
   std::array<bool, kLegCount> loaded_{};
   std::array<double, kLegCount> loaded_time_{};  ///< since touchdown [s]
 };

@@ -8,7 +8,6 @@
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "core/measurements.hpp"
-#include "sim/robot/foot_loads.hpp"
 #include "sim/robot/truth.hpp"
 #include "sim/sensors/inertial_errors.hpp"
 #include "sim/sensors/low_pass.hpp"

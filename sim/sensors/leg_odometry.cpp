@@ -118,6 +118,7 @@ std::optional<LegOdometrySample> LegOdometry::sample(const RobotState& truth) {
   sample.stamp = truth.stamp;
   encoders_.read(sample);
   sample.contact = contacts_.detect(interval_);
+  sample.contact_force = contacts_.measured();
   measure_rotation(truth, sample);
   sample.linear_velocity = body_velocity(sample);
   T_odom_base_.translation += T_odom_base_.rotation * sample.linear_velocity * interval_;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/config.hpp"
+#include "core/measurements.hpp"
 #include "core/random.hpp"
-#include "sim/robot/foot_loads.hpp"
 #include "sim/sensors/second_order.hpp"
 
 namespace aims {

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes small inputs for the fuzzers to start from.
 
-usage: make_seeds.py BAG_TOOL FOLDER   (FOLDER/bag, FOLDER/message, FOLDER/recording)
+usage: make_seeds.py BAG_TOOL AIMS FOLDER   (FOLDER/bag, mcap, db3, message, cdr, recording)
 """
 import os
+import sqlite3
 import struct
 import subprocess
 import sys
+import tempfile
 
 import rosbag
 
@@ -21,8 +23,41 @@ def save(folder, name, data):
         file.write(data)
 
 
+def save_as_ros2(aims, folder):
+    """Files of ROS 2 with the messages of a bag, and those of each type."""
+    bag = os.path.join(folder, "bag", "none_1500.bag")
+    with tempfile.TemporaryDirectory() as work:
+        for compression in ("none", "lz4", "zstd"):
+            file = os.path.join(work, compression + ".mcap")
+            subprocess.run([aims, "convert", bag, "--quiet", "--out", file, "--compression",
+                            compression], check=True)
+            data = open(file, "rb").read()
+            save(folder + "/mcap", compression + ".mcap", data)
+        save(folder + "/mcap", "cut.mcap", data[:len(data) * 3 // 4])
+        subprocess.run([aims, "convert", bag, "--quiet", "--out", work + "/r/"], check=True)
+        file = work + "/r/r_0.db3"
+        database = sqlite3.connect(file)
+        rows = database.execute(
+            "SELECT encoded_message_definition, data, topic_type FROM messages JOIN topics ON "
+            "topics.id = topic_id JOIN message_definitions ON topic_type = type "
+            "GROUP BY topic_id").fetchall()
+        for size in (512, 1024):  # small pages: files that a fuzzer can change
+            database.execute(f"PRAGMA page_size = {size}")
+            database.execute("VACUUM")
+            save(folder + "/db3", f"pages_{size}.db3", open(file, "rb").read())
+        database.execute("DELETE FROM messages WHERE id > 3")
+        database.commit()
+        database.execute("VACUUM")
+        small = open(file, "rb").read()
+        save(folder + "/db3", "few.db3", small)
+        save(folder + "/db3", "cut.db3", small[:len(small) // 2048 * 1024])
+    for text, data, kind in rows:
+        text = text.encode()
+        save(folder + "/cdr", kind.replace("/", "_"), struct.pack("<H", len(text)) + text + data)
+
+
 def main():
-    tool, folder = sys.argv[1], sys.argv[2]
+    tool, aims, folder = sys.argv[1:4]
     os.makedirs(os.path.join(folder, "bag"), exist_ok=True)
     for compression in ("none", "lz4", "bz2"):
         for chunk in ("1500", "100000"):
@@ -30,6 +65,7 @@ def main():
             subprocess.run([tool, "write", bag, compression, chunk, "4", "10"], check=True)
     whole = open(bag, "rb").read()
     save(folder + "/bag", "cut.bag", whole[:len(whole) * 3 // 4])
+    save_as_ros2(aims, folder)
     recording, seen = b"", set()
     with rosbag.Bag(os.path.join(folder, "bag", "none_1500.bag")) as bag:
         for topic, (kind, data, *_), _ in bag.read_messages(raw=True):

@@ -44,8 +44,10 @@ enum class FeetFrom {
 struct Legs {
   bool enabled = true;
   FeetFrom feet = FeetFrom::kTwist;
-  double variance = 0.1;  ///< of the velocity of a standing foot, per axis [m^2/s^2]
-  double max_age = 0.02;  ///< older leg data belong to no IMU sample [s]
+  double variance = 0.1;      ///< of the velocity of a standing foot, per axis [m^2/s^2]
+  double max_age = 0.02;      ///< older leg data belong to no IMU sample [s]
+  double force_begin = 20.0;  ///< more begins a contact, where the stream has forces [N]
+  double force_end = 10.0;    ///< less ends it [N]
 };
 
 /// Association of points with planes, and the weight of a residual.

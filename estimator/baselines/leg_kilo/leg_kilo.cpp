@@ -30,7 +30,8 @@ LegKilo::LegKilo(const Config& config, const SensorRig& rig)
     : config_(config),
       rig_(rig),
       queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, kAnySpeed),
-      map_(config.map) {
+      map_(config.map),
+      contacts_(config.legs.force_begin, config.legs.force_end) {
   result_.diagnostics.series = scan_series();
 }
 
@@ -50,6 +51,7 @@ void LegKilo::process_ready() {
       process(**scan);
     } else if (config_.legs.enabled) {
       legs_.push_back(std::get<LegOdometrySample>(*next));
+      legs_.back().contact = contacts_.update(legs_.back());
       if (legs_.size() > kMaxHeld) legs_.pop_front();
     }
   }

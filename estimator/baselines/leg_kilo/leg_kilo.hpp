@@ -49,6 +49,7 @@ class LegKilo : public Estimator {
   EstimatorResult result_;
   Belief belief_;
   PlaneMap map_;
+  ContactHysteresis contacts_;
 
   bool started_ = false;
   double force_scale_ = 1.0;  ///< makes the mean specific force of the start as long as gravity

@@ -26,6 +26,15 @@ bool has_joints(const LegOdometrySample& sample, const SensorRig& rig) {
   return angles && rig.leg_geometry.thigh > 0.0;
 }
 
+const std::array<bool, kLegCount>& ContactHysteresis::update(const LegOdometrySample& sample) {
+  if (!sample.contact_force) return contact_ = sample.contact;
+  for (std::size_t leg = 0; leg < contact_.size(); ++leg) {
+    const double force = (*sample.contact_force)[leg];
+    contact_[leg] = contact_[leg] ? !(force < end_) : force > begin_;
+  }
+  return contact_;
+}
+
 std::vector<StandingFoot> feet_in_contact(const LegOdometrySample& sample, const SensorRig& rig) {
   const Eigen::Map<const JointVector> angles(sample.joint_position.data());
   const Eigen::Map<const JointVector> rates(sample.joint_velocity.data());

@@ -130,6 +130,8 @@ TEST_F(Recorded, HoldsEveryDeliveryBitForBitInOrderOfArrival) {
                   .view.number("contact[2]")
                   .value_or(contact_messages[i].view.numbers("contact")->at(2)),
               sample.contact[2] ? 1.0 : 0.0);
+    ASSERT_TRUE(sample.contact_force);
+    EXPECT_EQ(contact_messages[i].view.numbers("force")->at(3), (*sample.contact_force)[3]);
   }
 }
 

@@ -29,7 +29,7 @@ bool same(const LegOdometrySample& a, const LegOdometrySample& b) {
   return a.stamp == b.stamp && same(a.T_odom_base, b.T_odom_base) &&
          same_bits(a.linear_velocity, b.linear_velocity) &&
          same_bits(a.angular_velocity, b.angular_velocity) && a.contact == b.contact &&
-         same_bits(a.joint_position, b.joint_position) &&
+         a.contact_force == b.contact_force && same_bits(a.joint_position, b.joint_position) &&
          same_bits(a.joint_velocity, b.joint_velocity);
 }
 

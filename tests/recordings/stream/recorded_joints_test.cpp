@@ -63,10 +63,9 @@ TEST_F(RecordedJoints, KneeTorquesReplaceContacts) {
   EXPECT_EQ(legs[0].contact, (std::array<bool, 4>{false, true, true, false}));
   const LegMotion right{{0.0, 0.8, -1.6}, Eigen::Vector3d::Constant(0.2), Eigen::Vector3d::Zero()};
   const LegMotion left{{0.0, 0.8, -1.6}, Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Zero()};
-  const Eigen::Vector3d expected =
-      (velocity_from_foot(1, right, config.leg_geometry) +
-       velocity_from_foot(2, left, config.leg_geometry)) /
-      2.0;
+  const Eigen::Vector3d expected = (velocity_from_foot(1, right, config.leg_geometry) +
+                                    velocity_from_foot(2, left, config.leg_geometry)) /
+                                   2.0;
   EXPECT_LT((legs[0].linear_velocity - expected).norm(), 1e-12);
 }
 

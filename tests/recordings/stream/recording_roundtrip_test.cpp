@@ -37,6 +37,10 @@ std::vector<Delivery> walk(test::KinematicWorld& world) {
       *scan = with_recordable_times(*scan);
     } else if (auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
       for (bool& stands : legs->contact) stands = random.chance(0.5);
+      if (random.chance(0.9)) {
+        legs->contact_force.emplace();
+        for (double& force : *legs->contact_force) force = 100.0 * random.normal();
+      }
       for (double& angle : legs->joint_position) angle = random.normal();
       for (double& rate : legs->joint_velocity) rate = random.normal();
     }

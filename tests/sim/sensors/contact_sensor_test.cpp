@@ -31,6 +31,26 @@ TEST(ContactSensor, ALowPassFollowsAStepOfTheLoad) {
   }
 }
 
+TEST(ContactSensor, MeasuredLoadsAreThoseThatDecide) {
+  LegOdometryConfig config = silent();
+  config.load_noise = 5.0;
+  ContactSensor sensor(config, kStep, 3);
+  sensor.begin(all(15.0));
+  std::array<bool, kLegCount> contact{};
+  int changes = 0;
+  for (int i = 0; i < 500; ++i) {
+    sensor.update(all(15.0));
+    const auto detected = sensor.detect(kDt);
+    for (std::size_t leg = 0; leg < contact.size(); ++leg) {
+      const double limit = contact[leg] ? config.contact_off : config.contact_on;
+      EXPECT_EQ(detected[leg], sensor.measured()[leg] > limit) << "seed 3";
+      changes += detected[leg] != contact[leg] ? 1 : 0;
+    }
+    contact = detected;
+  }
+  EXPECT_GT(changes, 50);
+}
+
 TEST(ContactSensor, ALateSensorReadsTheLoadOfThen) {
   LegOdometryConfig config = silent();
   config.load_latency = 0.01;

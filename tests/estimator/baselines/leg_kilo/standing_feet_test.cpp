@@ -89,5 +89,23 @@ TEST_F(WalkingRobot, JointsNeedAnglesAndTheLengthsOfTheLegs) {
   EXPECT_FALSE(has_joints(sample_, rig_));
 }
 
+TEST(ContactHysteresis, BeginsAboveOneForceAndEndsBelowALowerOne) {
+  ContactHysteresis contacts(20.0, 10.0);
+  const auto contact_at = [&](double force) {
+    LegOdometrySample sample;
+    sample.contact_force = FootLoads{force, 100.0, force, 0.0};
+    return contacts.update(sample)[0];
+  };
+  EXPECT_TRUE(contact_at(10.0)) << "in contact at first";
+  EXPECT_FALSE(contact_at(9.9));
+  EXPECT_FALSE(contact_at(20.0));
+  EXPECT_TRUE(contact_at(20.1));
+  EXPECT_TRUE(contact_at(15.0));
+  EXPECT_FALSE(contact_at(-5.0));
+  LegOdometrySample reported;
+  reported.contact = {true, false, true, false};
+  EXPECT_EQ(contacts.update(reported), reported.contact) << "without forces";
+}
+
 }  // namespace
 }  // namespace aims::leg_kilo

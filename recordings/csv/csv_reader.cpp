@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/csv/csv_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/files/atomic_file.hpp"
+#include "core/files/csv_columns.hpp"
+#include "core/files/number_lines.hpp"
+#include "recordings/csv/csv_mapping.hpp"
+#include "recordings/messages/message_encoding.hpp"
+#include "recordings/messages/message_types.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the largest table; in memory it takes several times as much [bytes].
+constexpr std::size_t kMaxTableBytes = std::size_t{256} << 20;
+constexpr std::array<std::string_view, kLegCount> kFeet = {"FL", "FR", "RL", "RR"};
+constexpr std::array<std::string_view, 3> kJoints = {"hip", "thigh", "calf"};
+constexpr std::string_view kImuFrame = "imu";
+constexpr std::string_view kBaseFrame = "base";
+
+/// What a row can hold, in the order of its messages.
+enum Kind : std::size_t { kImu, kForces, kJointStates, kKinds };
+constexpr std::array<const char*, kKinds> kTopics = {"/imu/data", "/foot_forces", "/joint_states"};
+
+/// Columns of numbers, of which a row has a value each.
+using Columns = std::vector<std::vector<double>>;
+
+/// The numbers of the table that the mapping names.
+struct Table {
+  std::vector<Time> times;
+  Columns gyro, accelerometer, orientation, joint_position, joint_velocity, foot_force;
+};
+
+Result<Columns> columns_of(const CsvColumns& csv, const std::vector<std::string>& names,
+                           const std::string& file) {
+  Columns columns;
+  for (const std::string& name : names) {
+    if (!csv.has(name)) {
+      return failure(
+          fmt::format("{}: expected a column '{}', which the mapping names", file, name));
+    }
+    auto numbers = csv.numbers(name);
+    if (!numbers) return tl::unexpected(numbers.error());
+    columns.push_back(std::move(*numbers));
+  }
+  return columns;
+}
+
+/// The time in a cell, or nothing.
+std::optional<Time> time_of(const std::string& cell, CsvTimeUnit unit) {
+  if (unit == CsvTimeUnit::kSeconds) return parse_stamp(cell);
+  if (unit == CsvTimeUnit::kNanoseconds) {
+    Time time = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), time);
+    if (error == std::errc() && end == cell.data() + cell.size()) return time;
+  }
+  const auto number = parse_number(cell);
+  const double scale = unit == CsvTimeUnit::kMilliseconds   ? 1e6
+                       : unit == CsvTimeUnit::kMicroseconds ? 1e3
+                                                            : 1.0;
+  if (!number || !(std::abs(*number) * scale < 9e18)) return std::nullopt;
+  return static_cast<Time>(std::llround(*number * scale));
+}
+
+Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapping,
+                                   const std::string& file) {
+  if (!csv.has(mapping.time)) {
+    return failure(fmt::format("{}: expected a column '{}' (time)", file, mapping.time));
+  }
+  std::vector<Time> times;
+  for (const std::string& cell : csv.texts(mapping.time)) {
+    const auto time = time_of(cell, mapping.time_unit);
+    const Time least = times.empty() ? 0 : times.back();
+    if (!time || *time < least) {
+      return failure(fmt::format("{}: row {}: expected a time >= {} ns, found '{}'", file,
+                                 times.size() + 1, least, cell));
+    }
+    times.push_back(*time);
+  }
+  return times;
+}
+
+Result<Table> read_table(const CsvMapping& mapping, const fs::path& file) {
+  const auto text = read_file(file, kMaxTableBytes);
+  if (!text) return tl::unexpected(text.error());
+  const auto csv = CsvColumns::parse(*text, file.string());
+  if (!csv) return tl::unexpected(csv.error());
+  Table table;
+  auto times = times_of(*csv, mapping, file.string());
+  if (!times) return tl::unexpected(times.error());
+  table.times = std::move(*times);
+  const std::array<std::pair<const std::vector<std::string>*, Columns*>, 6> lists = {
+      {{&mapping.gyro, &table.gyro},
+       {&mapping.accelerometer, &table.accelerometer},
+       {&mapping.orientation, &table.orientation},
+       {&mapping.joint_position, &table.joint_position},
+       {&mapping.joint_velocity, &table.joint_velocity},
+       {&mapping.foot_force, &table.foot_force}}};
+  for (const auto& [names, columns] : lists) {
+    auto read = columns_of(*csv, *names, file.string());
+    if (!read) return tl::unexpected(read.error());
+    *columns = std::move(*read);
+  }
+  return table;
+}
+
+/// The numbers of a row, or nothing where one is missing.
+std::optional<std::vector<double>> row_of(const Columns& columns, std::size_t row) {
+  std::vector<double> numbers;
+  for (const std::vector<double>& each : columns) {
+    if (!std::isfinite(each[row])) return std::nullopt;
+    numbers.push_back(each[row]);
+  }
+  if (numbers.empty()) return std::nullopt;
+  return numbers;
+}
+
+void put_header(MessageBytes& out, Time stamp, std::string_view frame) {
+  out.put(std::uint32_t{0});
+  out.time(stamp);
+  out.text(frame);
+}
+
+std::optional<MessageBytes> imu_of(const Table& table, std::size_t row, double turn_scale) {
+  const auto gyro = row_of(table.gyro, row);
+  const auto force = row_of(table.accelerometer, row);
+  if (!gyro || !force) return std::nullopt;
+  ImuSample sample;
+  sample.angular_velocity = turn_scale * Eigen::Vector3d(gyro->data());
+  sample.specific_force = Eigen::Vector3d(force->data());
+  if (const auto q = row_of(table.orientation, row)) {
+    sample.orientation = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
+  }
+  return imu_message({0, table.times[row], kImuFrame}, sample);
+}
+
+std::optional<MessageBytes> forces_of(const Table& table, std::size_t row) {
+  const auto forces = row_of(table.foot_force, row);
+  if (!forces) return std::nullopt;
+  MessageBytes out;
+  put_header(out, table.times[row], kBaseFrame);
+  out.length(kFeet.size());
+  for (const std::string_view foot : kFeet) out.text(foot);
+  out.array(*forces);
+  return out;
+}
+
+std::optional<MessageBytes> joints_of(const Table& table, std::size_t row) {
+  const auto angles = row_of(table.joint_position, row);
+  if (!angles) return std::nullopt;
+  MessageBytes out;
+  put_header(out, table.times[row], kBaseFrame);
+  out.length(angles->size());
+  for (const std::string_view foot : kFeet) {
+    for (const std::string_view joint : kJoints) out.text(fmt::format("{}_{}_joint", foot, joint));
+  }
+  out.array(*angles);
+  out.array(row_of(table.joint_velocity, row).value_or(std::vector<double>()));
+  out.array(std::vector<double>());
+  return out;
+}
+
+}  // namespace
+
+struct CsvReader::Impl {
+  fs::path mapping;
+  Table table;
+  double turn_scale = 1.0;  ///< of the gyro to rad/s
+  std::vector<BagConnection> connections = {};
+  BagSummary summary = {};
+  std::array<bool, kKinds> chosen = {};
+  std::size_t at = 0;  ///< rows times kinds
+  MessageBytes message = MessageBytes();
+
+  std::optional<MessageBytes> message_of(std::size_t row, Kind kind) const {
+    if (kind == kImu) return imu_of(table, row, turn_scale);
+    return kind == kForces ? forces_of(table, row) : joints_of(table, row);
+  }
+  void list_connections();
+};
+
+void CsvReader::Impl::list_connections() {
+  const std::array<MessageType, kKinds> types = {imu_type(), foot_forces_type(),
+                                                 joint_state_type()};
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    BagConnection connection;
+    connection.id = static_cast<std::uint32_t>(kind);
+    connection.topic = kTopics[kind];
+    connection.type = types[kind].name;
+    connection.md5 = types[kind].md5;
+    connection.definition = types[kind].definition;
+    for (std::size_t row = 0; row < table.times.size(); ++row) {
+      if (message_of(row, static_cast<Kind>(kind))) ++connection.messages;
+    }
+    summary.messages += connection.messages;
+    connections.push_back(std::move(connection));
+  }
+  std::erase_if(connections, [](const BagConnection& each) { return each.messages == 0; });
+}
+
+CsvReader::CsvReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+CsvReader::CsvReader(CsvReader&&) noexcept = default;
+CsvReader& CsvReader::operator=(CsvReader&&) noexcept = default;
+CsvReader::~CsvReader() = default;
+
+Result<CsvReader> CsvReader::open(const fs::path& file, BagOpenOptions options) {
+  const auto mapping = read_csv_mapping(file);
+  if (!mapping) return tl::unexpected(mapping.error());
+  if (options.recover) {
+    return failure(fmt::format("{}: a table cannot be recovered: expected one without --recover",
+                               file.string()));
+  }
+  const fs::path csv = file.parent_path() / mapping->file;
+  auto table = read_table(*mapping, csv);
+  if (!table) return tl::unexpected(table.error());
+  auto impl = std::unique_ptr<Impl>(new Impl{file, std::move(*table)});
+  if (mapping->gyro_unit == CsvTurnUnit::kDegrees) impl->turn_scale = std::numbers::pi / 180.0;
+  impl->list_connections();
+  impl->chosen.fill(true);
+  BagSummary& summary = impl->summary;
+  std::error_code ignored;
+  summary.file_size = fs::file_size(csv, ignored);
+  summary.chunks = 1;
+  summary.compression = name_of(BagCompression::kNone);
+  if (!impl->table.times.empty()) {
+    summary.start = impl->table.times.front();
+    summary.end = impl->table.times.back();
+  }
+  return CsvReader(std::move(impl));
+}
+
+std::string CsvReader::name() const { return impl_->mapping.string(); }
+
+const std::vector<BagConnection>& CsvReader::connections() const { return impl_->connections; }
+
+const BagSummary& CsvReader::summary() const { return impl_->summary; }
+
+void CsvReader::select(std::span<const std::string> topics) {
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    impl_->chosen[kind] = std::ranges::find(topics, kTopics[kind]) != topics.end();
+  }
+}
+
+Result<std::optional<BagMessage>> CsvReader::next() {
+  Impl& csv = *impl_;
+  for (; csv.at < csv.table.times.size() * kKinds; ++csv.at) {
+    const std::size_t row = csv.at / kKinds;
+    const auto kind = static_cast<Kind>(csv.at % kKinds);
+    auto message = csv.chosen[kind] ? csv.message_of(row, kind) : std::nullopt;
+    if (!message) continue;
+    ++csv.at;
+    csv.message = std::move(*message);
+    const auto connection = std::ranges::find(csv.connections, kind, &BagConnection::id);
+    return BagMessage{&*connection, csv.table.times[row], csv.message.view(), row + 1};
+  }
+  return std::optional<BagMessage>();
+}
+
+void CsvReader::rewind() { impl_->at = 0; }
+
+}  // namespace aims

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/measurements.hpp"
+
+namespace aims {
+
+/// What the metadata of an Ouster sensor states (a JSON file, as the sensor gives it).
+struct OusterMetadata {
+  std::string profile;               ///< of the packets, e.g. "LEGACY"
+  std::vector<double> altitude_deg;  ///< of the beams, from the highest on
+  std::vector<double> azimuth_deg;
+  double origin_to_beam = 0.0;  ///< from the axis to the beams' origin [m]
+  int columns_per_frame = 1024;
+  int columns_per_packet = 16;
+  Pose T_sensor_lidar;
+  Pose T_sensor_imu;
+};
+
+/// Reads such a file. Error, naming file and key, for what is missing, and for a profile of packets
+/// other than LEGACY, RNG19_RFL8_SIG16_NIR16 and RNG15_RFL8_NIR8.
+Result<OusterMetadata> read_ouster_metadata(const std::filesystem::path& file);
+
+/// Puts the scans of an Ouster sensor together from its packets (Ouster sensor documentation, data
+/// packet format): a scan ends where the frame number changes. Each point has the time of its
+/// column, in the sensor's clock. LiDAR axes as there.
+class OusterScans {
+ public:
+  explicit OusterScans(OusterMetadata metadata);
+
+  std::size_t lidar_packet_size() const;
+  static constexpr std::size_t kImuPacketSize = 48;
+
+  /// Adds a packet of the LiDAR; returns the scan that it ends. The first frame, which may be
+  /// incomplete, is left out.
+  std::optional<LidarScan> add(std::span<const std::byte> packet);
+
+  /// The sample in a packet of the IMU: specific force [m/s^2], angular velocity [rad/s].
+  static ImuSample imu_of(std::span<const std::byte> packet);
+
+ private:
+  struct Layout;
+  const Layout& layout() const;
+  void add_column(const std::byte* column);
+
+  OusterMetadata metadata_;
+  LidarScan scan_;
+  std::optional<std::uint16_t> frame_;
+  int frames_ = 0;  ///< that have begun
+};
+
+}  // namespace aims

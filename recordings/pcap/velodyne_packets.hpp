@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/measurements.hpp"
+
+namespace aims {
+
+/// Bytes of a data packet of a Velodyne sensor.
+inline constexpr std::size_t kVelodynePacketSize = 1206;
+
+/// Puts the scans of a VLP-16 together from its data packets (VLP-16 user manual 63-9243): a scan
+/// ends where the azimuth passes zero. Each point has the time of its firing; its stamps are the
+/// microseconds of the packet in the hour that is nearest to the capture. Of two returns the last
+/// one is used. LiDAR axes: x at azimuth 0, z up.
+class VelodyneScans {
+ public:
+  /// Adds a packet that was captured at `capture`; returns the scan that it ends. The revolution
+  /// that has begun before the first packet is left out. Error for other models.
+  Result<std::optional<LidarScan>> add(std::span<const std::byte> packet, Time capture);
+
+ private:
+  void add_block(const std::byte* block, double turn, Time stamp);
+
+  LidarScan scan_;
+  bool whole_ = false;          ///< the present revolution began at its start
+  std::optional<int> azimuth_;  ///< of the last block [0.01 deg]
+};
+
+}  // namespace aims
