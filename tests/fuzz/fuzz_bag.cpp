@@ -8,6 +8,7 @@
 
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/mcap/mcap_reader.hpp"
+#include "recordings/pcap/pcap_reader.hpp"
 #include "recordings/rosbag2/rosbag2_reader.hpp"
 #include "tests/fuzz/demand.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
@@ -77,6 +78,10 @@ void fuzz_bag(std::span<const std::uint8_t> input) {
 
 void fuzz_mcap(std::span<const std::uint8_t> input) {
   read_file_as<McapReader>(MemoryFile(std::as_bytes(input)).path());
+}
+
+void fuzz_pcap(std::span<const std::uint8_t> input) {
+  read_file_as<PcapReader>(MemoryFile(std::as_bytes(input)).path());
 }
 
 void fuzz_db3(std::span<const std::uint8_t> input) {

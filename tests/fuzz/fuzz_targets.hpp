@@ -12,8 +12,9 @@ namespace aims {
 /// The bytes of a bag: read by its index and by scanning, every message decoded; then as a
 /// recording.
 void fuzz_bag(std::span<const std::uint8_t> input);
-/// The same of an MCAP file, and of a SQLite file of rosbag2.
+/// The same of an MCAP file, of a capture of a VLP-16, and of a SQLite file of rosbag2.
 void fuzz_mcap(std::span<const std::uint8_t> input);
+void fuzz_pcap(std::span<const std::uint8_t> input);
 void fuzz_db3(std::span<const std::uint8_t> input);
 /// A message definition, and the bytes of a message, of ROS 1; and of ROS 2 (CDR).
 void fuzz_message(std::span<const std::uint8_t> input);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes small inputs for the fuzzers to start from.
 
-usage: make_seeds.py BAG_TOOL AIMS FOLDER   (FOLDER/bag, mcap, db3, message, cdr, recording)
+usage: make_seeds.py BAG_TOOL AIMS FOLDER   (FOLDER/bag, mcap, db3, pcap, message, cdr, recording)
 """
 import os
 import sqlite3
@@ -12,6 +12,9 @@ import sys
 import tempfile
 
 import rosbag
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "rosbag2"))
+from lidar_packets import capture, vlp16_packets
 
 TOPICS = ["sensor_msgs/Imu", "sensor_msgs/PointCloud2", "nav_msgs/Odometry",
           "sensor_msgs/JointState", "aims_msgs/FootContacts", "tf2_msgs/TFMessage"]
@@ -56,6 +59,15 @@ def save_as_ros2(aims, folder):
         save(folder + "/cdr", kind.replace("/", "_"), struct.pack("<H", len(text)) + text + data)
 
 
+def save_captures(folder):
+    """Three turns of a VLP-16, of which most packets are missing."""
+    packets = vlp16_packets(1_700_000_123 * 10**9, 3)
+    for name, every, options in (("micro", 12, {}), ("nano", 20, {"nanoseconds": True}),
+                                 ("big", 20, {"order": ">"}), ("vlan", 20, {"vlan": True})):
+        save(folder + "/pcap", name + ".pcap", capture(packets[::every], **options))
+    save(folder + "/pcap", "fragments.pcap", capture([(10**9, bytes(9000)), (2 * 10**9, b"x")]))
+
+
 def main():
     tool, aims, folder = sys.argv[1:4]
     os.makedirs(os.path.join(folder, "bag"), exist_ok=True)
@@ -66,6 +78,7 @@ def main():
     whole = open(bag, "rb").read()
     save(folder + "/bag", "cut.bag", whole[:len(whole) * 3 // 4])
     save_as_ros2(aims, folder)
+    save_captures(folder)
     recording, seen = b"", set()
     with rosbag.Bag(os.path.join(folder, "bag", "none_1500.bag")) as bag:
         for topic, (kind, data, *_), _ in bag.read_messages(raw=True):

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Fuzzes the readers of bags, MCAP and SQLite files, messages, recordings, YAML, tables and JSON, each for some seconds, from
+# Fuzzes the readers of bags, MCAP, SQLite and capture files, messages, recordings, YAML, tables and JSON, each for some seconds, from
 # the kept corpus on; what is new and reaches further is put into BUILD/corpus, what breaks into BUILD/found.
 # usage: tests/fuzz/run.sh [SECONDS [BUILD [TARGET...]]]
 set -eu
@@ -8,7 +8,7 @@ source=$(cd "$(dirname "$0")/../.." && pwd)
 seconds=${1:-300}
 build=${2:-$source/build/fuzz}
 [ $# -ge 2 ] && shift 2 || set --
-[ $# -gt 0 ] || set -- bag mcap db3 message cdr recording yaml tables json
+[ $# -gt 0 ] || set -- bag mcap db3 pcap message cdr recording yaml tables json
 
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
   -DCMAKE_CXX_COMPILER=clang++ -DAIMS_FUZZ=ON -DAIMS_BENCH=OFF -DAIMS_PAGE=OFF \
