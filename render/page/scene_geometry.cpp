@@ -101,6 +101,8 @@ PageData::Json people_json(const Scene& scene) {
   for (const Person& person : scene.people) {
     list.push_back({{"from", {person.from.x(), person.from.y()}},
                     {"to", {person.to.x(), person.to.y()}},
+                    {"turn", person.turn},
+                    {"ground", person.ground},
                     {"speed", person.speed},
                     {"start", person.start},
                     {"radius", person.radius},

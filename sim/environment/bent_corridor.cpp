@@ -84,15 +84,20 @@ void add_piece_clutter(const std::vector<CorridorPiece>& pieces, const CorridorC
 
 }  // namespace
 
-std::vector<Solid> bent_corridor_solids(const CorridorConfig& config, const Materials& materials,
-                                        std::uint64_t seed) {
-  const std::vector<CorridorPiece> pieces = corridor_pieces(config);
-  std::vector<Solid> solids;
+void add_pieces(const std::vector<CorridorPiece>& pieces, const CorridorConfig& config,
+                const Materials& materials, std::uint64_t seed, std::vector<Solid>& solids) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     add_piece_wall(pieces[i], i, Side::kLeft, config, materials, seed, solids);
     add_piece_wall(pieces[i], i, Side::kRight, config, materials, seed, solids);
     add_piece_ceiling(pieces[i], config, materials, solids);
   }
+}
+
+std::vector<Solid> bent_corridor_solids(const CorridorConfig& config, const Materials& materials,
+                                        std::uint64_t seed) {
+  const std::vector<CorridorPiece> pieces = corridor_pieces(config);
+  std::vector<Solid> solids;
+  add_pieces(pieces, config, materials, seed, solids);
   const Span first = pieces.front().along;
   const Span last = pieces.back().along;
   if (has_end(config, EndWalls::kStart)) {
@@ -106,31 +111,18 @@ std::vector<Solid> bent_corridor_solids(const CorridorConfig& config, const Mate
   return solids;
 }
 
-std::vector<Person> people_on_longest_piece(const CorridorConfig& config,
-                                            const PeopleConfig& people, std::uint64_t seed) {
-  const std::vector<CorridorPiece> pieces = corridor_pieces(config);
-  const CorridorPiece& piece = *std::max_element(
-      pieces.begin(), pieces.end(), [](const CorridorPiece& a, const CorridorPiece& b) {
-        return a.along.length() < b.along.length();
-      });
-  const auto clear = [&](double turn) {
-    return turn == 0.0 ? 1.0 : 0.5 * config.width * std::tan(0.5 * std::abs(turn)) + 0.5;
+Span walked_part(const CorridorPiece& piece, double width) {
+  const auto clear = [width](double turn) {
+    return turn == 0.0 ? 1.0 : 0.5 * width * std::tan(0.5 * std::abs(turn)) + 0.5;
   };
-  auto walkers = people_in_lanes(people, piece.along.begin + clear(piece.turn_before),
-                                 piece.along.end - clear(piece.turn_after), seed);
-  for (Person& person : walkers) {
-    for (Eigen::Vector2d* place : {&person.from, &person.to}) {
-      *place = (piece.T_world_piece * Eigen::Vector3d(place->x(), place->y(), 0.0)).head<2>();
-    }
-  }
-  return walkers;
+  return {piece.along.begin + clear(piece.turn_before), piece.along.end - clear(piece.turn_after)};
 }
 
-Floor bent_corridor_floor(const CorridorConfig& config) {
+Floor floor_under(const std::vector<CorridorPiece>& pieces, const CorridorConfig& config) {
   Floor floor;
   floor.min_corner = Eigen::Vector2d::Constant(1e12);
   floor.max_corner = -floor.min_corner;
-  for (const CorridorPiece& piece : corridor_pieces(config)) {
+  for (const CorridorPiece& piece : pieces) {
     for (const auto& corner : outline(piece, outer_half_width(config.width, config.doors.depth))) {
       floor.min_corner = floor.min_corner.cwiseMin(corner);
       floor.max_corner = floor.max_corner.cwiseMax(corner);

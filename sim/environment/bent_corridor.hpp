@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/environment/corridor_pieces.hpp"
 #include "sim/environment/scene_config.hpp"
 #include "sim/environment/wall.hpp"
 
@@ -14,12 +15,15 @@ namespace aims {
 std::vector<Solid> bent_corridor_solids(const CorridorConfig& config, const Materials& materials,
                                         std::uint64_t seed);
 
-/// People in lanes of the longest piece, who turn half a metre before its bends and 1 m before the
+/// Adds walls with doors and ceilings of the pieces. Streams as above.
+void add_pieces(const std::vector<CorridorPiece>& pieces, const CorridorConfig& config,
+                const Materials& materials, std::uint64_t seed, std::vector<Solid>& solids);
+
+/// The part of a piece that people walk, who turn half a metre before its bends and 1 m before the
 /// corridor's ends.
-std::vector<Person> people_on_longest_piece(const CorridorConfig& config,
-                                            const PeopleConfig& people, std::uint64_t seed);
+Span walked_part(const CorridorPiece& piece, double width);
 
 /// The rectangle of floor under all pieces.
-Floor bent_corridor_floor(const CorridorConfig& config);
+Floor floor_under(const std::vector<CorridorPiece>& pieces, const CorridorConfig& config);
 
 }  // namespace aims

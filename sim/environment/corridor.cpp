@@ -235,7 +235,7 @@ std::vector<Solid> corridor_solids(const CorridorConfig& config, const RampConfi
 }
 
 Floor corridor_floor(const CorridorConfig& config) {
-  if (has_bends(config)) return bent_corridor_floor(config);
+  if (has_bends(config)) return floor_under(corridor_pieces(config), config);
   const Span along = extent(config);
   const double half_width = closed_half_width(config);
   Floor floor;

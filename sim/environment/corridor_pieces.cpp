@@ -19,15 +19,43 @@ double turn_of(const BendConfig& bend) {
   return (bend.side == Side::kLeft ? 1.0 : -1.0) * bend.angle_deg * kRadiansPerDegree;
 }
 
-std::vector<BendConfig> bends_of(const CorridorConfig& config) {
-  std::vector<BendConfig> bends = config.bends;
-  std::erase_if(bends, [](const BendConfig& bend) { return bend.angle_deg <= 0.0; });
-  return bends;
-}
-
 /// Length of centre line that a bend takes to either side: of its mitre, or of the route's arc.
 double reach(double turn, double width) {
   return std::max(0.5 * width, kBendRadius) * std::tan(0.5 * std::abs(turn));
+}
+
+/// Walls with a thickness cannot meet in one corner that is sharper than 90 degrees.
+std::vector<BendConfig> bends_of(const CorridorConfig& config) {
+  constexpr double kSharpest = 90.0;  ///< of one corner [deg]
+  constexpr double kSlack = 0.01;     ///< [m]
+  std::vector<BendConfig> bends;
+  for (const BendConfig& bend : config.bends) {
+    if (bend.angle_deg <= 0.0) continue;
+    if (bend.angle_deg <= kSharpest) {
+      bends.push_back(bend);
+      continue;
+    }
+    BendConfig half = bend;
+    half.angle_deg = 0.5 * bend.angle_deg;
+    const double turn = std::abs(turn_of(half));
+    // The piece after the bend must begin beyond the outline of the one before, walls included.
+    const double outline = outer_half_width(config.width, config.doors.depth);
+    const double clear =
+        (outline * (1.0 - std::cos(2.0 * turn)) + kWallThickness * std::sin(2.0 * turn)) /
+        std::sin(turn);
+    const double room = 2.0 * reach(turn, config.width) + kLeastStraight;
+    const double apart = 0.5 * std::max(clear, room) + kSlack;
+    for (const double offset : {-apart, apart}) {
+      half.at = bend.at + offset / config.length;
+      bends.push_back(half);
+    }
+  }
+  return bends;
+}
+
+/// A point of a piece's own axes in the world's plane.
+Eigen::Vector2d place_on(const CorridorPiece& piece, double x, double y) {
+  return (piece.T_world_piece * Eigen::Vector3d(x, y, 0.0)).head<2>();
 }
 
 /// Whether a direction along or across `a` separates the two rectangles.
@@ -82,12 +110,10 @@ double corner_fill(double turn, double depth) {
 }
 
 std::array<Eigen::Vector2d, 4> outline(const CorridorPiece& piece, double half_width) {
-  const auto at = [&](double x, double y) -> Eigen::Vector2d {
-    return (piece.T_world_piece * Eigen::Vector3d(x, y, 0.0)).head<2>();
-  };
   const double begin = piece.along.begin - kWallThickness;
   const double end = piece.along.end + kWallThickness;
-  return {at(begin, -half_width), at(end, -half_width), at(end, half_width), at(begin, half_width)};
+  return {place_on(piece, begin, -half_width), place_on(piece, end, -half_width),
+          place_on(piece, end, half_width), place_on(piece, begin, half_width)};
 }
 
 bool has_bends(const CorridorConfig& config) { return !bends_of(config).empty(); }
@@ -129,25 +155,27 @@ Span straight_part(const CorridorPiece& piece, const CorridorConfig& config) {
   return {piece.along.begin + taken(piece.turn_before), piece.along.end - taken(piece.turn_after)};
 }
 
+void add_bend(const CorridorPiece& piece, std::vector<Eigen::Vector2d>& points) {
+  const double turn = piece.turn_after;
+  const double begin = piece.along.end - kBendRadius * std::tan(0.5 * std::abs(turn));
+  const double side = turn > 0.0 ? kBendRadius : -kBendRadius;
+  const double chords = std::ceil(std::abs(turn) / kLargestChord);
+  for (double i = 0.0; i <= chords; i += 1.0) {
+    const double angle = i / chords * std::abs(turn);
+    points.push_back(
+        place_on(piece, begin + kBendRadius * std::sin(angle), side * (1.0 - std::cos(angle))));
+  }
+}
+
 std::vector<Eigen::Vector2d> centre_line(const CorridorConfig& config) {
   const std::vector<CorridorPiece> pieces = corridor_pieces(config);
   std::vector<Eigen::Vector2d> points = {Eigen::Vector2d::Zero()};
-  const auto add = [&points](const CorridorPiece& piece, double x, double y) {
-    points.push_back((piece.T_world_piece * Eigen::Vector3d(x, y, 0.0)).head<2>());
-  };
   for (const CorridorPiece& piece : pieces) {
-    const double turn = piece.turn_after;
-    if (turn == 0.0) {
-      add(piece, piece.along.end - config.margin, 0.0);
+    if (piece.turn_after == 0.0) {
+      points.push_back(place_on(piece, piece.along.end - config.margin, 0.0));
       continue;
     }
-    const double begin = piece.along.end - kBendRadius * std::tan(0.5 * std::abs(turn));
-    const double side = turn > 0.0 ? kBendRadius : -kBendRadius;
-    const double chords = std::ceil(std::abs(turn) / kLargestChord);
-    for (double i = 0.0; i <= chords; i += 1.0) {
-      const double angle = i / chords * std::abs(turn);
-      add(piece, begin + kBendRadius * std::sin(angle), side * (1.0 - std::cos(angle)));
-    }
+    add_bend(piece, points);
   }
   return points;
 }

@@ -23,7 +23,8 @@ struct CorridorPiece {
 /// Whether any bend has an angle.
 bool has_bends(const CorridorConfig& config);
 
-/// The pieces of a corridor in order; a single one when it has no bend.
+/// The pieces of a corridor in order; a single one when it has no bend. A bend beyond 90 degrees is
+/// two of half the angle with a short piece between them.
 std::vector<CorridorPiece> corridor_pieces(const CorridorConfig& config);
 
 /// The face of one of a piece's walls, up to the mitre lines of its bends.
@@ -36,6 +37,9 @@ Span straight_part(const CorridorPiece& piece, const CorridorConfig& config);
 /// bends by arcs of `kBendRadius`, in chords of at most 30 degrees.
 std::vector<Eigen::Vector2d> centre_line(const CorridorConfig& config);
 inline constexpr double kBendRadius = 1.0;  ///< [m]
+
+/// Appends the arc of the bend at a piece's end, as `centre_line` has it.
+void add_bend(const CorridorPiece& piece, std::vector<Eigen::Vector2d>& points);
 
 /// Error for bends that leave no room between each other, meet, or go with what only a straight
 /// corridor can have. A corridor without bends is right.

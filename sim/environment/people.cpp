@@ -20,7 +20,8 @@ struct Entry {
 };
 
 std::optional<Entry> enter_cylinder(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                    const Eigen::Vector2d& axis, double radius, double height) {
+                                    const Person& person, const Eigen::Vector2d& axis) {
+  const double radius = person.radius;
   const Eigen::Vector2d to_axis = axis - origin.head<2>();
   const double a = direction.head<2>().squaredNorm();
   const double b = to_axis.dot(direction.head<2>());
@@ -29,8 +30,10 @@ std::optional<Entry> enter_cylinder(const Eigen::Vector3d& origin, const Eigen::
   if (c <= 0.0 || b <= 0.0 || discriminant <= 0.0) return std::nullopt;
   const double root = std::sqrt(discriminant);
   const double side = (b - root) / a;
+  const double bottom = person.ground;
+  const double height = bottom + person.height;
   const double z = origin.z() + side * direction.z();
-  if (z >= 0.0 && z <= height) {
+  if (z >= bottom && z <= height) {
     const Eigen::Vector2d outwards = (side * direction.head<2>() - to_axis) / radius;
     return Entry{side, {outwards.x(), outwards.y(), 0.0}};
   }
@@ -39,6 +42,17 @@ std::optional<Entry> enter_cylinder(const Eigen::Vector3d& origin, const Eigen::
   const double top = (height - origin.z()) / direction.z();
   if (top < side || top > (b + root) / a) return std::nullopt;
   return Entry{top, Eigen::Vector3d::UnitZ()};
+}
+
+/// The point `y` [m] to the left of the centre line at `x` along it.
+Eigen::Vector2d place_on(const Stretch& stretch, double x, double y) {
+  Eigen::Vector3d place(x, y, 0.0);
+  if (stretch.turn != 0.0) {
+    const double radius = stretch.along.length() / stretch.turn;
+    const double turned = x / radius;
+    place = {(radius - y) * std::sin(turned), radius - (radius - y) * std::cos(turned), 0.0};
+  }
+  return (stretch.T_world_stretch * place).head<2>();
 }
 
 /// False when every ray of the packet passes beside the person.
@@ -99,17 +113,20 @@ Result<void> validate(const PeopleConfig& config, double corridor_width) {
   return {};
 }
 
-std::vector<Person> people_in_lanes(const PeopleConfig& config, double begin, double end,
-                                    std::uint64_t seed) {
+std::vector<Person> people_on(std::span<const Stretch> stretches, const PeopleConfig& config,
+                              std::uint64_t seed) {
   RandomStream random = rng(seed, "scene.people");
   std::vector<Person> people;
   for (int i = 0; i < config.count; ++i) {
+    const Stretch& stretch = stretches[static_cast<std::size_t>(i) % stretches.size()];
     Person& person = people.emplace_back();
     const double y = random.chance(0.5) ? config.lane_offset : -config.lane_offset;
-    person.from = {begin, y};
-    person.to = {end, y};
+    person.from = place_on(stretch, stretch.along.begin, y);
+    person.to = place_on(stretch, stretch.along.end, y);
+    person.turn = stretch.turn;
+    person.ground = stretch.ground;
     person.speed = config.speed;
-    person.start = random.uniform(0.0, 2.0 * (end - begin));
+    person.start = random.uniform(0.0, 2.0 * person.distance());
     person.radius = config.radius;
     person.height = config.height;
     person.material = {config.reflectivity, {0.22F, 0.32F, 0.50F}};
@@ -127,8 +144,7 @@ void intersect_people(const std::vector<Person>& people, const RayPacket& rays,
       const Eigen::Vector3d origin(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
       const Eigen::Vector3d direction(rays.direction_x[lane], rays.direction_y[lane],
                                       rays.direction_z[lane]);
-      const auto entry = enter_cylinder(origin, direction, person.position(stamps[lane]),
-                                        person.radius, person.height);
+      const auto entry = enter_cylinder(origin, direction, person, person.position(stamps[lane]));
       if (!entry || entry->distance >= hits.distance[lane] || entry->distance > max_distance) {
         continue;
       }

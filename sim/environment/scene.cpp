@@ -6,11 +6,20 @@
 
 namespace aims {
 
+double Person::distance() const {
+  const double chord = (to - from).norm();
+  return turn == 0.0 ? chord : chord * 0.5 * turn / std::sin(0.5 * turn);
+}
+
 Eigen::Vector2d Person::position(Time stamp) const {
-  const double distance = (to - from).norm();
-  const double walked = std::fmod(start + speed * to_seconds(stamp), 2.0 * distance);
-  const double from_begin = walked <= distance ? walked : 2.0 * distance - walked;
-  return from + from_begin / distance * (to - from);
+  const double whole = distance();
+  const double walked = std::fmod(start + speed * to_seconds(stamp), 2.0 * whole);
+  const double from_begin = walked <= whole ? walked : 2.0 * whole - walked;
+  if (turn == 0.0) return from + from_begin / whole * (to - from);
+  // The chord from the begin turns by half of what the arc turns.
+  const double turned = from_begin / whole * turn;
+  const Eigen::Rotation2Dd towards(0.5 * (turned - turn));
+  return from + std::sin(0.5 * turned) / std::sin(0.5 * turn) * (towards * (to - from));
 }
 
 double floor_height(const Floor& floor, double x, double y) {
@@ -39,7 +48,7 @@ Scene scene_at(const Scene& scene, Time stamp) {
     Solid solid;
     solid.shape = Shape::kCylinder;
     const Eigen::Vector2d at = person.position(stamp);
-    solid.T_world_solid.translation = {at.x(), at.y(), 0.5 * person.height};
+    solid.T_world_solid.translation = {at.x(), at.y(), person.ground + 0.5 * person.height};
     solid.half_extents = {person.radius, person.radius, 0.5 * person.height};
     solid.material = person.material;
     solid.collides = false;

@@ -41,17 +41,21 @@ struct Floor {
   Material material;
 };
 
-/// A person who walks up and down between two points at constant speed, as an upright cylinder.
-/// Visible to the LiDAR and the camera, but without collisions.
+/// A person who walks up and down between two points at constant speed, along a line or an arc, as
+/// an upright cylinder. Visible to the LiDAR and the camera, but without collisions.
 struct Person {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< turning point [m]
   Eigen::Vector2d to = Eigen::Vector2d::UnitX();   ///< the other one [m]
-  double speed = 1.0;                              ///< [m/s]
+  double turn = 0.0;     ///< from one to the other on an arc, positive to the left [rad]; 0: a line
+  double ground = 0.0;   ///< height of the level floor that the person walks on [m]
+  double speed = 1.0;    ///< [m/s]
   double start = 0.0;    ///< distance walked at time zero, in [0, twice the distance) [m]
   double radius = 0.25;  ///< [m]
   double height = 1.75;  ///< [m]
   Material material;
 
+  /// Between the turning points, along the line or the arc [m].
+  double distance() const;
   /// Of the axis at a time of the simulation [m]; closed form.
   Eigen::Vector2d position(Time stamp) const;
 };

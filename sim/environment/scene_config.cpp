@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "sim/environment/bent_corridor.hpp"
 #include "sim/environment/corridor.hpp"
 #include "sim/environment/corridor_pieces.hpp"
 #include "sim/environment/height_field.hpp"
+#include "sim/environment/stretches.hpp"
 
 namespace aims {
 void describe(Fields& f, PillarConfig& c) {
@@ -52,10 +52,12 @@ void describe(Fields& f, BendConfig& c) {
            {.unit = "-",
             .range = in_range(0.02, 0.98),
             .meaning = "Position of the bend, as a fraction of the route's length."});
-  f.number("angle_deg", c.angle_deg,
-           {.unit = "deg",
-            .range = in_range(0.0, 90.0),
-            .meaning = "Change of the corridor's direction; 0 for no bend."});
+  f.number(
+      "angle_deg", c.angle_deg,
+      {.unit = "deg",
+       .range = in_range(0.0, 180.0),
+       .meaning = "Change of the corridor's direction; 0 for no bend. Beyond 90 two bends of half "
+                  "the angle."});
   f.choice("side", c.side, {{"left", Side::kLeft}, {"right", Side::kRight}},
            {.meaning = "Side to which the corridor turns, looking from the start of the route."});
 }
@@ -96,7 +98,8 @@ void describe(Fields& f, SceneConfig& c) {
            {{"corridor", SceneKind::kCorridor},
             {"garage", SceneKind::kGarage},
             {"junction", SceneKind::kJunction},
-            {"tunnel", SceneKind::kTunnel}},
+            {"tunnel", SceneKind::kTunnel},
+            {"loop", SceneKind::kLoop}},
            {.meaning = "Type of environment to build."});
   f.integer("seed", c.seed,
             {.unit = "-",
@@ -114,6 +117,7 @@ void describe(Fields& f, SceneConfig& c) {
   f.group("garage", c.garage);
   f.group("junction", c.junction);
   f.group("tunnel", c.tunnel);
+  f.group("loop", c.loop);
 }
 
 namespace {
@@ -125,8 +129,6 @@ Result<void> validate_ramp(const SceneConfig& config) {
     return failure("scene.ramp.grade: expected 0 (no ramp) in a corridor with bends");
   if (config.bumps.height > 0.0)
     return failure("scene.ramp: a floor with a ramp cannot have bumps (scene.bumps)");
-  if (config.people.count > 0)
-    return failure("scene.people: people need a level floor (scene.ramp.grade: 0)");
   const double room = config.corridor.length + config.corridor.margin - ramp.start;
   if (ramp.length > room) {
     return failure(
@@ -136,22 +138,11 @@ Result<void> validate_ramp(const SceneConfig& config) {
   return {};
 }
 
-/// People who walk up and down the corridor and turn 1 m before its ends; with bends, on its
-/// longest piece.
-std::vector<Person> corridor_people(const SceneConfig& config, std::uint64_t seed) {
-  constexpr double kTurningDistance = 1.0;  ///< from the corridor's end [m]
-  const CorridorConfig& corridor = config.corridor;
-  if (has_bends(corridor)) return people_on_longest_piece(corridor, config.people, seed);
-  return people_in_lanes(config.people, kTurningDistance - corridor.margin,
-                         corridor.length + corridor.margin - kTurningDistance, seed);
-}
-
 /// The part of the scene's kind.
 Result<void> validate_kind(const SceneConfig& config) {
   switch (config.kind) {
     case SceneKind::kCorridor: {
       if (auto ok = validate_ramp(config); !ok) return ok;
-      if (auto ok = validate(config.people, config.corridor.width); !ok) return ok;
       return validate(config.corridor);
     }
     case SceneKind::kGarage:
@@ -160,6 +151,8 @@ Result<void> validate_kind(const SceneConfig& config) {
       return validate(config.junction);
     case SceneKind::kTunnel:
       return validate(config.tunnel);
+    case SceneKind::kLoop:
+      return validate(config.loop);
   }
   return failure("unknown kind of scene");
 }
@@ -174,6 +167,8 @@ Floor flat_floor(const SceneConfig& config) {
       return junction_floor(config.junction);
     case SceneKind::kTunnel:
       return tunnel_floor(config.tunnel);
+    case SceneKind::kLoop:
+      return loop_floor(config.loop);
   }
   return {};
 }
@@ -181,13 +176,11 @@ Floor flat_floor(const SceneConfig& config) {
 }  // namespace
 
 Result<void> validate(const SceneConfig& config) {
-  if (config.kind != SceneKind::kCorridor) {
-    if (config.ramp.grade > 0.0)
-      return failure("scene.ramp: only a scene of kind corridor can have a ramp");
-    if (config.people.count > 0)
-      return failure("scene.people: only a scene of kind corridor can have people");
+  if (config.kind != SceneKind::kCorridor && config.ramp.grade > 0.0) {
+    return failure("scene.ramp: only a scene of kind corridor can have a ramp");
   }
   if (auto ok = validate_kind(config); !ok) return ok;
+  if (auto ok = validate_people(config); !ok) return ok;
   return validate(config.bumps, flat_floor(config));
 }
 
@@ -198,7 +191,6 @@ Scene build_scene(const SceneConfig& config, std::uint64_t run_seed) {
   switch (config.kind) {
     case SceneKind::kCorridor:
       scene.solids = corridor_solids(config.corridor, config.ramp, config.reflectivity, seed);
-      scene.people = corridor_people(config, seed);
       break;
     case SceneKind::kGarage:
       scene.solids = garage_solids(config.garage, config.reflectivity, seed);
@@ -209,7 +201,11 @@ Scene build_scene(const SceneConfig& config, std::uint64_t run_seed) {
     case SceneKind::kTunnel:
       scene.solids = tunnel_solids(config.tunnel, config.reflectivity, seed);
       break;
+    case SceneKind::kLoop:
+      scene.solids = loop_solids(config.loop, config.reflectivity, seed);
+      break;
   }
+  if (config.people.count > 0) scene.people = people_on(stretches_of(config), config.people, seed);
   scene.floor.material = {config.reflectivity.floor, {0.55F, 0.57F, 0.60F}};
   add_bumps(config.bumps, seed, scene.floor);
   add_ramp(config.ramp, scene.floor);

@@ -10,6 +10,7 @@
 #include "sim/environment/garage.hpp"
 #include "sim/environment/glass.hpp"
 #include "sim/environment/junction.hpp"
+#include "sim/environment/loop.hpp"
 #include "sim/environment/people.hpp"
 #include "sim/environment/ramp.hpp"
 #include "sim/environment/scene.hpp"
@@ -62,7 +63,7 @@ struct CorridorConfig {
   GlassConfig glass;
 };
 
-enum class SceneKind { kCorridor, kGarage, kJunction, kTunnel };
+enum class SceneKind { kCorridor, kGarage, kJunction, kTunnel, kLoop };
 
 /// The environment of the robot.
 struct SceneConfig {
@@ -72,11 +73,12 @@ struct SceneConfig {
   BumpConfig bumps;
   ReflectivityConfig reflectivity;
   CorridorConfig corridor;
-  RampConfig ramp;      ///< corridor only
-  PeopleConfig people;  ///< corridor only
+  RampConfig ramp;  ///< corridor only
+  PeopleConfig people;
   GarageConfig garage;
   JunctionConfig junction;
   TunnelConfig tunnel;
+  LoopConfig loop;
 };
 
 void describe(Fields& fields, PillarConfig& config);

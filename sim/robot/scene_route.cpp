@@ -43,13 +43,36 @@ std::vector<RoutePoint> one_way(const SceneConfig& scene) {
     case SceneKind::kJunction:
       return {
           {"a", 0.0, 0.0}, {"j", junction.length, 0.0}, {"b", junction.length, -junction.branch}};
+    case SceneKind::kLoop:
+      break;
   }
   return {};
+}
+
+/// Around the block and back to a, as often as there are laps, by b on the opposite side.
+std::vector<RoutePoint> around(const LoopConfig& loop) {
+  std::vector<RoutePoint> route = {{"a", 0.0, 0.0}};
+  const std::vector<CorridorPiece> sides = loop_pieces(loop);
+  const auto turn = [&](std::size_t side) {
+    std::vector<Eigen::Vector2d> points;
+    add_bend(sides[side], points);
+    for (const Eigen::Vector2d& each : points) route.push_back({"", each.x(), each.y()});
+  };
+  for (int lap = 0; lap < loop.laps; ++lap) {
+    turn(0);
+    turn(1);
+    route.push_back({"b", 0.0, loop.depth});
+    turn(2);
+    turn(3);
+    route.push_back({"a", 0.0, 0.0});
+  }
+  return route;
 }
 
 }  // namespace
 
 std::vector<RoutePoint> points_along(const SceneConfig& scene) {
+  if (scene.kind == SceneKind::kLoop) return around(scene.loop);
   std::vector<RoutePoint> points = one_way(scene);
   for (std::size_t i = points.size() - 1; i-- > 0;) points.push_back(points[i]);
   return points;

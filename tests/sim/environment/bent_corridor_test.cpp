@@ -174,6 +174,32 @@ TEST(BentCorridor, RouteStaysInsideAndComesBack) {
   }
 }
 
+/// Beyond a right angle a bend is two of half the angle, so that walls with a thickness fit.
+TEST(BentCorridor, TurnsByAnyAngleUpToAUTurn) {
+  for (const double angle : {100.0, 120.0, 150.0, 180.0}) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      SceneConfig config = bent({{0.5, angle, side}});
+      SCOPED_TRACE(angle);
+      ASSERT_TRUE(validate(config)) << validate(config).error().message;
+      const auto pieces = corridor_pieces(config.corridor);
+      ASSERT_EQ(pieces.size(), 3U);
+      const double heading = yaw_of(pieces.back().T_world_piece.rotation);
+      const double turned = (side == Side::kLeft ? 1.0 : -1.0) * angle * kRadiansPerDegree;
+      EXPECT_NEAR(std::abs(wrap_angle(heading - turned)), 0.0, 1e-9);
+      const Scene scene = build_scene(config, 2);
+      std::vector<Vector3d> inside;
+      for (const Vector2d& point : centre_line(config.corridor)) {
+        inside.emplace_back(point.x(), point.y(), 0.5);
+      }
+      testing::expect_no_leak(scene, inside);
+      RouteConfig route;
+      route.follow_scene = true;
+      const auto walkable = check_walkable(route_in(config, route), scene, BodySize{});
+      EXPECT_TRUE(walkable) << walkable.error().message;
+    }
+  }
+}
+
 TEST(BentCorridor, WithoutAngleIsTheStraightCorridor) {
   const Scene straight = build_scene(bent({}), 5);
   const Scene zero = build_scene(bent({{0.4, 0.0, Side::kRight}}), 5);

@@ -137,7 +137,7 @@ TEST(BuildingScenes, ConfigurationsThatCannotBeBuiltNameTheKey) {
   config.ramp.grade = 0.1;
   EXPECT_NE(validate(config).error().message.find("scene.ramp"), std::string::npos);
   config = junction();
-  config.people.count = 1;
+  config.people = {.count = 1, .lane_offset = 2.0};
   EXPECT_NE(validate(config).error().message.find("scene.people"), std::string::npos);
 }
 

@@ -44,7 +44,7 @@ TEST(IntersectPeople, AgreesWithMarchingAlongTheRay) {
   RandomStream random = rng(kSeed, "rays");
   PeopleConfig config;
   config.count = 1;
-  const std::vector<Person> people = people_in_lanes(config, -2.0, 3.0, 3);
+  const std::vector<Person> people = people_on({{Stretch{{}, {-2.0, 3.0}}}}, config, 3);
   const Person& person = people.front();
   int met = 0;
   for (int packet = 0; packet < 400; ++packet) {
@@ -99,7 +99,7 @@ TEST(IntersectPeople, PacketsAgreeWithSingleRays) {
   PeopleConfig config;
   config.count = 5;
   config.speed = 3.0;
-  const std::vector<Person> people = people_in_lanes(config, -2.0, 3.0, 8);
+  const std::vector<Person> people = people_on({{Stretch{{}, {-2.0, 3.0}}}}, config, 8);
   int met = 0;
   for (int packet = 0; packet < 200; ++packet) {
     RayPacket rays;
@@ -213,6 +213,96 @@ TEST(PeopleScene, KeepToLanesBesideTheRobotAndComeFromTheSeed) {
   }
   EXPECT_EQ(same, 0);
   EXPECT_TRUE(build_scene(with_people(0), 1).people.empty());
+}
+
+/// A scene of each kind with twelve people; the corridor also with a ramp and with bends.
+std::vector<SceneConfig> all_kinds() {
+  std::vector<SceneConfig> scenes(7);
+  scenes[0].kind = SceneKind::kGarage;
+  scenes[1].kind = SceneKind::kJunction;
+  scenes[2].kind = SceneKind::kTunnel;
+  scenes[3].kind = SceneKind::kLoop;
+  scenes[4].corridor.length = 25.0;
+  scenes[4].ramp = {.start = 8.0, .length = 8.0, .grade = 0.1};
+  scenes[5].corridor.bends = {{0.3, 60.0, Side::kLeft}, {0.8, 120.0, Side::kRight}};
+  for (SceneConfig& each : scenes) each.people = {.count = 12, .speed = 2.0};
+  return scenes;
+}
+
+TEST(PeopleScene, OfEveryKindHasPeopleClearOfItsWallsOnItsFloor) {
+  for (const SceneConfig& config : all_kinds()) {
+    SCOPED_TRACE(static_cast<int>(config.kind));
+    ASSERT_TRUE(validate(config)) << validate(config).error().message;
+    const Scene scene = build_scene(config, 3);
+    ASSERT_EQ(scene.people.size(), 12U);
+    for (const Person& person : scene.people) {
+      for (Time t = 0; t < 60 * kSecond; t += kSecond / 2) {
+        const Vector2d at = person.position(t);
+        const double ground = floor_height(scene.floor, at.x(), at.y());
+        EXPECT_NEAR(person.ground, ground, 1e-6);
+        const Vector3d middle(at.x(), at.y(), ground + 1.0);
+        ASSERT_FALSE(is_inside_solid(scene, middle, person.radius - 1e-6)) << at.transpose();
+        EXPECT_NEAR((person.position(t + kMillisecond) - at).norm(), 0.002, 1e-4) << "2 m/s";
+      }
+    }
+  }
+}
+
+TEST(PeopleScene, OnAnArcKeepTheirDistanceFromTheCentreLine) {
+  SceneConfig config;
+  config.kind = SceneKind::kTunnel;
+  config.tunnel.radius = 10.0;
+  config.people = {.count = 6, .speed = 1.5};
+  for (const Person& person : build_scene(config, 1).people) {
+    EXPECT_GT(std::abs(person.turn), 3.5) << "beyond half a circle";
+    for (Time t = 0; t < 80 * kSecond; t += kSecond) {
+      const double radius = (person.position(t) - Vector2d(0.0, 10.0)).norm();
+      EXPECT_NEAR(std::abs(radius - 10.0), 0.75, 1e-9);
+    }
+  }
+}
+
+/// Beyond a ramp people stand on the upper floor: rays meet them there and pass above and below.
+TEST(PeopleScene, OnAnUpperFloorAreMetAtTheirHeight) {
+  PeopleConfig config;
+  config.count = 1;
+  config.speed = 0.0;
+  const std::vector<Person> people = people_on({{Stretch{{}, {5.0, 5.5}, 0.0, 0.8}}}, config, 1);
+  const Vector2d at = people[0].position(0);
+  RayPacket rays;
+  HitPacket hits;
+  hits.distance.fill(20.0F);
+  hits.surface.fill(-1);
+  std::array<Time, kRayPacketSize> stamps{};
+  for (int lane = 0; lane < kRayPacketSize; ++lane) {
+    rays.origin_y[lane] = static_cast<float>(at.y());
+    rays.origin_z[lane] = 0.2F * static_cast<float>(lane);
+    rays.direction_x[lane] = 1.0F;
+  }
+  intersect_people(people, rays, stamps, 0, 20.0F, hits);
+  for (int lane = 0; lane < kRayPacketSize; ++lane) {
+    const double z = 0.2 * lane;
+    if (std::abs(z - 0.8) < 0.01) continue;  // the edge
+    EXPECT_EQ(hits.surface[lane] >= 0, z > 0.8 && z < 0.8 + 1.75) << z;
+  }
+  EXPECT_NEAR(scene_at({{}, {}, people}, 0).solids[0].T_world_solid.translation.z(),
+              0.8 + 0.5 * 1.75, 1e-12);
+}
+
+TEST(PeopleScene, WithoutALevelStretchIsRefused) {
+  SceneConfig config;
+  config.kind = SceneKind::kLoop;
+  config.loop.length = config.loop.depth = 4.2;
+  config.people.count = 1;
+  ASSERT_TRUE(validate(config)) << "short sides have room";
+  config.kind = SceneKind::kCorridor;
+  config.corridor.length = 6.0;
+  config.corridor.margin = 1.0;
+  config.ramp = {.start = 0.5, .length = 6.4, .grade = 0.1};
+  const auto refused = validate(config);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("scene.people.count: expected 0"), std::string::npos)
+      << refused.error().message;
 }
 
 TEST(PeopleScene, LanesThroughWallsOrRobotAreRefused) {

@@ -72,9 +72,6 @@ TEST(RampScene, ConfigurationsThatCannotBeBuiltNameTheKey) {
   config = corridor_with_ramp();
   config.bumps.height = 0.01;
   EXPECT_NE(validate(config).error().message.find("scene.ramp"), std::string::npos);
-  config = corridor_with_ramp();
-  config.people.count = 1;
-  EXPECT_NE(validate(config).error().message.find("scene.people"), std::string::npos);
 }
 
 TEST(FloorHeight, IsThatOfTheTrianglesOnBumps) {

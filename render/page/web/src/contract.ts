@@ -35,10 +35,14 @@ export interface Scene {
   people?: Person[] | null;
 }
 
-/** Walks up and down between two points at constant speed. */
+/** Walks up and down between two points at constant speed, on a line or an arc. */
 export interface Person {
   from: [number, number];
   to: [number, number];
+  /** By which the way turns on an arc, positive to the left [rad]; 0 or none: a line. */
+  turn?: number;
+  /** Height of the floor [m]. */
+  ground?: number;
   /** [m/s] */
   speed: number;
   /** Distance walked at time zero [m]. */

@@ -78,11 +78,18 @@ export function sceneParts(scene: Scene, wire: ColorRepresentation, ceiling: boo
 /** Where a person stands at a time of the simulation [m]. */
 export function personAt(person: Person, seconds: number): [number, number] {
   const along = [person.to[0] - person.from[0], person.to[1] - person.from[1]] as const;
-  const length = Math.hypot(...along);
+  const half = 0.5 * (person.turn ?? 0);
+  const length = Math.hypot(...along) * (half === 0 ? 1 : half / Math.sin(half));
   if (!(length > 0)) return person.from;
   const walked = (person.start + person.speed * seconds) % (2 * length);
   const fraction = (walked > length ? 2 * length - walked : walked) / length;
-  return [person.from[0] + fraction * along[0], person.from[1] + fraction * along[1]];
+  const angle = half * (fraction - 1); // of the chord walked, against the whole one
+  const part = half === 0 ? fraction : Math.sin(half * fraction) / Math.sin(half);
+  const [cos, sin] = [part * Math.cos(angle), part * Math.sin(angle)];
+  return [
+    person.from[0] + cos * along[0] - sin * along[1],
+    person.from[1] + sin * along[0] + cos * along[1],
+  ];
 }
 
 /** An upright cylinder with its outline, standing on the floor. */

@@ -230,7 +230,7 @@ export class View3D {
     if (matrix) shape.matrix.copy(matrix);
     const simulated = seconds + (this.data.t0_s ?? 0);
     this.data.scene?.people?.forEach((each, i) => {
-      this.moving!.people[i]?.position.set(...personAt(each, simulated), 0);
+      this.moving!.people[i]?.position.set(...personAt(each, simulated), each.ground ?? 0);
     });
     this.showScan();
     const target = here ?? there;
