@@ -40,6 +40,7 @@ std::vector<SeriesInfo> series_of(const Table& table) {
 template <class Table, class Report>
 std::vector<double> values_of(const Table& table, const Report& report) {
   std::vector<double> values;
+  values.reserve(std::size(table));
   for (const auto& each : table) values.push_back(each.value(report));
   return values;
 }

@@ -72,6 +72,8 @@ void EskfEstimator::process_ready() {
     }
     coast();
   }
+  if (queue_.counted() == counted_) return;
+  counted_ = queue_.counted();
   for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
 }
 
@@ -163,7 +165,8 @@ bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
   const std::optional<ImuStatistics> statistics = zero_velocity_.due_measurement();
   if (!statistics) return true;
   ++result_.counts["zero_velocity.used"];
-  const ErrorMatrix mask = consider_legs(lidar_update_.odometry_mask());
+  GainMask mask = lidar_update_.odometry_mask();
+  mask.legs = false;
   accept(fuse(belief_, zero_velocity_model(belief_.state, kSigmaZeroVelocity), mask));
   accept(fuse(belief_, zero_rate_model(belief_.state, statistics->rate, kSigmaZeroRate), mask));
   return true;
@@ -261,15 +264,14 @@ void EskfEstimator::predict_to(Time stamp) {
 }
 
 void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics) {
-  for (const LidarPoint& point : scan.points) diagnostics.points_in += selection_.usable(point);
   queue_.imu().segments(scan.stamp, scan.end, segments_);
   scan_twist_ = mean_twist(belief_.state, segments_, config_.imu.gravity);
   const ScanMotion motion(belief_.state, segments_,
                           corrected_mount(belief_.state, rig_.T_body_lidar), config_.imu.gravity);
-  selection_.begin(scan);
-  selection_.select(scan, config_.lidar.selection_voxel, config_.lidar.max_points, indices_);
+  diagnostics.points_in = selection_.begin(scan);
+  selection_.select(config_.lidar.selection_voxel, config_.lidar.max_points, indices_);
   deskew(scan, indices_, motion, match_points_);
-  selection_.select(scan, config_.map.insertion_voxel, config_.map.max_insertions, indices_);
+  selection_.select(config_.map.insertion_voxel, config_.map.max_insertions, indices_);
   deskew(scan, indices_, motion, insert_points_);
 }
 

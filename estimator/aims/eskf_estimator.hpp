@@ -57,6 +57,7 @@ class EskfEstimator : public Estimator {
   EskfConfig config_;
   SensorRig rig_;
   MeasurementQueue queue_;
+  int counted_ = 0;  ///< by the queue, when its counts were last taken over
   ScanSelection selection_;
   LidarUpdate lidar_update_;
   LegFreePrediction leg_free_;

@@ -46,36 +46,30 @@ LidarUpdate::LidarUpdate(const EskfConfig& config)
 
 /// The scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies its information
 /// by gamma_lidar; with `cross_validation` only its real part counts.
-Linearization<NominalState> LidarUpdate::fused(const MatchInformation& scan, double gamma,
-                                               const NominalState& state) const {
+Linearization LidarUpdate::fused(const MatchInformation& scan, double gamma,
+                                 const NominalState& state) const {
   const PoseInformation pose = cross_validation_.enabled
                                    ? fraction_.applied_to(scan.halves)
                                    : PoseInformation{scan.halves.within, scan.halves.within_vector};
-  Linearization<NominalState> linearization;
-  linearization.information = scan_information(gamma * pose.matrix, gamma * pose.vector,
-                                               calibration_, state.rotation.toRotationMatrix());
-  if (considers_legs()) {
-    linearization.gain_mask = limit_motion(consider_legs(correct_all()), fraction_.constrained());
-  }
+  Linearization linearization{scan_measurement(gamma * pose.matrix, gamma * pose.vector,
+                                               calibration_, state.rotation.toRotationMatrix()),
+                              odometry_mask()};
+  linearization.mask.velocity = linearization.mask.position;
   return linearization;
 }
 
-ErrorMatrix LidarUpdate::odometry_mask() const {
-  if (!considers_legs()) return correct_all();
-  ErrorMatrix mask = consider_legs(correct_all());
-  block(mask, ErrorState::kPosition, ErrorState::kPosition) = fraction_.constrained();
-  return mask;
+GainMask LidarUpdate::odometry_mask() const {
+  if (!considers_legs()) return {};
+  return {.legs = false, .position = fraction_.constrained()};
 }
 
-IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
-                                                const ErrorMatrix& prior_information,
-                                                std::span<const Eigen::Vector3f> points,
-                                                const VoxelMap& map, ScanDiagnostics& diagnostics) {
+IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen::Vector3f> points,
+                                  const VoxelMap& map, ScanDiagnostics& diagnostics) {
   matcher_.reset(calibration_.lever);
   NominalState matched_at = predicted.state;
   matcher_.match(matched_at, points, map);
   bool first = true;
-  const auto linearize = [&](const NominalState& at) -> std::optional<Linearization<NominalState>> {
+  const auto linearize = [&](const NominalState& at) -> std::optional<Linearization> {
     if (moved(at, matched_at, kRematchRotation, kRematchPosition)) {
       matched_at = at;
       matcher_.match(matched_at, points, map);
@@ -95,17 +89,17 @@ IteratedUpdate<NominalState> LidarUpdate::trial(const Belief& predicted,
   const auto converged = [&](const NominalState& before, const NominalState& after) {
     return !moved(after, before, kConvergedRotation, kConvergedPosition);
   };
-  return iterated_update(predicted, prior_information, max_iterations_, linearize, converged);
+  return iterated_update(predicted, max_iterations_, linearize, converged);
 }
 
-void LidarUpdate::assess(const Belief& predicted, const ErrorMatrix& prior_information,
-                         const NominalState& trial_state, ScanDiagnostics& diagnostics) {
+void LidarUpdate::assess(const Belief& predicted, const NominalState& trial_state,
+                         ScanDiagnostics& diagnostics) {
   const ResidualStatistics statistics = residual_statistics(matcher_.residuals());
   const ErrorVector y = boxminus(trial_state, predicted.state);  // eq. (5)
   diagnostics.residual_mean = statistics.mean;
   diagnostics.residual_sigma = std::sqrt(statistics.variance);
   diagnostics.C_IL_imu_legs = lidar_consistency(trial_state, predicted);
-  diagnostics.C_IL_full = consistency_full(y, prior_information);
+  diagnostics.C_IL_full = consistency_full(y, predicted.covariance);
   diagnostics.innovation_rotation = segment(y, ErrorState::kRotation);
   diagnostics.innovation_position = segment(y, ErrorState::kPosition);
   if (degeneracy_.enabled) assess_degeneracy(statistics.variance, diagnostics);
@@ -134,9 +128,8 @@ void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& d
 /// the robust kernel its weights are those of the last iteration, one later than in the trial.
 double LidarUpdate::leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
                                          const MatchInformation& scan) const {
-  const ErrorMatrix prior_information = inverse_spd(leg_free.covariance);
-  const Belief updated = kalman_update(leg_free.state, prior_information, linearization,
-                                       fused(scan, 1.0, linearization));
+  const Linearization measured = fused(scan, 1.0, linearization);
+  const Belief updated = fuse(leg_free, linearization, measured.measurement, measured.mask);
   return lidar_consistency(updated.state, leg_free);
 }
 
@@ -154,8 +147,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
                            const VoxelMap& map, const CalibrationModel& calibration,
                            ScanDiagnostics& diagnostics, const Belief* leg_free) {
   calibration_ = calibration;
-  const ErrorMatrix prior_information = inverse_spd(predicted.covariance);
-  const auto trial = this->trial(predicted, prior_information, points, map, diagnostics);
+  const auto trial = this->trial(predicted, points, map, diagnostics);
   const NominalState& at = trial.belief.state;
   MatchInformation scan;
   if (!trial.refused) {
@@ -169,8 +161,9 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     diagnostics.converged = trial.converged;
     record_localizability(scan.halves, diagnostics);
     if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at, scan);
-    assess(predicted, prior_information, at, diagnostics);
-    belief = kalman_update(predicted.state, prior_information, at, fused(scan, gamma_lidar_, at));
+    assess(predicted, at, diagnostics);
+    const Linearization weighed = fused(scan, gamma_lidar_, at);
+    belief = fuse(predicted, at, weighed.measurement, weighed.mask);
     matcher_.learn_noise();
     if (map_covariance_enabled_) update_map_covariance(map, predicted, belief);
   }

@@ -48,19 +48,17 @@ class LidarUpdate {
   /// error is common to the whole route and cancels in the gain only as far as the models of scale
   /// and velocity agree to a percent; what is left, times metres of uncertainty, would move the
   /// position with every sample.
-  ErrorMatrix odometry_mask() const;
+  GainMask odometry_mask() const;
 
   /// Covariance of the map at the robot, odometry axes [m^2]; see map_covariance_after_scan().
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 
  private:
-  Linearization<NominalState> fused(const MatchInformation& scan, double gamma,
-                                    const NominalState& state) const;
-  IteratedUpdate<NominalState> trial(const Belief& predicted, const ErrorMatrix& prior_information,
-                                     std::span<const Eigen::Vector3f> points, const VoxelMap& map,
-                                     ScanDiagnostics& diagnostics);
-  void assess(const Belief& predicted, const ErrorMatrix& prior_information,
-              const NominalState& trial_state, ScanDiagnostics& diagnostics);
+  Linearization fused(const MatchInformation& scan, double gamma, const NominalState& state) const;
+  IteratedUpdate trial(const Belief& predicted, std::span<const Eigen::Vector3f> points,
+                       const VoxelMap& map, ScanDiagnostics& diagnostics);
+  void assess(const Belief& predicted, const NominalState& trial_state,
+              ScanDiagnostics& diagnostics);
   void assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics);
   double leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
                               const MatchInformation& scan) const;

@@ -50,8 +50,8 @@ double consistency(const Vector6& innovation, const Matrix6& predicted_covarianc
   return std::isfinite(c) ? std::max(c, 0.0) : 0.0;
 }
 
-double consistency_full(const ErrorVector& innovation, const ErrorMatrix& predicted_information) {
-  const double c = innovation.dot(predicted_information * innovation);  // eq. (6)
+double consistency_full(const ErrorVector& innovation, const ErrorMatrix& predicted_covariance) {
+  const double c = innovation.dot(predicted_covariance.llt().solve(innovation));  // eq. (6)
   return std::isfinite(c) ? std::max(c, 0.0) : 0.0;
 }
 

@@ -44,8 +44,8 @@ double effective_observability(double residual_variance, double sigma_0);
 /// C_IL = y^T P^-1 y, eq. (6), over the pose block (6-D).
 double consistency(const Vector6& innovation, const Matrix6& predicted_covariance);
 
-/// C_IL, eq. (6), over the full error state, given the inverse of the covariance.
-double consistency_full(const ErrorVector& innovation, const ErrorMatrix& predicted_information);
+/// C_IL, eq. (6), over the full error state.
+double consistency_full(const ErrorVector& innovation, const ErrorMatrix& predicted_covariance);
 
 /// D_k, eq. (7), in [0, 1]: 0 = healthy, 1 = degenerate.
 double degeneracy_severity(double O_lidar, double C_IL, const DegeneracyConfig& config);

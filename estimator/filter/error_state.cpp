@@ -35,22 +35,16 @@ ErrorVector boxminus(const NominalState& state, const NominalState& origin) {
   return delta;
 }
 
-ErrorMatrix boxminus_jacobian(const NominalState& /*origin*/, const ErrorVector& delta) {
-  ErrorMatrix jacobian = ErrorMatrix::Identity();
-  block(jacobian, ErrorState::kRotation, ErrorState::kRotation) =
-      so3_right_jacobian_inverse(segment(delta, ErrorState::kRotation));
-  block(jacobian, ErrorState::kMount, ErrorState::kMount) =
-      so3_right_jacobian_inverse(-segment(delta, ErrorState::kMount));
-  return jacobian;
-}
-
-ErrorMatrix reset_jacobian(const NominalState& /*state*/, const ErrorVector& delta) {
-  ErrorMatrix jacobian = ErrorMatrix::Identity();
-  block(jacobian, ErrorState::kRotation, ErrorState::kRotation) =
-      so3_right_jacobian(segment(delta, ErrorState::kRotation));
-  block(jacobian, ErrorState::kMount, ErrorState::kMount) =
-      so3_right_jacobian(-segment(delta, ErrorState::kMount));
-  return jacobian;
+ErrorMatrix reset_covariance(ErrorMatrix covariance, const ErrorVector& delta) {
+  const auto change = [&covariance](ErrorState::Block block, const Eigen::Matrix3d& jacobian) {
+    auto rows = covariance.middleRows<3>(block.offset);
+    rows = jacobian.lazyProduct(rows).eval();
+    auto columns = covariance.middleCols<3>(block.offset);
+    columns = columns.lazyProduct(jacobian.transpose()).eval();
+  };
+  change(ErrorState::kRotation, so3_right_jacobian(segment(delta, ErrorState::kRotation)));
+  change(ErrorState::kMount, so3_right_jacobian(-segment(delta, ErrorState::kMount)));
+  return 0.5 * (covariance + covariance.transpose());
 }
 
 bool is_finite(const NominalState& state) {

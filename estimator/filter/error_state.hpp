@@ -39,6 +39,7 @@ using ErrorVector = Eigen::Matrix<double, ErrorState::kSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, ErrorState::kSize, ErrorState::kSize>;
 
 using Matrix3xError = Eigen::Matrix<double, 3, ErrorState::kSize>;
+using Matrix6xError = Eigen::Matrix<double, ErrorState::kPoseSize, ErrorState::kSize>;
 
 /// The three columns of `matrix` that belong to `block`.
 template <class Matrix>
@@ -72,8 +73,6 @@ auto pose_segment(Vector& vector) {
 
 /// State of the filter, eq. (1): x = [R, p, v, b_g, b_a], and scale and bias of the leg odometry.
 struct NominalState {
-  static constexpr int kErrorSize = ErrorState::kSize;
-
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< R_odom_body
   Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< p_odom_body [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< in odometry axes [m/s]
@@ -95,12 +94,9 @@ NominalState boxplus(const NominalState& state, const ErrorVector& delta);
 /// state [-] origin: the error delta with origin [+] delta = state.
 ErrorVector boxminus(const NominalState& state, const NominalState& origin);
 
-/// Jacobian of ((state [+] d) [-] origin) with respect to d at d = 0; delta = state [-] origin.
-ErrorMatrix boxminus_jacobian(const NominalState& origin, const ErrorVector& delta);
-
-/// Jacobian from the error about `state` to the error about state [+] delta: the covariance reset
-/// of the right perturbation.
-ErrorMatrix reset_jacobian(const NominalState& state, const ErrorVector& delta);
+/// The covariance of the error about state [+] delta, from that of the error about `state`
+/// (symmetric): the reset of the perturbations of the rotations; all other blocks add.
+ErrorMatrix reset_covariance(ErrorMatrix covariance, const ErrorVector& delta);
 
 /// True when every entry of the state is a finite number.
 bool is_finite(const NominalState& state);

@@ -13,6 +13,10 @@ void describe(Fields& f, ImuPropagationConfig& c) {
 
 namespace {
 
+/// Entries of the error that one step changes: rotation, position and velocity; and all others.
+constexpr int kMoved = ErrorState::kGyroBias.offset;
+constexpr int kOthers = ErrorState::kSize - kMoved;
+
 /// Change of the state over one segment, relative to its attitude at the start.
 struct Increment {
   Eigen::Vector3d angle;     ///< rotation vector of the step [rad]
@@ -37,11 +41,72 @@ Increment increment(const NominalState& state, const InertialSegment& segment, d
   return step;
 }
 
-}  // namespace
+/// The blocks of the derivative of one step that are neither zero nor the identity.
+struct MotionJacobian {
+  Eigen::Matrix3d rotation_rotation, rotation_gyro;
+  Eigen::Matrix3d position_rotation, position_gyro, position_accelerometer;
+  Eigen::Matrix3d velocity_rotation, velocity_gyro, velocity_accelerometer;
+  double dt;  ///< of the position by the velocity [s]
+};
 
-NominalState propagate_state(const NominalState& state, const InertialSegment& segment, double dt,
-                             double gravity) {
-  const Increment step = increment(state, segment, dt);
+MotionJacobian motion_jacobian(const NominalState& state, const Increment& step, double dt) {
+  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
+  const Eigen::Matrix3d R_force = R * hat(step.force);
+  MotionJacobian J;
+  J.rotation_rotation = so3_exp(-step.angle).toRotationMatrix();
+  J.rotation_gyro = -so3_right_jacobian(step.angle) * dt;
+  J.velocity_rotation = -R * hat(step.velocity);
+  J.velocity_gyro = R_force * (dt * dt / 2.0);
+  J.velocity_accelerometer = -R * so3_right_jacobian(-step.angle) * dt;
+  J.position_rotation = -R * hat(step.position);
+  J.position_gyro = R_force * (dt * dt * dt / 6.0);
+  J.position_accelerometer = -R * double_integral(step.angle) * (dt * dt);
+  J.dt = dt;
+  return J;
+}
+
+/// The first rows of F M, those of rotation, position and velocity, for a matrix M with as many
+/// rows as the state of the motion. The other rows of F are those of the identity.
+template <class Matrix>
+auto moved_rows(const MotionJacobian& J, const Matrix& M) {
+  using E = ErrorState;
+  const auto rows = [&M](E::Block block) { return M.template middleRows<3>(block.offset); };
+  const auto rotation = rows(E::kRotation);
+  const auto gyro = rows(E::kGyroBias);
+  const auto accelerometer = rows(E::kAccelerometerBias);
+  Eigen::Matrix<double, kMoved, Matrix::ColsAtCompileTime> moved;
+  moved.template middleRows<3>(E::kRotation.offset) =
+      J.rotation_rotation.lazyProduct(rotation) + J.rotation_gyro.lazyProduct(gyro);
+  moved.template middleRows<3>(E::kPosition.offset) =
+      rows(E::kPosition) + J.dt * rows(E::kVelocity) + J.position_rotation.lazyProduct(rotation) +
+      J.position_gyro.lazyProduct(gyro) + J.position_accelerometer.lazyProduct(accelerometer);
+  moved.template middleRows<3>(E::kVelocity.offset) =
+      rows(E::kVelocity) + J.velocity_rotation.lazyProduct(rotation) +
+      J.velocity_gyro.lazyProduct(gyro) + J.velocity_accelerometer.lazyProduct(accelerometer);
+  return moved;
+}
+
+/// Adds the noise of one step to the covariance.
+void add_noise(ErrorMatrix& P, const ImuPropagationConfig& config, const ImuNoiseDensity& white,
+               double dt) {
+  using E = ErrorState;
+  const auto add = [&P](E::Block row, E::Block column, double variance) {
+    block(P, row, column).diagonal().array() += variance;
+  };
+  const double gyro_density = white.gyro * white.gyro;
+  const double force_density = white.accelerometer * white.accelerometer;
+  add(E::kRotation, E::kRotation, gyro_density * dt);
+  add(E::kVelocity, E::kVelocity, force_density * dt);
+  add(E::kPosition, E::kPosition, force_density * dt * dt * dt / 3.0);
+  add(E::kPosition, E::kVelocity, force_density * dt * dt / 2.0);
+  add(E::kVelocity, E::kPosition, force_density * dt * dt / 2.0);
+  add(E::kGyroBias, E::kGyroBias, config.gyro_bias_walk * config.gyro_bias_walk * dt);
+  add(E::kAccelerometerBias, E::kAccelerometerBias,
+      config.accelerometer_bias_walk * config.accelerometer_bias_walk * dt);
+}
+
+/// The state after one step.
+NominalState after(const NominalState& state, const Increment& step, double dt, double gravity) {
   const Eigen::Vector3d g(0.0, 0.0, -gravity);
   NominalState next = state;
   next.rotation = (state.rotation * so3_exp(step.angle)).normalized();
@@ -50,56 +115,54 @@ NominalState propagate_state(const NominalState& state, const InertialSegment& s
   return next;
 }
 
+}  // namespace
+
+NominalState propagate_state(const NominalState& state, const InertialSegment& segment, double dt,
+                             double gravity) {
+  return after(state, increment(state, segment, dt), dt, gravity);
+}
+
 ErrorMatrix propagation_jacobian(const NominalState& state, const InertialSegment& segment,
                                  double dt) {
   using E = ErrorState;
-  const Increment step = increment(state, segment, dt);
-  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
-  const Eigen::Matrix3d force = hat(step.force);
+  const MotionJacobian J = motion_jacobian(state, increment(state, segment, dt), dt);
   ErrorMatrix F = ErrorMatrix::Identity();
-  block(F, E::kRotation, E::kRotation) = so3_exp(-step.angle).toRotationMatrix();
-  block(F, E::kRotation, E::kGyroBias) = -so3_right_jacobian(step.angle) * dt;
-  block(F, E::kVelocity, E::kRotation) = -R * hat(step.velocity);
-  block(F, E::kVelocity, E::kGyroBias) = R * force * (dt * dt / 2.0);
-  block(F, E::kVelocity, E::kAccelerometerBias) = -R * so3_right_jacobian(-step.angle) * dt;
-  block(F, E::kPosition, E::kRotation) = -R * hat(step.position);
-  block(F, E::kPosition, E::kVelocity) = Eigen::Matrix3d::Identity() * dt;
-  block(F, E::kPosition, E::kGyroBias) = R * force * (dt * dt * dt / 6.0);
-  block(F, E::kPosition, E::kAccelerometerBias) = -R * double_integral(step.angle) * (dt * dt);
+  block(F, E::kRotation, E::kRotation) = J.rotation_rotation;
+  block(F, E::kRotation, E::kGyroBias) = J.rotation_gyro;
+  block(F, E::kVelocity, E::kRotation) = J.velocity_rotation;
+  block(F, E::kVelocity, E::kGyroBias) = J.velocity_gyro;
+  block(F, E::kVelocity, E::kAccelerometerBias) = J.velocity_accelerometer;
+  block(F, E::kPosition, E::kRotation) = J.position_rotation;
+  block(F, E::kPosition, E::kVelocity) = J.dt * Eigen::Matrix3d::Identity();
+  block(F, E::kPosition, E::kGyroBias) = J.position_gyro;
+  block(F, E::kPosition, E::kAccelerometerBias) = J.position_accelerometer;
   return F;
 }
 
 ErrorMatrix propagation_noise(const ImuPropagationConfig& config, const ImuNoiseDensity& white,
                               double dt) {
-  using E = ErrorState;
-  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  const double gyro_density = white.gyro * white.gyro;
-  const double force_density = white.accelerometer * white.accelerometer;
   ErrorMatrix Q = ErrorMatrix::Zero();
-  block(Q, E::kRotation, E::kRotation) = I * (gyro_density * dt);
-  block(Q, E::kVelocity, E::kVelocity) = I * (force_density * dt);
-  block(Q, E::kPosition, E::kPosition) = I * (force_density * dt * dt * dt / 3.0);
-  block(Q, E::kPosition, E::kVelocity) = I * (force_density * dt * dt / 2.0);
-  block(Q, E::kVelocity, E::kPosition) = I * (force_density * dt * dt / 2.0);
-  block(Q, E::kGyroBias, E::kGyroBias) = I * (config.gyro_bias_walk * config.gyro_bias_walk * dt);
-  block(Q, E::kAccelerometerBias, E::kAccelerometerBias) =
-      I * (config.accelerometer_bias_walk * config.accelerometer_bias_walk * dt);
+  add_noise(Q, config, white, dt);
   return Q;
 }
 
 Belief propagate(const Belief& belief, const InertialSegment& segment, double dt,
                  const ImuPropagationConfig& config) {
-  // Only rotation, position and velocity change, from themselves and the inertial biases.
-  constexpr int kChanged = ErrorState::kGyroBias.offset;
-  constexpr int kUsed = ErrorState::kMotionSize;
-  const Eigen::Matrix<double, kChanged, kUsed> F =
-      propagation_jacobian(belief.state, segment, dt).topLeftCorner<kChanged, kUsed>();
-  ErrorMatrix covariance = belief.covariance;
-  covariance.topRows<kChanged>() = F * belief.covariance.topRows<kUsed>();
-  covariance.leftCols<kChanged>() = (covariance.leftCols<kUsed>() * F.transpose()).eval();
-  covariance += propagation_noise(config, segment.noise, dt);
-  return {propagate_state(belief.state, segment, dt, config.gravity),
-          0.5 * (covariance + covariance.transpose())};
+  const Increment step = increment(belief.state, segment, dt);
+  const MotionJacobian J = motion_jacobian(belief.state, step, dt);
+  Belief next{after(belief.state, step, dt, config.gravity), belief.covariance};
+  ErrorMatrix& P = next.covariance;
+  // F P F^T: F leaves the columns of the biases and of all that follows as they are.
+  const auto rows = moved_rows(J, belief.covariance);
+  P.topRows<kMoved>() = rows;
+  const Eigen::Matrix<double, kMoved, ErrorState::kMotionSize> used =
+      rows.leftCols<ErrorState::kMotionSize>();
+  const Eigen::Matrix<double, kMoved, kMoved> corner =
+      moved_rows(J, Eigen::Matrix<double, ErrorState::kMotionSize, kMoved>(used.transpose()));
+  P.topLeftCorner<kMoved, kMoved>() = 0.5 * (corner + corner.transpose());
+  P.bottomLeftCorner<kOthers, kMoved>() = P.topRightCorner<kMoved, kOthers>().transpose();
+  add_noise(P, config, segment.noise, dt);
+  return next;
 }
 
 }  // namespace aims

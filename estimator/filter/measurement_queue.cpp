@@ -42,7 +42,9 @@ MeasurementQueue::MeasurementQueue(const QueueConfig& config, const ImuPropagati
 /// "imu", "leg" or "lidar": how the names of the counts begin.
 void MeasurementQueue::count(Sensor sensor, const char* what, int times) {
   constexpr const char* kNames[kSensorCount] = {"imu.", "leg.", "lidar."};
-  if (times > 0) counts_[std::string(kNames[static_cast<int>(sensor)]) + what] += times;
+  if (times <= 0) return;
+  counts_[std::string(kNames[static_cast<int>(sensor)]) + what] += times;
+  counted_ += times;
 }
 
 void MeasurementQueue::reject(Sensor sensor, const char* reason) {
@@ -114,6 +116,7 @@ void MeasurementQueue::hold(const Key& key, Sensor sensor, Correction correction
   if (held_.size() > kMaxHeld) {
     held_.erase(held_.begin());
     ++counts_["queue.overflow"];
+    ++counted_;
   }
 }
 
@@ -128,9 +131,10 @@ bool MeasurementQueue::ready(Time stamp) const {
 
 std::optional<Correction> MeasurementQueue::pop() {
   if (held_.empty() || !ready(held_.begin()->first.first)) return std::nullopt;
-  auto first = held_.extract(held_.begin());
-  last_popped_ = first.key();
-  return std::move(first.mapped());
+  last_popped_ = held_.begin()->first;
+  Correction first = std::move(held_.begin()->second);
+  held_.erase(held_.begin());
+  return first;
 }
 
 }  // namespace aims

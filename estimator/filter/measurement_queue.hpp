@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/flat_map.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -52,6 +53,8 @@ class MeasurementQueue {
   ImuHistory& imu() { return imu_; }
   const ImuHistory& imu() const { return imu_; }
   const std::map<std::string, int>& counts() const { return counts_; }
+  /// Grows whenever a count does.
+  int counted() const { return counted_; }
   const InputMonitor& inputs() const { return inputs_; }
   /// Latest arrival; empty before the first.
   std::optional<Time> now() const { return now_; }
@@ -72,7 +75,7 @@ class MeasurementQueue {
   QueueConfig config_;
   double max_leg_speed_;
   ImuHistory imu_;
-  std::map<Key, Correction> held_;
+  boost::container::flat_map<Key, Correction> held_;  ///< few: the lag is short
   std::optional<Key> last_popped_;
   std::optional<Time> now_;  ///< latest arrival
   bool closed_ = false;
@@ -81,6 +84,7 @@ class MeasurementQueue {
                                                        StampJumps(false)};
   std::vector<Delivery> good_;  ///< of the present delivery
   std::map<std::string, int> counts_;
+  int counted_ = 0;
 };
 
 }  // namespace aims

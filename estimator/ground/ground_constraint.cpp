@@ -157,8 +157,7 @@ void GroundConstraint::corrected(const NominalState& state) {
 
 Belief fuse_ground(const Belief& belief, const LinearMeasurement& measurement) {
   const Eigen::Matrix3d up = Eigen::Vector3d::UnitZ() * Eigen::Vector3d::UnitZ().transpose();
-  return kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
-                       information_of(measurement), limit_motion(consider_legs(correct_all()), up));
+  return fuse(belief, measurement, {.legs = false, .position = up, .velocity = up});
 }
 
 }  // namespace aims

@@ -88,6 +88,7 @@ class Columns {
 std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points) {
   const Columns columns(points);
   std::vector<Eigen::Vector3d> kept;
+  kept.reserve(points.size());
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3d p = point.cast<double>();
     const double away = p.head<2>().norm();
@@ -102,8 +103,8 @@ std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points) {
 
 /// The lowest well-filled height [m] of the points within half the radius.
 std::optional<double> lowest_mode(const std::vector<Eigen::Vector3d>& points) {
-  const auto bins = static_cast<std::size_t>((kMaxHeight - kMinHeight) / kBin) + 1;
-  std::vector<int> counts(bins, 0);
+  constexpr auto bins = static_cast<std::size_t>((kMaxHeight - kMinHeight) / kBin) + 1;
+  std::array<int, bins> counts{};
   for (const Eigen::Vector3d& p : points) {
     const double down = -p.z() - kMinHeight;
     if (down < 0.0 || p.head<2>().norm() > 0.5 * kGroundRadius) continue;
@@ -146,24 +147,28 @@ double spread(const HeightFit& fit) {
   return std::sqrt(std::max(half_trace - root, 0.0));
 }
 
+/// The part of the ground to which a point belongs.
+int part_of(const Eigen::Vector3d& p, double radius) {
+  const bool along = std::abs(p.x()) > std::abs(p.y());
+  const bool positive = along ? p.x() > 0.0 : p.y() > 0.0;
+  const bool far = p.head<2>().norm() > 0.5 * radius;
+  return 4 * static_cast<int>(far) + 2 * static_cast<int>(along) + static_cast<int>(positive);
+}
+
 /// Largest median height of a part over the plane [m].
 double bend_of(const std::vector<Eigen::Vector3d>& points, const HeightFit& fit, double radius) {
-  std::array<std::vector<double>, kParts> parts;
-  for (const Eigen::Vector3d& p : points) {
-    const double height = fit.height_over(p);
-    if (std::abs(height) > kBendReach) continue;
-    const bool along = std::abs(p.x()) > std::abs(p.y());
-    const bool positive = along ? p.x() > 0.0 : p.y() > 0.0;
-    const bool far = p.head<2>().norm() > 0.5 * radius;
-    const int part =
-        4 * static_cast<int>(far) + 2 * static_cast<int>(along) + static_cast<int>(positive);
-    parts[static_cast<std::size_t>(part)].push_back(height);
-  }
   double largest = 0.0;
-  for (std::vector<double>& part : parts) {
-    if (part.size() < kMinPointsOfPart) continue;
-    const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
-    std::nth_element(part.begin(), middle, part.end());
+  std::vector<double> heights;
+  heights.reserve(points.size());
+  for (int part = 0; part < kParts; ++part) {
+    heights.clear();
+    for (const Eigen::Vector3d& p : points) {
+      const double height = fit.height_over(p);
+      if (std::abs(height) <= kBendReach && part_of(p, radius) == part) heights.push_back(height);
+    }
+    if (heights.size() < kMinPointsOfPart) continue;
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), middle, heights.end());
     largest = std::max(largest, std::abs(*middle));
   }
   return largest;

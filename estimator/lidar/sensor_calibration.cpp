@@ -57,17 +57,16 @@ MeanTwist mean_twist(const NominalState& end_state, std::span<const InertialSegm
           so3_log(begin.rotation.conjugate() * end_state.rotation) / duration};
 }
 
-Information scan_information(const Matrix6& matrix, const Vector6& vector,
-                             const CalibrationModel& model, const Eigen::Matrix3d& R) {
+PoseMeasurement scan_measurement(const Matrix6& matrix, const Vector6& vector,
+                                 const CalibrationModel& model, const Eigen::Matrix3d& R) {
   using E = ErrorState;
-  Eigen::Matrix<double, E::kPoseSize, E::kSize> J;
-  J.setZero();
-  J.leftCols<E::kPoseSize>().setIdentity();
+  PoseMeasurement measurement{matrix, vector};
+  Matrix6xError& J = measurement.jacobian;
   J.block<3, 3>(E::kRotation.offset, E::kMount.offset).setIdentity();
   J.block<3, 3>(E::kPosition.offset, E::kMount.offset) = R * hat(model.lever);
   J.block<3, 1>(E::kRotation.offset, E::kDelay) = model.twist.angular_velocity;
   J.block<3, 1>(E::kPosition.offset, E::kDelay) = model.twist.velocity;
-  return {J.transpose() * matrix * J, J.transpose() * vector};
+  return measurement;
 }
 
 Belief after_delay_change(Belief belief, double change, const MeanTwist& twist) {

@@ -53,10 +53,10 @@ struct CalibrationModel {
   MeanTwist twist;
 };
 
-/// The information of a scan about pose, mount and delay, from that about the pose (matrix A = H^T
-/// R^-1 H and vector b = H^T R^-1 r) at the attitude `R`.
-Information scan_information(const Matrix6& matrix, const Vector6& vector,
-                             const CalibrationModel& model, const Eigen::Matrix3d& R);
+/// A scan as a measurement of pose, mount and delay, from its information about the pose (matrix
+/// h^T R^-1 h and vector h^T R^-1 r) at the attitude `R`.
+PoseMeasurement scan_measurement(const Matrix6& matrix, const Vector6& vector,
+                                 const CalibrationModel& model, const Eigen::Matrix3d& R);
 
 /// The belief after its delay has changed by `change` [s]: the same motion, which is now at another
 /// time of the LiDAR's clock, moved on to the time of the belief.

@@ -67,8 +67,7 @@ TEST(LidarConsistency, OfAnUpdateIsTheSquaredGainTimesThatOfTheMeasurement) {
   A(3, 3) = kInformation;
   Vector6 b = Vector6::Zero();
   b[3] = -kInformation * kShift;  // of the residual p - shift
-  const Belief lidar = kalman_update(prediction.state, inverse_spd(prediction.covariance),
-                                     prediction.state, pose_information(A, b));
+  const Belief lidar = fuse(prediction, prediction.state, {A, b});
   const double gain = kInformation / (kInformation + 1.0 / kVariance);
   EXPECT_NEAR(lidar_consistency(lidar.state, prediction), gain * gain * kShift * kShift / kVariance,
               1e-9);

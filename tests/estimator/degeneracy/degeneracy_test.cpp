@@ -29,7 +29,7 @@ TEST(Degeneracy, ConsistencyIsTheSquaredMahalanobisLength) {
   EXPECT_DOUBLE_EQ(consistency(y, P), 0.25 + 2.0);
   ErrorVector full = ErrorVector::Zero();
   full.head<6>() = y;
-  EXPECT_DOUBLE_EQ(consistency_full(full, 2.0 * ErrorMatrix::Identity()), 10.0);
+  EXPECT_DOUBLE_EQ(consistency_full(full, 0.5 * ErrorMatrix::Identity()), 10.0);
 }
 
 TEST(Degeneracy, SeverityReachesItsLimits) {

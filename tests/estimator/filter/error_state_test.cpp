@@ -64,16 +64,7 @@ TEST(ErrorState, IsFiniteOnlyWithAFiniteMountAndDelay) {
   EXPECT_FALSE(is_finite(state));
 }
 
-TEST(ErrorState, BoxminusJacobianMatchesFiniteDifferences) {
-  const NominalState origin = test::some_state();
-  const NominalState state = boxplus(origin, some_error());
-  const ErrorMatrix numeric = test::numeric_jacobian<ErrorState::kSize>(
-      state, [&](const NominalState& moved) { return boxminus(moved, origin); });
-  EXPECT_LT((boxminus_jacobian(test::some_state(), some_error()) - numeric).cwiseAbs().maxCoeff(),
-            1e-8);
-}
-
-TEST(ErrorState, ResetJacobianMatchesFiniteDifferences) {
+TEST(ErrorState, ResetCovarianceMatchesFiniteDifferences) {
   const NominalState state = test::some_state();
   const NominalState moved = boxplus(state, some_error());
   ErrorMatrix numeric;
@@ -83,8 +74,21 @@ TEST(ErrorState, ResetJacobianMatchesFiniteDifferences) {
                       boxminus(boxplus(state, some_error() - step), moved)) /
                      2e-5;
   }
-  EXPECT_LT((reset_jacobian(test::some_state(), some_error()) - numeric).cwiseAbs().maxCoeff(),
-            1e-8);
+  const ErrorMatrix root = ErrorMatrix::Random();
+  const ErrorMatrix covariance = root * root.transpose();
+  EXPECT_LT(
+      (reset_covariance(covariance, some_error()) - numeric * covariance * numeric.transpose())
+          .cwiseAbs()
+          .maxCoeff(),
+      1e-7);
+}
+
+/// The mean of a prior about another state than its own is minus the offset: the Jacobian of the
+/// change of coordinates leaves the offset as it is.
+TEST(ErrorState, ResetLeavesTheOffsetAsItIs) {
+  const ErrorVector offset = some_error();
+  const ErrorMatrix along = reset_covariance(offset * offset.transpose(), offset);
+  EXPECT_LT((along - offset * offset.transpose()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 }  // namespace

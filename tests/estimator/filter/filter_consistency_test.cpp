@@ -61,8 +61,7 @@ Belief after_planes(const Belief& belief, NominalState& truth, const Eigen::Vect
     A += row.jacobian * row.jacobian.transpose() / (kPlaneSigma * kPlaneSigma);
     b += row.jacobian * row.residual / (kPlaneSigma * kPlaneSigma);
   }
-  const Belief updated = kalman_update(belief.state, inverse_spd(belief.covariance), belief.state,
-                                       scan_information(A, b, model, R));
+  const Belief updated = fuse(belief, belief.state, scan_measurement(A, b, model, R));
   const double change = updated.state.delay - belief.state.delay;
   truth = moved_on(truth, change, model.twist);
   return after_delay_change(updated, change, model.twist);

@@ -162,8 +162,7 @@ TEST(GroundConstraint, EqualsTheKalmanUpdateWithoutAnUnobservableAxis) {
   GroundConstraint constraint{GroundConstraintConfig{}};
   const LinearMeasurement m = constraint.measure(start, plane_at(truth)).value();
   const Belief constrained = fuse_ground(start, m);
-  const Belief full =
-      kalman_update(start.state, inverse_spd(start.covariance), start.state, information_of(m));
+  const Belief full = fuse(start, m);
   EXPECT_LT(boxminus(constrained.state, full.state).norm(), 1e-8);
   EXPECT_LT((constrained.covariance - full.covariance).norm(), 1e-8);
 }
