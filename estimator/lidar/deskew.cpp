@@ -20,6 +20,9 @@ ScanMotion::ScanMotion(const NominalState& end_state, std::span<const InertialSe
   };
   const Time end = segments.empty() ? 0 : segments.back().end;
   begin_ = end;
+  if (!segments.empty()) {
+    knots_.reserve(static_cast<std::size_t>((end - segments.front().begin) / kStep + 1));
+  }
   knots_.push_back(knot(end_state));
   NominalState later = end_state;
   for (std::size_t i = segments.size(); i-- > 0;) {

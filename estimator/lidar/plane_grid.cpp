@@ -85,25 +85,26 @@ void PlaneGrid::insert(const Eigen::Vector3f& point, std::size_t half) {
   cell.middle =
       edge_ * Eigen::Vector3f(static_cast<float>(at.x) + 0.5F, static_cast<float>(at.y) + 0.5F,
                               static_cast<float>(at.z) + 0.5F);
-  cell.halves[half].sums.add(point - cell.middle);
+  cell.sums[half].add(point - cell.middle);
 }
 
 void PlaneGrid::end_insertion() {
   cells_.visit_touched([this](Cell& cell) {
-    for (Half& half : cell.halves) {
-      const int count = half.sums.count();
-      if (count < PlaneSums::kMinCount || count < (1.0 + kGrowth) * half.fitted) continue;
-      half.fitted = count;
-      half.plane = half.sums.plane(edge_);
-      half.plane.point += cell.middle.cast<double>();
+    for (std::size_t half = 0; half < kHalves; ++half) {
+      const int count = cell.sums[half].count();
+      int& fitted = cell.fitted[half];
+      if (count < PlaneSums::kMinCount || count < (1.0 + kGrowth) * fitted) continue;
+      fitted = count;
+      Plane& plane = half == 0 ? cell.planes.a : cell.planes.b;
+      plane = cell.sums[half].plane(edge_);
+      plane.point += cell.middle.cast<double>();
     }
   });
 }
 
 PlanePair PlaneGrid::planes_at(const Eigen::Vector3f& query) const {
   const Cell* cell = cells_.find(voxel_key(voxel_of(query, 1.0F / edge_)));
-  if (cell == nullptr) return {};
-  return {cell->halves[0].plane, cell->halves[1].plane};
+  return cell == nullptr ? PlanePair() : cell->planes;
 }
 
 void PlaneGrid::limit(std::size_t max_count, const Eigen::Vector3f& center) {

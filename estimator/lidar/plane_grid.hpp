@@ -64,16 +64,13 @@ class PlaneGrid {
   std::size_t memory() const { return cells_.memory(); }
 
  private:
-  struct Half {
-    PlaneSums sums;
-    Plane plane;  ///< of the sums when they had `fitted` returns, odometry frame
-    int fitted = 0;
-  };
-  struct Cell {
-    std::array<Half, kHalves> halves;
+  struct alignas(64) Cell {
+    PlanePair planes;  ///< of the sums when they had `fitted` returns, odometry frame
+    std::array<int, kHalves> fitted{};
     std::uint64_t key = 0;
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();
     std::uint32_t seen = 0;
+    std::array<PlaneSums, kHalves> sums;
   };
 
   float edge_;

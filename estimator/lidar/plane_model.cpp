@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/lidar/plane_model.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace aims {
@@ -15,20 +16,59 @@ constexpr double kMinSpread = 0.05;
 /// Smallest ratio of the second to the smallest principal variance; docs/decisions.md.
 constexpr double kMinRatio = 10.0;
 
+/// Steps of Newton's method at most, and the step that ends it, relative to the trace.
+constexpr int kNewtonSteps = 20;
+constexpr double kNewtonTolerance = 1e-15;
+
+/// The smallest eigenvalue, its unit eigenvector, and the second eigenvalue.
+struct SmallestEigenpair {
+  double value = 0.0;
+  double second = 0.0;
+  Eigen::Vector3d vector;
+};
+
+/// Of a symmetric positive semi-definite `A`. Newton's method on the characteristic polynomial
+/// grows from zero to its smallest root without passing it. The vector is not finite where the two
+/// smallest eigenvalues are equal.
+SmallestEigenpair smallest_eigenpair(const Eigen::Matrix3d& A) {
+  const double trace = A.trace();
+  const double minors = A(0, 0) * A(1, 1) - A(0, 1) * A(0, 1) + A(0, 0) * A(2, 2) -
+                        A(0, 2) * A(0, 2) + A(1, 1) * A(2, 2) - A(1, 2) * A(1, 2);
+  const double determinant = A.determinant();
+  SmallestEigenpair pair;
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const double x = pair.value;
+    const double slope = minors + x * (3.0 * x - 2.0 * trace);
+    const double step = (determinant - x * (minors + x * (x - trace))) / slope;
+    if (!(step > kNewtonTolerance * trace)) break;
+    pair.value += step;
+  }
+  // The other two from their sum and product.
+  const double half_sum = 0.5 * (trace - pair.value);
+  const double product = minors - pair.value * (trace - pair.value);
+  pair.second = half_sum - std::sqrt(std::max(half_sum * half_sum - product, 0.0));
+  const Eigen::Matrix3d B = A - pair.value * Eigen::Matrix3d::Identity();
+  const std::array<Eigen::Vector3d, 3> normals = {
+      B.col(0).cross(B.col(1)), B.col(1).cross(B.col(2)), B.col(2).cross(B.col(0))};
+  const auto longer = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return a.squaredNorm() < b.squaredNorm();
+  };
+  const Eigen::Vector3d& longest = *std::max_element(normals.begin(), normals.end(), longer);
+  pair.vector = longest / longest.norm();
+  return pair;
+}
+
 }  // namespace
 
 PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter) {
   PrincipalPlane fit;
   Plane& plane = fit.plane;
   plane.point = mean;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(scatter);
-  plane.normal = solver.eigenvectors().col(0);
-  const double across = std::max(solver.eigenvalues()(0), 0.0);
-  fit.variance = across;
-  const double second = solver.eigenvalues()(1);
-  plane.valid =
-      plane.normal.allFinite() && second >= kMinSpread * kMinSpread && second >= kMinRatio * across;
+  const SmallestEigenpair smallest = smallest_eigenpair(scatter);
+  plane.normal = smallest.vector;
+  fit.variance = smallest.value;
+  plane.valid = plane.normal.allFinite() && smallest.second >= kMinSpread * kMinSpread &&
+                smallest.second >= kMinRatio * smallest.value;
   return fit;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/measurements.hpp"
@@ -35,20 +36,25 @@ class RangeSteps {
  private:
   /// A return in the order of its ring.
   struct Firing {
-    std::int32_t index = 0;      ///< in the scan
-    std::int32_t run = 0;        ///< firings before it without a gap
-    double inverse_range = 0.0;  ///< [1/m]
+    std::int32_t index = 0;           ///< in the scan
+    std::int32_t time_offset_ns = 0;  ///< after the scan's stamp
+    std::int32_t run = 0;             ///< firings before it without a gap
+    double inverse_range = 0.0;       ///< [1/m]
+    double slope = 0.0;  ///< change of the inverse range per firing, over those before it [1/m]
   };
-  using Ring = std::vector<Firing>;
+  using Ring = std::span<Firing>;
 
   void list_firings(const LidarScan& scan);
-  void count_runs(const LidarScan& scan, Ring& ring) const;
+  static void count_runs(const Ring& ring);
   double measure_noise();
-  bool steps_between(const Ring& ring, int a, int b) const;
+  bool steps_after(const Ring& ring, std::size_t a) const;
   void mark_ring(const Ring& ring);
 
   std::vector<char> mixed_;
+  std::vector<Firing> firings_;  ///< ring by ring
   std::vector<Ring> rings_;
+  std::vector<std::size_t> ring_begins_;  ///< of each ring in the firings
+  std::vector<std::size_t> ring_ends_;
   std::vector<double> deviations_;
   double range_noise_ = 0.0;
 };

@@ -24,17 +24,31 @@ PlaneRow aligned(PlaneRow row, const PlaneRow& other) {
   return {-row.residual, -row.jacobian};
 }
 
-/// Adds the rows of one point to `sum`.
-void add(const PlaneRow& a, const PlaneRow& b, double weight, HalvesInformation& sum) {
-  const Vector6 half_a = 0.5 * weight * a.jacobian;
-  const Vector6 half_b = 0.5 * weight * b.jacobian;
-  sum.within.noalias() += half_a * a.jacobian.transpose();
-  sum.within.noalias() += half_b * b.jacobian.transpose();
-  sum.across.noalias() += half_a * b.jacobian.transpose();
-  sum.across.noalias() += half_b * a.jacobian.transpose();
-  sum.within_vector.noalias() += half_a * a.residual + half_b * b.residual;
-  sum.across_vector.noalias() += half_a * b.residual + half_b * a.residual;
-}
+/// Sums over the rows of both halves: with s = j_a + j_b, d = j_a - j_b and the residuals alike,
+/// the sums of j_a j_a^T + j_b j_b^T and of j_a j_b^T + j_b j_a^T are half the sum and half the
+/// difference of those of s s^T and d d^T.
+class HalvesSum {
+ public:
+  void add(const PlaneRow& a, const PlaneRow& b, double weight) {
+    add(a.jacobian + b.jacobian, a.residual + b.residual, weight, sum_);
+    add(a.jacobian - b.jacobian, a.residual - b.residual, weight, difference_);
+  }
+
+  HalvesInformation halves() const {
+    return {0.25 * (sum_.matrix + difference_.matrix), 0.25 * (sum_.matrix - difference_.matrix),
+            0.25 * (sum_.vector + difference_.vector), 0.25 * (sum_.vector - difference_.vector)};
+  }
+
+ private:
+  static void add(const Vector6& row, double residual, double weight, PoseInformation& to) {
+    const Vector6 weighted = weight * row;
+    to.matrix.noalias() += weighted * row.transpose();
+    to.vector += weighted * residual;
+  }
+
+  PoseInformation sum_;
+  PoseInformation difference_;
+};
 
 }  // namespace
 
@@ -56,14 +70,13 @@ void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector
     if (!planes.valid()) continue;
     const double cosine = std::abs(planes.a.normal.dot(R * (p_body - sensor_).normalized()));
     const double thickest = std::max(planes.a.thickness, planes.b.thickness);
-    if (thickest <= kMaxThickness * noise_.sigma(cosine)) {
-      matches_.push_back({p_body, planes, cosine});
-    }
+    const double sigma = noise_.sigma(cosine);
+    if (thickest <= kMaxThickness * sigma) matches_.push_back({p_body, planes, cosine, sigma});
   }
 }
 
 MatchInformation ScanMatcher::linearize(const NominalState& state) {
-  MatchInformation sum;
+  HalvesSum sum;
   residuals_.clear();
   incident_residuals_.clear();
   const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
@@ -72,15 +85,13 @@ MatchInformation ScanMatcher::linearize(const NominalState& state) {
     const PlaneRow b = aligned(plane_row(match.planes.b, match.p_body, R, state.position), a);
     const double residual = 0.5 * (a.residual + b.residual);
     if (!(std::abs(residual) <= kMaxResidual)) continue;
-    const double sigma = noise_.sigma(match.cosine);
-    const double ratio = robust_ ? residual / (kKernelScale * sigma) : 0.0;
-    const double weight = 1.0 / (correlated_points_ * sigma * sigma);
-    add(a, b, weight / (1.0 + ratio * ratio), sum.halves);  // Cauchy
+    const double ratio = robust_ ? residual / (kKernelScale * match.sigma) : 0.0;
+    const double weight = 1.0 / (correlated_points_ * match.sigma * match.sigma);
+    sum.add(a, b, weight / (1.0 + ratio * ratio));  // Cauchy
     residuals_.push_back(residual);
     incident_residuals_.push_back({residual, match.cosine});
   }
-  sum.used = static_cast<int>(residuals_.size());
-  return sum;
+  return {sum.halves(), static_cast<int>(residuals_.size())};
 }
 
 std::span<const MappedPlane> ScanMatcher::mapped_planes(const NominalState& state,

@@ -55,6 +55,7 @@ class ScanMatcher {
     Eigen::Vector3d p_body;
     PlanePair planes;
     double cosine;  ///< of the incidence
+    double sigma;   ///< deviation of its residual [m]
   };
 
   double correlated_points_;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/lidar/scan_selection.hpp"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "estimator/lidar/voxel_hash.hpp"
+
 namespace aims {
 namespace {
 
-/// Candidates between the prefetch of a table entry and its use: the table exceeds the caches.
-constexpr std::size_t kAhead = 16;
+/// Returns whose voxels are computed ahead: the memory of the table arrives meanwhile.
+constexpr std::size_t kBlock = 32;
 
-/// Hash of an index (splitmix64 finalizer): chooses among the returns of a voxel.
-std::uint64_t hash_of(std::int32_t index) {
-  std::uint64_t bits = static_cast<std::uint64_t>(index) + 0x9e3779b97f4a7c15ULL;
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
-  return bits ^ (bits >> 31);
-}
+/// Added to the index of a return before its bits are mixed.
+constexpr std::uint64_t kRankSeed = 0x9e3779b97f4a7c15ULL;
 
 }  // namespace
 
@@ -23,43 +24,60 @@ bool ScanSelection::usable(const LidarPoint& point) const {
          squared <= config_.max_range * config_.max_range;
 }
 
-void ScanSelection::begin(const LidarScan& scan) {
+int ScanSelection::begin(const LidarScan& scan) {
   eligible_.clear();
   if (config_.leave_out_mixed) steps_.mark(scan);
+  int in_range = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (!usable(scan.points[i]) || (config_.leave_out_mixed && steps_.mixed(i))) continue;
-    eligible_.push_back(static_cast<std::int32_t>(i));
+    if (!usable(scan.points[i])) continue;
+    ++in_range;
+    if (config_.leave_out_mixed && steps_.mixed(i)) continue;
+    eligible_.push_back({scan.points[i].position, static_cast<std::int32_t>(i)});
   }
+  return in_range;
 }
 
-void ScanSelection::list_candidates(const LidarScan& scan, double voxel) {
-  candidates_.clear();
+std::int32_t& ScanSelection::slot_of(std::uint64_t key, std::size_t home) {
+  std::size_t i = home;
+  while (slots_[i] != kFree && kept_[static_cast<std::size_t>(slots_[i])].key != key) {
+    i = (i + 1) & (slots_.size() - 1);
+  }
+  return slots_[i];
+}
+
+void ScanSelection::keep(const Candidate& candidate, std::uint64_t key, std::int32_t& slot) {
+  const std::uint64_t rank = mixed_bits(static_cast<std::uint64_t>(candidate.index) + kRankSeed);
+  if (slot == kFree) {
+    slot = static_cast<std::int32_t>(kept_.size());
+    kept_.push_back({key, rank, candidate.index});
+    return;
+  }
+  Kept& chosen = kept_[static_cast<std::size_t>(slot)];
+  if (rank < chosen.rank) chosen = {key, rank, candidate.index};
+}
+
+void ScanSelection::select(double voxel, int limit, std::vector<int>& kept) {
+  kept_.clear();
+  slots_.assign(std::bit_ceil(2 * eligible_.size() + 1), kFree);
   const auto inverse_size = static_cast<float>(1.0 / voxel);
-  for (const std::int32_t i : eligible_) {
-    const Eigen::Vector3f& position = scan.points[static_cast<std::size_t>(i)].position;
-    candidates_.push_back({voxel_key(voxel_of(position, inverse_size)), i});
-  }
-}
-
-void ScanSelection::select(const LidarScan& scan, double voxel, int limit, std::vector<int>& kept) {
-  kept.clear();
-  occupied_.clear();
-  list_candidates(scan, voxel);
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    if (i + kAhead < candidates_.size()) occupied_.prefetch(candidates_[i + kAhead].key);
-    const auto next = static_cast<std::int32_t>(kept.size());
-    const std::int32_t slot = occupied_.find_or_insert(candidates_[i].key, next);
-    if (slot == next) {
-      kept.push_back(candidates_[i].index);
-    } else if (hash_of(candidates_[i].index) < hash_of(kept[slot])) {
-      kept[slot] = candidates_[i].index;
+  std::array<std::uint64_t, kBlock> keys;
+  std::array<std::size_t, kBlock> homes;
+  for (std::size_t begin = 0; begin < eligible_.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, eligible_.size() - begin);
+    for (std::size_t j = 0; j < count; ++j) {
+      keys[j] = voxel_key(voxel_of(eligible_[begin + j].position, inverse_size));
+      homes[j] = mixed_bits(keys[j]) & (slots_.size() - 1);
+      __builtin_prefetch(&slots_[homes[j]]);
+    }
+    for (std::size_t j = 0; j < count; ++j) {
+      keep(eligible_[begin + j], keys[j], slot_of(keys[j], homes[j]));
     }
   }
-  const std::size_t count = kept.size();
-  const auto max_count = static_cast<std::size_t>(limit);
-  if (count <= max_count) return;
-  for (std::size_t i = 0; i < max_count; ++i) kept[i] = kept[i * count / max_count];
-  kept.resize(max_count);
+  const std::size_t count = kept_.size();
+  kept.resize(std::min(count, static_cast<std::size_t>(limit)));
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    kept[i] = kept_[i * count / kept.size()].index;
+  }
 }
 
 }  // namespace aims

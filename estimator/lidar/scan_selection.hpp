@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
 #include "core/measurements.hpp"
 #include "estimator/lidar/lidar_config.hpp"
 #include "estimator/lidar/range_steps.hpp"
-#include "estimator/lidar/voxel_hash.hpp"
 
 namespace aims {
 
@@ -20,29 +20,37 @@ class ScanSelection {
  public:
   explicit ScanSelection(const LidarUpdateConfig& config) : config_(config) {}
 
-  /// Lists the returns of `scan` to select from: the usable ones that are not mixed.
-  void begin(const LidarScan& scan);
+  /// Lists the returns of `scan` to select from: the usable ones that are not mixed. Returns how
+  /// many are usable, mixed or not.
+  int begin(const LidarScan& scan);
 
-  /// Replaces `kept` by indices into `scan`, thinned evenly to at most `limit`. `scan` is the one
-  /// of the last begin().
-  void select(const LidarScan& scan, double voxel, int limit, std::vector<int>& kept);
+  /// Replaces `kept` by indices into the scan of the last begin(), thinned evenly to at most
+  /// `limit`.
+  void select(double voxel, int limit, std::vector<int>& kept);
 
   /// True when the point is finite and in range.
   bool usable(const LidarPoint& point) const;
 
  private:
   struct Candidate {
-    std::uint64_t key = 0;
-    std::int32_t index = 0;
+    Eigen::Vector3f position;
+    std::int32_t index = 0;  ///< into the scan
   };
+  struct Kept {
+    std::uint64_t key = 0;   ///< of its voxel
+    std::uint64_t rank = 0;  ///< the lowest of a voxel is kept
+    std::int32_t index = 0;  ///< into the scan
+  };
+  static constexpr std::int32_t kFree = -1;
 
-  void list_candidates(const LidarScan& scan, double voxel);
+  std::int32_t& slot_of(std::uint64_t key, std::size_t home);
+  void keep(const Candidate& candidate, std::uint64_t key, std::int32_t& slot);
 
   LidarUpdateConfig config_;
   RangeSteps steps_;
-  std::vector<std::int32_t> eligible_;  ///< indices into the scan
-  std::vector<Candidate> candidates_;
-  VoxelHash occupied_{8192};
+  std::vector<Candidate> eligible_;
+  std::vector<Kept> kept_;           ///< of the present selection, in order of their voxels
+  std::vector<std::int32_t> slots_;  ///< into `kept_`, by the hash of the voxel; the next if taken
 };
 
 }  // namespace aims

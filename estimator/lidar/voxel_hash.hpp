@@ -34,6 +34,14 @@ inline std::uint64_t voxel_key(const VoxelIndex& v) {
          (static_cast<std::uint64_t>(v.z) & kMask);
 }
 
+/// Mixes all bits into the low ones (finalizer of splitmix64): the keys of the voxels of a wall
+/// differ in one or two coordinates only.
+inline std::uint64_t mixed_bits(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebULL;
+  return bits ^ (bits >> 31U);
+}
+
 /// Open-addressing table from voxel keys to small integers; grows by doubling, never shrinks.
 /// Clearing costs nothing: entries carry the generation in which they were written.
 class VoxelHash {
@@ -53,9 +61,6 @@ class VoxelHash {
       if (slots_[i].key == key) return slots_[i].value;
     }
   }
-
-  /// Prefetches the memory of `key`.
-  void prefetch(std::uint64_t key) const { __builtin_prefetch(&slots_[slot(key)]); }
 
   /// The value of `key`; when it is new, `value` is stored first.
   std::int32_t find_or_insert(std::uint64_t key, std::int32_t value) {
@@ -97,13 +102,7 @@ class VoxelHash {
     std::uint32_t generation = 0;
   };
 
-  /// Mixes all bits of the key into the low bits (finalizer of splitmix64): the voxels of a wall
-  /// differ in one or two coordinates only.
-  std::size_t slot(std::uint64_t key) const {
-    key = (key ^ (key >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    key = (key ^ (key >> 27U)) * 0x94d049bb133111ebULL;
-    return (key ^ (key >> 31U)) & (slots_.size() - 1);
-  }
+  std::size_t slot(std::uint64_t key) const { return mixed_bits(key) & (slots_.size() - 1); }
 
   void grow() {
     std::vector<Slot> old(2 * slots_.size());

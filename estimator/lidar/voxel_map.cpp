@@ -95,28 +95,55 @@ void VoxelMap::insert(const Eigen::Vector3f& point, std::size_t half,
   for (PlaneGrid& grid : grids_) grid.insert(point, half);
 }
 
+Eigen::Vector3f VoxelMap::Half::point(int i) const {
+  const FourPoints& four = points[static_cast<std::size_t>(i / 4)];
+  const auto k = static_cast<std::size_t>(i % 4);
+  return {four.x[k], four.y[k], four.z[k]};
+}
+
+void VoxelMap::Half::set(int i, const Eigen::Vector3f& point) {
+  FourPoints& four = points[static_cast<std::size_t>(i / 4)];
+  const auto k = static_cast<std::size_t>(i % 4);
+  four.x[k] = point.x();
+  four.y[k] = point.y();
+  four.z[k] = point.z();
+}
+
+/// Of the points of a half to `query`, in groups of four: up to three behind the last have no
+/// meaning [m^2].
+VoxelMap::SquaredDistances VoxelMap::squared_distances(const Half& half,
+                                                       const Eigen::Vector3f& query) {
+  SquaredDistances squared;
+  for (std::size_t begin = 0; begin < static_cast<std::size_t>(half.count); begin += 4) {
+    const FourPoints& four = half.points[begin / 4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const float dx = four.x[k] - query.x();
+      const float dy = four.y[k] - query.y();
+      const float dz = four.z[k] - query.z();
+      squared[begin + k] = dx * dx + dy * dy + dz * dz;
+    }
+  }
+  return squared;
+}
+
 void VoxelMap::insert(const Eigen::Vector3f& point, Half& half) const {
+  const SquaredDistances squared = squared_distances(half, point);
   int closest = -1;
   float nearest = spacing_ * spacing_;
   for (int i = 0; i < half.count; ++i) {
-    const Eigen::Vector3f d(half.x[i] - point.x(), half.y[i] - point.y(), half.z[i] - point.z());
-    if (d.squaredNorm() < nearest) {
-      nearest = d.squaredNorm();
+    if (squared[i] < nearest) {
+      nearest = squared[i];
       closest = i;
     }
   }
   if (closest >= 0) {
     if (half.merged[closest] >= kMaxMerges) return;
     const float weight = 1.0F / static_cast<float>(++half.merged[closest]);
-    half.x[closest] += weight * (point.x() - half.x[closest]);
-    half.y[closest] += weight * (point.y() - half.y[closest]);
-    half.z[closest] += weight * (point.z() - half.z[closest]);
+    const Eigen::Vector3f mean = half.point(closest);
+    half.set(closest, mean + weight * (point - mean));
   } else if (half.count < kCapacity) {
-    const int i = half.count++;
-    half.x[i] = point.x();
-    half.y[i] = point.y();
-    half.z[i] = point.z();
-    half.merged[i] = 1;
+    half.merged[half.count] = 1;
+    half.set(half.count++, point);
   }
 }
 
@@ -126,53 +153,47 @@ Eigen::Matrix3f VoxelMap::covariance_at(const Eigen::Vector3f& point) const {
   return voxel->covariance;
 }
 
-void VoxelMap::search(const Half& voxel, const Eigen::Vector3f& query, float gate,
-                      Neighbors& neighbors) {
-  std::array<float, kCapacity> squared;
-  for (int i = 0; i < voxel.count; ++i) {
-    const float dx = voxel.x[i] - query.x();
-    const float dy = voxel.y[i] - query.y();
-    const float dz = voxel.z[i] - query.z();
-    squared[i] = dx * dx + dy * dy + dz * dz;
-  }
-  constexpr int kLast = Neighbors::kWanted - 1;
-  for (int i = 0; i < voxel.count; ++i) {
-    const bool full = neighbors.count == Neighbors::kWanted;
-    if (squared[i] > gate || (full && squared[i] >= neighbors.squared_distances[kLast])) continue;
-    int at = full ? kLast : neighbors.count++;
-    while (at > 0 && neighbors.squared_distances[at - 1] > squared[i]) {
-      neighbors.squared_distances[at] = neighbors.squared_distances[at - 1];
-      neighbors.points[at] = neighbors.points[at - 1];
-      --at;
-    }
-    neighbors.squared_distances[at] = squared[i];
-    neighbors.points[at] = {voxel.x[i], voxel.y[i], voxel.z[i]};
+void VoxelMap::search(const Half& half, const Eigen::Vector3f& query, std::uint32_t voxel,
+                      NearestPoints& nearest) {
+  const SquaredDistances squared = squared_distances(half, query);
+  for (int i = 0; i < half.count; ++i) {
+    nearest.offer(squared[i], voxel * kCapacity + static_cast<std::uint32_t>(i));
   }
 }
 
-void VoxelMap::nearest(const Eigen::Vector3f& query,
-                       std::array<Neighbors, kHalves>& neighbors) const {
-  for (Neighbors& half : neighbors) half.count = 0;
+int VoxelMap::nearest(const Eigen::Vector3f& query,
+                      std::array<Neighbors, kHalves>& neighbors) const {
   const VoxelIndex home = voxel_of(query, inverse_size_);
   const Eigen::Vector3f inside =
       query - size_ * Eigen::Vector3f(static_cast<float>(home.x), static_cast<float>(home.y),
                                       static_cast<float>(home.z));
-  const float gate = size_ * size_;
-  const auto reach = [gate](const Neighbors& found) {
-    return found.count == Neighbors::kWanted ? found.squared_distances[Neighbors::kWanted - 1]
-                                             : gate;
-  };
+  std::array<NearestPoints, kHalves> nearest{NearestPoints(size_ * size_),
+                                             NearestPoints(size_ * size_)};
+  std::array<const Voxel*, 27> voxels;
+  std::uint32_t count = 0;
   for (const auto& [dx, dy, dz] : kNeighborhood) {
     const float closest = squared_gap(inside.x(), size_, dx) + squared_gap(inside.y(), size_, dy) +
                           squared_gap(inside.z(), size_, dz);
-    if (closest > std::max(reach(neighbors[0]), reach(neighbors[1]))) continue;
+    if (closest > std::max(nearest[0].reach(), nearest[1].reach())) continue;
     const Voxel* voxel = voxels_.find(voxel_key({home.x + dx, home.y + dy, home.z + dz}));
     if (voxel == nullptr) continue;
     for (std::size_t half = 0; half < kHalves; ++half) {
-      if (closest > reach(neighbors[half])) continue;
-      search(voxel->halves[half], query, gate, neighbors[half]);
+      if (closest > nearest[half].reach()) continue;
+      search(voxel->halves[half], query, count, nearest[half]);
+    }
+    voxels[count++] = voxel;
+  }
+  for (std::size_t half = 0; half < kHalves; ++half) {
+    Neighbors& found = neighbors[half];
+    found.count = nearest[half].count();
+    for (int k = 0; k < found.count; ++k) {
+      const std::uint32_t id = nearest[half].id(k);
+      const Half& points = voxels[id / kCapacity]->halves[half];
+      found.points[k] = points.point(static_cast<int>(id % kCapacity));
+      found.squared_distances[k] = nearest[half].squared_distance(k);
     }
   }
+  return static_cast<int>(count);
 }
 
 std::size_t VoxelMap::memory() const {
@@ -185,7 +206,7 @@ std::vector<Eigen::Vector3f> VoxelMap::points() const {
   std::vector<Eigen::Vector3f> all;
   for (const Voxel& voxel : voxels_) {
     for (const Half& half : voxel.halves) {
-      for (int i = 0; i < half.count; ++i) all.emplace_back(half.x[i], half.y[i], half.z[i]);
+      for (int i = 0; i < half.count; ++i) all.push_back(half.point(i));
     }
   }
   return all;

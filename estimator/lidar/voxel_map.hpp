@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,6 +25,47 @@ struct Neighbors {
   int count = 0;
 };
 
+/// The nearest of the points offered, nearest first; of equal ones those offered earlier.
+class NearestPoints {
+ public:
+  /// Points up to the squared distance `gate` [m^2] count.
+  explicit NearestPoints(float gate) { keys_.fill(key(gate, kNone)); }
+
+  /// Offers a point; each needs an `id` above those before.
+  void offer(float squared_distance, std::uint32_t id) {
+    std::uint64_t rest = key(squared_distance, id);
+    if (rest >= keys_.back()) return;
+    for (std::uint64_t& each : keys_) {  // insertion without branches
+      const std::uint64_t nearer = std::min(each, rest);
+      rest = std::max(each, rest);
+      each = nearer;
+    }
+  }
+
+  /// Points farther than this have no effect [m^2].
+  float reach() const { return squared_distance(Neighbors::kWanted - 1); }
+
+  int count() const {
+    int count = 0;
+    while (count < Neighbors::kWanted && id(count) != kNone) ++count;
+    return count;
+  }
+  std::uint32_t id(int k) const { return static_cast<std::uint32_t>(keys_[k]); }
+  float squared_distance(int k) const {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(keys_[k] >> 32U));
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  /// Ordered by distance, then id: floats that are not negative have the order of their bits.
+  static std::uint64_t key(float squared_distance, std::uint32_t id) {
+    return (std::uint64_t{std::bit_cast<std::uint32_t>(squared_distance)} << 32U) | id;
+  }
+
+  std::array<std::uint64_t, Neighbors::kWanted> keys_;
+};
+
 /// Local map: points in hashed cubic voxels, in two halves that share no return, so that the noise
 /// of their planes is independent. A return close to a map point of its half merges into it
 /// (running mean), which averages noise; memory is bounded per voxel and in total.
@@ -38,8 +82,9 @@ class VoxelMap {
   /// The covariance stored in the voxel around `point`; zero where there is none [m^2].
   Eigen::Matrix3f covariance_at(const Eigen::Vector3f& point) const;
 
-  /// The nearest points of each half, up to five, within one voxel edge; exact.
-  void nearest(const Eigen::Vector3f& query, std::array<Neighbors, kHalves>& neighbors) const;
+  /// The nearest points of each half, up to five, within one voxel edge; exact. Returns how many
+  /// voxels it took.
+  int nearest(const Eigen::Vector3f& query, std::array<Neighbors, kHalves>& neighbors) const;
 
   /// The planes at `query`: of the largest cell around it whose returns lie on one in both halves,
   /// else through the five nearest points of each half; invalid without them.
@@ -61,13 +106,21 @@ class VoxelMap {
   /// error of the pose from which they are mapped, and with it the tilt of their planes.
   static constexpr int kLongestBlock = 20;
 
-  struct Half {
-    alignas(16) std::array<float, kCapacity> x;
-    std::array<float, kCapacity> y;
-    std::array<float, kCapacity> z;
-    std::array<std::uint8_t, kCapacity> merged;
-    int count = 0;
+  /// Four points side by side, so that one instruction takes all.
+  struct alignas(16) FourPoints {
+    std::array<float, 4> x{};
+    std::array<float, 4> y{};
+    std::array<float, 4> z{};
   };
+  struct Half {
+    int count = 0;
+    std::array<FourPoints, kCapacity / 4> points;
+    std::array<std::uint8_t, kCapacity> merged{};
+
+    Eigen::Vector3f point(int i) const;
+    void set(int i, const Eigen::Vector3f& point);
+  };
+  using SquaredDistances = std::array<float, kCapacity>;
 
   struct Voxel {
     std::array<Half, kHalves> halves;
@@ -81,8 +134,9 @@ class VoxelMap {
   void insert(const Eigen::Vector3f& point, std::size_t half, const Eigen::Matrix3f& covariance);
   void end_insertion();
   void insert(const Eigen::Vector3f& point, Half& half) const;
-  static void search(const Half& half, const Eigen::Vector3f& query, float gate,
-                     Neighbors& neighbors);
+  static SquaredDistances squared_distances(const Half& half, const Eigen::Vector3f& query);
+  static void search(const Half& half, const Eigen::Vector3f& query, std::uint32_t voxel,
+                     NearestPoints& nearest);
 
   float inverse_size_;
   float size_;

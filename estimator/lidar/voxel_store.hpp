@@ -15,15 +15,20 @@ template <class Voxel>
 class VoxelStore {
  public:
   /// Starts the next insertion.
-  void begin_insertion() { ++insertions_; }
+  void begin_insertion() {
+    ++insertions_;
+    touched_.clear();
+  }
 
   /// The voxel of `key`, created if missing; marked as seen by this insertion.
   Voxel& touch(std::uint64_t key) {
     const auto next = static_cast<std::int32_t>(voxels_.size());
     const std::int32_t at = index_.find_or_insert(key, next);
     if (at == next) voxels_.emplace_back().key = key;
-    voxels_[at].seen = insertions_;
-    return voxels_[at];
+    Voxel& voxel = voxels_[at];
+    if (voxel.seen != insertions_) touched_.push_back(at);
+    voxel.seen = insertions_;
+    return voxel;
   }
 
   /// The voxel of `key`, or null.
@@ -35,9 +40,7 @@ class VoxelStore {
   /// Calls `visit` with each voxel touched by this insertion.
   template <class Visit>
   void visit_touched(const Visit& visit) {
-    for (Voxel& voxel : voxels_) {
-      if (voxel.seen == insertions_) visit(voxel);
-    }
+    for (const std::int32_t at : touched_) visit(voxels_[at]);
   }
 
   /// With more than `max_count` voxels, drops those with the largest `squared_distance`, a tenth of
@@ -64,6 +67,7 @@ class VoxelStore {
   template <class Predicate>
   void drop_if(const Predicate& predicate) {
     if (std::erase_if(voxels_, predicate) == 0) return;
+    touched_.clear();
     index_.clear();
     for (std::size_t i = 0; i < voxels_.size(); ++i) {
       index_.find_or_insert(voxels_[i].key, static_cast<std::int32_t>(i));
@@ -73,6 +77,7 @@ class VoxelStore {
   std::uint32_t insertions_ = 0;
   VoxelHash index_;
   std::vector<Voxel> voxels_;
+  std::vector<std::int32_t> touched_;  ///< by the present insertion
 };
 
 }  // namespace aims

@@ -83,7 +83,7 @@ class MappedCorridor {
 
   std::vector<Eigen::Vector3f> select(const LidarScan& scan, double voxel, int limit) {
     selection_.begin(scan);
-    selection_.select(scan, voxel, limit, kept_);
+    selection_.select(voxel, limit, kept_);
     std::vector<Eigen::Vector3f> points;
     for (int i : kept_) points.push_back(scan.points[static_cast<std::size_t>(i)].position);
     return points;

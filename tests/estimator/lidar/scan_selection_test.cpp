@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/random.hpp"
+#include "estimator/lidar/voxel_hash.hpp"
 
 namespace aims {
 namespace {
@@ -25,7 +26,7 @@ std::vector<int> selected(const LidarScan& scan, double voxel, int limit) {
   ScanSelection selection{LidarUpdateConfig{}};
   std::vector<int> kept;
   selection.begin(scan);
-  selection.select(scan, voxel, limit, kept);
+  selection.select(voxel, limit, kept);
   return kept;
 }
 
