@@ -58,12 +58,12 @@ void describe(Fields& f, Legs& c) {
   f.number("max_age", c.max_age,
            {"s", positive_up_to(60.0), "leg data as old as this belong to no IMU sample"});
   f.number("force_begin", c.force_begin,
-           {"N", within(1e6),
-            "a greater force begins a contact; of feet=contacts, in streams with forces",
+           {"N", within(1e6), "a greater force begins a contact, in streams with forces",
             kParameters + ", contact_force_threshold_up, in the counts of a Go1"});
   f.number("force_end", c.force_end,
            {"N", within(1e6), "a smaller force ends a contact",
             kParameters + ", contact_force_threshold_down, in the counts of a Go1"});
+  f.idle_if(c.feet == FeetFrom::kTwist, "feet is twist", {"force_begin", "force_end"});
 }
 
 void describe(Fields& f, Residuals& c) {
