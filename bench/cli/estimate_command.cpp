@@ -52,7 +52,7 @@ void print_results(const EstimateResult& result, const fs::path& folder,
   print_out("{}, {:.1f} s\n{}\n", result.bag.string(), result.recorded_s,
             to_text(estimate_table(result)));
   for (const EstimatorOutcome& each : result.estimators) {
-    const std::string health = text_of(health_summary(each.result.health));
+    const std::string health = text_of(each.totals.health);
     if (!health.empty()) print_out("health: {}: {}\n", each.name, health);
   }
   for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
@@ -71,8 +71,8 @@ int exit_code_of(const EstimateResult& result) {
   if (!result.failures.empty()) return kBadInput;
   int code = kOk;
   for (const EstimatorOutcome& each : result.estimators) {
-    const bool no_poses = each.result.trajectory.empty();
-    if (!no_poses && health_summary(each.result.health).worst != HealthState::kInvalid) continue;
+    const bool no_poses = each.totals.poses == 0;
+    if (!no_poses && each.totals.health.worst != HealthState::kInvalid) continue;
     code = kInvalidRun;
     print_error(fmt::format("aims estimate: {}: {}", each.name,
                             no_poses ? "no poses; see the counts and the health above"
@@ -89,7 +89,7 @@ int estimate_command(const EstimateArguments& arguments) {
   auto folder = OutputFolder::create(folder_of(arguments), shared.overwrite);
   if (!folder) return bad_input("estimate", folder.error());
   ProgressDisplay display(arguments.bag, shared.quiet, "read");
-  const EstimateOptions options = {arguments.bag, arguments.recover, shared.jobs};
+  const EstimateOptions options = {arguments.bag, arguments.recover, shared.jobs, folder->path()};
   const auto result = estimate(*config, options, [&](const Progress& progress) {
     return display.show(std::nullopt, progress);
   });

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "bench/run/bag_origin.hpp"
+#include "bench/run/estimate_log.hpp"
 #include "bench/run/ring_note.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/stream.hpp"
+#include "core/files/tum.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -27,15 +30,28 @@ void withdraw_successes(EstimateResult& result) {
   }
 }
 
+/// `in_memory` without a folder, else the file in it, with the same poses; none where there is no
+/// file.
+Result<Trajectory> trajectory_of(const EstimateResult& result, const Trajectory& in_memory,
+                                 const std::string& file) {
+  if (result.folder.empty()) return in_memory;
+  if (!std::filesystem::exists(result.folder / file)) return Trajectory();
+  return read_tum(result.folder / file, PoseRules::kAsGiven);
+}
+
 /// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
-void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
-  if (result.truth.empty()) return;
+Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& result) {
+  auto truth = trajectory_of(result, result.truth, kTruthFile);
+  if (!truth) return tl::unexpected(truth.error());
+  if (truth->empty()) return {};
   ScoringInput input;
   input.scoring = config.scoring;
   input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",
-                 result.truth};
+                 std::move(*truth)};
   for (const EstimatorOutcome& each : result.estimators) {
-    input.estimates.push_back({each.name, each.name, "estimated here", each.result.trajectory});
+    auto estimated = trajectory_of(result, each.result.trajectory, each.name + ".tum");
+    if (!estimated) return tl::unexpected(estimated.error());
+    input.estimates.push_back({each.name, each.name, "estimated here", std::move(*estimated)});
   }
   for (const EstimatorOutcome& each : result.estimators) {
     if (!each.result.optimized) continue;
@@ -56,6 +72,7 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   } else {
     result.setup.notes.push_back("not scored: " + scores.error().message);
   }
+  return {};
 }
 
 /// Lists those that broke; without any pose there is nothing of them to score.
@@ -64,7 +81,7 @@ void set_failed_apart(EstimateResult& result) {
     if (each.result.failure) result.failures.push_back({each.name, each.result.failure->message});
   }
   std::erase_if(result.estimators, [](const EstimatorOutcome& each) {
-    return each.result.failure && each.result.trajectory.empty();
+    return each.result.failure && each.totals.poses == 0;
   });
 }
 
@@ -95,6 +112,34 @@ Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& se
     if (auto ok = check_legs(setup, label_of(text), recording); !ok) return ok;
   }
   return {};
+}
+
+/// Streams the recording to its end, or until the observer stops it, and fills in the truth and the
+/// estimators. Error when the folder cannot be written.
+Result<StreamEnd> stream_into_log(RecordingReader& reader, std::vector<TimedEstimator>& estimators,
+                                  const EstimateOptions& options,
+                                  const std::function<bool()>& observed, EstimateResult& result) {
+  auto log = EstimateLog::create(options.folder, estimators);
+  if (!log) return tl::unexpected(log.error());
+  const bool in_memory = options.folder.empty();
+  Result<void> taken;
+  const auto take = [&] {
+    if (taken) taken = log->take(estimators);
+    if (taken && !in_memory) taken = log->take(reader.take_truth());
+    return taken.has_value();
+  };
+  const StreamEnd end =
+      stream([&](std::vector<Delivery>& batch) { return reader.advance(kStreamBatch, batch); },
+             estimators, options.jobs, [&] { return take() && observed(); });
+  if (take()) taken = log->commit(estimators);
+  if (!taken) return tl::unexpected(taken.error());
+  result.truth = reader.take_truth();
+  for (std::size_t i = 0; i < estimators.size(); ++i) {
+    const TimedEstimator& each = estimators[i];
+    result.estimators.push_back(in_memory ? outcome_of(each) : outcome_without_rows(each));
+    result.estimators.back().totals = log->totals(i);
+  }
+  return end;
 }
 
 }  // namespace
@@ -147,21 +192,22 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   auto estimators = make_estimators(config.run, config.estimators, result.setup.rig);
   if (!estimators) return tl::unexpected(estimators.error());
 
+  result.folder = options.folder;
   const double length_s = to_seconds(result.summary.end - result.summary.start);
-  const StreamEnd end =
-      stream([&](std::vector<Delivery>& batch) { return reader->advance(kStreamBatch, batch); },
-             *estimators, options.jobs,
-             [&] {
-               return observer({to_seconds(reader->position()), length_s, stopwatch.seconds()});
-             });
-  result.complete = !end.stopped;
-  result.broken = end.error;
+  const auto observed = [&] {
+    return observer({to_seconds(reader->position()), length_s, stopwatch.seconds()});
+  };
+  const auto end = stream_into_log(*reader, *estimators, options, observed, result);
+  if (!end) return tl::unexpected(end.error());
+  result.complete = !end->stopped;
+  result.broken = end->error;
   result.counts = reader->counts();
-  result.truth = reader->truth();
   result.recorded_s = to_seconds(reader->position());
-  for (const TimedEstimator& each : *estimators) result.estimators.push_back(outcome_of(each));
+  estimators->clear();
   set_failed_apart(result);
-  score_against_truth(config, result);
+  if (auto scored = score_against_truth(config, result); !scored) {
+    return tl::unexpected(scored.error());
+  }
   result.wall_s = stopwatch.seconds();
   return result;
 }

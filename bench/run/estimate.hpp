@@ -38,6 +38,9 @@ struct EstimateOptions {
   std::filesystem::path bag;
   bool recover = false;  ///< read the intact part of a broken bag
   int jobs = 1;          ///< threads; the trajectories do not depend on it
+  /// Where the truth and what the estimators report by scan are written while the recording is
+  /// read; memory then does not grow with them. Empty: the result holds them.
+  std::filesystem::path folder = {};
 };
 
 /// An estimator that broke before the end of its stream.
@@ -58,7 +61,8 @@ struct EstimateResult {
   double wall_s = 0.0;
   std::vector<EstimatorOutcome> estimators;  ///< their scores are in `scores`
   std::vector<EstimatorFailure> failures;    ///< those with poses are in `estimators` too
-  Trajectory truth;                          ///< of the body; empty: the recording has none
+  std::filesystem::path folder;              ///< of the options: it has trajectories and truth
+  Trajectory truth;                          ///< of the body; empty: none, or in `folder`
   /// Of the online trajectories, then of the re-optimized ones; none without a truth.
   std::optional<TrajectoryScores> scores;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/run/estimate_log.hpp"
 #include "bench/run/health_summary.hpp"
 #include "bench/run/json_text.hpp"
 #include "bench/run/results.hpp"
@@ -21,28 +22,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double displacement(const Trajectory& trajectory) {
-  if (trajectory.empty()) return 0.0;
-  return (trajectory.back().pose.translation - trajectory.front().pose.translation).norm();
-}
-
 double realtime_factor(const EstimateResult& result, const EstimatorOutcome& outcome) {
   return outcome.wall_s > 0.0 ? result.recorded_s / outcome.wall_s : 0.0;
 }
 
 Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcome) {
-  const Trajectory& trajectory = outcome.result.trajectory;
+  const EstimatorTotals& totals = outcome.totals;
   Json json;
-  json["poses"] = trajectory.size();
-  json["scans"] = outcome.result.diagnostics.scans.size();
-  json["path_m"] = json_of(path_length(trajectory));
-  json["displacement_m"] = json_of(displacement(trajectory));
+  json["poses"] = totals.poses;
+  json["scans"] = totals.scans;
+  json["path_m"] = json_of(totals.path_m);
+  json["displacement_m"] =
+      json_of((totals.last_pose.translation - totals.first_pose.translation).norm());
   json["wall_s"] = outcome.wall_s;
   json["realtime_factor"] = realtime_factor(result, outcome);
   json["time_per_scan_ms"] = time_json(outcome.scan_times.wall_ms);
   json["cpu_per_scan_ms"] = time_json(outcome.scan_times.cpu_ms);
   json["counts"] = outcome.result.counts;
-  json["health"] = health_json(health_summary(outcome.result.health));
+  json["health"] = health_json(totals.health);
   return json;
 }
 
@@ -110,7 +107,7 @@ RunRecord estimate_record(const EstimateResult& result) {
     json["time_per_scan_ms"] = time_json(each.scan_times.wall_ms);
     json["cpu_per_scan_ms"] = time_json(each.scan_times.cpu_ms);
     json["counts"] = each.result.counts;
-    json["health"] = health_json(health_summary(each.result.health));
+    json["health"] = health_json(each.totals.health);
     Json& estimators = record.scores["estimators"];
     const std::string label = optimized_label(each.name);
     if (!estimators.contains(label)) continue;
@@ -134,8 +131,8 @@ TextTable estimate_table(const EstimateResult& result) {
   for (std::size_t i = 0; i < result.estimators.size(); ++i) {
     const EstimatorOutcome& each = result.estimators[i];
     const auto times = summarize(each.scan_times.cpu_ms);
-    table.rows[i].push_back(std::to_string(each.result.trajectory.size()));
-    table.rows[i].push_back(fmt::format("{:.2f}", path_length(each.result.trajectory)));
+    table.rows[i].push_back(std::to_string(each.totals.poses));
+    table.rows[i].push_back(fmt::format("{:.2f}", each.totals.path_m));
     table.rows[i].push_back(times ? fmt::format("{:.2f}", times->mean) : "-");
     table.rows[i].push_back(fmt::format("{:.1f}", realtime_factor(result, each)));
   }
@@ -153,11 +150,11 @@ Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& 
         write_file_atomically(folder / "estimate.json", json_text(estimate_json(result), 2) + "\n");
   }
   for (const EstimatorOutcome& each : result.estimators) {
-    if (written) written = write_estimator(each, folder, each.name);
+    if (!written) break;
+    written = result.folder.empty() ? write_estimator(each, folder, each.name)
+                                    : write_map_and_optimized(each, folder, each.name);
   }
-  if (written && !result.truth.empty()) {
-    written = write_tum(folder / "truth.tum", result.truth);
-  }
+  if (written && !result.truth.empty()) written = write_tum(folder / kTruthFile, result.truth);
   if (written && result.scores) written = write_scores(result, folder);
   return written;
 }

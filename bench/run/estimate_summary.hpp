@@ -21,7 +21,8 @@ RunRecord estimate_record(const EstimateResult& result);
 
 /// Writes per estimator NAME.tum and NAME.diagnostics.csv, the config that repeats the estimate
 /// (config.yaml) and estimate.json; with a truth also
-/// truth.tum and, as a run has them, scores.json and scores.csv.
+/// truth.tum and, as a run has them, scores.json and scores.csv. What is in the folder of the
+/// result since it ran, which then is `folder`, stays.
 Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& result,
                             const std::filesystem::path& folder);
 

@@ -11,12 +11,6 @@
 namespace aims {
 namespace {
 
-/// Time [s] of the summary in that state.
-double& time_in(HealthState state, HealthSummary& summary) {
-  if (state == HealthState::kInvalid) return summary.invalid_s;
-  return state == HealthState::kDegraded ? summary.degraded_s : summary.healthy_s;
-}
-
 /// The reasons that lasted longest, at most three.
 std::string reasons_text(const HealthSummary& summary) {
   std::vector<std::pair<double, std::string>> longest;
@@ -33,20 +27,6 @@ std::string reasons_text(const HealthSummary& summary) {
 constexpr const char* kNotJudged = "not judged";
 
 }  // namespace
-
-HealthSummary health_summary(const std::vector<HealthRow>& rows) {
-  HealthSummary summary;
-  summary.judged = !rows.empty();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const HealthRow& row = rows[i];
-    summary.worst = std::max(summary.worst, row.state);
-    if (row.state == HealthState::kStarting || i + 1 == rows.size()) continue;
-    const double seconds = to_seconds(rows[i + 1].stamp - row.stamp);
-    time_in(row.state, summary) += seconds;
-    for (const std::string& reason : row.reasons) summary.reasons[reason] += seconds;
-  }
-  return summary;
-}
 
 Json health_json(const HealthSummary& summary) {
   return {{"worst", summary.judged ? std::string(name_of(summary.worst)) : kNotJudged},
@@ -84,14 +64,18 @@ std::vector<std::string> health_lines(const RunRecord& run) {
   return lines;
 }
 
-CsvTable health_table(const std::vector<HealthRow>& rows) {
+CsvTable health_table(std::span<const HealthRow> rows) {
   CsvTable table({"stamp_s", "state", "reasons", "position_sigma_m"});
+  add_health_rows(rows, table);
+  return table;
+}
+
+void add_health_rows(std::span<const HealthRow> rows, CsvTable& table) {
   for (const HealthRow& row : rows) {
     table.add(to_seconds(row.stamp)).add(name_of(row.state));
     table.add(fmt::format("{}", fmt::join(row.reasons, "; "))).add(row.position_sigma);
     table.end_row();
   }
-  return table;
 }
 
 }  // namespace aims

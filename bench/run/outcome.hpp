@@ -24,9 +24,16 @@ struct EstimatorOutcome {
   std::vector<WeakAxisScore> weak_axis;         ///< summary of them
   ScanTimes scan_times;
   double wall_s = 0.0;
+  EstimatorTotals totals;  ///< of an estimate of a recording
 };
 
-/// What an estimator that has finished came to, but for scores.
+/// What an estimator that has finished came to, but for scores and totals.
 EstimatorOutcome outcome_of(const TimedEstimator& timed);
+
+/// The same but for the rows of its result: trajectory, scans and health.
+EstimatorOutcome outcome_without_rows(const TimedEstimator& timed);
+
+/// All rows of an outcome that has them.
+EstimatorRows rows_of(const EstimatorOutcome& outcome);
 
 }  // namespace aims

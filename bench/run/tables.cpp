@@ -30,9 +30,9 @@ std::vector<std::string> covariance_columns(const std::string& name) {
 const std::vector<std::string> kPositionColumns = covariance_columns("position_covariance");
 const std::vector<std::string> kRotationColumns = covariance_columns("rotation_covariance");
 
-std::vector<std::string> diagnostics_header(const Diagnostics& diagnostics) {
+std::vector<std::string> diagnostics_header(std::span<const SeriesInfo> series) {
   std::vector<std::string> header = {kStamp};
-  for (const SeriesInfo& info : diagnostics.series) header.push_back(info.name);
+  for (const SeriesInfo& info : series) header.push_back(info.name);
   header.insert(header.end(), kPositionColumns.begin(), kPositionColumns.end());
   header.insert(header.end(), kRotationColumns.begin(), kRotationColumns.end());
   header.emplace_back(kTime);
@@ -101,24 +101,28 @@ Result<Columns> columns_of(const CsvColumns& table) {
 
 }  // namespace
 
-CsvTable diagnostics_table(const EstimatorOutcome& outcome) {
-  const Diagnostics& diagnostics = outcome.result.diagnostics;
-  CsvTable table(diagnostics_header(diagnostics));
-  for (std::size_t i = 0; i < diagnostics.scans.size(); ++i) {
-    const ScanRow& scan = diagnostics.scans[i];
-    assert(scan.values.size() == diagnostics.series.size());
-    table.add(to_seconds(scan.stamp));
-    for (const double value : scan.values) table.add(value);
-    add_covariance(scan.covariance, table);
-    const std::vector<double>& times = outcome.scan_times.wall_ms;
-    if (i < times.size()) table.add(times[i]);
-    table.end_row();
-  }
+CsvTable diagnostics_table(const EstimatorRows& rows) {
+  CsvTable table(diagnostics_header(rows.series));
+  add_scans(rows, table);
   return table;
 }
 
-Result<Diagnostics> read_diagnostics(const std::filesystem::path& file) {
-  const auto table = CsvColumns::read(file);
+void add_scans(const EstimatorRows& rows, CsvTable& table) {
+  for (std::size_t i = 0; i < rows.scans.size(); ++i) {
+    const ScanRow& scan = rows.scans[i];
+    assert(scan.values.size() == rows.series.size());
+    table.add(to_seconds(scan.stamp));
+    for (const double value : scan.values) table.add(value);
+    add_covariance(scan.covariance, table);
+    if (i < rows.wall_ms.size()) table.add(rows.wall_ms[i]);
+    table.end_row();
+  }
+}
+
+Result<Diagnostics> read_diagnostics(const std::filesystem::path& file,
+                                     std::vector<std::string> only) {
+  if (!only.empty()) only.emplace_back(kStamp);
+  const auto table = CsvColumns::read(file, only);
   if (!table) return tl::unexpected(table.error());
   if (!table->has(kStamp)) {
     return failure(fmt::format("{}:1: expected the column {}", file.string(), kStamp));

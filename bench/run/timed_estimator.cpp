@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/timed_estimator.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/stopwatch.hpp"
@@ -27,6 +28,25 @@ void TimedEstimator::consume(std::span<const Delivery> deliveries) {
 
 void TimedEstimator::finish() {
   timed([&] { estimator_->finish(); });
+}
+
+EstimatorRows TimedEstimator::rows() const {
+  const EstimatorResult& result = estimator_->result();
+  const auto after = [](const auto& all, std::size_t passed) {
+    return std::span(all).subspan(std::min(passed, all.size()));
+  };
+  return {.poses = after(result.trajectory, poses_passed_),
+          .series = result.diagnostics.series,
+          .scans = after(result.diagnostics.scans, scans_passed_),
+          .wall_ms = after(scan_times_.wall_ms, scans_passed_),
+          .health = after(result.health, health_passed_)};
+}
+
+void TimedEstimator::pass() {
+  const EstimatorResult& result = estimator_->result();
+  poses_passed_ = result.trajectory.size();
+  scans_passed_ = result.diagnostics.scans.size();
+  health_passed_ = result.health.size();
 }
 
 template <class Work>

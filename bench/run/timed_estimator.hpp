@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "bench/run/estimator_rows.hpp"
 #include "estimator/estimator.hpp"
 
 namespace aims {
@@ -31,6 +33,11 @@ class TimedEstimator {
   double total_seconds() const { return total_seconds_; }
   const ScanTimes& scan_times() const { return scan_times_; }
 
+  /// The rows that follow those that `pass` went past; at first all.
+  EstimatorRows rows() const;
+  /// Goes past the rows so far.
+  void pass();
+
  private:
   template <class Work>
   void timed(const Work& work);
@@ -41,6 +48,9 @@ class TimedEstimator {
   double wall_since_scan_ = 0.0;  ///< [s]
   double cpu_since_scan_ = 0.0;   ///< [s]
   ScanTimes scan_times_;
+  std::size_t poses_passed_ = 0;
+  std::size_t scans_passed_ = 0;
+  std::size_t health_passed_ = 0;
 };
 
 }  // namespace aims

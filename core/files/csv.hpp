@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -34,6 +35,9 @@ class CsvTable {
 
   /// The table so far, header included.
   const std::string& text() const { return text_; }
+
+  /// Removes and returns the text of whole rows so far, for a table that is written in parts.
+  std::string take_text() { return std::exchange(text_, {}); }
 
  private:
   void add_cell(std::string_view cell);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -22,11 +23,13 @@ class RowReader {
   bool at_end() const { return position_ >= text_.size(); }
   int line() const { return line_; }
 
-  /// Appends the next row's cells; false when the text ends before the row does.
-  bool take(std::vector<std::string>& cells) {
+  /// Appends the next row's cells to `cells`, and their ends to `ends`; false when the text ends
+  /// before the row does.
+  bool take(std::string& cells, std::vector<std::size_t>& ends) {
     while (true) {
-      cells.emplace_back();
-      if (!take_cell(cells.back())) return false;
+      const bool complete = take_cell(cells);
+      ends.push_back(cells.size());
+      if (!complete) return false;
       const char end = text_[position_++];
       if (end == ',') continue;
       ++line_;
@@ -35,10 +38,10 @@ class RowReader {
   }
 
  private:
-  /// Reads up to the comma or line end after the cell; false at the end of the text.
+  /// Appends up to the comma or line end after the cell; false at the end of the text.
   bool take_cell(std::string& cell) {
     bool quoted = false;
-    std::size_t kept = 0;  // bytes of the cell up to its last closing quote
+    std::size_t kept = cell.size();  // bytes up to the cell's last closing quote
     for (; position_ < text_.size(); ++position_) {
       const char c = text_[position_];
       if (c == '"') {
@@ -62,7 +65,7 @@ class RowReader {
   int line_ = 1;
 };
 
-std::optional<double> number_of(const std::string& cell) {
+std::optional<double> number_of(std::string_view cell) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   if (cell == "true") return 1.0;
   if (cell == "false") return 0.0;
@@ -71,22 +74,38 @@ std::optional<double> number_of(const std::string& cell) {
 
 }  // namespace
 
-Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& name) {
+Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& name,
+                                     std::span<const std::string> only) {
   CsvColumns table;
   table.name_ = name;
   RowReader reader(text);
-  if (!reader.take(table.header_)) {
+  CsvColumns row;  // all cells of one
+  if (!reader.take(row.cells_, row.ends_)) {
     return failure(fmt::format("{}:1: expected a header that ends in a line end", name));
   }
-  for (std::size_t i = 0; i < table.header_.size(); ++i) table.index_.emplace(table.header_[i], i);
+  const std::size_t columns = row.ends_.size();
+  row.header_.resize(columns);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < columns; ++i) {
+    const std::string title(row.cell(0, i));
+    if (!only.empty() && std::ranges::find(only, title) == only.end()) continue;
+    table.index_.emplace(title, table.header_.size());
+    table.header_.push_back(title);
+    kept.push_back(i);
+  }
   while (!reader.at_end()) {
     const int line = reader.line();
-    const std::size_t before = table.cells_.size();
-    const bool complete = reader.take(table.cells_);
-    const std::size_t found = table.cells_.size() - before;
-    if (!complete || found != table.header_.size()) {
+    row.cells_.clear();
+    row.ends_.clear();
+    const bool complete = reader.take(row.cells_, row.ends_);
+    const std::size_t found = row.ends_.size();
+    if (!complete || found != columns) {
       return failure(fmt::format("{}:{}: expected {} cells and a line end, found {} cells{}", name,
-                                 line, table.header_.size(), found, complete ? "" : ", truncated"));
+                                 line, columns, found, complete ? "" : ", truncated"));
+    }
+    for (const std::size_t i : kept) {
+      table.cells_ += row.cell(0, i);
+      table.ends_.push_back(table.cells_.size());
     }
     table.lines_.push_back(line);
   }
@@ -94,10 +113,11 @@ Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& n
   return table;
 }
 
-Result<CsvColumns> CsvColumns::read(const std::filesystem::path& file) {
+Result<CsvColumns> CsvColumns::read(const std::filesystem::path& file,
+                                    std::span<const std::string> only) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
-  return parse(*text, file.string());
+  return parse(*text, file.string(), only);
 }
 
 Result<std::vector<double>> CsvColumns::numbers(std::string_view column) const {
@@ -106,7 +126,7 @@ Result<std::vector<double>> CsvColumns::numbers(std::string_view column) const {
   if (found == index_.end()) return numbers;
   numbers.reserve(rows_);
   for (std::size_t row = 0; row < rows_; ++row) {
-    const std::string& text = cell(row, found->second);
+    const std::string_view text = cell(row, found->second);
     const auto number = number_of(text);
     if (!number) {
       return failure(line_text(fmt::format("{}:{}: {}: expected a number, found '{}'", name_,
@@ -121,7 +141,7 @@ std::vector<std::string> CsvColumns::texts(std::string_view column) const {
   std::vector<std::string> texts;
   const auto found = index_.find(column);
   if (found == index_.end()) return texts;
-  for (std::size_t row = 0; row < rows_; ++row) texts.push_back(cell(row, found->second));
+  for (std::size_t row = 0; row < rows_; ++row) texts.emplace_back(cell(row, found->second));
   return texts;
 }
 

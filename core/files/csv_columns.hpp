@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,10 +16,13 @@ namespace aims {
 class CsvColumns {
  public:
   /// Every row must have as many cells as the header and end in a line end, so that a truncated
-  /// file is detected. Errors: "name:line: ...".
-  static Result<CsvColumns> parse(std::string_view text, const std::string& name);
+  /// file is detected. Columns that are not in `only` are left out, unless that is empty. Errors:
+  /// "name:line: ...".
+  static Result<CsvColumns> parse(std::string_view text, const std::string& name,
+                                  std::span<const std::string> only = {});
   /// Reads a file with `parse`.
-  static Result<CsvColumns> read(const std::filesystem::path& file);
+  static Result<CsvColumns> read(const std::filesystem::path& file,
+                                 std::span<const std::string> only = {});
 
   std::size_t rows() const { return rows_; }
   const std::vector<std::string>& header() const { return header_; }
@@ -32,14 +36,17 @@ class CsvColumns {
   std::vector<std::string> texts(std::string_view column) const;
 
  private:
-  const std::string& cell(std::size_t row, std::size_t column) const {
-    return cells_[row * header_.size() + column];
+  std::string_view cell(std::size_t row, std::size_t column) const {
+    const std::size_t index = row * header_.size() + column;
+    const std::size_t begin = index == 0 ? 0 : ends_[index - 1];
+    return std::string_view(cells_).substr(begin, ends_[index] - begin);
   }
 
   std::string name_;
   std::vector<std::string> header_;
   std::map<std::string, std::size_t, std::less<>> index_;  ///< column of each name
-  std::vector<std::string> cells_;                         ///< row by row
+  std::string cells_;                                      ///< row by row, end to end
+  std::vector<std::size_t> ends_;                          ///< of the cells in `cells_`
   std::vector<int> lines_;                                 ///< at which each row begins
   std::size_t rows_ = 0;
 };

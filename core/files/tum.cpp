@@ -47,9 +47,9 @@ Result<StampedPose> parse_line(std::string_view line, PoseRules rules) {
 
 }  // namespace
 
-std::string tum_text(const Trajectory& trajectory) {
+std::string tum_text(std::span<const StampedPose> poses) {
   fmt::memory_buffer out;
-  for (const StampedPose& each : trajectory) {
+  for (const StampedPose& each : poses) {
     const Eigen::Vector3d& p = each.pose.translation;
     const Eigen::Quaterniond& q = each.pose.rotation;
     fmt::format_to(std::back_inserter(out), "{} {} {} {} {} {} {} {}\n", stamp_text(each.stamp),

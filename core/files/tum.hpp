@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,7 @@ enum class PoseRules {
 
 /// Lines "stamp x y z qx qy qz qw" of the TUM format: seconds with nine decimals, which keep the
 /// nanoseconds exactly, and shortest decimals that read back to the same doubles.
-std::string tum_text(const Trajectory& trajectory);
+std::string tum_text(std::span<const StampedPose> poses);
 
 /// Reads TUM text ('#' starts a comment line). Stamps must increase strictly, numbers be finite
 /// and quaternions of unit norm within 1e-3 (then normalized), except under kAsGiven.
@@ -29,7 +30,7 @@ Result<Trajectory> parse_tum(std::string_view text, const std::string& name,
 /// Writes `tum_text` atomically.
 Result<void> write_tum(const std::filesystem::path& file, const Trajectory& trajectory);
 
-/// Reads a TUM file with `parse_tum`.
+/// Reads a TUM file with `parse_tum`, by pages: of the text next to nothing stays in memory.
 Result<Trajectory> read_tum(const std::filesystem::path& file,
                             PoseRules rules = PoseRules::kStrict);
 

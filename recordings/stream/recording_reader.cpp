@@ -59,6 +59,7 @@ struct RecordingReader::Impl {
   Duration position = 0;
   std::array<std::optional<Time>, kRoleCount> last_stamps;
   Trajectory truth;
+  std::optional<Time> last_true_stamp;
   EventCounts counts;
 };
 
@@ -157,9 +158,10 @@ void RecordingReader::Impl::take_truth(const MessageView& view) {
   const Time stamp = stamp_of(Role::kTruth, header_stamp(view, record_time), 0.0);
   if (!pose->translation.allFinite()) {
     ++counts["truth_not_finite"];
-  } else if (!truth.empty() && stamp <= truth.back().stamp) {
+  } else if (last_true_stamp && stamp <= *last_true_stamp) {
     ++counts["truth_stamp_not_increasing"];
   } else {
+    last_true_stamp = stamp;
     truth.push_back({stamp, plan.truth_is_of_body ? *pose : *pose * plan.T_truth_body});
   }
 }
@@ -252,6 +254,7 @@ const RecordingSetup& RecordingReader::setup() const { return impl_->plan.setup;
 const BagSummary& RecordingReader::summary() const { return impl_->bag->summary(); }
 Duration RecordingReader::position() const { return impl_->position; }
 const Trajectory& RecordingReader::truth() const { return impl_->truth; }
+Trajectory RecordingReader::take_truth() { return std::exchange(impl_->truth, {}); }
 const std::map<std::string, int>& RecordingReader::counts() const { return impl_->counts; }
 
 }  // namespace aims

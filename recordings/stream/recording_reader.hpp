@@ -66,6 +66,9 @@ class RecordingReader {
   /// True poses of the body (IMU frame) read so far; stamps as those of deliveries.
   const Trajectory& truth() const;
 
+  /// Removes and returns them, so that they need no memory.
+  Trajectory take_truth();
+
   /// Counts of irregularities: "cloud_points_not_finite", "imu_stamp_not_increasing", ...
   const std::map<std::string, int>& counts() const;
 

@@ -99,22 +99,28 @@ Result<void> draw_map(const std::string& title, const EstimatorOutcome& outcome,
   return write_map_picture(folder / (outcome.name + "-map-side.png"), MapView::kSide, map);
 }
 
-/// The index and what follows from it, of the first estimator that computes it.
-Result<void> draw_degeneracy(const std::string& title, const std::string& subtitle,
-                             std::span<const EstimatorOutcome> outcomes,
+std::vector<std::string> drawn_series() {
+  std::vector<std::string> names = {std::string(kIterationsSeries)};
+  for (const SeriesPanel& panel : kSeriesPanels) {
+    for (const SeriesCurve& curve : panel.curves) names.emplace_back(curve.series);
+  }
+  return names;
+}
+
+Result<bool> draw_degeneracy(const std::string& title, const std::string& subtitle,
+                             const EstimatorOutcome& outcome,
                              std::span<const WaypointTime> waypoint_times, const fs::path& folder) {
   TimePlot plot;
-  for (const EstimatorOutcome& outcome : outcomes) {
-    plot.title = fmt::format("{}: degeneracy index of {}", title, outcome.name);
-    plot.panels = panels_of(outcome.result.diagnostics);
-    if (!plot.panels.empty()) break;
-  }
-  if (plot.panels.empty()) return {};
+  plot.panels = panels_of(outcome.result.diagnostics);
+  if (plot.panels.empty()) return false;
+  plot.title = fmt::format("{}: degeneracy index of {}", title, outcome.name);
   plot.subtitle = subtitle;
   for (const WaypointTime& waypoint_time : waypoint_times) {
     plot.events.emplace_back(to_seconds(waypoint_time.stamp), waypoint_time.point);
   }
-  return write_time_plot(folder / "degeneracy.png", plot);
+  const auto written = write_time_plot(folder / "degeneracy.png", plot);
+  if (!written) return tl::unexpected(written.error());
+  return true;
 }
 
 }  // namespace aims

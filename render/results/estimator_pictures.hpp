@@ -15,11 +15,14 @@ namespace aims {
 Result<void> draw_map(const std::string& title, const EstimatorOutcome& outcome,
                       const std::filesystem::path& folder);
 
-/// Draws degeneracy.png: the index and what follows from it over time, of the first estimator that
-/// reports one of its series; nothing when none does. A series that is missing leaves its curve
-/// out. `waypoint_times` are marked.
-Result<void> draw_degeneracy(const std::string& title, const std::string& subtitle,
-                             std::span<const EstimatorOutcome> outcomes,
+/// Series that `draw_degeneracy` uses.
+std::vector<std::string> drawn_series();
+
+/// Draws degeneracy.png: the index and what follows from it over time; nothing, and false, for an
+/// estimator that reports none of the series. A series that is missing leaves its curve out.
+/// `waypoint_times` are marked.
+Result<bool> draw_degeneracy(const std::string& title, const std::string& subtitle,
+                             const EstimatorOutcome& outcome,
                              std::span<const WaypointTime> waypoint_times,
                              const std::filesystem::path& folder);
 

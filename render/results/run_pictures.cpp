@@ -121,6 +121,17 @@ Result<void> draw_robot(const DrawnRun& run, const fs::path& folder) {
   return {};
 }
 
+/// Of the first estimator that reports it.
+Result<void> draw_first_degeneracy(const DrawnRun& run, const fs::path& folder) {
+  for (const EstimatorOutcome& each : run.estimators) {
+    const auto drawn =
+        draw_degeneracy(run.scenario.name, run.subtitle, each, run.waypoint_times, folder);
+    if (!drawn) return tl::unexpected(drawn.error());
+    if (*drawn) break;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> draw_run(const fs::path& folder, const DrawObserver& observer) {
@@ -134,8 +145,7 @@ Result<void> draw_run(const fs::path& folder, const DrawObserver& observer) {
   }
   if (drawn) {
     announce(observer, folder / "degeneracy.png");
-    drawn = draw_degeneracy(run->scenario.name, run->subtitle, run->estimators, run->waypoint_times,
-                            folder);
+    drawn = draw_first_degeneracy(*run, folder);
   }
   for (const EstimatorOutcome& outcome : run->estimators) {
     if (!drawn) break;

@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "bench/run/score_record.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/tum.hpp"
 #include "tests/bench/cli/command_line.hpp"
 
 namespace aims {
@@ -61,6 +63,23 @@ TEST_F(Signals, TermEndsAnEstimateWithWhatWasRead) {
   EXPECT_TRUE(holds(estimate, "interrupted: the results end where")) << estimate.output;
   EXPECT_TRUE(fs::exists(folder_.path() / "est" / "estimate.json"));
   EXPECT_FALSE(has_remains());
+}
+
+TEST_F(Signals, KillLeavesTheRowsOfAnEstimateSoFar) {
+  ended("simulate long.yaml --out walk.bag", "[ $(cat walk* | wc -c) -gt 20000000 ]");
+  const Outcome estimate = ended("estimate walk.bag --estimators aims,leg --jobs 1 --out est",
+                                 "[ $(cat est.partial/aims.tum* | wc -c) -gt 2000 ]", "KILL");
+  EXPECT_EQ(estimate.exit_code, 137) << estimate.output;
+  std::vector<std::string> readable;
+  for (const auto& entry : fs::directory_iterator(folder_.path() / "est.partial")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("aims.tum")) continue;
+    const auto poses = read_tum(entry.path());
+    ASSERT_TRUE(poses) << poses.error().message;
+    EXPECT_GT(poses->size(), 15U);
+    readable.push_back(name);
+  }
+  EXPECT_EQ(readable.size(), 1U);
 }
 
 TEST_F(Signals, TermEndsSuitesAndSweepsWithWhatIsFinished) {

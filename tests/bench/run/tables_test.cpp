@@ -31,7 +31,8 @@ EstimatorOutcome outcome() {
 }
 
 TEST(DiagnosticsTable, HasTheSeriesOfTheEstimatorAndEmptyCellsWhereNothingIsComputed) {
-  EXPECT_EQ(diagnostics_table(outcome()).text(),
+  const EstimatorOutcome written = outcome();
+  EXPECT_EQ(diagnostics_table(rows_of(written)).text(),
             "stamp_s,spread,count,"
             "position_covariance_xx,position_covariance_xy,position_covariance_xz,"
             "position_covariance_yy,position_covariance_yz,position_covariance_zz,"

@@ -2,6 +2,7 @@
 #include "bench/run/estimate.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 
@@ -10,6 +11,7 @@
 #include "bench/run/record.hpp"
 #include "bench/run/trajectory_summary.hpp"
 #include "bench/run/validity.hpp"
+#include "core/files/atomic_file.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/bench/short_walk.hpp"
 #include "tests/recordings/stream/robot_recording.hpp"
@@ -80,6 +82,96 @@ TEST(Estimate, NotesWhatTheRecordingLacksForAnEstimator) {
   EXPECT_FALSE(lacks("lio", "the time of each point", false));
   EXPECT_TRUE(lacks("kilo=leg_kilo+legs.feet=contacts", "joints and contacts"));
   EXPECT_FALSE(lacks("leg_kilo", "joints and contacts"));
+}
+
+std::string content(const std::filesystem::path& file) {
+  const auto text = read_file(file);
+  EXPECT_TRUE(text) << text.error().message;
+  return text.value_or("");
+}
+
+TEST(Estimate, IntoAFolderComesToTheSameFilesAsInMemory) {
+  const TemporaryFolder folder;
+  RecordOptions recording;
+  recording.bag = folder.path() / "walk.bag";
+  const auto go_on = [](const Progress&) { return true; };
+  ASSERT_TRUE(record(testing::short_walk(), recording, go_on));
+  EstimateConfig config;
+  config.run = {"aims", "leg"};
+  const auto outputs = [&](const std::string& name, bool streamed) {
+    const auto out = folder.path() / name;
+    std::filesystem::create_directory(out);
+    EstimateOptions options = {recording.bag};
+    if (streamed) options.folder = out;
+    const auto result = estimate(config, options, go_on);
+    EXPECT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->truth.empty(), streamed);
+    EXPECT_EQ(result->estimators.at(0).result.trajectory.empty(), streamed);
+    EXPECT_TRUE(write_estimate(config, *result, out));
+    Json scores = estimate_record(*result).scores;
+    for (const char* estimator : {"aims", "leg"}) {
+      scores["estimators"][estimator].erase("time_per_scan_ms");
+      scores["estimators"][estimator].erase("cpu_per_scan_ms");
+    }
+    return scores;
+  };
+  EXPECT_EQ(outputs("whole", false), outputs("parts", true));
+  for (const char* file : {"aims.tum", "aims.health.csv", "aims.map.ply", "leg.tum",
+                           "leg.diagnostics.csv", "leg.health.csv", "truth.tum"}) {
+    EXPECT_EQ(content(folder.path() / "whole" / file), content(folder.path() / "parts" / file))
+        << file;
+  }
+}
+
+/// Ten minutes of an IMU, leg odometry and a truth at 100 Hz.
+void write_long_recording(const std::filesystem::path& bag) {
+  test::RobotRecording robot(bag);
+  robot.add_transforms(test::kMounted);
+  robot.add_cloud(test::RawCloud::of(test::kStart, {{1, 2, 3, 0}}), test::kStart);
+  robot.add_imu(test::kStart, 30'000);
+  for (int k = 0; k < 60'000; ++k) {
+    const Time stamp = test::kStart + k * 10 * kMillisecond;
+    const auto message = odometry_message({0, stamp, "odom"}, "base", {});
+    if (k % 5 == 0) robot.add("/odom", odometry_type(), stamp, message);
+    robot.add("/truth", odometry_type(), stamp, message);
+  }
+  robot.close();
+}
+
+/// How much more heap is in use [bytes] near the end of the recording than after a fifth of it.
+long long growth(const std::filesystem::path& bag, const std::filesystem::path& folder) {
+  EstimateConfig config;
+  config.run = {"leg"};
+  config.recording.topics.leg_odometry = "/odom";
+  config.recording.topics.truth = "/truth";
+  const auto in_use = [] {
+    const struct mallinfo2 heap = mallinfo2();
+    return static_cast<long long>(heap.uordblks + heap.hblkhd);
+  };
+  long long begin = 0;
+  long long end = 0;
+  EstimateOptions options = {bag};
+  options.folder = folder;
+  const auto result = estimate(config, options, [&](const Progress& progress) {
+    if (progress.simulated_s < 120.0) begin = in_use();
+    if (progress.simulated_s < 590.0) end = in_use();
+    return true;
+  });
+  EXPECT_TRUE(result) << result.error().message;
+  EXPECT_GT(result->estimators.at(0).totals.poses, 2000U);
+  return end - begin;
+}
+
+TEST(Estimate, IntoAFolderNeedsNoMemoryForTheTruth) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer's heap is not that of the C library";
+#endif
+  const TemporaryFolder folder;
+  const auto bag = folder.path() / "long.bag";
+  write_long_recording(bag);
+  const long long truth = 47'000 * static_cast<long long>(sizeof(StampedPose));
+  EXPECT_GT(growth(bag, {}), truth);
+  EXPECT_LT(growth(bag, folder.path()), truth / 4);
 }
 
 }  // namespace

@@ -65,5 +65,17 @@ TEST(CsvColumns, KeepsTheCarriageReturnOfAQuotedCell) {
   EXPECT_EQ(table->texts("b\r"), std::vector<std::string>{"\r"});
 }
 
+TEST(CsvColumns, LeavesOutTheColumnsThatAreNotAskedFor) {
+  const std::vector<std::string> only = {"c", "a", "none"};
+  const auto table = CsvColumns::parse("a,b,c\n1,\"x,\"\"y\",\n2,,7\n", "t.csv", only);
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->header(), (std::vector<std::string>{"a", "c"}));
+  EXPECT_FALSE(table->has("b"));
+  EXPECT_EQ(table->rows(), 2U);
+  EXPECT_EQ(table->texts("a"), (std::vector<std::string>{"1", "2"}));
+  EXPECT_EQ(table->texts("c"), (std::vector<std::string>{"", "7"}));
+  EXPECT_FALSE(CsvColumns::parse("a,b\n1\n", "t.csv", only)) << "a cell of a column left out";
+}
+
 }  // namespace
 }  // namespace aims

@@ -23,7 +23,7 @@ TEST(Tum, WritesOneLinePerPose) {
   const Trajectory trajectory = {
       {1'500'000'001, {Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5), {1.0, -2.25, 3.0}}}};
   EXPECT_EQ(tum_text(trajectory), "1.500000001 1 -2.25 3 -0.5 0.5 0.5 0.5\n");
-  EXPECT_EQ(tum_text({{-1, Pose()}}), "-0.000000001 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(tum_text(Trajectory{{-1, Pose()}}), "-0.000000001 0 0 0 0 0 0 1\n");
   EXPECT_EQ(tum_text({}), "");
 }
 

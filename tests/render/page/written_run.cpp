@@ -68,7 +68,7 @@ void write_estimator(const fs::path& folder, const WrittenRun& run, const std::s
     outcome.scan_times.wall_ms.push_back(stream.uniform(1.0, 30.0));
   }
   put(folder / (name + ".tum"), tum_text(outcome.result.trajectory));
-  put(folder / (name + ".diagnostics.csv"), diagnostics_table(outcome).text());
+  put(folder / (name + ".diagnostics.csv"), diagnostics_table(rows_of(outcome)).text());
   if (run.map_points > 0) put(folder / (name + ".map.ply"), ply_text(cloud(run, name)));
 }
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "estimator/health.hpp"
+
+namespace aims {
+
+/// How long an estimator called itself what, after its start.
+struct HealthSummary {
+  bool judged = false;                         ///< false: the estimator does not judge itself
+  HealthState worst = HealthState::kStarting;  ///< kStarting: it never started
+  double healthy_s = 0.0;
+  double degraded_s = 0.0;
+  double invalid_s = 0.0;
+  std::map<std::string, double> reasons;  ///< time [s] of each
+  HealthRow last;                         ///< of the rows, where there is one
+};
+
+/// Adds the row that follows those added before; each holds until the next.
+void add_health(const HealthRow& row, HealthSummary& summary);
+
+/// The summary of all rows.
+HealthSummary health_summary(const std::vector<HealthRow>& rows);
+
+}  // namespace aims
