@@ -2,7 +2,6 @@
 #include "core/random.hpp"
 
 #include <boost/random/normal_distribution.hpp>
-#include <boost/random/uniform_01.hpp>
 
 namespace aims {
 namespace {
@@ -24,11 +23,13 @@ std::uint64_t mixed_seed(std::uint64_t run_seed, std::string_view name) {
 RandomStream::RandomStream(std::uint64_t run_seed, std::string_view name)
     : engine_(mixed_seed(run_seed, name)) {}
 
-double RandomStream::uniform() { return boost::random::uniform_01<double>()(engine_); }
-
 double RandomStream::uniform(double low, double high) { return low + (high - low) * uniform(); }
 
 double RandomStream::normal() { return boost::random::normal_distribution<double>()(engine_); }
+
+void RandomStream::normal(std::span<double> values) {
+  for (double& value : values) value = normal();
+}
 
 Eigen::Vector3d RandomStream::normal3() {
   const double x = normal();
@@ -36,7 +37,5 @@ Eigen::Vector3d RandomStream::normal3() {
   const double z = normal();
   return {x, y, z};
 }
-
-bool RandomStream::chance(double probability) { return uniform() < probability; }
 
 }  // namespace aims

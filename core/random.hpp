@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <boost/random/mersenne_twister.hpp>
 #include <cstdint>
+#include <span>
 #include <string_view>
+
+#include "core/mersenne_twister.hpp"
 
 namespace aims {
 
@@ -14,14 +16,29 @@ class RandomStream {
  public:
   RandomStream(std::uint64_t run_seed, std::string_view name);
 
-  double uniform();                         ///< in [0, 1)
+  double uniform() {  ///< in [0, 1)
+    while (true) {
+      // A number next to 2^64 is rounded to it.
+      if (const double value = 0x1p-64 * to_double(engine_()); value < 1.0) return value;
+    }
+  }
   double uniform(double low, double high);  ///< in [low, high)
   double normal();                          ///< zero mean, unit variance
+  void normal(std::span<double> values);    ///< replaces each by a `normal()`, in their order
   Eigen::Vector3d normal3();                ///< three independent `normal()`
-  bool chance(double probability);          ///< true with that probability
+  bool chance(double probability) {         ///< true with that probability
+    return uniform() < probability;
+  }
 
  private:
-  boost::random::mt19937_64 engine_;
+  /// Rounded once, as by a conversion, which branches on the highest bit where there is no
+  /// instruction for unsigned numbers.
+  static double to_double(std::uint64_t number) {
+    const auto high = static_cast<double>(static_cast<std::int64_t>(number >> 32));
+    return 0x1p32 * high + static_cast<double>(static_cast<std::int64_t>(number & 0xffffffff));
+  }
+
+  MersenneTwister64 engine_;
 };
 
 /// The stream `name` of the run with that seed, e.g. rng(seed, "imu.gyro").

@@ -120,6 +120,7 @@ struct Simulation::Impl {
   Link lidar_link;
   SensorRig rig;
   Trajectory scan_motion;  ///< of the LiDAR since the start of the present scan
+  ScanTruth hits;          ///< of the last scan
   Arrivals arrivals;
   std::vector<Delivery> sent;
   std::vector<ImuSample> fast_samples;
@@ -172,7 +173,6 @@ void Simulation::Impl::send_scan() {
       {state.stamp, state.T_world_base * truth.mounts.T_base_body * truth.mounts.T_body_lidar});
   if (state.stamp - scan_motion.front().stamp < lidar.period()) return;
   const Stopwatch watch;
-  ScanTruth hits;
   auto scan =
       std::make_shared<LidarScan>(lidar.scan(scan_motion.front().stamp, scan_motion, &hits));
   const Time end = scan->end;

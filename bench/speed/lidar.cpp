@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/environment/scene_config.hpp"
+#include "sim/sensors/fisher_information.hpp"
 #include "sim/sensors/lidar.hpp"
 
 namespace aims {
@@ -131,6 +132,20 @@ void scan(benchmark::State& state, const SceneConfig& config, const LidarConfig&
   state.counters["points"] = static_cast<double>(points);
 }
 
+/// As in a run: with the true hits and what they tell of the pose.
+void scan_with_truth(benchmark::State& state, const LidarConfig& sensor) {
+  const RayCaster caster(build_scene(corridor(0.0, 0.0), 1));
+  Lidar lidar(sensor, caster, 1);
+  const Trajectory poses = walking_poses(40.0);
+  ScanTruth hits;
+  for (auto _ : state) {
+    const LidarScan scan = lidar.scan(0, poses, &hits);
+    benchmark::DoNotOptimize(scan.points.data());
+    benchmark::DoNotOptimize(scan_information(scan.end, hits, poses.back().pose, sensor.range_sigma,
+                                              caster.first_moving_surface()));
+  }
+}
+
 BENCHMARK_CAPTURE(cast_rays, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cast_rays, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cast_rays, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
@@ -142,6 +157,8 @@ BENCHMARK_CAPTURE(scan, doors_os1_128, corridor(0.0, 0.0), dense_lidar())
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, doors_mid360, corridor(0.0, 0.0), rosette_lidar())
     ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan_with_truth, doors_ideal, LidarConfig{})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan_with_truth, doors_field, field_lidar())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, doors_clutter_ideal, corridor(0.0, 1.0), LidarConfig{})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, doors_clutter_field, corridor(0.0, 1.0), field_lidar())

@@ -5,35 +5,20 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
-#include "core/angle.hpp"
 #include "sim/environment/people.hpp"
 #include "sim/sensors/pose_cursor.hpp"
 
 namespace aims {
-namespace {
 
-/// The nearest multiple of `step` of a value above minus half a step; a step of zero leaves it.
-double rounded(double value, double step) {
-  return step > 0.0 ? step * static_cast<double>(static_cast<std::int64_t>(value / step + 0.5))
-                    : value;
+void ScanTruth::clear() {
+  normals.clear();
+  surfaces.clear();
+  points.clear();
+  cosines.clear();
+  range_sigmas.clear();
 }
-
-/// The true hit of one point.
-void append_hit(const RayPacket& rays, const HitPacket& hits, int lane, ScanTruth& truth) {
-  const Eigen::Vector3f origin(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
-  const Eigen::Vector3f direction(rays.direction_x[lane], rays.direction_y[lane],
-                                  rays.direction_z[lane]);
-  const Eigen::Vector3f normal(hits.normal_x[lane], hits.normal_y[lane], hits.normal_z[lane]);
-  truth.normals.push_back(normal);
-  truth.surfaces.push_back(hits.surface[lane]);
-  truth.points.emplace_back(origin + hits.distance[lane] * direction);
-  truth.cosines.push_back(std::clamp(-normal.dot(direction), 0.0F, 1.0F));
-}
-
-}  // namespace
 
 Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed)
     : config_(config),
@@ -50,7 +35,7 @@ Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t r
       columns_(pattern_.columns(0)),
       returns_(static_cast<std::size_t>(pattern_.lines())),
       before_(config.beam.is_line() ? 0 : returns_.size()),
-      errors_(returns_.size()),
+      received_(returns_.size()),
       footprint_(config.beam),
       edges_(pattern_.lines(), pattern_.max_columns()),
       // Six sigma beyond the limit: noise cannot bring farther hits back into range.
@@ -69,6 +54,7 @@ int Lidar::lanes_of(int block) const {
 
 LidarScan Lidar::scan(Time start, const Trajectory& T_world_lidar, ScanTruth* truth) {
   assert(!T_world_lidar.empty());
+  if (truth != nullptr) truth->clear();
   LidarScan scan;
   scan.stamp = start;
   scan.end = start + period();
@@ -174,84 +160,6 @@ void Lidar::receive(int block, Time start) {
     for (int i = 0; i < kRayPacketSize; ++i) stamps[i] = start + beams.time_offset_ns[i];
     cast(stamps, lanes_of(block), returns_[line]);
   }
-}
-
-bool Lidar::detected(float strength, float range) {
-  const double probability = detection_probability(config_, strength, 1.0, range);
-  return detection_.chance((1.0 - config_.miss_probability) * probability);
-}
-
-void Lidar::find_range_errors(const std::vector<Returns>& returns) {
-  for (int line = 0; line < pattern_.lines(); ++line) {
-    const Returns& each = returns[line];
-    RangeErrors& errors = errors_[line];
-    if (model_.noise_differs()) {
-      model_.range_sigmas(each.strength, each.hits.distance, errors.sigma);
-    }
-    if (model_.has_bias()) model_.range_biases(line, each.cosine, errors.bias);
-  }
-}
-
-double Lidar::measured_range(float distance, const RangeErrors& errors, int lane) {
-  const double sigma = model_.noise_differs() ? errors.sigma[lane] : config_.range_sigma;
-  double range = distance + sigma * noise_.normal();
-  if (model_.has_bias()) range += errors.bias[lane];
-  return rounded(range, config_.range_resolution);
-}
-
-float Lidar::measured_intensity(float strength) {
-  double intensity = strength;
-  if (config_.intensity_sigma > 0.0) {
-    intensity *= 1.0 + config_.intensity_sigma * intensity_noise_.normal();
-  }
-  return static_cast<float>(std::clamp(rounded(intensity, config_.intensity_resolution), 0.0, 1.0));
-}
-
-/// The nominal direction, turned by the noise of the sensor's angles.
-Eigen::Vector3f Lidar::reported_direction(const BeamPacket& beams, int lane) {
-  const Eigen::Vector3f nominal(beams.nominal.x[lane], beams.nominal.y[lane],
-                                beams.nominal.z[lane]);
-  if (config_.direction_sigma_deg == 0.0) return nominal;
-  const double sigma = config_.direction_sigma_deg * kRadiansPerDegree;
-  const auto across = static_cast<float>(sigma * direction_noise_.normal());
-  const auto up = static_cast<float>(sigma * direction_noise_.normal());
-  const Eigen::Vector3f sideways = Eigen::Vector3f::UnitZ().cross(nominal).normalized();
-  return (nominal + across * sideways + up * nominal.cross(sideways)).normalized();
-}
-
-void Lidar::append_points(int block, const std::vector<Returns>& returns, LidarScan& scan,
-                          ScanTruth* truth) {
-  find_range_errors(returns);
-  const int lanes = lanes_of(block);
-  for (int lane = 0; lane < lanes; ++lane) {
-    for (const int line : pattern_.firing_order()) {
-      const BeamPacket& beams = beams_.packets[block * pattern_.lines() + line];
-      const Returns& each = returns[line];
-      if (each.hits.surface[lane] < 0 || !beams.open[lane]) continue;
-      if (!detected(each.strength[lane], each.hits.distance[lane])) continue;
-      const double range = measured_range(each.hits.distance[lane], errors_[line], lane);
-      if (range < config_.range_min || range > config_.range_max) continue;
-      LidarPoint& point = scan.points.emplace_back();
-      point.position = static_cast<float>(range) * reported_direction(beams, lane);
-      point.intensity = measured_intensity(each.strength[lane]);
-      point.time_offset_ns = beams.time_offset_ns[lane];
-      point.ring = static_cast<std::uint16_t>(line);
-      if (truth == nullptr) continue;
-      append_hit(each.rays, each.hits, lane, *truth);
-      append_noise(line, block * kRayPacketSize + lane, *truth);
-    }
-  }
-}
-
-/// Rounding to a step adds step^2 / 12 to the variance.
-void Lidar::append_noise(int line, int column, ScanTruth& truth) const {
-  if (config_.beam.is_line() && !model_.noise_differs() && config_.range_resolution == 0.0) return;
-  const double sigma =
-      model_.noise_differs() ? errors_[line].sigma[column % kRayPacketSize] : config_.range_sigma;
-  const double rounding = config_.range_resolution * config_.range_resolution / 12.0;
-  truth.range_sigmas.push_back(edges_.marked(line, column)
-                                   ? std::numeric_limits<float>::infinity()
-                                   : static_cast<float>(std::sqrt(sigma * sigma + rounding)));
 }
 
 }  // namespace aims

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/measurements.hpp"
@@ -28,6 +30,8 @@ struct ScanTruth {
   /// White noise of each range [m], infinite for a footprint over an edge. Empty when every range
   /// has the noise of the configuration.
   std::vector<float> range_sigmas;
+
+  void clear();
 };
 
 /// Simulates scans in a scene. Same configuration, seed and poses: the same bytes.
@@ -47,7 +51,7 @@ class Lidar {
 
   /// The scan that starts at `start`, the pattern's scan of that time; each firing leaves from the
   /// pose at its own time. `T_world_lidar` should cover the scan; beyond its ends the first or last
-  /// pose holds.
+  /// pose holds. `truth` is replaced; its memory is used again.
   LidarScan scan(Time start, const Trajectory& T_world_lidar, ScanTruth* truth = nullptr);
 
  private:
@@ -58,10 +62,18 @@ class Lidar {
     LaneValues cosine;    ///< of the incidence [-]
     LaneValues strength;  ///< see `ReturnModel` [-]
   };
-  /// Range errors of one line's firings of a block.
-  struct RangeErrors {
-    LaneValues sigma;  ///< white noise [m]
-    LaneValues bias;   ///< [m]
+  /// What the receiver makes of one line's firings of a block.
+  struct Received {
+    std::array<double, kRayPacketSize> power;  ///< over the threshold of detection [-]
+    LaneValues sigma;                          ///< white noise of the range [m]
+    LaneValues bias;                           ///< of the range [m]
+    LaneValues x, y, z;                        ///< of the true hit in the world [m]
+    LaneValues cosine;                         ///< see `ScanTruth::cosines`
+  };
+  /// A firing of a block.
+  struct Place {
+    int line;
+    int lane;
   };
 
   void take_beams(std::int64_t index);
@@ -76,12 +88,14 @@ class Lidar {
   void finish_before(int block, LidarScan& scan, ScanTruth* truth);
   void append_points(int block, const std::vector<Returns>& returns, LidarScan& scan,
                      ScanTruth* truth);
-  void append_noise(int line, int column, ScanTruth& truth) const;
-  void find_range_errors(const std::vector<Returns>& returns);
-  bool detected(float strength, float range);
-  double measured_range(float distance, const RangeErrors& errors, int lane);
-  float measured_intensity(float strength);
-  Eigen::Vector3f reported_direction(const BeamPacket& beams, int lane);
+  void receive_block(const std::vector<Returns>& returns);
+  void detect(const BeamPacket* beams, int lanes, const std::vector<Returns>& returns);
+  void measure_ranges(const std::vector<Returns>& returns);
+  void append_measured(const BeamPacket* beams, const std::vector<Returns>& returns,
+                       std::vector<LidarPoint>& points);
+  void append_hits(const std::vector<Returns>& returns, ScanTruth& truth);
+  void append_noise(int block, ScanTruth& truth) const;
+  void turn_directions(std::span<LidarPoint> directions);
   int lanes_of(int block) const;
 
   LidarConfig config_;
@@ -99,7 +113,10 @@ class Lidar {
   int columns_;                      ///< of the present scan
   std::vector<Returns> returns_;     ///< of the newest block, by line
   std::vector<Returns> before_;      ///< of the block before, by line; only with footprints
-  std::vector<RangeErrors> errors_;
+  std::vector<Received> received_;   ///< of the block that is measured, by line
+  std::vector<Place> detected_;      ///< of that block, in the order of firing
+  std::vector<double> ranges_;       ///< measured, of `detected_` [m]
+  std::vector<double> draws_;        ///< of noise, for `detected_` [-]
   BeamFootprint footprint_;
   EdgeMap edges_;
   float reach_;  ///< of the rays [m]

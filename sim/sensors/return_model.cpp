@@ -16,12 +16,20 @@ constexpr double kCertainPower = 8.0;
 constexpr float kLeastCosine = 0.05F;
 constexpr float kNormalReflectance = 0.04F;  ///< of a smooth dielectric with index 1.5
 
+double power_over_threshold(double range_at_10_percent, double strength, double range) {
+  const double ratio = range_at_10_percent / range;
+  return strength / kReferenceReflectivity * ratio * ratio;
+}
+
 }  // namespace
 
 double detection_probability(const LidarConfig& config, double reflectivity, double cos_incidence,
                              double range) {
-  const double ratio = config.range_at_10_percent / range;
-  const double power = reflectivity / kReferenceReflectivity * cos_incidence * ratio * ratio;
+  return detection_probability(config, power_over_threshold(config.range_at_10_percent,
+                                                            reflectivity * cos_incidence, range));
+}
+
+double detection_probability(const LidarConfig& config, double power) {
   if (power >= kCertainPower) return 1.0;
   if (power * kCertainPower <= 1.0) return 0.0;
   return 1.0 / (1.0 + std::pow(power, -config.detection_steepness));
@@ -29,6 +37,7 @@ double detection_probability(const LidarConfig& config, double reflectivity, dou
 
 ReturnModel::ReturnModel(const LidarConfig& config, const LidarCalibration& calibration)
     : calibration_(calibration),
+      range_at_10_percent_(config.range_at_10_percent),
       specular_loss_(static_cast<float>(config.specular_loss)),
       floor_variance_(static_cast<float>(config.range_sigma * config.range_sigma)),
       noise_factor_(
@@ -52,6 +61,13 @@ void ReturnModel::strengths(const LaneValues& reflectivity, const LaneValues& co
         kNormalReflectance + (1.0F - kNormalReflectance) * flat * flat * flat * flat * flat;
     const float kept = 1.0F - specular_loss_ * mirrored;
     strength[i] *= kept * kept;
+  }
+}
+
+void ReturnModel::powers(const LaneValues& strength, const RayPacket::Lanes& range,
+                         std::array<double, kRayPacketSize>& power) const {
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    power[i] = power_over_threshold(range_at_10_percent_, strength[i], range[i]);
   }
 }
 

@@ -12,6 +12,9 @@ namespace aims {
 double detection_probability(const LidarConfig& config, double reflectivity, double cos_incidence,
                              double range);
 
+/// The same of a received power over the threshold.
+double detection_probability(const LidarConfig& config, double power);
+
 /// Sixteen values of one packet.
 struct alignas(64) LaneValues {
   RayPacket::Lanes values{};
@@ -36,6 +39,10 @@ class ReturnModel {
   void strengths(const LaneValues& reflectivity, const LaneValues& cosine,
                  LaneValues& strength) const;
 
+  /// Received power over the threshold of detection.
+  void powers(const LaneValues& strength, const RayPacket::Lanes& range,
+              std::array<double, kRayPacketSize>& power) const;
+
   /// Standard deviation of the white range noise [m]: sigma^2 = floor^2 + threshold^2 / power,
   /// where the power is 1 at the threshold of detection.
   void range_sigmas(const LaneValues& strength, const RayPacket::Lanes& range,
@@ -49,6 +56,7 @@ class ReturnModel {
 
  private:
   LidarCalibration calibration_;
+  double range_at_10_percent_;  ///< where a perpendicular surface of 10 % is at the threshold [m]
   float specular_loss_;
   float floor_variance_;
   float noise_factor_;        ///< variance = floor + factor range^2 / strength

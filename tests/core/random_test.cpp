@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 #include <set>
 #include <string>
 
@@ -35,6 +36,23 @@ TEST(RandomStream, FirstValuesNeverChange) {
   EXPECT_EQ(stream.uniform(), 0.96276388659401724);
   EXPECT_EQ(stream.normal(), -0.15192921568171577);
   EXPECT_EQ(stream.normal(), 0.64648148977073194);
+}
+
+TEST(MersenneTwister, IsTheStandardOne) {
+  for (const std::uint64_t seed : {0ULL, 1ULL, 5489ULL, ~0ULL}) {
+    MersenneTwister64 ours(seed);
+    std::mt19937_64 standard(seed);
+    for (int i = 0; i < 2000; ++i) ASSERT_EQ(ours(), standard()) << "seed " << seed << ", " << i;
+  }
+}
+
+TEST(RandomStream, NormalsAtOnceAreThoseOneByOne) {
+  RandomStream one_by_one = rng(3, "lidar.noise");
+  RandomStream at_once = rng(3, "lidar.noise");
+  std::vector<double> values(1000);
+  at_once.normal(values);
+  for (const double value : values) EXPECT_EQ(value, one_by_one.normal());
+  EXPECT_EQ(at_once.uniform(), one_by_one.uniform());
 }
 
 TEST(RandomStream, SameSeedAndNameYieldTheSame) {
