@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,8 +19,8 @@ namespace {
 
 using testing::RecordedStream;
 
-/// Deliveries between two comparisons.
-constexpr std::size_t kPart = 500;
+/// Deliveries between two comparisons: two scans, since most settings act at once.
+constexpr std::size_t kPart = 50;
 
 void append(std::vector<double>& numbers, const Eigen::MatrixXd& matrix) {
   numbers.insert(numbers.end(), matrix.data(), matrix.data() + matrix.size());
@@ -113,26 +114,30 @@ std::string times(const std::string& text, double factor, bool whole) {
   return whole ? std::to_string(std::lround(value)) : std::to_string(value);
 }
 
-/// Other values to try; those that the parameter does not allow are refused later.
+/// Other values to try, first those that most likely act: a value that does not costs a whole
+/// sequence. Those that the parameter does not allow are refused later.
 std::vector<std::string> other_values(const Parameter& parameter) {
   const std::string text = parameter.text();
   if (parameter.expected == "true or false") return {text == "true" ? "false" : "true"};
   if (parameter.expected.starts_with("one of")) return options_of(parameter.expected);
   const bool whole = is_integer(parameter);
   std::vector<std::string> values;
-  for (const double factor : {0.1, 10.0, 0.5, 2.0, 0.01, 100.0}) {
-    if (!parameter.sequence) {
-      values.push_back(times(text, factor, whole));
-      continue;
+  const auto multiply = [&](std::initializer_list<double> factors) {
+    for (const double factor : factors) {
+      if (!parameter.sequence) {
+        values.push_back(times(text, factor, whole));
+        continue;
+      }
+      std::vector<std::string> entries = sequence_entries(text).value();
+      for (std::string& entry : entries) entry = times(entry, factor, false);
+      values.push_back(sequence_text(entries));
     }
-    std::vector<std::string> entries = sequence_entries(text).value();
-    for (std::string& entry : entries) entry = times(entry, factor, false);
-    values.push_back(sequence_text(entries));
-  }
-  if (parameter.sequence) return values;
+  };
+  multiply({0.01, 100.0});
   for (const double bound : {parameter.spec.range.min, parameter.spec.range.max}) {
-    if (std::isfinite(bound)) values.push_back(times("1", bound, whole));
+    if (!parameter.sequence && std::isfinite(bound)) values.push_back(times("1", bound, whole));
   }
+  multiply({0.1, 10.0, 0.5, 2.0});
   return values;
 }
 
