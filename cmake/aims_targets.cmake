@@ -92,13 +92,17 @@ function(aims_library name)
   endif()
 endfunction()
 
-# aims_test(NAME SOURCES file... [LINKS target...] [LABEL unit|scenario|stress])
+# aims_test(NAME SOURCES file... [LINKS target...] [LABEL unit|scenario|stress] [COST seconds])
 # A GoogleTest executable whose cases are registered with ctest under one label. Its own sources compile
-# without costly optimisations; the libraries that it tests are those of the program.
+# without costly optimisations; the libraries that it tests are those of the program. ctest starts the
+# tests of the largest cost first, so that no core waits for a long one at the end.
 function(aims_test name)
-  cmake_parse_arguments(arg "" "LABEL" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "" "LABEL;COST" "SOURCES;LINKS" ${ARGN})
   if(NOT arg_LABEL)
     set(arg_LABEL unit)
+  endif()
+  if(NOT arg_COST)
+    set(arg_COST 0)
   endif()
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE aims_flags ${arg_LINKS} GTest::gtest_main)
@@ -107,7 +111,7 @@ function(aims_test name)
     aims_batches(test_${name} FUNCTIONS)
   endif()
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600)
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 COST ${arg_COST})
 endfunction()
 
 # aims_bench(NAME SOURCES file... [LINKS target...])
