@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/background_tasks.hpp"
 #include "core/stopwatch.hpp"
 #include "sim/environment/ray_caster.hpp"
 #include "sim/environment/scene_mjcf.hpp"
@@ -95,14 +96,15 @@ Result<void> check_route(const SimulationConfig& config, const Scene& scene, con
 }  // namespace
 
 struct Simulation::Impl {
-  Impl(const SimulationConfig& config, std::uint64_t seed, Scene built_scene, Walker ready_walker,
-       WalkMonitor ready_monitor);
+  Impl(const SimulationConfig& config, std::uint64_t seed, int threads, Scene built_scene,
+       Walker ready_walker, WalkMonitor ready_monitor);
 
   void step();
   void record();
   void send_inertial(const TruthSample& motion);
   void send_legs();
   void send_scan();
+  void cast(const Trajectory& motion, LidarScan& scan, bool delivered);
   void deliver(Time sent, Measurement measurement, Link& link);
 
   SimulationConfig config;
@@ -126,10 +128,11 @@ struct Simulation::Impl {
   std::vector<ImuSample> fast_samples;
   Truth truth;
   SimulationTimes times;
+  BackgroundTasks casts;  ///< of scans; they alone use `lidar`, `hits` and `truth.scans`
 };
 
-Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene built_scene,
-                       Walker ready_walker, WalkMonitor ready_monitor)
+Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, int threads,
+                       Scene built_scene, Walker ready_walker, WalkMonitor ready_monitor)
     : config(c),
       scene(std::move(built_scene)),
       walker(std::move(ready_walker)),
@@ -143,7 +146,8 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene buil
       imu_link(config.links.imu, seed, "imu"),
       leg_link(config.links.leg_odometry, seed, "leg_odometry"),
       lidar_link(config.links.lidar, seed, "lidar"),
-      rig(nominal_rig(config)) {
+      rig(nominal_rig(config)),
+      casts(threads) {
   truth.mounts = true_mounts(nominal_mounts(config.robot.mounts), config.calibration, seed);
   record();
 }
@@ -151,7 +155,7 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, Scene buil
 void Simulation::Impl::deliver(Time now, Measurement measurement, Link& link) {
   sent.clear();
   link.send(now, std::move(measurement), sent);
-  for (Delivery& delivery : sent) arrivals.add(std::move(delivery));
+  for (const Delivery& delivery : sent) arrivals.add(delivery);
 }
 
 void Simulation::Impl::send_inertial(const TruthSample& motion) {
@@ -166,25 +170,39 @@ void Simulation::Impl::send_legs() {
   if (auto sample = legs.sample(state)) deliver(state.stamp, *sample, leg_link);
 }
 
-/// Casts the scan that ends now, if one does; the next begins where it ended.
+/// Sends the scan that ends now, if one does, without its points, which are cast until `advance`
+/// returns; the next begins where it ended.
 void Simulation::Impl::send_scan() {
   const RobotState& state = walker.world().state();
   scan_motion.push_back(
       {state.stamp, state.T_world_base * truth.mounts.T_base_body * truth.mounts.T_body_lidar});
   if (state.stamp - scan_motion.front().stamp < lidar.period()) return;
+  auto scan = std::make_shared<LidarScan>();
+  scan->stamp = scan_motion.front().stamp;
+  scan->end = scan->stamp + lidar.period();
+  deliver(state.stamp, LidarScanPtr(scan), lidar_link);
+  const bool delivered = !sent.empty();
+  // With errors of its stamps the link delivers another scan than it was given; no one has it yet.
+  if (delivered) {
+    scan = std::const_pointer_cast<LidarScan>(std::get<LidarScanPtr>(sent.front().measurement));
+  }
+  casts.add([this, motion = scan_motion, scan, delivered] { cast(motion, *scan, delivered); });
+  scan_motion.erase(scan_motion.begin(), scan_motion.end() - 1);
+}
+
+/// Fills in the points of the scan over that motion of the LiDAR. One that was lost on its way is
+/// cast as well: the noise of the others does not depend on it.
+void Simulation::Impl::cast(const Trajectory& motion, LidarScan& scan, bool delivered) {
   const Stopwatch watch;
-  auto scan =
-      std::make_shared<LidarScan>(lidar.scan(scan_motion.front().stamp, scan_motion, &hits));
-  const Time end = scan->end;
-  deliver(state.stamp, LidarScanPtr(std::move(scan)), lidar_link);
-  if (!sent.empty()) {
-    const Pose T_world_lidar = pose_at(scan_motion, end).value_or(scan_motion.back().pose);
+  LidarScan cast = lidar.scan(motion.front().stamp, motion, &hits);
+  scan.points = std::move(cast.points);
+  if (delivered) {
+    const Pose T_world_lidar = pose_at(motion, cast.end).value_or(motion.back().pose);
     truth.scans.push_back(
-        scan_information(end, hits, T_world_lidar * truth.mounts.T_body_lidar.inverse(),
+        scan_information(cast.end, hits, T_world_lidar * truth.mounts.T_body_lidar.inverse(),
                          config.lidar.range_sigma, caster.first_moving_surface()));
   }
   times.lidar += watch.seconds();
-  scan_motion.erase(scan_motion.begin(), scan_motion.end() - 1);
 }
 
 /// Appends the present state to the truth and samples every sensor.
@@ -217,7 +235,8 @@ void Simulation::Impl::step() {
   record();
 }
 
-Result<Simulation> Simulation::create(const SimulationConfig& given, std::uint64_t seed) {
+Result<Simulation> Simulation::create(const SimulationConfig& given, std::uint64_t seed,
+                                      int threads) {
   SimulationConfig config = given;
   config.route = route_in(given.scene, given.route);
   if (auto ok = validate(config); !ok) return tl::unexpected(ok.error());
@@ -238,7 +257,7 @@ Result<Simulation> Simulation::create(const SimulationConfig& given, std::uint64
     monitor.update(*walker, scene.floor);
   }
   return Simulation(
-      std::make_unique<Impl>(config, seed, std::move(scene), std::move(*walker), monitor));
+      std::make_unique<Impl>(config, seed, threads, std::move(scene), std::move(*walker), monitor));
 }
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -249,6 +268,7 @@ Simulation::~Simulation() = default;
 bool Simulation::advance(Duration span, std::vector<Delivery>& deliveries) {
   const Time until = now() + span;
   while (now() < until && !impl_->monitor.ended()) impl_->step();
+  impl_->casts.wait();
   impl_->truth.waypoint_times =
       waypoint_times_since(impl_->walker.route(), impl_->truth.samples.front().stamp);
   const bool finished = impl_->monitor.ended();

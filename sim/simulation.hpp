@@ -23,8 +23,10 @@ struct SimulationTimes {
 /// Same configuration and seed: the same deliveries and truth, bit for bit.
 class Simulation {
  public:
-  /// Error when the robot would start inside a solid, or the route has no length.
-  static Result<Simulation> create(const SimulationConfig& config, std::uint64_t seed);
+  /// Error when the robot would start inside a solid, or the route has no length. With two threads
+  /// scans are cast while the robot walks on; the output does not depend on it.
+  static Result<Simulation> create(const SimulationConfig& config, std::uint64_t seed,
+                                   int threads = 1);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();

@@ -27,8 +27,9 @@ std::string text_of_reply(const Json& json) { return json_text(json, -1); }
 
 /// In a process of its own: simulates a sequence.
 std::string simulate(const SequenceCache& cache, const Scenario& scenario, std::uint64_t seed,
-                     std::atomic<double>& part) {
-  const auto made = cache.make(scenario, seed, [&part](double done) { part = done; });
+                     int threads, std::atomic<double>& part) {
+  const auto made = cache.make(
+      scenario, seed, [&part](double done) { part = done; }, threads);
   if (!made) return text_of_reply({{"error", made.error().message}});
   if (made->refusal) return text_of_reply({{"refusal", *made->refusal}});
   return text_of_reply({{"made", made->simulated}});
@@ -121,7 +122,8 @@ Result<void> JobSchedule::start_all() {
 Result<void> JobSchedule::start_sequence(SequenceWork& sequence) {
   sequence.state = SequenceWork::State::kBeingMade;
   return start({&sequence, nullptr}, 0.0, [this, &sequence](std::atomic<double>& part) {
-    return simulate(runner_.cache_, sequence.scenario(), sequence.seed(), part);
+    return simulate(runner_.cache_, sequence.scenario(), sequence.seed(), runner_.options_.jobs,
+                    part);
   });
 }
 

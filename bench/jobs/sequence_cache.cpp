@@ -14,6 +14,7 @@
 #include "bench/run/code_version.hpp"
 #include "bench/run/sequence_file.hpp"
 #include "bench/run/stream.hpp"
+#include "core/background_tasks.hpp"
 #include "core/files/config_dump.hpp"
 #include "sim/simulation.hpp"
 
@@ -29,8 +30,8 @@ std::string simulation_text(const Scenario& scenario) {
 }
 
 Result<SequenceMade> simulate(const Scenario& scenario, std::uint64_t seed, const fs::path& file,
-                              const std::function<void(double)>& observer) {
-  auto simulation = Simulation::create(scenario.simulation, seed);
+                              const std::function<void(double)>& observer, int threads) {
+  auto simulation = Simulation::create(scenario.simulation, seed, threads);
   if (!simulation) return SequenceMade{false, located(scenario, simulation.error()).message};
   const std::string origin =
       fmt::format("# simulator {}, scenario {}, seed {}\n{}", simulator_version(), scenario.name,
@@ -39,12 +40,20 @@ Result<SequenceMade> simulate(const Scenario& scenario, std::uint64_t seed, cons
   if (!writer) return tl::unexpected(writer.error());
   const double expected_s = to_seconds(simulation->expected_duration());
   std::vector<Delivery> deliveries;
+  std::vector<Delivery> before;  // while the next are simulated, these are written
+  Result<void> written;
+  BackgroundTasks writes(threads);
   for (bool moving = true; moving;) {
     deliveries.clear();
     moving = simulation->advance(kStreamBatch, deliveries);
-    if (auto written = writer->write(deliveries); !written) return tl::unexpected(written.error());
+    writes.wait();
+    if (!written) return tl::unexpected(written.error());
+    std::swap(before, deliveries);
+    writes.add([&] { written = writer->write(before); });
     if (observer) observer(std::min(1.0, to_seconds(simulation->now()) / expected_s));
   }
+  writes.wait();
+  if (!written) return tl::unexpected(written.error());
   if (auto done = writer->finish(simulation->truth()); !done) return tl::unexpected(done.error());
   return SequenceMade{true, std::nullopt};
 }
@@ -67,9 +76,10 @@ std::vector<CachedSequence> sequences_in(const fs::path& folder) {
     sequence.used = entry.last_write_time(code);
     if (!code) sequences.push_back(std::move(sequence));
   }
-  std::sort(sequences.begin(), sequences.end(), [](const CachedSequence& a, const CachedSequence& b) {
-    return std::tie(a.used, a.file) < std::tie(b.used, b.file);
-  });
+  std::sort(sequences.begin(), sequences.end(),
+            [](const CachedSequence& a, const CachedSequence& b) {
+              return std::tie(a.used, a.file) < std::tie(b.used, b.file);
+            });
   return sequences;
 }
 
@@ -109,7 +119,8 @@ bool SequenceCache::has(const std::string& id) const {
 }
 
 Result<SequenceMade> SequenceCache::make(const Scenario& scenario, std::uint64_t seed,
-                                         const std::function<void(double)>& observer) const {
+                                         const std::function<void(double)>& observer,
+                                         int threads) const {
   const std::string id = id_of(scenario, seed);
   if (has(id)) return SequenceMade{};
   std::error_code code;
@@ -122,7 +133,7 @@ Result<SequenceMade> SequenceCache::make(const Scenario& scenario, std::uint64_t
   }
   if (has(id)) return SequenceMade{};
   clear_remains(file_of(id));
-  auto made = simulate(scenario_of_seed(scenario, seed), seed, file_of(id), observer);
+  auto made = simulate(scenario_of_seed(scenario, seed), seed, file_of(id), observer, threads);
   fs::remove(folder_ / (id + ".lock"), code);
   return made;
 }

@@ -47,9 +47,11 @@ class SequenceCache {
 
   /// Simulates the sequence unless it is there. While another process makes it, waits. What cannot be
   /// simulated (robot in a wall, no path) is refused; error when the folder cannot be written.
-  /// `observer` is called with the part that is simulated, in [0, 1].
+  /// `observer` is called with the part that is simulated, in [0, 1]. The file does not depend on
+  /// `threads`: with more than one, scans are cast and the file is written while the robot walks on.
   Result<SequenceMade> make(const Scenario& scenario, std::uint64_t seed,
-                            const std::function<void(double)>& observer = {}) const;
+                            const std::function<void(double)>& observer = {},
+                            int threads = 1) const;
 
   /// Keeps the sequence from being pruned, by any process, as long as the lock lives, and notes that it
   /// was used now. Nothing when it is not there.

@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kThreads = 2;  ///< the recording does not depend on it
+
 /// Puts the simulation's three outputs into one bag, in order of time within a batch.
 class Recorder {
  public:
@@ -131,7 +133,7 @@ Result<RecordOutcome> record(const Scenario& given, const RecordOptions& options
   const auto format = format_of_new(options.bag);
   if (!format) return tl::unexpected(format.error());
   const Scenario scenario = scenario_of_seed(given, options.seed);
-  auto simulation = Simulation::create(scenario.simulation, options.seed);
+  auto simulation = Simulation::create(scenario.simulation, options.seed, kThreads);
   if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
   const auto partial = begin_recording(path_of_new(options.bag), options.overwrite);
   if (!partial) return tl::unexpected(partial.error());

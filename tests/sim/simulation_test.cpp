@@ -25,8 +25,9 @@ struct Recording {
   SensorRig rig;
 };
 
-Recording record(const SimulationConfig& config, std::uint64_t seed, Duration span = kSecond) {
-  Simulation simulation = Simulation::create(config, seed).value();
+Recording record(const SimulationConfig& config, std::uint64_t seed, Duration span = kSecond,
+                 int threads = 1) {
+  Simulation simulation = Simulation::create(config, seed, threads).value();
   Recording result;
   while (simulation.advance(span, result.deliveries)) {
   }
@@ -96,6 +97,46 @@ TEST(Simulation, SameSeedGivesTheSameBytesWhateverTheSpan) {
   EXPECT_EQ(bytes_of<LidarScanPtr>(once), bytes_of<LidarScanPtr>(again));
   EXPECT_EQ(once.truth.snapshots.back().qpos, again.truth.snapshots.back().qpos);
   EXPECT_NE(bytes_of<ImuSample>(once), bytes_of<ImuSample>(record(short_walk(), 8)));
+}
+
+/// Everything that a scan's cast puts somewhere.
+std::string scan_bytes_of(const Recording& recording) {
+  std::string bytes = bytes_of<LidarScanPtr>(recording);
+  const auto append = [&bytes](const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  };
+  for (const Delivery& delivery : recording.deliveries) {
+    const auto* scan = std::get_if<LidarScanPtr>(&delivery.measurement);
+    if (scan == nullptr) continue;
+    append(&(*scan)->stamp, sizeof(Time));
+    append(&(*scan)->end, sizeof(Time));
+    for (const LidarPoint& point : (*scan)->points) append(&point.intensity, sizeof(float));
+  }
+  for (const ScanInformation& scan : recording.truth.scans) {
+    append(&scan.stamp, sizeof(Time));
+    append(scan.information.data(), 36 * sizeof(double));
+    append(&scan.range_sigma, sizeof(double));
+  }
+  return bytes;
+}
+
+TEST(Simulation, TheBytesDoNotDependOnTheThreads) {
+  SimulationConfig plain = short_walk();
+  SimulationConfig lossy = plain;  // scans that are lost, come twice, late, and with other stamps
+  lossy.links.lidar.loss = 0.3;
+  lossy.links.lidar.duplicate_probability = 0.3;
+  lossy.links.lidar.delay = 0.35;
+  lossy.links.lidar.jitter = 0.2;
+  lossy.links.lidar.stamp_jitter = 0.01;
+  for (const SimulationConfig& config : {plain, lossy}) {
+    const Recording one = record(config, 7, kSecond);
+    const Recording two = record(config, 7, 400 * kMillisecond, 2);
+    EXPECT_GT(bytes_of<LidarScanPtr>(one).size(), 100'000U);
+    EXPECT_EQ(scan_bytes_of(one), scan_bytes_of(two));
+    EXPECT_EQ(bytes_of<ImuSample>(one), bytes_of<ImuSample>(two));
+    EXPECT_EQ(bytes_of<LegOdometrySample>(one), bytes_of<LegOdometrySample>(two));
+    EXPECT_EQ(one.truth.samples.size(), two.truth.samples.size());
+  }
 }
 
 TEST(Simulation, StartsNearTheFirstPointWithAnOffsetPerSeed) {

@@ -96,6 +96,15 @@ TEST_F(SequenceFile, ReadsBackEveryDeliveryBitForBit) {
   EXPECT_GT(scans, 20U);
 }
 
+TEST_F(SequenceFile, DoesNotDependOnTheThreads) {
+  const SequenceCache other(folder_.path());
+  ASSERT_TRUE(other.make(short_walk(), 1, {}, 2));
+  const auto one = read_file(file());
+  const auto two = read_file(other.file_of(SequenceCache::id_of(short_walk(), 1)));
+  ASSERT_TRUE(one && two);
+  EXPECT_TRUE(*one == *two);
+}
+
 TEST_F(SequenceFile, ReadsBackTheTruthBitForBit) {
   auto simulation = Simulation::create(short_walk().simulation, 1);
   ASSERT_TRUE(simulation);
