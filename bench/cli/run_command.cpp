@@ -54,10 +54,10 @@ void print_health(const SuiteCase& each) {
 }
 
 /// Draws the runs; a picture that cannot be drawn is a warning: the results are there.
-void draw(const std::vector<fs::path>& folders, bool quiet) {
-  DrawDisplay display(quiet);
+void draw(const std::vector<fs::path>& folders, const SharedOptions& shared) {
+  DrawDisplay display(shared.quiet);
   for (const fs::path& folder : folders) {
-    const auto drawn = draw_run(folder, display.observer());
+    const auto drawn = draw_run(folder, display.observer(), shared.jobs);
     if (!drawn) print_out("warning: {}\n", drawn.error().message);
   }
 }
@@ -79,7 +79,7 @@ int run_command(const RunArguments& arguments) {
   }
   const fs::path& out = options->jobs.out;
   if (auto written = write_runs(*suite, out); !written) return bad_input("run", written.error());
-  if (!arguments.no_pictures) draw(run_folders(*suite, out), shared.quiet);
+  if (!arguments.no_pictures) draw(run_folders(*suite, out), shared);
   if (!each.runs.empty()) {
     print_out("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
               to_text(score_table(each.runs)));

@@ -69,7 +69,8 @@ Result<void> write_map_and_optimized(const EstimatorOutcome& outcome, const fs::
   return written;
 }
 
-Result<EstimatorOutcome> read_estimator(const fs::path& folder, const std::string& name) {
+Result<EstimatorOutcome> read_estimator(const fs::path& folder, const std::string& name,
+                                        const EstimatorParts& parts) {
   EstimatorOutcome outcome;
   outcome.name = name;
   auto trajectory = read_tum(folder / (name + ".tum"), PoseRules::kAsGiven);
@@ -80,11 +81,13 @@ Result<EstimatorOutcome> read_estimator(const fs::path& folder, const std::strin
     if (!optimized) return tl::unexpected(optimized.error());
     outcome.result.optimized = std::move(*optimized);
   }
-  auto diagnostics = read_diagnostics(folder / (name + ".diagnostics.csv"));
-  if (!diagnostics) return tl::unexpected(diagnostics.error());
-  outcome.result.diagnostics = std::move(*diagnostics);
+  if (parts.diagnostics) {
+    auto diagnostics = read_diagnostics(folder / (name + ".diagnostics.csv"));
+    if (!diagnostics) return tl::unexpected(diagnostics.error());
+    outcome.result.diagnostics = std::move(*diagnostics);
+  }
   const fs::path map = folder / (name + ".map.ply");
-  if (!fs::exists(map)) return outcome;
+  if (!parts.map || !fs::exists(map)) return outcome;
   auto points = read_ply(map);
   if (!points) return tl::unexpected(points.error());
   outcome.map = std::move(*points);

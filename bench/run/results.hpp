@@ -43,9 +43,15 @@ Result<void> write_estimator(const EstimatorOutcome& outcome, const std::filesys
 Result<void> write_map_and_optimized(const EstimatorOutcome& outcome,
                                      const std::filesystem::path& folder, const std::string& name);
 
+/// Of those files, what is read besides the trajectories.
+struct EstimatorParts {
+  bool diagnostics = true;
+  bool map = true;
+};
+
 /// Reads those files but for the health; the outcome has no scores.
 Result<EstimatorOutcome> read_estimator(const std::filesystem::path& folder,
-                                        const std::string& name);
+                                        const std::string& name, const EstimatorParts& parts = {});
 
 /// Endings of those files, with their dots.
 inline constexpr const char* kEstimatorFiles[] = {".tum", kOptimizedEnding, ".map.ply",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "bench/run/results.hpp"
@@ -17,6 +18,7 @@
 #include "render/plots/map_grid.hpp"
 #include "render/plots/trajectory_plot.hpp"
 #include "render/results/estimator_pictures.hpp"
+#include "render/results/picture_list.hpp"
 #include "render/scene/robot_pictures.hpp"
 #include "sim/environment/scene_config.hpp"
 #include "sim/robot/robot_config.hpp"
@@ -40,7 +42,10 @@ struct DrawnRun {
   std::string subtitle;
 };
 
-Result<DrawnRun> read_run(const fs::path& folder) {
+/// What is read of an estimator.
+using PartsOf = std::function<EstimatorParts(const std::string& label)>;
+
+Result<DrawnRun> read_run(const fs::path& folder, const PartsOf& parts_of) {
   auto scenario = load_scenario(folder / "config.yaml", {});
   if (!scenario) return tl::unexpected(scenario.error());
   DrawnRun run;
@@ -61,7 +66,7 @@ Result<DrawnRun> read_run(const fs::path& folder) {
   run.snapshots = std::move(*snapshots);
   for (const std::string& label : labels_of(run.scenario.run)) {
     if (!fs::exists(folder / (label + ".tum"))) continue;  // it failed
-    auto estimator = read_estimator(folder, label);
+    auto estimator = read_estimator(folder, label, parts_of(label));
     if (!estimator) return tl::unexpected(estimator.error());
     run.estimators.push_back(std::move(*estimator));
   }
@@ -134,30 +139,26 @@ Result<void> draw_first_degeneracy(const DrawnRun& run, const fs::path& folder) 
 
 }  // namespace
 
-Result<void> draw_run(const fs::path& folder, const DrawObserver& observer) {
-  const auto run = read_run(folder);
+Result<void> draw_run(const fs::path& folder, const DrawObserver& observer, int threads) {
+  const auto run = read_run(folder, [](const std::string&) { return EstimatorParts{}; });
   if (!run) return tl::unexpected(run.error());
-  announce(observer, folder / "robot_start.png");
-  auto drawn = draw_robot(*run, folder);
-  if (drawn) {
-    announce(observer, folder / "trajectories.png");
-    drawn = draw_trajectories(*run, folder / "trajectories.png");
+  const fs::path trajectories = folder / "trajectories.png";
+  std::vector<Picture> pictures = {
+      {folder / "robot_start.png", [&] { return draw_robot(*run, folder); }},
+      {trajectories, [&] { return draw_trajectories(*run, trajectories); }},
+      {folder / "degeneracy.png", [&] { return draw_first_degeneracy(*run, folder); }}};
+  for (const EstimatorOutcome& each : run->estimators) {
+    pictures.push_back({folder / (each.name + "-map-top.png"),
+                        [&] { return draw_map(run->scenario.name, each, folder); }});
   }
-  if (drawn) {
-    announce(observer, folder / "degeneracy.png");
-    drawn = draw_first_degeneracy(*run, folder);
-  }
-  for (const EstimatorOutcome& outcome : run->estimators) {
-    if (!drawn) break;
-    announce(observer, folder / (outcome.name + "-map-top.png"));
-    drawn = draw_map(run->scenario.name, outcome, folder);
-  }
-  return drawn;
+  return draw_all(pictures, threads, observer);
 }
 
 Result<void> draw_systems(const fs::path& folder, const std::vector<std::string>& maps,
                           const fs::path& out, const DrawObserver& observer) {
-  const auto run = read_run(folder);
+  const auto run = read_run(folder, [&maps](const std::string& label) {
+    return EstimatorParts{.diagnostics = false, .map = std::ranges::count(maps, label) > 0};
+  });
   if (!run) return tl::unexpected(run.error());
   const fs::path trajectories = out / (run->scenario.name + "-trajectories.png");
   announce(observer, trajectories);

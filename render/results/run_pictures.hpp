@@ -12,8 +12,9 @@ namespace aims {
 
 /// Draws a run into its folder (bench/studies/run_folder.hpp): the robot along the route, each
 /// estimator's map from above and from the side, every trajectory over the plan, and the degeneracy
-/// index over time.
-Result<void> draw_run(const std::filesystem::path& folder, const DrawObserver& observer = {});
+/// index over time; on two threads when `threads` is more than one.
+Result<void> draw_run(const std::filesystem::path& folder, const DrawObserver& observer = {},
+                      int threads = 1);
 
 /// Draws the run in `folder` as the paper does: NAME-trajectories.png with every estimator, and
 /// NAME-maps.png with the maps of those estimators of `maps` that ran, side by side. NAME is the

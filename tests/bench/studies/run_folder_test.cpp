@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 
 #include "core/files/tum.hpp"
 #include "render/results/run_pictures.hpp"
@@ -56,6 +57,50 @@ TEST(RunFolder, HoldsEveryFileAndPicture) {
         "max_error_m", "success", "time_per_scan_ms", "cpu_per_scan_ms"}) {
     EXPECT_TRUE(scores["estimators"]["aims"].contains(key)) << key;
   }
+}
+
+TEST(RunFolder, ThePicturesDoNotDependOnTheThreads) {
+  const TemporaryFolder temporary;
+  const fs::path out = temporary.path() / "run";
+  ASSERT_TRUE(run(short_walk(), {1}, out));
+  ASSERT_TRUE(draw_run(out, {}, 1));
+  std::map<fs::path, std::string> drawn;
+  for (const fs::path& picture : pictures_in(out)) drawn[picture] = read_file(picture).value();
+  ASSERT_GE(drawn.size(), 7U);
+  std::vector<fs::path> announced;
+  ASSERT_TRUE(draw_run(
+      out, [&](const fs::path& file) { announced.push_back(file); }, 2));
+  for (const auto& [picture, bytes] : drawn) {
+    EXPECT_TRUE(read_file(picture).value() == bytes) << picture;
+  }
+  EXPECT_EQ(announced.front(), out / "robot_start.png");
+}
+
+TEST(RunFolder, APictureThatCannotBeDrawnIsNamedOnAnyNumberOfThreads) {
+  const TemporaryFolder temporary;
+  const fs::path out = temporary.path() / "run";
+  ASSERT_TRUE(run(short_walk(), {1}, out));
+  fs::create_directories(out / "trajectories.png" / "in the way");
+  for (const int threads : {1, 2}) {
+    const auto drawn = draw_run(out, {}, threads);
+    ASSERT_FALSE(drawn);
+    EXPECT_NE(drawn.error().message.find("trajectories.png"), std::string::npos);
+  }
+}
+
+TEST(RunFolder, ThePapersPicturesReadOnlyWhatTheyShow) {
+  const TemporaryFolder temporary;
+  const fs::path out = temporary.path() / "run";
+  ASSERT_TRUE(run(short_walk(), {1}, out));
+  ASSERT_TRUE(fs::exists(out / "aims.map.ply"));
+  std::ofstream(out / "aims.diagnostics.csv") << "not read";
+  ASSERT_TRUE(draw_systems(out, {"aims"}, temporary.path()));
+  EXPECT_TRUE(fs::exists(temporary.path() / "short_walk-trajectories.png"));
+  EXPECT_TRUE(fs::exists(temporary.path() / "short_walk-maps.png"));
+  fs::remove(out / "aims.map.ply");
+  std::ofstream(out / "aims.map.ply") << "not read either";
+  EXPECT_TRUE(draw_systems(out, {"leg"}, temporary.path()));
+  EXPECT_FALSE(draw_systems(out, {"aims"}, temporary.path()));
 }
 
 TEST(RunFolder, HoldsTheReoptimizedTrajectoryOfAnEstimatorThatHasOne) {
