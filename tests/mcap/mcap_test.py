@@ -5,10 +5,7 @@ import os
 import re
 import signal
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
 import genpy
 import rosbag
@@ -17,8 +14,7 @@ import yaml
 import sample_bag
 from cdr import CdrReader, parse_schema
 from mcap_file import McapFile
-
-AIMS, SCRIPTS = None, None
+from program_test import GIVEN, ProgramTest, aims, main, poses_of, simulate
 
 # As in ROS 2's common_interfaces and geometry2; constants and comments left out.
 ROS2_FIELDS = {
@@ -54,32 +50,15 @@ ROS2_FIELDS = {
 }
 
 
-def aims(*arguments):
-    return subprocess.run([AIMS, *arguments], capture_output=True, text=True, check=False)
-
-
 def convert(bag, output, *options):
     return aims("convert", bag, "--out", output, *options)
 
 
 def script(name, *arguments):
-    run = subprocess.run(["node", os.path.join(SCRIPTS, name), *arguments], capture_output=True,
+    run = subprocess.run(["node", os.path.join(GIVEN[1], name), *arguments], capture_output=True,
                          text=True, check=False)
     assert (run.returncode, run.stderr) == (0, ""), run.stderr
     return run.stdout
-
-
-def poses_of(recording, folder):
-    """The bytes of every trajectory that estimators make of a recording."""
-    out = tempfile.mkdtemp(dir=folder)
-    run = aims("estimate", recording, "--estimators", "aims_d,leg", "--no-pictures", "--no-page",
-               "--quiet", "--overwrite", "--out", out)
-    assert run.returncode == 0, run.stderr + run.stdout
-    poses = {}
-    for name in ("aims_d", "leg", "truth"):
-        with open(os.path.join(out, name + ".tum"), "rb") as stream:
-            poses[name] = stream.read()
-    return poses
 
 
 def as_ros2(message):
@@ -130,21 +109,14 @@ def check_messages(test, mcap, written):
             test.assertEqual(message.publish_time, record_time, topic)
 
 
-class Sample(unittest.TestCase):
+class Sample(ProgramTest):
     maxDiff = None
 
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.bag = os.path.join(cls.folder.name, "run.bag")
+        super().setUpClass()
+        cls.bag = cls.path("run.bag")
         cls.written = sample_bag.write(cls.bag, "none")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
 
     def left_over(self):
         return [name for name in os.listdir(self.folder.name) if "partial" in name]
@@ -154,7 +126,7 @@ class Conversion(Sample):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        output = os.path.join(cls.folder.name, "run.mcap")
+        output = cls.path("run.mcap")
         cls.done = convert(cls.bag, output)
         assert cls.done.returncode == 0, cls.done.stderr
         cls.mcap = McapFile(output)  # checks lengths, checksums, indexes and statistics
@@ -226,28 +198,14 @@ class Conversion(Sample):
             self.assertEqual(McapFile(again).messages, self.mcap.messages)
 
 
-class SimulatedRecording(unittest.TestCase):
+class SimulatedRecording(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.bag = cls.simulate("walk.bag")
-        cls.mcap = cls.simulate("walk.mcap", "--compression", "zstd")
-        cls.poses = poses_of(cls.bag, cls.folder.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.folder.name, name)
-
-    @classmethod
-    def simulate(cls, name, *options):
+        super().setUpClass()
         scenario = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stand.yaml")
-        run = aims("simulate", scenario, "--out", cls.path(name), "--quiet", *options)
-        assert run.returncode == 0, run.stderr
-        return cls.path(name)
+        cls.bag = simulate(scenario, cls.path("walk.bag"))
+        cls.mcap = simulate(scenario, cls.path("walk.mcap"), "--compression", "zstd")
+        cls.poses = poses_of(cls.bag, cls.folder.name)
 
     def test_every_message_is_there_with_its_times_and_exact_values(self):
         output = self.path("converted.mcap")
@@ -278,16 +236,10 @@ class SimulatedRecording(unittest.TestCase):
 
 class BadInput(Sample):
     def fails(self, expected, *arguments):
-        run = convert(*arguments)
-        self.assertEqual((run.returncode, run.stdout), (2, ""), run.stderr)
-        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
-        self.assertIn(expected, run.stderr)
+        bag, output, *options = arguments
+        run = self.refuse(expected, "convert", bag, "--out", output, *options)
+        self.assertEqual(run.stdout, "")
         self.assertEqual(self.left_over(), [])
-
-    def put(self, name, data):
-        with open(self.path(name), "wb") as stream:
-            stream.write(data)
-        return self.path(name)
 
     def bytes_of_bag(self):
         with open(self.bag, "rb") as stream:
@@ -336,7 +288,7 @@ class BadInput(Sample):
     def test_interruption_leaves_nothing(self):
         bag, output = self.path("long.bag"), self.path("long.mcap")
         sample_bag.write(bag, "none", seconds=10, points=20000)
-        with subprocess.Popen([AIMS, "convert", bag, "--out", output], stdout=subprocess.PIPE,
+        with subprocess.Popen([GIVEN[0], "convert", bag, "--out", output], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE) as run:
             while not self.left_over():
                 self.assertIsNone(run.poll())
@@ -349,5 +301,4 @@ class BadInput(Sample):
 
 
 if __name__ == "__main__":
-    AIMS, SCRIPTS = sys.argv[1:3]
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    main(given=2)

@@ -27,4 +27,4 @@ if [[ ! "$work/node_modules/.package-lock.json" -nt "$work/package-lock.json" ]]
     exit 1
   fi
 fi
-PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$tests/mcap_test.py" "$3" "$work"
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$1/tests/support" /usr/bin/python3 "$tests/mcap_test.py" "$3" "$work"

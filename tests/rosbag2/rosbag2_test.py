@@ -5,22 +5,13 @@ import os
 import signal
 import sqlite3
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
 import yaml
 
 from mcap_file import McapFile
+from program_test import GIVEN, ProgramTest, aims, main, poses_of, simulate
 from rosbag2_folder import write_db3, write_forms, write_metadata, zstd
-
-AIMS, SCENARIO = None, None
-
-
-def aims(*arguments, environment=None):
-    return subprocess.run([AIMS, *arguments], capture_output=True, text=True, check=False,
-                          env={**os.environ, **(environment or {})})
 
 
 def sqlite(file, statement):
@@ -28,24 +19,14 @@ def sqlite(file, statement):
                           check=True).stdout
 
 
-class Recorded(unittest.TestCase):
+class Recorded(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
+        super().setUpClass()
         for name in ("walk.bag", "walk.mcap", "walk/"):
-            run = aims("simulate", SCENARIO, "--out", cls.path(name), "--quiet", "--set",
-                       "lidar.columns=600")
-            assert run.returncode == 0, run.stderr
+            simulate(GIVEN[1], cls.path(name), "--set", "lidar.columns=600")
         cls.db3 = cls.path("walk/walk_0.db3")
         cls.mcap = McapFile(cls.path("walk.mcap"))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.folder.name, name)
 
     def rows(self):
         """[(topic, time, data)] in order of time, as Python's SQLite reads them."""
@@ -113,7 +94,7 @@ class Written(Recorded):
 
     def test_a_killed_recording_keeps_what_was_complete(self):
         partial = self.path("killed.partial/killed_0.db3")
-        with subprocess.Popen([AIMS, "simulate", SCENARIO, "--out", self.path("killed/"), "--quiet",
+        with subprocess.Popen([GIVEN[0], "simulate", GIVEN[1], "--out", self.path("killed/"), "--quiet",
                                "--set", "route.stand_before=60"]) as run:
             while not os.path.exists(partial) or os.path.getsize(partial) < 20_000_000:
                 self.assertIsNone(run.poll())
@@ -130,25 +111,13 @@ class Written(Recorded):
 
 
 class Read(Recorded):
-    def poses_of(self, recording):
-        """The bytes of every trajectory that estimators make of a recording."""
-        out = tempfile.mkdtemp(dir=self.folder.name)
-        run = aims("estimate", recording, "--estimators", "aims_d,leg", "--no-pictures", "--no-page",
-                   "--quiet", "--overwrite", "--out", out)
-        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
-        poses = {}
-        for name in ("aims_d", "leg", "truth"):
-            with open(os.path.join(out, name + ".tum"), "rb") as stream:
-                poses[name] = stream.read()
-        return poses
-
     def test_every_form_gives_the_same_trajectories(self):
-        poses = self.poses_of(self.path("walk.bag"))
+        poses = poses_of(self.path("walk.bag"), self.folder.name)
         forms = [("folder", self.path("walk")), ("file", self.db3)]
         forms += write_forms(self.folder.name, self.topics(), self.messages(), self.path("walk.mcap"))
         for form, recording in forms:
             with self.subTest(form=form):
-                self.assertEqual(self.poses_of(recording), poses)
+                self.assertEqual(poses_of(recording, self.folder.name), poses)
                 info = aims("info", recording)
                 self.assertIn(f"{len(self.mcap.messages)} messages", info.stdout)
 
@@ -166,17 +135,6 @@ class Read(Recorded):
 
 
 class Refused(Recorded):
-    def refuse(self, expected, *arguments, environment=None):
-        run = aims(*arguments, environment=environment)
-        self.assertEqual(run.returncode, 2, run.stderr + run.stdout)
-        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
-        self.assertIn(expected, run.stderr)
-
-    def put(self, name, data):
-        with open(self.path(name), "wb") as stream:
-            stream.write(data)
-        return self.path(name)
-
     def test_truncated_files_are_refused_with_and_without_recovery(self):
         with open(self.db3, "rb") as stream:
             whole = stream.read()
@@ -240,5 +198,4 @@ class Refused(Recorded):
 
 
 if __name__ == "__main__":
-    AIMS, SCENARIO = sys.argv[1:3]
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    main(given=2)

@@ -2,10 +2,9 @@
 """usage: csv_test.py AIMS SCENARIO. The recording of a walk as a table of comma-separated values."""
 
 import math
-import sys
-import unittest
 
 import unitree_test
+from program_test import aims, main
 from unitree_test import LEGS, Walk
 
 MAPPING = """file: {file}
@@ -25,11 +24,6 @@ class Table(Walk):
     test_feet_at_the_origin_are_no_legs = None
     test_info_finds_the_imu = None
     test_states_carry_the_robot_as_its_joints_do = None
-
-    def put(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as stream:
-            stream.write(text)
-        return self.path(name)
 
     def mapping(self, name, unit="ns", rates=True):
         columns = [f"{leg}{i}" for leg in LEGS for i in range(3)]
@@ -60,37 +54,34 @@ class Table(Walk):
         self.differ_by(found, low, 1e-4)  # of float32 there
         differentiated, _ = self.poses(self.table("angles", rates=False))
         self.assertLess(math.dist(differentiated[-1][1:], joints[-1][1:]), 0.15)
-        self.assertEqual(self.aims("convert", self.path("run.yaml"), "--out", self.path("run.mcap"))
+        self.assertEqual(aims("convert", self.path("run.yaml"), "--out", self.path("run.mcap"))
                          .returncode, 0)
         self.assertEqual(self.poses(self.path("run.mcap"))[0], found)
 
-    def refuse(self, mapping, expected):
-        run = self.aims("info", mapping)
-        self.assertEqual(run.returncode, 2, run.stdout)
-        self.assertIn(expected, run.stderr)
+    def refuse_table(self, mapping, expected):
+        self.refuse(expected, "info", mapping)
 
     def test_errors_name_file_row_and_column(self):
         self.put("bad.csv", "t,wx,wy,wz,ax,ay,az\n1,0,0,0,0,0,9.8\n0.5,0,0,0,0,0,9.8\n")
         columns = "gyro: [wx, wy, wz]\naccelerometer: [ax, ay, {}]\n"
-        self.refuse(self.put("a.yaml", "file: bad.csv\ntime: t\n" + columns.format("az")),
+        self.refuse_table(self.put("a.yaml", "file: bad.csv\ntime: t\n" + columns.format("az")),
                     "bad.csv: row 2: expected a time >= 1000000000 ns, found '0.5'")
-        self.refuse(self.put("b.yaml", "file: bad.csv\ntime: t\ntime_unit: s\n" +
+        self.refuse_table(self.put("b.yaml", "file: bad.csv\ntime: t\ntime_unit: s\n" +
                              columns.format("a_z")), "bad.csv: row 2")
         self.put("bad.csv", "t,wx,wy,wz,ax,ay,az\n1,0,0,0,0,0,9.8\n2,0,0,0,0,0,9.8\n")
-        self.refuse(self.put("c.yaml", "file: bad.csv\ntime: t\n" + columns.format("a_z")),
+        self.refuse_table(self.put("c.yaml", "file: bad.csv\ntime: t\n" + columns.format("a_z")),
                     "bad.csv: expected a column 'a_z', which the mapping names")
         self.put("bad.csv", "t,wx,wy,wz,ax,ay,az\n1,0,0,0,0,0,9.8\n2,0,up,0,0,0,9.8\n")
-        self.refuse(self.path("a.yaml"), "bad.csv:3: wy: expected a number, found 'up'")
-        self.refuse(self.put("d.yaml", "file: bad.csv\ngyro: [wx]\n"),
+        self.refuse_table(self.path("a.yaml"), "bad.csv:3: wy: expected a number, found 'up'")
+        self.refuse_table(self.put("d.yaml", "file: bad.csv\ngyro: [wx]\n"),
                     "d.yaml: gyro: expected 3 columns or none, found 1")
-        self.refuse(self.put("e.yaml", "file: bad.csv\ngiro: [wx]\n"), "e.yaml:2")
-        self.refuse(self.put("f.yaml", "file: gone.csv\n" + columns.format("az")), "gone.csv")
-        self.refuse(self.put("g.yaml", "file: bad.csv\ngyro: [wx, wy, wz]\n"),
+        self.refuse_table(self.put("e.yaml", "file: bad.csv\ngiro: [wx]\n"), "e.yaml:2")
+        self.refuse_table(self.put("f.yaml", "file: gone.csv\n" + columns.format("az")), "gone.csv")
+        self.refuse_table(self.put("g.yaml", "file: bad.csv\ngyro: [wx, wy, wz]\n"),
                     "expected gyro and accelerometer together")
 
 
 del Walk
 
 if __name__ == "__main__":
-    unitree_test.AIMS, unitree_test.SCENARIO = sys.argv[1:3]
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    main(given=2)

@@ -4,17 +4,14 @@
 import math
 import os
 import random
-import subprocess
-import sys
 import tempfile
-import unittest
 
 from cdr import CdrReader, parse_schema
 from mcap_file import McapFile
+from program_test import GIVEN, ProgramTest, aims, main, simulate
 from rosbag2_folder import write_db3
 from unitree_messages import FEET, low_state, sport_state
 
-AIMS, SCENARIO = None, None
 SEED = 7
 LEGS = ("FL", "FR", "RL", "RR")  # of the recorded walk
 HIP = (0.188, 0.047)
@@ -38,27 +35,13 @@ def foot_speed(leg, angles, rates):
     return [(a - b) / (2 * step) for a, b in zip(*ends)]
 
 
-class Walk(unittest.TestCase):
+class Walk(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        run = cls.aims("simulate", SCENARIO, "--out", cls.path("walk.mcap"), "--quiet", "--set",
-                       "lidar.columns=360", "--set", "route.points=[{name: a, x: 0, y: 0}, "
-                       "{name: b, x: 1.5, y: 0}]")
-        assert run.returncode == 0, run.stderr
+        super().setUpClass()
+        simulate(GIVEN[1], cls.path("walk.mcap"), "--set", "lidar.columns=360", "--set",
+                 "route.points=[{name: a, x: 0, y: 0}, {name: b, x: 1.5, y: 0}]")
         cls.read()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.folder.name, name)
-
-    @staticmethod
-    def aims(*arguments):
-        return subprocess.run([AIMS, *arguments], capture_output=True, text=True, check=False)
 
     @classmethod
     def read(cls):
@@ -123,7 +106,7 @@ class Walk(unittest.TestCase):
         out = tempfile.mkdtemp(dir=self.folder.name)
         options = [option for setting in ("recording.topics.lidar=none", *settings)
                    for option in ("--set", setting)]
-        run = self.aims("estimate", recording, "--estimators", "leg", "--no-pictures", "--no-page",
+        run = aims("estimate", recording, "--estimators", "leg", "--no-pictures", "--no-page",
                         "--overwrite", "--out", out, *options)
         self.assertIn(run.returncode, (0, 4), run.stderr + run.stdout)
         with open(os.path.join(out, "leg.tum"), encoding="utf-8") as stream:
@@ -152,7 +135,7 @@ class Walk(unittest.TestCase):
     def test_a_standing_robot_teaches_no_threshold(self):
         states = list(self.low_states())[:150]
         standing = self.write("standing.db3", "LowState", states[:60] * 3)
-        run = self.aims("estimate", standing, "--estimators", "leg", "--out", self.path("none"),
+        run = aims("estimate", standing, "--estimators", "leg", "--out", self.path("none"),
                         "--set", "recording.topics.lidar=none")
         self.assertEqual(run.returncode, 2)
         self.assertIn("field 'foot_force': no threshold of contact can be learned: F", run.stderr)
@@ -161,15 +144,14 @@ class Walk(unittest.TestCase):
         self.assertNotIn("learned", said)
 
     def test_feet_at_the_origin_are_no_legs(self):
-        run = self.aims("info", self.write("wheels.db3", "SportModeState", self.sport_states(True)),
+        run = aims("info", self.write("wheels.db3", "SportModeState", self.sport_states(True)),
                         "--set", "recording.topics.lidar=none")
         self.assertIn("foot_position_body is zero: estimators run without legs", run.stdout)
 
     def test_info_finds_the_imu(self):
-        info = self.aims("info", self.write("info.db3", "LowState", self.low_states()))
+        info = aims("info", self.write("info.db3", "LowState", self.low_states()))
         self.assertIn("IMU /state: specific force in m/s^2, orientation valid", info.stdout)
 
 
 if __name__ == "__main__":
-    AIMS, SCENARIO = sys.argv[1:3]
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    main(given=2)

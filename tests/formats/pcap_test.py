@@ -2,43 +2,22 @@
 """usage: pcap_test.py AIMS SCENARIO. Captures of LiDAR packets, against the room that they show."""
 
 import math
-import os
 import struct
-import subprocess
-import sys
 import tempfile
-import unittest
 
 from cdr import CdrReader, parse_schema
 from lidar_packets import ROOM, VLP16_ELEVATIONS, capture, vlp16_packets, write_ouster
 from mcap_file import McapFile
+from program_test import ProgramTest, aims, main
 
-AIMS = None
 START = 1_700_000_123 * 10**9 + 456_000  # near the middle of an hour
 
 
-class Captures(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-
-    def tearDown(self):
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def put(self, name, data):
-        with open(self.path(name), "wb") as stream:
-            stream.write(data)
-        return self.path(name)
-
-    def aims(self, *arguments):
-        return subprocess.run([AIMS, *arguments], capture_output=True, text=True, check=False)
-
+class Captures(ProgramTest):
     def messages(self, recording, *options):
         """{topic: [(record time, message)]} of what a capture becomes."""
         output = tempfile.mktemp(suffix=".mcap", dir=self.folder.name)
-        run = self.aims("convert", recording, "--quiet", "--out", output, *options)
+        run = aims("convert", recording, "--quiet", "--out", output, *options)
         self.assertEqual(run.returncode, 0, run.stderr)
         mcap, found = McapFile(output), {}
         for message in mcap.messages:
@@ -148,40 +127,36 @@ class Captures(unittest.TestCase):
 
     def test_an_ouster_is_estimated_with_its_own_imu_and_frames(self):
         write_ouster(self.path("os.pcap"), "RNG19_RFL8_SIG16_NIR16", frames=6)
-        info = self.aims("info", self.path("os.pcap"))
+        info = aims("info", self.path("os.pcap"))
         self.assertEqual(info.returncode, 0, info.stderr)
         self.assertNotIn("NO TRANSFORM", info.stdout)
         self.assertNotIn("not readable by aims estimate", info.stdout)
 
-    def refuse(self, expected, recording, *options):
-        run = self.aims("info", recording, *options)
-        self.assertEqual(run.returncode, 2, run.stdout)
-        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
-        self.assertIn(expected, run.stderr)
+    def refuse_capture(self, expected, recording, *options):
+        self.refuse(expected, "info", recording, *options)
 
     def test_what_is_no_such_capture_is_named(self):
         packets = vlp16_packets(START, 3)
         whole = capture(packets)
-        self.refuse("expected whole scans of a Velodyne VLP-16, found none; for an Ouster",
+        self.refuse_capture("expected whole scans of a Velodyne VLP-16, found none; for an Ouster",
                     self.put("none.pcap", capture([(START, b"hello")])))
-        self.refuse("expected packets of a VLP-16 (0x22), found model 0x28",
+        self.refuse_capture("expected packets of a VLP-16 (0x22), found model 0x28",
                     self.put("vlp32.pcap", capture(vlp16_packets(START, 1, model=0x28))))
-        self.refuse("expected 1248 bytes, but the file ends",
+        self.refuse_capture("expected 1248 bytes, but the file ends",
                     self.put("cut.pcap", whole[:-700]))
-        self.refuse("--recover reads the part before", self.path("cut.pcap"))
+        self.refuse_capture("--recover reads the part before", self.path("cut.pcap"))
         self.assertEqual(len(self.messages(self.path("cut.pcap"), "--recover")["/lidar/points"]), 2)
-        self.refuse("found pcapng: `editcap -F pcap", self.put("ng.pcap", b"\x0a\x0d\x0d\x0a" * 20))
+        self.refuse_capture("found pcapng: `editcap -F pcap", self.put("ng.pcap", b"\x0a\x0d\x0d\x0a" * 20))
         link = bytearray(whole)
         link[20] = 105
-        self.refuse("found link type 105", self.put("wifi.pcap", bytes(link)))
+        self.refuse_capture("found link type 105", self.put("wifi.pcap", bytes(link)))
         self.put("os.pcap", whole)
         self.put("os.json", b'{"beam_altitude_angles": [1, 2], "beam_azimuth_angles": [1]}')
-        self.refuse("os.json: beam_altitude_angles, beam_azimuth_angles: expected an angle of each "
+        self.refuse_capture("os.json: beam_altitude_angles, beam_azimuth_angles: expected an angle of each "
                     "beam, found 2 and 1", self.path("os.pcap"))
         self.put("os.json", b'{"udp_profile_lidar": "FUSA_RNG15_RFL8_NIR8_DUAL"}')
-        self.refuse("udp_profile_lidar: expected LEGACY", self.path("os.pcap"))
+        self.refuse_capture("udp_profile_lidar: expected LEGACY", self.path("os.pcap"))
 
 
 if __name__ == "__main__":
-    AIMS = sys.argv[1]
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    main(given=2)
