@@ -33,6 +33,16 @@ struct EstimatorResult {
   double external_cpu_s = 0.0;  ///< CPU time in another process [s]
 };
 
+/// Removes all poses, scans and health rows but the last of each, which the next ones refer to.
+inline void keep_last_rows(EstimatorResult& result) {
+  const auto keep_last = [](auto& rows) {
+    if (rows.size() > 1) rows.erase(rows.begin(), rows.end() - 1);
+  };
+  keep_last(result.trajectory);
+  keep_last(result.diagnostics.scans);
+  keep_last(result.health);
+}
+
 /// Turns a stream of deliveries into a trajectory. Never throws on data, never reads a clock.
 class Estimator {
  public:
@@ -46,6 +56,10 @@ class Estimator {
   virtual void finish() = 0;
 
   virtual const EstimatorResult& result() const = 0;
+
+  /// `keep_last_rows` of the result, for a caller that has taken them, so that memory does not grow
+  /// with the stream; an estimator that needs its own past keeps it.
+  virtual void forget_rows() {}
 
   /// Points of the local map in the odometry frame [m]; empty for an estimator without a map.
   virtual std::vector<Eigen::Vector3f> map_points() const = 0;

@@ -22,10 +22,12 @@ Result<void> EstimateLog::take(std::vector<TimedEstimator>& estimators) {
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     const EstimatorRows rows = estimators[i].rows();
     add_rows(rows, totals_[i]);
-    if (!writers_.empty()) {
-      if (auto written = writers_[i].add(rows); !written) return written;
+    if (writers_.empty()) {
+      estimators[i].pass();
+      continue;
     }
-    estimators[i].pass();
+    if (auto written = writers_[i].add(rows); !written) return written;
+    estimators[i].forget();
   }
   return {};
 }

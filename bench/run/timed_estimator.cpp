@@ -7,16 +7,6 @@
 #include "core/stopwatch.hpp"
 
 namespace aims {
-namespace {
-
-/// Scans done so far; an estimator that looks at none is measured by its poses.
-std::size_t scans_in(const EstimatorResult& report) {
-  const std::size_t scans = report.diagnostics.scans.size();
-  return scans == 0 ? report.trajectory.size() : scans;
-}
-
-}  // namespace
-
 TimedEstimator::TimedEstimator(std::string name, std::unique_ptr<Estimator> estimator)
     : name_(std::move(name)), estimator_(std::move(estimator)) {}
 
@@ -38,7 +28,7 @@ EstimatorRows TimedEstimator::rows() const {
   return {.poses = after(result.trajectory, poses_passed_),
           .series = result.diagnostics.series,
           .scans = after(result.diagnostics.scans, scans_passed_),
-          .wall_ms = after(scan_times_.wall_ms, scans_passed_),
+          .wall_ms = after(scan_times_.wall_ms, scans_forgotten_ + scans_passed_),
           .health = after(result.health, health_passed_)};
 }
 
@@ -49,10 +39,27 @@ void TimedEstimator::pass() {
   health_passed_ = result.health.size();
 }
 
+void TimedEstimator::forget() {
+  pass();
+  estimator_->forget_rows();
+  poses_forgotten_ += poses_passed_;
+  scans_forgotten_ += scans_passed_;
+  pass();
+  poses_forgotten_ -= poses_passed_;
+  scans_forgotten_ -= scans_passed_;
+}
+
+/// Scans done so far; an estimator that looks at none is measured by its poses.
+std::size_t TimedEstimator::scans_done() const {
+  const EstimatorResult& result = estimator_->result();
+  const std::size_t scans = scans_forgotten_ + result.diagnostics.scans.size();
+  return scans == 0 ? poses_forgotten_ + result.trajectory.size() : scans;
+}
+
 template <class Work>
 void TimedEstimator::timed(const Work& work) {
   const EstimatorResult& result = estimator_->result();
-  const std::size_t scans_before = scans_in(result);
+  const std::size_t scans_before = scans_done();
   const double external_before = result.external_cpu_s;
   const Stopwatch wall;
   const ThreadStopwatch cpu;
@@ -61,7 +68,7 @@ void TimedEstimator::timed(const Work& work) {
   const double seconds = wall.seconds();
   total_seconds_ += seconds;
   wall_since_scan_ += seconds;
-  const std::size_t scans = scans_in(result);
+  const std::size_t scans = scans_done();
   if (scans <= scans_before) return;
   const auto done = static_cast<double>(scans - scans_before);
   scan_times_.wall_ms.resize(scans, 1e3 * wall_since_scan_ / done);

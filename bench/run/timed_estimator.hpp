@@ -37,8 +37,11 @@ class TimedEstimator {
   EstimatorRows rows() const;
   /// Goes past the rows so far.
   void pass();
+  /// Goes past the rows so far, and has the estimator let go of them where it can.
+  void forget();
 
  private:
+  std::size_t scans_done() const;
   template <class Work>
   void timed(const Work& work);
 
@@ -51,6 +54,8 @@ class TimedEstimator {
   std::size_t poses_passed_ = 0;
   std::size_t scans_passed_ = 0;
   std::size_t health_passed_ = 0;
+  std::size_t poses_forgotten_ = 0;  ///< no longer in the result
+  std::size_t scans_forgotten_ = 0;
 };
 
 }  // namespace aims

@@ -277,12 +277,13 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 
 void EskfEstimator::fuse_ground_constraint() {
   const auto plane = fit_ground(insert_points_);
-  const auto measurement = ground_.measure(belief_, plane);
+  const Belief above_ground = with_map_error(belief_, lidar_update_.map_covariance());
+  const auto measurement = ground_.measure(above_ground, plane);
   if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];
   if (ground_.status() == GroundStatus::kSloped) ++result_.counts["ground.not_level"];
   if (!measurement) return;
   ++result_.counts["ground.used"];
-  accept(fuse_ground(belief_, *measurement));
+  accept(fuse_ground(above_ground, *measurement));
   ground_.corrected(belief_.state);
 }
 

@@ -30,6 +30,7 @@ class LegDeadReckoning : public Estimator {
   void consume(const Delivery& delivery) override;
   void finish() override;
   const EstimatorResult& result() const override { return result_; }
+  void forget_rows() override { keep_last_rows(result_); }
   std::vector<Eigen::Vector3f> map_points() const override { return {}; }
 
  private:

@@ -16,6 +16,7 @@ EskfConfig without_directional_weights() {
   config.zero_velocity.enabled = true;
   config.ground_constraint.enabled = true;
   config.robust_kernel.enabled = true;
+  config.map_covariance.enabled = true;
   return config;
 }
 
@@ -31,7 +32,6 @@ constexpr std::array kPresets = {
                [] {
                  EskfConfig config = without_directional_weights();
                  config.leg_noise.enabled = true;
-                 config.map_covariance.enabled = true;
                  config.cross_validation.enabled = true;
                  return config;
                }},

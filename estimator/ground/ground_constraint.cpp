@@ -155,6 +155,17 @@ void GroundConstraint::corrected(const NominalState& state) {
   last_height_ = tracker_.floor().z();
 }
 
+Belief with_map_error(const Belief& belief, const Eigen::Matrix3d& map_covariance) {
+  using E = ErrorState;
+  Belief widened = belief;
+  const double height = map_covariance(2, 2);
+  const double tilt = height / (kGroundRadius * kGroundRadius);
+  widened.covariance(E::kPosition.offset + 2, E::kPosition.offset + 2) += height;
+  // Roll and pitch of a body that stands about upright.
+  widened.covariance.diagonal().segment<2>(E::kRotation.offset).array() += tilt;
+  return widened;
+}
+
 Belief fuse_ground(const Belief& belief, const LinearMeasurement& measurement) {
   const Eigen::Matrix3d up = Eigen::Vector3d::UnitZ() * Eigen::Vector3d::UnitZ().transpose();
   return fuse(belief, measurement, {.legs = false, .position = up, .velocity = up});

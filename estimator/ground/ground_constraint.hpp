@@ -67,6 +67,12 @@ class GroundConstraint {
   std::optional<GroundPlane> plane_;    ///< of the last scan
 };
 
+/// The belief about height and tilt above the ground. A scan locates the body in the map, which has
+/// an error of its own: in height as `map_covariance` (3x3, odometry frame [m^2]) states, in tilt
+/// as this height error over the radius of the ground. Without it the constraint loses against
+/// scans that agree with a bent map.
+Belief with_map_error(const Belief& belief, const Eigen::Matrix3d& map_covariance);
+
 /// The belief after fusing a ground measurement: a Schmidt-Kalman update that corrects rotation,
 /// height, vertical velocity and inertial biases only. In a corridor the unobservable direction is
 /// never exactly horizontal in the covariance, and millimetres of height would otherwise move the

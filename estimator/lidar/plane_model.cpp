@@ -16,6 +16,9 @@ constexpr double kMinSpread = 0.05;
 /// Smallest ratio of the second to the smallest principal variance; docs/decisions.md.
 constexpr double kMinRatio = 10.0;
 
+/// Largest distance of a return from the mean of the points of its plane, in their deviations.
+constexpr double kMaxOffset = 1.5;
+
 /// Steps of Newton's method at most, and the step that ends it, relative to the trace.
 constexpr int kNewtonSteps = 20;
 constexpr double kNewtonTolerance = 1e-15;
@@ -60,18 +63,6 @@ SmallestEigenpair smallest_eigenpair(const Eigen::Matrix3d& A) {
 
 }  // namespace
 
-PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter) {
-  PrincipalPlane fit;
-  Plane& plane = fit.plane;
-  plane.point = mean;
-  const SmallestEigenpair smallest = smallest_eigenpair(scatter);
-  plane.normal = smallest.vector;
-  fit.variance = smallest.value;
-  plane.valid = plane.normal.allFinite() && smallest.second >= kMinSpread * kMinSpread &&
-                smallest.second >= kMinRatio * smallest.value;
-  return fit;
-}
-
 Plane fit_plane(std::span<const Eigen::Vector3f> points) {
   if (points.size() < 3) return {};
   const auto count = static_cast<double>(points.size());
@@ -84,13 +75,32 @@ Plane fit_plane(std::span<const Eigen::Vector3f> points) {
     scatter.noalias() += d * d.transpose();
   }
   scatter /= count;
-  Plane plane = principal_plane(mean, scatter).plane;
+  const SmallestEigenpair smallest = smallest_eigenpair(scatter);
+  Plane plane;
+  plane.point = mean;
+  plane.normal = smallest.vector;
+  plane.valid = plane.normal.allFinite() && smallest.second >= kMinSpread * kMinSpread &&
+                smallest.second >= kMinRatio * smallest.value;
   if (!plane.valid) return plane;
   for (const Eigen::Vector3f& p : points) {
     const double distance = plane.normal.dot(p.cast<double>() - plane.point);
     plane.thickness = std::max(plane.thickness, std::abs(distance));
   }
   return plane;
+}
+
+bool lies_among(std::span<const Eigen::Vector3f> points, const Plane& plane,
+                const Eigen::Vector3f& query) {
+  Eigen::Vector3d offset = query.cast<double>() - plane.point;
+  offset -= plane.normal.dot(offset) * plane.normal;
+  // Of the projections on `offset`, which is not of unit length.
+  double squares = 0.0;
+  for (const Eigen::Vector3f& p : points) {
+    const double along = offset.dot(p.cast<double>() - plane.point);
+    squares += along * along;
+  }
+  const double square = offset.squaredNorm();
+  return static_cast<double>(points.size()) * square * square <= kMaxOffset * kMaxOffset * squares;
 }
 
 }  // namespace aims

@@ -26,19 +26,15 @@ struct PlanePair {
   bool valid() const { return a.valid && b.valid; }
 };
 
-/// A plane and the variance of its points across it [m^2].
-struct PrincipalPlane {
-  Plane plane;
-  double variance = 0.0;
-};
-
-/// The least-squares plane of points with this mean and scatter [m^2]; valid when they spread in
-/// two directions, and much more than across the plane.
-PrincipalPlane principal_plane(const Eigen::Vector3d& mean, const Eigen::Matrix3d& scatter);
-
-/// The least-squares plane of `points`; valid when principal_plane() says so of their mean and
-/// scatter, which it does not of five points of one scan line.
+/// The least-squares plane of `points`; valid when they spread in two directions, which five points
+/// of one scan line do not, and much more than across the plane.
 Plane fit_plane(std::span<const Eigen::Vector3f> points);
+
+/// Whether `query` lies among the `points` of its plane: within 1.5 of their deviations along the
+/// direction from their mean to it. Beyond them, and where a scan sees more of a recess than the
+/// map, the plane is a guess.
+bool lies_among(std::span<const Eigen::Vector3f> points, const Plane& plane,
+                const Eigen::Vector3f& query);
 
 /// One row of the point-to-plane model.
 struct PlaneRow {

@@ -33,34 +33,34 @@ float squared_gap(float inside, float size, int offset) {
   return gap * gap;
 }
 
+/// The plane of the points; valid only when the query lies among them.
+Plane plane_among(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& query) {
+  Plane plane = fit_plane(points);
+  plane.valid = plane.valid && lies_among(points, plane, query);
+  return plane;
+}
+
 }  // namespace
 
 VoxelMap::VoxelMap(const MapConfig& config)
     : inverse_size_(static_cast<float>(1.0 / config.voxel_size)),
       size_(static_cast<float>(config.voxel_size)),
       spacing_(static_cast<float>(config.point_spacing)),
-      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {
-  for (const double edge : {2.0 * config.voxel_size, config.voxel_size}) {
-    grids_.emplace_back(edge);
-  }
-}
+      max_voxels_(static_cast<std::size_t>(std::max(config.max_voxels, 1))) {}
 
 void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& center,
                       const Eigen::Matrix3f& covariance) {
   voxels_.begin_insertion();
-  for (PlaneGrid& grid : grids_) grid.begin_insertion();
   for (const Eigen::Vector3f& point : points) {
     if (point.allFinite()) insert(point, half_, covariance);
   }
   end_insertion();
   voxels_.limit(max_voxels_,
                 [&center](const Voxel& v) { return (v.first - center).squaredNorm(); });
-  for (PlaneGrid& grid : grids_) grid.limit(max_voxels_, center);
 }
 
 /// Blocks grow from one scan, so that both halves soon have planes.
 void VoxelMap::end_insertion() {
-  for (PlaneGrid& grid : grids_) grid.end_insertion();
   if (++in_block_ < block_) return;
   in_block_ = 0;
   half_ = 1 - half_;
@@ -68,18 +68,14 @@ void VoxelMap::end_insertion() {
 }
 
 PlanePair VoxelMap::planes_at(const Eigen::Vector3f& query) const {
-  for (const PlaneGrid& grid : grids_) {
-    const PlanePair planes = grid.planes_at(query);
-    if (planes.valid()) return planes;
-  }
   std::array<Neighbors, kHalves> neighbors;
   nearest(query, neighbors);
   for (const Neighbors& half : neighbors) {
     if (half.count < Neighbors::kWanted) return {};
   }
   PlanePair planes;
-  planes.a = fit_plane(neighbors[0].points);
-  if (planes.a.valid) planes.b = fit_plane(neighbors[1].points);
+  planes.a = plane_among(neighbors[0].points, query);
+  if (planes.a.valid) planes.b = plane_among(neighbors[1].points, query);
   return planes;
 }
 
@@ -92,7 +88,6 @@ void VoxelMap::insert(const Eigen::Vector3f& point, std::size_t half,
     voxel.covariance = covariance;
   }
   insert(point, voxel.halves[half]);
-  for (PlaneGrid& grid : grids_) grid.insert(point, half);
 }
 
 Eigen::Vector3f VoxelMap::Half::point(int i) const {
@@ -196,11 +191,7 @@ int VoxelMap::nearest(const Eigen::Vector3f& query,
   return static_cast<int>(count);
 }
 
-std::size_t VoxelMap::memory() const {
-  std::size_t bytes = voxels_.memory();
-  for (const PlaneGrid& grid : grids_) bytes += grid.memory();
-  return bytes;
-}
+std::size_t VoxelMap::memory() const { return voxels_.memory(); }
 
 std::vector<Eigen::Vector3f> VoxelMap::points() const {
   std::vector<Eigen::Vector3f> all;

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "estimator/lidar/lidar_config.hpp"
-#include "estimator/lidar/plane_grid.hpp"
 #include "estimator/lidar/plane_model.hpp"
 #include "estimator/lidar/voxel_store.hpp"
 
@@ -86,8 +85,8 @@ class VoxelMap {
   /// voxels it took.
   int nearest(const Eigen::Vector3f& query, std::array<Neighbors, kHalves>& neighbors) const;
 
-  /// The planes at `query`: of the largest cell around it whose returns lie on one in both halves,
-  /// else through the five nearest points of each half; invalid without them.
+  /// The planes at `query`, through the five nearest points of each half; invalid where these are
+  /// fewer, span no plane, or lie beside the query.
   PlanePair planes_at(const Eigen::Vector3f& query) const;
 
   /// Memory that the map holds [bytes].
@@ -146,7 +145,6 @@ class VoxelMap {
   int in_block_ = 0;      ///< insertions in the present block
   int block_ = 1;         ///< its length
   VoxelStore<Voxel> voxels_;
-  std::vector<PlaneGrid> grids_;  ///< coarse to fine
 };
 
 }  // namespace aims

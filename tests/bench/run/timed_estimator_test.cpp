@@ -42,5 +42,57 @@ TEST(TimedEstimator, CountsWaitingAsWallTimeAndNotAsProcessorTime) {
   }
 }
 
+/// Has a pose, a scan and a row of health per delivery, and keeps the last ones.
+class ForgetfulEstimator : public Estimator {
+ public:
+  ForgetfulEstimator() { result_.diagnostics.series = {{"number", "-", "of the scan"}}; }
+  void consume(const Delivery& delivery) override {
+    result_.trajectory.push_back({delivery.arrival, Pose()});
+    result_.diagnostics.scans.push_back({delivery.arrival, std::nullopt, {1.0 * ++count_}});
+    result_.health.push_back({delivery.arrival, HealthState::kHealthy, {}, 0.0});
+  }
+  void finish() override {}
+  const EstimatorResult& result() const override { return result_; }
+  void forget_rows() override { keep_last_rows(result_); }
+  std::vector<Eigen::Vector3f> map_points() const override { return {}; }
+
+ private:
+  EstimatorResult result_;
+  int count_ = 0;
+};
+
+TEST(TimedEstimator, HandsOutEachRowOnceWhetherTheEstimatorForgetsThemOrNot) {
+  for (const bool forgets : {false, true}) {
+    TimedEstimator timed("forgetful", std::make_unique<ForgetfulEstimator>());
+    Time next = 0;
+    std::vector<double> numbers;
+    std::size_t poses = 0;
+    std::size_t health = 0;
+    for (const std::size_t count : {3U, 0U, 1U, 4U}) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const Delivery delivery = {next += kSecond, {}};
+        timed.consume({&delivery, 1});
+      }
+      const EstimatorRows rows = timed.rows();
+      for (const ScanRow& scan : rows.scans) numbers.push_back(scan.values[0]);
+      EXPECT_EQ(rows.wall_ms.size(), rows.scans.size());
+      poses += rows.poses.size();
+      health += rows.health.size();
+      if (forgets) {
+        timed.forget();
+        EXPECT_EQ(timed.estimator().result().trajectory.size(), 1U);
+        EXPECT_EQ(timed.estimator().result().diagnostics.scans.size(), 1U);
+        EXPECT_EQ(timed.estimator().result().health.size(), 1U);
+      } else {
+        timed.pass();
+      }
+    }
+    EXPECT_EQ(numbers, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
+    EXPECT_EQ(poses, 8U);
+    EXPECT_EQ(health, 8U);
+    EXPECT_EQ(timed.scan_times().wall_ms.size(), 8U);
+  }
+}
+
 }  // namespace
 }  // namespace aims

@@ -99,5 +99,37 @@ TEST(PlaneModel, RejectsIdenticalPoints) {
   EXPECT_FALSE(fit_plane(points).valid);
 }
 
+// Wall points on either side of what a near edge hides, and a return from the hidden part: it lies
+// among them. One beyond the last of them does not.
+TEST(PlaneModel, AReturnLiesAmongThePointsOfItsPlaneOrBesideThem) {
+  const std::vector<Eigen::Vector3f> points = {{-0.2F, -0.2F, 0.0F},
+                                               {-0.2F, 0.2F, 0.0F},
+                                               {0.2F, -0.2F, 0.0F},
+                                               {0.2F, 0.2F, 0.0F},
+                                               {0.0F, 0.0F, 0.0F}};
+  const Plane plane = fit_plane(points);
+  ASSERT_TRUE(plane.valid);
+  // The deviation along x, and along y, is 0.2 m sqrt(4/5) = 0.179 m; height does not count.
+  for (const float height : {0.0F, 1.0F, -3.0F}) {
+    EXPECT_TRUE(lies_among(points, plane, {0.0F, 0.0F, height}));
+    EXPECT_TRUE(lies_among(points, plane, {0.26F, 0.0F, height}));
+    EXPECT_FALSE(lies_among(points, plane, {0.28F, 0.0F, height}));
+    EXPECT_FALSE(lies_among(points, plane, {0.0F, -0.28F, height}));
+  }
+}
+
+// Points in a strip: the limit follows the direction.
+TEST(PlaneModel, TheLimitOfAReturnFollowsTheSpreadOfThePoints) {
+  const std::vector<Eigen::Vector3f> points = {{-1.0F, 0.06F, 0.0F},
+                                               {-0.5F, -0.06F, 0.0F},
+                                               {0.0F, 0.06F, 0.0F},
+                                               {0.5F, -0.06F, 0.0F},
+                                               {1.0F, 0.0F, 0.0F}};
+  const Plane plane = fit_plane(points);
+  ASSERT_TRUE(plane.valid);
+  EXPECT_TRUE(lies_among(points, plane, {1.0F, 0.0F, 0.0F}));
+  EXPECT_FALSE(lies_among(points, plane, {0.0F, 0.3F, 0.0F}));
+}
+
 }  // namespace
 }  // namespace aims
