@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/time.hpp"
+
 namespace aims {
 
 /// The bytes as valid UTF-8: what is not UTF-8 becomes \xNN, so that a name stays recognizable.
@@ -20,5 +22,8 @@ std::string name_text(std::string_view bytes);
 /// control characters become \xNN, words of more than 511 bytes their first 80 and the length,
 /// and of a message of more than 4000 bytes the middle is left out.
 std::string line_text(std::string_view message);
+
+/// Seconds with nine decimals, which keep the nanoseconds exactly.
+std::string stamp_text(Time stamp);
 
 }  // namespace aims

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/files/number_lines.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {

@@ -97,13 +97,4 @@ std::optional<Time> parse_stamp(std::string_view word) {
   return from_seconds(*number);
 }
 
-std::string stamp_text(Time stamp) {
-  const bool negative = stamp < 0;
-  // Negated as unsigned, so that the smallest integer has a magnitude too.
-  const auto magnitude = negative ? std::uint64_t{0} - static_cast<std::uint64_t>(stamp)
-                                  : static_cast<std::uint64_t>(stamp);
-  const auto second = static_cast<std::uint64_t>(kSecond);
-  return fmt::format("{}{}.{:09}", negative ? "-" : "", magnitude / second, magnitude % second);
-}
-
 }  // namespace aims

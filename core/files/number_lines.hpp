@@ -47,7 +47,4 @@ std::optional<double> parse_number(std::string_view word, bool finite = true);
 /// notations (exponents, more digits) are rounded to the nearest nanosecond.
 std::optional<Time> parse_stamp(std::string_view word);
 
-/// Seconds with nine decimals, which keep the nanoseconds exactly.
-std::string stamp_text(Time stamp);
-
 }  // namespace aims

@@ -9,6 +9,7 @@
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {

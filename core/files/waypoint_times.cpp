@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/files/number_lines.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {

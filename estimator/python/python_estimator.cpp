@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t kMaxWaiting = 2'000;
 /// Deviation of R^T R from identity up to which a matrix is taken for a rotation, as in files.
 constexpr double kRotationTolerance = 1e-3;
+constexpr std::string_view kCallTimeoutKey = "call_timeout";
+constexpr std::string_view kCodeHashKey = "code_hash";
 
 enum class Event : std::uint8_t { kImu = 1, kLegs = 2, kScan = 3 };
 
@@ -30,14 +32,15 @@ std::pair<std::string, std::string> parts_of(std::string_view name) {
 }
 
 /// Starts a process and imports the class; yields what it says of it.
-Result<std::vector<std::byte>> greet(PythonProcess& process, std::string_view name) {
+Result<std::vector<std::byte>> greet(PythonProcess& process, std::string_view name,
+                                     double limit_s) {
   if (auto started = process.start(); !started) return tl::unexpected(started.error());
   const auto [module, kind] = parts_of(name);
   MessageBytes hello;
   for (const std::string& text : {std::to_string(kPythonProtocol), module, kind}) {
     hello.add_text(text);
   }
-  return process.ask(PythonRequest::kHello, hello.bytes());
+  return process.ask(PythonRequest::kHello, hello.bytes(), limit_s);
 }
 
 /// Measurements on their way to the process, sorted by kind, and their order.
@@ -66,7 +69,7 @@ class Batch {
     for (const bool value : sample.contact) legs_.add(value ? 1.0 : 0.0);
   }
 
-  void add(Time arrival, const LidarScan& scan, const SharedPoints::Part& part) {
+  void add(Time arrival, const LidarScan& scan, const SharedMemory::Part& part) {
     order_.push_back(Event::kScan);
     for (const Time time : {arrival, scan.stamp, scan.end}) scans_.add(time);
     scans_.add(std::uint64_t{scan.points.size()});
@@ -121,11 +124,12 @@ class PythonEstimator final : public Estimator {
  public:
   PythonEstimator(const PythonConfig& config, const SensorRig& rig)
       : name_(config.name()),
+        limit_s_(config.call_timeout()),
         takes_imu_(config.has("add_imu")),
         takes_legs_(config.has("add_legs")),
         takes_scans_(config.has("add_scan")) {
-    auto ready = greet(process_, name_);
-    if (ready) ready = process_.ask(PythonRequest::kCreate, creation(config, rig).bytes());
+    auto ready = greet(process_, name_, limit_s_);
+    if (ready) ready = ask(PythonRequest::kCreate, creation(config, rig).bytes());
     if (!ready) fail(ready.error());
   }
 
@@ -139,8 +143,8 @@ class PythonEstimator final : public Estimator {
   void finish() override {
     if (!result_.failure && batch_.size() > 0) flush();
     if (result_.failure) return;
-    const auto answer = process_.ask(PythonRequest::kFinish, {});
-    if (!answer) return fail(answer.error());
+    const auto answer = ask(PythonRequest::kFinish, {});
+    if (!answer) return fail_after_poses(answer.error());
     MessageCursor cursor(*answer);
     take_poses(cursor);
     const auto count = cursor.take<std::uint64_t>();
@@ -177,7 +181,7 @@ class PythonEstimator final : public Estimator {
   }
   void add(Time arrival, const LidarScanPtr& scan) {
     if (!takes_scans_) return flush();
-    const auto part = process_.points().put(scan->points);
+    const auto part = process_.memory().put(scan->points);
     if (!part) return fail(part.error());
     batch_.add(arrival, *scan, *part);
     flush();
@@ -186,8 +190,8 @@ class PythonEstimator final : public Estimator {
   /// Hands what waits to the process, and takes its poses.
   void flush() {
     if (batch_.size() == 0) return;
-    const auto answer = process_.ask(PythonRequest::kMeasure, batch_.take().bytes());
-    if (!answer) return fail(answer.error());
+    const auto answer = ask(PythonRequest::kMeasure, batch_.take().bytes());
+    if (!answer) return fail_after_poses(answer.error());
     MessageCursor cursor(*answer);
     take_poses(cursor);
     if (cursor.is_short()) fail({"answered with too few bytes"});
@@ -205,7 +209,7 @@ class PythonEstimator final : public Estimator {
     for (std::uint64_t i = 0; i < retained && !cursor.at_end(); ++i) {
       offsets.push_back(cursor.take<std::uint64_t>());
     }
-    process_.points().keep(offsets);
+    process_.memory().keep(offsets);
   }
 
   void keep(Time stamp, const std::optional<Pose>& pose) {
@@ -219,11 +223,23 @@ class PythonEstimator final : public Estimator {
     }
   }
 
+  Result<std::vector<std::byte>> ask(PythonRequest request, std::span<const std::byte> content) {
+    return process_.ask(request, content, limit_s_);
+  }
+
+  /// Keeps the poses of the calls before the one that failed.
+  void fail_after_poses(const Error& error) {
+    MessageCursor cursor(process_.yielded());
+    take_poses(cursor);
+    fail(error);
+  }
+
   void fail(const Error& error) {
     result_.failure = Error{fmt::format("{}: {}", name_, error.message)};
   }
 
   std::string name_;
+  double limit_s_;
   bool takes_imu_;
   bool takes_legs_;
   bool takes_scans_;
@@ -247,10 +263,10 @@ Result<void> check_python_name(std::string_view name) {
       fmt::format("'{}': expected python:module.Class, e.g. python:my_package.Mine", name));
 }
 
-Result<PythonConfig> PythonConfig::load(std::string_view name) {
+Result<PythonConfig> PythonConfig::load(std::string_view name, double limit_s) {
   if (auto right = check_python_name(name); !right) return tl::unexpected(right.error());
   PythonProcess process;
-  const auto described = greet(process, name);
+  const auto described = greet(process, name, limit_s);
   if (!described) return failure(fmt::format("{}: {}", name, described.error().message));
   MessageCursor cursor(*described);
   PythonConfig config;
@@ -270,6 +286,13 @@ Result<PythonConfig> PythonConfig::load(std::string_view name) {
     config.settings_.push_back(std::move(setting));
   }
   if (cursor.is_short()) return failure(fmt::format("{}: answered with too few bytes", name));
+  for (const PythonSetting& each : config.settings_) {
+    if (each.key != kCallTimeoutKey && each.key != kCodeHashKey) continue;
+    return failure(
+        fmt::format("{}: the keyword '{}' of the constructor is the name of another "
+                    "parameter; expected another name",
+                    name, each.key));
+  }
   return config;
 }
 
@@ -278,7 +301,11 @@ void PythonConfig::describe(Fields& fields) {
     fields.text(each.key, each.text,
                 {.unit = "-", .meaning = "keyword of the constructor of " + name_});
   }
-  fields.text("code_hash", code_hash_,
+  fields.number(kCallTimeoutKey, call_timeout_,
+                {.unit = "s",
+                 .range = up_to(1e6),
+                 .meaning = "wall time that one call of the class is given; 0: any"});
+  fields.text(kCodeHashKey, code_hash_,
               {.unit = "-", .meaning = "hash of the files that the class is made of"});
 }
 

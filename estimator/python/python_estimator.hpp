@@ -28,14 +28,18 @@ struct PythonSetting {
   std::string text;  ///< its value: a Python literal, true, false, null, or a text
 };
 
+/// Wall time that one call of the class is given, unless it is set [s].
+inline constexpr double kCallTimeout = 120.0;
+
 /// An estimator that runs in a process of Python (estimator/python/worker.py). Its parameters are
-/// the keywords of its constructor and `code_hash`, which stands for its code in the identity of
-/// results.
+/// the keywords of its constructor, the limit of its calls, and `code_hash`, which stands for its
+/// code in the identity of results.
 class PythonConfig final : public EstimatorConfig {
  public:
-  /// Imports the class in a process of its own. Error, with Python's traceback, when that fails,
-  /// and for a class without any of the methods add_imu, add_legs and add_scan.
-  static Result<PythonConfig> load(std::string_view name);
+  /// Imports the class in a process of its own, within `limit_s`. Error, with Python's traceback,
+  /// when that fails, for a class without any of the methods add_imu, add_legs and add_scan, and
+  /// for a keyword with the name of another parameter.
+  static Result<PythonConfig> load(std::string_view name, double limit_s = kCallTimeout);
 
   void describe(Fields& fields) override;
   Requirements requirements() const override { return {}; }
@@ -44,6 +48,7 @@ class PythonConfig final : public EstimatorConfig {
 
   const std::string& name() const { return name_; }
   const std::vector<PythonSetting>& settings() const { return settings_; }
+  double call_timeout() const { return call_timeout_; }
   bool has(std::string_view method) const;
   /// Error when a keyword without default has no value, or `code_hash` was set to another.
   Result<void> check() const override;
@@ -52,6 +57,7 @@ class PythonConfig final : public EstimatorConfig {
   std::string name_;
   std::vector<std::string> methods_;
   std::vector<PythonSetting> settings_;
+  double call_timeout_ = kCallTimeout;
   std::string found_hash_;
   std::string code_hash_;
 };

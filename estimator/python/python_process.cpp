@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -16,6 +17,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/text.hpp"
 #include "estimator/python/worker_source.hpp"
 
 namespace aims {
@@ -23,6 +25,12 @@ namespace {
 
 /// A mapping begins at a multiple of this, on all machines in use [bytes].
 constexpr std::uint64_t kPage = 65'536;
+/// Of the call that runs, in the first page: its count, whether it has a stamp, the stamp, the
+/// name.
+constexpr std::size_t kMethodAt = 24;
+constexpr std::size_t kMethodSize = 16;
+/// Time in which an interrupted class answers with its traceback [s].
+constexpr double kGrace = 2.0;
 /// Longest answer: a map of 100 million points [bytes].
 constexpr std::uint64_t kMaxAnswer = 1'200'000'000;
 
@@ -54,6 +62,16 @@ bool receive_all(int socket, void* data, std::size_t size) {
 std::string interpreter() {
   const char* named = std::getenv("AIMS_PYTHON");
   return named != nullptr && *named != '\0' ? named : "python3";
+}
+
+/// Whether there is something to read within the time [ms]; -1: any.
+bool readable_within(int socket, int milliseconds) {
+  pollfd waiting{socket, POLLIN, 0};
+  int ready = 0;
+  do {
+    ready = ::poll(&waiting, 1, milliseconds);
+  } while (ready < 0 && errno == EINTR);
+  return ready != 0;  // an error is that of reading
 }
 
 constexpr int kNotStarted = 127;
@@ -132,18 +150,33 @@ std::string MessageCursor::take_text() {
   return text;
 }
 
-SharedPoints::~SharedPoints() {
+SharedMemory::~SharedMemory() {
   for (const Part& part : parts_) ::munmap(part.memory, part.capacity);
+  if (call_ != nullptr) ::munmap(const_cast<std::byte*>(call_), kPage);
   if (file_ >= 0) ::close(file_);
 }
 
-Result<void> SharedPoints::create() {
+Result<void> SharedMemory::create() {
   file_ = ::memfd_create("aims_points", MFD_CLOEXEC);
-  if (file_ >= 0) return {};
-  return failure(fmt::format("no memory to share with Python: {}", std::strerror(errno)));
+  const auto page = add(kPage);
+  if (!page) return tl::unexpected(page.error());
+  call_ = static_cast<const std::byte*>(*page);
+  return {};
 }
 
-Result<SharedPoints::Part> SharedPoints::put(const std::vector<LidarPoint>& points) {
+PythonCall SharedMemory::call() const {
+  MessageCursor cursor(std::span(call_, kMethodAt));
+  PythonCall call;
+  call.count = cursor.take<std::uint64_t>();
+  const bool has_stamp = cursor.take<std::uint64_t>() != 0;
+  const auto stamp = cursor.take<Time>();
+  if (has_stamp) call.stamp = stamp;
+  const auto* method = reinterpret_cast<const char*>(call_ + kMethodAt);
+  call.method.assign(method, ::strnlen(method, kMethodSize));
+  return call;
+}
+
+Result<SharedMemory::Part> SharedMemory::put(const std::vector<LidarPoint>& points) {
   if (points.empty()) return Part();
   const std::uint64_t bytes = points.size() * sizeof(LidarPoint);
   const auto part = part_for(bytes);
@@ -153,30 +186,37 @@ Result<SharedPoints::Part> SharedPoints::put(const std::vector<LidarPoint>& poin
   return **part;
 }
 
-void SharedPoints::keep(std::span<const std::uint64_t> offsets) {
+void SharedMemory::keep(std::span<const std::uint64_t> offsets) {
   for (Part& part : parts_) {
     part.in_use = std::find(offsets.begin(), offsets.end(), part.offset) != offsets.end();
   }
 }
 
-Result<SharedPoints::Part*> SharedPoints::part_for(std::uint64_t bytes) {
+Result<SharedMemory::Part*> SharedMemory::part_for(std::uint64_t bytes) {
   for (Part& part : parts_) {
     if (!part.in_use && part.capacity >= bytes) return &part;
   }
   Part part;
   part.offset = size_;
   part.capacity = (bytes + bytes / 4 + kPage - 1) / kPage * kPage;
-  const auto new_size = static_cast<off_t>(size_ + part.capacity);
-  if (::ftruncate(file_, new_size) == 0) {
-    part.memory = ::mmap(nullptr, part.capacity, PROT_READ | PROT_WRITE, MAP_SHARED, file_,
-                         static_cast<off_t>(part.offset));
-  }
-  if (part.memory == nullptr || part.memory == MAP_FAILED) {
-    return failure(fmt::format("no memory to share with Python: {}", std::strerror(errno)));
-  }
-  size_ += part.capacity;
+  const auto memory = add(part.capacity);
+  if (!memory) return tl::unexpected(memory.error());
+  part.memory = *memory;
   parts_.push_back(part);
   return &parts_.back();
+}
+
+Result<void*> SharedMemory::add(std::uint64_t bytes) {
+  void* memory = MAP_FAILED;
+  if (file_ >= 0 && ::ftruncate(file_, static_cast<off_t>(size_ + bytes)) == 0) {
+    memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file_,
+                    static_cast<off_t>(size_));
+  }
+  if (memory == MAP_FAILED) {
+    return failure(fmt::format("no memory to share with Python: {}", std::strerror(errno)));
+  }
+  size_ += bytes;
+  return memory;
 }
 
 PythonProcess::~PythonProcess() { stop(); }
@@ -192,17 +232,17 @@ void PythonProcess::stop() {
 }
 
 Result<void> PythonProcess::start() {
-  if (auto made = points_.create(); !made) return made;
+  if (auto made = memory_.create(); !made) return made;
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return failure(fmt::format("no socket to Python: {}", std::strerror(errno)));
   }
   std::vector<std::string> words = {interpreter(), "-c", std::string(kPythonWorker),
-                                    std::to_string(ends[1]), std::to_string(points_.descriptor())};
+                                    std::to_string(ends[1]), std::to_string(memory_.descriptor())};
   std::vector<std::string> settings = worker_environment();
   const std::vector<char*> arguments = pointers_to(words);
   const std::vector<char*> environment = pointers_to(settings);
-  const std::array<int, 2> kept = {ends[1], points_.descriptor()};
+  const std::array<int, 2> kept = {ends[1], memory_.descriptor()};
   const pid_t parent = ::getpid();
   pid_ = ::fork();
   if (pid_ == 0) become(parent, arguments.data(), environment.data(), kept);
@@ -221,21 +261,69 @@ Error PythonProcess::ended() {
 }
 
 Result<std::vector<std::byte>> PythonProcess::ask(PythonRequest request,
-                                                  std::span<const std::byte> content) {
+                                                  std::span<const std::byte> content,
+                                                  double limit_s) {
   const std::array<std::uint64_t, 2> header = {static_cast<std::uint64_t>(request), content.size()};
-  std::array<std::uint64_t, 2> answer{};
-  const bool answered = send_all(socket_, header.data(), sizeof(header)) &&
-                        send_all(socket_, content.data(), content.size()) &&
-                        receive_all(socket_, answer.data(), sizeof(answer));
-  if (!answered) return tl::unexpected(ended());
-  if (answer[1] > kMaxAnswer) return failure(fmt::format("answered with {} bytes", answer[1]));
-  std::vector<std::byte> bytes(answer[1]);
-  if (!receive_all(socket_, bytes.data(), bytes.size())) return tl::unexpected(ended());
-  if (answer[0] != static_cast<std::uint64_t>(PythonReply::kError)) return bytes;
-  MessageCursor cursor(bytes);
+  const bool sent = send_all(socket_, header.data(), sizeof(header)) &&
+                    send_all(socket_, content.data(), content.size());
+  if (!sent) return tl::unexpected(ended());
+  if (!answers_within(limit_s)) return interrupt(limit_s);
+  auto answer = receive();
+  if (!answer) return tl::unexpected(answer.error());
+  return content_of(std::move(*answer));
+}
+
+Result<PythonProcess::Answer> PythonProcess::receive() {
+  std::array<std::uint64_t, 2> header{};
+  if (!receive_all(socket_, header.data(), sizeof(header))) return tl::unexpected(ended());
+  if (header[1] > kMaxAnswer) return failure(fmt::format("answered with {} bytes", header[1]));
+  Answer answer{static_cast<PythonReply>(header[0]), std::vector<std::byte>(header[1])};
+  if (!receive_all(socket_, answer.content.data(), header[1])) return tl::unexpected(ended());
+  return answer;
+}
+
+Result<std::vector<std::byte>> PythonProcess::content_of(Answer answer) {
+  if (answer.kind != PythonReply::kError) return std::move(answer.content);
+  MessageCursor cursor(answer.content);
   const std::string step = cursor.take_text();
   const std::string summary = cursor.take_text();
-  return failure(fmt::format("{}: {}\n{}", step, summary, cursor.take_text()));
+  const std::string trace = cursor.take_text();
+  yielded_.assign(answer.content.end() - static_cast<std::ptrdiff_t>(cursor.left()),
+                  answer.content.end());
+  return failure(fmt::format("{}: {}\n{}", step, summary, trace));
+}
+
+/// Counted in slices, so that time in which both processes are stopped does not count.
+bool PythonProcess::answers_within(double limit_s) const {
+  if (limit_s <= 0.0) return readable_within(socket_, -1);
+  const auto limit_ms = std::max(1, static_cast<int>(1e3 * limit_s));
+  const int slice_ms = std::clamp(limit_ms / 10, 1, 1'000);
+  std::uint64_t count = memory_.call().count;
+  for (int waited_ms = 0; waited_ms < limit_ms; waited_ms += slice_ms) {
+    if (readable_within(socket_, slice_ms)) return true;
+    const std::uint64_t begun = memory_.call().count;
+    if (begun != count) waited_ms = -slice_ms;
+    count = begun;
+  }
+  return false;
+}
+
+/// An answer that comes after all is taken.
+Result<std::vector<std::byte>> PythonProcess::interrupt(double limit_s) {
+  const PythonCall call = memory_.call();
+  ::kill(pid_, SIGUSR1);
+  std::string trace;
+  if (readable_within(socket_, static_cast<int>(1e3 * kGrace))) {
+    auto answer = receive();
+    if (answer && answer->kind != PythonReply::kError) return std::move(answer->content);
+    if (answer) trace = content_of(std::move(*answer)).error().message;
+  }
+  stop();
+  const std::string of =
+      call.stamp ? " of the measurement at " + stamp_text(*call.stamp) + " s" : std::string();
+  return failure(fmt::format("{}: the call{} has not ended within {:g} s (call_timeout){}",
+                             call.method.empty() ? "start of Python" : call.method, of, limit_s,
+                             trace.empty() ? "" : "\n" + trace.substr(trace.find('\n') + 1)));
 }
 
 }  // namespace aims

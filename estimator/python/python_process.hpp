@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@
 namespace aims {
 
 /// Version of the messages between the program and estimator/python/worker.py.
-inline constexpr int kPythonProtocol = 1;
+inline constexpr int kPythonProtocol = 2;
 
 /// Kinds of messages to the process; each is answered by one of `PythonReply`.
 enum class PythonRequest : std::uint64_t { kHello = 1, kCreate = 2, kMeasure = 3, kFinish = 4 };
@@ -67,9 +68,16 @@ class MessageCursor {
   bool short_ = false;
 };
 
-/// Memory that both processes map, in parts of one scan each. Layout of a point: that of
-/// `LidarPoint`.
-class SharedPoints {
+/// The call of the class that the process has begun last.
+struct PythonCall {
+  std::uint64_t count = 0;    ///< calls begun so far
+  std::string method;         ///< "import", "constructor" or its name; empty before the first
+  std::optional<Time> stamp;  ///< of the measurement that it was handed
+};
+
+/// Memory that both processes map: one page for the call that runs, then points in parts of one
+/// scan each. Layout of a point: that of `LidarPoint`.
+class SharedMemory {
  public:
   /// A part as the process finds it.
   struct Part {
@@ -79,13 +87,16 @@ class SharedPoints {
     bool in_use = false;  ///< the estimator may still read it
   };
 
-  SharedPoints() = default;
-  SharedPoints(const SharedPoints&) = delete;
-  SharedPoints& operator=(const SharedPoints&) = delete;
-  ~SharedPoints();
+  SharedMemory() = default;
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+  ~SharedMemory();
 
   Result<void> create();
   int descriptor() const { return file_; }
+
+  /// As the process states it before each call.
+  PythonCall call() const;
 
   /// Copies the points into a part that is not in use, which is then.
   Result<Part> put(const std::vector<LidarPoint>& points);
@@ -95,8 +106,10 @@ class SharedPoints {
 
  private:
   Result<Part*> part_for(std::uint64_t bytes);
+  Result<void*> add(std::uint64_t bytes);
 
   int file_ = -1;
+  const std::byte* call_ = nullptr;
   std::uint64_t size_ = 0;
   std::vector<Part> parts_;
 };
@@ -114,18 +127,34 @@ class PythonProcess {
   Result<void> start();
 
   /// Sends a request and waits for its answer, whose content is returned. Error when the estimator
-  /// raised one (step, error and traceback) or the process has ended (by which signal or code).
-  Result<std::vector<std::byte>> ask(PythonRequest request, std::span<const std::byte> content);
+  /// raised one (step, error and traceback), the process has ended (by which signal or code), or
+  /// one call of the class takes longer than `limit_s` of wall time, 0: any (method, stamp, limit,
+  /// and the traceback of a call that Python can interrupt; the process has then ended).
+  Result<std::vector<std::byte>> ask(PythonRequest request, std::span<const std::byte> content,
+                                     double limit_s);
 
-  SharedPoints& points() { return points_; }
+  /// What the request that failed had yielded before, in the form of its answer; may be empty.
+  std::span<const std::byte> yielded() const { return yielded_; }
+
+  SharedMemory& memory() { return memory_; }
 
  private:
+  struct Answer {
+    PythonReply kind = PythonReply::kError;
+    std::vector<std::byte> content;
+  };
+
+  Result<Answer> receive();
+  Result<std::vector<std::byte>> content_of(Answer answer);
+  Result<std::vector<std::byte>> interrupt(double limit_s);
+  bool answers_within(double limit_s) const;
   Error ended();
   void stop();
 
   pid_t pid_ = -1;
   int socket_ = -1;
-  SharedPoints points_;
+  std::vector<std::byte> yielded_;
+  SharedMemory memory_;
 };
 
 }  // namespace aims

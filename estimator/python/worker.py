@@ -2,8 +2,8 @@
 """The Python side of an estimator written in Python: `aims` starts it as a process of its own.
 
 It needs NumPy and nothing else, so that any interpreter serves. Messages go over a socket: kind and
-length (two little-endian 64-bit numbers), then the content. Points go through memory that both
-processes map; estimator/python/python_process.hpp states the layout.
+length (two little-endian 64-bit numbers), then the content. Points, and which call runs, go through
+memory that both processes map; estimator/python/python_process.hpp states the layout.
 """
 
 import ast
@@ -23,7 +23,7 @@ import weakref
 
 import numpy as np
 
-VERSION = 1
+VERSION = 2
 HELLO, CREATE, MEASURE, FINISH = 1, 2, 3, 4
 ERROR, DESCRIPTION, DONE, POSES = 0, 1, 2, 3
 IMU, LEGS, SCAN = 1, 2, 3
@@ -86,6 +86,37 @@ class Feeder:
         if hasattr(self.estimator, "finish"):
             stamp = self.poses[-1][0] if self.poses else 0
             self.keep(self.estimator.finish(), stamp)
+
+
+class Overdue(BaseException):
+    """Raised in a call that has taken too long; no `except Exception` of the class catches it."""
+
+
+class Call:
+    """The call of the class that runs, in the first page of the shared memory.
+
+    There the program reads which call is late. It then sends SIGUSR1, which ends the call where Python can.
+    """
+
+    LAYOUT = struct.Struct("<QQq16s")
+
+    def __init__(self, file):
+        self.page = mmap.mmap(file, mmap.PAGESIZE)
+        self.count = 0
+        self.method = "import"
+        self.runs = False
+        signal.signal(signal.SIGUSR1, self.interrupt)
+
+    def begin(self, method, stamp=None):
+        self.count += 1
+        self.method = method
+        self.LAYOUT.pack_into(self.page, 0, self.count, stamp is not None, stamp or 0, method.encode())
+        self.runs = True
+
+    def interrupt(self, signum, frame):
+        if self.runs:
+            self.runs = False
+            raise Overdue("interrupted")
 
 
 class Points:
@@ -185,9 +216,9 @@ class Server:
     def __init__(self, connection, memory):
         self.connection = connection
         self.points = Points(memory)
+        self.call = Call(memory)
         self.feeder = None
         self.kind = None
-        self.step = "import"
         self.cpu = time.process_time_ns()
 
     def receive(self, size):
@@ -208,25 +239,33 @@ class Server:
         answers = {HELLO: self.hello, CREATE: self.create, MEASURE: self.measure, FINISH: self.finish}
         while True:
             kind, size = struct.unpack("<QQ", self.receive(16))
+            data = self.receive(size)
             try:
-                answers[kind](self.receive(size))
-            except EOFError:
-                raise
+                try:
+                    reply = answers[kind](data)
+                finally:
+                    self.call.runs = False
             except BaseException as error:  # whatever the estimator raises, SystemExit too
-                self.fail(error)
+                reply = ERROR, self.failure(error)
+            self.reply(*reply)
 
-    def fail(self, error):
+    def failure(self, error):
+        """Step, error, traceback, and the poses of the calls before."""
         frames = traceback.TracebackException.from_exception(error)
         while frames.stack and frames.stack[0].filename == main.__code__.co_filename:
             del frames.stack[0]  # of this file
         summary = "".join(traceback.format_exception_only(type(error), error)).strip()
-        self.reply(ERROR, Texts.pack([self.step, summary, "".join(frames.format()).rstrip()]))
+        trace = frames.format()
+        if isinstance(error, Overdue):  # where the call was, without what ended it
+            trace = ["Traceback (most recent call last):\n", *frames.stack.format()[:-1]]
+        texts = Texts.pack([self.call.method, summary, "".join(trace).rstrip()])
+        return texts + (self.taken_poses() if self.feeder else b"")
 
     def hello(self, data):
         version, module, name = Texts.unpack(data)
         if int(version) != VERSION:
             raise RuntimeError(f"protocol {version}, expected {VERSION}")
-        self.step = "import"
+        self.call.begin("import")
         self.kind = getattr(importlib.import_module(module), name)
         if not isinstance(self.kind, type):
             raise TypeError(f"{module}.{name} is no class")
@@ -236,15 +275,15 @@ class Server:
         texts = [code_hash(), ",".join(methods)]
         for setting in settings_of(self.kind):
             texts += setting
-        self.reply(DESCRIPTION, Texts.pack(texts))
+        return DESCRIPTION, Texts.pack(texts)
 
     def create(self, data):
-        self.step = "constructor"
+        self.call.begin("constructor")
         rig = Rig(np.frombuffer(data, "<f8", 34))
         texts = Texts.unpack(data[34 * 8 :])
         settings = {key: value_of(text) for key, text in zip(texts[::2], texts[1::2])}
         self.feeder = Feeder(self.kind(rig, **settings))
-        self.reply(DONE)
+        return DONE, b""
 
     def measure(self, data):
         samples, legs, scans, events = struct.unpack_from("<QQQQ", data)
@@ -255,20 +294,19 @@ class Server:
         leg = self.leg_calls(data, at, legs)
         at += legs * 52 * 8
         scan = iter(struct.iter_unpack("<qqqQQQ", data[at : at + scans * 48]))
-        feeder = self.feeder
+        feeder, begin = self.feeder, self.call.begin
         for event in order:
             if event == IMU:
-                self.step = "add_imu"
                 values = next(imu)
+                begin("add_imu", values[0])
                 feeder.keep(feeder.add_imu(*values), values[0])
             elif event == LEGS:
-                self.step = "add_legs"
                 values = next(leg)
+                begin("add_legs", values[0])
                 feeder.keep(feeder.add_legs(*values), values[0])
             else:
-                self.step = "add_scan"
                 self.scan(*next(scan))
-        self.reply(POSES, self.taken_poses())
+        return POSES, self.taken_poses()
 
     @staticmethod
     def imu_calls(data, at, count):
@@ -290,6 +328,7 @@ class Server:
 
     def scan(self, arrival, stamp, end, count, offset, capacity):
         points = self.points.scan(count, offset, capacity)
+        self.call.begin("add_scan", stamp)
         returned = self.feeder.add_scan(stamp, points["xyz"], points["time_offset_ns"],
                                         points["ring"], points["intensity"], end)
         self.feeder.keep(returned, end)
@@ -306,16 +345,16 @@ class Server:
         return content + b"".join(rows) + struct.pack(f"<{len(in_use)}Q", *in_use)
 
     def finish(self, data):
-        self.step = "finish"
+        self.call.begin("finish")
         self.feeder.finish()
         points = np.empty((0, 3))
         if hasattr(self.feeder.estimator, "map_points"):
-            self.step = "map_points"
+            self.call.begin("map_points")
             points = np.asarray(self.feeder.estimator.map_points(), "<f4")
             if points.ndim != 2 or points.shape[1] != 3:
                 raise TypeError(f"expected points of shape (N, 3), got shape {points.shape}")
         content = np.ascontiguousarray(points, "<f4").tobytes()
-        self.reply(POSES, self.taken_poses() + struct.pack("<Q", len(points)) + content)
+        return POSES, self.taken_poses() + struct.pack("<Q", len(points)) + content
 
 
 def main(connection, memory):

@@ -8,6 +8,7 @@
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/waypoint_times.hpp"
+#include "core/text.hpp"
 #include "recordings/trajectories/trajectory_file.hpp"
 #include "tests/fuzz/demand.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"

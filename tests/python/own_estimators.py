@@ -3,6 +3,7 @@
 
 import ctypes
 import os
+import time
 
 import numpy as np
 
@@ -89,6 +90,42 @@ class Fails(Legs):
             raise ValueError("the end fails")
 
 
+class Hangs(Legs):
+    """A call that does not end, in the way that `how` names."""
+
+    def __init__(self, rig, how="sleep"):
+        super().__init__(rig)
+        self.how = how
+        if how == "constructor":
+            self.hang()
+
+    def hang(self):
+        while self.how != "loop":
+            try:
+                time.sleep(1000)
+            except BaseException:
+                if self.how != "stubborn":
+                    raise
+        while True:
+            pass
+
+    def add_scan(self, stamp, *rest):
+        if self.count > 200 and self.how != "finish":
+            self.hang()
+
+    def finish(self):
+        self.hang()
+
+
+class Slow(Legs):
+    """Calls that end, each of them in time, though all that belong to a scan take longer."""
+
+    def add_legs(self, *given):
+        if 100 <= self.count < 120:
+            time.sleep(0.04)
+        return super().add_legs(*given)
+
+
 class Poor(Legs):
     """Poses that are none, and stamps that go back."""
 
@@ -106,6 +143,13 @@ class Needs:
 
     def add_scan(self, stamp, *rest):
         return np.eye(4)
+
+
+class Taken(Legs):
+    """A keyword with the name of another parameter."""
+
+    def __init__(self, rig, call_timeout=1.0):
+        super().__init__(rig)
 
 
 class Nothing:

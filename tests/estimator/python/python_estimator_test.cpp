@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "estimator/estimator_spec.hpp"
 #include "estimator/python/python_process.hpp"
@@ -46,6 +48,19 @@ TEST(PythonEstimator, AMissingInterpreterIsNamed) {
       << added.error().message;
 }
 
+TEST(PythonEstimator, AnInterpreterThatHangsIsEnded) {
+  const std::string script = testing::TempDir() + "/hanging_python";
+  std::ofstream(script) << "#!/bin/sh\nexec sleep 100\n";
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  ASSERT_EQ(::setenv("AIMS_PYTHON", script.c_str(), 1), 0);
+  const auto loaded = PythonConfig::load("python:module.Class", 0.05);
+  ::unsetenv("AIMS_PYTHON");
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().message,
+            "python:module.Class: start of Python: the call has not ended within 0.05 s "
+            "(call_timeout)");
+}
+
 TEST(PythonMessage, ACursorEndsWhereTheMessageIsTooShort) {
   MessageBytes message;
   message.add_text("text");
@@ -67,7 +82,7 @@ TEST(PythonMessage, ACursorEndsWhereTheMessageIsTooShort) {
 }
 
 TEST(PythonPoints, PartsInUseAreNotWrittenAgain) {
-  SharedPoints points;
+  SharedMemory points;
   ASSERT_TRUE(points.create());
   std::vector<LidarPoint> scan(100);
   scan[0].ring = 1;
