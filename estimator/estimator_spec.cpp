@@ -62,6 +62,13 @@ EstimatorSpec split(std::string_view text) {
   return spec;
 }
 
+/// "a, b" of all keys.
+std::string keys_text(const Fields& fields) {
+  std::string text;
+  for (const Parameter& each : fields.parameters()) text += ", " + each.key;
+  return text.substr(std::min<std::size_t>(text.size(), 2));
+}
+
 /// The configuration with the settings of the spec, whether they have an effect or not.
 Result<std::unique_ptr<EstimatorConfig>> assigned_config(const EstimatorSpec& spec,
                                                          const EstimatorConfigs& base) {
@@ -77,6 +84,10 @@ Result<std::unique_ptr<EstimatorConfig>> assigned_config(const EstimatorSpec& sp
   std::unique_ptr<EstimatorConfig> config = own->clone();
   const Fields fields = fields_of(*config);
   for (const auto& [key, value] : spec.settings) {
+    if (is_python_name(spec.name) && fields.find(key) == nullptr) {
+      return failure(fmt::format("{}; {} has {}", unknown_key_message(fields, key), spec.name,
+                                 keys_text(fields)));
+    }
     if (auto done = assign(fields, key, value); !done) return tl::unexpected(done.error());
   }
   return config;
@@ -102,6 +113,26 @@ std::map<std::string, std::string> idle_keys(std::string_view name,
 }
 
 constexpr std::string_view kDoesNotRun = " does not run";
+
+/// Adds the classes in Python by their labels.
+void describe_python(Fields& fields, const std::vector<std::string>& run,
+                     EstimatorConfigs& configs) {
+  std::map<std::string, int> labels;  // of each class
+  for (const std::string& text : run) ++labels[split(text).name];
+  for (const std::string& text : run) {
+    const EstimatorSpec spec = split(text);
+    EstimatorConfig* config = is_python_name(spec.name) ? configs.find(spec.name) : nullptr;
+    if (config == nullptr) continue;
+    Fields own = fields_of(*config);
+    own.set_idle([&](const Parameter& parameter) -> std::string {
+      if (labels[spec.name] > 1) {
+        return spec.name + " has several labels; expected LABEL=NAME+key=value";
+      }
+      return parameter.key == kPythonCodeHash ? "it follows from the files" : "";
+    });
+    fields.group_of("estimators." + spec.label, std::move(own));
+  }
+}
 
 /// Whether the key of a file configures only estimators that do not run.
 bool of_others(const AssignedKey& assigned, const Fields& fields) {
@@ -192,6 +223,7 @@ void describe_estimators(Fields& fields, const std::vector<std::string>& run,
     });
     fields.group_of("estimators." + name, std::move(own));
   }
+  describe_python(fields, run, configs);
 }
 
 Result<void> check_effects(const Fields& fields, std::vector<AssignedKey> assigned, bool run_chosen,

@@ -48,8 +48,9 @@ Requirements requirements_of(std::string_view spec, const EstimatorConfigs& base
 /// when one cannot be imported.
 Result<void> add_python_estimators(std::span<const std::string> run, EstimatorConfigs& configs);
 
-/// Adds the group `estimators` to `fields`. A setting is idle where it has no effect in any spec of
-/// `run`.
+/// Adds the group `estimators` to `fields`: each estimator by its name, and by its label each class
+/// in Python of `run` that was added to `configs`. A setting is idle where it has no effect in any
+/// spec of `run`, and those of a class with several labels are.
 void describe_estimators(Fields& fields, const std::vector<std::string>& run,
                          EstimatorConfigs& configs);
 

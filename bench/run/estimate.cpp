@@ -9,6 +9,7 @@
 
 #include "bench/run/bag_origin.hpp"
 #include "bench/run/estimate_log.hpp"
+#include "bench/run/python_classes.hpp"
 #include "bench/run/ring_note.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/stream.hpp"
@@ -156,19 +157,20 @@ void describe(Fields& fields, EstimateConfig& config) {
 Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
                                             std::span<const std::string> overrides) {
   EstimateConfig config;
+  auto chosen_run = choose_run(file, overrides, {}, config.run, config.estimators);
+  if (!chosen_run) return tl::unexpected(chosen_run.error());
+  config.run = std::move(chosen_run->of_file);
   std::vector<AssignedKey> assigned;
   if (!file.empty()) {
     if (auto ok = load_config(file, config, &assigned); !ok) return tl::unexpected(ok.error());
   }
+  config.run = std::move(chosen_run->all);
   if (auto ok = apply_overrides(config, overrides, &assigned); !ok) {
     return tl::unexpected(ok.error());
   }
   if (config.run.empty()) return failure("run: expected at least one name");
   if (auto specs = check_estimator_specs(config.run); !specs) {
     return failure("run: " + specs.error().message);
-  }
-  if (auto added = add_python_estimators(config.run, config.estimators); !added) {
-    return failure("run: " + added.error().message);
   }
   const bool chosen = std::ranges::any_of(overrides, is_run_setting);
   const auto acts =

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bench/run/lidar_sheet.hpp"
+#include "bench/run/python_classes.hpp"
 #include "bench/run/robot_sheet.hpp"
 #include "bench/run/score_keys.hpp"
 #include "core/file_name.hpp"
@@ -240,12 +241,16 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
   scenario.folder = folder;
   scenario.overrides.assign(overrides.begin(), overrides.end());
   scenario.name = file.stem().string();
+  const auto run = choose_run(file, overrides, folder, scenario.run, scenario.estimators);
+  if (!run) return tl::unexpected(located(scenario, run.error()));
   std::vector<AssignedKey> assigned;
   std::size_t of_file = 0;  // of the assigned keys; settings follow
   auto loaded = on_presets(std::move(scenario), assigned,
                            [&](Scenario& into, std::vector<AssignedKey>* keys) {
+                             into.run = run->of_file;
                              auto read = load_config(file, into, keys, folder);
                              if (keys != nullptr) of_file = keys->size();
+                             into.run = run->all;
                              return read ? apply_overrides(into, overrides, keys, folder) : read;
                            });
   if (!loaded) return loaded;
@@ -253,9 +258,6 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
   follow_scene(*loaded);
   if (auto valid = check(*loaded); !valid) {
     return tl::unexpected(located(*loaded, valid.error()));
-  }
-  if (auto added = add_python_estimators(loaded->run, loaded->estimators); !added) {
-    return tl::unexpected(located(*loaded, {"run: " + added.error().message}));
   }
   keep_expectations_of_level(*loaded);
   if (auto acts = check_effects_in(*loaded, std::move(assigned)); !acts) {
@@ -268,6 +270,9 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides) {
   Scenario scenario;
   scenario.name = "default";
   scenario.overrides.assign(overrides.begin(), overrides.end());
+  auto run = choose_run({}, overrides, {}, scenario.run, scenario.estimators);
+  if (!run) return tl::unexpected(run.error());
+  scenario.run = std::move(run->all);
   std::vector<AssignedKey> assigned;
   auto loaded = on_presets(std::move(scenario), assigned,
                            [&](Scenario& into, std::vector<AssignedKey>* keys) {
@@ -275,9 +280,6 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides) {
                            });
   if (!loaded) return loaded;
   follow_scene(*loaded);
-  if (auto added = add_python_estimators(loaded->run, loaded->estimators); !added) {
-    return tl::unexpected(added.error());
-  }
   if (auto acts = check_effects_in(*loaded, std::move(assigned)); !acts) {
     return tl::unexpected(acts.error());
   }

@@ -232,9 +232,9 @@ std::vector<std::vector<double>> design(DesignKind kind, std::span<const Paramet
 }
 
 EstimatorSpec spec_at(const EstimatorSpec& base, std::span<const ParameterRange> ranges,
-                      std::span<const double> point) {
-  EstimatorConfigs configs;
-  EstimatorConfig* config = configs.find(base.name);
+                      std::span<const double> point, const EstimatorConfigs& configs) {
+  const EstimatorConfig* known = configs.find(base.name);
+  const auto config = known == nullptr ? nullptr : known->clone();
   const Fields fields = config == nullptr ? Fields() : fields_of(*config);
   EstimatorSpec spec = base;
   for (std::size_t i = 0; i < ranges.size(); ++i) {

@@ -22,7 +22,7 @@ struct ParameterRange {
   double high = 0.0;  ///< in the parameter's own unit, >= low
   int count = 0;      ///< values on a grid, both ends included; 0: not stated
   bool log = false;   ///< evenly spaced in the logarithm
-  bool of_estimator = true;  ///< false: of the simulation or the scoring
+  bool of_estimator = true;    ///< false: of the simulation or the scoring
   std::string estimator = {};  ///< the only one that is varied; empty: any
 
   bool operator==(const ParameterRange&) const = default;
@@ -69,8 +69,8 @@ std::vector<std::vector<double>> design(DesignKind kind, std::span<const Paramet
                                         int samples, std::uint64_t seed);
 
 /// `base` with the point's values of the estimator's parameters on top: they replace settings of
-/// the same keys. A parameter that is a whole number is rounded.
+/// the same keys. A parameter that is a whole number in `configs` is rounded.
 EstimatorSpec spec_at(const EstimatorSpec& base, std::span<const ParameterRange> ranges,
-                      std::span<const double> point);
+                      std::span<const double> point, const EstimatorConfigs& configs = {});
 
 }  // namespace aims

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "estimator/python/python_estimator.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
@@ -72,14 +73,22 @@ Result<void> check_range(const ParameterRange& range, const Parameter& parameter
 /// Error for a range that the estimator of `spec` cannot be varied over.
 Result<void> check_in_estimator(const ParameterRange& range, const Scenario& base,
                                 const EstimatorSpec& spec) {
-  if (!range.estimator.empty() && range.estimator != spec.name) {
+  const bool in_python = is_python_name(spec.name);
+  const std::string& name = in_python ? spec.label : spec.name;
+  if (!range.estimator.empty() && range.estimator != name) {
     return failure(fmt::format("range '{}': a key of {}, but {} is varied", text_of(range),
-                               range.estimator, spec.name));
+                               range.estimator, name));
   }
   const auto config = config_with(spec, base.estimators);
   if (!config) return tl::unexpected(config.error());
   const Fields fields = fields_of(**config);
   const Parameter* parameter = fields.find(range.key);
+  if (parameter == nullptr && in_python) {
+    EstimatorSpec with_key = spec;
+    with_key.settings.emplace_back(range.key, "0");
+    return failure(fmt::format("range '{}': {}", text_of(range),
+                               config_with(with_key, base.estimators).error().message));
+  }
   if (parameter == nullptr && estimator_has(range.key)) {
     return failure(
         fmt::format("range '{}': {} has no key '{}'", text_of(range), spec.name, range.key));
@@ -92,7 +101,7 @@ Result<void> check_in_estimator(const ParameterRange& range, const Scenario& bas
 
 }  // namespace
 
-Result<RangeKey> range_key(std::string_view given) {
+Result<RangeKey> range_key(std::string_view given, bool in_python) {
   const bool for_scenario = given.starts_with(kScenario);
   const std::string_view key = for_scenario ? given.substr(kScenario.size()) : given;
   if (key.starts_with(kEstimators)) {
@@ -109,7 +118,8 @@ Result<RangeKey> range_key(std::string_view given) {
                     key, kEstimators, kScenario));
   }
   if (of_both) return RangeKey{std::string(given), false};
-  return RangeKey{std::string(key), !for_scenario && estimator_has(key)};
+  const bool of_estimator = estimator_has(key) || (in_python && !scenario_has(key));
+  return RangeKey{std::string(key), !for_scenario && of_estimator};
 }
 
 std::string full_key(const ParameterRange& range) {
@@ -117,12 +127,17 @@ std::string full_key(const ParameterRange& range) {
   return range.key.starts_with(kScenario) ? range.key.substr(kScenario.size()) : range.key;
 }
 
-Result<std::vector<ParameterRange>> parse_ranges(std::span<const std::string> texts) {
+Result<std::vector<ParameterRange>> parse_ranges(std::span<const std::string> texts,
+                                                 std::span<const std::string> estimators) {
+  const bool in_python = std::ranges::any_of(estimators, [](const std::string& text) {
+    const auto spec = parse_estimator_spec(text);
+    return spec && is_python_name(spec->name);
+  });
   std::vector<ParameterRange> ranges;
   for (const std::string& text : texts) {
     auto range = parse_range(text);
     if (!range) return tl::unexpected(range.error());
-    auto key = range_key(range->key);
+    auto key = range_key(range->key, in_python);
     if (!key) return failure(fmt::format("range '{}': {}", text, key.error().message));
     range->key = std::move(key->name);
     range->of_estimator = key->of_estimator;

@@ -78,7 +78,8 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
     for (const auto& point : points) {
       auto variant = variants.at(point);
       if (!variant) return tl::unexpected(variant.error());
-      planned.push_back({spec_at(estimator, ranges, point), std::move(*variant)});
+      auto spec = spec_at(estimator, ranges, point, scenario->estimators);
+      planned.push_back({std::move(spec), std::move(*variant)});
     }
   }
   return planned;
@@ -216,7 +217,7 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
   if (!scenarios) return tl::unexpected(scenarios.error());
   const auto seeds = parse_seeds(plan.seeds);
   if (!seeds) return tl::unexpected(seeds.error());
-  const auto ranges = parse_ranges(plan.params);
+  const auto ranges = parse_ranges(plan.params, plan.estimators);
   if (!ranges) return tl::unexpected(ranges.error());
   std::vector<Job> jobs;
   std::set<std::string> ids;

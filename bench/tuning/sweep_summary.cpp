@@ -101,21 +101,22 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     if (auto read = load_config_text(text, "plan.yaml", plan); !read) {
       return tl::unexpected(read.error());
     }
-    auto ranges = parse_ranges(plan.params);
+    auto ranges = parse_ranges(plan.params, plan.estimators);
     if (!ranges) return tl::unexpected(ranges.error());
     for (ParameterRange& range : *ranges) {
       const bool known = std::any_of(varied.ranges.begin(), varied.ranges.end(),
                                      [&](const auto& each) { return each.key == range.key; });
       if (!known) varied.ranges.push_back(std::move(range));
     }
-    const Fields fields = fields_of(varied.base);
+    if (auto added = add_python_estimators(plan.estimators, varied.base); !added) {
+      return tl::unexpected(added.error());
+    }
+    Fields fields;
+    describe_estimators(fields, plan.estimators, varied.base);
     for (const std::string& setting : plan.set) {
-      constexpr std::string_view kGroup = "estimators.";
-      if (!setting.starts_with(kGroup)) continue;
+      if (!setting.starts_with("estimators.")) continue;
       const auto equals = setting.find('=');
-      const std::string_view whole = setting;
-      auto done = assign(fields, whole.substr(kGroup.size(), equals - kGroup.size()),
-                         whole.substr(equals + 1));
+      const auto done = assign(fields, setting.substr(0, equals), setting.substr(equals + 1));
       if (!done) return tl::unexpected(done.error());
     }
   }

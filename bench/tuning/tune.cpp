@@ -87,7 +87,7 @@ class Tuning {
     const TuneTask& task = result_.task;
     std::vector<EstimatorSpec> estimators;
     for (const auto& point : points) {
-      estimators.push_back(spec_at(task.estimator, task.ranges, values_of(task, point)));
+      estimators.push_back(estimator_at(task, values_of(task, point)));
     }
     auto scores = run_(estimators, task.sequences);
     if (!scores) return tl::unexpected(scores.error());
@@ -113,7 +113,7 @@ class Tuning {
     std::vector<std::vector<double>> points;
     for (const std::size_t k : result_.chosen) {
       points.push_back(result_.tables.front().points[k]);
-      estimators.push_back(spec_at(task.estimator, task.ranges, points.back()));
+      estimators.push_back(estimator_at(task, points.back()));
     }
     auto scores = run_(estimators, task.held_out);
     if (!scores) return tl::unexpected(scores.error());
@@ -173,6 +173,12 @@ RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
     }
     return scores;
   };
+}
+
+EstimatorSpec estimator_at(const TuneTask& task, std::span<const double> point) {
+  const bool any = !task.sequences.empty();
+  return spec_at(task.estimator, task.ranges, point,
+                 any ? task.sequences.front().scenario->estimators : EstimatorConfigs());
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const TuneTask& task,

@@ -43,6 +43,9 @@ Result<TuneResult> tune(const TuneTask& task, const RunOnSequences& run);
 RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
                            const std::vector<Objective>& objectives);
 
+/// The task's estimator with the values of a point.
+EstimatorSpec estimator_at(const TuneTask& task, std::span<const double> point);
+
 /// The settings "key=value" of a point, below `estimator.`.
 std::vector<std::pair<std::string, std::string>> settings_of(const TuneTask& task,
                                                              std::span<const double> point);

@@ -45,7 +45,7 @@ Result<void> read_ranges(TuneTask& task, const Scenario& base) {
     return failure(
         "params: the plan varies nothing; expected ranges, e.g. [\"degeneracy.eta=0:6\"]");
   }
-  auto ranges = parse_ranges(task.plan.params);
+  auto ranges = parse_ranges(task.plan.params, {&task.plan.estimator, 1});
   if (!ranges) return tl::unexpected(ranges.error());
   task.ranges = std::move(*ranges);
   if (auto right = check_ranges(task.ranges, base, {&task.estimator, 1}); !right) return right;

@@ -10,6 +10,7 @@
 #include "bench/tuning/response_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
+#include "estimator/python/python_estimator.hpp"
 
 namespace aims {
 namespace {
@@ -98,8 +99,8 @@ std::string history_markdown(const TuneResult& result) {
 }
 
 std::string settings_text(const TuneResult& result) {
-  EstimatorSpec spec = spec_at(result.task.estimator, result.task.ranges,
-                               result.tables.front().points[result.chosen.front()]);
+  EstimatorSpec spec =
+      estimator_at(result.task, result.tables.front().points[result.chosen.front()]);
   spec.label = "tuned";
   return fmt::format("\nAs an estimator beside others:\n\n    --estimators {},{}\n",
                      text_of(result.task.estimator), text_of(spec));
@@ -218,7 +219,8 @@ std::string overlay_text(const TuneResult& result) {
   text += fmt::format("# search: {}\n# code: {}\n# plan:\n{}", search_text(result), code_version(),
                       commented(plan_text(task.plan)));
   auto settings = settings_of(task, result.tables.front().points[result.chosen.front()]);
-  const std::string& name = result.task.estimator.name;
+  const EstimatorSpec& estimator = result.task.estimator;
+  const std::string& name = is_python_name(estimator.name) ? estimator.label : estimator.name;
   for (auto& [key, value] : settings) key = fmt::format("estimators.{}.{}", name, key);
   std::sort(settings.begin(), settings.end());
   return text + nested_yaml(settings);

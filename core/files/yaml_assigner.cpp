@@ -54,6 +54,7 @@ Result<void> YamlAssigner::assign_map(const YAML::Node& map, const std::string& 
     }
     seen.push_back(name);
     if (prefix.empty() && name == kBaseKey) continue;
+    if (prefix.empty() && !target_.only.empty() && name != target_.only) continue;
     if (auto assigned = assign_entry(entry.first, entry.second, key); !assigned) return assigned;
   }
   return {};

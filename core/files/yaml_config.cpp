@@ -156,6 +156,29 @@ Result<void> load_group_text(std::string_view text, const std::string& name,
   });
 }
 
+Result<std::vector<std::string>> read_texts(const fs::path& file,
+                                            std::span<const std::string> settings,
+                                            const std::string& key, const fs::path& named) {
+  std::vector<std::string> texts;
+  const CollectFields collect = [&] {
+    Fields fields;
+    fields.texts(key, texts, {});
+    return fields;
+  };
+  const SettingTarget target = {collect, nullptr, named, key};
+  const auto read = [&](const fs::path& from) {
+    return reported(from.string(), [&] { return load_file(from, target, {}); });
+  };
+  Result<void> done;
+  if (!file.empty()) done = read(file);
+  for (const std::string& setting : settings) {
+    if (done && setting.starts_with('@')) done = read(setting.substr(1));
+    if (done && setting.starts_with(key + "=")) done = apply_setting(setting, collect(), target);
+  }
+  if (!done) return tl::unexpected(done.error());
+  return texts;
+}
+
 Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings,
                              std::vector<AssignedKey>* assigned, const fs::path& named) {
   const SettingTarget target = {collect, assigned, named};

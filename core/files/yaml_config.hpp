@@ -47,6 +47,13 @@ Result<void> apply_overrides(const CollectFields& collect, std::span<const std::
                              std::vector<AssignedKey>* assigned = nullptr,
                              const std::filesystem::path& named = {});
 
+/// The list of texts `key` of the top level after `load_config` and `apply_overrides`, whatever
+/// else the file (empty: none) and the settings hold; empty without that key.
+Result<std::vector<std::string>> read_texts(const std::filesystem::path& file,
+                                            std::span<const std::string> settings,
+                                            const std::string& key,
+                                            const std::filesystem::path& named = {});
+
 /// `load_config` into any configuration that has a `describe`.
 template <class Config>
 requires requires(Fields& fields, Config& config) { describe(fields, config); }

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "estimator/python/python_process.hpp"
@@ -19,7 +20,6 @@ constexpr std::size_t kMaxWaiting = 2'000;
 /// Deviation of R^T R from identity up to which a matrix is taken for a rotation, as in files.
 constexpr double kRotationTolerance = 1e-3;
 constexpr std::string_view kCallTimeoutKey = "call_timeout";
-constexpr std::string_view kCodeHashKey = "code_hash";
 
 enum class Event : std::uint8_t { kImu = 1, kLegs = 2, kScan = 3 };
 
@@ -120,6 +120,56 @@ std::optional<Pose> pose_in(MessageCursor& cursor) {
   return Pose{Eigen::Quaterniond(R).normalized(), matrix.topRightCorner<3, 1>()};
 }
 
+/// While a whole number has no value.
+constexpr int kNoInteger = std::numeric_limits<int>::min();
+
+/// The parameter of a value.
+void describe_value(Fields& fields, std::string_view key, PythonValue& value, Spec spec) {
+  if (auto* text = std::get_if<std::string>(&value)) fields.text(key, *text, std::move(spec));
+  if (auto* flag = std::get_if<bool>(&value)) fields.flag(key, *flag, std::move(spec));
+  if (auto* integer = std::get_if<int>(&value)) fields.integer(key, *integer, std::move(spec));
+  if (auto* number = std::get_if<double>(&value)) fields.number(key, *number, std::move(spec));
+}
+
+/// Whether the value is one.
+bool is_given(const PythonValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return !text->empty();
+  if (const auto* number = std::get_if<double>(&value)) return !std::isnan(*number);
+  return value != PythonValue(kNoInteger);
+}
+
+/// The text of which worker.py makes the value.
+std::string text_of(const PythonValue& value) {
+  return std::visit([](const auto& each) { return fmt::format("{}", each); }, value);
+}
+
+/// The value that worker.py describes by type and text. Error for a text that is none of that type.
+Result<PythonValue> value_of(const std::string& type, const std::string& text, bool is_given) {
+  PythonValue value;
+  if (type == "float") value = std::nan("");
+  if (type == "int") value = kNoInteger;
+  if (type == "bool") value = false;
+  if (!is_given) return value;
+  Fields fields;
+  describe_value(fields, "value", value, {});
+  if (auto done = assign(fields, "value", text); !done) return tl::unexpected(done.error());
+  return value;
+}
+
+/// The keyword that a message describes next.
+Result<PythonSetting> setting_in(MessageCursor& cursor) {
+  PythonSetting setting;
+  setting.key = cursor.take_text();
+  const std::string type = cursor.take_text();
+  const std::string text = cursor.take_text();
+  const bool has_default = cursor.take_text() == "1";
+  auto value = value_of(type, text, has_default);
+  if (!value) return failure(fmt::format("{}: {}", setting.key, value.error().message));
+  setting.value = std::move(*value);
+  if (has_default) setting.standard = setting.value;
+  return setting;
+}
+
 class PythonEstimator final : public Estimator {
  public:
   PythonEstimator(const PythonConfig& config, const SensorRig& rig)
@@ -166,9 +216,9 @@ class PythonEstimator final : public Estimator {
     bytes.add(rig.imu_rate_hz);
     bytes.add(rig.leg_rate_hz);
     for (const PythonSetting& each : config.settings()) {
-      if (each.has_default && each.text == each.default_text) continue;
+      if (each.standard == each.value) continue;
       bytes.add_text(each.key);
-      bytes.add_text(each.text);
+      bytes.add_text(text_of(each.value));
     }
     return bytes;
   }
@@ -279,15 +329,13 @@ Result<PythonConfig> PythonConfig::load(std::string_view name, double limit_s) {
     begin = end + 1;
   }
   while (!cursor.at_end()) {
-    PythonSetting setting;
-    setting.key = cursor.take_text();
-    setting.default_text = setting.text = cursor.take_text();
-    setting.has_default = cursor.take_text() == "1";
-    config.settings_.push_back(std::move(setting));
+    auto setting = setting_in(cursor);
+    if (!setting) return failure(fmt::format("{}: {}", name, setting.error().message));
+    config.settings_.push_back(std::move(*setting));
   }
   if (cursor.is_short()) return failure(fmt::format("{}: answered with too few bytes", name));
   for (const PythonSetting& each : config.settings_) {
-    if (each.key != kCallTimeoutKey && each.key != kCodeHashKey) continue;
+    if (each.key != kCallTimeoutKey && each.key != kPythonCodeHash) continue;
     return failure(
         fmt::format("{}: the keyword '{}' of the constructor is the name of another "
                     "parameter; expected another name",
@@ -298,14 +346,14 @@ Result<PythonConfig> PythonConfig::load(std::string_view name, double limit_s) {
 
 void PythonConfig::describe(Fields& fields) {
   for (PythonSetting& each : settings_) {
-    fields.text(each.key, each.text,
-                {.unit = "-", .meaning = "keyword of the constructor of " + name_});
+    describe_value(fields, each.key, each.value,
+                   {.unit = "-", .meaning = "keyword of the constructor of " + name_});
   }
   fields.number(kCallTimeoutKey, call_timeout_,
                 {.unit = "s",
                  .range = up_to(1e6),
                  .meaning = "wall time that one call of the class is given; 0: any"});
-  fields.text(kCodeHashKey, code_hash_,
+  fields.text(kPythonCodeHash, code_hash_,
               {.unit = "-", .meaning = "hash of the files that the class is made of"});
 }
 
@@ -323,7 +371,7 @@ bool PythonConfig::has(std::string_view method) const {
 
 Result<void> PythonConfig::check() const {
   for (const PythonSetting& each : settings_) {
-    if (each.has_default || !each.text.empty()) continue;
+    if (each.standard || is_given(each.value)) continue;
     return failure(
         fmt::format("{}: {}: expected a value, as the constructor has no default; give "
                     "+{}=VALUE",

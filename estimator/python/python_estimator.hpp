@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "core/error.hpp"
@@ -20,14 +22,19 @@ inline bool is_python_name(std::string_view name) { return name.starts_with(kPyt
 /// Error for such a name that names no module and class.
 Result<void> check_python_name(std::string_view name);
 
+/// A value of the type that the constructor states by its default or annotation; of another type as
+/// text: a Python literal, true, false, null, or the text itself.
+using PythonValue = std::variant<std::string, bool, int, double>;
+
 /// One keyword of the class's constructor.
 struct PythonSetting {
   std::string key;
-  std::string default_text;
-  bool has_default = false;
-  std::string text;  ///< its value: a Python literal, true, false, null, or a text
+  std::optional<PythonValue> standard;  ///< its default
+  PythonValue value;                    ///< while it has none: empty, kNoInteger or NaN
 };
 
+/// Key of the parameter that stands for the code of a class.
+inline constexpr std::string_view kPythonCodeHash = "code_hash";
 /// Wall time that one call of the class is given, unless it is set [s].
 inline constexpr double kCallTimeout = 120.0;
 

@@ -7,9 +7,11 @@ memory that both processes map; estimator/python/python_process.hpp states the l
 """
 
 import ast
+import enum
 import hashlib
 import importlib
 import inspect
+import math
 import mmap
 import os
 import signal
@@ -164,7 +166,7 @@ class Texts:
 
 
 def value_of(text):
-    """The value of a setting: a Python literal, true, false, null, or the text itself."""
+    """The value of a setting without a type: a Python literal, true, false, null, or the text itself."""
     named = {"true": True, "false": False, "null": None}
     if text in named:
         return named[text]
@@ -174,20 +176,47 @@ def value_of(text):
         return text
 
 
-def text_of(value):
-    """The text of which `value_of` makes the value."""
-    return value if isinstance(value, str) and value_of(value) == value else repr(value)
+TYPES = {"bool": bool, "int": int, "float": float, "str": str}
+
+
+def type_of(parameter):
+    """The name of the type in TYPES that a keyword takes, by its default or annotation; else ""."""
+    annotated = [name for name, kind in TYPES.items() if parameter.annotation in (name, kind)]
+    default = parameter.default
+    if default is parameter.empty:
+        return annotated[0] if annotated and annotated != ["bool"] else ""
+    found = next((name for name, kind in TYPES.items() if isinstance(default, kind)), "")
+    if found == "int" and (isinstance(default, enum.Enum) or abs(default) >= 2**31):
+        return ""
+    if found == "int" and annotated == ["float"]:
+        return "float"
+    return "" if found == "float" and not math.isfinite(default) else found
+
+
+def typed(text, name):
+    """The value of that type."""
+    if name == "bool":
+        return text == "true"
+    return TYPES[name](text) if name else value_of(text)
+
+
+def text_of(value, name):
+    """The text of which `typed` makes the value."""
+    if name == "bool":
+        return "true" if value else "false"
+    return str(TYPES[name](value)) if name else repr(value)
 
 
 def settings_of(kind):
-    """[(keyword, default as text, "1" where there is one)] of the class, without the rig."""
+    """[(keyword, type, default as text, "1" where there is one)] of the class, without the rig."""
     found = []
     for parameter in list(inspect.signature(kind).parameters.values())[1:]:
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
             continue
         has_default = parameter.default is not parameter.empty
-        text = text_of(parameter.default) if has_default else ""
-        found.append((parameter.name, text, "1" if has_default else "0"))
+        name = type_of(parameter)
+        text = text_of(parameter.default, name) if has_default else ""
+        found.append((parameter.name, name, text, "1" if has_default else "0"))
     return found
 
 
@@ -281,7 +310,8 @@ class Server:
         self.call.begin("constructor")
         rig = Rig(np.frombuffer(data, "<f8", 34))
         texts = Texts.unpack(data[34 * 8 :])
-        settings = {key: value_of(text) for key, text in zip(texts[::2], texts[1::2])}
+        types = {key: name for key, name, *_ in settings_of(self.kind)}
+        settings = {key: typed(text, types[key]) for key, text in zip(texts[::2], texts[1::2])}
         self.feeder = Feeder(self.kind(rig, **settings))
         return DONE, b""
 

@@ -152,6 +152,15 @@ class Taken(Legs):
         super().__init__(rig)
 
 
+class Typed(Legs):
+    """A keyword of each type; the trajectory is as long as it should be only if the types are right."""
+
+    def __init__(self, rig, factor: float, count: int = 2, gain: float = 1, on=True, text="2.5", other=None):
+        assert isinstance(factor, float) and isinstance(count, int) and isinstance(gain, float)
+        assert on in (True, False) and isinstance(text, str)
+        super().__init__(rig, factor * count * gain * (2.0 if on else 1.0) * (1 if other is None else other[1]))
+
+
 class Nothing:
     """None of the methods."""
 

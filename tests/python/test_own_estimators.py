@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Estimators in Python inside the program."""
 
+import csv
 import json
 import pathlib
 import shutil
@@ -177,6 +178,9 @@ def test_a_failed_job_is_recorded_and_the_others_are_done(own):
         ("python:own_estimators.Fails+how=constructor", "constructor: RuntimeError: the constructor"),
         ("python:own_estimators.Legs+scal=2", "unknown key 'scal'; did you mean 'scale'"),
         ("python:own_estimators.Needs", "factor: expected a value"),
+        ("python:own_estimators.Typed", "factor: expected a value"),
+        ("python:own_estimators.Legs+scale=far", "scale: 'far' is not a number"),
+        ("python:own_estimators.Typed+factor=1+on=yes", "on: 'yes' is not true or false"),
         ("python:own_estimators.Hangs+how=constructor+call_timeout=0.3",
          "constructor: the call has not ended within 0.3 s (call_timeout)"),
         ("python:own_estimators.Taken", "'call_timeout' of the constructor is the name of another"),
@@ -198,6 +202,86 @@ def test_settings_are_values_of_python(own):
     run(own, "estimate", "walk.bag", "--estimators", "n=python:own_estimators.Needs+factor=2.5",
         "-o", "needs")
     assert len(aims.read_trajectory(own / "needs" / "n.tum")) > 20
+
+
+def test_settings_have_the_types_of_the_constructor(own):
+    settings = "+factor=3+count=3+gain=2+on=false+text=7+other=[0, 0.5]"
+    run(own, "estimate", "walk.bag", "--estimators",
+        f"mine=python:own_estimators.Legs,n=python:own_estimators.Typed{settings}", "-o", "typed")
+    mine = aims.read_trajectory(own / "typed" / "mine.tum")
+    typed = aims.read_trajectory(own / "typed" / "n.tum")
+    np.testing.assert_allclose(typed.positions, 3 * 3 * 2 * 0.5 * mine.positions, atol=1e-12)
+
+
+def test_settings_have_keys_below_the_label(own):
+    out = ("--estimators", "mine=python:own_estimators.Legs,leg", "-o")
+    run(own, "run", "walk.yaml", *out, "keyed", "--set", "estimators.mine.scale=1.5")
+    run(own, "run", "walk.yaml", *out, "plain")
+    long = aims.read_trajectory(own / "keyed" / "mine.tum")
+    plain = aims.read_trajectory(own / "plain" / "mine.tum")
+    np.testing.assert_allclose(long.positions, 1.5 * plain.positions, atol=1e-12)
+    # The written configuration repeats it, and holds for others too.
+    out, _ = run(own, "run", "keyed/config.yaml", "-o", "again")
+    assert (own / "again" / "mine.tum").read_bytes() == (own / "keyed" / "mine.tum").read_bytes()
+    run(own, "run", "keyed/config.yaml", "--estimators", "leg", "-o", "other")
+    run(own, "estimate", "walk.bag", "--estimators", "mine=python:own_estimators.Legs", "-o",
+        "estimate-keyed", "--set", "estimators.mine.scale=1.5")
+    estimated = aims.read_trajectory(own / "estimate-keyed" / "mine.tum")
+    np.testing.assert_allclose(estimated.positions[-1], long.positions[-1], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "setting, message",
+    [
+        ("mine.scal=2", "unknown key 'estimators.mine.scal'; did you mean 'estimators.mine.scale'"),
+        ("mine.scale=far", "estimators.mine.scale: 'far' is not a number"),
+        ("mine.only_first=1.5", "estimators.mine.only_first: '1.5' is not an integer"),
+        ("mine.code_hash=0", "estimators.mine.code_hash: has no effect: it follows from the files"),
+        ("other.scale=1", "unknown key 'estimators.other.scale'"),
+    ],
+)
+def test_a_wrong_setting_is_an_error(own, setting, message):
+    command = ("estimate", "walk.bag") if "scal" in setting else ("run", "walk.yaml")
+    _, error = run(own, *command, "--estimators", "mine=python:own_estimators.Legs", "-o", "wrong",
+                   "--set", f"estimators.{setting}", code=2)
+    assert message in error, error
+
+
+def test_a_class_with_two_labels_has_settings_in_its_specs_alone(own):
+    _, error = run(own, "run", "walk.yaml", "--estimators",
+                   "a=python:own_estimators.Legs,b=python:own_estimators.Legs+scale=2", "-o", "wrong",
+                   "--set", "estimators.a.scale=3", code=2)
+    assert "python:own_estimators.Legs has several labels; expected LABEL=NAME+key=value" in error
+
+
+def sweep(own, *arguments, code=0):
+    return program("sweep", "--scenarios", "walk.yaml", "--seeds", "3", "--estimators",
+                   "mine=python:own_estimators.Legs", "--quiet", "--jobs", "1", *arguments, cwd=own,
+                   code=code, env={"AIMS_PYTHON": sys.executable})
+
+
+def test_settings_are_swept(own):
+    sweep(own, "--param", "scale=0.5:2:4", "--param", "estimators.mine.only_first=600:700.4:2",
+          "--set", "estimators.mine.call_timeout=30", "-o", "swept")
+    program("merge", "swept", cwd=own, env={"AIMS_PYTHON": sys.executable})
+    rows = list(csv.DictReader((own / "swept" / "sweep.csv").open()))
+    points = {(float(row["scale"]), float(row["only_first"])) for row in rows}
+    assert points == {(scale, first) for scale in (0.5, 1, 1.5, 2) for first in (600, 700)}
+    assert len({row["ate_m"] for row in rows if row["scale"] != "1"}) == 6, "they have no effect"
+
+
+@pytest.mark.parametrize(
+    "param, message",
+    [
+        ("scal=1:2:2", "unknown key 'scal'; did you mean 'scale'?; python:own_estimators.Legs has "
+                       "scale, only_first, call_timeout, code_hash"),
+        ("code_hash=1:2:2", "'code_hash' is a text, and only numbers have ranges"),
+        ("estimators.aims.scale=1:2:2", "a key of aims, but mine is varied"),
+    ],
+)
+def test_a_wrong_range_is_an_error(own, param, message):
+    _, error = sweep(own, "--param", param, "-o", "wrong", code=2)
+    assert message in error
 
 
 def test_poses_that_are_none_are_left_out_and_counted(own):

@@ -41,7 +41,7 @@ bool says(const std::string& message, const std::string& part) {
 }
 
 std::string check(const std::vector<std::string>& texts) {
-  const auto ranges = parse_ranges(texts);
+  const auto ranges = parse_ranges(texts, {});
   if (!ranges) return ranges.error().message;
   const std::vector<EstimatorSpec> aims = {*parse_estimator_spec("aims")};
   const auto checked = check_ranges(*ranges, {}, aims);

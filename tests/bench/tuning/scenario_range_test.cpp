@@ -25,7 +25,7 @@ bool says(const std::string& text, const std::string& part) {
 const std::vector<EstimatorSpec> kAims = {*parse_estimator_spec("aims")};
 
 std::string refusal_of(const std::string& text) {
-  const auto ranges = parse_ranges(std::vector{text});
+  const auto ranges = parse_ranges(std::vector{text}, {});
   if (!ranges) return ranges.error().message;
   const auto checked = check_ranges(*ranges, testing::short_walk(), kAims);
   return checked ? "accepted" : checked.error().message;
@@ -56,8 +56,10 @@ TEST(RangeKey, ThatBothHaveNeedsAPrefix) {
   EXPECT_TRUE(says(bare.error().message, "'estimators.*.imu.gyro_bias_walk'"));
   EXPECT_TRUE(says(bare.error().message, "'scenario.imu.gyro_bias_walk'"));
   EXPECT_EQ(range_key("estimators.*.imu.gyro_bias_walk")->name, "imu.gyro_bias_walk");
-  const auto both = parse_ranges(std::vector<std::string>{
-      "estimators.*.imu.gyro_bias_walk=0.0001:0.001:2", "scenario.imu.gyro_bias_walk=0:0.001:2"});
+  const auto both =
+      parse_ranges(std::vector<std::string>{"estimators.*.imu.gyro_bias_walk=0.0001:0.001:2",
+                                            "scenario.imu.gyro_bias_walk=0:0.001:2"},
+                   {});
   ASSERT_TRUE(both);
   EXPECT_TRUE(check_ranges(*both, testing::short_walk(), kAims));
   EXPECT_EQ(full_key((*both)[0]), "estimators.*.imu.gyro_bias_walk");
