@@ -31,6 +31,8 @@ struct OusterScans::Layout {
   int range_unit;            ///< [mm]
   std::size_t reflectivity;  ///< in the pixel
   std::size_t reflectivity_bytes;
+  std::size_t second = 0;   ///< return, of the same form, in the pixel; 0: none
+  std::size_t signals = 0;  ///< of both returns, in the pixel
 };
 
 namespace {
@@ -88,9 +90,10 @@ std::optional<Pose> transform_of(const Scalars& scalars, std::string_view key) {
 }  // namespace
 
 const OusterScans::Layout& OusterScans::layout() const {
-  static constexpr std::array<Layout, 3> kLayouts = {{
+  static constexpr std::array<Layout, 4> kLayouts = {{
       {"LEGACY", 0, 16, 4, 0, 12, 10, true, 0, 0xfffff, 4, 1, 4, 2},
       {"RNG19_RFL8_SIG16_NIR16", 32, 12, 0, 32, 12, 2, false, 10, 0x7ffff, 4, 1, 4, 1},
+      {"RNG19_RFL8_SIG16_NIR16_DUAL", 32, 12, 0, 32, 16, 2, false, 10, 0x7ffff, 4, 1, 3, 1, 4, 8},
       {"RNG15_RFL8_NIR8", 32, 12, 0, 32, 4, 2, false, 10, 0x7fff, 2, 8, 2, 1},
   }};
   const auto found = std::ranges::find(kLayouts, metadata_.profile, &Layout::profile);
@@ -108,11 +111,12 @@ Result<OusterMetadata> read_ouster_metadata(const std::filesystem::path& file) {
   OusterMetadata metadata;
   const std::string* profile = find(*scalars, "udp_profile_lidar");
   metadata.profile = profile == nullptr || profile->empty() ? "LEGACY" : *profile;
-  constexpr auto kProfiles =
-      std::to_array<std::string_view>({"LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG15_RFL8_NIR8"});
+  constexpr auto kProfiles = std::to_array<std::string_view>(
+      {"LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL", "RNG15_RFL8_NIR8"});
   if (std::ranges::find(kProfiles, metadata.profile) == kProfiles.end()) {
     return refuse("udp_profile_lidar",
-                  fmt::format("LEGACY, RNG19_RFL8_SIG16_NIR16 or RNG15_RFL8_NIR8, found '{}'",
+                  fmt::format("LEGACY, RNG19_RFL8_SIG16_NIR16, RNG19_RFL8_SIG16_NIR16_DUAL or "
+                              "RNG15_RFL8_NIR8, found '{}'",
                               metadata.profile));
   }
   metadata.altitude_deg = numbers_of(*scalars, "beam_altitude_angles");
@@ -176,6 +180,15 @@ std::optional<LidarScan> OusterScans::add(std::span<const std::byte> packet) {
   return ended;
 }
 
+/// The return with the larger signal: their order depends on the configuration of the sensor.
+const std::byte* OusterScans::stronger_return(const std::byte* pixel) const {
+  const Layout& at = layout();
+  if (at.second == 0) return pixel;
+  const std::byte* signals = pixel + at.signals;
+  const bool later = load_number<std::uint16_t>(signals + 2) > load_number<std::uint16_t>(signals);
+  return later ? pixel + at.second : pixel;
+}
+
 void OusterScans::add_column(const std::byte* column) {
   const Layout& at = layout();
   const auto stamp = stamp_at(column);
@@ -185,7 +198,7 @@ void OusterScans::add_column(const std::byte* column) {
   const double origin = metadata_.origin_to_beam;
   const std::size_t beams = metadata_.altitude_deg.size();
   for (std::size_t beam = 0; beam < beams; ++beam) {
-    const std::byte* pixel = column + at.column_header + beam * at.pixel;
+    const std::byte* pixel = stronger_return(column + at.column_header + beam * at.pixel);
     const std::uint32_t raw =
         at.range_bytes == 4 ? load_number<std::uint32_t>(pixel) : load_number<std::uint16_t>(pixel);
     const double range = 1e-3 * at.range_unit * (raw & at.range_mask);

@@ -26,12 +26,13 @@ struct OusterMetadata {
 };
 
 /// Reads such a file. Error, naming file and key, for what is missing, and for a profile of packets
-/// other than LEGACY, RNG19_RFL8_SIG16_NIR16 and RNG15_RFL8_NIR8.
+/// other than LEGACY, RNG19_RFL8_SIG16_NIR16 (also _DUAL) and RNG15_RFL8_NIR8.
 Result<OusterMetadata> read_ouster_metadata(const std::filesystem::path& file);
 
 /// Puts the scans of an Ouster sensor together from its packets (Ouster sensor documentation, data
 /// packet format): a scan ends where the frame number changes. Each point has the time of its
-/// column, in the sensor's clock. LiDAR axes as there.
+/// column, in the sensor's clock. Of two returns the one with the larger signal is used. LiDAR axes
+/// as there.
 class OusterScans {
  public:
   explicit OusterScans(OusterMetadata metadata);
@@ -49,6 +50,7 @@ class OusterScans {
  private:
   struct Layout;
   const Layout& layout() const;
+  const std::byte* stronger_return(const std::byte* pixel) const;
   void add_column(const std::byte* column);
 
   OusterMetadata metadata_;

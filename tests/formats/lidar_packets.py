@@ -93,6 +93,11 @@ def ouster_pixel(profile, distance_mm):
         return struct.pack("<IHHHH", distance_mm, 77, 500, 3, 0)
     if profile == "RNG15_RFL8_NIR8":
         return struct.pack("<HBB", distance_mm // 8, 77, 4)
+    if profile == "RNG19_RFL8_SIG16_NIR16_DUAL":  # behind a weaker return, at half the way
+        word = lambda distance, reflectivity: distance | 0xf80000 | reflectivity << 24
+        signal = 500 if distance_mm else 0
+        return struct.pack("<IIHHHH", word(distance_mm // 2, 9), word(distance_mm, 77), signal // 2,
+                           signal, 3, 0)
     return struct.pack("<IBBHHH", distance_mm | 0xf80000, 77, 0, 500, 3, 0)
 
 

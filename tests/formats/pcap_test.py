@@ -119,7 +119,7 @@ class Captures(ProgramTest):
         self.assertAlmostEqual(imu["translation"]["x"], 0.006253)
 
     def test_ouster_points_lie_on_the_walls_at_their_columns_times(self):
-        for profile in ("LEGACY", "RNG19_RFL8_SIG16_NIR16"):
+        for profile in ("LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL"):
             with self.subTest(profile=profile):
                 self.check_ouster(profile, 0.002)
         with self.subTest(profile="RNG15_RFL8_NIR8"):

@@ -28,6 +28,7 @@ void replay(const std::string& target, void (*run)(std::span<const std::uint8_t>
 TEST(FuzzCorpus, Bags) { replay("bag", fuzz_bag); }
 TEST(FuzzCorpus, McapFiles) { replay("mcap", fuzz_mcap); }
 TEST(FuzzCorpus, Captures) { replay("pcap", fuzz_pcap); }
+TEST(FuzzCorpus, OusterPackets) { replay("ouster", fuzz_ouster); }
 TEST(FuzzCorpus, SqliteFiles) { replay("db3", fuzz_db3); }
 TEST(FuzzCorpus, Messages) { replay("message", fuzz_message); }
 TEST(FuzzCorpus, MessagesOfRos2) { replay("cdr", fuzz_cdr); }

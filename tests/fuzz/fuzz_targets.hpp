@@ -16,6 +16,8 @@ void fuzz_bag(std::span<const std::uint8_t> input);
 void fuzz_mcap(std::span<const std::uint8_t> input);
 void fuzz_pcap(std::span<const std::uint8_t> input);
 void fuzz_db3(std::span<const std::uint8_t> input);
+/// The metadata of an Ouster (its length, JSON), and packets of the size that it states.
+void fuzz_ouster(std::span<const std::uint8_t> input);
 /// A message definition, and the bytes of a message, of ROS 1; and of ROS 2 (CDR).
 void fuzz_message(std::span<const std::uint8_t> input);
 void fuzz_cdr(std::span<const std::uint8_t> input);

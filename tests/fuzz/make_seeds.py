@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes small inputs for the fuzzers to start from.
 
-usage: make_seeds.py BAG_TOOL AIMS FOLDER   (FOLDER/bag, mcap, db3, pcap, message, cdr, recording)
+usage: make_seeds.py BAG_TOOL AIMS FOLDER   (FOLDER/bag, mcap, db3, pcap, ouster, message, cdr, recording)
 """
+import json
 import os
 import sqlite3
 import struct
@@ -14,7 +15,7 @@ import tempfile
 import rosbag
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "formats"))
-from lidar_packets import capture, vlp16_packets
+from lidar_packets import capture, ouster_metadata, ouster_packets, vlp16_packets
 
 TOPICS = ["sensor_msgs/Imu", "sensor_msgs/PointCloud2", "nav_msgs/Odometry",
           "sensor_msgs/JointState", "aims_msgs/FootContacts", "tf2_msgs/TFMessage"]
@@ -65,6 +66,13 @@ def save_captures(folder):
     for name, every, options in (("micro", 12, {}), ("nano", 20, {"nanoseconds": True}),
                                  ("big", 20, {"order": ">"}), ("vlan", 20, {"vlan": True})):
         save(folder + "/pcap", name + ".pcap", capture(packets[::every], **options))
+    for profile in ("LEGACY", "RNG15_RFL8_NIR8", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL"):
+        metadata = ouster_metadata(profile, 2, columns=32)
+        text = json.dumps(metadata).encode()
+        packets = [packet for _, packet in ouster_packets(metadata, 0, 10**9, 3)]
+        imu = next(packet for packet in packets if len(packet) == 48)
+        save(folder + "/ouster", profile, struct.pack("<H", len(text)) + text +
+             b"".join(packet for packet in packets if len(packet) != 48) + imu)
     save(folder + "/pcap", "fragments.pcap", capture([(10**9, bytes(9000)), (2 * 10**9, b"x")]))
 
 

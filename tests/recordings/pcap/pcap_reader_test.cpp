@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packets with one answer each; tests/formats/pcap_test.py has entire captures of a room.
+#include "recordings/pcap/pcap_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/files/atomic_file.hpp"
+#include "recordings/pcap/ouster_packets.hpp"
+#include "recordings/pcap/velodyne_packets.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Bytes that are put one after the other, little endian.
+struct Packet {
+  std::vector<std::byte> bytes = {};
+
+  template <class Value>
+  Packet& put(Value value) {
+    const auto* from = reinterpret_cast<const std::byte*>(&value);
+    bytes.insert(bytes.end(), from, from + sizeof(value));
+    return *this;
+  }
+  Packet& zeros(std::size_t count) {
+    bytes.resize(bytes.size() + count);
+    return *this;
+  }
+  std::string text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+};
+
+/// A VLP-16's packet whose blocks begin at these azimuths [0.01 deg]; only laser 1, at +1 degree,
+/// has returns, at 10 m, in both sequences of each block.
+Packet velodyne_packet(const std::vector<int>& azimuths, std::uint32_t microseconds,
+                       std::uint8_t model = 0x22) {
+  Packet packet;
+  for (const int azimuth : azimuths) {
+    packet.put<std::uint16_t>(0xeeff).put(static_cast<std::uint16_t>(azimuth));
+    for (int firing = 0; firing < 32; ++firing) {
+      packet.put<std::uint16_t>(firing % 16 == 1 ? 5000 : 0).put<std::uint8_t>(51);
+    }
+  }
+  return packet.put(microseconds).put<std::uint8_t>(0x37).put(model);
+}
+
+std::vector<int> blocks_from(int first, int step) {
+  std::vector<int> azimuths;
+  for (int i = 0; i < 12; ++i) azimuths.push_back((first + i * step) % 36000);
+  return azimuths;
+}
+
+TEST(VelodyneScans, TurnsTheHeadBetweenBlocksAndAfterTheLast) {
+  VelodyneScans scans;
+  // The first packet passes zero at its start; the last but one reaches 340 degrees.
+  constexpr int kStep = 300;
+  ASSERT_TRUE(scans.add(velodyne_packet(blocks_from(35900, 50), 0).bytes, 0));
+  for (int packet = 0; packet < 9; ++packet) {
+    const auto time = static_cast<std::uint32_t>(1'328 * (packet + 1));
+    ASSERT_TRUE(
+        scans.add(velodyne_packet(blocks_from(600 + packet * 12 * kStep, kStep), time).bytes, 0));
+  }
+  const auto added = scans.add(velodyne_packet(blocks_from(100, kStep), 13'280).bytes, 0);
+  ASSERT_TRUE(added && *added);
+  const LidarScan& scan = **added;
+  ASSERT_EQ(scan.points.size(), 2U * (10 + 9 * 12));
+  int checked = 0;
+  for (std::size_t i = 2 * 10; i < scan.points.size(); ++i) {
+    const LidarPoint& point = scan.points[i];
+    const std::size_t block = (i - 20) / 2;
+    // The manual's example: firing n of a block is 55.296 us * (n / 16) + 2.304 us * (n % 16) after
+    // it.
+    const double after = (i % 2 == 0 ? 0.0 : 55.296) + 2.304;
+    const double azimuth = 0.01 * (600.0 + kStep * double(block) + kStep * after / 110.592);
+    const double found = std::atan2(-point.position.y(), point.position.x()) / kDegree;
+    EXPECT_NEAR(std::remainder(found - azimuth, 360.0), 0.0, 1e-3) << "block " << block;
+    const double across = std::hypot(point.position.x(), point.position.y());
+    EXPECT_NEAR(across, 10.0 * std::cos(kDegree), 1e-5);
+    EXPECT_NEAR(point.position.z(), 10.0 * std::sin(kDegree) - 0.0007, 1e-5);
+    EXPECT_EQ(point.ring, 8);
+    EXPECT_NEAR(point.intensity, 0.2, 1e-6);
+    const double time =
+        1e3 * (1'328.0 * double(1 + block / 12) + 110.592 * double(block % 12) + after);
+    EXPECT_NEAR(double(scan.stamp) + point.time_offset_ns, time, 1.0);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 216);
+}
+
+TEST(VelodyneScans, RefusesOtherModels) {
+  VelodyneScans scans;
+  const auto added = scans.add(velodyne_packet(blocks_from(0, 20), 0, 0x28).bytes, 0);
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().message, "expected packets of a VLP-16 (0x22), found model 0x28");
+}
+
+OusterMetadata ouster(const std::string& profile) {
+  OusterMetadata metadata;
+  metadata.profile = profile;
+  metadata.altitude_deg = {10.0, -10.0};
+  metadata.azimuth_deg = {3.0, -3.0};
+  metadata.columns_per_frame = 360;
+  metadata.columns_per_packet = 1;
+  return metadata;
+}
+
+/// What one beam returns; the second return is that of the profile of two.
+struct Return {
+  std::uint32_t range_mm = 0;
+  std::uint8_t reflectivity = 0;
+  std::uint16_t signal = 0;
+};
+
+/// A packet of two returns a beam, of one column, the same for all beams.
+Packet dual_packet(std::uint16_t frame, std::uint16_t column, const Return& first,
+                   const Return& second) {
+  Packet packet;
+  packet.put<std::uint16_t>(1).put(frame).zeros(28);
+  packet.put(std::uint64_t{1'000'000} * column).put(column).put<std::uint16_t>(1);
+  for (int beam = 0; beam < 2; ++beam) {
+    for (const Return& each : {first, second}) {
+      // The upper bits are flags.
+      packet.put(each.range_mm | std::uint32_t{each.reflectivity} << 24 | 0xf80000U);
+    }
+    packet.put(first.signal).put(second.signal).put<std::uint16_t>(7).zeros(2);
+  }
+  return packet.zeros(32);
+}
+
+TEST(OusterScans, TakesTheStrongerOfTwoReturns) {
+  OusterScans scans(ouster("RNG19_RFL8_SIG16_NIR16_DUAL"));
+  const Return near{4000, 51, 100}, far{9000, 102, 300}, none{0, 0, 0};
+  struct Case {
+    Return first, second;
+    double range;
+    double intensity;
+  };
+  const std::vector<Case> cases = {{near, far, 9.0, 0.4},
+                                   {far, near, 9.0, 0.4},
+                                   {near, none, 4.0, 0.2},
+                                   {{4000, 51, 300}, far, 4.0, 0.2},
+                                   {none, {5000, 51, 1}, 5.0, 0.2}};
+  const Packet before = dual_packet(0, 0, near, far);
+  ASSERT_EQ(before.bytes.size(), scans.lidar_packet_size());
+  scans.add(before.bytes);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    scans.add(dual_packet(1, static_cast<std::uint16_t>(i), cases[i].first, cases[i].second).bytes);
+  }
+  const auto scan = scans.add(dual_packet(2, 0, none, none).bytes);
+  ASSERT_TRUE(scan);
+  ASSERT_EQ(scan->points.size(), 2 * cases.size());
+  for (std::size_t i = 0; i < scan->points.size(); ++i) {
+    const LidarPoint& point = scan->points[i];
+    const Case& expected = cases[i / 2];
+    EXPECT_NEAR(point.position.norm(), expected.range, 1e-5) << i;
+    EXPECT_NEAR(point.intensity, expected.intensity, 1e-6) << i;
+    // The encoder runs against the axes; a beam's azimuth counts likewise.
+    const double azimuth = -double(i / 2) - (i % 2 == 0 ? 3.0 : -3.0);
+    EXPECT_NEAR(std::remainder(
+                    std::atan2(point.position.y(), point.position.x()) / kDegree - azimuth, 360.0),
+                0.0, 1e-4);
+    EXPECT_NEAR(std::asin(point.position.z() / expected.range) / kDegree, i % 2 == 0 ? 10.0 : -10.0,
+                1e-4);
+    EXPECT_EQ(point.time_offset_ns, 1'000'000 * static_cast<int>(i / 2));
+  }
+}
+
+std::string at_byte(std::size_t position) { return "at byte " + std::to_string(position) + ": "; }
+
+class Capture : public testing::Test {
+ protected:
+  std::string refusal(const std::string& bytes, BagOpenOptions options = {}) {
+    EXPECT_TRUE(write_file_atomically(folder_.path() / "c.pcap", bytes));
+    const auto reader = PcapReader::open(folder_.path() / "c.pcap", options);
+    if (reader) return "accepted";
+    const std::string start = (folder_.path() / "").string();
+    EXPECT_TRUE(reader.error().message.starts_with(start)) << reader.error().message;
+    return reader.error().message.substr(std::min(start.size(), reader.error().message.size()));
+  }
+
+  static std::string header(std::uint32_t magic = 0xa1b2c3d4, std::uint32_t link = 101) {
+    return Packet().put(magic).zeros(16).put(link).text();
+  }
+
+  /// A frame with an IPv4 packet of UDP; `missing` bytes at its end are not there.
+  static std::string frame(const Packet& payload, std::size_t missing = 0) {
+    const auto big = [](std::size_t value) {
+      return static_cast<std::uint16_t>((value & 0xff) << 8 | value >> 8);
+    };
+    Packet ip;
+    ip.put<std::uint8_t>(0x45).put<std::uint8_t>(0).put(big(28 + payload.bytes.size())).zeros(5);
+    ip.put<std::uint8_t>(17).zeros(10).zeros(4).put(big(8 + payload.bytes.size())).zeros(2);
+    const auto size = static_cast<std::uint32_t>(ip.bytes.size() + payload.bytes.size());
+    const std::string all =
+        Packet().zeros(8).put(size).put(size).text() + ip.text() + payload.text();
+    return all.substr(0, all.size() - missing);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Capture, RefusesWhatIsMalformed) {
+  const std::string packet = frame(velodyne_packet(blocks_from(0, 20), 0));
+  EXPECT_EQ(refusal(""), "c.pcap: at byte 0: expected a capture (.pcap)");
+  EXPECT_EQ(refusal(header().substr(0, 23)), "c.pcap: at byte 0: expected a capture (.pcap)");
+  EXPECT_EQ(refusal(header(0x12345678)), "c.pcap: at byte 0: expected a capture (.pcap)");
+  EXPECT_NE(refusal(header(0x0a0d0d0a)).find("found pcapng"), std::string::npos);
+  EXPECT_NE(refusal(header(0xa1b2c3d4, 105)).find("at byte 20: expected frames of Ethernet"),
+            std::string::npos);
+  EXPECT_NE(refusal(header() + packet.substr(0, 10)).find("at byte 24: expected 16 bytes"),
+            std::string::npos);
+  EXPECT_NE(refusal(header() + packet + frame(velodyne_packet(blocks_from(0, 20), 0), 1))
+                .find(at_byte(24 + packet.size() + 16)),
+            std::string::npos);
+  EXPECT_NE(refusal(header() + Packet().zeros(8).put(std::uint32_t{1} << 19).zeros(4).text())
+                .find("at byte 24: expected a frame of at most 262144 bytes, found 524288"),
+            std::string::npos);
+  EXPECT_NE(refusal(header() + packet + frame(velodyne_packet(blocks_from(0, 20), 0, 0x28)))
+                .find(at_byte(24 + packet.size()) + "expected packets of a VLP-16"),
+            std::string::npos);
+  EXPECT_NE(refusal(header() + packet).find("expected whole scans of a Velodyne VLP-16"),
+            std::string::npos);
+}
+
+TEST_F(Capture, NamesTheProfileThatIsNotRead) {
+  ASSERT_TRUE(write_file_atomically(folder_.path() / "c.json",
+                                    R"({"udp_profile_lidar": "FUSA_RNG15_RFL8_NIR8_DUAL"})"));
+  EXPECT_EQ(refusal(header()),
+            "c.json: udp_profile_lidar: expected LEGACY, RNG19_RFL8_SIG16_NIR16, "
+            "RNG19_RFL8_SIG16_NIR16_DUAL or RNG15_RFL8_NIR8, found 'FUSA_RNG15_RFL8_NIR8_DUAL'");
+}
+
+}  // namespace
+}  // namespace aims
