@@ -30,8 +30,7 @@ constexpr std::string_view kImuFrame = "imu";
 constexpr std::string_view kBaseFrame = "base";
 
 /// What a row can hold, in the order of its messages.
-enum Kind : std::size_t { kImu, kForces, kJointStates, kKinds };
-constexpr std::array<const char*, kKinds> kTopics = {"/imu/data", "/foot_forces", "/joint_states"};
+enum RowKind : std::size_t { kImu, kForces, kJointStates, kKinds };
 
 /// Columns of numbers, of which a row has a value each.
 using Columns = std::vector<std::vector<double>>;
@@ -175,41 +174,24 @@ std::optional<MessageBytes> joints_of(const Table& table, std::size_t row) {
 
 struct CsvReader::Impl {
   fs::path mapping;
+  std::uint64_t table_size = 0;  ///< [bytes]
   Table table;
   double turn_scale = 1.0;  ///< of the gyro to rad/s
-  std::vector<BagConnection> connections = {};
-  BagSummary summary = {};
-  std::array<bool, kKinds> chosen = {};
-  std::size_t at = 0;  ///< rows times kinds
+  std::size_t at = 0;       ///< rows times kinds
   MessageBytes message = MessageBytes();
 
-  std::optional<MessageBytes> message_of(std::size_t row, Kind kind) const {
+  std::optional<MessageBytes> message_of(std::size_t row, std::size_t kind) const {
     if (kind == kImu) return imu_of(table, row, turn_scale);
     return kind == kForces ? forces_of(table, row) : joints_of(table, row);
   }
-  void list_connections();
 };
 
-void CsvReader::Impl::list_connections() {
-  const std::array<MessageType, kKinds> types = {imu_type(), foot_forces_type(),
-                                                 joint_state_type()};
-  for (std::size_t kind = 0; kind < kKinds; ++kind) {
-    BagConnection connection;
-    connection.id = static_cast<std::uint32_t>(kind);
-    connection.topic = kTopics[kind];
-    connection.type = types[kind].name;
-    connection.md5 = types[kind].md5;
-    connection.definition = types[kind].definition;
-    for (std::size_t row = 0; row < table.times.size(); ++row) {
-      if (message_of(row, static_cast<Kind>(kind))) ++connection.messages;
-    }
-    summary.messages += connection.messages;
-    connections.push_back(std::move(connection));
-  }
-  std::erase_if(connections, [](const BagConnection& each) { return each.messages == 0; });
-}
-
-CsvReader::CsvReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+CsvReader::CsvReader(std::unique_ptr<Impl> impl)
+    : KindSource(std::to_array<KindSource::Kind>({{"/imu/data", imu_type()},
+                                                  {"/foot_forces", foot_forces_type()},
+                                                  {"/joint_states", joint_state_type()}}),
+                 impl->table_size),
+      impl_(std::move(impl)) {}
 CsvReader::CsvReader(CsvReader&&) noexcept = default;
 CsvReader& CsvReader::operator=(CsvReader&&) noexcept = default;
 CsvReader::~CsvReader() = default;
@@ -224,47 +206,27 @@ Result<CsvReader> CsvReader::open(const fs::path& file, BagOpenOptions options) 
   const fs::path csv = file.parent_path() / mapping->file;
   auto table = read_table(*mapping, csv);
   if (!table) return tl::unexpected(table.error());
-  auto impl = std::unique_ptr<Impl>(new Impl{file, std::move(*table)});
-  if (mapping->gyro_unit == CsvTurnUnit::kDegrees) impl->turn_scale = std::numbers::pi / 180.0;
-  impl->list_connections();
-  impl->chosen.fill(true);
-  BagSummary& summary = impl->summary;
   std::error_code ignored;
-  summary.file_size = fs::file_size(csv, ignored);
-  summary.chunks = 1;
-  summary.compression = name_of(BagCompression::kNone);
-  if (!impl->table.times.empty()) {
-    summary.start = impl->table.times.front();
-    summary.end = impl->table.times.back();
-  }
-  return CsvReader(std::move(impl));
+  auto impl = std::unique_ptr<Impl>(new Impl{file, fs::file_size(csv, ignored), std::move(*table)});
+  if (mapping->gyro_unit == CsvTurnUnit::kDegrees) impl->turn_scale = std::numbers::pi / 180.0;
+  CsvReader reader(std::move(impl));
+  if (auto counted = reader.count(); !counted) return tl::unexpected(counted.error());
+  return reader;
 }
 
 std::string CsvReader::name() const { return impl_->mapping.string(); }
 
-const std::vector<BagConnection>& CsvReader::connections() const { return impl_->connections; }
-
-const BagSummary& CsvReader::summary() const { return impl_->summary; }
-
-void CsvReader::select(std::span<const std::string> topics) {
-  for (std::size_t kind = 0; kind < kKinds; ++kind) {
-    impl_->chosen[kind] = std::ranges::find(topics, kTopics[kind]) != topics.end();
-  }
-}
-
-Result<std::optional<BagMessage>> CsvReader::next() {
+Result<std::optional<KindSource::Made>> CsvReader::make() {
   Impl& csv = *impl_;
-  for (; csv.at < csv.table.times.size() * kKinds; ++csv.at) {
+  while (csv.at < csv.table.times.size() * kKinds) {
     const std::size_t row = csv.at / kKinds;
-    const auto kind = static_cast<Kind>(csv.at % kKinds);
-    auto message = csv.chosen[kind] ? csv.message_of(row, kind) : std::nullopt;
+    const std::size_t kind = csv.at++ % kKinds;
+    auto message = csv.message_of(row, kind);
     if (!message) continue;
-    ++csv.at;
     csv.message = std::move(*message);
-    const auto connection = std::ranges::find(csv.connections, kind, &BagConnection::id);
-    return BagMessage{&*connection, csv.table.times[row], csv.message.view(), row + 1};
+    return Made{kind, csv.table.times[row], csv.message.view(), row + 1};
   }
-  return std::optional<BagMessage>();
+  return std::optional<Made>();
 }
 
 void CsvReader::rewind() { impl_->at = 0; }

@@ -6,14 +6,14 @@
 
 #include "core/error.hpp"
 #include "recordings/bag/chunk_reader.hpp"
-#include "recordings/bag/message_source.hpp"
+#include "recordings/bag/kind_source.hpp"
 
 namespace aims {
 
 /// Reads a table of comma-separated values by its mapping (`CsvMapping`) as messages: of each row a
 /// sensor_msgs/Imu, an aims_msgs/FootForces and a sensor_msgs/JointState, where all their cells are
 /// numbers. A row with empty cells lacks those messages.
-class CsvReader final : public MessageSource {
+class CsvReader final : public KindSource {
  public:
   /// `mapping`: a YAML file. Errors name file and row; times must not decrease.
   static Result<CsvReader> open(const std::filesystem::path& mapping, BagOpenOptions options = {});
@@ -22,17 +22,13 @@ class CsvReader final : public MessageSource {
   ~CsvReader() override;
 
   std::string name() const override;
-  const std::vector<BagConnection>& connections() const override;
-  /// A chunk is the table.
-  const BagSummary& summary() const override;
-  void select(std::span<const std::string> topics) override;
-  /// The offset of a message is the number of its row, from 1.
-  Result<std::optional<BagMessage>> next() override;
   void rewind() override;
 
  private:
   struct Impl;
   explicit CsvReader(std::unique_ptr<Impl> impl);
+  /// The offset is the number of the row, from 1.
+  Result<std::optional<Made>> make() override;
   std::unique_ptr<Impl> impl_;
 };
 

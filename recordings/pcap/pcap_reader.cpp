@@ -19,12 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum Kind : std::size_t { kScan, kImu, kFrames, kKinds };
-constexpr std::array<const char*, kKinds> kTopics = {"/lidar/points", "/imu/data", "/tf_static"};
+enum PacketKind : std::size_t { kScan, kImu, kFrames };
 
 /// A message that a packet completes.
 struct PacketMessage {
-  Kind kind = kScan;
+  PacketKind kind = kScan;
   MessageBytes bytes = MessageBytes();
 };
 
@@ -85,83 +84,16 @@ struct PcapReader::Impl {
   std::optional<OusterMetadata> ouster;
   bool recover = false;
   std::unique_ptr<PacketDecoder> decoder = {};
-  std::vector<BagConnection> connections = {};
-  BagSummary summary = {};
   Time time = 0;  ///< of the last packet; those of a capture may be out of order
-  std::array<bool, kKinds> chosen = {};
   PacketMessage message = {};
-
-  void rewind();
-  /// The next message of any kind, and the packet that completes it.
-  Result<std::optional<UdpPacket>> advance();
-  Result<void> count();
 };
 
-void PcapReader::Impl::rewind() {
-  packets.rewind();
-  time = 0;
-  if (ouster) {
-    decoder = std::make_unique<OusterDecoder>(*ouster);
-  } else {
-    decoder = std::make_unique<VelodyneDecoder>();
-  }
-}
-
-Result<std::optional<UdpPacket>> PcapReader::Impl::advance() {
-  while (true) {
-    const auto packet = packets.next();
-    if (!packet && recover) {
-      summary.indexed = false;
-      return std::optional<UdpPacket>();
-    }
-    if (!packet) {
-      return failure(packet.error().message + "; --recover reads the part before");
-    }
-    if (!*packet) return std::optional<UdpPacket>();
-    auto completed = decoder->add(**packet);
-    if (!completed) return packets.file().refuse((*packet)->position, completed.error().message);
-    if (!*completed) continue;
-    message = std::move(**completed);
-    time = std::max(time, (*packet)->time);
-    UdpPacket last = **packet;
-    last.time = time;
-    return last;
-  }
-}
-
-/// Lists the topics, with the number of messages of each.
-Result<void> PcapReader::Impl::count() {
-  const std::array<MessageType, kKinds> types = {point_cloud_type(), imu_type(), transforms_type()};
-  for (std::size_t kind = 0; kind < kKinds; ++kind) {
-    BagConnection connection;
-    connection.id = static_cast<std::uint32_t>(kind);
-    connection.topic = kTopics[kind];
-    connection.type = types[kind].name;
-    connection.md5 = types[kind].md5;
-    connection.definition = types[kind].definition;
-    connection.latching = kind == kFrames;
-    connections.push_back(std::move(connection));
-  }
-  while (true) {
-    const auto packet = advance();
-    if (!packet) return tl::unexpected(packet.error());
-    if (!*packet) break;
-    if (summary.messages == 0) summary.start = time;
-    summary.end = time;
-    ++summary.messages;
-    ++connections[message.kind].messages;
-  }
-  if (connections[kScan].messages == 0) {
-    return packets.file().refuse(
-        0, ouster ? "expected whole scans of an Ouster, as the metadata beside it describe, found "
-                    "none"
-                  : "expected whole scans of a Velodyne VLP-16, found none; for an Ouster its "
-                    "metadata is expected beside it, as NAME.json");
-  }
-  return {};
-}
-
-PcapReader::PcapReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+PcapReader::PcapReader(std::unique_ptr<Impl> impl)
+    : KindSource(std::to_array<KindSource::Kind>({{"/lidar/points", point_cloud_type()},
+                                                  {"/imu/data", imu_type()},
+                                                  {"/tf_static", transforms_type(), true}}),
+                 impl->packets.file().size()),
+      impl_(std::move(impl)) {}
 PcapReader::PcapReader(PcapReader&&) noexcept = default;
 PcapReader& PcapReader::operator=(PcapReader&&) noexcept = default;
 PcapReader::~PcapReader() = default;
@@ -172,45 +104,54 @@ Result<PcapReader> PcapReader::open(const fs::path& file, BagOpenOptions options
   auto impl = std::unique_ptr<Impl>(new Impl{std::move(*packets), {}, options.recover});
   const fs::path metadata = fs::path(file).replace_extension(".json");
   std::error_code ignored;
-  if (fs::exists(metadata, ignored)) {
+  const bool ouster = fs::exists(metadata, ignored);
+  if (ouster) {
     auto read = read_ouster_metadata(metadata);
     if (!read) return tl::unexpected(read.error());
     impl->ouster = std::move(*read);
   }
-  impl->summary.file_size = impl->packets.file().size();
-  impl->summary.chunks = 1;
-  impl->summary.compression = name_of(BagCompression::kNone);
-  impl->rewind();
-  if (auto counted = impl->count(); !counted) return tl::unexpected(counted.error());
-  impl->chosen.fill(true);
-  impl->rewind();
-  return PcapReader(std::move(impl));
+  PcapReader reader(std::move(impl));
+  if (auto counted = reader.count(); !counted) return tl::unexpected(counted.error());
+  if (std::ranges::find(reader.connections(), kScan, &BagConnection::id) !=
+      reader.connections().end()) {
+    return reader;
+  }
+  return reader.impl_->packets.file().refuse(
+      0, ouster
+             ? "expected whole scans of an Ouster, as the metadata beside it describe, found none"
+             : "expected whole scans of a Velodyne VLP-16, found none; for an Ouster its "
+               "metadata is expected beside it, as NAME.json");
 }
 
 std::string PcapReader::name() const { return impl_->packets.file().path().string(); }
 
-const std::vector<BagConnection>& PcapReader::connections() const { return impl_->connections; }
-
-const BagSummary& PcapReader::summary() const { return impl_->summary; }
-
-void PcapReader::select(std::span<const std::string> topics) {
-  for (std::size_t kind = 0; kind < kKinds; ++kind) {
-    impl_->chosen[kind] = std::ranges::find(topics, kTopics[kind]) != topics.end();
-  }
-}
-
-Result<std::optional<BagMessage>> PcapReader::next() {
+Result<std::optional<KindSource::Made>> PcapReader::make() {
   Impl& pcap = *impl_;
   while (true) {
-    const auto packet = pcap.advance();
-    if (!packet) return tl::unexpected(packet.error());
-    if (!*packet) return std::optional<BagMessage>();
-    if (!pcap.chosen[pcap.message.kind]) continue;
-    return BagMessage{&pcap.connections[pcap.message.kind], (*packet)->time,
-                      pcap.message.bytes.view(), (*packet)->position};
+    const auto packet = pcap.packets.next();
+    if (!packet && !pcap.recover) {
+      return failure(packet.error().message + "; --recover reads the part before");
+    }
+    if (!packet) set_incomplete();
+    if (!packet || !*packet) return std::optional<Made>();
+    const UdpPacket& each = **packet;
+    auto completed = pcap.decoder->add(each);
+    if (!completed) return pcap.packets.file().refuse(each.position, completed.error().message);
+    if (!*completed) continue;
+    pcap.message = std::move(**completed);
+    pcap.time = std::max(pcap.time, each.time);
+    return Made{pcap.message.kind, pcap.time, pcap.message.bytes.view(), each.position};
   }
 }
 
-void PcapReader::rewind() { impl_->rewind(); }
+void PcapReader::rewind() {
+  impl_->packets.rewind();
+  impl_->time = 0;
+  if (impl_->ouster) {
+    impl_->decoder = std::make_unique<OusterDecoder>(*impl_->ouster);
+  } else {
+    impl_->decoder = std::make_unique<VelodyneDecoder>();
+  }
+}
 
 }  // namespace aims

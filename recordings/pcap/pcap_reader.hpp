@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "recordings/bag/chunk_reader.hpp"
-#include "recordings/bag/message_source.hpp"
+#include "recordings/bag/kind_source.hpp"
 
 namespace aims {
 
@@ -14,7 +14,7 @@ namespace aims {
 /// an Ouster also its IMU as sensor_msgs/Imu and its frames on /tf_static. NAME.json beside
 /// NAME.pcap is the metadata of an Ouster; without it the packets are those of a Velodyne VLP-16.
 /// The incomplete scans at both ends are left out.
-class PcapReader final : public MessageSource {
+class PcapReader final : public KindSource {
  public:
   /// Error for a capture without such packets. Of a truncated capture `recover` reads the part
   /// before.
@@ -24,17 +24,13 @@ class PcapReader final : public MessageSource {
   ~PcapReader() override;
 
   std::string name() const override;
-  const std::vector<BagConnection>& connections() const override;
-  /// A chunk is the capture.
-  const BagSummary& summary() const override;
-  void select(std::span<const std::string> topics) override;
-  /// The offset of a message is that of the frame which completes it.
-  Result<std::optional<BagMessage>> next() override;
   void rewind() override;
 
  private:
   struct Impl;
   explicit PcapReader(std::unique_ptr<Impl> impl);
+  /// The offset is that of the frame which completes the message.
+  Result<std::optional<Made>> make() override;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -132,6 +132,12 @@ class Captures(ProgramTest):
         self.assertNotIn("NO TRANSFORM", info.stdout)
         self.assertNotIn("not readable by aims estimate", info.stdout)
 
+    def test_a_vlp16_has_no_imu(self):
+        recording = self.put("alone.pcap", capture(vlp16_packets(START, 3)))
+        self.refuse("no topic is sensor_msgs/Imu (topics.imu; 'none' to do without); it has "
+                    "/lidar/points", "estimate", recording, "--estimators", "lio", "--out",
+                    self.path("alone"))
+
     def refuse_capture(self, expected, recording, *options):
         self.refuse(expected, "info", recording, *options)
 
