@@ -118,16 +118,43 @@ else
 fi
 cd /
 if [ ${#python[@]} -gt 0 ]; then
-  # An estimate over a recording, by the installed package alone.
+  # Estimates over recordings where nothing is installed but the package and its dependencies.
   printf 'scene: {corridor: {length: 10}}\nlidar: {columns: 450}\nroute: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 1, y: 0}]}\n' >"$work/walk.yaml"
-  "$root/usr/bin/aims" simulate "$work/walk.yaml" --quiet -o "$work/walk.bag" >"$work/simulate.log"
-  env -i PATH=/usr/bin:/bin PYTHONPATH="$root/usr/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 \
-    /usr/bin/python3 -c "
+  for kind in bag mcap; do
+    "$root/usr/bin/aims" simulate "$work/walk.yaml" --quiet -o "$work/walk.$kind" >"$work/simulate.log"
+  done
+  cat >"$work/estimate.py" <<'END'
+import os, sys
 import aims
-result = aims.estimate('$work/walk.bag', ['aims_d'])
-assert result.scores['aims_d']['ate_m'] < 0.2, result.scores['aims_d']
-assert 'mujoco' not in open('/proc/self/maps').read()
-" || fail "the installed Python package does not estimate"
+os.chdir(sys.path[0])
+scores = [aims.estimate(f"walk.{kind}", {"aims_d": "aims_d", "mine": "python:own_estimators.Legs"}).scores
+          for kind in ("mcap", "bag")]
+assert scores[0]["aims_d"]["ate_m"] < 0.2, scores
+assert scores[0]["mine"]["ate_m"] < 0.5, scores
+assert [each["aims_d"]["ate_m"] for each in scores] == [scores[0]["aims_d"]["ate_m"]] * 2, scores
+END
+  files=("$work"/walk.{bag,mcap} "$work/estimate.py" "$source/tests/python/own_estimators.py")
+  as_root=()
+  if [ "$(id -u)" -ne 0 ]; then as_root=(unshare -r); fi
+  clean=$work/clean
+  if "${as_root[@]}" /usr/sbin/chroot / /bin/true 2>"$work/chroot.log"; then
+    "${as_root[@]}" /usr/bin/python3 "$source/tests/packages/clean_root.py" "$clean" "${python[0]}" >"$work/clean.log"
+  else
+    echo "no clean root: chroot is not allowed here" >"$work/clean.log"
+  fi
+  cat "$work/clean.log"
+  if grep -q '^no clean root' "$work/clean.log"; then
+    echo "estimates run among the packages of this machine"
+    mkdir "$work/here"
+    cp "${files[@]}" "$work/here"
+    env -i PATH=/usr/bin:/bin PYTHONPATH="$root/usr/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 \
+      /usr/bin/python3 "$work/here/estimate.py" || fail "the installed Python package does not estimate"
+  else
+    find "$clean" -iname '*mujoco*' -o -iname '*embree*' | grep . && fail "the clean root has a simulator"
+    cp "${files[@]}" "$clean/tmp"
+    env -i PATH=/usr/bin:/bin PYTHONDONTWRITEBYTECODE=1 "${as_root[@]}" /usr/sbin/chroot "$clean" \
+      /usr/bin/python3 /tmp/estimate.py || fail "python3-aims with its dependencies alone does not estimate"
+  fi
 fi
 version=$("$root/usr/bin/aims" --version)
 [ "$version" = "aims $(dpkg-deb -f "$program" Version)" ] || fail "it says '$version'"
