@@ -269,10 +269,16 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
   const ScanMotion motion(belief_.state, segments_,
                           corrected_mount(belief_.state, rig_.T_body_lidar), config_.imu.gravity);
   diagnostics.points_in = selection_.begin(scan);
-  selection_.select(config_.lidar.selection_voxel, config_.lidar.max_points, indices_);
-  deskew(scan, indices_, motion, match_points_);
-  selection_.select(config_.map.insertion_voxel, config_.map.max_insertions, indices_);
-  deskew(scan, indices_, motion, insert_points_);
+  const auto select = [&](double voxel, int limit, std::vector<Eigen::Vector3f>& points) {
+    selection_.select(voxel, limit, indices_);
+    deskew(scan, indices_, motion, points);
+  };
+  const LidarUpdateConfig& lidar = config_.lidar;
+  const MapConfig& map = config_.map;
+  const bool map_is_finer = map.insertion_voxel <= lidar.selection_voxel;
+  if (map_is_finer) select(map.insertion_voxel, map.max_insertions, insert_points_);
+  select(lidar.selection_voxel, lidar.max_points, match_points_);
+  if (!map_is_finer) select(map.insertion_voxel, map.max_insertions, insert_points_);
 }
 
 void EskfEstimator::fuse_ground_constraint() {

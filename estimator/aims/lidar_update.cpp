@@ -10,6 +10,9 @@
 namespace aims {
 namespace {
 
+/// One of this many points serves the first guess.
+constexpr std::size_t kGuessStride = 3;
+
 /// Larger steps of an iteration search the planes again, smaller ones end it.
 constexpr double kRematchRotation = 2e-3;    ///< [rad]
 constexpr double kRematchPosition = 1e-2;    ///< [m]
@@ -63,10 +66,26 @@ GainMask LidarUpdate::odometry_mask() const {
   return {.legs = false, .position = fraction_.constrained()};
 }
 
+/// One step with a few of the points: where all of them meet nearly the planes of the result, so
+/// that they are searched once.
+NominalState LidarUpdate::first_guess(const Belief& predicted,
+                                      std::span<const Eigen::Vector3f> points, const VoxelMap& map,
+                                      ScanDiagnostics& diagnostics) {
+  const NominalState& at = predicted.state;
+  matcher_.match(at, points, map, kGuessStride);
+  const MatchInformation scan = matcher_.linearize(at);
+  diagnostics.residual_sigma_prior = std::sqrt(residual_statistics(matcher_.residuals()).variance);
+  if (scan.used < kMinMatches) return at;
+  const Linearization guess = fused(scan, 1.0, at);
+  return fuse(predicted, at, guess.measurement, guess.mask).state;
+}
+
 IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                                   const VoxelMap& map, ScanDiagnostics& diagnostics) {
   matcher_.reset(calibration_.lever);
-  NominalState matched_at = predicted.state;
+  const NominalState start = first_guess(predicted, points, map, diagnostics);
+  matcher_.start_robust_weights();
+  NominalState matched_at = start;
   matcher_.match(matched_at, points, map);
   bool first = true;
   const auto linearize = [&](const NominalState& at) -> std::optional<Linearization> {
@@ -76,12 +95,7 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
     }
     const MatchInformation scan = matcher_.linearize(at);
     diagnostics.points_used = scan.used;
-    if (first) {
-      diagnostics.residual_sigma_prior =
-          std::sqrt(residual_statistics(matcher_.residuals()).variance);
-    }
     if (scan.used < kMinMatches) return std::nullopt;
-    matcher_.start_robust_weights();
     if (first && cross_validation_.enabled) fraction_.add(scan.halves, at.position);
     first = false;
     return fused(scan, 1.0, at);
@@ -89,7 +103,7 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
   const auto converged = [&](const NominalState& before, const NominalState& after) {
     return !moved(after, before, kConvergedRotation, kConvergedPosition);
   };
-  return iterated_update(predicted, max_iterations_, linearize, converged);
+  return iterated_update(predicted, start, max_iterations_, linearize, converged);
 }
 
 void LidarUpdate::assess(const Belief& predicted, const NominalState& trial_state,

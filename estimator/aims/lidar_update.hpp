@@ -55,6 +55,8 @@ class LidarUpdate {
 
  private:
   Linearization fused(const MatchInformation& scan, double gamma, const NominalState& state) const;
+  NominalState first_guess(const Belief& predicted, std::span<const Eigen::Vector3f> points,
+                           const VoxelMap& map, ScanDiagnostics& diagnostics);
   IteratedUpdate trial(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                        const VoxelMap& map, ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const NominalState& trial_state,

@@ -77,15 +77,16 @@ struct IteratedUpdate {
   bool refused = false;    ///< a linearization gave no measurement
 };
 
-/// The iterated update: up to `max_iterations` steps, each linearized at the result of the last.
-/// `linearize(state)` returns the measurement there (std::optional<Linearization>), empty to
-/// refuse it: then the prior stays. `converged(before, after)` tells whether a step was small.
+/// The iterated update: up to `max_iterations` steps, the first linearized at `start`, each other
+/// at the result of the last. `linearize(state)` returns the measurement there
+/// (std::optional<Linearization>), empty to refuse it: then the prior stays. `converged(before,
+/// after)` tells whether a step was small.
 template <class Linearize, class Converged>
-IteratedUpdate iterated_update(const Belief& prior, int max_iterations, Linearize&& linearize,
-                               Converged&& converged) {
+IteratedUpdate iterated_update(const Belief& prior, const NominalState& start, int max_iterations,
+                               Linearize&& linearize, Converged&& converged) {
   IteratedUpdate update{prior};
   while (update.iterations < max_iterations && !update.converged) {
-    const NominalState before = update.belief.state;
+    const NominalState before = update.iterations == 0 ? start : update.belief.state;
     const std::optional<Linearization> at = linearize(before);
     if (!at) return {prior, update.iterations, false, true};
     update.belief = fuse(prior, before, at->measurement, at->mask);

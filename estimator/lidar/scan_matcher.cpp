@@ -61,11 +61,11 @@ void ScanMatcher::reset(const Eigen::Vector3d& sensor) {
 }
 
 void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector3f> points,
-                        const VoxelMap& map) {
+                        const VoxelMap& map, std::size_t stride) {
   matches_.clear();
   const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
-  for (const Eigen::Vector3f& point : points) {
-    const Eigen::Vector3d p_body = point.cast<double>();
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    const Eigen::Vector3d p_body = points[i].cast<double>();
     const PlanePair planes = map.planes_at((R * p_body + state.position).cast<float>());
     if (!planes.valid()) continue;
     const double cosine = std::abs(planes.a.normal.dot(R * (p_body - sensor_).normalized()));

@@ -30,9 +30,9 @@ class ScanMatcher {
   /// start_robust_weights().
   void reset(const Eigen::Vector3d& sensor);
 
-  /// Searches the planes of `points` (body axes) at `state`.
+  /// Searches the planes of one in `stride` of `points` (body axes) at `state`.
   void match(const NominalState& state, std::span<const Eigen::Vector3f> points,
-             const VoxelMap& map);
+             const VoxelMap& map, std::size_t stride = 1);
 
   /// Sums the rows of the matches within the residual gate at `state`.
   MatchInformation linearize(const NominalState& state);

@@ -49,11 +49,11 @@ void ScanSelection::keep(const Candidate& candidate, std::uint64_t key, std::int
   const std::uint64_t rank = mixed_bits(static_cast<std::uint64_t>(candidate.index) + kRankSeed);
   if (slot == kFree) {
     slot = static_cast<std::int32_t>(kept_.size());
-    kept_.push_back({key, rank, candidate.index});
+    kept_.push_back({key, rank, candidate});
     return;
   }
   Kept& chosen = kept_[static_cast<std::size_t>(slot)];
-  if (rank < chosen.rank) chosen = {key, rank, candidate.index};
+  if (rank < chosen.rank) chosen = {key, rank, candidate};
 }
 
 void ScanSelection::select(double voxel, int limit, std::vector<int>& kept) {
@@ -76,8 +76,10 @@ void ScanSelection::select(double voxel, int limit, std::vector<int>& kept) {
   const std::size_t count = kept_.size();
   kept.resize(std::min(count, static_cast<std::size_t>(limit)));
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    kept[i] = kept_[i * count / kept.size()].index;
+    kept[i] = kept_[i * count / kept.size()].candidate.index;
   }
+  eligible_.clear();
+  for (const Kept& each : kept_) eligible_.push_back(each.candidate);
 }
 
 }  // namespace aims

@@ -25,7 +25,8 @@ class ScanSelection {
   int begin(const LidarScan& scan);
 
   /// Replaces `kept` by indices into the scan of the last begin(), thinned evenly to at most
-  /// `limit`.
+  /// `limit`. Chooses among the returns that the selection before left, one per voxel: nearly the
+  /// same choice as among all when its voxels were smaller.
   void select(double voxel, int limit, std::vector<int>& kept);
 
   /// True when the point is finite and in range.
@@ -39,7 +40,7 @@ class ScanSelection {
   struct Kept {
     std::uint64_t key = 0;   ///< of its voxel
     std::uint64_t rank = 0;  ///< the lowest of a voxel is kept
-    std::int32_t index = 0;  ///< into the scan
+    Candidate candidate;
   };
   static constexpr std::int32_t kFree = -1;
 

@@ -7,10 +7,13 @@
 namespace aims {
 namespace {
 
-/// Offsets of the 27 voxels around one: itself first, then faces, edges and corners, so that near
-/// neighbours are found early and the rest is pruned.
-std::array<std::array<int, 3>, 27> neighborhood() {
-  std::array<std::array<int, 3>, 27> offsets{};
+/// A voxel and those around it.
+constexpr std::size_t kNeighborhood = 27;
+
+/// Their offsets: itself first, then faces, edges and corners, so that near neighbours are found
+/// early and the rest is pruned.
+std::array<std::array<int, 3>, kNeighborhood> neighborhood() {
+  std::array<std::array<int, 3>, kNeighborhood> offsets{};
   int i = 0;
   for (int order = 0; order <= 3; ++order) {
     for (int x = -1; x <= 1; ++x) {
@@ -24,13 +27,14 @@ std::array<std::array<int, 3>, 27> neighborhood() {
   return offsets;
 }
 
-const std::array<std::array<int, 3>, 27> kNeighborhood = neighborhood();
+const std::array<std::array<int, 3>, kNeighborhood> kOffsets = neighborhood();
 
-/// Squared distance from a coordinate `inside` a voxel of edge `size` to its neighbour at `offset`.
-float squared_gap(float inside, float size, int offset) {
-  if (offset == 0) return 0.0F;
-  const float gap = offset < 0 ? inside : size - inside;
-  return gap * gap;
+/// Squared distances from the coordinate `at`, in voxel `home` of edge `size`, to the voxel before
+/// it, to itself and to the next [m^2].
+std::array<float, 3> squared_gaps(float at, std::int32_t home, float size) {
+  const float inside = at - size * static_cast<float>(home);
+  const float rest = size - inside;
+  return {inside * inside, 0.0F, rest * rest};
 }
 
 /// The plane of the points; valid only when the query lies among them.
@@ -104,31 +108,17 @@ void VoxelMap::Half::set(int i, const Eigen::Vector3f& point) {
   four.z[k] = point.z();
 }
 
-/// Of the points of a half to `query`, in groups of four: up to three behind the last have no
-/// meaning [m^2].
-VoxelMap::SquaredDistances VoxelMap::squared_distances(const Half& half,
-                                                       const Eigen::Vector3f& query) {
-  SquaredDistances squared;
-  for (std::size_t begin = 0; begin < static_cast<std::size_t>(half.count); begin += 4) {
-    const FourPoints& four = half.points[begin / 4];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const float dx = four.x[k] - query.x();
-      const float dy = four.y[k] - query.y();
-      const float dz = four.z[k] - query.z();
-      squared[begin + k] = dx * dx + dy * dy + dz * dz;
-    }
-  }
-  return squared;
-}
-
 void VoxelMap::insert(const Eigen::Vector3f& point, Half& half) const {
-  const SquaredDistances squared = squared_distances(half, point);
   int closest = -1;
   float nearest = spacing_ * spacing_;
-  for (int i = 0; i < half.count; ++i) {
-    if (squared[i] < nearest) {
-      nearest = squared[i];
-      closest = i;
+  for (int begin = 0; begin < half.count; begin += 4) {
+    const Float4 squared =
+        half.points[static_cast<std::size_t>(begin / 4)].squared_distances(point);
+    for (int k = 0; k < 4; ++k) {
+      if (squared[k] < nearest) {
+        nearest = squared[k];
+        closest = begin + k;
+      }
     }
   }
   if (closest >= 0) {
@@ -148,47 +138,79 @@ Eigen::Matrix3f VoxelMap::covariance_at(const Eigen::Vector3f& point) const {
   return voxel->covariance;
 }
 
-void VoxelMap::search(const Half& half, const Eigen::Vector3f& query, std::uint32_t voxel,
-                      NearestPoints& nearest) {
-  const SquaredDistances squared = squared_distances(half, query);
-  for (int i = 0; i < half.count; ++i) {
-    nearest.offer(squared[i], voxel * kCapacity + static_cast<std::uint32_t>(i));
-  }
-}
-
-int VoxelMap::nearest(const Eigen::Vector3f& query,
-                      std::array<Neighbors, kHalves>& neighbors) const {
-  const VoxelIndex home = voxel_of(query, inverse_size_);
-  const Eigen::Vector3f inside =
-      query - size_ * Eigen::Vector3f(static_cast<float>(home.x), static_cast<float>(home.y),
-                                      static_cast<float>(home.z));
-  std::array<NearestPoints, kHalves> nearest{NearestPoints(size_ * size_),
-                                             NearestPoints(size_ * size_)};
-  std::array<const Voxel*, 27> voxels;
+/// The voxels searched for one query, and the nearest points of each half in them.
+struct VoxelMap::Search {
+  Eigen::Vector3f query;
+  std::array<NearestPoints, kHalves> nearest;
+  std::array<float, kHalves> reach;  ///< farther points have no effect [m^2]
+  std::array<const Voxel*, kNeighborhood> voxels;
   std::uint32_t count = 0;
-  for (const auto& [dx, dy, dz] : kNeighborhood) {
-    const float closest = squared_gap(inside.x(), size_, dx) + squared_gap(inside.y(), size_, dy) +
-                          squared_gap(inside.z(), size_, dz);
-    if (closest > std::max(nearest[0].reach(), nearest[1].reach())) continue;
-    const Voxel* voxel = voxels_.find(voxel_key({home.x + dx, home.y + dy, home.z + dz}));
-    if (voxel == nullptr) continue;
+
+  Search(const Eigen::Vector3f& point, float gate)
+      : query(point), nearest{NearestPoints(gate), NearestPoints(gate)}, reach{gate, gate} {}
+
+  float farthest() const { return std::max(reach[0], reach[1]); }
+
+  /// Searches `voxel`, which is no nearer than `closest` [m^2].
+  void add(const Voxel* voxel, float closest) {
+    if (voxel == nullptr) return;
     for (std::size_t half = 0; half < kHalves; ++half) {
-      if (closest > nearest[half].reach()) continue;
-      search(voxel->halves[half], query, count, nearest[half]);
+      if (closest <= reach[half]) add(voxel->halves[half], half);
     }
     voxels[count++] = voxel;
   }
-  for (std::size_t half = 0; half < kHalves; ++half) {
-    Neighbors& found = neighbors[half];
-    found.count = nearest[half].count();
-    for (int k = 0; k < found.count; ++k) {
-      const std::uint32_t id = nearest[half].id(k);
-      const Half& points = voxels[id / kCapacity]->halves[half];
-      found.points[k] = points.point(static_cast<int>(id % kCapacity));
-      found.squared_distances[k] = nearest[half].squared_distance(k);
+
+  void add(const Half& points, std::size_t half) {
+    const auto groups = static_cast<std::uint32_t>(points.count + 3) / 4;
+    for (std::uint32_t group = 0; group < groups; ++group) {
+      nearest[half].offer(points.points[group].squared_distances(query), count * kGroups + group);
     }
+    reach[half] = nearest[half].reach();
   }
-  return static_cast<int>(count);
+
+  Neighbors found(std::size_t half) const {
+    std::array<NearestPoints::Found, NearestPoints::kWanted> ids;
+    Neighbors neighbors;
+    neighbors.count = static_cast<int>(nearest[half].sorted(ids));
+    for (int k = 0; k < neighbors.count; ++k) {
+      const auto [group, lane] = ids[static_cast<std::size_t>(k)];
+      const Half& points = voxels[group / kGroups]->halves[half];
+      neighbors.points[k] = points.point(static_cast<int>(4 * (group % kGroups) + lane));
+      neighbors.squared_distances[k] = (neighbors.points[k] - query).squaredNorm();
+    }
+    return neighbors;
+  }
+};
+
+/// The voxel of the query is searched first: only those within its reach are looked up, listed
+/// without branches.
+int VoxelMap::nearest(const Eigen::Vector3f& query,
+                      std::array<Neighbors, kHalves>& neighbors) const {
+  const VoxelIndex home = voxel_of(query, inverse_size_);
+  const auto voxel_at = [&](const std::array<int, 3>& offset) {
+    return voxels_.find(voxel_key({home.x + offset[0], home.y + offset[1], home.z + offset[2]}));
+  };
+  Search search(query, size_ * size_);
+  search.add(voxel_at(kOffsets[0]), 0.0F);
+  const std::array<float, 3> gap_x = squared_gaps(query.x(), home.x, size_);
+  const std::array<float, 3> gap_y = squared_gaps(query.y(), home.y, size_);
+  const std::array<float, 3> gap_z = squared_gaps(query.z(), home.z, size_);
+  std::array<float, kNeighborhood> gaps;
+  std::array<std::uint8_t, kNeighborhood> near;
+  std::size_t count = 0;
+  const float reach = search.farthest();
+  for (std::size_t i = 1; i < kNeighborhood; ++i) {
+    const auto& [dx, dy, dz] = kOffsets[i];
+    gaps[i] = gap_x[dx + 1] + gap_y[dy + 1] + gap_z[dz + 1];
+    near[count] = static_cast<std::uint8_t>(i);
+    count += static_cast<std::size_t>(gaps[i] <= reach);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = near[k];
+    if (gaps[i] <= search.farthest()) search.add(voxel_at(kOffsets[i]), gaps[i]);
+  }
+  for (std::size_t half = 0; half < kHalves; ++half) neighbors[half] = search.found(half);
+  return static_cast<int>(search.count);
 }
 
 std::size_t VoxelMap::memory() const { return voxels_.memory(); }

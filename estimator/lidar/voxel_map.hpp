@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "estimator/lidar/lidar_config.hpp"
+#include "estimator/lidar/nearest_points.hpp"
 #include "estimator/lidar/plane_model.hpp"
 #include "estimator/lidar/voxel_store.hpp"
 
@@ -18,51 +19,10 @@ namespace aims {
 
 /// The map points nearest to a query, nearest first.
 struct Neighbors {
-  static constexpr int kWanted = 5;
+  static constexpr int kWanted = NearestPoints::kWanted;
   std::array<Eigen::Vector3f, kWanted> points;
   std::array<float, kWanted> squared_distances{};  ///< [m^2]
   int count = 0;
-};
-
-/// The nearest of the points offered, nearest first; of equal ones those offered earlier.
-class NearestPoints {
- public:
-  /// Points up to the squared distance `gate` [m^2] count.
-  explicit NearestPoints(float gate) { keys_.fill(key(gate, kNone)); }
-
-  /// Offers a point; each needs an `id` above those before.
-  void offer(float squared_distance, std::uint32_t id) {
-    std::uint64_t rest = key(squared_distance, id);
-    if (rest >= keys_.back()) return;
-    for (std::uint64_t& each : keys_) {  // insertion without branches
-      const std::uint64_t nearer = std::min(each, rest);
-      rest = std::max(each, rest);
-      each = nearer;
-    }
-  }
-
-  /// Points farther than this have no effect [m^2].
-  float reach() const { return squared_distance(Neighbors::kWanted - 1); }
-
-  int count() const {
-    int count = 0;
-    while (count < Neighbors::kWanted && id(count) != kNone) ++count;
-    return count;
-  }
-  std::uint32_t id(int k) const { return static_cast<std::uint32_t>(keys_[k]); }
-  float squared_distance(int k) const {
-    return std::bit_cast<float>(static_cast<std::uint32_t>(keys_[k] >> 32U));
-  }
-
- private:
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-  /// Ordered by distance, then id: floats that are not negative have the order of their bits.
-  static std::uint64_t key(float squared_distance, std::uint32_t id) {
-    return (std::uint64_t{std::bit_cast<std::uint32_t>(squared_distance)} << 32U) | id;
-  }
-
-  std::array<std::uint64_t, Neighbors::kWanted> keys_;
 };
 
 /// Local map: points in hashed cubic voxels, in two halves that share no return, so that the noise
@@ -99,17 +59,28 @@ class VoxelMap {
   std::vector<Eigen::Vector3f> points() const;
 
  private:
-  static constexpr int kCapacity = 32;   ///< points of one half in a voxel
+  static constexpr float kFar = 1e12F;  ///< [m]
+  static constexpr int kCapacity = 32;  ///< points of one half in a voxel
+  static constexpr std::uint32_t kGroups = kCapacity / 4;
+  static_assert(27 * kGroups <= NearestPoints::kMaxGroups);
   static constexpr int kMaxMerges = 20;  ///< returns averaged by a map point
   /// Consecutive insertions into one half: 2 s of scans at 10 Hz. Scans of one stride share the
   /// error of the pose from which they are mapped, and with it the tilt of their planes.
   static constexpr int kLongestBlock = 20;
 
-  /// Four points side by side, so that one instruction takes all.
-  struct alignas(16) FourPoints {
-    std::array<float, 4> x{};
-    std::array<float, 4> y{};
-    std::array<float, 4> z{};
+  /// Four points side by side, so that one instruction takes all; the missing ones are far away.
+  struct FourPoints {
+    Float4 x = Float4{} + kFar;
+    Float4 y = Float4{} + kFar;
+    Float4 z = Float4{} + kFar;
+
+    /// To `query` [m^2].
+    Float4 squared_distances(const Eigen::Vector3f& query) const {
+      const Float4 dx = x - query.x();
+      const Float4 dy = y - query.y();
+      const Float4 dz = z - query.z();
+      return dx * dx + dy * dy + dz * dz;
+    }
   };
   struct Half {
     int count = 0;
@@ -119,7 +90,6 @@ class VoxelMap {
     Eigen::Vector3f point(int i) const;
     void set(int i, const Eigen::Vector3f& point);
   };
-  using SquaredDistances = std::array<float, kCapacity>;
 
   struct Voxel {
     std::array<Half, kHalves> halves;
@@ -130,12 +100,11 @@ class VoxelMap {
     Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
   };
 
+  struct Search;
+
   void insert(const Eigen::Vector3f& point, std::size_t half, const Eigen::Matrix3f& covariance);
   void end_insertion();
   void insert(const Eigen::Vector3f& point, Half& half) const;
-  static SquaredDistances squared_distances(const Half& half, const Eigen::Vector3f& query);
-  static void search(const Half& half, const Eigen::Vector3f& query, std::uint32_t voxel,
-                     NearestPoints& nearest);
 
   float inverse_size_;
   float size_;

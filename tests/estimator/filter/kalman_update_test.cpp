@@ -171,9 +171,11 @@ Belief prior_on_line() {
   return prior;
 }
 
-IteratedUpdate update_on_line(int iterations, double limit) {
+IteratedUpdate update_on_line(int iterations, double limit, double start = 1.5) {
+  NominalState first;
+  first.position.x() = start;
   return iterated_update(
-      prior_on_line(), iterations,
+      prior_on_line(), first, iterations,
       [&](const NominalState& at) { return square_is_four(at, limit); },
       [](const NominalState& before, const NominalState& after) {
         return (after.position - before.position).norm() < 1e-9;
@@ -190,6 +192,13 @@ TEST(IteratedUpdate, FindsTheMostProbableState) {
   double best = 0.0;
   for (double x = 1.0; x < 3.0; x += 1e-5) best = cost(x) < cost(best) ? x : best;
   EXPECT_NEAR(update.belief.state.position.x(), best, 2e-5);
+}
+
+TEST(IteratedUpdate, FindsTheSameStateInFewerStepsFromNearby) {
+  const IteratedUpdate far = update_on_line(50, 1e9);
+  const IteratedUpdate near = update_on_line(50, 1e9, 1.9);
+  EXPECT_NEAR(near.belief.state.position.x(), far.belief.state.position.x(), 1e-9);
+  EXPECT_LT(near.iterations, far.iterations);
 }
 
 TEST(IteratedUpdate, SaysWhetherItConvergedAndKeepsThePriorWhenRefused) {

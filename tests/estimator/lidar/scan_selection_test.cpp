@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -77,6 +78,25 @@ TEST(ScanSelection, ThinsEvenlyBeyondTheLimit) {
   ASSERT_EQ(kept.size(), 500U);
   EXPECT_LT(kept.front(), 50);
   EXPECT_GT(kept.back(), 4900);
+}
+
+// Where the voxels of the second selection are unions of those of the first, it chooses as it would
+// among all returns.
+TEST(ScanSelection, ChoosesAmongTheReturnsOfTheSelectionBefore) {
+  const LidarScan scan = random_scan(5000);
+  ScanSelection selection{LidarUpdateConfig{}};
+  std::vector<int> fine;
+  std::vector<int> coarse;
+  selection.begin(scan);
+  selection.select(0.25, 100000, fine);
+  selection.select(0.5, 100000, coarse);
+  std::vector<int> of_all = selected(scan, 0.5, 100000);
+  std::sort(fine.begin(), fine.end());
+  std::sort(coarse.begin(), coarse.end());
+  std::sort(of_all.begin(), of_all.end());
+  EXPECT_EQ(coarse, of_all);
+  EXPECT_TRUE(std::includes(fine.begin(), fine.end(), coarse.begin(), coarse.end()));
+  EXPECT_LT(coarse.size(), fine.size());
 }
 
 TEST(ScanSelection, IgnoresInvalidReturns) {
