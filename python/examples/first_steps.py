@@ -11,6 +11,7 @@ import aims
 import numpy as np
 
 folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+folder.mkdir(parents=True, exist_ok=True)
 
 # %% A scenario: one of the shipped ones with other values, which are checked as by the program.
 scenario = aims.Scenario(
