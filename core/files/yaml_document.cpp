@@ -2,6 +2,7 @@
 #include "core/files/yaml_document.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -44,12 +45,49 @@ std::string syntax_message(const std::string& text, const std::string& file,
   return fmt::format("{}: not valid YAML: {}", place(file, error.mark), error.msg);
 }
 
-Result<std::vector<YAML::Node>> parse_documents(const std::string& text, const std::string& file) {
+/// Remembers where documents begin.
+class Beginnings : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> marks;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { marks.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// Where the first two documents of a text begin. There may be no end of them: before a character
+/// that begins nothing, such as a comma, the parser finds one empty document after the other.
+std::vector<YAML::Mark> first_beginnings(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Beginnings beginnings;
+  while (beginnings.marks.size() < 2 && parser.HandleNextDocument(beginnings)) {
+  }
+  return beginnings.marks;
+}
+
+/// The only document of a text, if it has any.
+Result<std::optional<YAML::Node>> parse_only(const std::string& text, const std::string& file) {
   if (auto bounded = check_yaml_size(text, file); !bounded) {
     return tl::unexpected(bounded.error());
   }
   try {
-    return YAML::LoadAll(text);
+    const std::vector<YAML::Mark> documents = first_beginnings(text);
+    if (documents.empty()) return std::nullopt;
+    if (documents.size() > 1) {
+      return failure(
+          fmt::format("{}: expected one YAML document, found another", place(file, documents[1])));
+    }
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     return failure(syntax_message(text, file, error));
   } catch (const std::exception& error) {
@@ -83,25 +121,20 @@ std::string kind_of(const YAML::Node& node) {
 }
 
 Result<YAML::Node> parse_document(const std::string& text, const std::string& file) {
-  const auto documents = parse_documents(text, file);
-  if (!documents) return tl::unexpected(documents.error());
-  if (documents->empty() || documents->front().IsNull()) {
+  const auto document = parse_only(text, file);
+  if (!document) return tl::unexpected(document.error());
+  if (!*document || (*document)->IsNull()) {
     return failure(fmt::format("{}: expected a map of settings, the file is empty", file));
   }
-  if (documents->size() > 1) {
-    return failure(fmt::format("{}: expected one YAML document, found {}",
-                               place(file, (*documents)[1].Mark()), documents->size()));
-  }
-  const YAML::Node& document = documents->front();
-  if (document.IsMap()) return document;
+  if ((*document)->IsMap()) return **document;
   return failure(fmt::format("{}: expected a map of settings, found {}",
-                             place(file, document.Mark()), kind_of(document)));
+                             place(file, (*document)->Mark()), kind_of(**document)));
 }
 
 Result<YAML::Node> parse_value(const std::string& text, const std::string& setting) {
-  const auto documents = parse_documents(text, setting);
-  if (!documents) return tl::unexpected(documents.error());
-  return documents->size() == 1 ? documents->front() : YAML::Node();
+  const auto document = parse_only(text, setting);
+  if (!document) return tl::unexpected(document.error());
+  return document->value_or(YAML::Node());
 }
 
 Result<fs::path> find_base(const fs::path& file, const std::string& given, const fs::path& named) {

@@ -40,10 +40,6 @@ class Nesting {
 }  // namespace
 
 Result<void> check_yaml_size(std::string_view text, const std::string& name) {
-  if (const auto zero = text.find('\0'); zero != text.npos) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + zero, '\n');
-    return failure(fmt::format("{}:{}: expected text, found a zero byte", name, line));
-  }
   if (text.size() > kLargestYaml) {
     return failure(
         fmt::format("{}: expected at most {} bytes, found {}", name, kLargestYaml, text.size()));

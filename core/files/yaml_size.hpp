@@ -13,8 +13,8 @@ namespace aims {
 inline constexpr std::size_t kLargestYaml = std::size_t{512} << 10;
 
 /// Refuses YAML text that would cost the parser far more memory than any configuration needs: above
-/// `kLargestYaml`, with a zero byte (the parser then never ends), or of some length with brackets
-/// or list marks nested more than a hundred deep. Errors: "name:line: ...".
+/// `kLargestYaml`, or of some length with brackets or list marks nested more than a hundred deep.
+/// Errors: "name:line: ...".
 Result<void> check_yaml_size(std::string_view text, const std::string& name);
 
 }  // namespace aims
