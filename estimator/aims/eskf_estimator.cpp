@@ -6,7 +6,6 @@
 #include "estimator/filter/imu_propagation.hpp"
 #include "estimator/filter/static_initialization.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
-#include "estimator/lidar/deskew.hpp"
 
 namespace aims {
 namespace {
@@ -31,6 +30,9 @@ double max_leg_speed(const EskfConfig& config) {
   return config.legs.enabled ? 5.0 : std::numeric_limits<double>::infinity();
 }
 
+/// Returns that a scan is compared with earlier ones by, at most: two per pixel of a RangeImage.
+constexpr int kMaxImagePoints = 10000;
+
 /// Without fusion, the leg states stay fixed.
 LegStatesConfig leg_states_of(const EskfConfig& config) {
   return config.legs.enabled ? config.leg_states : LegStatesConfig();
@@ -44,6 +46,7 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
       queue_(config_.queue, config_.imu, rig.imu_rate_hz, max_leg_speed(config_)),
       selection_(config_.lidar),
       lidar_update_(config_),
+      moving_(rig.T_body_lidar.translation),
       leg_free_(config_.imu),
       map_(config_.map),
       ground_(config_.ground_constraint),
@@ -217,6 +220,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   last_scan_ = scan->end;
   leg_free_.restart(belief_, scan->end);
   extend_map();
+  moving_.keep(belief_.state.T_odom_body());
   diagnostics.delay = belief_.state.delay;
   diagnostics.mount = so3_log(belief_.state.mount);
   record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
@@ -269,6 +273,7 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
   const ScanMotion motion(belief_.state, segments_,
                           corrected_mount(belief_.state, rig_.T_body_lidar), config_.imu.gravity);
   diagnostics.points_in = selection_.begin(scan);
+  find_moving(scan, motion);
   const auto select = [&](double voxel, int limit, std::vector<Eigen::Vector3f>& points) {
     selection_.select(voxel, limit, indices_);
     deskew(scan, indices_, motion, points);
@@ -279,6 +284,21 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
   if (map_is_finer) select(map.insertion_voxel, map.max_insertions, insert_points_);
   select(lidar.selection_voxel, lidar.max_points, match_points_);
   if (!map_is_finer) select(map.insertion_voxel, map.max_insertions, insert_points_);
+  leave_out_moving();
+}
+
+/// Compares the scan with earlier ones, before its returns are thinned.
+void EskfEstimator::find_moving(const LidarScan& scan, const ScanMotion& motion) {
+  selection_.thin(kMaxImagePoints, indices_);
+  deskew(scan, indices_, motion, image_points_);
+  moving_.compare(image_points_, scan.end, belief_.state.T_odom_body());
+}
+
+void EskfEstimator::leave_out_moving() {
+  moving_.remove_from(match_points_);
+  if (const int moving = moving_.remove_from(insert_points_); moving > 0) {
+    result_.counts["lidar.moving"] += moving;
+  }
 }
 
 void EskfEstimator::fuse_ground_constraint() {

@@ -15,6 +15,8 @@
 #include "estimator/legs/leg_noise.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/zero_velocity.hpp"
+#include "estimator/lidar/deskew.hpp"
+#include "estimator/lidar/moving_returns.hpp"
 #include "estimator/lidar/scan_selection.hpp"
 #include "estimator/lidar/voxel_map.hpp"
 
@@ -49,6 +51,8 @@ class EskfEstimator : public Estimator {
   Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
   bool fuse_zero_velocity(const LegOdometrySample& sample);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
+  void find_moving(const LidarScan& scan, const ScanMotion& motion);
+  void leave_out_moving();
   void fuse_scan(ScanDiagnostics& diagnostics);
   void fuse_ground_constraint();
   void extend_map();
@@ -61,6 +65,7 @@ class EskfEstimator : public Estimator {
   int counted_ = 0;  ///< by the queue, when its counts were last taken over
   ScanSelection selection_;
   LidarUpdate lidar_update_;
+  MovingReturns moving_;
   LegFreePrediction leg_free_;
   VoxelMap map_;
   GroundConstraint ground_;
@@ -84,6 +89,7 @@ class EskfEstimator : public Estimator {
   std::vector<int> indices_;
   MeanTwist scan_twist_;                        ///< of the present scan
   std::optional<Time> last_scan_;               ///< end of the last scan
+  std::vector<Eigen::Vector3f> image_points_;   ///< body axes at the scan's end
   std::vector<Eigen::Vector3f> match_points_;   ///< body axes at the scan's end
   std::vector<Eigen::Vector3f> insert_points_;  ///< the same, then in the odometry frame
 };

@@ -82,4 +82,12 @@ void ScanSelection::select(double voxel, int limit, std::vector<int>& kept) {
   for (const Kept& each : kept_) eligible_.push_back(each.candidate);
 }
 
+void ScanSelection::thin(int limit, std::vector<int>& kept) const {
+  const auto most = static_cast<std::size_t>(limit);
+  // Odd: rings fire in turn, and most LiDARs have an even number of them.
+  const std::size_t step = eligible_.size() > most ? (eligible_.size() / most + 1) | 1U : 1;
+  kept.clear();
+  for (std::size_t i = 0; i < eligible_.size(); i += step) kept.push_back(eligible_[i].index);
+}
+
 }  // namespace aims

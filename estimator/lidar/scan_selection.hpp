@@ -29,6 +29,10 @@ class ScanSelection {
   /// same choice as among all when its voxels were smaller.
   void select(double voxel, int limit, std::vector<int>& kept);
 
+  /// Replaces `kept` by indices of returns of the last begin(), in order of firing: all, or every
+  /// n-th where these are more than `limit`. So they lie evenly over the directions of the scan.
+  void thin(int limit, std::vector<int>& kept) const;
+
   /// True when the point is finite and in range.
   bool usable(const LidarPoint& point) const;
 

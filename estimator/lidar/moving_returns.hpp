@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "core/lie.hpp"
+#include "core/time.hpp"
+#include "estimator/lidar/range_image.hpp"
+
+namespace aims {
+
+/// Finds returns on things that move, such as people, by comparing a scan with those half a second
+/// and one second before it. Where something moved,
+///
+/// - present returns lie where an earlier scan passed (it came there), or
+/// - earlier returns lie where the present scan passes (it went away).
+///
+/// Around such places every return is left out that the earlier scans do not confirm. Each alone
+/// would not do: what walks away hides where it will be. Where nothing moves, nothing is left out.
+class MovingReturns {
+ public:
+  /// `lever`: the LiDAR in body axes [m].
+  explicit MovingReturns(const Eigen::Vector3d& lever);
+
+  /// Compares a scan that ended at `stamp` with the earlier ones. `points`: its returns, evenly
+  /// over its directions, in body axes at its end; `T_odom_body`: the predicted pose.
+  void compare(std::span<const Eigen::Vector3f> points, Time stamp, const Pose& T_odom_body);
+
+  /// Removes from `points` (body axes) of that scan those that may move. Returns how many.
+  int remove_from(std::vector<Eigen::Vector3f>& points) const;
+
+  /// Keeps that scan, at its corrected pose, for the comparison with later ones.
+  void keep(const Pose& T_odom_body);
+
+ private:
+  /// An earlier scan.
+  struct Past {
+    Time stamp = 0;
+    RangeImage image;
+    Pose T_odom_lidar;  ///< with the axes of the body
+  };
+  /// One that the present scan is compared with.
+  struct Reference {
+    const Past* past;
+    Eigen::Matrix3f R_past_now;
+    Eigen::Vector3f t_past_now;
+
+    Eigen::Vector3f to_past(const Eigen::Vector3f& point) const {
+      return R_past_now * point + t_past_now;
+    }
+    Eigen::Vector3f to_now(const Eigen::Vector3f& point) const {
+      return R_past_now.transpose() * (point - t_past_now);
+    }
+  };
+
+  /// Votes of returns by upright columns around the robot, in body axes.
+  class Columns {
+   public:
+    Columns() : cells_(static_cast<std::size_t>(kSide * kSide), 0) {}
+    void clear();
+    void vote(const Eigen::Vector3f& point);
+    /// Marks the columns within `reach` columns of those with enough votes.
+    void mark_around(int reach, Columns& marks) const;
+    bool any() const { return !used_.empty(); }
+    bool marked(const Eigen::Vector3f& point) const;
+
+   private:
+    static constexpr int kSide = 128;
+    static float min_votes(int x, int y);
+    static int cell_of(const Eigen::Vector3f& point);
+    void add(int cell);
+    std::vector<std::uint8_t> cells_;
+    std::vector<int> used_;  ///< cells that are not zero
+  };
+
+  Pose lidar_pose(const Pose& T_odom_body) const;
+  void find_references();
+  bool came(const Eigen::Vector3f& point) const;
+  bool confirmed(const Eigen::Vector3f& point) const;
+
+  Eigen::Vector3d lever_;
+  std::deque<Past> past_;  ///< oldest first
+  Past now_;
+  std::vector<Reference> references_;
+  std::vector<Eigen::Vector3f> from_lidar_;
+  Columns came_;
+  Columns went_;
+  Columns marks_;  ///< around both
+};
+
+}  // namespace aims

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aims {
+
+/// The nearest return of a scan in each direction: pixels of 1 deg of azimuth and 0.05 of the sine
+/// of the elevation (2.9 deg at the horizon), so that rings 2 deg apart leave no row empty. Points
+/// are relative to the sensor, in axes whose z points up.
+class RangeImage {
+ public:
+  RangeImage();
+
+  /// Replaces the image by that of `points`.
+  void fill(std::span<const Eigen::Vector3f> points);
+
+  /// The nearest point of each pixel that has one.
+  std::span<const Eigen::Vector3f> nearest() const { return nearest_; }
+
+  /// Whether the scan passed `point` by at least `margin` [m]: all returns of its pixel and of the
+  /// eight around it lie farther. Then an edge beside the point, or a wall at grazing incidence
+  /// whose range changes within a pixel, does not count. False where too few pixels have returns.
+  bool passed(const Eigen::Vector3f& point, float margin) const;
+
+  /// Whether the scan has a return within `tolerance` [m] of the point's range in its pixel or in
+  /// one of the eight around it.
+  bool confirms(const Eigen::Vector3f& point, float tolerance) const;
+
+ private:
+  static constexpr int kColumns = 360;
+  static constexpr int kRows = 40;
+  /// The image goes on beyond its borders by a pixel: around the circle, and empty above and below.
+  static constexpr int kStride = kColumns + 2;
+  static constexpr std::size_t kPixels = static_cast<std::size_t>(kStride * (kRows + 2));
+
+  static std::size_t pixel_of(const Eigen::Vector3f& point, float range);
+  void wrap_around();
+  void find_around();
+
+  std::vector<float> ranges_;         ///< infinity: no return [m]
+  std::vector<float> around_;         ///< nearest of 3 x 3 pixels; 0: too few have returns [m]
+  std::vector<std::uint16_t> index_;  ///< of a pixel with a return, in `nearest_`
+  std::vector<Eigen::Vector3f> nearest_;
+};
+
+}  // namespace aims
