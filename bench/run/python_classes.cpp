@@ -12,7 +12,7 @@ Result<RunChoice> choose_run(const std::filesystem::path& file,
                              const std::vector<std::string>& standard, EstimatorConfigs& configs) {
   const auto read = [&](std::span<const std::string> settings) {
     auto texts = read_texts(file, settings, "run", folder);
-    return texts && !texts->empty() ? std::move(*texts) : standard;
+    return texts && *texts ? std::move(**texts) : standard;
   };
   RunChoice choice{read({}), read(overrides)};
   if (auto added = add_python_estimators(choice.all, configs); !added) {

@@ -156,16 +156,18 @@ Result<void> load_group_text(std::string_view text, const std::string& name,
   });
 }
 
-Result<std::vector<std::string>> read_texts(const fs::path& file,
-                                            std::span<const std::string> settings,
-                                            const std::string& key, const fs::path& named) {
+Result<std::optional<std::vector<std::string>>> read_texts(const fs::path& file,
+                                                           std::span<const std::string> settings,
+                                                           const std::string& key,
+                                                           const fs::path& named) {
   std::vector<std::string> texts;
+  std::vector<AssignedKey> assigned;
   const CollectFields collect = [&] {
     Fields fields;
     fields.texts(key, texts, {});
     return fields;
   };
-  const SettingTarget target = {collect, nullptr, named, key};
+  const SettingTarget target = {collect, &assigned, named, key};
   const auto read = [&](const fs::path& from) {
     return reported(from.string(), [&] { return load_file(from, target, {}); });
   };
@@ -176,6 +178,7 @@ Result<std::vector<std::string>> read_texts(const fs::path& file,
     if (done && setting.starts_with(key + "=")) done = apply_setting(setting, collect(), target);
   }
   if (!done) return tl::unexpected(done.error());
+  if (assigned.empty()) return std::nullopt;
   return texts;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,11 +49,11 @@ Result<void> apply_overrides(const CollectFields& collect, std::span<const std::
                              const std::filesystem::path& named = {});
 
 /// The list of texts `key` of the top level after `load_config` and `apply_overrides`, whatever
-/// else the file (empty: none) and the settings hold; empty without that key.
-Result<std::vector<std::string>> read_texts(const std::filesystem::path& file,
-                                            std::span<const std::string> settings,
-                                            const std::string& key,
-                                            const std::filesystem::path& named = {});
+/// else the file (empty: none) and the settings hold; nothing without that key.
+Result<std::optional<std::vector<std::string>>> read_texts(const std::filesystem::path& file,
+                                                           std::span<const std::string> settings,
+                                                           const std::string& key,
+                                                           const std::filesystem::path& named = {});
 
 /// `load_config` into any configuration that has a `describe`.
 template <class Config>

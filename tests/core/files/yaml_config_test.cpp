@@ -123,7 +123,7 @@ TEST(YamlConfig, RefusesWhatIsNotOneDocument) {
   EXPECT_EQ(message_of(""), "s.yaml: expected a map of settings, the file is empty");
   EXPECT_EQ(message_of("# nothing\n"), "s.yaml: expected a map of settings, the file is empty");
   EXPECT_EQ(message_of("name: a\n---\nname: b\n"),
-            "s.yaml:3:1: expected one YAML document, found another");
+            "s.yaml:2:1: expected one YAML document, found another");
   EXPECT_EQ(message_of(","), "s.yaml:1:1: expected one YAML document, found another");
   EXPECT_NE(message_of(std::string("\0{}", 3)), "");
   EXPECT_NE(message_of(std::string("name: a\0", 8)), "");
