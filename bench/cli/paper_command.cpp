@@ -5,6 +5,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/draw_display.hpp"
+#include "bench/cli/study_suite.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/studies/paper_study.hpp"
@@ -16,8 +17,6 @@ namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kPaperName = "study paper";
 
 /// The options with what the study sets where nothing is given: the paper's experiments and
 /// systems, sensors as on real robots.
@@ -41,20 +40,15 @@ Result<void> write_results(const Suite& suite, const std::vector<PaperExperiment
   return draw_paper(experiments, out, display.observer());
 }
 
-int paper_command(const SharedOptions& given) {
+Result<int> study_paper(const SharedOptions& given) {
   const SharedOptions shared = with_defaults(given);
-  auto options = suite_options(shared, {1, 2, 3, 4, 5});
-  if (!options) return bad_input(kPaperName, options.error());
-  options->jobs.outputs.trajectories = true;
-  auto scenarios = study_scenarios(shared);
-  if (!scenarios) return bad_input(kPaperName, scenarios.error());
-  const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
-  if (!suite) return bad_input(kPaperName, suite.error());
+  const auto suite =
+      run_study(shared, {.seeds = first_seeds(5), .outputs = {.trajectories = true}, .adapt = {}});
+  if (!suite) return tl::unexpected(suite.error());
   const auto experiments = paper_study(*suite);
-  if (!experiments) return bad_input(kPaperName, experiments.error());
-  if (auto written = write_results(*suite, *experiments, shared); !written) {
-    return bad_input(kPaperName, written.error());
-  }
+  if (!experiments) return tl::unexpected(experiments.error());
+  auto written = write_results(*suite, *experiments, shared);
+  if (!written) return tl::unexpected(written.error());
   print_out("Each cell: the paper's figure · the median here (the worst)\n\n");
   for (const PaperExperiment& each : *experiments) {
     print_out("{}, {}\n{}\n", each.title, each.scenario, to_text(system_table(each)));
@@ -74,12 +68,13 @@ void declare_paper(Command command, const fs::path& scenarios) {
   add_suite_options(command, *shared, "out/paper", "1-5");
   add_estimators(command, *shared, "the systems of the paper, leg_kilo, tfs_plus, aims_d");
   command.footer(
-      "Without scenarios corridor and garage, with sensors=field unless --set has another level.\n"
-      "The same command again continues, and runs only what is missing or has changed.\n"
+      "Without scenarios corridor and garage, with sensors=field unless --set has another "
+      "level.\n" +
+      std::string(kContinues) +
       "Examples:\n"
       "  aims study paper\n"
       "  aims study paper corridor --seeds 1-10 --estimators fast_lio2,tfs,aims,leg");
-  command.action([shared] { return paper_command(*shared); });
+  command.action([shared] { return exit_code_of("study paper", study_paper(*shared)); });
 }
 
 }  // namespace aims

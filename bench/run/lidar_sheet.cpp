@@ -5,27 +5,11 @@
 
 #include <algorithm>
 
-#include "core/files/yaml_config.hpp"
+#include "bench/run/model_file.hpp"
 #include "sim/sensors/scan_pattern.hpp"
 
 namespace aims {
 namespace {
-
-/// A file of models/lidars: its sheet, and what each level adds. A level that is not wanted goes
-/// nowhere.
-struct LidarModelFile {
-  LidarSheet& sheet;
-  LidarConfig& ideal;
-  LidarConfig& datasheet;
-  LidarConfig& field;
-};
-
-void describe(Fields& f, LidarModelFile& file) {
-  f.group("sheet", file.sheet);
-  f.group("ideal", file.ideal);
-  f.group("datasheet", file.datasheet);
-  f.group("field", file.field);
-}
 
 std::string mode_error(std::string_view key, const LidarConfig& config,
                        const std::vector<double>& modes, double got) {
@@ -59,13 +43,8 @@ Result<LidarSheet> apply_lidar_model(std::string_view model, SensorLevel level,
   const std::vector<LidarModel> models = lidar_models();
   const auto found = std::ranges::find(models, model, &LidarModel::name);
   if (found == models.end()) return failure(fmt::format("lidar.model: no model '{}'", model));
-  LidarSheet sheet;
-  LidarConfig unused;
-  LidarModelFile file{sheet, config, level == SensorLevel::kIdeal ? unused : config,
-                      level == SensorLevel::kField ? config : unused};
-  auto ok = load_config_text(found->text, fmt::format("models/lidars/{}.yaml", model), file);
-  if (!ok) return tl::unexpected(ok.error());
-  return sheet;
+  const std::string file = fmt::format("models/lidars/{}.yaml", model);
+  return apply_model_file<LidarSheet>(found->text, file, level, config);
 }
 
 Result<void> check_lidar_mode(const LidarSheet& sheet, const LidarConfig& config) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/studies/sensitivity.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <regex>
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/run/score_statistics.hpp"
@@ -16,22 +15,17 @@ namespace {
 
 constexpr const char* kAte = "ate_m";
 
-/// The numbers of the text times `factor`, in place: "[0.1, 0.2]" times 2 is "[0.2, 0.4]".
+/// The numbers of the text times `factor`: "[0.1, 0.2]" times 2 is "[0.2,0.4]".
 std::string scaled_text(const Parameter& parameter, double factor) {
-  const bool whole = is_integer(parameter);
-  const std::string text = parameter.text();
-  const std::regex number("[-+0-9.eE]+");
-  std::string result;
-  auto from = text.cbegin();
-  for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it) {
-    const double value = factor * std::stod(it->str());
-    result.append(from, text.cbegin() + it->position());
-    result += whole ? fmt::format("{}", std::llround(value)) : fmt::format("{:.9g}", value);
-    from = text.cbegin() + it->position() + it->length();
-  }
-  result.append(from, text.cend());
-  std::erase(result, ' ');
-  return result;
+  const auto scaled = [&](const std::string& number) {
+    const double value = factor * std::stod(number);
+    return is_integer(parameter) ? fmt::format("{}", std::llround(value))
+                                 : fmt::format("{:.9g}", value);
+  };
+  auto entries = sequence_entries(parameter.text());
+  if (!entries) return scaled(parameter.text());
+  std::ranges::transform(*entries, entries->begin(), scaled);
+  return fmt::format("[{}]", fmt::join(*entries, ","));
 }
 
 bool holds_numbers(const Parameter& parameter) {
