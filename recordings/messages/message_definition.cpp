@@ -4,50 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
+
+#include "recordings/messages/definition_words.hpp"
+#include "recordings/messages/idl_definition.hpp"
 
 namespace aims {
 namespace {
 
-constexpr std::size_t kMaxNameBytes = 128;
-constexpr std::size_t kMaxTypes = 512;
-constexpr std::size_t kMaxFields = 4096;
-constexpr std::string_view kBlank = " \t\r\f\v";
 constexpr std::string_view kSectionWord = "MSG:";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_name_character(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
-
-bool is_name(std::string_view text) {
-  return !text.empty() && text.size() <= kMaxNameBytes && is_letter(text[0]) &&
-         std::all_of(text.begin(), text.end(), is_name_character);
-}
 
 bool is_type_name(std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) return is_name(text);
   return is_name(text.substr(0, slash)) && is_name(text.substr(slash + 1));
-}
-
-/// A line between two sections: three '=' or more, and nothing else.
-bool is_separator(std::string_view line) {
-  return line.size() >= 3 && line.find_first_not_of('=') == std::string_view::npos;
-}
-
-/// A whole number above 0, or nothing.
-std::optional<std::uint32_t> count_in(std::string_view digits) {
-  std::uint32_t count = 0;
-  const char* last = digits.data() + digits.size();
-  const auto [end, error] = std::from_chars(digits.data(), last, count);
-  if (error != std::errc() || end != last || count == 0) return std::nullopt;
-  return count;
 }
 
 /// Removes the bound of "string<=10"; false when it is malformed.
@@ -137,8 +107,8 @@ Result<void> add_line(std::string_view line, int number, bool ros2, TypeDefiniti
         {field->type, field->name, value_in(line.substr(sign + 1), field->type)});
     return {};
   }
-  if (type.fields.size() >= kMaxFields) {
-    return failure(fmt::format("a type of more than {} fields", kMaxFields));
+  if (type.fields.size() >= kMaxDefinedFields) {
+    return failure(fmt::format("a type of more than {} fields", kMaxDefinedFields));
   }
   field->line = number;
   type.fields.push_back(std::move(*field));
@@ -168,7 +138,10 @@ Result<std::vector<TypeDefinition>> parse_definition(std::string_view given, std
   };
   if (!is_type_name(type)) return refuse(1, "expected a type's name 'package/Type'");
   if (language == DefinitionLanguage::kRos2Idl) {
-    return refuse(1, "written in OMG IDL (ros2idl); expected a definition in .msg (ros2msg)");
+    auto types = parse_idl(type, text);
+    if (types) return types;
+    return failure(
+        fmt::format("definition of '{}', {}", type.substr(0, 80), types.error().message));
   }
   std::vector<TypeDefinition> types;
   types.push_back({type, {}, {}});
@@ -184,7 +157,7 @@ Result<std::vector<TypeDefinition>> parse_definition(std::string_view given, std
     } else if (expect_name && line.starts_with(kSectionWord)) {
       const std::string name = plain_type_name(trimmed(line.substr(kSectionWord.size())));
       if (!is_type_name(name)) return refuse(number, "expected 'MSG: package/Type'");
-      if (types.size() >= kMaxTypes) return refuse(number, "too many types");
+      if (types.size() >= kMaxDefinedTypes) return refuse(number, "too many types");
       types.push_back({name, {}, {}});
       expect_name = false;
     } else if (expect_name && !line.empty()) {

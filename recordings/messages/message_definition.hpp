@@ -49,8 +49,8 @@ std::string plain_type_name(std::string_view name);
 std::string ros2_type_name(std::string_view plain);
 
 /// Parses a definition text: the type itself first, then the types that it uses, each after a line
-/// of '=' and "MSG: package/Type". Type names are plain. Errors name the type and the line;
-/// OMG IDL is refused.
+/// of '=' and "MSG: package/Type"; or OMG IDL, see parse_idl(). Type names are plain. Errors name
+/// the type and the line.
 Result<std::vector<TypeDefinition>> parse_definition(
     std::string_view type, std::string_view text,
     DefinitionLanguage language = DefinitionLanguage::kRos1Msg);

@@ -154,8 +154,7 @@ std::optional<MessageType> known_ros2_type(std::string_view name) {
 }
 
 void complete_definition(std::string_view type, std::string& definition, MessageFormat& format) {
-  const bool readable = !definition.empty() && format.language != DefinitionLanguage::kRos2Idl;
-  if (readable || format.serialization != Serialization::kCdr) return;
+  if (!definition.empty() || format.serialization != Serialization::kCdr) return;
   auto known = known_ros2_type(type);
   if (!known) return;
   definition = std::move(known->definition);

@@ -31,7 +31,7 @@ MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: contacts and for
 std::optional<MessageType> known_ros2_type(std::string_view name);
 
 /// Fills in the definition of a usual type in ROS 2 where a recording has none, as before ROS 2
-/// Iron, or has it in OMG IDL, which parse_definition() does not read.
+/// Iron.
 void complete_definition(std::string_view type, std::string& definition, MessageFormat& format);
 
 }  // namespace aims

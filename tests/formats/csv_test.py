@@ -20,6 +20,7 @@ foot_force: [f_fl, f_fr, f_rl, f_rr]
 
 
 class Table(Walk):
+    test_a_definition_in_idl_gives_the_same = None
     test_a_standing_robot_teaches_no_threshold = None
     test_feet_at_the_origin_are_no_legs = None
     test_info_finds_the_imu = None

@@ -10,7 +10,8 @@ from cdr import CdrReader, parse_schema
 from mcap_file import McapFile
 from program_test import GIVEN, ProgramTest, aims, main, simulate
 from rosbag2_folder import write_db3
-from unitree_messages import FEET, low_state, sport_state
+from rosidl import idl_of
+from unitree_messages import FEET, LOW_STATE, low_state, sport_state
 
 SEED = 7
 LEGS = ("FL", "FR", "RL", "RR")  # of the recorded walk
@@ -79,9 +80,10 @@ class Walk(ProgramTest):
         return [max(0, round(offset[i] + (gain[i] * random.uniform(0.7, 1.3) if contact else 0)
                              + random.gauss(0, 1.5))) for i, contact in enumerate(contacts)]
 
-    def write(self, name, kind, messages):
-        topics = [("/state", f"unitree_go/msg/{kind}", "", "")]
-        write_db3(self.path(name), topics, [(0, time, data) for time, data in messages], version=2)
+    def write(self, name, kind, messages, definition=""):
+        topics = [("/state", f"unitree_go/msg/{kind}", "", definition)]
+        write_db3(self.path(name), topics, [(0, time, data) for time, data in messages],
+                  version=4 if definition else 2)
         return self.path(name)
 
     def low_states(self):
@@ -131,6 +133,13 @@ class Walk(ProgramTest):
         self.differ_by(low, joints, 0.03)
         # The kinematics here are the program's.
         self.differ_by(sport, low, 1e-5)
+
+    def test_a_definition_in_idl_gives_the_same(self):
+        low, _ = self.poses(self.write("plain.db3", "LowState", self.low_states()))
+        text = idl_of("unitree_go/msg/LowState", LOW_STATE)
+        self.assertIn("typedef unitree_go__msg__MotorState unitree_go__msg__MotorState__20[20];", text)
+        idl, _ = self.poses(self.write("idl.db3", "LowState", self.low_states(), text))
+        self.assertEqual(idl, low)
 
     def test_a_standing_robot_teaches_no_threshold(self):
         states = list(self.low_states())[:150]

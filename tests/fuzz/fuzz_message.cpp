@@ -27,6 +27,7 @@ void fuzz_message(std::span<const std::uint8_t> input) {
 
 void fuzz_cdr(std::span<const std::uint8_t> input) {
   touch_definition_and_message(input, kRos2Format);
+  touch_definition_and_message(input, {Serialization::kCdr, DefinitionLanguage::kRos2Idl});
 }
 
 }  // namespace aims

@@ -18,7 +18,8 @@ void fuzz_pcap(std::span<const std::uint8_t> input);
 void fuzz_db3(std::span<const std::uint8_t> input);
 /// The metadata of an Ouster (its length, JSON), and packets of the size that it states.
 void fuzz_ouster(std::span<const std::uint8_t> input);
-/// A message definition, and the bytes of a message, of ROS 1; and of ROS 2 (CDR).
+/// A message definition, and the bytes of a message, of ROS 1; and of ROS 2 (CDR), whose
+/// definition is read as .msg and as OMG IDL.
 void fuzz_message(std::span<const std::uint8_t> input);
 void fuzz_cdr(std::span<const std::uint8_t> input);
 /// Messages of a robot's topics in a sound bag, their content free: read as a recording.

@@ -15,7 +15,9 @@ import tempfile
 import rosbag
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "formats"))
+sys.path.insert(1, os.path.join(sys.path[0], "..", "support"))
 from lidar_packets import capture, ouster_metadata, ouster_packets, vlp16_packets
+from rosidl import idl_of
 
 TOPICS = ["sensor_msgs/Imu", "sensor_msgs/PointCloud2", "nav_msgs/Odometry",
           "sensor_msgs/JointState", "aims_msgs/FootContacts", "tf2_msgs/TFMessage"]
@@ -56,6 +58,8 @@ def save_as_ros2(aims, folder):
         save(folder + "/db3", "few.db3", small)
         save(folder + "/db3", "cut.db3", small[:len(small) // 2048 * 1024])
     for text, data, kind in rows:
+        idl = idl_of("p/msg/T", text).encode()  # the type that the fuzzer decodes
+        save(folder + "/cdr", kind.replace("/", "_") + "_idl", struct.pack("<H", len(idl)) + idl + data)
         text = text.encode()
         save(folder + "/cdr", kind.replace("/", "_"), struct.pack("<H", len(text)) + text + data)
 

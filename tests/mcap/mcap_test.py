@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: mcap_test.py AIMS SCRIPTS. SCRIPTS: read_as_viewer.mjs and others. Run by tests/mcap/run.sh."""
 
+import json
 import os
 import re
 import signal
@@ -15,6 +16,7 @@ import sample_bag
 from cdr import CdrReader, parse_schema
 from mcap_file import McapFile
 from program_test import GIVEN, ProgramTest, aims, main, poses_of, simulate
+from rosidl import SEPARATOR, idl_of
 
 # As in ROS 2's common_interfaces and geometry2; constants and comments left out.
 ROS2_FIELDS = {
@@ -227,11 +229,31 @@ class SimulatedRecording(ProgramTest):
 
     def test_files_of_other_writers_give_the_same_trajectories(self):
         self.assertEqual(poses_of(self.mcap, self.folder.name), self.poses)
-        script("write_as_others.mjs", self.mcap, self.folder.name)
+        script("write_as_others.mjs", self.mcap, self.folder.name, self.definitions())
         for form in ("plain", "lz4", "zstd", "unindexed", "unchunked", "big_endian"):
             with self.subTest(form=form):
                 poses = poses_of(self.path(form + ".mcap"), self.folder.name)
                 self.assertEqual(poses, self.poses)
+        without_odometry = ("--set", "recording.topics.leg_odometry=none",
+                            "--set", "recording.topics.contacts=/foot_contacts",
+                            "--set", "recording.contacts_field=contact")
+        expected = poses_of(self.mcap, self.folder.name, *without_odometry)
+        self.assertNotEqual(expected, self.poses)
+        for form in ("idl", "idl_big_endian"):
+            with self.subTest(form=form):
+                file = self.path(form + ".mcap")
+                self.assertEqual(poses_of(file, self.folder.name, *without_odometry), expected)
+                self.assertIn("odd_msgs/Feet", aims("info", file).stdout)
+
+    def definitions(self):
+        """A file with the definitions in OMG IDL of all types, and of the odd one."""
+        idl = {schema.name: idl_of(schema.name, schema.text)
+               for schema in McapFile(self.mcap).schemas.values()}
+        others = idl["sensor_msgs/msg/Imu"].split(SEPARATOR)
+        with open(os.path.join(os.path.dirname(__file__), "feet.idl"), encoding="utf-8") as stream:
+            used = [each for each in others if each.startswith(("IDL: std_msgs/", "IDL: builtin"))]
+            idl["odd_msgs/msg/Feet"] = SEPARATOR.join([stream.read(), *used])
+        return self.put("idl.json", json.dumps(idl))
 
 
 class BadInput(Sample):

@@ -42,8 +42,9 @@ def write_db3(path, topics, messages, version=4, numbers=None, pack=lambda data:
         values = [number, name, kind, "cdr", quality, ""][:{1: 4, 2: 5, 4: 6}[version]]
         database.execute(f"INSERT INTO topics VALUES ({', '.join('?' * len(values))})", values)
         if version == 4:
-            database.execute("INSERT INTO message_definitions VALUES (NULL, ?, 'ros2msg', ?, '')",
-                             (kind, definition))
+            language = "ros2idl" if "\nIDL: " in definition else "ros2msg"
+            database.execute("INSERT INTO message_definitions VALUES (NULL, ?, ?, ?, '')",
+                             (kind, language, definition))
     database.executemany("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)",
                          [(numbers[place], time, pack(data)) for place, time, data in messages])
     database.commit()

@@ -21,11 +21,11 @@ def simulate(scenario, recording, *options):
     return recording
 
 
-def poses_of(recording, folder, estimators="aims_d,leg"):
+def poses_of(recording, folder, *options, estimators="aims_d,leg"):
     """The files of poses, by name, that estimating a recording gives; the truth is among them."""
     out = tempfile.mkdtemp(dir=folder)
     run = aims("estimate", recording, "--estimators", estimators, "--no-pictures", "--no-page",
-               "--quiet", "--overwrite", "--out", out)
+               "--quiet", "--overwrite", "--out", out, *options)
     assert run.returncode == 0, run.stderr + run.stdout
     poses = {}
     for name in (*estimators.split(","), "truth"):

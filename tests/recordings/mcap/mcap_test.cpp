@@ -271,24 +271,17 @@ TEST_F(Mcap, MessagesOfOtherEncodingsAreListedAndNotDecoded) {
   EXPECT_EQ(view.error().message, "std_msgs/String: expected messages serialized as ros1 or cdr");
 }
 
-TEST(McapDefinitions, AUsualTypeInIdlGetsItsBuiltInDefinition) {
+TEST(McapDefinitions, AUsualTypeWithoutDefinitionGetsTheBuiltInOne) {
   MessageFormat format{Serialization::kCdr, DefinitionLanguage::kRos2Idl};
-  std::string definition = "module sensor_msgs { module msg { struct Imu {}; }; };";
+  std::string definition;
   complete_definition("sensor_msgs/Imu", definition, format);
   EXPECT_EQ(format.language, DefinitionLanguage::kRos2Msg);
   EXPECT_EQ(definition, known_ros2_type("sensor_msgs/Imu")->definition);
-}
-
-TEST(McapDefinitions, AnotherTypeInIdlIsRefusedByName) {
-  MessageFormat format{Serialization::kCdr, DefinitionLanguage::kRos2Idl};
-  std::string definition = "module my { module msg { struct Own {}; }; };";
-  complete_definition("my/Own", definition, format);
-  const auto decoder = MessageDecoder::create("my/Own", definition, format);
-  ASSERT_FALSE(decoder);
-  EXPECT_EQ(
-      decoder.error().message,
-      "definition of 'my/Own', line 1: written in OMG IDL (ros2idl); expected a definition in "
-      ".msg (ros2msg)");
+  std::string own = "module sensor_msgs { module msg { struct Imu { long x; }; }; };";
+  format.language = DefinitionLanguage::kRos2Idl;
+  complete_definition("sensor_msgs/Imu", own, format);
+  EXPECT_EQ(format.language, DefinitionLanguage::kRos2Idl);
+  EXPECT_TRUE(own.ends_with("{ long x; }; }; };"));
 }
 
 TEST(McapClouds, LivoxPointsOfRos2LieTwentyBytesApart) {

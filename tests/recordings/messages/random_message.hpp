@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <random>
 #include <string>
 #include <utility>
@@ -29,11 +30,14 @@ class RandomMessage {
                      text_of(types_[i]);
     }
     definition_ = text_of(types_[0]) + definition_;
+    for (std::size_t i = 0; is_cdr() && i < types_.size(); ++i) add_idl(i);
     write(types_[0], "");
   }
 
   std::string type() const { return "test_msgs/T0"; }
   const std::string& definition() const { return definition_; }
+  /// The same in OMG IDL, of ROS 2 alone; types of several values by typedef, as ROS 2 has them.
+  const std::string& idl() const { return idl_; }
   const std::string& bytes() const { return bytes_; }
 
   std::vector<std::pair<std::string, double>> numbers;
@@ -97,6 +101,46 @@ class RandomMessage {
               (pick(4) == 0 ? "\r\n" : "\n");
     }
     return text;
+  }
+
+  static std::string idl_name(const Field& field) {
+    static const std::map<std::string, std::string> kNames = {
+        {"bool", "boolean"},
+        {"byte", "octet"},
+        {"char", "uint8"},
+        {"int16", "short"},
+        {"uint16", "unsigned short"},
+        {"int32", "long"},
+        {"uint32", "unsigned long"},
+        {"int64", "long long"},
+        {"uint64", "unsigned long long"},
+        {"float32", "float"},
+        {"float64", "double"},
+        {"builtin_interfaces/Time", "builtin_interfaces::msg::Time"},
+        {"builtin_interfaces/Duration", "builtin_interfaces::msg::Duration"}};
+    if (field.nested >= 0) return "test_msgs::msg::" + field.type;
+    const auto found = kNames.find(field.type);
+    return found == kNames.end() ? field.type : found->second;
+  }
+
+  void add_idl(std::size_t place) {
+    std::string aliases, members;
+    for (const Field& field : types_[place]) {
+      const std::string type = idl_name(field);
+      std::string used = type;
+      if (field.count == 0) used = "sequence<" + type + (pick(2) == 0 ? ", 9>" : ">");
+      if (field.count > 0) {
+        std::string base = field.type.substr(field.type.find('/') + 1);
+        used = base + "__" + std::to_string(field.count);
+        aliases += "    typedef " + type + " " + base + "__;\n    typedef " + base + "__ " + used +
+                   "[" + std::to_string(field.count) + "];\n";
+      }
+      members += "      @default (value=1) // one\n      " + used + " " + field.name + ";\n";
+    }
+    const std::string name = "T" + std::to_string(place);
+    if (place > 0) idl_ += std::string(80, '=') + "\nIDL: test_msgs/msg/" + name + "\n";
+    idl_ += "module test_msgs {\n  module msg {\n" + aliases + "    struct " + name + " {\n" +
+            members + "    };\n  };\n};\n";
   }
 
   std::string bound() { return is_cdr() && pick(2) == 0 ? "<=9" : ""; }
@@ -180,6 +224,7 @@ class RandomMessage {
   std::mt19937_64 random_;
   std::vector<Fields> types_;
   std::string definition_;
+  std::string idl_;
   std::string bytes_;
 };
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/messages/definition_words.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace aims {
+namespace {
+
+constexpr std::size_t kMaxNameBytes = 128;
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_name_character(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= kMaxNameBytes && is_letter(text[0]) &&
+         std::all_of(text.begin(), text.end(), is_name_character);
+}
+
+bool is_separator(std::string_view line) {
+  return line.size() >= 3 && line.find_first_not_of('=') == std::string_view::npos;
+}
+
+std::optional<std::uint32_t> count_in(std::string_view digits) {
+  std::uint32_t count = 0;
+  const char* last = digits.data() + digits.size();
+  const auto [end, error] = std::from_chars(digits.data(), last, count);
+  if (error != std::errc() || end != last || count == 0) return std::nullopt;
+  return count;
+}
+
+}  // namespace aims
