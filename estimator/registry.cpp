@@ -52,10 +52,10 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
   all.push_back(entry<leg_kilo::LegKilo>("leg_kilo_published",
                                          "Leg-KILO with its published defaults",
                                          leg_kilo::published, "leg_kilo"));
-  all.push_back(entry<lins::Lins>("lins", "LINS without loop closure, set for a narrow corridor",
-                                  lins::corridor));
+  all.push_back(
+      entry<lins::Lins>("lins", "LINS without loops, set for a narrow corridor", lins::corridor));
   all.push_back(entry<lins::Lins>(
-      "lins_published", "LINS without loop closure, with its published defaults",
+      "lins_published", "LINS with its published defaults, loops among them",
       [] { return lins::Config(); }, "lins"));
   all.push_back(
       entry<lio_sam::LioSam>("lio_sam", "LIO-SAM, set for a narrow corridor", lio_sam::corridor));

@@ -78,8 +78,16 @@ KeyframeMap::Submap KeyframeMap::submap(const std::vector<int>& indices) const {
   for (const int i : indices) {
     append(keyframes_[i].edges, keyframes_[i].T_map_lidar, submap.edges);
     append(keyframes_[i].planes, keyframes_[i].T_map_lidar, submap.planes);
+    append(keyframes_[i].outliers, keyframes_[i].T_map_lidar, submap.planes);
   }
   return submap;
+}
+
+FeatureCloud KeyframeMap::features(const std::vector<int>& indices) const {
+  FeatureCloud cloud;
+  for (const int i : indices) append(keyframes_[i].edges, keyframes_[i].T_map_lidar, cloud);
+  for (const int i : indices) append(keyframes_[i].planes, keyframes_[i].T_map_lidar, cloud);
+  return cloud;
 }
 
 std::vector<Eigen::Vector3f> KeyframeMap::points() const {

@@ -15,6 +15,7 @@ struct Keyframe {
   FeatureCloud edges;   ///< LiDAR axes
   FeatureCloud planes;  ///< likewise
   Time stamp = 0;
+  FeatureCloud outliers = {};  ///< planes of the map, too, but no features (LeGO-LOAM); LiDAR axes
 };
 
 /// The keyframes of a map, and those that a scan is matched with.
@@ -41,6 +42,9 @@ class KeyframeMap {
     FeatureCloud planes;
   };
   Submap submap(const std::vector<int>& indices) const;
+
+  /// Edges, then planes of these keyframes in map axes, without outliers.
+  FeatureCloud features(const std::vector<int>& indices) const;
 
   /// Points of all keyframes in map axes.
   std::vector<Eigen::Vector3f> points() const;

@@ -12,6 +12,26 @@ void describe(Fields& f, OdometryConfig& c) {
   f.group("solver", c.solver);
 }
 
+pose_graph::PoseGraphConfig graph_config() {
+  pose_graph::PoseGraphConfig config;
+  config.position_variance = 1e-8;
+  config.height_variance = 1e-6;
+  config.relinearize_threshold = 0.01;
+  config.firm_start = true;
+  return config;
+}
+
+pose_graph::LoopConfig loop_config() {
+  pose_graph::LoopConfig config;
+  config.enabled = false;
+  config.radius = 7.0;
+  config.average_newer = false;
+  config.min_newer_points = 0;
+  config.min_older_points = 0;
+  config.max_match_distance = 100.0;
+  return config;
+}
+
 void describe(Fields& f, MappingConfig& c) {
   f.integer("every_nth", c.every_nth,
             {"-", in_range(1, 100), "one scan in this many is offered to the map"});
@@ -29,8 +49,15 @@ void describe(Fields& f, MappingConfig& c) {
            {"m", positive_up_to(1e4), "keyframes nearer than this make the map"});
   f.number("keyframe_voxel", c.keyframe_voxel,
            {"m", in_range(0.01, 1e3), "one keyframe is used per voxel of their positions"});
+  f.integer("submap_keyframes", c.submap_keyframes,
+            {"-", in_range(1, 100000), "the last ones make the map instead when loops are closed",
+             "surroundingKeyframeSearchNum"});
   f.group("matching", c.matching);
   f.group("solver", c.solver);
+  f.group("graph", c.graph);
+  f.group("loop", c.loop);
+  f.idle_if(!c.loop.enabled, "loop.enabled is false", {"graph", "submap_keyframes"});
+  f.idle_if(c.loop.enabled, "loop.enabled is true", {"submap_radius", "keyframe_voxel"});
 }
 
 void describe(Fields& f, Config& c) {

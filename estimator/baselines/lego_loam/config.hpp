@@ -6,6 +6,8 @@
 #include "estimator/baselines/features/map_reference.hpp"
 #include "estimator/baselines/features/ring_reference.hpp"
 #include "estimator/baselines/lego_loam/segmented_features.hpp"
+#include "estimator/baselines/pose_graph/loop_closure.hpp"
+#include "estimator/baselines/pose_graph/pose_graph.hpp"
 #include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 
@@ -21,6 +23,12 @@ struct OdometryConfig {
 
 void describe(Fields& fields, OdometryConfig& config);
 
+/// Graph of keyframes of the published program.
+pose_graph::PoseGraphConfig graph_config();
+
+/// Its loops, which are off by default.
+pose_graph::LoopConfig loop_config();
+
 /// Registration of scans to a map of keyframes (LeGO-LOAM, section III-E).
 struct MappingConfig {
   int every_nth = 2;               ///< one scan in this many is offered to the map
@@ -29,16 +37,18 @@ struct MappingConfig {
   double plane_voxel = 0.4;        ///< [m]
   double outlier_voxel = 0.4;      ///< [m]
   double keyframe_distance = 0.3;  ///< a keyframe is kept after this distance [m]
-  double submap_radius = 50.0;     ///< keyframes nearer than this make the map [m]
-  double keyframe_voxel = 1.0;     ///< one keyframe is used per voxel of their positions [m]
+  double submap_radius = 50.0;     ///< without loops, keyframes nearer than this make the map [m]
+  double keyframe_voxel = 1.0;     ///< one of them is used per voxel of their positions [m]
+  int submap_keyframes = 50;       ///< with loops, the last ones make the map
   features::MapMatchConfig matching = {};
   features::SolverConfig solver = features::map_solver_config();
+  pose_graph::PoseGraphConfig graph = graph_config();
+  pose_graph::LoopConfig loop = loop_config();
 };
 
 void describe(Fields& fields, MappingConfig& config);
 
-/// Configuration of LeGO-LOAM without IMU and without loop closure; the defaults are those
-/// published.
+/// Configuration of LeGO-LOAM without IMU; the defaults are those published.
 struct Config {
   RangeImageConfig image;
   FeatureConfig features;

@@ -22,6 +22,7 @@ void LegoLoam::process(const LidarScan& scan) {
   diagnostics.odometry = odometry_.update(features.features);
   if (started_) diagnostics.mapping = mapping_.update(scan.end, odometry_.pose(), features);
   started_ = true;
+  diagnostics.loops = mapping_.loops();
   report(mapping_.to_map(odometry_.pose()), row_of(diagnostics, scan.end));
 }
 

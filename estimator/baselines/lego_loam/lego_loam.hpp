@@ -8,8 +8,8 @@
 
 namespace aims::lego_loam {
 
-/// LeGO-LOAM without IMU and without loop closure: ground and segments of a range image, odometry
-/// in two steps, registration to keyframes.
+/// LeGO-LOAM without IMU: ground and segments of a range image, odometry in two steps, registration
+/// to keyframes (docs/baselines/lego_loam.md).
 class LegoLoam final : public features::ScanEstimator {
  public:
   LegoLoam(const Config& config, const SensorRig& rig);

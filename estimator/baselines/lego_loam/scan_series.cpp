@@ -51,6 +51,8 @@ constexpr std::array kSeries = {
            [](const ScanReport& s) {
              return s.mapping ? double(s.mapping->directions.removed) : kNone;
            }},
+    Series{"loops", "-", "loops closed so far",
+           [](const ScanReport& s) { return double(s.loops); }},
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ struct ScanReport {
   int segmented = 0;  ///< returns of kept segments
   OdometryResult odometry;
   std::optional<features::SolverResult> mapping;  ///< none: the scan was not registered to the map
+  int loops = 0;                                  ///< loops closed so far
 };
 
 /// The series of its diagnostics.

@@ -3,6 +3,14 @@
 
 namespace aims::lins {
 
+lego_loam::MappingConfig mapping_config() {
+  lego_loam::MappingConfig config;
+  config.every_nth = 1;
+  config.loop.enabled = true;
+  config.loop.radius = 5.0;
+  return config;
+}
+
 void describe(Fields& f, MinFeatures& c) {
   const auto count = [](const char* meaning) { return Spec{"-", in_range(0, 1000000), meaning}; };
   f.integer("start_edges", c.start_edges, count("less sharp features of each of two first scans"));
@@ -56,6 +64,7 @@ Requirements requirements_of(const Config& config) {
 Config corridor() {
   Config config;
   config.image.min_range = 0.5;
+  config.mapping.loop.enabled = false;
   return config;
 }
 

@@ -57,7 +57,10 @@ struct ScanMatchConfig {
 
 void describe(Fields& fields, ScanMatchConfig& config);
 
-/// Configuration of LINS without loop closure; the defaults are those published.
+/// The published mapping: every scan is offered, and loops are closed within 5 m.
+lego_loam::MappingConfig mapping_config();
+
+/// Configuration of LINS; the defaults are those published.
 struct Config {
   lego_loam::RangeImageConfig image = {.min_range = 0.0, .ground_rows = 5};
   lego_loam::FeatureConfig features = {.selection = {.curvature = 0.5},
@@ -67,7 +70,7 @@ struct Config {
   FilterConfig filter;
   UpdateConfig update;
   ScanMatchConfig scan_match;
-  lego_loam::MappingConfig mapping = {.every_nth = 1};
+  lego_loam::MappingConfig mapping = mapping_config();
   QueueConfig queue;
 };
 
@@ -75,7 +78,8 @@ void describe(Fields& fields, Config& config);
 
 Requirements requirements_of(const Config& config);
 
-/// Returns from 0.5 m on: nearer ones are of the robot itself.
+/// Returns from 0.5 m on, as nearer ones are of the robot itself, and no loops: the reference
+/// trajectories were made so.
 Config corridor();
 
 }  // namespace aims::lins

@@ -44,7 +44,10 @@ void Lins::process(const LidarScan& scan) {
   }
   lego_loam::SegmentedFeatures features = lego_loam::segmented_features(
       lego_loam::RangeImage(scan, config_.image), config_.image, config_.features);
-  ScanReport diagnostics{features.features.points, features.ground, features.segmented, {}, {}};
+  ScanReport diagnostics;
+  diagnostics.points_in = features.features.points;
+  diagnostics.ground = features.ground;
+  diagnostics.segmented = features.segmented;
   diagnostics.odometry = odometry_.update(features.features, samples, samples.back(), until);
   using Outcome = OdometryResult::Outcome;
   const Outcome outcome = diagnostics.odometry.outcome;
@@ -57,6 +60,7 @@ void Lins::process(const LidarScan& scan) {
   if (outcome != Outcome::kUnchanged && outcome != Outcome::kRejected) {
     diagnostics.mapping = mapping_.update(scan.stamp, odometry_.pose(), features);
   }
+  diagnostics.loops = mapping_.loops();
   report(T_map_lidar, row_of(diagnostics, scan.end));
 }
 

@@ -9,8 +9,8 @@
 
 namespace aims::lins {
 
-/// LINS without loop closure: LeGO-LOAM's features, a filter on the motion from scan to scan with
-/// the IMU, and LeGO-LOAM's mapping (docs/baselines/lins.md). The map is level at the first LiDAR.
+/// LINS: LeGO-LOAM's features, a filter on the motion from scan to scan with the IMU, and
+/// LeGO-LOAM's mapping (docs/baselines/lins.md). The map is level at the first LiDAR.
 class Lins final : public features::ScanEstimator {
  public:
   Lins(const Config& config, const SensorRig& rig);

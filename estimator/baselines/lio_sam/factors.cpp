@@ -10,38 +10,13 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using pose_graph::Linearization;
 
-VectorXd vector_of(const Vector3d& first, const Vector3d& second) {
-  VectorXd stacked(6);
-  stacked << first, second;
-  return stacked;
+VectorXd stacked(const ImuBias& bias) {
+  VectorXd entries(6);
+  entries << bias.accelerometer, bias.gyro;
+  return entries;
 }
-
-/// Difference of two poses, as a prior has it, and its derivative in a step of `pose`.
-Linearization pose_difference(const Pose& pose, const Pose& mean) {
-  const Eigen::Quaterniond turn = mean.rotation.conjugate() * pose.rotation;
-  const Vector3d angle = so3_log(turn);
-  Linearization result;
-  result.residual =
-      vector_of(angle, mean.rotation.conjugate() * (pose.translation - mean.translation));
-  MatrixXd jacobian = MatrixXd::Zero(6, 6);
-  jacobian.topLeftCorner<3, 3>() = so3_right_jacobian_inverse(angle);
-  jacobian.bottomRightCorner<3, 3>() = turn.toRotationMatrix();
-  result.jacobians = {std::move(jacobian)};
-  return result;
-}
-
-/// Derivative of T_from_to in a step of `from`, as a step of T_from_to.
-MatrixXd by_step_of_origin(const Pose& T_from_to) {
-  const Matrix3d R_to_from = T_from_to.R().transpose();
-  MatrixXd jacobian = MatrixXd::Zero(6, 6);
-  jacobian.topLeftCorner<3, 3>() = -R_to_from;
-  jacobian.bottomLeftCorner<3, 3>() = R_to_from * hat(T_from_to.translation);
-  jacobian.bottomRightCorner<3, 3>() = -R_to_from;
-  return jacobian;
-}
-
-VectorXd stacked(const ImuBias& bias) { return vector_of(bias.accelerometer, bias.gyro); }
 
 /// States, bias and motion of an IMU factor.
 struct ImuResidual {
@@ -113,12 +88,6 @@ Linearization linearized(const ImuResidual& r) {
 
 }  // namespace
 
-Factor pose_prior(int pose, const Pose& mean, const MatrixXd& sqrt_information) {
-  return {{pose}, sqrt_information, [mean](std::span<const Value> values) {
-            return pose_difference(std::get<Pose>(values[0]), mean);
-          }};
-}
-
 Factor velocity_prior(int velocity, const Vector3d& mean, const MatrixXd& sqrt_information) {
   return {{velocity}, sqrt_information, [mean](std::span<const Value> values) {
             return Linearization{std::get<Vector3d>(values[0]) - mean, {MatrixXd::Identity(3, 3)}};
@@ -140,19 +109,9 @@ Factor bias_walk(int from, int to, const MatrixXd& sqrt_information) {
           }};
 }
 
-Factor relative_pose(int from, int to, const Pose& T_from_to, const MatrixXd& sqrt_information) {
-  return {{from, to}, sqrt_information, [T_from_to](std::span<const Value> values) {
-            const Pose relative = std::get<Pose>(values[0]).inverse() * std::get<Pose>(values[1]);
-            Linearization result = pose_difference(relative, T_from_to);
-            result.jacobians.insert(result.jacobians.begin(),
-                                    result.jacobians[0] * by_step_of_origin(relative));
-            return result;
-          }};
-}
-
 std::optional<Factor> imu_factor(const Key& from, const Key& to, const Preintegration& motion,
                                  double gravity) {
-  const auto sqrt_information = sqrt_information_of(motion.covariance);
+  const auto sqrt_information = pose_graph::sqrt_information_of(motion.covariance);
   if (!sqrt_information) return std::nullopt;
   return Factor{
       {from.pose, from.velocity, to.pose, to.velocity, from.bias},

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "estimator/baselines/lio_sam/factor_graph.hpp"
+#include "estimator/baselines/lio_sam/preintegration.hpp"
+#include "estimator/baselines/pose_graph/factor_graph.hpp"
 
 namespace aims::lio_sam {
 
-/// W of the residuals below: rotation [rad] before position [m]; accelerometer before gyro.
+// W of the biases: accelerometer before gyro.
 
-/// The pose is `mean`: r = (Log(R_m^T R), R_m^T (p - p_m)).
-Factor pose_prior(int pose, const Pose& mean, const Eigen::MatrixXd& sqrt_information);
+using pose_graph::Factor;
+using pose_graph::FactorGraph;
+using pose_graph::Value;
 
 /// The velocity is `mean` [m/s].
 Factor velocity_prior(int velocity, const Eigen::Vector3d& mean,
@@ -19,10 +21,6 @@ Factor bias_prior(int bias, const ImuBias& mean, const Eigen::MatrixXd& sqrt_inf
 
 /// The biases stay.
 Factor bias_walk(int from, int to, const Eigen::MatrixXd& sqrt_information);
-
-/// The second pose relative to the first is `T_from_to`: the residual of a prior on that pose.
-Factor relative_pose(int from, int to, const Pose& T_from_to,
-                     const Eigen::MatrixXd& sqrt_information);
 
 /// Variables of an instant.
 struct Key {

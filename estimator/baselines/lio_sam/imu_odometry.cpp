@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "estimator/baselines/pose_graph/pose_factors.hpp"
+
 namespace aims::lio_sam {
 namespace {
 
@@ -34,7 +36,7 @@ std::optional<Time> drop_before(std::deque<ImuSample>& samples, Time stamp) {
 }
 
 Eigen::MatrixXd isotropic(int size, double sigma) {
-  return sqrt_information_of_sigmas(Eigen::VectorXd::Constant(size, sigma));
+  return pose_graph::sqrt_information_of_sigmas(Eigen::VectorXd::Constant(size, sigma));
 }
 
 Eigen::MatrixXd pose_information(const ImuOdometryConfig& config, bool degenerate) {
@@ -42,14 +44,14 @@ Eigen::MatrixXd pose_information(const ImuOdometryConfig& config, bool degenerat
   Eigen::VectorXd sigmas(6);
   sigmas << Eigen::Vector3d::Constant(config.rotation_sigma),
       Eigen::Vector3d::Constant(config.position_sigma);
-  return sqrt_information_of_sigmas(sigmas);
+  return pose_graph::sqrt_information_of_sigmas(sigmas);
 }
 
 Eigen::MatrixXd walk_information(const ImuNoiseConfig& noise, double duration) {
   Eigen::VectorXd sigmas(6);
   sigmas << Eigen::Vector3d::Constant(noise.accelerometer_bias),
       Eigen::Vector3d::Constant(noise.gyro_bias);
-  return sqrt_information_of_sigmas(std::sqrt(duration) * sigmas);
+  return pose_graph::sqrt_information_of_sigmas(std::sqrt(duration) * sigmas);
 }
 
 }  // namespace
@@ -128,7 +130,7 @@ void ImuOdometry::begin_graph(const Eigen::MatrixXd& pose, const Eigen::MatrixXd
   graph_.emplace(config_.relinearize_threshold);
   const Key key{graph_->add_variable(state_.T_map_imu), graph_->add_variable(state_.velocity),
                 graph_->add_variable(bias_)};
-  graph_->add_factor(pose_prior(key.pose, state_.T_map_imu, pose));
+  graph_->add_factor(pose_graph::pose_prior(key.pose, state_.T_map_imu, pose));
   graph_->add_factor(velocity_prior(key.velocity, state_.velocity, velocity));
   graph_->add_factor(bias_prior(key.bias, bias_, bias));
   graph_->update();
@@ -142,7 +144,8 @@ bool ImuOdometry::begin_anew() {
   std::vector<Eigen::MatrixXd> informations;
   for (const int variable : {last.pose, last.velocity, last.bias}) {
     const auto covariance = graph_->marginal_covariance(variable);
-    const auto information = covariance ? sqrt_information_of(*covariance) : std::nullopt;
+    const auto information =
+        covariance ? pose_graph::sqrt_information_of(*covariance) : std::nullopt;
     if (!information) return false;
     informations.push_back(*information);
   }
@@ -170,8 +173,8 @@ bool ImuOdometry::solve(const LidarOdometry& scan) {
   graph_->add_factor(std::move(*motion));
   graph_->add_factor(
       bias_walk(keys_.back().bias, key.bias, walk_information(config_.noise, motion_.duration)));
-  graph_->add_factor(pose_prior(key.pose, scan.T_map_lidar * T_lidar_imu_,
-                                pose_information(config_, scan.degenerate)));
+  graph_->add_factor(pose_graph::pose_prior(key.pose, scan.T_map_lidar * T_lidar_imu_,
+                                            pose_information(config_, scan.degenerate)));
   if (!graph_->update() || !graph_->update()) return false;
   keys_.push_back(key);
   state_ = {std::get<Pose>(graph_->estimate(key.pose)),

@@ -59,7 +59,7 @@ void describe(Fields& f, MappingConfig& c) {
 }
 
 Mapping::Mapping(const MappingConfig& config)
-    : config_(config), graph_(config.graph), loops_(config.loop) {}
+    : config_(config), keyframes_(config.graph, config.loop) {}
 
 bool Mapping::is_due(Time stamp) const {
   return !last_stamp_ || stamp - *last_stamp_ >= from_seconds(config_.min_interval);
@@ -71,7 +71,7 @@ bool Mapping::is_due(Time stamp) const {
 void Mapping::guess(const ScanPrior& prior) {
   before_ = pose_;
   const Eigen::Quaterniond attitude = rotation_of(prior.attitude);
-  if (map_.empty()) {
+  if (map().empty()) {
     pose_.rotation = attitude;
     last_attitude_ = attitude;
     return;
@@ -96,17 +96,17 @@ void Mapping::guess_from_rotation(const Eigen::Quaterniond& attitude) {
 /// The keyframes near the last one. Recent ones among them count twice, as in the published
 /// program.
 void Mapping::build_submap(Time stamp) {
-  const Eigen::Vector3d last = map_.last_pose().translation;
-  std::vector<int> indices = map_.near_means(last, config_.submap_radius, config_.keyframe_voxel);
-  for (int i = map_.size() - 1; i >= 0; --i) {
-    if (to_seconds(stamp - map_[i].stamp) >= config_.recent) break;
+  const Eigen::Vector3d last = map().last_pose().translation;
+  std::vector<int> indices = map().near_means(last, config_.submap_radius, config_.keyframe_voxel);
+  for (int i = map().size() - 1; i >= 0; --i) {
+    if (to_seconds(stamp - map()[i].stamp) >= config_.recent) break;
     indices.push_back(i);
   }
   std::erase_if(indices, [&](int i) {
-    return (map_[i].T_map_lidar.translation - last).norm() > config_.submap_radius;
+    return (map()[i].T_map_lidar.translation - last).norm() > config_.submap_radius;
   });
   if (indices == submap_) return;
-  const features::KeyframeMap::Submap submap = map_.submap(indices);
+  const features::KeyframeMap::Submap submap = map().submap(indices);
   reference_.build(positions_of(voxel_centroids(submap.edges, config_.edge_voxel)),
                    positions_of(voxel_centroids(submap.planes, config_.surface_voxel)));
   submap_ = std::move(indices);
@@ -131,23 +131,19 @@ bool Mapping::register_scan(const features::FeatureCloud& edges,
 }
 
 bool Mapping::is_keyframe() const {
-  if (map_.empty()) return true;
-  const Pose moved = map_.last_pose().inverse() * pose_;
+  if (map().empty()) return true;
+  const Pose moved = map().last_pose().inverse() * pose_;
   const RollPitchYaw angles = angles_of(moved.rotation);
   const double angle =
       std::max({std::abs(angles.roll), std::abs(angles.pitch), std::abs(angles.yaw)});
   return angle >= config_.keyframe_angle || moved.translation.norm() >= config_.keyframe_distance;
 }
 
-/// Loops found since the last keyframe correct all of them.
 void Mapping::add_keyframe(Time stamp, features::FeatureCloud edges,
                            features::FeatureCloud surface) {
-  const bool closes = graph_.add(pose_, loops_.take_found());
-  map_.add({graph_.pose(map_.size()), std::move(edges), std::move(surface), stamp});
-  pose_ = map_.last_pose();
-  if (!closes) return;
-  for (int i = 0; i < map_.size(); ++i) map_.set_pose(i, graph_.pose(i));
-  submap_.clear();
+  const bool moved = keyframes_.add({pose_, std::move(edges), std::move(surface), stamp});
+  pose_ = map().last_pose();
+  if (moved) submap_.clear();
 }
 
 /// The pose whose increments leave out corrections by loops, with more of the IMU's attitude.
@@ -175,7 +171,7 @@ RegisteredScan Mapping::update(Time stamp, const ScanFeatures& scan, const ScanP
   result.surface = static_cast<int>(surface.size());
   guess(prior);
   if (!is_usable(pose_)) result.rejected = true;
-  if (!result.rejected && !map_.empty()) {
+  if (!result.rejected && !map().empty()) {
     build_submap(stamp);
     const bool enough =
         result.edges > config_.min_scan_edges && result.surface > config_.min_scan_surface;
@@ -186,7 +182,7 @@ RegisteredScan Mapping::update(Time stamp, const ScanFeatures& scan, const ScanP
   if (result.rejected) pose_ = registered_ = before_;
   result.keyframe = !result.rejected && is_keyframe();
   if (result.keyframe) add_keyframe(stamp, std::move(edges), std::move(surface));
-  loops_.search(stamp, map_);
+  if (!map().empty()) keyframes_.search(stamp, map().last_pose().translation);
   result.degenerate = degenerate_;
   result.T_map_lidar = pose_;
   result.odometry = odometry(stamp, prior);

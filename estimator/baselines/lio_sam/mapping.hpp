@@ -11,9 +11,8 @@
 #include "estimator/baselines/features/map_reference.hpp"
 #include "estimator/baselines/lio_sam/attitude.hpp"
 #include "estimator/baselines/lio_sam/imu_odometry.hpp"
-#include "estimator/baselines/lio_sam/loop_closure.hpp"
-#include "estimator/baselines/lio_sam/pose_graph.hpp"
 #include "estimator/baselines/lio_sam/scan_features.hpp"
+#include "estimator/baselines/pose_graph/keyframe_graph.hpp"
 
 namespace aims::lio_sam {
 
@@ -36,8 +35,8 @@ struct MappingConfig {
   double odometry_weight = 0.1;    ///< likewise, in the pose that the IMU odometry is given
   features::MapMatchConfig matching = {.min_map_edges = 0, .min_map_planes = 0};
   features::SolverConfig solver = solver_config();
-  PoseGraphConfig graph;
-  LoopConfig loop;
+  pose_graph::PoseGraphConfig graph;
+  pose_graph::LoopConfig loop;
 };
 
 void describe(Fields& fields, MappingConfig& config);
@@ -72,8 +71,8 @@ class Mapping {
   /// Registers the features of a scan.
   RegisteredScan update(Time stamp, const ScanFeatures& scan, const ScanPrior& prior);
 
-  const features::KeyframeMap& map() const { return map_; }
-  int loops() const { return loops_.closed(); }
+  const features::KeyframeMap& map() const { return keyframes_.map(); }
+  int loops() const { return keyframes_.loops(); }
 
  private:
   void guess(const ScanPrior& prior);
@@ -86,11 +85,9 @@ class Mapping {
   LidarOdometry odometry(Time stamp, const ScanPrior& prior);
 
   MappingConfig config_;
-  features::KeyframeMap map_;
+  pose_graph::KeyframeGraph keyframes_;
   features::MapReference reference_;
   std::vector<int> submap_;  ///< keyframes in `reference_`
-  PoseGraph graph_;
-  LoopClosure loops_;
 
   std::optional<Time> last_stamp_;
   Pose pose_;        ///< T_map_lidar of the last scan

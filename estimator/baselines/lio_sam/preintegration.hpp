@@ -5,16 +5,13 @@
 
 #include "core/config.hpp"
 #include "core/lie.hpp"
+#include "estimator/baselines/pose_graph/imu_bias.hpp"
 
 namespace aims::lio_sam {
 
-using Matrix9 = Eigen::Matrix<double, 9, 9>;
+using pose_graph::ImuBias;
 
-/// Biases of the IMU.
-struct ImuBias {
-  Eigen::Vector3d accelerometer = Eigen::Vector3d::Zero();  ///< [m/s^2]
-  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();           ///< [rad/s]
-};
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
 /// Pose and velocity of the IMU in the map.
 struct NavState {

@@ -172,7 +172,9 @@ struct Preparation {
 };
 
 const std::vector<Preparation>& preparations() {
-  static const std::vector<Preparation> all = {{"lio_sam", "mapping.loop.min_age", "4"}};
+  static const std::vector<Preparation> all = {{"lio_sam", "mapping.loop.min_age", "4"},
+                                               {"lego_loam", "mapping.loop.enabled", "true"},
+                                               {"lego_loam", "mapping.loop.min_age", "4"}};
   return all;
 }
 

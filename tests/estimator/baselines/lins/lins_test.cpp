@@ -188,5 +188,12 @@ TEST_F(LinsInABox, AnImpossibleImuEndsNormally) {
   }
 }
 
+TEST(LinsPresets, OnlyThePublishedOneClosesLoops) {
+  EXPECT_TRUE(Config().mapping.loop.enabled);
+  EXPECT_EQ(Config().mapping.loop.radius, 5.0);
+  EXPECT_FALSE(corridor().mapping.loop.enabled);
+  EXPECT_FALSE(lego_loam::Config().mapping.loop.enabled);
+}
+
 }  // namespace
 }  // namespace aims::lins

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "estimator/baselines/pose_graph/pose_factors.hpp"
 
 namespace aims::lio_sam {
 namespace {
@@ -13,6 +14,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using pose_graph::Linearization;
+using pose_graph::pose_prior;
+using pose_graph::relative_pose;
+using pose_graph::sqrt_information_of;
 
 Pose random_pose(RandomStream& random) {
   return {so3_exp(0.8 * random.normal3()), 2.0 * random.normal3()};

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/lie.hpp"
-#include "estimator/baselines/lio_sam/preintegration.hpp"
+#include "estimator/baselines/pose_graph/imu_bias.hpp"
 
-namespace aims::lio_sam {
+namespace aims::pose_graph {
 
 /// What a variable of a graph stands for: a pose, a velocity or the biases.
 using Value = std::variant<Pose, Eigen::Vector3d, ImuBias>;
@@ -94,4 +94,4 @@ Eigen::MatrixXd sqrt_information_of_sigmas(const Eigen::VectorXd& sigmas);
 /// W with W^T W = covariance^-1; empty when the covariance is not positive definite.
 std::optional<Eigen::MatrixXd> sqrt_information_of(const Eigen::MatrixXd& covariance);
 
-}  // namespace aims::lio_sam
+}  // namespace aims::pose_graph

@@ -5,15 +5,20 @@
 #include <vector>
 
 #include "core/config.hpp"
-#include "estimator/baselines/lio_sam/factor_graph.hpp"
+#include "estimator/baselines/pose_graph/factor_graph.hpp"
 
-namespace aims::lio_sam {
+namespace aims::pose_graph {
 
-/// Graph of keyframes (LIO-SAM, section III); defaults of the published program.
+/// Graph of keyframes (LIO-SAM, section III); defaults of its published program.
 struct PoseGraphConfig {
   double rotation_variance = 1e-6;     ///< between two keyframes [rad^2]
-  double position_variance = 1e-4;     ///< [m^2]
+  double position_variance = 1e-4;     ///< along x and y of the LiDAR [m^2]
+  double height_variance = 1e-4;       ///< along z of the LiDAR [m^2]
   double relinearize_threshold = 0.1;  ///< see FactorGraph [rad, m]
+  /// The first pose has these variances, too; else it is nearly free. No setting: the choice moves
+  /// no keyframe relative to another, but a free pose beside small variances has no solution in
+  /// double precision.
+  bool firm_start = false;
 };
 
 void describe(Fields& fields, PoseGraphConfig& config);
@@ -44,4 +49,4 @@ class PoseGraph {
   std::vector<Pose> poses_;
 };
 
-}  // namespace aims::lio_sam
+}  // namespace aims::pose_graph

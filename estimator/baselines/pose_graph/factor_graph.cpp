@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/lio_sam/factor_graph.hpp"
+#include "estimator/baselines/pose_graph/factor_graph.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace aims::lio_sam {
+namespace aims::pose_graph {
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
@@ -149,4 +149,4 @@ std::optional<Eigen::MatrixXd> sqrt_information_of(const Eigen::MatrixXd& covari
   return W;
 }
 
-}  // namespace aims::lio_sam
+}  // namespace aims::pose_graph

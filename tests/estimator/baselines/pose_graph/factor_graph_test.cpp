@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/lio_sam/factor_graph.hpp"
+#include "estimator/baselines/pose_graph/factor_graph.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "estimator/baselines/lio_sam/factors.hpp"
-#include "estimator/baselines/lio_sam/pose_graph.hpp"
+#include "estimator/baselines/pose_graph/pose_factors.hpp"
+#include "estimator/baselines/pose_graph/pose_graph.hpp"
 
-namespace aims::lio_sam {
+namespace aims::pose_graph {
 namespace {
 
 using Eigen::MatrixXd;
@@ -95,7 +95,7 @@ void expect_same_poses(const FactorGraph& graph, const std::vector<Value>& value
   }
 }
 
-TEST(LioSamFactorGraph, AnUpdateIsOneStepOfTheDenseProblem) {
+TEST(FactorGraph, AnUpdateIsOneStepOfTheDenseProblem) {
   const Chain chain = random_chain(12, 1);
   FactorGraph graph(kNever);
   fill(graph, chain);
@@ -108,7 +108,7 @@ TEST(LioSamFactorGraph, AnUpdateIsOneStepOfTheDenseProblem) {
   EXPECT_LT((*marginal - covariance.block(42, 42, 6, 6)).norm(), 1e-9 * covariance.norm());
 }
 
-TEST(LioSamFactorGraph, UpdatesConvergeToTheDenseSolution) {
+TEST(FactorGraph, UpdatesConvergeToTheDenseSolution) {
   const Chain chain = random_chain(12, 2);
   FactorGraph graph(kAlways);
   fill(graph, chain);
@@ -121,7 +121,7 @@ TEST(LioSamFactorGraph, UpdatesConvergeToTheDenseSolution) {
   expect_same_poses(graph, values, 1e-8);
 }
 
-TEST(LioSamFactorGraph, WhatArrivesLaterYieldsTheSameSolution) {
+TEST(FactorGraph, WhatArrivesLaterYieldsTheSameSolution) {
   const Chain chain = random_chain(10, 3);
   FactorGraph at_once(kAlways);
   fill(at_once, chain);
@@ -140,7 +140,7 @@ TEST(LioSamFactorGraph, WhatArrivesLaterYieldsTheSameSolution) {
 }
 
 /// A prior of which the linearization is wrong by a factor that grows with the distance.
-TEST(LioSamFactorGraph, AVariableIsRelinearizedOnceItHasMovedAsFarAsTheThreshold) {
+TEST(FactorGraph, AVariableIsRelinearizedOnceItHasMovedAsFarAsTheThreshold) {
   int linearizations = 0;
   const auto model = [&](std::span<const Value> values) {
     ++linearizations;
@@ -158,7 +158,7 @@ TEST(LioSamFactorGraph, AVariableIsRelinearizedOnceItHasMovedAsFarAsTheThreshold
   }
 }
 
-TEST(LioSamFactorGraph, AVariableWithoutFactorsHasNoSolution) {
+TEST(FactorGraph, AVariableWithoutFactorsHasNoSolution) {
   FactorGraph graph(0.1);
   graph.add_variable(Pose());
   graph.add_variable(Pose());
@@ -168,7 +168,7 @@ TEST(LioSamFactorGraph, AVariableWithoutFactorsHasNoSolution) {
 
 Pose at(double x, double y) { return {Eigen::Quaterniond::Identity(), {x, y, 0.0}}; }
 
-TEST(LioSamPoseGraph, WithoutLoopsKeyframesStay) {
+TEST(PoseGraph, WithoutLoopsKeyframesStay) {
   PoseGraph graph{PoseGraphConfig()};
   for (int i = 0; i < 20; ++i) {
     EXPECT_FALSE(graph.add(at(i, 0.1 * i), {}));
@@ -176,7 +176,7 @@ TEST(LioSamPoseGraph, WithoutLoopsKeyframesStay) {
   }
 }
 
-TEST(LioSamPoseGraph, ALoopSpreadsItsErrorOverTheKeyframes) {
+TEST(PoseGraph, ALoopSpreadsItsErrorOverTheKeyframes) {
   PoseGraph graph{PoseGraphConfig()};
   // Out 10 m and back, with 0.4 m too much on the way back.
   for (int i = 0; i <= 10; ++i) graph.add(at(i, 0.0), {});
@@ -189,4 +189,4 @@ TEST(LioSamPoseGraph, ALoopSpreadsItsErrorOverTheKeyframes) {
 }
 
 }  // namespace
-}  // namespace aims::lio_sam
+}  // namespace aims::pose_graph

@@ -7,7 +7,7 @@
 #include "core/lie.hpp"
 #include "estimator/baselines/features/point_index.hpp"
 
-namespace aims::lio_sam {
+namespace aims::pose_graph {
 
 /// What the alignment of two clouds found.
 struct IcpResult {
@@ -23,4 +23,4 @@ struct IcpResult {
 IcpResult align(const std::vector<Eigen::Vector3f>& source, const features::PointIndex& target,
                 double max_distance);
 
-}  // namespace aims::lio_sam
+}  // namespace aims::pose_graph

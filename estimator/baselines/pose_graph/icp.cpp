@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/lio_sam/icp.hpp"
+#include "estimator/baselines/pose_graph/icp.hpp"
 
 #include <Eigen/Geometry>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-namespace aims::lio_sam {
+namespace aims::pose_graph {
 namespace {
 
 constexpr int kMaxIterations = 100;
@@ -85,4 +85,4 @@ IcpResult align(const std::vector<Eigen::Vector3f>& source, const features::Poin
   return result;
 }
 
-}  // namespace aims::lio_sam
+}  // namespace aims::pose_graph
