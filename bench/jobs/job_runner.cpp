@@ -69,6 +69,8 @@ Result<const Sequence*> JobRunner::open(const std::string& id, const Scenario& s
 
 void JobRunner::prune(std::set<std::string> kept) {
   if (options_.cache_limit == 0) return;
+  // Processes that still read a sequence keep its lock, which they have inherited.
+  std::erase_if(open_, [&kept](const OpenSequence& each) { return !kept.contains(each.id); });
   const CachePruned now = cache_.prune(options_.cache_limit, kept);
   pruned_.sequences += now.sequences;
   pruned_.bytes += now.bytes;

@@ -101,7 +101,8 @@ class JobRunner {
   std::string sequence_id(const Job& job);
   /// The open sequence; opens it, and closes the one that was opened first when there are many.
   Result<const Sequence*> open(const std::string& id, const Scenario& scenario, std::uint64_t seed);
-  /// Keeps the cache within its limit, but for the sequences of these ids.
+  /// Closes the sequences but those of these ids, and keeps the cache within its limit, but for
+  /// them and those that processes read.
   void prune(std::set<std::string> kept);
 
   JobOptions options_;
