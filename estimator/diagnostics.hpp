@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -27,6 +29,15 @@ struct ReportedSeries {
   const char* meaning;
   double (*value)(const Report&);
 };
+
+/// The tables one after the other.
+template <class Series, std::size_t... sizes>
+constexpr std::array<Series, (sizes + ...)> joined(const std::array<Series, sizes>&... tables) {
+  std::array<Series, (sizes + ...)> all{};
+  auto end = all.begin();
+  ((end = std::copy(tables.begin(), tables.end(), end)), ...);
+  return all;
+}
 
 /// Name, unit and meaning of each of `table`, whose elements are `ReportedSeries`.
 template <class Table>

@@ -2,21 +2,20 @@
 #include "estimator/baselines/lego_loam/scan_series.hpp"
 
 #include <array>
-#include <limits>
+
+#include "estimator/baselines/features/mapping_series.hpp"
 
 namespace aims::lego_loam {
 namespace {
 
 using Series = ReportedSeries<ScanReport>;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 int iterations(const ScanReport& scan) {
   const int mapping = scan.mapping ? scan.mapping->iterations : 0;
   return scan.odometry.ground.iterations + scan.odometry.edges.iterations + mapping;
 }
 
-constexpr std::array kSeries = {
+constexpr std::array kOwnSeries = {
     Series{"points_in", "-", "finite points in range",
            [](const ScanReport& s) { return double(s.points_in); }},
     Series{"ground_points", "-", "returns of the ground",
@@ -40,20 +39,10 @@ constexpr std::array kSeries = {
              return double(s.odometry.ground.directions.removed +
                            s.odometry.edges.directions.removed);
            }},
-    Series{"mapping_matches", "-", "lines and planes of the map; NaN: scan not registered",
-           [](const ScanReport& s) {
-             return s.mapping ? double(s.mapping->lines + s.mapping->planes) : kNone;
-           }},
-    Series{"mapping_smallest_eigenvalue", "-",
-           "smallest eigenvalue of A^T A in the first iteration, scan to map",
-           [](const ScanReport& s) { return s.mapping ? smallest_eigenvalue(*s.mapping) : kNone; }},
-    Series{"mapping_removed_directions", "-", "degenerate directions that do not move",
-           [](const ScanReport& s) {
-             return s.mapping ? double(s.mapping->directions.removed) : kNone;
-           }},
-    Series{"loops", "-", "loops closed so far",
-           [](const ScanReport& s) { return double(s.loops); }},
 };
+
+constexpr std::array kSeries =
+    joined(kOwnSeries, features::mapping_series<ScanReport>(), features::loop_series<ScanReport>());
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/baselines/features/mapping_series.hpp"
 #include "estimator/baselines/points/translation_constraint.hpp"
 
 namespace aims::lins {
@@ -33,7 +34,7 @@ double residual_rms(const Update& update) {
   return count > 0 ? std::sqrt(update.last.squared_norm / static_cast<double>(count)) : kNone;
 }
 
-constexpr std::array kSeries = {
+constexpr std::array kOwnSeries = {
     Series{"points_in", "-", "finite points in range",
            [](const ScanReport& s) { return double(s.points_in); }},
     Series{"ground_points", "-", "returns of the ground",
@@ -63,20 +64,10 @@ constexpr std::array kSeries = {
            [](const ScanReport& s) { return constraint_of(s.odometry.update).condition; }},
     Series{"localizability", "-", "sum of the cosines between gradients and the weakest direction",
            [](const ScanReport& s) { return constraint_of(s.odometry.update).localizability; }},
-    Series{"mapping_matches", "-", "lines and planes of the map; NaN: scan not registered",
-           [](const ScanReport& s) {
-             return s.mapping ? double(s.mapping->lines + s.mapping->planes) : kNone;
-           }},
-    Series{"mapping_smallest_eigenvalue", "-",
-           "smallest eigenvalue of A^T A in the first iteration, scan to map",
-           [](const ScanReport& s) { return s.mapping ? smallest_eigenvalue(*s.mapping) : kNone; }},
-    Series{"mapping_removed_directions", "-", "degenerate directions that do not move",
-           [](const ScanReport& s) {
-             return s.mapping ? double(s.mapping->directions.removed) : kNone;
-           }},
-    Series{"loops", "-", "loops closed so far",
-           [](const ScanReport& s) { return double(s.loops); }},
 };
+
+constexpr std::array kSeries =
+    joined(kOwnSeries, features::mapping_series<ScanReport>(), features::loop_series<ScanReport>());
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "estimator/baselines/features/mapping_series.hpp"
+
 namespace aims::lio_sam {
 namespace {
 
@@ -16,7 +18,7 @@ double of_registered(const ScanReport& scan, Value value) {
                          : std::numeric_limits<double>::quiet_NaN();
 }
 
-constexpr std::array kSeries = {
+constexpr std::array kOwnSeries = {
     Series{"points_in", "-", "returns in range",
            [](const ScanReport& s) { return double(s.points_in); }},
     Series{"edges", "-", "edges after averaging; NaN: scan not registered",
@@ -64,9 +66,9 @@ constexpr std::array kSeries = {
            [](const ScanReport& s) { return s.accelerometer_bias; }},
     Series{"gyro_bias", "rad/s", "norm at the newest key of the IMU odometry",
            [](const ScanReport& s) { return s.gyro_bias; }},
-    Series{"loops", "-", "loops closed so far",
-           [](const ScanReport& s) { return double(s.loops); }},
 };
+
+constexpr std::array kSeries = joined(kOwnSeries, features::loop_series<ScanReport>());
 
 }  // namespace
 

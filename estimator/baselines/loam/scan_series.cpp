@@ -2,16 +2,15 @@
 #include "estimator/baselines/loam/scan_series.hpp"
 
 #include <array>
-#include <limits>
+
+#include "estimator/baselines/features/mapping_series.hpp"
 
 namespace aims::loam {
 namespace {
 
 using Series = ReportedSeries<ScanReport>;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-constexpr std::array kSeries = {
+constexpr std::array kOwnSeries = {
     Series{"points_in", "-", "finite points in range",
            [](const ScanReport& s) { return double(s.points_in); }},
     Series{"edges", "-", "sharp features", [](const ScanReport& s) { return double(s.edges); }},
@@ -27,18 +26,9 @@ constexpr std::array kSeries = {
            [](const ScanReport& s) { return smallest_eigenvalue(s.odometry); }},
     Series{"odometry_removed_directions", "-", "degenerate directions that do not move",
            [](const ScanReport& s) { return double(s.odometry.directions.removed); }},
-    Series{"mapping_matches", "-", "lines and planes of the map; NaN: scan not registered",
-           [](const ScanReport& s) {
-             return s.mapping ? double(s.mapping->lines + s.mapping->planes) : kNone;
-           }},
-    Series{"mapping_smallest_eigenvalue", "-",
-           "smallest eigenvalue of A^T A in the first iteration, scan to map",
-           [](const ScanReport& s) { return s.mapping ? smallest_eigenvalue(*s.mapping) : kNone; }},
-    Series{"mapping_removed_directions", "-", "degenerate directions that do not move",
-           [](const ScanReport& s) {
-             return s.mapping ? double(s.mapping->directions.removed) : kNone;
-           }},
 };
+
+constexpr std::array kSeries = joined(kOwnSeries, features::mapping_series<ScanReport>());
 
 }  // namespace
 
