@@ -70,7 +70,9 @@ std::string mismatch(const std::string& plan_there, const std::string& plan_here
     return fmt::format("holds jobs of another plan, with '{}'",
                        first_difference(plan_there, plan_here));
   }
-  return "holds jobs of other scenarios: a scenario file has changed";
+  return "holds jobs of other scenarios or estimators: a scenario file has changed, or the source "
+         "of a "
+         "class in Python";
 }
 
 /// A folder that is not there, is a job store, or holds nothing but what a claim leaves.

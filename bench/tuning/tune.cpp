@@ -183,7 +183,9 @@ EstimatorSpec estimator_at(const TuneTask& task, std::span<const double> point) 
 
 std::vector<std::pair<std::string, std::string>> settings_of(const TuneTask& task,
                                                              std::span<const double> point) {
-  return spec_at(EstimatorSpec{}, task.ranges, point).settings;
+  TuneTask varied_alone = task;
+  varied_alone.estimator.settings.clear();
+  return estimator_at(varied_alone, point).settings;
 }
 
 ResponseTable empty_table(const TuneTask& task, std::span<const ScenarioSeed> sequences) {

@@ -270,6 +270,27 @@ def test_settings_are_swept(own):
     assert len({row["ate_m"] for row in rows if row["scale"] != "1"}) == 6, "they have no effect"
 
 
+PLAN = """estimator: mine=python:own_estimators.Legs
+params: ["scale=0.5:1.5", "estimators.mine.only_first=100000:100009"]
+scenarios: [walk.yaml]
+seeds: 3
+objectives: [{score: ate_m, statistic: mean, relative: false}]
+optimizer: {generations: 1, population: 5, seed: 1}
+"""
+
+
+def test_settings_are_tuned_and_the_result_is_a_setting(own):
+    (own / "tune.yaml").write_text(PLAN)
+    environment = {"AIMS_PYTHON": sys.executable}
+    program("tune", "tune.yaml", "-o", "tuned", "--apply", "best.yaml", "--quiet", cwd=own, env=environment)
+    rows = list(csv.DictReader((own / "tuned" / "tune.csv").open()))
+    best = min(float(row["objective.0"]) for row in rows)
+    run(own, "run", "walk.yaml", "--estimators", "mine=python:own_estimators.Legs", "--seeds", "3",
+        "--set", "@best.yaml", "-o", "best")
+    scores = json.loads((own / "best" / "scores.json").read_text())
+    assert scores["estimators"]["mine"]["ate_m"] == pytest.approx(best, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     "param, message",
     [

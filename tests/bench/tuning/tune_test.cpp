@@ -14,8 +14,8 @@
 #include "bench/tuning/tune_summary.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
-#include "render/results/response_pictures.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
+#include "render/results/response_pictures.hpp"
 #include "tests/support/estimator_settings.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -239,6 +239,16 @@ TEST(TuneReport, OverlayLoadsOnTopOfAScenario) {
   EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.kappa"), best[1]);
   EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.alpha"), best[2]);
   EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.w1"), DegeneracyConfig{}.w1);
+}
+
+TEST(TuneReport, WholeNumbersStayWhole) {
+  TunePlan plan = small_plan();
+  plan.params = {"degeneracy.eta=0:6", "lidar.max_iterations=1:9"};
+  const TuneTask task = task_of(plan);
+  const std::vector<double> point = {1.25, 3.7};
+  EXPECT_EQ(settings_of(task, point),
+            (std::vector<std::pair<std::string, std::string>>{{"degeneracy.eta", "1.25"},
+                                                              {"lidar.max_iterations", "4"}}));
 }
 
 TEST(TuneReport, SaysWhetherTheGainHolds) {
