@@ -40,6 +40,17 @@ Result<Trajectory> trajectory_of(const EstimateResult& result, const Trajectory&
   return read_tum(result.folder / file, PoseRules::kAsGiven);
 }
 
+/// The kept scans, their motion undone with the truth, else with the first estimate that has poses.
+Result<std::vector<ShownScan>> scans_to_show(const EstimateResult& result, const ScanKeeper& kept) {
+  auto poses = trajectory_of(result, result.truth, kTruthFile);
+  for (const EstimatorOutcome& each : result.estimators) {
+    if (!poses || !poses->empty()) break;
+    poses = trajectory_of(result, each.result.trajectory, each.name + ".tum");
+  }
+  if (!poses) return tl::unexpected(poses.error());
+  return kept.shown(*poses, result.setup.rig.T_body_lidar);
+}
+
 /// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
 Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   auto truth = trajectory_of(result, result.truth, kTruthFile);
@@ -119,7 +130,8 @@ Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& se
 /// estimators. Error when the folder cannot be written.
 Result<StreamEnd> stream_into_log(RecordingReader& reader, std::vector<TimedEstimator>& estimators,
                                   const EstimateOptions& options,
-                                  const std::function<bool()>& observed, EstimateResult& result) {
+                                  const std::function<bool()>& observed, ScanKeeper& scans,
+                                  EstimateResult& result) {
   auto log = EstimateLog::create(options.folder, estimators);
   if (!log) return tl::unexpected(log.error());
   const bool in_memory = options.folder.empty();
@@ -129,9 +141,15 @@ Result<StreamEnd> stream_into_log(RecordingReader& reader, std::vector<TimedEsti
     if (taken && !in_memory) taken = log->take(reader.take_truth());
     return taken.has_value();
   };
+  const auto next_batch = [&](std::vector<Delivery>& batch) {
+    auto more = reader.advance(kStreamBatch, batch);
+    for (const Delivery& each : batch) {
+      if (const auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) scans.add(**scan);
+    }
+    return more;
+  };
   const StreamEnd end =
-      stream([&](std::vector<Delivery>& batch) { return reader.advance(kStreamBatch, batch); },
-             estimators, options.jobs, [&] { return take() && observed(); });
+      stream(next_batch, estimators, options.jobs, [&] { return take() && observed(); });
   if (take()) taken = log->commit(estimators);
   if (!taken) return tl::unexpected(taken.error());
   result.truth = reader.take_truth();
@@ -199,7 +217,8 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   const auto observed = [&] {
     return observer({to_seconds(reader->position()), length_s, stopwatch.seconds()});
   };
-  const auto end = stream_into_log(*reader, *estimators, options, observed, result);
+  ScanKeeper scans(result.summary.end - result.summary.start);
+  const auto end = stream_into_log(*reader, *estimators, options, observed, scans, result);
   if (!end) return tl::unexpected(end.error());
   result.complete = !end->stopped;
   result.broken = end->error;
@@ -207,6 +226,9 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.recorded_s = to_seconds(reader->position());
   estimators->clear();
   set_failed_apart(result);
+  auto shown = scans_to_show(result, scans);
+  if (!shown) return tl::unexpected(shown.error());
+  result.scans = std::move(*shown);
   if (auto scored = score_against_truth(config, result); !scored) {
     return tl::unexpected(scored.error());
   }

@@ -11,6 +11,7 @@
 #include "bench/metrics/scores.hpp"
 #include "bench/run/outcome.hpp"
 #include "bench/run/progress.hpp"
+#include "bench/run/shown_scans.hpp"
 #include "bench/run/trajectory_scoring.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
@@ -63,6 +64,7 @@ struct EstimateResult {
   std::vector<EstimatorFailure> failures;    ///< those with poses are in `estimators` too
   std::filesystem::path folder;              ///< of the options: it has trajectories and truth
   Trajectory truth;                          ///< of the body; empty: none, or in `folder`
+  std::vector<ShownScan> scans;              ///< to look at, by the truth or the first estimate
   /// Of the online trajectories, then of the re-optimized ones; none without a truth.
   std::optional<TrajectoryScores> scores;
 };

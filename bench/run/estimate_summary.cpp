@@ -154,6 +154,9 @@ Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& 
     written = result.folder.empty() ? write_estimator(each, folder, each.name)
                                     : write_map_and_optimized(each, folder, each.name);
   }
+  if (written && !result.scans.empty()) {
+    written = write_csv(folder / "scans.csv", shown_scans_table(result.scans));
+  }
   if (written && !result.truth.empty()) written = write_tum(folder / kTruthFile, result.truth);
   if (written && result.scores) written = write_scores(result, folder);
   return written;

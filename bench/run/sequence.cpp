@@ -37,6 +37,19 @@ Result<std::vector<LegInterval>> legs_of(const Sequence& sequence, const Scenari
   return leg_intervals(scenario.simulation, packets, truth, sequence.end());
 }
 
+/// Scans to look at, their motion undone with the truth.
+Result<std::vector<ShownScan>> shown_scans(const SequenceReader& reader, const Trajectory& truth) {
+  if (truth.empty()) return std::vector<ShownScan>();
+  ScanKeeper keeper(truth.back().stamp - truth.front().stamp);
+  auto replayed = reader.replay_some_points(
+      [&](const LidarScan& scan) { return keeper.wants(scan); },
+      [&](const Delivery& delivery) {
+        if (const auto* scan = std::get_if<LidarScanPtr>(&delivery.measurement)) keeper.add(**scan);
+      });
+  if (!replayed) return tl::unexpected(replayed.error());
+  return keeper.shown(truth, reader.rig().T_body_lidar);
+}
+
 }  // namespace
 
 Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario& scenario,

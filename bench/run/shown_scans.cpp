@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
+#include <utility>
 
 namespace aims {
 namespace {
@@ -30,14 +29,14 @@ std::vector<std::size_t> spread_indices(std::size_t count, std::size_t most) {
   return indices;
 }
 
-ShownScan shown_scan(const LidarScan& scan, const Trajectory& truth, const Pose& T_body_lidar) {
+ShownScan shown_scan(const LidarScan& scan, const Trajectory& poses, const Pose& T_body_lidar) {
   ShownScan shown{scan.end, scan.points.size(), {}};
-  const auto T_world_end = pose_at(truth, scan.end);
+  const auto T_world_end = pose_at(poses, scan.end);
   if (!T_world_end) return shown;
   const Pose T_end_world = T_world_end->inverse();
   for (const std::size_t i : spread_indices(scan.points.size(), kMostShownReturns)) {
     const LidarPoint& point = scan.points[i];
-    const auto T_world_body = pose_at(truth, scan.stamp + point.time_offset_ns);
+    const auto T_world_body = pose_at(poses, scan.stamp + point.time_offset_ns);
     if (!T_world_body) continue;
     const Eigen::Vector3d p =
         T_end_world * (*T_world_body * (T_body_lidar * point.position.cast<double>()));
@@ -46,21 +45,32 @@ ShownScan shown_scan(const LidarScan& scan, const Trajectory& truth, const Pose&
   return shown;
 }
 
-Result<std::vector<ShownScan>> shown_scans(const SequenceReader& reader, const Trajectory& truth) {
-  if (truth.empty()) return std::vector<ShownScan>();
-  const Duration length = truth.back().stamp - truth.front().stamp;
-  const Duration spacing =
-      std::max(kShownScanSpacing, length / static_cast<Duration>(kMostShownScans));
+ScanKeeper::ScanKeeper(Duration length)
+    : spacing_(std::max(kShownScanSpacing, length / static_cast<Duration>(kMostShownScans))) {}
+
+bool ScanKeeper::wants(const LidarScan& scan) const {
+  return kept_.size() < kMostShownScans && (!next_ || scan.end >= *next_);
+}
+
+void ScanKeeper::add(const LidarScan& scan) {
+  if (!wants(scan)) return;
+  Kept kept{{}, scan.points.size()};
+  kept.scan.stamp = scan.stamp;
+  kept.scan.end = scan.end;
+  for (const std::size_t i : spread_indices(scan.points.size(), kMostShownReturns)) {
+    kept.scan.points.push_back(scan.points[i]);
+  }
+  kept_.push_back(std::move(kept));
+  next_ = scan.end + spacing_;
+}
+
+std::vector<ShownScan> ScanKeeper::shown(const Trajectory& poses, const Pose& T_body_lidar) const {
   std::vector<ShownScan> scans;
-  Time next = std::numeric_limits<Time>::min();
-  const auto wanted = [&](const LidarScan& scan) { return scan.end >= next; };
-  auto replayed = reader.replay_some_points(wanted, [&](const Delivery& delivery) {
-    const auto* scan = std::get_if<LidarScanPtr>(&delivery.measurement);
-    if (scan == nullptr || !wanted(**scan) || scans.size() >= kMostShownScans) return;
-    scans.push_back(shown_scan(**scan, truth, reader.rig().T_body_lidar));
-    next = (*scan)->end + spacing;
-  });
-  if (!replayed) return tl::unexpected(replayed.error());
+  for (const Kept& each : kept_) {
+    ShownScan scan = shown_scan(each.scan, poses, T_body_lidar);
+    scan.returns = each.returns;
+    if (!scan.shown.empty()) scans.push_back(std::move(scan));
+  }
   return scans;
 }
 

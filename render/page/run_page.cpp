@@ -148,11 +148,11 @@ Result<void> add_estimators(const RunFolder& run, double start, PageData& page) 
         build_scene(run.scenario->simulation.scene, static_cast<std::uint64_t>(run.scenario->seed));
     page.json["scene"] = scene_json(*scene, page);
   }
-  const bool cut = scene && may_be_roofed(&*scene);
-  auto scans = scans_json(run, cut ? &*scene : nullptr, start, page);
+  const Scene* known = scene ? &*scene : nullptr;
+  auto scans = scans_json(run, known, may_be_roofed(known), start, page);
   if (!scans) return tl::unexpected(scans.error());
   page.json["scans"] = std::move(*scans);
-  auto estimators = estimators_json(run, scene ? &*scene : nullptr, start, page);
+  auto estimators = estimators_json(run, known, start, page);
   if (!estimators) return tl::unexpected(estimators.error());
   page.json["estimators"] = std::move(*estimators);
   return {};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "render/page/map_cloud.hpp"
@@ -34,21 +35,36 @@ std::vector<Rows> scans_in(const Numbers& stamps, const Numbers& returns) {
   return scans;
 }
 
-/// For each point whether it is below the ceiling; all are where none is known to be.
-std::vector<bool> below_ceiling(const std::vector<Vector3f>& points, const Pose* T_world_body,
+/// How far the body's origin is above the floor, where no scene shows the floor [m].
+constexpr double kBodyHeight = 0.3;
+
+/// The body at an instant: by the truth, else by the first estimate that has it.
+std::optional<Pose> body_at(const RunFolder& run, Time stamp) {
+  auto pose = pose_at(run.truth, stamp);
+  for (const EstimatorFiles& each : run.estimators) {
+    if (pose || !run.truth.empty()) break;
+    pose = pose_at(each.trajectory, stamp);
+  }
+  return pose;
+}
+
+/// For each point whether it is below the ceiling. `scene`: null when it is not known.
+std::vector<bool> below_ceiling(const std::vector<Vector3f>& points, const Pose& T_world_body,
                                 const Scene* scene) {
   std::vector<bool> below(points.size(), true);
-  if (T_world_body == nullptr || scene == nullptr) return below;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d p = *T_world_body * points[i].cast<double>();
-    below[i] = p.z() <= floor_height(scene->floor, p.x(), p.y()) + kCeilingCut;
+    const Eigen::Vector3d p = T_world_body * points[i].cast<double>();
+    const double floor = scene != nullptr ? floor_height(scene->floor, p.x(), p.y())
+                                          : T_world_body.translation.z() - kBodyHeight;
+    below[i] = p.z() <= floor + kCeilingCut;
   }
   return below;
 }
 
 }  // namespace
 
-Result<Json> scans_json(const RunFolder& run, const Scene* scene, double start, PageData& page) {
+Result<Json> scans_json(const RunFolder& run, const Scene* scene, bool roofed, double start,
+                        PageData& page) {
   if (!run.scans || run.scans->rows() == 0) return Json();
   std::vector<Numbers> columns;
   for (const char* name : {"stamp_s", "returns", "x", "y", "z", "intensity"}) {
@@ -65,8 +81,9 @@ Result<Json> scans_json(const RunFolder& run, const Scene* scene, double start, 
     for (std::size_t i = rows.begin; i < rows.end; ++i) {
       points.push_back(Eigen::Vector3d(columns[2][i], columns[3][i], columns[4][i]).cast<float>());
     }
-    const auto pose = pose_at(run.truth, from_seconds(rows.stamp));
-    const auto below = below_ceiling(points, pose ? &*pose : nullptr, scene);
+    const auto pose = roofed ? body_at(run, from_seconds(rows.stamp)) : std::nullopt;
+    const auto below =
+        pose ? below_ceiling(points, *pose, scene) : std::vector<bool>(points.size(), true);
     lists[0].push_back(rows.stamp - start);
     lists[1].push_back(static_cast<double>(places.size() / 3));
     lists[2].push_back(rows.returns);

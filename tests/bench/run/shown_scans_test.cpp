@@ -70,6 +70,37 @@ TEST(ShownScans, OutsideTheTruthNothingIsPlaced) {
   EXPECT_TRUE(shown_scan(scan, walk(), {}).shown.empty());
 }
 
+/// Scans at 10 Hz of a body at rest, whose poses begin after 10 s.
+std::vector<ShownScan> kept_of(double seconds) {
+  Trajectory poses;
+  for (double t = 10.0; t < seconds + 1.0; t += 0.5) poses.push_back({from_seconds(t), Pose{}});
+  ScanKeeper keeper(from_seconds(seconds));
+  for (int i = 0; i < 10.0 * seconds; ++i) {
+    LidarScan scan;
+    scan.stamp = i * 100 * kMillisecond;
+    scan.end = scan.stamp + 100 * kMillisecond;
+    scan.points.resize(1000);
+    for (LidarPoint& point : scan.points) point.position.x() = static_cast<float>(i);
+    keeper.add(scan);
+  }
+  return keeper.shown(poses, {});
+}
+
+TEST(ShownScans, OfAStreamSomeAreKeptAtEvenDistances) {
+  const auto few = kept_of(30.0);
+  ASSERT_EQ(few.size(), 20U);  // at 10.1, 11.1, ... s: those before have no poses
+  EXPECT_EQ(few.front().stamp, from_seconds(10.1));
+  EXPECT_EQ(few.front().returns, 1000U);
+  ASSERT_EQ(few.front().shown.size(), kMostShownReturns);
+  EXPECT_EQ(few.front().shown[7].p_body.x(), 100.0F);
+  const auto many = kept_of(1200.0);
+  ASSERT_LE(many.size(), kMostShownScans);
+  ASSERT_GT(many.size(), kMostShownScans - 5);
+  for (std::size_t i = 1; i < many.size(); ++i) {
+    EXPECT_EQ(many[i].stamp - many[i - 1].stamp, 5 * kSecond);
+  }
+}
+
 TEST(ShownScans, TheTableHasARowPerReturnInMillimetres) {
   const std::vector<ShownScan> scans = {
       {from_seconds(1.5), 28000, {{{1.23456F, -0.5F, 0.0F}, 0.256F}, {{2.0F, 0.0F, 1.0F}, 1.0F}}}};

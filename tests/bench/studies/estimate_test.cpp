@@ -53,6 +53,36 @@ TEST(Estimate, ThatIsInterruptedIsLabelledSoAndEntersNoAverage) {
   EXPECT_TRUE(estimate_until(options.bag, 1e9).scores->estimates.at(0).scores.success);
 }
 
+TEST(Estimate, WithoutATruthScansToShowArePlacedByAnEstimate) {
+  const TemporaryFolder folder;
+  RecordOptions options;
+  options.bag = folder.path() / "walk.bag";
+  ASSERT_TRUE(record(testing::short_walk(), options, [](const Progress&) { return true; }));
+  EstimateConfig config;
+  config.run = {"lio"};
+  const auto scans_of = [&] {
+    const auto result = estimate(config, {options.bag}, [](const Progress&) { return true; });
+    EXPECT_TRUE(result) << result.error().message;
+    return result->scans;
+  };
+  const auto truly = scans_of();
+  config.recording.topics.truth = "none";
+  const auto estimated = scans_of();
+  ASSERT_GT(estimated.size(), 1U);
+  std::size_t compared = 0;
+  for (const ShownScan& scan : estimated) {
+    const auto same = std::ranges::find(truly, scan.stamp, &ShownScan::stamp);
+    if (same == truly.end() || same->shown.size() != scan.shown.size()) continue;
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < scan.shown.size(); ++i) {
+      sum += (scan.shown[i].p_body - same->shown[i].p_body).norm();
+    }
+    EXPECT_LT(sum / static_cast<float>(scan.shown.size()), 0.02F) << to_seconds(scan.stamp);
+    ++compared;
+  }
+  EXPECT_GE(compared, estimated.size() - 1);
+}
+
 /// Whether the notes on a bag of an IMU, of clouds with times of the points or without, and of leg
 /// odometry without joints state that the estimator lacks `what`.
 bool lacks(const std::string& estimator, const std::string& what, bool timed = true) {

@@ -138,6 +138,19 @@ TEST_F(RunPage, HoldsTheScansWithWhatIsBelowTheCeilingFirst) {
   EXPECT_EQ(page.array<std::uint8_t>(scans["intensity"]), (std::vector<std::uint8_t>{128, 255, 0}));
 }
 
+TEST_F(RunPage, WithoutASceneTheCeilingIsOverTheBody) {
+  testing::write_run(folder_.path() / "run", {});
+  std::filesystem::remove(folder_.path() / "run" / "config.yaml");
+  testing::put(folder_.path() / "run" / "scans.csv",
+               "stamp_s,returns,x,y,z,intensity\n1,900,2,0,1.9,1\n1,900,3,0.5,0.2,0.5\n"
+               "1,900,1,0,1.6,0\n");
+  for (const bool with_truth : {true, false}) {
+    if (!with_truth) std::filesystem::remove(folder_.path() / "run" / "truth.tum");
+    const DecodedPage page = read();
+    EXPECT_EQ(page.f32(page.json["scans"]["below"]), (std::vector<float>{2.0F}));
+  }
+}
+
 TEST_F(RunPage, CountsSecondsFromTheStartOfAnEpochsClock) {
   const DecodedPage page = page_of({.scans = 20, .start_s = 1.7e9});
   EXPECT_EQ(page.json["t0_s"], 1.7e9);

@@ -43,6 +43,20 @@ export async function keepPicture(page, name) {
   await page.screenshot({ path: path.join(kArtifacts, `${name}.png`), fullPage: true });
 }
 
+/** Tables that their frame scrolls although they fit into it: "caption: width in width". */
+export function needlessScrolls(page) {
+  return page.evaluate(() =>
+    [...document.querySelectorAll(".table-frame")].flatMap((frame) => {
+      const table = frame.querySelector("table")?.getBoundingClientRect();
+      const fits = table && table.width <= frame.clientWidth + 0.5;
+      const scrolls = frame.scrollWidth > frame.clientWidth;
+      return fits && scrolls
+        ? [`${frame.ariaLabel}: ${frame.scrollWidth} in ${frame.clientWidth}`]
+        : [];
+    }),
+  );
+}
+
 /** Whether the page is wider than its window. */
 export function overflows(page) {
   return page.evaluate(() => document.documentElement.scrollWidth > innerWidth);

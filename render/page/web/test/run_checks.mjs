@@ -5,6 +5,7 @@ import { mkdir, readFile } from "node:fs/promises";
 import os from "node:os";
 import path from "node:path";
 import { launch, open, settle } from "./browser.mjs";
+import { needlessScrolls } from "./made_up.mjs";
 import { payloadOf } from "./pack.mjs";
 
 export const kArtifacts =
@@ -367,6 +368,7 @@ export async function assertRunPage(browser, file, name, scores) {
   await assertLeadsWithResult(page, 800);
   await assertCeilingSwitches(page);
   await assertScanColors(page, payload);
+  assert.deepEqual(await needlessScrolls(page), []);
   await assertTablesEqual(page, scores);
   await assertBestIsBold(page, scores);
   await assertCursorMoves(page, payload);

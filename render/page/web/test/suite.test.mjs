@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { keepPicture, overflows, stage, whySkipped } from "./made_up.mjs";
+import { keepPicture, needlessScrolls, overflows, stage, whySkipped } from "./made_up.mjs";
 import { comparison, detectors, paper, kHostile, suite } from "./suite_fixtures.mjs";
 
 const skip = whySkipped();
@@ -207,6 +207,7 @@ test("it fits 1280 and 390 pixels, light and dark", { skip }, async () => {
   for (const [width, dark] of [[1280, false], [1280, true], [390, false], [390, true]]) {
     const { page, troubles, context } = await pages.show({ ...suite(), roc: detectors(), paper: paper(), compare: comparison() }, { width, dark });
     assert.equal(await overflows(page), false, `${width}`);
+    assert.deepEqual(await needlessScrolls(page), []);
     await keepPicture(page, `suite-${width}-${dark ? "dark" : "light"}`);
     assert.deepEqual(troubles, []);
     await context.close();
