@@ -38,8 +38,8 @@ Result<int> study_ablation(const AblationArguments& arguments) {
   shared.estimators.clear();  // the study sets its own
   const AblationOptions variants = {*estimator, arguments.groups,
                                     joined_specs(arguments.baselines)};
-  const auto suite = run_study(
-      shared, {.adapt = [&](auto& scenarios) { return set_variants(variants, scenarios); }});
+  const auto adapt = [&](auto& scenarios) { return set_variants(variants, scenarios); };
+  const auto suite = run_study(shared, {.seeds = {}, .outputs = {}, .adapt = adapt});
   if (!suite) return tl::unexpected(suite.error());
   const Ablation ablation = ablation_of(*suite, label_of(*estimator));
   auto written = write_suite(*suite, shared.out);

@@ -54,7 +54,7 @@ Result<int> study_sensitivity(const SensitivityArguments& arguments) {
     variants = std::move(*set);
     return {};
   };
-  const auto suite = run_study(shared, {.adapt = adapt});
+  const auto suite = run_study(shared, {.seeds = {}, .outputs = {}, .adapt = adapt});
   if (!suite) return tl::unexpected(suite.error());
   const SettingSensitivity sensitivity = sensitivity_of(*suite, label_of(*estimator), variants);
   auto written = write_suite(*suite, shared.out);

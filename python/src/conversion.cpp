@@ -178,12 +178,12 @@ py::object object_of(const Json& json) {
   if (json.is_object()) {
     py::dict dict;
     for (const auto& [key, value] : json.items()) dict[py::str(key)] = object_of(value);
-    return std::move(dict);
+    return dict;
   }
   if (json.is_array()) {
     py::list list;
     for (const Json& each : json) list.append(object_of(each));
-    return std::move(list);
+    return list;
   }
   if (json.is_string()) return py::str(json.get<std::string>());
   if (json.is_boolean()) return py::bool_(json.get<bool>());

@@ -254,12 +254,12 @@ void Film::Impl::label(Canvas& canvas, Time stamp) const {
   canvas.fill(Rect{0.0, 0.0, static_cast<double>(config.width), 52.0 * unit},
               {0.05, 0.06, 0.08, 0.72});
   const Color light{0.94, 0.95, 0.97};
-  const NamedTrajectory& shown = sequence.estimates.front();
+  const NamedTrajectory& drawn = sequence.estimates.front();
   canvas.text({left, 20.0 * unit}, sequence.scenario,
               {.size = 15.0 * unit, .color = light, .bold = true});
   std::string state = fmt::format("t = {:.0f} s", to_seconds(stamp));
   const auto truth = pose_at(sequence.truth, stamp);
-  const auto estimate = pose_at(shown.trajectory, stamp);
+  const auto estimate = pose_at(drawn.trajectory, stamp);
   if (truth && estimate) {
     state += fmt::format(",  error {:.2f} m", (truth->translation - estimate->translation).norm());
   }
@@ -277,7 +277,7 @@ void Film::Impl::label(Canvas& canvas, Time stamp) const {
   }
   double x = config.width - left;
   for (const auto& [name, color] :
-       {std::pair{"trajectory and map of " + shown.name, color_of(kEstimate)},
+       {std::pair{"trajectory and map of " + drawn.name, color_of(kEstimate)},
         {std::string("true trajectory"), color_of(kTruth)}}) {
     const TextStyle style{.size = 12.0 * unit, .color = light, .horizontal = Align::kEnd};
     canvas.text({x, 20.0 * unit}, name, style);
