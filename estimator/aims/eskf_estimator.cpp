@@ -10,13 +10,13 @@
 namespace aims {
 namespace {
 
-/// The stated pose covariance in body axes: that of the filter plus that of the map.
-void record_covariance(const Belief& belief, const Eigen::Matrix3d& map_covariance,
+/// The stated pose covariance in body axes: that of the filter plus `others` of the position
+/// (odometry axes) [m^2].
+void record_covariance(const Belief& belief, const Eigen::Matrix3d& others,
                        ScanDiagnostics& diagnostics) {
   using E = ErrorState;
   const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
-  const Eigen::Matrix3d position =
-      block(belief.covariance, E::kPosition, E::kPosition) + map_covariance;
+  const Eigen::Matrix3d position = block(belief.covariance, E::kPosition, E::kPosition) + others;
   diagnostics.covariance.position = R.transpose() * position * R;
   diagnostics.covariance.rotation = block(belief.covariance, E::kRotation, E::kRotation);
 }
@@ -91,6 +91,7 @@ bool EskfEstimator::start() {
   belief_ = open_calibration(belief_, config_.calibration, rig_.imu_rate_hz);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
   time_ = initial->stamp;
+  first_pose_ = belief_.state.T_odom_body();
   last_pose_ = time_;
   last_correction_ = time_;
   started_ = true;
@@ -223,7 +224,9 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   moving_.keep(belief_.state.T_odom_body());
   diagnostics.delay = belief_.state.delay;
   diagnostics.mount = so3_log(belief_.state.mount);
-  record_covariance(belief_, lidar_update_.map_covariance(), diagnostics);
+  const Eigen::Matrix3d rig =
+      rig_covariance(first_pose_, belief_.state.T_odom_body(), config_.calibration);
+  record_covariance(belief_, lidar_update_.map_covariance() + rig, diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   last_pose_ = scan->end;
   result_.diagnostics.scans.push_back(row_of(diagnostics));

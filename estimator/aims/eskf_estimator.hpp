@@ -76,6 +76,7 @@ class EskfEstimator : public Estimator {
 
   bool started_ = false;
   Time time_ = 0;               ///< of the belief
+  Pose first_pose_;             ///< of the belief at the start
   Time last_pose_ = 0;          ///< of the newest pose, or of the start
   Time last_correction_ = 0;    ///< stamp of the newest, or of the start
   std::optional<Time> judged_;  ///< arrival

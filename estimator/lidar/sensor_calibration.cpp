@@ -43,6 +43,15 @@ Pose corrected_mount(const NominalState& state, const Pose& nominal) {
   return {state.mount * nominal.rotation, nominal.translation};
 }
 
+Eigen::Matrix3d rig_covariance(const Pose& first, const Pose& now,
+                               const CalibrationConfig& config) {
+  if (!config.enabled) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d lever = kLeverSigma * (first.R() - now.R());
+  const Eigen::Vector3d turned =
+      config.mount_sigma * Eigen::Vector3d::UnitZ().cross(now.translation - first.translation);
+  return lever * lever.transpose() + turned * turned.transpose();
+}
+
 MeanTwist mean_twist(const NominalState& end_state, std::span<const InertialSegment> segments,
                      double gravity) {
   NominalState begin = end_state;

@@ -35,6 +35,16 @@ void walk_calibration(Belief& belief, const CalibrationConfig& config, double dt
 /// The LiDAR frame in the body frame with the estimated mount; `nominal` is that of the rig.
 Pose corrected_mount(const NominalState& state, const Pose& nominal);
 
+/// Deviation of the LiDAR's position in the rig, per axis [m]: a CAD model or a tape measure.
+inline constexpr double kLeverSigma = 5e-3;
+
+/// Covariance of the position at `now` [m^2] by two errors of the rig that no state holds; odometry
+/// axes, about the position at `first`, the first pose. Scans determine the LiDAR's path in the
+/// axes of the gyro. An error e of its position moves the body by (R_first - R) e. An angle a
+/// between the gyro's axes and the body's, known no better than the mount, turns the path about
+/// the vertical z: by z^T (R_first a) z x (p - p_first).
+Eigen::Matrix3d rig_covariance(const Pose& first, const Pose& now, const CalibrationConfig& config);
+
 /// Mean motion of the body during a scan.
 struct MeanTwist {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< odometry axes [m/s]

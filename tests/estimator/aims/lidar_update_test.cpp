@@ -47,7 +47,7 @@ class Corridor {
 
 /// Puts 30000 points of the corridor between both coordinates into each half of `map`.
 void fill(VoxelMap& map, Corridor& corridor, double from, double to) {
-  for (int half = 0; half < kHalves; ++half) {
+  for (std::size_t half = 0; half < kHalves; ++half) {
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 30000; ++i) points.push_back(corridor.point(from, to).cast<float>());
     map.insert(points, Eigen::Vector3f::Zero());

@@ -65,6 +65,48 @@ TEST(SensorCalibration, OpensWithHalfOfTheLargestDelay) {
   EXPECT_EQ(known.covariance, belief.covariance);
 }
 
+/// Position error at `now` of an estimate that has the LiDAR's path right in the axes of its gyro,
+/// takes the LiDAR to be `lever` off where it is, and starts with the true heading.
+Eigen::Vector3d error_by_rig(const Pose& first, const Pose& now, const Eigen::Vector3d& lever,
+                             const Eigen::Vector3d& axes) {
+  const Eigen::Vector3d mount(0.05, 0.0, 0.02);
+  const auto attitude_of_gyro = [&](const Pose& pose) {
+    return Eigen::Matrix3d(pose.R() * so3_exp(axes).toRotationMatrix());
+  };
+  const auto heading = [](const Eigen::Matrix3d& R) { return std::atan2(R(1, 0), R(0, 0)); };
+  const double turn = heading(first.R()) - heading(attitude_of_gyro(first));
+  const Eigen::Matrix3d Z = so3_exp({0.0, 0.0, turn}).toRotationMatrix();
+  const auto estimate = [&](const Pose& pose) {
+    const Eigen::Vector3d lidar = pose * mount;
+    return Eigen::Vector3d(Z * (lidar - attitude_of_gyro(pose) * (mount - lever)));
+  };
+  return estimate(now) - estimate(first) - (now.translation - first.translation);
+}
+
+TEST(SensorCalibration, CovarianceByTheRigIsThatOfDrawnErrors) {
+  const CalibrationConfig config;
+  const Pose first{so3_exp({0.02, -0.03, 0.4}), {1.0, 2.0, 0.3}};
+  const Pose away{so3_exp({0.03, 0.02, 0.3}), {11.0, 6.0, 0.35}};
+  const Pose returned{so3_exp({-0.02, 0.05, 3.4}), {1.5, 2.2, 0.3}};
+  for (const Pose& now : {away, returned}) {
+    RandomStream random = rng(1, "rig");
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    constexpr int kDraws = 20'000;
+    for (int i = 0; i < kDraws; ++i) {
+      const Eigen::Vector3d error = error_by_rig(first, now, kLeverSigma * random.normal3(),
+                                                 config.mount_sigma * random.normal3());
+      sum += error * error.transpose() / kDraws;
+    }
+    const Eigen::Matrix3d stated = rig_covariance(first, now, config);
+    EXPECT_LT((stated - sum).norm(), 0.05 * sum.norm()) << stated << "\n" << sum;
+    EXPECT_GT(sum.norm(), 1e-5) << "something was tested";
+  }
+  EXPECT_TRUE(rig_covariance(first, first, config).isZero());
+  EXPECT_TRUE(
+      rig_covariance(first, away, {.enabled = false, .mount_sigma = 5e-3, .delay_sigma = 2e-3})
+          .isZero());
+}
+
 TEST(SensorCalibration, WalksWithTime) {
   Belief belief;
   belief.covariance.setZero();
