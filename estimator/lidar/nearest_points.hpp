@@ -6,33 +6,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#ifdef __SSE__
-#include <xmmintrin.h>
-#endif
+
+#include "estimator/lidar/float4.hpp"
 
 namespace aims {
-
-/// Four numbers that one instruction takes side by side.
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
-
-/// The smaller of each two; GCC makes four instructions of the comparison.
-inline Float4 smaller(Float4 a, Float4 b) {
-#ifdef __SSE__
-  return _mm_min_ps(a, b);
-#else
-  return a < b ? a : b;
-#endif
-}
-
-/// The larger of each two.
-inline Float4 larger(Float4 a, Float4 b) {
-#ifdef __SSE__
-  return _mm_max_ps(a, b);
-#else
-  return a < b ? b : a;
-#endif
-}
 
 /// The five nearest of the points offered. Each of four lanes keeps its own five, by minima and
 /// maxima without branches; the nearest of all are among them. Of two points whose squared

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/lidar/float4.hpp"
+
 namespace aims {
 namespace {
 
@@ -65,20 +67,22 @@ void RangeImage::wrap_around() {
   }
 }
 
+/// Four pixels of a row at a time.
 void RangeImage::find_around() {
+  static_assert(kColumns % 4 == 0);
   for (std::size_t row = 1; row <= kRows; ++row) {
-    for (std::size_t column = 1; column <= kColumns; ++column) {
-      const std::size_t pixel = row * kStride + column;
-      float nearest = kEmpty;
-      int filled = 0;
-      for (std::size_t begin = pixel - kStride - 1; begin <= pixel + kStride - 1;
-           begin += kStride) {
-        for (std::size_t i = begin; i < begin + 3; ++i) {
-          nearest = std::min(nearest, ranges_[i]);
-          filled += static_cast<int>(ranges_[i] < kEmpty);
+    for (std::size_t column = 1; column <= kColumns; column += 4) {
+      const float* const pixels = ranges_.data() + row * kStride + column;
+      Float4 nearest = Float4{} + kEmpty;
+      Int4 filled{};
+      for (const float* middle : {pixels - kStride, pixels, pixels + kStride}) {
+        for (const float* at : {middle - 1, middle, middle + 1}) {
+          const Float4 ranges = load4(at);
+          nearest = smaller(nearest, ranges);
+          filled -= ranges < kEmpty;  // true is -1
         }
       }
-      around_[pixel] = filled >= kMinFilled ? nearest : 0.0F;
+      store4(filled >= kMinFilled ? nearest : Float4{}, &around_[row * kStride + column]);
     }
   }
 }

@@ -18,6 +18,13 @@ constexpr std::uint64_t kRankSeed = 0x9e3779b97f4a7c15ULL;
 
 }  // namespace
 
+std::uint64_t ScanSelection::key_of(const Candidate& candidate, float inverse_size) {
+  const Float4 position{candidate.position.x(), candidate.position.y(), candidate.position.z(),
+                        0.0F};
+  const Int4 voxel = voxel_lanes(position, inverse_size);
+  return voxel_key({voxel[0], voxel[1], voxel[2]});
+}
+
 bool ScanSelection::usable(const LidarPoint& point) const {
   const double squared = point.position.squaredNorm();
   return squared >= config_.min_range * config_.min_range &&  // false for a NaN
@@ -25,15 +32,18 @@ bool ScanSelection::usable(const LidarPoint& point) const {
 }
 
 int ScanSelection::begin(const LidarScan& scan) {
-  eligible_.clear();
   if (config_.leave_out_mixed) steps_.mark(scan);
+  eligible_.resize(scan.points.size());
   int in_range = 0;
+  std::size_t count = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (!usable(scan.points[i])) continue;
-    ++in_range;
-    if (config_.leave_out_mixed && steps_.mixed(i)) continue;
-    eligible_.push_back({scan.points[i].position, static_cast<std::int32_t>(i)});
+    const bool here = usable(scan.points[i]);
+    const bool mixed = config_.leave_out_mixed && steps_.mixed(i);
+    eligible_[count] = {scan.points[i].position, static_cast<std::int32_t>(i)};
+    in_range += static_cast<int>(here);
+    count += static_cast<std::size_t>(here && !mixed);
   }
+  eligible_.resize(count);
   return in_range;
 }
 
@@ -65,7 +75,7 @@ void ScanSelection::select(double voxel, int limit, std::vector<int>& kept) {
   for (std::size_t begin = 0; begin < eligible_.size(); begin += kBlock) {
     const std::size_t count = std::min(kBlock, eligible_.size() - begin);
     for (std::size_t j = 0; j < count; ++j) {
-      keys[j] = voxel_key(voxel_of(eligible_[begin + j].position, inverse_size));
+      keys[j] = key_of(eligible_[begin + j], inverse_size);
       homes[j] = mixed_bits(keys[j]) & (slots_.size() - 1);
       __builtin_prefetch(&slots_[homes[j]]);
     }

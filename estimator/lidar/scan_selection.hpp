@@ -48,6 +48,7 @@ class ScanSelection {
   };
   static constexpr std::int32_t kFree = -1;
 
+  static std::uint64_t key_of(const Candidate& candidate, float inverse_size);
   std::int32_t& slot_of(std::uint64_t key, std::size_t home);
   void keep(const Candidate& candidate, std::uint64_t key, std::int32_t& slot);
 

@@ -49,6 +49,20 @@ std::uint16_t ring_of_elevation(const Eigen::Vector3f& p, const std::vector<doub
   return static_cast<std::uint16_t>(nearest - elevations.begin());
 }
 
+/// Points whose fields are read together, field by field.
+constexpr std::size_t kBlock = 256;
+
+/// The numbers of some points of one row of a cloud.
+struct Block {
+  std::size_t begin = 0;  ///< the first, among all points
+  std::size_t count = 0;
+  std::array<double, kBlock> x, y, z, time, ring, intensity;
+
+  Eigen::Vector3f position(std::size_t i) const {
+    return Eigen::Vector3d(x[i], y[i], z[i]).cast<float>();
+  }
+};
+
 /// Reads the points of one cloud, with times relative to `zero`.
 class CloudDecoder {
  public:
@@ -61,8 +75,10 @@ class CloudDecoder {
 
  private:
   Time zero() const;
-  bool read_time(const std::byte* bytes, LidarPoint& point);
-  double ring(const std::byte* bytes, std::size_t index, const LidarPoint& point) const;
+  void read_fields(std::size_t begin, Block& block) const;
+  bool read_time(double value, LidarPoint& point) const;
+  double ring(const Block& block, std::size_t i, const LidarPoint& point) const;
+  void read_block(const Block& block, std::vector<LidarPoint>& points);
   void count(const char* what, int times) {
     if (times > 0) counts_[what] += times;
   }
@@ -72,6 +88,7 @@ class CloudDecoder {
   EventCounts& counts_;
   Columns columns_;
   Time zero_ = 0;  ///< on the clock of the points' field
+  int not_finite_ = 0, at_zero_ = 0, untimed_ = 0;
 };
 
 /// Origin of the points' times, on the clock of their field.
@@ -88,9 +105,24 @@ Time CloudDecoder::zero() const {
   return first.value_or(0);
 }
 
-bool CloudDecoder::read_time(const std::byte* bytes, LidarPoint& point) {
-  if (!columns_.time) return true;
-  const auto time = point_time(columns_.time->at(bytes), reading_.time_unit);
+/// The fields of the points from `begin` on, within its row.
+void CloudDecoder::read_fields(std::size_t begin, Block& block) const {
+  block.begin = begin;
+  block.count = std::min(kBlock, table_.width - begin % table_.width);
+  const std::byte* const first = table_.point(begin);
+  const auto read = [&](const std::optional<PointField>& field, std::array<double, kBlock>& to) {
+    if (field) field->read(first, table_.point_step, std::span(to).first(block.count));
+  };
+  read(columns_.x, block.x);
+  read(columns_.y, block.y);
+  read(columns_.z, block.z);
+  read(columns_.time, block.time);
+  read(columns_.ring, block.ring);
+  read(columns_.intensity, block.intensity);
+}
+
+bool CloudDecoder::read_time(double value, LidarPoint& point) const {
+  const auto time = point_time(value, reading_.time_unit);
   Time after = 0;
   if (!time || __builtin_sub_overflow(*time, zero_, &after)) return false;
   if (after < -kMaxPointOffset || after > kMaxPointOffset) return false;
@@ -98,58 +130,61 @@ bool CloudDecoder::read_time(const std::byte* bytes, LidarPoint& point) {
   return true;
 }
 
-double CloudDecoder::ring(const std::byte* bytes, std::size_t index,
-                          const LidarPoint& point) const {
+double CloudDecoder::ring(const Block& block, std::size_t i, const LidarPoint& point) const {
   switch (reading_.ring_source) {
     case RingSource::kNone:
       return 0.0;
     case RingSource::kField:
-      return columns_.ring ? columns_.ring->at(bytes) : 0.0;
+      return columns_.ring ? block.ring[i] : 0.0;
     case RingSource::kRow:
-      return static_cast<double>(index / table_.width);
+      return static_cast<double>((block.begin + i) / table_.width);
     case RingSource::kColumn:
-      return static_cast<double>(index % table_.width);
+      return static_cast<double>((block.begin + i) % table_.width);
     case RingSource::kElevation:
       return ring_of_elevation(point.position, reading_.ring_elevations);
   }
   return 0.0;
 }
 
-std::vector<LidarPoint> CloudDecoder::points() {
-  std::vector<LidarPoint> points;
-  points.reserve(table_.size());
-  int not_finite = 0, zero = 0, untimed = 0;
-  for (std::size_t i = 0; i < table_.size(); ++i) {
-    const std::byte* bytes = table_.point(i);
+void CloudDecoder::read_block(const Block& block, std::vector<LidarPoint>& points) {
+  for (std::size_t i = 0; i < block.count; ++i) {
     LidarPoint point;
-    point.position =
-        Eigen::Vector3d(columns_.x.at(bytes), columns_.y.at(bytes), columns_.z.at(bytes))
-            .cast<float>();
+    point.position = block.position(i);
     if (!point.position.allFinite()) {
-      ++not_finite;
+      ++not_finite_;
       continue;
     }
     if (point.position.isZero(0.0F)) {
-      ++zero;
+      ++at_zero_;
       continue;
     }
-    if (!read_time(bytes, point)) {
-      ++untimed;
+    if (columns_.time && !read_time(block.time[i], point)) {
+      ++untimed_;
       continue;
     }
-    const double number = ring(bytes, i, point);
+    const double number = ring(block, i, point);
     const double upwards =
         reading_.flipped_rings > 0 ? reading_.flipped_rings - 1 - number : number;
     point.ring = upwards > 0.0 ? static_cast<std::uint16_t>(std::min(upwards, 65535.0)) : 0;
     if (columns_.intensity) {
-      const auto intensity = static_cast<float>(columns_.intensity->at(bytes));
+      const auto intensity = static_cast<float>(block.intensity[i]);
       point.intensity = std::isfinite(intensity) ? intensity * reading_.intensity_scale : 0.0F;
     }
     points.push_back(point);
   }
-  count("cloud_points_not_finite", not_finite);
-  count("cloud_points_zero", zero);
-  count("cloud_points_time_out_of_range", untimed);
+}
+
+std::vector<LidarPoint> CloudDecoder::points() {
+  std::vector<LidarPoint> points;
+  points.reserve(table_.size());
+  Block block;
+  for (std::size_t begin = 0; begin < table_.size(); begin += block.count) {
+    read_fields(begin, block);
+    read_block(block, points);
+  }
+  count("cloud_points_not_finite", not_finite_);
+  count("cloud_points_zero", at_zero_);
+  count("cloud_points_time_out_of_range", untimed_);
   return points;
 }
 

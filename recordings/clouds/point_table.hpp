@@ -56,6 +56,11 @@ class PointField {
 
   double at(const std::byte* point) const { return number_at(point + offset_, type_, order_); }
 
+  /// Replaces `numbers` by those of the points from `point`, `step` bytes apart.
+  void read(const std::byte* point, std::size_t step, std::span<double> numbers) const {
+    numbers_at(point + offset_, step, type_, order_, numbers);
+  }
+
  private:
   NumberType type_;
   std::size_t offset_;

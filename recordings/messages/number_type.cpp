@@ -9,30 +9,32 @@
 namespace aims {
 namespace {
 
-double little_endian_at(const std::byte* bytes, NumberType type) {
+/// Calls `visit` with a number of the C++ type that `type` names.
+template <class Visit>
+auto with_type(NumberType type, const Visit& visit) {
   switch (type) {
     case NumberType::kInt8:
-      return load_number<std::int8_t>(bytes);
+      return visit(std::int8_t{});
     case NumberType::kUint8:
-      return load_number<std::uint8_t>(bytes);
+      return visit(std::uint8_t{});
     case NumberType::kInt16:
-      return load_number<std::int16_t>(bytes);
+      return visit(std::int16_t{});
     case NumberType::kUint16:
-      return load_number<std::uint16_t>(bytes);
+      return visit(std::uint16_t{});
     case NumberType::kInt32:
-      return load_number<std::int32_t>(bytes);
+      return visit(std::int32_t{});
     case NumberType::kUint32:
-      return load_number<std::uint32_t>(bytes);
+      return visit(std::uint32_t{});
     case NumberType::kInt64:
-      return static_cast<double>(load_number<std::int64_t>(bytes));
+      return visit(std::int64_t{});
     case NumberType::kUint64:
-      return static_cast<double>(load_number<std::uint64_t>(bytes));
+      return visit(std::uint64_t{});
     case NumberType::kFloat32:
-      return load_number<float>(bytes);
+      return visit(float{});
     case NumberType::kFloat64:
-      return load_number<double>(bytes);
+      break;
   }
-  return 0.0;
+  return visit(double{});
 }
 
 }  // namespace
@@ -50,10 +52,24 @@ std::size_t size_of(NumberType type) {
 }
 
 double number_at(const std::byte* bytes, NumberType type, std::endian order) {
-  if (order == std::endian::little) return little_endian_at(bytes, type);
-  std::array<std::byte, 8> swapped{};
-  std::reverse_copy(bytes, bytes + size_of(type), swapped.begin());
-  return little_endian_at(swapped.data(), type);
+  return with_type(type, [&]<class T>(T /*type*/) {
+    return static_cast<double>(load_number<T>(bytes, order));
+  });
+}
+
+void numbers_at(const std::byte* bytes, std::size_t stride, NumberType type, std::endian order,
+                std::span<double> numbers) {
+  with_type(type, [&]<class T>(T /*type*/) {
+    if (order == std::endian::little) {
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        numbers[i] = static_cast<double>(load_number<T>(bytes + i * stride));
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      numbers[i] = static_cast<double>(load_number<T>(bytes + i * stride, order));
+    }
+  });
 }
 
 const ColumnLayout* find_column(std::span<const ColumnLayout> columns, std::string_view name) {

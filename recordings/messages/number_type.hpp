@@ -34,6 +34,10 @@ std::size_t size_of(NumberType type);
 /// The number at `bytes`, which holds at least `size_of(type)`.
 double number_at(const std::byte* bytes, NumberType type, std::endian order = std::endian::little);
 
+/// Replaces `numbers` by those at `bytes` and every `stride` bytes after it.
+void numbers_at(const std::byte* bytes, std::size_t stride, NumberType type, std::endian order,
+                std::span<double> numbers);
+
 /// A field of each row of a table.
 struct ColumnLayout {
   std::string name;
