@@ -49,7 +49,8 @@ void RealFraction::average(const HalvesInformation& scan, double gain) {
 }
 
 void RealFraction::update_fraction() {
-  // X V = W V diag(f) with V^T W V = I, so X W^-1 = W V diag(f) V^T.
+  // X V = W V diag(f) with V^T W V = I: V diagonalizes C and F as well, to (1 + f) / 2 and
+  // 2 f / (1 + f).
   const Eigen::Matrix3d within = within_ + kRegularization * Eigen::Matrix3d::Identity();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(across_, within);
   const Eigen::Matrix3d& V = solver.eigenvectors();
@@ -66,13 +67,21 @@ void RealFraction::update_fraction() {
     if (fraction(i) <= 0.0) constrained_ -= axis * axis.transpose();
   }
   weakest_ = fraction.minCoeff();
-  position_fraction_ = within * V * fraction.asDiagonal() * V.transpose();
+  const auto undo = [&](const Eigen::Array3d& diagonal) -> Eigen::Matrix3d {
+    return within * V * diagonal.matrix().asDiagonal() * V.transpose();
+  };
+  const Eigen::Array3d noise = (1.0 + fraction.array()) / 2.0;
+  noise_ = undo(noise.sqrt());
+  gain_ = undo(fraction.array() / noise);
 }
 
 PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {
   Matrix6 F = Matrix6::Identity();
-  F.bottomRightCorner<3, 3>() = position_fraction_;
-  return {F * scan.within * F.transpose(), F * scan.across_vector};
+  Matrix6 L = Matrix6::Identity();
+  F.bottomRightCorner<3, 3>() = gain_;
+  L.bottomRightCorner<3, 3>() = noise_;
+  const Matrix6 root = F * L;
+  return {root * scan.within * root.transpose(), F * scan.across_vector};
 }
 
 Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,

@@ -17,8 +17,10 @@ constexpr double kStep = 0.1;          // between scans [m]
 
 /// 600 returns of the walls, floor and ceiling of a corridor along x and `facing` of faces across
 /// it; the normals of each half of the map err on their own. The prediction is `shift` [m] behind:
-/// returns on the walls are matched with what is mapped there, only the faces show it.
-HalvesInformation scan_corridor(RandomStream& random, int facing, double shift = 0.0) {
+/// returns on the walls are matched with what is mapped there, only the faces show it. The returns
+/// have noise of `range_sigma` [m], common to both halves.
+HalvesInformation scan_corridor(RandomStream& random, int facing, double shift = 0.0,
+                                double range_sigma = 0.0) {
   HalvesInformation sum;
   for (int i = 0; i < 600 + facing; ++i) {
     Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
@@ -27,13 +29,15 @@ HalvesInformation scan_corridor(RandomStream& random, int facing, double shift =
     for (int other : {0, 1, 2}) {
       if (normal(other) == 0.0) p(other) = random.uniform(-1.0, 1.0) * (other == 0 ? 15.0 : 1.2);
     }
+    const double noise = range_sigma > 0.0 ? range_sigma * random.normal() : 0.0;
     const auto row = [&] {
       const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - normal * normal.transpose();
       const Eigen::Vector3d predicted = p - shift * Eigen::Vector3d::UnitX();
       const Eigen::Vector3d mapped = i < 600 ? predicted : p;
       const Plane plane{(normal + kNormalSigma * tangent * random.normal3()).normalized(),
                         mapped + 0.15 * tangent * random.normal3(), true};
-      return plane_row(plane, predicted, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+      return plane_row(plane, predicted + noise * normal, Eigen::Matrix3d::Identity(),
+                       Eigen::Vector3d::Zero());
     };
     const PlaneRow a = row();
     const PlaneRow b = row();
@@ -138,6 +142,24 @@ TEST(RealFraction, AScanCorrectsTheFullShift) {
   const double biased = -sum.within.ldlt().solve(sum.within_vector)(3);
   EXPECT_NEAR(instrumental, kShift, 0.1 * kShift);
   EXPECT_LT(biased, 0.9 * kShift) << "noise information shortens the step";
+}
+
+// Where a third of the information along the axis is real, the correction scatters by as much as
+// the information states: with W in place of (W + X) / 2 it would scatter by two thirds of that.
+TEST(RealFraction, TheInformationFitsTheScatterOfTheCorrection) {
+  RandomStream random(8, "cross_validation");
+  RealFraction fraction;
+  double scatter = 0.0;
+  double stated = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    const HalvesInformation scan = scan_corridor(random, 1, 0.0, 1.0 / std::sqrt(kWeight));
+    fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
+    if (k < 100) continue;
+    const PoseInformation applied = fraction.applied_to(scan);
+    scatter += applied.vector(3) * applied.vector(3);
+    stated += applied.matrix(3, 3);
+  }
+  EXPECT_NEAR(scatter / stated, 1.0, 0.1);
 }
 
 TEST(CrossValidation, WeakestFractionIsOneWithoutNoiseAndZeroWithNothingElse) {
