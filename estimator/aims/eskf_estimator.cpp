@@ -273,13 +273,13 @@ void EskfEstimator::predict_to(Time stamp) {
 void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics) {
   queue_.imu().segments(scan.stamp, scan.end, segments_);
   scan_twist_ = mean_twist(belief_.state, segments_, config_.imu.gravity);
-  const ScanMotion motion(belief_.state, segments_,
-                          corrected_mount(belief_.state, rig_.T_body_lidar), config_.imu.gravity);
+  scan_motion_.assign(belief_.state, segments_, corrected_mount(belief_.state, rig_.T_body_lidar),
+                      config_.imu.gravity);
   diagnostics.points_in = selection_.begin(scan);
-  find_moving(scan, motion);
+  find_moving(scan);
   const auto select = [&](double voxel, int limit, std::vector<Eigen::Vector3f>& points) {
     selection_.select(voxel, limit, indices_);
-    deskew(scan, indices_, motion, points);
+    deskew(scan, indices_, scan_motion_, points);
   };
   const LidarUpdateConfig& lidar = config_.lidar;
   const MapConfig& map = config_.map;
@@ -291,9 +291,9 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 }
 
 /// Compares the scan with earlier ones, before its returns are thinned.
-void EskfEstimator::find_moving(const LidarScan& scan, const ScanMotion& motion) {
+void EskfEstimator::find_moving(const LidarScan& scan) {
   selection_.thin(kMaxImagePoints, indices_);
-  deskew(scan, indices_, motion, image_points_);
+  deskew(scan, indices_, scan_motion_, image_points_);
   moving_.compare(image_points_, scan.end, belief_.state.T_odom_body());
 }
 

@@ -51,7 +51,7 @@ class EskfEstimator : public Estimator {
   Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
   bool fuse_zero_velocity(const LegOdometrySample& sample);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
-  void find_moving(const LidarScan& scan, const ScanMotion& motion);
+  void find_moving(const LidarScan& scan);
   void leave_out_moving();
   void fuse_scan(ScanDiagnostics& diagnostics);
   void fuse_ground_constraint();
@@ -89,8 +89,9 @@ class EskfEstimator : public Estimator {
   std::vector<InertialSegment> segments_;
   std::vector<int> indices_;
   MeanTwist scan_twist_;                        ///< of the present scan
+  ScanMotion scan_motion_;                      ///< of the present scan
   std::optional<Time> last_scan_;               ///< end of the last scan
-  std::vector<Eigen::Vector3f> image_points_;   ///< body axes at the scan's end
+  PointBlocks image_points_;                    ///< body axes at the scan's end
   std::vector<Eigen::Vector3f> match_points_;   ///< body axes at the scan's end
   std::vector<Eigen::Vector3f> insert_points_;  ///< the same, then in the odometry frame
 };

@@ -11,7 +11,7 @@ namespace aims {
 namespace {
 
 /// One of this many points serves the first guess.
-constexpr std::size_t kGuessStride = 3;
+constexpr std::size_t kGuessStride = 5;
 
 /// Larger steps of an iteration search the planes again, smaller ones end it.
 constexpr double kRematchRotation = 2e-3;    ///< [rad]

@@ -36,7 +36,7 @@ struct PoseInformation {
 /// from poses with errors in common, and the planes around an edge tilt as the rings lie. Measured
 /// where nothing constrains a corridor: 2 mrad, 3 mrad in one scan of ten; with recesses of 5 cm
 /// every 8 m: 9 to 11 mrad (docs/estimators.md).
-inline constexpr double kFreeTilt = 0.008;
+inline constexpr double kFreeTilt = 0.006;
 
 /// The information of scans without the part that comes from the noise of the plane normals
 /// (docs/estimators.md). The noise d of a normal adds E[d d^T] to j_a j_a^T but nothing to
@@ -71,9 +71,9 @@ class RealFraction {
   double weakest_ = 0.0;  ///< smallest entry of the diagonal below
   double sum_of_weights_ = 0.0;  ///< of the returns, average [1/m^2]
   Eigen::Matrix3d constrained_ = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();              ///< L, with C = L W L^T
-  Eigen::Matrix3d gain_ = Eigen::Matrix3d::Zero();               ///< F
-  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();             ///< of the position, odometry axes
+  Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();   ///< L, with C = L W L^T
+  Eigen::Matrix3d gain_ = Eigen::Matrix3d::Zero();    ///< F
+  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();  ///< of the position, odometry axes
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
 };
 

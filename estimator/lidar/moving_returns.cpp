@@ -2,6 +2,7 @@
 #include "estimator/lidar/moving_returns.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -63,9 +64,11 @@ void MovingReturns::Columns::add(int cell) {
   if (votes < std::numeric_limits<std::uint8_t>::max()) ++votes;
 }
 
-void MovingReturns::Columns::vote(const Eigen::Vector3f& point) {
-  const int cell = cell_of(point);
-  if (cell >= 0) add(cell);
+void MovingReturns::Columns::vote(const FourPoints& points, unsigned lanes) {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int cell = cell_of(points.point(static_cast<std::size_t>(std::countr_zero(lanes))));
+    if (cell >= 0) add(cell);
+  }
 }
 
 void MovingReturns::Columns::mark_around(int reach, Columns& marks) const {
@@ -112,23 +115,24 @@ void MovingReturns::find_references() {
   }
 }
 
-bool MovingReturns::came(const Eigen::Vector3f& point) const {
-  return std::ranges::any_of(references_, [&](const Reference& each) {
-    return each.past->image.passed(each.to_past(point), kMargin);
-  });
+/// Bit i: whether an earlier scan passed point i.
+unsigned MovingReturns::came(const FourPoints& points) const {
+  unsigned lanes = 0;
+  for (const Reference& each : references_) {
+    lanes |= each.past->image.passed(each.to_past(points), kMargin);
+  }
+  return lanes;
 }
 
 bool MovingReturns::confirmed(const Eigen::Vector3f& point) const {
   return std::ranges::all_of(references_, [&](const Reference& each) {
-    return each.past->image.confirms(each.to_past(point), kTolerance);
+    return each.past->image.confirms(each.R_past_now * point + each.t_past_now, kTolerance);
   });
 }
 
-void MovingReturns::compare(std::span<const Eigen::Vector3f> points, Time stamp,
-                            const Pose& T_odom_body) {
-  const Eigen::Vector3f lever = lever_.cast<float>();
-  from_lidar_.clear();
-  for (const Eigen::Vector3f& point : points) from_lidar_.push_back(point - lever);
+void MovingReturns::compare(const PointBlocks& points, Time stamp, const Pose& T_odom_body) {
+  from_lidar_ = points;
+  from_lidar_.subtract(lever_.cast<float>());
   now_.stamp = stamp;
   now_.image.fill(from_lidar_);
   now_.T_odom_lidar = lidar_pose(T_odom_body);
@@ -136,13 +140,15 @@ void MovingReturns::compare(std::span<const Eigen::Vector3f> points, Time stamp,
   came_.clear();
   went_.clear();
   marks_.clear();
-  for (const Eigen::Vector3f& point : now_.image.nearest()) {
-    if (came(point)) came_.vote(point);
+  const PointBlocks& present = now_.image.nearest();
+  for (std::size_t i = 0; i < present.block_count(); ++i) {
+    came_.vote(present.block(i), came(present.block(i)));
   }
   for (const Reference& each : references_) {
-    for (const Eigen::Vector3f& earlier : each.past->image.nearest()) {
-      const Eigen::Vector3f point = each.to_now(earlier);
-      if (now_.image.passed(point, kMargin)) went_.vote(point);
+    const PointBlocks& earlier = each.past->image.nearest();
+    for (std::size_t i = 0; i < earlier.block_count(); ++i) {
+      const FourPoints points = each.to_now(earlier.block(i));
+      went_.vote(points, now_.image.passed(points, kMargin));
     }
   }
   came_.mark_around(kReachOfCame, marks_);

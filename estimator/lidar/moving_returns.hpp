@@ -5,11 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <span>
 #include <vector>
 
 #include "core/lie.hpp"
 #include "core/time.hpp"
+#include "estimator/lidar/four_points.hpp"
 #include "estimator/lidar/range_image.hpp"
 
 namespace aims {
@@ -29,7 +29,7 @@ class MovingReturns {
 
   /// Compares a scan that ended at `stamp` with the earlier ones. `points`: its returns, evenly
   /// over its directions, in body axes at its end; `T_odom_body`: the predicted pose.
-  void compare(std::span<const Eigen::Vector3f> points, Time stamp, const Pose& T_odom_body);
+  void compare(const PointBlocks& points, Time stamp, const Pose& T_odom_body);
 
   /// Removes from `points` (body axes) of that scan those that may move. Returns how many.
   int remove_from(std::vector<Eigen::Vector3f>& points) const;
@@ -50,11 +50,11 @@ class MovingReturns {
     Eigen::Matrix3f R_past_now;
     Eigen::Vector3f t_past_now;
 
-    Eigen::Vector3f to_past(const Eigen::Vector3f& point) const {
-      return R_past_now * point + t_past_now;
+    FourPoints to_past(const FourPoints& points) const {
+      return points.transformed(R_past_now, t_past_now);
     }
-    Eigen::Vector3f to_now(const Eigen::Vector3f& point) const {
-      return R_past_now.transpose() * (point - t_past_now);
+    FourPoints to_now(const FourPoints& points) const {
+      return points.minus(t_past_now).transformed(R_past_now.transpose(), Eigen::Vector3f::Zero());
     }
   };
 
@@ -63,7 +63,8 @@ class MovingReturns {
    public:
     Columns() : cells_(static_cast<std::size_t>(kSide * kSide), 0) {}
     void clear();
-    void vote(const Eigen::Vector3f& point);
+    /// Those of `points` whose bits in `lanes` are set vote.
+    void vote(const FourPoints& points, unsigned lanes);
     /// Marks the columns within `reach` columns of those with enough votes.
     void mark_around(int reach, Columns& marks) const;
     bool any() const { return !used_.empty(); }
@@ -80,14 +81,14 @@ class MovingReturns {
 
   Pose lidar_pose(const Pose& T_odom_body) const;
   void find_references();
-  bool came(const Eigen::Vector3f& point) const;
+  unsigned came(const FourPoints& points) const;
   bool confirmed(const Eigen::Vector3f& point) const;
 
   Eigen::Vector3d lever_;
   std::deque<Past> past_;  ///< oldest first
   Past now_;
   std::vector<Reference> references_;
-  std::vector<Eigen::Vector3f> from_lidar_;
+  PointBlocks from_lidar_;
   Columns came_;
   Columns went_;
   Columns marks_;  ///< around both

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
+#include <array>
+#include <cstddef>
 
 #include "estimator/filter/error_state.hpp"
 
@@ -26,15 +27,15 @@ struct PlanePair {
   bool valid() const { return a.valid && b.valid; }
 };
 
-/// The least-squares plane of `points`; valid when they spread in two directions, which five points
-/// of one scan line do not, and much more than across the plane.
-Plane fit_plane(std::span<const Eigen::Vector3f> points);
+/// Map points that a plane goes through.
+inline constexpr std::size_t kPlanePoints = 5;
+using PlanePoints = std::array<Eigen::Vector3f, kPlanePoints>;
 
-/// Whether `query` lies among the `points` of its plane: within 1.5 of their deviations along the
-/// direction from their mean to it. Beyond them, and where a scan sees more of a recess than the
-/// map, the plane is a guess.
-bool lies_among(std::span<const Eigen::Vector3f> points, const Plane& plane,
-                const Eigen::Vector3f& query);
+/// The least-squares planes of the points of each half, at `query`. Valid when the points spread in
+/// two directions, which five of one scan line do not, and much more than across the plane; and
+/// when the query lies among them: within 1.5 of their deviations along the direction from their
+/// mean to it. Beyond, and where a scan sees more of a recess than the map, the plane is a guess.
+PlanePair fit_planes(const std::array<PlanePoints, kHalves>& points, const Eigen::Vector3f& query);
 
 /// One row of the point-to-plane model.
 struct PlaneRow {

@@ -17,46 +17,61 @@ constexpr float kEmpty = std::numeric_limits<float>::infinity();
 /// floor farther away.
 constexpr int kMinFilled = 7;
 
-/// The azimuth of (x, y) in turns, from 0 at -x, to 0.25 deg: an eighth of a turn is a parabola.
-float azimuth_in_turns(float x, float y) {
-  const float a = std::abs(x);
-  const float b = std::abs(y);
-  const float ratio = std::min(a, b) / std::max({a, b, std::numeric_limits<float>::min()});
-  const float eighth = ratio * (0.125F + 0.0435F * (1.0F - ratio));
-  const float quarter = b > a ? 0.25F - eighth : eighth;
-  const float half = x < 0.0F ? quarter : 0.5F - quarter;
+/// The azimuths of (x, y) in turns, from 0 at -x, to 0.25 deg: an eighth of a turn is a parabola.
+Float4 azimuths_in_turns(Float4 x, Float4 y) {
+  const Float4 a = magnitude(x);
+  const Float4 b = magnitude(y);
+  const Float4 tiny = Float4{} + std::numeric_limits<float>::min();
+  const Float4 ratio = smaller(a, b) / larger(larger(a, b), tiny);
+  const Float4 eighth = ratio * (0.125F + 0.0435F * (1.0F - ratio));
+  const Float4 quarter = b > a ? 0.25F - eighth : eighth;
+  const Float4 half = x < 0.0F ? quarter : 0.5F - quarter;
   return y < 0.0F ? half : 1.0F - half;
+}
+
+/// The integers in [0, count) towards zero; 0 for a NaN.
+Float4 clamped(Float4 value, int count) {
+  return smaller(larger(value, Float4{}), Float4{} + static_cast<float>(count - 1));
 }
 
 }  // namespace
 
 RangeImage::RangeImage() : ranges_(kPixels, kEmpty), around_(kPixels, 0.0F), index_(kPixels) {}
 
-std::size_t RangeImage::pixel_of(const Eigen::Vector3f& point, float range) {
-  const float height = 0.5F * (1.0F + point.z() / range);
-  const float turns = azimuth_in_turns(point.x(), point.y());
-  const int column = std::clamp(static_cast<int>(kColumns * turns), 0, kColumns - 1);
-  const int row = std::clamp(static_cast<int>(height * kRows), 0, kRows - 1);
-  return static_cast<std::size_t>((row + 1) * kStride + column + 1);
+Int4 RangeImage::pixels_of(const FourPoints& points, Float4 ranges) {
+  const Float4 heights = 0.5F * (1.0F + points.z / ranges);
+  const Float4 turns = azimuths_in_turns(points.x, points.y);
+  const Int4 column = truncated(clamped(turns * static_cast<float>(kColumns), kColumns));
+  const Int4 row = truncated(clamped(heights * static_cast<float>(kRows), kRows));
+  // SSE2 has no product of integers; these floats are exact.
+  return truncated(to_float(row) * static_cast<float>(kStride)) + column + (kStride + 1);
 }
 
-void RangeImage::fill(std::span<const Eigen::Vector3f> points) {
+void RangeImage::fill(const PointBlocks& points) {
   std::fill(ranges_.begin(), ranges_.end(), kEmpty);
   nearest_.clear();
-  for (const Eigen::Vector3f& point : points) {
-    const float range = point.norm();
-    if (!(range > 0.0F)) continue;
-    const std::size_t pixel = pixel_of(point, range);
-    if (!(range < ranges_[pixel])) continue;
-    if (ranges_[pixel] == kEmpty) {
-      index_[pixel] = static_cast<std::uint16_t>(nearest_.size());
-      nearest_.emplace_back();
+  for (std::size_t i = 0; i < points.block_count(); ++i) {
+    const FourPoints block = points.block(i);
+    const Float4 ranges = square_root(block.squared_norms());
+    const Int4 pixels = pixels_of(block, ranges);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      if (!(ranges[lane] > 0.0F)) continue;
+      offer(block.point(lane), ranges[lane], static_cast<std::size_t>(pixels[lane]));
     }
-    ranges_[pixel] = range;
-    nearest_[index_[pixel]] = point;
   }
   wrap_around();
   find_around();
+}
+
+void RangeImage::offer(const Eigen::Vector3f& point, float range, std::size_t pixel) {
+  if (!(range < ranges_[pixel])) return;
+  if (ranges_[pixel] == kEmpty) {
+    index_[pixel] = static_cast<std::uint16_t>(nearest_.size());
+    nearest_.push_back(point);
+  } else {
+    nearest_.set(index_[pixel], point);
+  }
+  ranges_[pixel] = range;
 }
 
 /// Copies the first and last columns beyond each other.
@@ -87,15 +102,20 @@ void RangeImage::find_around() {
   }
 }
 
-bool RangeImage::passed(const Eigen::Vector3f& point, float margin) const {
-  const float range = point.norm();
-  return range > 0.0F && around_[pixel_of(point, range)] > range + margin;
+unsigned RangeImage::passed(const FourPoints& points, float margin) const {
+  const Float4 ranges = square_root(points.squared_norms());
+  const Int4 pixels = pixels_of(points, ranges);
+  Float4 around;
+  for (std::size_t i = 0; i < 4; ++i) around[i] = around_[static_cast<std::size_t>(pixels[i])];
+  return lanes_of((ranges > 0.0F) & (around > ranges + margin));
 }
 
 bool RangeImage::confirms(const Eigen::Vector3f& point, float tolerance) const {
   const float range = point.norm();
   if (!(range > 0.0F)) return false;
-  const std::size_t pixel = pixel_of(point, range);
+  FourPoints block;
+  block.set(0, point);
+  const auto pixel = static_cast<std::size_t>(pixels_of(block, Float4{} + range)[0]);
   for (std::size_t begin = pixel - kStride - 1; begin <= pixel + kStride - 1; begin += kStride) {
     for (std::size_t i = begin; i < begin + 3; ++i) {
       if (std::abs(ranges_[i] - range) < tolerance) return true;

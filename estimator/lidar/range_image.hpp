@@ -4,8 +4,9 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
+
+#include "estimator/lidar/four_points.hpp"
 
 namespace aims {
 
@@ -17,15 +18,16 @@ class RangeImage {
   RangeImage();
 
   /// Replaces the image by that of `points`.
-  void fill(std::span<const Eigen::Vector3f> points);
+  void fill(const PointBlocks& points);
 
   /// The nearest point of each pixel that has one.
-  std::span<const Eigen::Vector3f> nearest() const { return nearest_; }
+  const PointBlocks& nearest() const { return nearest_; }
 
-  /// Whether the scan passed `point` by at least `margin` [m]: all returns of its pixel and of the
-  /// eight around it lie farther. Then an edge beside the point, or a wall at grazing incidence
-  /// whose range changes within a pixel, does not count. False where too few pixels have returns.
-  bool passed(const Eigen::Vector3f& point, float margin) const;
+  /// Bit i: whether the scan passed point i by at least `margin` [m]: all returns of its pixel and
+  /// of the eight around it lie farther. Then an edge beside the point, or a wall at grazing
+  /// incidence whose range changes within a pixel, does not count. False where too few pixels have
+  /// returns.
+  unsigned passed(const FourPoints& points, float margin) const;
 
   /// Whether the scan has a return within `tolerance` [m] of the point's range in its pixel or in
   /// one of the eight around it.
@@ -38,14 +40,15 @@ class RangeImage {
   static constexpr int kStride = kColumns + 2;
   static constexpr std::size_t kPixels = static_cast<std::size_t>(kStride * (kRows + 2));
 
-  static std::size_t pixel_of(const Eigen::Vector3f& point, float range);
+  static Int4 pixels_of(const FourPoints& points, Float4 ranges);
+  void offer(const Eigen::Vector3f& point, float range, std::size_t pixel);
   void wrap_around();
   void find_around();
 
   std::vector<float> ranges_;         ///< infinity: no return [m]
   std::vector<float> around_;         ///< nearest of 3 x 3 pixels; 0: too few have returns [m]
   std::vector<std::uint16_t> index_;  ///< of a pixel with a return, in `nearest_`
-  std::vector<Eigen::Vector3f> nearest_;
+  PointBlocks nearest_;
 };
 
 }  // namespace aims

@@ -2,15 +2,17 @@
 #include "estimator/lidar/range_steps.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace aims {
 namespace {
 
 /// Firings over which a line of inverse ranges is drawn.
 constexpr std::size_t kBase = 3;
+/// Firings from the first of the line before a step to the last of the line after it.
+constexpr std::size_t kSpan = 2 * kBase + 2;
 /// Deviation of the difference between a return and the line one firing ahead of it, in deviations
 /// of a range: sqrt((4/3)^2 + (1/3)^2 + 1).
 constexpr double kPredictionNoise = 1.6997;
@@ -18,97 +20,137 @@ constexpr double kPredictionNoise = 1.6997;
 constexpr double kSignificant = 4.5;
 /// Median of the magnitude of a normal variable, in its deviations.
 constexpr double kMedianMagnitude = 0.6745;
-/// Of this many returns, one measures the noise.
-constexpr std::size_t kSampling = 5;
-/// Firings of a ring farther apart in time than this many of its intervals have a gap between them.
-constexpr double kGap = 1.5;
+/// Of this many blocks of four returns, one measures the noise.
+constexpr std::size_t kSampling = 7;
+/// Blocks of firings and their lines reach beyond the last firing of a ring.
+constexpr std::size_t kMargin = kSpan + 4;
+
+/// The first lanes of a block of which only `left` have a firing.
+unsigned first_lanes(std::size_t left) { return left < 4 ? (1U << left) - 1U : 15U; }
 
 }  // namespace
 
 void RangeSteps::mark(const LidarScan& scan) {
   mixed_.assign(scan.points.size(), 0);
-  list_firings(scan);
-  for (const Ring& ring : rings_) count_runs(ring);
+  sort(scan);
+  deviations_.clear();
+  for (Ring& ring : rings_) {
+    measure(ring);
+    add_deviations(ring);
+  }
   range_noise_ = measure_noise();
   for (const Ring& ring : rings_) mark_ring(ring);
 }
 
 /// Sorts the returns by ring, in order of firing within each.
-void RangeSteps::list_firings(const LidarScan& scan) {
-  ring_ends_.clear();
-  for (const LidarPoint& point : scan.points) {
-    if (point.ring >= ring_ends_.size()) ring_ends_.resize(point.ring + 1U, 0);
-    ++ring_ends_[point.ring];
-  }
-  ring_begins_.resize(ring_ends_.size());
-  std::exclusive_scan(ring_ends_.begin(), ring_ends_.end(), ring_begins_.begin(), std::size_t{0});
-  ring_ends_ = ring_begins_;
-  firings_.resize(scan.points.size());
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const LidarPoint& point = scan.points[i];
-    const double range = point.position.norm();
-    if (!(range > 0.0) || !std::isfinite(range)) continue;
-    firings_[ring_ends_[point.ring]++] = {.index = static_cast<std::int32_t>(i),
-                                          .time_offset_ns = point.time_offset_ns,
-                                          .inverse_range = 1.0 / range};
-  }
-  rings_.clear();
-  for (std::size_t ring = 0; ring < ring_ends_.size(); ++ring) {
-    rings_.emplace_back(firings_.data() + ring_begins_[ring], firings_.data() + ring_ends_[ring]);
+void RangeSteps::sort(const LidarScan& scan) {
+  while (!try_sort(scan)) {
+    for (std::size_t ring = 0; ring < rings_.size(); ++ring) {
+      rings_[ring].begin = ring * (capacity_ + kMargin);
+    }
+    const std::size_t size = rings_.size() * (capacity_ + kMargin);
+    inverse_ranges_.resize(size);
+    times_.resize(size);
+    indices_.resize(size);
   }
 }
 
-void RangeSteps::count_runs(const Ring& ring) {
-  const auto interval = [&](std::size_t k) {
-    return ring[k].time_offset_ns - ring[k - 1].time_offset_ns;
-  };
-  std::int32_t shortest = std::numeric_limits<std::int32_t>::max();
-  for (std::size_t k = 1; k < ring.size(); ++k) {
-    if (interval(k) > 0) shortest = std::min(shortest, interval(k));
+/// False when there was no room: `rings_` and `capacity_` have grown then.
+bool RangeSteps::try_sort(const LidarScan& scan) {
+  for (Ring& ring : rings_) ring.count = 0;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const LidarPoint& point = scan.points[i];
+    const float squared = point.position.squaredNorm();
+    if (!(squared > 0.0F) || !std::isfinite(squared)) continue;
+    if (point.ring >= rings_.size()) {
+      rings_.resize(point.ring + 1U);
+      return false;
+    }
+    Ring& ring = rings_[point.ring];
+    if (ring.count == capacity_) {
+      capacity_ = 2 * capacity_ + 64;
+      return false;
+    }
+    const std::size_t at = ring.begin + ring.count++;
+    inverse_ranges_[at] = squared;  // inverted by measure()
+    times_[at] = point.time_offset_ns;
+    indices_[at] = static_cast<std::int32_t>(i);
   }
-  for (std::size_t k = 1; k < ring.size(); ++k) {
-    const bool next = interval(k) > 0 && interval(k) < kGap * shortest;
-    ring[k].run = next ? ring[k - 1].run + 1 : 0;
+  return true;
+}
+
+/// Inverts the ranges, and finds the interval between firings.
+void RangeSteps::measure(Ring& ring) {
+  constexpr std::int32_t kLongest = std::numeric_limits<std::int32_t>::max();
+  const std::size_t end = ring.begin + ring.count;
+  for (std::size_t k = ring.begin; k < end; k += 4) {
+    store4(1.0F / square_root(load4(&inverse_ranges_[k])), &inverse_ranges_[k]);
   }
-  for (std::size_t k = kBase; k < ring.size(); ++k) {
-    ring[k].slope = (ring[k].inverse_range - ring[k - kBase].inverse_range) / kBase;
+  ring.interval = kLongest;
+  for (std::size_t k = ring.begin + 1; k < end; ++k) {
+    const std::int32_t passed = times_[k] - times_[k - 1];
+    ring.interval = std::min(ring.interval, passed > 0 ? passed : kLongest);
+  }
+}
+
+/// Change of the inverse range per firing, over those up to each of four from `k` on [1/m].
+Float4 RangeSteps::slope(std::size_t k) const {
+  constexpr float kPerFiring = 1.0F / static_cast<float>(kBase);
+  return kPerFiring * (load4(&inverse_ranges_[k]) - load4(&inverse_ranges_[k - kBase]));
+}
+
+/// Whether the `firings` up to each of four from `k` on came without a gap, which lengthens their
+/// time by at least an interval, and without a repeated time, which shortens it.
+Int4 RangeSteps::whole(const Ring& ring, std::size_t k, std::int32_t firings) const {
+  const Int4 span = load4(&times_[k]) - load4(&times_[k - static_cast<std::size_t>(firings)]);
+  const Float4 intervals = to_float(span) / static_cast<float>(ring.interval);
+  return magnitude(intervals - static_cast<float>(firings)) < Float4{} + 0.5F;
+}
+
+/// Of ranges from the line through those before them, as they are on a flat surface.
+void RangeSteps::add_deviations(const Ring& ring) {
+  const std::size_t end = ring.begin + ring.count;
+  for (std::size_t k = ring.begin + kBase + 1; k < end; k += 4 * kSampling) {
+    const Float4 u = load4(&inverse_ranges_[k]);
+    const Float4 past = u - load4(&inverse_ranges_[k - 1]) - slope(k - 1);
+    const Float4 deviation = magnitude(past) / (u * u);
+    unsigned lanes = lanes_of(whole(ring, k, kBase + 1)) & first_lanes(end - k);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      deviations_.push_back(deviation[static_cast<std::size_t>(std::countr_zero(lanes))]);
+    }
   }
 }
 
 /// The median over the returns: most lie on flat surfaces.
 double RangeSteps::measure_noise() {
-  deviations_.clear();
-  for (const Ring& ring : rings_) {
-    for (std::size_t k = kBase + 1; k < ring.size(); k += kSampling) {
-      if (ring[k].run < static_cast<int>(kBase) + 1) continue;
-      const double here = ring[k].inverse_range;
-      const double past = here - ring[k - 1].inverse_range - ring[k - 1].slope;
-      deviations_.push_back(std::abs(past) / (here * here));
-    }
-  }
   if (deviations_.empty()) return 0.0;
   const auto middle = deviations_.begin() + static_cast<std::ptrdiff_t>(deviations_.size() / 2);
   std::nth_element(deviations_.begin(), middle, deviations_.end());
   return *middle / (kMedianMagnitude * kPredictionNoise);
 }
 
-/// Whether there is a step between the firings `a` and `a + 2`.
-bool RangeSteps::steps_after(const Ring& ring, std::size_t a) const {
+/// Bit i: whether there is a step between the firings `a` + i and `a` + i + 2.
+unsigned RangeSteps::steps_after(const Ring& ring, std::size_t a) const {
   const std::size_t b = a + 2;
-  const double u_a = ring[a].inverse_range;
-  const double u_b = ring[b].inverse_range;
-  const double past_a = u_b - (u_a + 2.0 * ring[a].slope);
-  const double past_b = u_a - (u_b - 2.0 * ring[b + kBase].slope);
-  if (past_a * past_b >= 0.0) return false;
-  const double nearer = std::max(u_a, u_b);
-  const double noise = kPredictionNoise * range_noise_ * nearer * nearer;  // of an inverse range
-  return std::min(std::abs(past_a), std::abs(past_b)) > kSignificant * noise;
+  const Float4 u_a = load4(&inverse_ranges_[a]);
+  const Float4 u_b = load4(&inverse_ranges_[b]);
+  const Float4 past_a = u_b - (u_a + 2.0F * slope(a));
+  const Float4 past_b = u_a - (u_b - 2.0F * slope(b + kBase));
+  const Float4 nearer = larger(u_a, u_b);
+  const auto significant = static_cast<float>(kSignificant * kPredictionNoise * range_noise_);
+  const Int4 stands_out =
+      smaller(magnitude(past_a), magnitude(past_b)) > significant * nearer * nearer;
+  return lanes_of((past_a * past_b < 0.0F) & stands_out & whole(ring, b + kBase, kSpan));
 }
 
 void RangeSteps::mark_ring(const Ring& ring) {
-  for (std::size_t a = kBase; a + 2 + kBase < ring.size(); ++a) {
-    const bool whole = ring[a + 2 + kBase].run >= static_cast<int>(2 * kBase + 2);
-    if (whole && steps_after(ring, a)) mixed_[static_cast<std::size_t>(ring[a + 1].index)] = 1;
+  const std::size_t end = ring.begin + ring.count;
+  for (std::size_t a = ring.begin + kBase; a + kBase + 2 < end; a += 4) {
+    unsigned lanes = steps_after(ring, a) & first_lanes(end - (a + kBase + 2));
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      mixed_[static_cast<std::size_t>(indices_[a + lane + 1])] = 1;
+    }
   }
 }
 

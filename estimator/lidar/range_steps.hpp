@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/measurements.hpp"
+#include "estimator/lidar/float4.hpp"
 
 namespace aims {
 
@@ -34,28 +34,30 @@ class RangeSteps {
   double range_noise() const { return range_noise_; }
 
  private:
-  /// A return in the order of its ring.
-  struct Firing {
-    std::int32_t index = 0;           ///< in the scan
-    std::int32_t time_offset_ns = 0;  ///< after the scan's stamp
-    std::int32_t run = 0;             ///< firings before it without a gap
-    double inverse_range = 0.0;       ///< [1/m]
-    double slope = 0.0;  ///< change of the inverse range per firing, over those before it [1/m]
+  /// The firings of a ring in order, from `begin` on in the lists below.
+  struct Ring {
+    std::size_t begin = 0;
+    std::size_t count = 0;
+    std::int32_t interval = 0;  ///< shortest between two firings [ns]
   };
-  using Ring = std::span<Firing>;
 
-  void list_firings(const LidarScan& scan);
-  static void count_runs(const Ring& ring);
+  void sort(const LidarScan& scan);
+  bool try_sort(const LidarScan& scan);
+  void measure(Ring& ring);
+  Float4 slope(std::size_t k) const;
+  Int4 whole(const Ring& ring, std::size_t k, std::int32_t firings) const;
+  void add_deviations(const Ring& ring);
   double measure_noise();
-  bool steps_after(const Ring& ring, std::size_t a) const;
+  unsigned steps_after(const Ring& ring, std::size_t a) const;
   void mark_ring(const Ring& ring);
 
   std::vector<char> mixed_;
-  std::vector<Firing> firings_;  ///< ring by ring
   std::vector<Ring> rings_;
-  std::vector<std::size_t> ring_begins_;  ///< of each ring in the firings
-  std::vector<std::size_t> ring_ends_;
-  std::vector<double> deviations_;
+  std::size_t capacity_ = 0;           ///< firings of a ring that the lists have room for
+  std::vector<float> inverse_ranges_;  ///< [1/m]
+  std::vector<std::int32_t> times_;    ///< after the scan's stamp [ns]
+  std::vector<std::int32_t> indices_;  ///< into the scan
+  std::vector<float> deviations_;      ///< of ranges from the line before them [m]
   double range_noise_ = 0.0;
 };
 

@@ -7,10 +7,18 @@
 namespace aims {
 namespace {
 
-/// Largest distance of the neighbours from their plane, and the residual at which a robust weight
-/// is one half, in deviations of a residual [-].
+/// Largest distance of the neighbours from their plane, in deviations of a residual [-].
 constexpr double kMaxThickness = 3.0;
-constexpr double kKernelScale = 3.0;
+
+/// Residual at which a robust weight is one half, in deviations of a residual and of the plane's
+/// own points together [-]. At an edge the points lie on either side of their plane, and so do the
+/// returns: the plane is right on average, which a kernel without that part would undo
+/// (docs/decisions.md).
+constexpr double kKernelScale = 5.0;
+
+/// Largest difference between the residuals to the planes of both halves, in deviations of a
+/// residual [-]: where they differ the surface is no plane (docs/estimators.md).
+constexpr double kMaxDisagreement = 1.0;
 
 /// Larger residuals are rejected [m].
 constexpr double kMaxResidual = 0.2;
@@ -71,7 +79,9 @@ void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector
     const double cosine = std::abs(planes.a.normal.dot(R * (p_body - sensor_).normalized()));
     const double thickest = std::max(planes.a.thickness, planes.b.thickness);
     const double sigma = noise_.sigma(cosine);
-    if (thickest <= kMaxThickness * sigma) matches_.push_back({p_body, planes, cosine, sigma});
+    if (thickest > kMaxThickness * sigma) continue;
+    const double scale = kKernelScale * std::sqrt(sigma * sigma + thickest * thickest);
+    matches_.push_back({p_body, planes, cosine, sigma, scale});
   }
 }
 
@@ -85,7 +95,8 @@ MatchInformation ScanMatcher::linearize(const NominalState& state) {
     const PlaneRow b = aligned(plane_row(match.planes.b, match.p_body, R, state.position), a);
     const double residual = 0.5 * (a.residual + b.residual);
     if (!(std::abs(residual) <= kMaxResidual)) continue;
-    const double ratio = robust_ ? residual / (kKernelScale * match.sigma) : 0.0;
+    if (std::abs(a.residual - b.residual) > kMaxDisagreement * match.sigma) continue;
+    const double ratio = robust_ ? residual / match.scale : 0.0;
     const double weight = 1.0 / (correlated_points_ * match.sigma * match.sigma);
     sum.add(a, b, weight / (1.0 + ratio * ratio));  // Cauchy
     residuals_.push_back(residual);

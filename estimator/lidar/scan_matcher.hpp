@@ -56,6 +56,7 @@ class ScanMatcher {
     PlanePair planes;
     double cosine;  ///< of the incidence
     double sigma;   ///< deviation of its residual [m]
+    double scale;   ///< of the robust kernel [m]
   };
 
   double correlated_points_;

@@ -2,28 +2,39 @@
 #include "estimator/lidar/scan_selection.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 
 #include "estimator/lidar/voxel_hash.hpp"
 
 namespace aims {
 namespace {
 
-/// Returns whose voxels are computed ahead: the memory of the table arrives meanwhile.
-constexpr std::size_t kBlock = 32;
-
 /// Added to the index of a return before its bits are mixed.
 constexpr std::uint64_t kRankSeed = 0x9e3779b97f4a7c15ULL;
 
-}  // namespace
+/// Runs whose places in the table are asked for ahead.
+constexpr std::size_t kAhead = 16;
 
-std::uint64_t ScanSelection::key_of(const Candidate& candidate, float inverse_size) {
-  const Float4 position{candidate.position.x(), candidate.position.y(), candidate.position.z(),
-                        0.0F};
-  const Int4 voxel = voxel_lanes(position, inverse_size);
-  return voxel_key({voxel[0], voxel[1], voxel[2]});
+/// Place of the index in what is kept.
+constexpr std::size_t kIndex = 3;
+
+std::uint64_t rank_of(std::int32_t index) {
+  return mixed_bits(static_cast<std::uint64_t>(index) + kRankSeed);
 }
+
+bool same_voxel(Int4 a, Int4 b) { return (lanes_of(a == b) & 7U) == 7U; }
+
+std::uint64_t key_of(Int4 voxel) { return voxel_key({voxel[0], voxel[1], voxel[2]}); }
+
+/// Its coordinates; the fourth number is the intensity, which follows them.
+Float4 position_of(const LidarPoint& point) {
+  static_assert(offsetof(LidarPoint, intensity) == 3 * sizeof(float));
+  return load4(point.position.data());
+}
+
+}  // namespace
 
 bool ScanSelection::usable(const LidarPoint& point) const {
   const double squared = point.position.squaredNorm();
@@ -31,73 +42,92 @@ bool ScanSelection::usable(const LidarPoint& point) const {
          squared <= config_.max_range * config_.max_range;
 }
 
+/// Moves the grid from scan to scan by the steps of the additive sequence that fills a cube most
+/// evenly (the powers of 1 / g, with g^4 = g + 1).
+void ScanSelection::shift_grid() {
+  constexpr std::array kSteps = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  for (std::size_t axis = 0; axis < kSteps.size(); ++axis) {
+    grid_shift_[axis] = std::fmod(grid_shift_[axis] + kSteps[axis], 1.0);
+  }
+}
+
 int ScanSelection::begin(const LidarScan& scan) {
+  scan_ = &scan;
+  shift_grid();
   if (config_.leave_out_mixed) steps_.mark(scan);
-  eligible_.resize(scan.points.size());
+  candidates_.resize(scan.points.size());
   int in_range = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const bool here = usable(scan.points[i]);
     const bool mixed = config_.leave_out_mixed && steps_.mixed(i);
-    eligible_[count] = {scan.points[i].position, static_cast<std::int32_t>(i)};
+    candidates_[count] = static_cast<std::int32_t>(i);
     in_range += static_cast<int>(here);
     count += static_cast<std::size_t>(here && !mixed);
   }
-  eligible_.resize(count);
+  candidates_.resize(count);
   return in_range;
 }
 
-std::int32_t& ScanSelection::slot_of(std::uint64_t key, std::size_t home) {
-  std::size_t i = home;
-  while (slots_[i] != kFree && kept_[static_cast<std::size_t>(slots_[i])].key != key) {
-    i = (i + 1) & (slots_.size() - 1);
+/// Neighbours of a ring are mostly in one voxel: they are looked up together.
+void ScanSelection::keep_one_per_run(float inverse_size) {
+  const Float4 shift{static_cast<float>(grid_shift_[0]), static_cast<float>(grid_shift_[1]),
+                     static_cast<float>(grid_shift_[2]), 0.0F};
+  runs_.clear();
+  for (Run& run : last_) run.open = false;
+  for (const std::int32_t index : candidates_) {
+    const LidarPoint& point = scan_->points[static_cast<std::size_t>(index)];
+    if (point.ring >= last_.size()) last_.resize(point.ring + 1U);
+    Run& run = last_[point.ring];
+    const Int4 voxel = floored(position_of(point) * inverse_size + shift);
+    const std::uint64_t rank = rank_of(index);
+    if (!run.open || !same_voxel(run.voxel, voxel)) {
+      run = {voxel, rank, runs_.size(), true};
+      runs_.push_back(Kept{voxel[0], voxel[1], voxel[2], index});
+    } else if (rank < run.rank) {
+      run.rank = rank;
+      runs_[run.place][kIndex] = index;
+    }
   }
-  return slots_[i];
 }
 
-void ScanSelection::keep(const Candidate& candidate, std::uint64_t key, std::int32_t& slot) {
-  const std::uint64_t rank = mixed_bits(static_cast<std::uint64_t>(candidate.index) + kRankSeed);
-  if (slot == kFree) {
-    slot = static_cast<std::int32_t>(kept_.size());
-    kept_.push_back({key, rank, candidate});
-    return;
+void ScanSelection::keep_one_per_voxel() {
+  kept_.clear();
+  slots_.assign(std::bit_ceil(runs_.size() + runs_.size() / 2 + 1), kFree);
+  const auto home = [this](Kept run) { return mixed_bits(key_of(run)) & (slots_.size() - 1); };
+  for (std::size_t k = 0; k < runs_.size(); ++k) {
+    if (k + kAhead < runs_.size()) __builtin_prefetch(&slots_[home(runs_[k + kAhead])]);
+    const Kept run = runs_[k];
+    std::size_t i = home(run);
+    while (slots_[i] != kFree && !same_voxel(kept_[static_cast<std::size_t>(slots_[i])], run)) {
+      i = (i + 1) & (slots_.size() - 1);
+    }
+    if (slots_[i] == kFree) {
+      slots_[i] = static_cast<std::int32_t>(kept_.size());
+      kept_.push_back(run);
+    } else if (Kept& kept = kept_[static_cast<std::size_t>(slots_[i])];
+               rank_of(run[kIndex]) < rank_of(kept[kIndex])) {
+      kept = run;
+    }
   }
-  Kept& chosen = kept_[static_cast<std::size_t>(slot)];
-  if (rank < chosen.rank) chosen = {key, rank, candidate};
 }
 
 void ScanSelection::select(double voxel, int limit, std::vector<int>& kept) {
-  kept_.clear();
-  slots_.assign(std::bit_ceil(2 * eligible_.size() + 1), kFree);
-  const auto inverse_size = static_cast<float>(1.0 / voxel);
-  std::array<std::uint64_t, kBlock> keys;
-  std::array<std::size_t, kBlock> homes;
-  for (std::size_t begin = 0; begin < eligible_.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, eligible_.size() - begin);
-    for (std::size_t j = 0; j < count; ++j) {
-      keys[j] = key_of(eligible_[begin + j], inverse_size);
-      homes[j] = mixed_bits(keys[j]) & (slots_.size() - 1);
-      __builtin_prefetch(&slots_[homes[j]]);
-    }
-    for (std::size_t j = 0; j < count; ++j) {
-      keep(eligible_[begin + j], keys[j], slot_of(keys[j], homes[j]));
-    }
-  }
+  keep_one_per_run(static_cast<float>(1.0 / voxel));
+  keep_one_per_voxel();
   const std::size_t count = kept_.size();
+  candidates_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) candidates_[i] = kept_[i][kIndex];
   kept.resize(std::min(count, static_cast<std::size_t>(limit)));
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    kept[i] = kept_[i * count / kept.size()].candidate.index;
-  }
-  eligible_.clear();
-  for (const Kept& each : kept_) eligible_.push_back(each.candidate);
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = candidates_[i * count / kept.size()];
 }
 
 void ScanSelection::thin(int limit, std::vector<int>& kept) const {
   const auto most = static_cast<std::size_t>(limit);
   // Odd: rings fire in turn, and most LiDARs have an even number of them.
-  const std::size_t step = eligible_.size() > most ? (eligible_.size() / most + 1) | 1U : 1;
+  const std::size_t step = candidates_.size() > most ? (candidates_.size() / most + 1) | 1U : 1;
   kept.clear();
-  for (std::size_t i = 0; i < eligible_.size(); i += step) kept.push_back(eligible_[i].index);
+  for (std::size_t i = 0; i < candidates_.size(); i += step) kept.push_back(candidates_[i]);
 }
 
 }  // namespace aims

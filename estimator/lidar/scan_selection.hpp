@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "core/measurements.hpp"
+#include "estimator/lidar/float4.hpp"
 #include "estimator/lidar/lidar_config.hpp"
 #include "estimator/lidar/range_steps.hpp"
 
@@ -15,13 +17,15 @@ namespace aims {
 /// by a hash of its index. Far walls keep nearly every return, near ones a few. The choice must not
 /// follow the firing order: the first return in a voxel is more often one with range noise into it,
 /// outward on one side of the robot and inward on the other, and the map then rotates with the
-/// direction in which the LiDAR spins.
+/// direction in which the LiDAR spins. The voxels move from scan to scan: of a wall near a border
+/// between two, the returns that noise pushes across it count as much as all the others, so that it
+/// would always seem to lie off to that side.
 class ScanSelection {
  public:
   explicit ScanSelection(const LidarUpdateConfig& config) : config_(config) {}
 
   /// Lists the returns of `scan` to select from: the usable ones that are not mixed. Returns how
-  /// many are usable, mixed or not.
+  /// many are usable, mixed or not. The scan must exist while returns are selected.
   int begin(const LidarScan& scan);
 
   /// Replaces `kept` by indices into the scan of the last begin(), thinned evenly to at most
@@ -33,29 +37,36 @@ class ScanSelection {
   /// n-th where these are more than `limit`. So they lie evenly over the directions of the scan.
   void thin(int limit, std::vector<int>& kept) const;
 
+  /// How far the voxels of this scan are moved, in their edges [0, 1), by axis.
+  const std::array<double, 3>& grid_shift() const { return grid_shift_; }
+
   /// True when the point is finite and in range.
   bool usable(const LidarPoint& point) const;
 
  private:
-  struct Candidate {
-    Eigen::Vector3f position;
-    std::int32_t index = 0;  ///< into the scan
-  };
-  struct Kept {
-    std::uint64_t key = 0;   ///< of its voxel
-    std::uint64_t rank = 0;  ///< the lowest of a voxel is kept
-    Candidate candidate;
+  /// A return that is kept, and its voxel: the three coordinates of the voxel, then the index.
+  using Kept = Int4;
+  /// The run of a ring that its next return may belong to.
+  struct Run {
+    Int4 voxel{};            ///< coordinates; the fourth number has no meaning
+    std::uint64_t rank = 0;  ///< of the return that is kept, the lowest
+    std::size_t place = 0;   ///< in `runs_`
+    bool open = false;
   };
   static constexpr std::int32_t kFree = -1;
 
-  static std::uint64_t key_of(const Candidate& candidate, float inverse_size);
-  std::int32_t& slot_of(std::uint64_t key, std::size_t home);
-  void keep(const Candidate& candidate, std::uint64_t key, std::int32_t& slot);
+  void shift_grid();
+  void keep_one_per_run(float inverse_size);
+  void keep_one_per_voxel();
 
   LidarUpdateConfig config_;
   RangeSteps steps_;
-  std::vector<Candidate> eligible_;
-  std::vector<Kept> kept_;           ///< of the present selection, in order of their voxels
+  const LidarScan* scan_ = nullptr;
+  std::array<double, 3> grid_shift_{};    ///< of the voxels, in their edges, by axis
+  std::vector<std::int32_t> candidates_;  ///< returns to select from
+  std::vector<Kept> runs_;                ///< of neighbours of a ring in one voxel
+  std::vector<Run> last_;                 ///< of each ring
+  std::vector<Kept> kept_;                ///< of the selection, in order of their voxels
   std::vector<std::int32_t> slots_;  ///< into `kept_`, by the hash of the voxel; the next if taken
 };
 

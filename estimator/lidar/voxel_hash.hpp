@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "estimator/lidar/float4.hpp"
-
 namespace aims {
 
 /// Integer coordinates of a cubic voxel.
@@ -26,13 +24,6 @@ inline std::int32_t floor_to_int(float value) {
 inline VoxelIndex voxel_of(const Eigen::Vector3f& point, float inverse_size) {
   return {floor_to_int(point.x() * inverse_size), floor_to_int(point.y() * inverse_size),
           floor_to_int(point.z() * inverse_size)};
-}
-
-/// That of the first three of `point`, as lanes; the fourth is unused.
-inline Int4 voxel_lanes(Float4 point, float inverse_size) {
-  const Float4 scaled = point * inverse_size;
-  const Int4 towards_zero = __builtin_convertvector(scaled, Int4);
-  return towards_zero + (scaled < __builtin_convertvector(towards_zero, Float4));  // true is -1
 }
 
 /// 63-bit key, unique within +-2^20 voxels along each axis.

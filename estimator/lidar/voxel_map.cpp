@@ -2,47 +2,24 @@
 #include "estimator/lidar/voxel_map.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace aims {
 namespace {
 
-/// A voxel and those around it.
-constexpr std::size_t kNeighborhood = 27;
+/// Places before, at and after a voxel along an axis, and the squared distances of a point in it to
+/// the voxels there [m^2]; the voxel itself comes first.
+struct Steps {
+  std::array<int, 3> offsets{0, -1, 1};
+  std::array<float, 3> gaps{};
 
-/// Their offsets: itself first, then faces, edges and corners, so that near neighbours are found
-/// early and the rest is pruned.
-std::array<std::array<int, 3>, kNeighborhood> neighborhood() {
-  std::array<std::array<int, 3>, kNeighborhood> offsets{};
-  int i = 0;
-  for (int order = 0; order <= 3; ++order) {
-    for (int x = -1; x <= 1; ++x) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int z = -1; z <= 1; ++z) {
-          if (x * x + y * y + z * z == order) offsets[i++] = {x, y, z};
-        }
-      }
-    }
+  Steps(float at, std::int32_t home, float size) {
+    const float inside = at - size * static_cast<float>(home);
+    const float rest = size - inside;
+    gaps = {0.0F, inside * inside, rest * rest};
   }
-  return offsets;
-}
-
-const std::array<std::array<int, 3>, kNeighborhood> kOffsets = neighborhood();
-
-/// Squared distances from the coordinate `at`, in voxel `home` of edge `size`, to the voxel before
-/// it, to itself and to the next [m^2].
-std::array<float, 3> squared_gaps(float at, std::int32_t home, float size) {
-  const float inside = at - size * static_cast<float>(home);
-  const float rest = size - inside;
-  return {inside * inside, 0.0F, rest * rest};
-}
-
-/// The plane of the points; valid only when the query lies among them.
-Plane plane_among(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& query) {
-  Plane plane = fit_plane(points);
-  plane.valid = plane.valid && lies_among(points, plane, query);
-  return plane;
-}
+};
 
 }  // namespace
 
@@ -56,11 +33,74 @@ void VoxelMap::insert(std::span<const Eigen::Vector3f> points, const Eigen::Vect
                       const Eigen::Matrix3f& covariance) {
   voxels_.begin_insertion();
   for (const Eigen::Vector3f& point : points) {
-    if (point.allFinite()) insert(point, half_, covariance);
+    if (point.allFinite()) insert(point, covariance);
   }
   end_insertion();
-  voxels_.limit(max_voxels_,
-                [&center](const Voxel& v) { return (v.first - center).squaredNorm(); });
+  const bool dropped = voxels_.limit(
+      max_voxels_, [&center](const Voxel& v) { return (v.first - center).squaredNorm(); });
+  if (!dropped) return;
+  for (Voxel& voxel : voxels_) link(voxel);
+}
+
+/// The voxels at and around a point: those around it by the links of the one that it lies in.
+class VoxelMap::Surroundings {
+ public:
+  Surroundings(const VoxelMap& map, const Eigen::Vector3f& point)
+      : map_(map),
+        index_(voxel_of(point, map.inverse_size_)),
+        steps_{Steps(point.x(), index_.x, map.size_), Steps(point.y(), index_.y, map.size_),
+               Steps(point.z(), index_.z, map.size_)},
+        home_(map.voxels_.index_of(voxel_key(index_))) {}
+
+  /// Calls `visit(index)` for each voxel within reach() [m^2] of the point, its own first; reach()
+  /// may shrink meanwhile.
+  template <class Reach, class Visit>
+  void visit(const Reach& reach, const Visit& visit) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (steps_[0].gaps[i] > reach()) continue;
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (steps_[0].gaps[i] + steps_[1].gaps[j] > reach()) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const float gap = steps_[0].gaps[i] + steps_[1].gaps[j] + steps_[2].gaps[k];
+          if (gap > reach()) continue;
+          const std::int32_t at =
+              voxel(steps_[0].offsets[i], steps_[1].offsets[j], steps_[2].offsets[k]);
+          if (at != kNone) visit(at);
+        }
+      }
+    }
+  }
+
+ private:
+  std::int32_t voxel(int dx, int dy, int dz) const {
+    if (home_ != kNone) return map_.voxels_[home_].around[place_of(dx, dy, dz)];
+    return map_.voxels_.index_of(voxel_key({index_.x + dx, index_.y + dy, index_.z + dz}));
+  }
+
+  const VoxelMap& map_;
+  VoxelIndex index_;
+  std::array<Steps, 3> steps_;
+  std::int32_t home_;
+};
+
+std::size_t VoxelMap::place_of(int dx, int dy, int dz) {
+  return static_cast<std::size_t>(9 * (dx + 1) + 3 * (dy + 1) + dz + 1);
+}
+
+/// Links a voxel with those around it, in both directions.
+void VoxelMap::link(Voxel& voxel) {
+  const std::int32_t at = voxels_.index_of(voxel.key);
+  const VoxelIndex index = voxel_of(voxel.first, inverse_size_);
+  for (int dx = -1; dx <= 1; ++dx) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dz = -1; dz <= 1; ++dz) {
+        const std::int32_t other =
+            voxels_.index_of(voxel_key({index.x + dx, index.y + dy, index.z + dz}));
+        voxel.around[place_of(dx, dy, dz)] = other;
+        if (other != kNone) voxels_[other].around[place_of(-dx, -dy, -dz)] = at;
+      }
+    }
+  }
 }
 
 /// Blocks grow from one scan, so that both halves soon have planes.
@@ -77,59 +117,88 @@ PlanePair VoxelMap::planes_at(const Eigen::Vector3f& query) const {
   for (const Neighbors& half : neighbors) {
     if (half.count < Neighbors::kWanted) return {};
   }
-  PlanePair planes;
-  planes.a = plane_among(neighbors[0].points, query);
-  if (planes.a.valid) planes.b = plane_among(neighbors[1].points, query);
-  return planes;
+  return fit_planes({neighbors[0].points, neighbors[1].points}, query);
 }
 
-void VoxelMap::insert(const Eigen::Vector3f& point, std::size_t half,
-                      const Eigen::Matrix3f& covariance) {
+/// A return merges into the nearest map point within the spacing, on whichever side of a border
+/// between voxels: a wall along a border would otherwise get a second layer, of the returns that
+/// noise pushes across it, and its mean would lie off.
+void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& covariance) {
+  const Place nearest = nearest_within_spacing(point);
+  if (nearest.voxel == kNone) {
+    add(point, 1, covariance);
+  } else if (voxels_[nearest.voxel].halves[half_].merged[nearest.point] < kMaxMerges) {
+    merge(point, nearest, covariance);
+  }
+}
+
+VoxelMap::Place VoxelMap::nearest_within_spacing(const Eigen::Vector3f& point) {
+  Place place;
+  float nearest = spacing_ * spacing_;
+  const auto search = [&](std::int32_t at) {
+    const Half& half = voxels_[at].halves[half_];
+    for (int begin = 0; begin < half.count; begin += 4) {
+      const Float4 squared =
+          half.points[static_cast<std::size_t>(begin / 4)].squared_distances(point);
+      for (unsigned lanes = lanes_of(squared < nearest); lanes != 0; lanes &= lanes - 1) {
+        const int lane = std::countr_zero(lanes);
+        if (squared[lane] >= nearest) continue;
+        nearest = squared[lane];
+        place = {at, begin + lane};
+      }
+    }
+  };
+  Surroundings(*this, point).visit([&] { return nearest; }, search);
+  return place;
+}
+
+/// A mean that crosses a border goes over to the voxel that it then lies in.
+void VoxelMap::merge(const Eigen::Vector3f& point, const Place& into,
+                     const Eigen::Matrix3f& covariance) {
+  Voxel& voxel = voxels_[into.voxel];
+  Half& half = voxel.halves[half_];
+  const std::uint8_t merged = ++half.merged[into.point];
+  const Eigen::Vector3f before = half.point(into.point);
+  const Eigen::Vector3f mean = before + (point - before) / static_cast<float>(merged);
+  if (voxel_key(voxel_of(mean, inverse_size_)) == voxel.key) {
+    half.set(into.point, mean);
+  } else {
+    half.remove(into.point);
+    add(mean, merged, covariance);
+  }
+}
+
+/// Adds a map point that `merged` returns were averaged to, where there is room.
+void VoxelMap::add(const Eigen::Vector3f& point, std::uint8_t merged,
+                   const Eigen::Matrix3f& covariance) {
   Voxel& voxel = voxels_.touch(voxel_key(voxel_of(point, inverse_size_)));
   if (voxel.empty) {
     voxel.empty = false;
     voxel.first = point;
     voxel.covariance = covariance;
+    link(voxel);
   }
-  insert(point, voxel.halves[half]);
+  Half& half = voxel.halves[half_];
+  if (half.count == kCapacity) return;
+  half.merged[half.count] = merged;
+  half.set(half.count++, point);
 }
 
 Eigen::Vector3f VoxelMap::Half::point(int i) const {
-  const FourPoints& four = points[static_cast<std::size_t>(i / 4)];
-  const auto k = static_cast<std::size_t>(i % 4);
-  return {four.x[k], four.y[k], four.z[k]};
+  const auto at = static_cast<std::size_t>(i);
+  return points[at / 4].point(at % 4);
 }
 
 void VoxelMap::Half::set(int i, const Eigen::Vector3f& point) {
-  FourPoints& four = points[static_cast<std::size_t>(i / 4)];
-  const auto k = static_cast<std::size_t>(i % 4);
-  four.x[k] = point.x();
-  four.y[k] = point.y();
-  four.z[k] = point.z();
+  const auto at = static_cast<std::size_t>(i);
+  points[at / 4].set(at % 4, point);
 }
 
-void VoxelMap::insert(const Eigen::Vector3f& point, Half& half) const {
-  int closest = -1;
-  float nearest = spacing_ * spacing_;
-  for (int begin = 0; begin < half.count; begin += 4) {
-    const Float4 squared =
-        half.points[static_cast<std::size_t>(begin / 4)].squared_distances(point);
-    for (int k = 0; k < 4; ++k) {
-      if (squared[k] < nearest) {
-        nearest = squared[k];
-        closest = begin + k;
-      }
-    }
-  }
-  if (closest >= 0) {
-    if (half.merged[closest] >= kMaxMerges) return;
-    const float weight = 1.0F / static_cast<float>(++half.merged[closest]);
-    const Eigen::Vector3f mean = half.point(closest);
-    half.set(closest, mean + weight * (point - mean));
-  } else if (half.count < kCapacity) {
-    half.merged[half.count] = 1;
-    half.set(half.count++, point);
-  }
+/// The last point takes its place.
+void VoxelMap::Half::remove(int i) {
+  set(i, point(--count));
+  merged[i] = merged[count];
+  set(count, Eigen::Vector3f::Constant(kFar));
 }
 
 Eigen::Matrix3f VoxelMap::covariance_at(const Eigen::Vector3f& point) const {
@@ -142,30 +211,24 @@ Eigen::Matrix3f VoxelMap::covariance_at(const Eigen::Vector3f& point) const {
 struct VoxelMap::Search {
   Eigen::Vector3f query;
   std::array<NearestPoints, kHalves> nearest;
-  std::array<float, kHalves> reach;  ///< farther points have no effect [m^2]
+  float reach;  ///< farther points have no effect [m^2]
   std::array<const Voxel*, kNeighborhood> voxels;
   std::uint32_t count = 0;
 
   Search(const Eigen::Vector3f& point, float gate)
-      : query(point), nearest{NearestPoints(gate), NearestPoints(gate)}, reach{gate, gate} {}
+      : query(point), nearest{NearestPoints(gate), NearestPoints(gate)}, reach(gate) {}
 
-  float farthest() const { return std::max(reach[0], reach[1]); }
-
-  /// Searches `voxel`, which is no nearer than `closest` [m^2].
-  void add(const Voxel* voxel, float closest) {
-    if (voxel == nullptr) return;
-    for (std::size_t half = 0; half < kHalves; ++half) {
-      if (closest <= reach[half]) add(voxel->halves[half], half);
-    }
-    voxels[count++] = voxel;
-  }
-
-  void add(const Half& points, std::size_t half) {
-    const auto groups = static_cast<std::uint32_t>(points.count + 3) / 4;
+  /// Searches both halves of `voxel`.
+  void add(const Voxel& voxel) {
+    const auto& [a, b] = voxel.halves;
+    const auto groups = static_cast<std::uint32_t>(std::max(a.count, b.count) + 3) / 4;
     for (std::uint32_t group = 0; group < groups; ++group) {
-      nearest[half].offer(points.points[group].squared_distances(query), count * kGroups + group);
+      const std::uint32_t id = count * kGroups + group;
+      nearest[0].offer(a.points[group].squared_distances(query), id);
+      nearest[1].offer(b.points[group].squared_distances(query), id);
     }
-    reach[half] = nearest[half].reach();
+    reach = std::max(nearest[0].reach(), nearest[1].reach());
+    voxels[count++] = &voxel;
   }
 
   Neighbors found(std::size_t half) const {
@@ -182,33 +245,11 @@ struct VoxelMap::Search {
   }
 };
 
-/// The voxel of the query is searched first: only those within its reach are looked up, listed
-/// without branches.
 int VoxelMap::nearest(const Eigen::Vector3f& query,
                       std::array<Neighbors, kHalves>& neighbors) const {
-  const VoxelIndex home = voxel_of(query, inverse_size_);
-  const auto voxel_at = [&](const std::array<int, 3>& offset) {
-    return voxels_.find(voxel_key({home.x + offset[0], home.y + offset[1], home.z + offset[2]}));
-  };
   Search search(query, size_ * size_);
-  search.add(voxel_at(kOffsets[0]), 0.0F);
-  const std::array<float, 3> gap_x = squared_gaps(query.x(), home.x, size_);
-  const std::array<float, 3> gap_y = squared_gaps(query.y(), home.y, size_);
-  const std::array<float, 3> gap_z = squared_gaps(query.z(), home.z, size_);
-  std::array<float, kNeighborhood> gaps;
-  std::array<std::uint8_t, kNeighborhood> near;
-  std::size_t count = 0;
-  const float reach = search.farthest();
-  for (std::size_t i = 1; i < kNeighborhood; ++i) {
-    const auto& [dx, dy, dz] = kOffsets[i];
-    gaps[i] = gap_x[dx + 1] + gap_y[dy + 1] + gap_z[dz + 1];
-    near[count] = static_cast<std::uint8_t>(i);
-    count += static_cast<std::size_t>(gaps[i] <= reach);
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = near[k];
-    if (gaps[i] <= search.farthest()) search.add(voxel_at(kOffsets[i]), gaps[i]);
-  }
+  Surroundings(*this, query)
+      .visit([&] { return search.reach; }, [&](std::int32_t at) { search.add(voxels_[at]); });
   for (std::size_t half = 0; half < kHalves; ++half) neighbors[half] = search.found(half);
   return static_cast<int>(search.count);
 }

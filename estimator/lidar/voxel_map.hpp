@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "estimator/lidar/four_points.hpp"
 #include "estimator/lidar/lidar_config.hpp"
 #include "estimator/lidar/nearest_points.hpp"
 #include "estimator/lidar/plane_model.hpp"
@@ -59,52 +60,56 @@ class VoxelMap {
   std::vector<Eigen::Vector3f> points() const;
 
  private:
+  static constexpr std::size_t kNeighborhood = 27;  ///< a voxel and those around it
+  static constexpr std::int32_t kNone = VoxelHash::kNone;
   static constexpr float kFar = 1e12F;  ///< [m]
   static constexpr int kCapacity = 32;  ///< points of one half in a voxel
   static constexpr std::uint32_t kGroups = kCapacity / 4;
-  static_assert(27 * kGroups <= NearestPoints::kMaxGroups);
+  static_assert(kNeighborhood * kGroups <= NearestPoints::kMaxGroups);
   static constexpr int kMaxMerges = 20;  ///< returns averaged by a map point
   /// Consecutive insertions into one half: 2 s of scans at 10 Hz. Scans of one stride share the
   /// error of the pose from which they are mapped, and with it the tilt of their planes.
   static constexpr int kLongestBlock = 20;
 
-  /// Four points side by side, so that one instruction takes all; the missing ones are far away.
-  struct FourPoints {
-    Float4 x = Float4{} + kFar;
-    Float4 y = Float4{} + kFar;
-    Float4 z = Float4{} + kFar;
-
-    /// To `query` [m^2].
-    Float4 squared_distances(const Eigen::Vector3f& query) const {
-      const Float4 dx = x - query.x();
-      const Float4 dy = y - query.y();
-      const Float4 dz = z - query.z();
-      return dx * dx + dy * dy + dz * dz;
-    }
-  };
   struct Half {
+    Half() { points.fill(FourPoints::all(kFar)); }
+
     int count = 0;
-    std::array<FourPoints, kCapacity / 4> points;
+    std::array<FourPoints, kCapacity / 4> points;  ///< the missing ones are far away
     std::array<std::uint8_t, kCapacity> merged{};
 
     Eigen::Vector3f point(int i) const;
     void set(int i, const Eigen::Vector3f& point);
+    void remove(int i);
   };
 
   struct Voxel {
-    std::array<Half, kHalves> halves;
     std::uint64_t key = 0;
     Eigen::Vector3f first = Eigen::Vector3f::Zero();  ///< its first point
     bool empty = true;
     std::uint32_t seen = 0;  ///< the last insertion that put a point in it
+    /// Indices of the voxels around it and of itself, by place_of(); kNone where there is none.
+    std::array<std::int32_t, kNeighborhood> around;
+    std::array<Half, kHalves> halves;
     Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
   };
+  /// The voxels at and around a point.
+  class Surroundings;
 
+  /// A map point of the half that is being inserted into.
+  struct Place {
+    std::int32_t voxel = kNone;  ///< index
+    int point = 0;
+  };
   struct Search;
 
-  void insert(const Eigen::Vector3f& point, std::size_t half, const Eigen::Matrix3f& covariance);
+  void insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& covariance);
   void end_insertion();
-  void insert(const Eigen::Vector3f& point, Half& half) const;
+  Place nearest_within_spacing(const Eigen::Vector3f& point);
+  static std::size_t place_of(int dx, int dy, int dz);
+  void link(Voxel& voxel);
+  void merge(const Eigen::Vector3f& point, const Place& into, const Eigen::Matrix3f& covariance);
+  void add(const Eigen::Vector3f& point, std::uint8_t merged, const Eigen::Matrix3f& covariance);
 
   float inverse_size_;
   float size_;

@@ -37,6 +37,13 @@ class VoxelStore {
     return at == VoxelHash::kNone ? nullptr : &voxels_[at];
   }
 
+  /// Index of the voxel of `key`, VoxelHash::kNone if it is missing. Dropping voxels changes it.
+  std::int32_t index_of(std::uint64_t key) const { return index_.find(key); }
+  Voxel& operator[](std::int32_t index) { return voxels_[static_cast<std::size_t>(index)]; }
+  const Voxel& operator[](std::int32_t index) const {
+    return voxels_[static_cast<std::size_t>(index)];
+  }
+
   /// Calls `visit` with each voxel touched by this insertion.
   template <class Visit>
   void visit_touched(const Visit& visit) {
@@ -44,15 +51,16 @@ class VoxelStore {
   }
 
   /// With more than `max_count` voxels, drops those with the largest `squared_distance`, a tenth of
-  /// `max_count` at once, so that dropping stays rare.
+  /// `max_count` at once, so that dropping stays rare. Returns whether it dropped any.
   template <class Distance>
-  void limit(std::size_t max_count, const Distance& squared_distance) {
-    if (voxels_.size() <= max_count) return;
+  bool limit(std::size_t max_count, const Distance& squared_distance) {
+    if (voxels_.size() <= max_count) return false;
     std::vector<decltype(squared_distance(voxels_.front()))> distances(voxels_.size());
     std::transform(voxels_.begin(), voxels_.end(), distances.begin(), squared_distance);
     const auto last = distances.begin() + static_cast<std::ptrdiff_t>(max_count - max_count / 10);
     std::nth_element(distances.begin(), last, distances.end());
     drop_if([&, farthest = *last](const Voxel& v) { return squared_distance(v) >= farthest; });
+    return true;
   }
 
   /// Memory held [bytes].
@@ -60,6 +68,8 @@ class VoxelStore {
 
   std::size_t size() const { return voxels_.size(); }
   bool empty() const { return voxels_.empty(); }
+  auto begin() { return voxels_.begin(); }
+  auto end() { return voxels_.end(); }
   auto begin() const { return voxels_.begin(); }
   auto end() const { return voxels_.end(); }
 

@@ -19,7 +19,8 @@ TEST(Deskew, RestoresAStaticPointFromAMovingSensor) {
   start.velocity = {0.7, 0.1, -0.2};
   const NominalState middle = propagate_state(start, segments[0], 0.04, kGravity);
   const NominalState end = propagate_state(middle, segments[1], 0.06, kGravity);
-  const ScanMotion motion(end, segments, kT_body_lidar, kGravity);
+  ScanMotion motion;
+  motion.assign(end, segments, kT_body_lidar, kGravity);
 
   const Eigen::Vector3d p_odom(12.0, -3.0, 1.0);
   for (int ms = 0; ms <= 100; ms += 5) {
@@ -37,14 +38,16 @@ TEST(Deskew, RestoresAStaticPointFromAMovingSensor) {
 TEST(Deskew, ClampsTimesOutsideTheScan) {
   const std::vector<InertialSegment> segments = {
       {0, 100 * kMillisecond, {0.0, 0.0, 1.0}, {0.0, 0.0, kGravity}, true}};
-  const ScanMotion motion(NominalState{}, segments, Pose{}, kGravity);
+  ScanMotion motion;
+  motion.assign(NominalState{}, segments, Pose{}, kGravity);
   const Eigen::Vector3f p(5.0F, 0.0F, 0.0F);
   EXPECT_LT((motion.deskew(p, kSecond) - p).norm(), 1e-6F);
   EXPECT_LT((motion.deskew(p, -kSecond) - motion.deskew(p, 0)).norm(), 1e-6F);
 }
 
 TEST(Deskew, WorksWithoutSegments) {
-  const ScanMotion motion(NominalState{}, {}, Pose{}, kGravity);
+  ScanMotion motion;
+  motion.assign(NominalState{}, {}, Pose{}, kGravity);
   const Eigen::Vector3f p(5.0F, 1.0F, 2.0F);
   EXPECT_LT((motion.deskew(p, 17) - p).norm(), 1e-6F);
 }

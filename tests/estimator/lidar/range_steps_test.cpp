@@ -53,11 +53,19 @@ ProfileScan scan_of(const Profile& profile, double noise, int rings, RandomStrea
   return result;
 }
 
-int marked(const RangeSteps& steps, const LidarScan& scan) {
-  int count = 0;
-  for (std::size_t i = 0; i < scan.points.size(); ++i) count += steps.mixed(i) ? 1 : 0;
-  return count;
-}
+/// What is marked of a scan.
+struct Marks {
+  explicit Marks(const LidarScan& scan) : mixed(scan.points.size(), false) {
+    RangeSteps steps;
+    steps.mark(scan);
+    for (std::size_t i = 0; i < scan.points.size(); ++i) mixed[i] = steps.mixed(i);
+    range_noise = steps.range_noise();
+  }
+  auto count() const { return std::ranges::count(mixed, true); }
+
+  std::vector<bool> mixed;  ///< by the index of the return
+  double range_noise = 0.0;
+};
 
 // The far side of a recess meets its back and the wall at corners. It constrains the direction of
 // the corridor and has to stay.
@@ -68,9 +76,8 @@ TEST(RangeSteps, LeavesCornersAlone) {
   };
   for (const double noise : {0.0, 0.005, 0.02}) {
     const ProfileScan seen = scan_of(room, noise, 16, random);
-    RangeSteps steps;
-    steps.mark(seen.scan);
-    EXPECT_LE(marked(steps, seen.scan), 2) << "noise " << noise;
+    const Marks marks(seen.scan);
+    EXPECT_LE(marks.count(), 2) << "noise " << noise;
   }
 }
 
@@ -78,9 +85,8 @@ TEST(RangeSteps, MeasuresTheRangeNoiseOfTheScan) {
   RandomStream random(3, "range_steps.test");
   for (const double noise : {0.005, 0.02, 0.1}) {
     const ProfileScan seen = scan_of(wall_with_recess(0.3), noise, 16, random);
-    RangeSteps steps;
-    steps.mark(seen.scan);
-    EXPECT_NEAR(steps.range_noise(), noise, 0.1 * noise);
+    const Marks marks(seen.scan);
+    EXPECT_NEAR(marks.range_noise, noise, 0.1 * noise);
   }
 }
 
@@ -88,24 +94,22 @@ TEST(RangeSteps, TakesNoiseForNoStep) {
   RandomStream random(4, "range_steps.test");
   for (const double noise : {0.005, 0.02, 0.1}) {
     const ProfileScan seen = scan_of(wall_with_recess(0.0), noise, 16, random);
-    RangeSteps steps;
-    steps.mark(seen.scan);
-    EXPECT_LE(marked(steps, seen.scan), 6) << "noise " << noise;
+    const Marks marks(seen.scan);
+    EXPECT_LE(marks.count(), 6) << "noise " << noise;
   }
 }
 
 TEST(RangeSteps, ASharpEdgeMixesAtMostOneReturnOfARing) {
   RandomStream random(1, "range_steps.test");
   const ProfileScan seen = scan_of(wall_with_recess(0.3), 0.01, 16, random);
-  RangeSteps steps;
-  steps.mark(seen.scan);
+  const Marks marks(seen.scan);
   const double edge = std::atan2(kWall, 3.0);  // the wall ends 3 m ahead
   int elsewhere = 0;
   for (std::size_t i = 0; i < seen.azimuth.size(); ++i) {
-    if (steps.mixed(i) && std::abs(seen.azimuth[i] - edge) > 1.01 * kStep) ++elsewhere;
+    if (marks.mixed[i] && std::abs(seen.azimuth[i] - edge) > 1.01 * kStep) ++elsewhere;
   }
   EXPECT_LE(elsewhere, 2) << "noise, of 14000 returns";
-  EXPECT_LE(marked(steps, seen.scan), 2 * 16 + 2);
+  EXPECT_LE(marks.count(), 2 * 16 + 2);
 }
 
 TEST(RangeSteps, MarksTheReturnBetweenBothSurfaces) {
@@ -117,12 +121,11 @@ TEST(RangeSteps, MarksTheReturnBetweenBothSurfaces) {
     return 0.5 * (sharp(azimuth - kStep) + sharp(azimuth + kStep));
   };
   const ProfileScan seen = scan_of(mixed, 0.005, 16, random);
-  RangeSteps steps;
-  steps.mark(seen.scan);
+  const Marks marks(seen.scan);
   int between = 0;
   for (std::size_t i = 0; i < seen.azimuth.size(); ++i) {
     if (std::abs(seen.azimuth[i] - edge) > 0.5 * kStep) continue;
-    EXPECT_TRUE(steps.mixed(i));
+    EXPECT_TRUE(marks.mixed[i]);
     ++between;
   }
   EXPECT_EQ(between, 16);
@@ -138,9 +141,8 @@ TEST(RangeSteps, AGapIsNoStep) {
       without.points.push_back(seen.scan.points[i]);
     }
   }
-  RangeSteps steps;
-  steps.mark(without);
-  EXPECT_EQ(marked(steps, without), 0);
+  const Marks marks(without);
+  EXPECT_EQ(marks.count(), 0);
 }
 
 // A LiDAR whose returns carry no ring: neighbours in time look in different directions.
@@ -152,9 +154,8 @@ TEST(RangeSteps, WithoutRingsHardlyAnythingIsMarked) {
     const double range = 1.1 / std::max(std::abs(direction.y()), 0.05);
     scan.points.push_back({(range * direction).cast<float>(), 0.5F, 5000 * i, 0});
   }
-  RangeSteps steps;
-  steps.mark(scan);
-  EXPECT_LT(marked(steps, scan), 200);
+  const Marks marks(scan);
+  EXPECT_LT(marks.count(), 200);
 }
 
 TEST(RangeSteps, IgnoresReturnsThatAreNotFinite) {
@@ -165,13 +166,12 @@ TEST(RangeSteps, IgnoresReturnsThatAreNotFinite) {
   for (std::size_t i = 20; i < 60; ++i) {
     seen.scan.points[i].position.setConstant(std::numeric_limits<float>::infinity());
   }
-  RangeSteps steps;
-  steps.mark(seen.scan);
-  EXPECT_FALSE(steps.mixed(100));
-  EXPECT_FALSE(steps.mixed(200));
-  EXPECT_FALSE(steps.mixed(40));
-  EXPECT_NEAR(steps.range_noise(), 0.01, 0.002);
-  EXPECT_GT(marked(steps, seen.scan), 0);
+  const Marks marks(seen.scan);
+  EXPECT_FALSE(marks.mixed[100]);
+  EXPECT_FALSE(marks.mixed[200]);
+  EXPECT_FALSE(marks.mixed[40]);
+  EXPECT_NEAR(marks.range_noise, 0.01, 0.002);
+  EXPECT_GT(marks.count(), 0);
 }
 
 }  // namespace

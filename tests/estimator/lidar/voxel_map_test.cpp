@@ -141,6 +141,34 @@ TEST(VoxelMap, MergesNearbyReturns) {
   EXPECT_NEAR(map.points()[0].z(), 0.25F, 0.015F);
 }
 
+// A wall along the border of voxels, with returns on either side of it by their noise: one layer of
+// points on the wall. With voxels that know nothing of each other there were two, 2 cm apart.
+TEST(VoxelMap, AWallAlongABorderOfVoxelsIsOneLayer) {
+  RandomStream random(6, "voxel_map_test");
+  for (const double wall : {0.49, 0.5, 0.505}) {
+    VoxelMap map(MapConfig{});
+    for (int scan = 0; scan < 80; ++scan) {
+      Points points;
+      for (int i = 0; i < 200; ++i) {
+        const Eigen::Vector3d p(random.uniform(0.0, 2.0), wall + 0.01 * random.normal(),
+                                random.uniform(0.0, 1.0));
+        points.push_back(p.cast<float>());
+      }
+      map.insert(points, Eigen::Vector3f::Zero());
+    }
+    double sum = 0.0;
+    double largest = 0.0;
+    const Points points = map.points();
+    for (const Eigen::Vector3f& p : points) {
+      sum += p.y();
+      largest = std::max(largest, std::abs(p.y() - wall));
+    }
+    EXPECT_NEAR(sum / static_cast<double>(points.size()), wall, 0.0015) << wall;
+    EXPECT_LT(largest, 0.015) << wall;
+    EXPECT_LT(points.size(), 2U * 120U) << "per half: 2 m^2 at a spacing of 15 cm";
+  }
+}
+
 TEST(VoxelMap, PointsPerVoxelAreBounded) {
   MapConfig config;
   config.point_spacing = 0.0;
