@@ -147,8 +147,8 @@ void MovingReturns::compare(const PointBlocks& points, Time stamp, const Pose& T
   for (const Reference& each : references_) {
     const PointBlocks& earlier = each.past->image.nearest();
     for (std::size_t i = 0; i < earlier.block_count(); ++i) {
-      const FourPoints points = each.to_now(earlier.block(i));
-      went_.vote(points, now_.image.passed(points, kMargin));
+      const FourPoints seen_then = each.to_now(earlier.block(i));
+      went_.vote(seen_then, now_.image.passed(seen_then, kMargin));
     }
   }
   came_.mark_around(kReachOfCame, marks_);

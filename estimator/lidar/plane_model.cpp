@@ -28,9 +28,9 @@ constexpr double kNewtonTolerance = 1e-12;
 using Both = double __attribute__((vector_size(16)));
 static_assert(sizeof(Both) == kHalves * sizeof(double));
 
-Both larger(Both a, Both b) { return a > b ? a : b; }
+Both larger_of_each(Both a, Both b) { return a > b ? a : b; }
 
-Both square_root(Both a) {
+Both root_of_each(Both a) {
 #ifdef __SSE2__
   return _mm_sqrt_pd(a);
 #else
@@ -107,12 +107,12 @@ SmallestEigenpair smallest_eigenpair(const SymmetricBoth& A) {
   // The other two from their sum and product.
   const Both half_sum = 0.5 * (trace - pair.value);
   const Both product = minors - pair.value * (trace - pair.value);
-  pair.second = half_sum - square_root(larger(half_sum * half_sum - product, Both{}));
+  pair.second = half_sum - root_of_each(larger_of_each(half_sum * half_sum - product, Both{}));
   const Vector3Both a{A.xx - pair.value, A.xy, A.xz};
   const Vector3Both b{A.xy, A.yy - pair.value, A.yz};
   const Vector3Both c{A.xz, A.yz, A.zz - pair.value};
   const Vector3Both normal = longer(longer(a.cross(b), b.cross(c)), c.cross(a));
-  pair.vector = normal.times(1.0 / square_root(normal.dot(normal)));
+  pair.vector = normal.times(1.0 / root_of_each(normal.dot(normal)));
   return pair;
 }
 
@@ -162,7 +162,7 @@ PlanePair fit_planes(const std::array<PlanePoints, kHalves>& points, const Eigen
   Both thickness{};
   for (const Vector3Both& p : at) {
     const Both distance = smallest.vector.dot(p.minus(mean));
-    thickness = larger(thickness, larger(distance, -distance));
+    thickness = larger_of_each(thickness, larger_of_each(distance, -distance));
   }
   const auto plane = [&](std::size_t half) {
     const auto number = [half](Both both) { return both[half]; };
