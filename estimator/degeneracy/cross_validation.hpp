@@ -34,8 +34,8 @@ struct PoseInformation {
 /// Planes that tilt towards a direction by less than this, root mean square over all returns, leave
 /// it free [rad]. That much has nothing to do with the noise of the map: both halves are mapped
 /// from poses with errors in common, and the planes around an edge tilt as the rings lie. Measured
-/// where nothing constrains a corridor: 2 mrad, 3 mrad in one scan of ten; with recesses of 5 cm
-/// every 8 m: 9 to 11 mrad (docs/estimators.md).
+/// where nothing constrains a corridor: 1 mrad, 3.6 mrad in one scan of ten; with recesses of 5 cm
+/// every 8 m: 16 mrad (docs/estimators.md).
 inline constexpr double kFreeTilt = 0.006;
 
 /// The information of scans without the part that comes from the noise of the plane normals

@@ -44,33 +44,39 @@ void RangeSteps::mark(const LidarScan& scan) {
 
 /// Sorts the returns by ring, in order of firing within each.
 void RangeSteps::sort(const LidarScan& scan) {
-  while (!try_sort(scan)) {
-    for (std::size_t ring = 0; ring < rings_.size(); ++ring) {
-      rings_[ring].begin = ring * (capacity_ + kMargin);
-    }
-    const std::size_t size = rings_.size() * (capacity_ + kMargin);
-    inverse_ranges_.resize(size);
-    times_.resize(size);
-    indices_.resize(size);
-  }
+  if (try_sort(scan)) return;
+  make_room(scan);
+  try_sort(scan);
 }
 
-/// False when there was no room: `rings_` and `capacity_` have grown then.
+/// Room for the returns of each ring of `scan`, and some more: later scans have as many or few.
+void RangeSteps::make_room(const LidarScan& scan) {
+  for (Ring& ring : rings_) ring.count = 0;
+  for (const LidarPoint& point : scan.points) {
+    if (point.ring >= rings_.size()) rings_.resize(point.ring + 1U);
+    ++rings_[point.ring].count;
+  }
+  std::size_t end = 0;
+  for (Ring& ring : rings_) {
+    ring.begin = end;
+    ring.room = std::max(ring.room, ring.count + ring.count / 4);
+    end += ring.room + kMargin;
+  }
+  inverse_ranges_.resize(end);
+  times_.resize(end);
+  indices_.resize(end);
+}
+
+/// False when there is no room.
 bool RangeSteps::try_sort(const LidarScan& scan) {
   for (Ring& ring : rings_) ring.count = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const LidarPoint& point = scan.points[i];
     const float squared = point.position.squaredNorm();
     if (!(squared > 0.0F) || !std::isfinite(squared)) continue;
-    if (point.ring >= rings_.size()) {
-      rings_.resize(point.ring + 1U);
-      return false;
-    }
+    if (point.ring >= rings_.size()) return false;
     Ring& ring = rings_[point.ring];
-    if (ring.count == capacity_) {
-      capacity_ = 2 * capacity_ + 64;
-      return false;
-    }
+    if (ring.count == ring.room) return false;
     const std::size_t at = ring.begin + ring.count++;
     inverse_ranges_[at] = squared;  // inverted by measure()
     times_[at] = point.time_offset_ns;

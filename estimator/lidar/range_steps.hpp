@@ -38,10 +38,12 @@ class RangeSteps {
   struct Ring {
     std::size_t begin = 0;
     std::size_t count = 0;
+    std::size_t room = 0;       ///< firings that the lists have room for
     std::int32_t interval = 0;  ///< shortest between two firings [ns]
   };
 
   void sort(const LidarScan& scan);
+  void make_room(const LidarScan& scan);
   bool try_sort(const LidarScan& scan);
   void measure(Ring& ring);
   Float4 slope(std::size_t k) const;
@@ -53,7 +55,6 @@ class RangeSteps {
 
   std::vector<char> mixed_;
   std::vector<Ring> rings_;
-  std::size_t capacity_ = 0;           ///< firings of a ring that the lists have room for
   std::vector<float> inverse_ranges_;  ///< [1/m]
   std::vector<std::int32_t> times_;    ///< after the scan's stamp [ns]
   std::vector<std::int32_t> indices_;  ///< into the scan

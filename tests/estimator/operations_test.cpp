@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/random.hpp"
+#include "estimator/lidar/range_steps.hpp"
 #include "estimator/lidar/scan_selection.hpp"
 #include "estimator/lidar/voxel_map.hpp"
 #include "estimator/registry.hpp"
@@ -13,10 +14,12 @@
 
 namespace {
 thread_local long allocation_count = 0;
+thread_local std::size_t allocated_bytes = 0;
 }  // namespace
 
 void* operator new(std::size_t size) {
   ++allocation_count;
+  allocated_bytes += size;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
@@ -64,6 +67,19 @@ TEST(Operations, AScanAllocatesHardlyAnything) {
   }
 }
 
+// Room for the returns of each ring, not for the densest ring in every one that a number can name.
+TEST(Operations, AStrayRingTakesLittleMemory) {
+  LidarScan scan;
+  for (int i = 0; i < 28800; ++i) {
+    scan.points.push_back({{5.0F, 1.0F, 0.0F}, 0.5F, 3000 * i, static_cast<std::uint16_t>(i % 4)});
+  }
+  scan.points[14400].ring = 65535;
+  RangeSteps steps;
+  const std::size_t before = allocated_bytes;
+  steps.mark(scan);
+  EXPECT_LT(allocated_bytes - before, 20e6);
+}
+
 TEST(Operations, ASearchTakesFewOfThe27Voxels) {
   SensorRig rig;
   VoxelMap map{MapConfig{}};
@@ -78,7 +94,9 @@ TEST(Operations, ASearchTakesFewOfThe27Voxels) {
     selection.begin(**scan);
     selection.select(0.1, 12000, kept);
     points.clear();
-    for (const int i : kept) points.push_back((*scan)->points[static_cast<std::size_t>(i)].position);
+    for (const int i : kept) {
+      points.push_back((*scan)->points[static_cast<std::size_t>(i)].position);
+    }
     map.insert(points, Eigen::Vector3f::Zero());
   }
   double voxels = 0.0;
