@@ -305,7 +305,7 @@ void EskfEstimator::leave_out_moving() {
 }
 
 void EskfEstimator::fuse_ground_constraint() {
-  const auto plane = fit_ground(insert_points_);
+  const auto plane = fit_ground(insert_points_, ground_lists_);
   const Belief above_ground = with_map_error(belief_, lidar_update_.map_covariance());
   const auto measurement = ground_.measure(above_ground, plane);
   if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];

@@ -69,6 +69,7 @@ class EskfEstimator : public Estimator {
   LegFreePrediction leg_free_;
   VoxelMap map_;
   GroundConstraint ground_;
+  GroundLists ground_lists_;
   LegNoiseModel leg_noise_;
   ZeroVelocityDetector zero_velocity_;
   HealthMonitor health_;

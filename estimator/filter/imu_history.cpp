@@ -121,7 +121,9 @@ std::optional<Time> ImuHistory::newest() const {
 }
 
 void ImuHistory::forget_before(Time stamp) {
-  while (samples_.size() > kBridgeSamples && time_of(samples_[1]) < stamp) samples_.pop_front();
+  std::size_t old = 0;
+  while (samples_.size() > old + kBridgeSamples && time_of(samples_[old + 1]) < stamp) ++old;
+  samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(old));
 }
 
 }  // namespace aims

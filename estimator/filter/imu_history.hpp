@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -48,7 +47,7 @@ class ImuHistory {
   void forget_before(Time stamp);
 
   /// With their own stamps.
-  const std::deque<ImuSample>& samples() const { return samples_; }
+  const std::vector<ImuSample>& samples() const { return samples_; }
 
  private:
   InertialSegment measured_segment(std::size_t index) const;
@@ -60,7 +59,7 @@ class ImuHistory {
   Duration delay_ = 0;
   ImuNoise noise_;
   std::optional<Time> last_observed_;  ///< stamp of the newest sample in `noise_`
-  std::deque<ImuSample> samples_;
+  std::vector<ImuSample> samples_;
 };
 
 }  // namespace aims

@@ -49,7 +49,7 @@ double variance_of(double sigma) { return sigma * sigma; }
 /// Deviation per axis of a signal's white part, from the median square of its second differences,
 /// 6 s^2 times a chi-square variable of 3 dof: a push or a step leaves the median as it is.
 template <class Signal>
-double white_deviation(const std::deque<ImuSample>& samples, Signal&& signal) {
+double white_deviation(std::span<const ImuSample> samples, Signal&& signal) {
   if (samples.size() < 3) return 0.0;
   std::vector<double> squares;
   for (std::size_t i = 2; i < samples.size(); ++i) {
@@ -63,7 +63,7 @@ double white_deviation(const std::deque<ImuSample>& samples, Signal&& signal) {
 }
 
 /// White noise of the samples: what they show while nothing moves.
-WhiteDeviation sample_noise(const std::deque<ImuSample>& samples) {
+WhiteDeviation sample_noise(std::span<const ImuSample> samples) {
   return {white_deviation(samples,
                           [](const ImuSample& s) -> Eigen::Vector3d { return s.angular_velocity; }),
           white_deviation(samples,
@@ -90,7 +90,7 @@ bool is_still(const ImuSample& sample, double gravity) {
 
 /// Means from `settling_time` [s] after the first sample to the end of the standing start or the
 /// first motion.
-StaticInterval average_start(const std::deque<ImuSample>& samples, double settling_time,
+StaticInterval average_start(std::span<const ImuSample> samples, double settling_time,
                              const InitializationConfig& config, double gravity) {
   StaticInterval interval;
   const Time first = samples.front().stamp;
@@ -113,7 +113,7 @@ StaticInterval average_start(const std::deque<ImuSample>& samples, double settli
 
 /// The interval from sample `begin` on in which each sample stays close to the mean of those before
 /// it and none shows motion.
-StaticInterval static_interval_from(const std::deque<ImuSample>& samples, std::size_t begin,
+StaticInterval static_interval_from(std::span<const ImuSample> samples, std::size_t begin,
                                     const WhiteDeviation& noise, double gravity) {
   const double max_rate_deviation = kMaxRateDeviation + kLargestNoise * noise.rate;
   const double max_force_deviation = kMaxForceDeviation + kLargestNoise * noise.force;
@@ -142,7 +142,7 @@ struct LongestInterval {
 };
 
 /// The longest static interval; of equally long ones the last, since the robot settles with time.
-LongestInterval longest_static_interval(const std::deque<ImuSample>& samples,
+LongestInterval longest_static_interval(std::span<const ImuSample> samples,
                                         const WhiteDeviation& noise, double gravity) {
   LongestInterval longest;
   for (std::size_t begin = 0; begin < samples.size(); ++begin) {
@@ -156,7 +156,7 @@ LongestInterval longest_static_interval(const std::deque<ImuSample>& samples,
 }
 
 /// Mean specific force of all samples [m/s^2]; the accelerations of a gait average out.
-Eigen::Vector3d mean_force(const std::deque<ImuSample>& samples) {
+Eigen::Vector3d mean_force(std::span<const ImuSample> samples) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const ImuSample& sample : samples) sum += sample.specific_force;
   return sum / static_cast<double>(samples.size());
@@ -207,7 +207,7 @@ ErrorMatrix initial_covariance(const InitializationConfig& config, double sigma_
 
 /// The belief at the end of `interval`, or at the newest sample when it is too short for a tilt.
 /// The mean rate is the gyro bias only with `gyro_bias_measured`: otherwise the body may sway.
-InitialBelief begin_with(const std::deque<ImuSample>& samples, const StaticInterval& interval,
+InitialBelief begin_with(std::span<const ImuSample> samples, const StaticInterval& interval,
                          bool enough, bool gyro_bias_measured, const WhiteDeviation& noise,
                          InitializationConfig config, double gravity) {
   // The mean of white noise adds to the errors of the means.
@@ -244,7 +244,7 @@ void describe(Fields& f, StaticInitializationConfig& c) {
          {"", any(), "initialize from the longest undisturbed interval of the start"});
 }
 
-std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
+std::optional<InitialBelief> initialize(std::span<const ImuSample> samples,
                                         const InitializationConfig& config, double gravity) {
   if (samples.empty()) return std::nullopt;
   StaticInterval start = average_start(samples, kSettling * config.duration, config, gravity);
@@ -255,7 +255,7 @@ std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
   return begin_with(samples, start, enough, enough, sample_noise(samples), config, gravity);
 }
 
-std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samples,
+std::optional<InitialBelief> initialize_static(std::span<const ImuSample> samples,
                                                const InitializationConfig& config, double gravity) {
   if (samples.empty()) return std::nullopt;
   const Duration span = samples.back().stamp - samples.front().stamp;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <deque>
 #include <optional>
+#include <span>
 
 #include "core/config.hpp"
 #include "core/measurements.hpp"
@@ -44,13 +44,13 @@ struct InitialBelief {
 /// correlated. The odometry frame is the start pose with yaw 0 and roll and pitch relative to
 /// gravity. A robot that moves from the first sample on starts at the newest one, with the tilt of
 /// its mean specific force and an unknown velocity. Empty while more samples are needed.
-std::optional<InitialBelief> initialize(const std::deque<ImuSample>& samples,
+std::optional<InitialBelief> initialize(std::span<const ImuSample> samples,
                                         const InitializationConfig& config, double gravity);
 
 /// The same for a start that may be disturbed: averages the longest interval whose samples stay
 /// close to their own mean, in direction as well as magnitude, so that a lateral push is not taken
 /// as tilt. The start ends at the first disturbance after the settling time.
-std::optional<InitialBelief> initialize_static(const std::deque<ImuSample>& samples,
+std::optional<InitialBelief> initialize_static(std::span<const ImuSample> samples,
                                                const InitializationConfig& config, double gravity);
 
 }  // namespace aims

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace aims {
 namespace {
@@ -54,9 +53,9 @@ struct HeightFit {
 /// furniture and legs.
 class Columns {
  public:
-  explicit Columns(std::span<const Eigen::Vector3f> points)
-      : cells_(static_cast<int>(std::ceil(2.0 * kGroundRadius / kCell))),
-        tops_(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_), -kHigh) {
+  Columns(std::span<const Eigen::Vector3f> points, std::vector<double>& tops)
+      : cells_(static_cast<int>(std::ceil(2.0 * kGroundRadius / kCell))), tops_(tops) {
+    tops_.assign(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_), -kHigh);
     for (const Eigen::Vector3f& point : points) {
       const double z = point.z();
       if (!(point.head<2>().norm() < kGroundRadius) || !(z < kHigh)) continue;
@@ -81,14 +80,13 @@ class Columns {
   }
 
   int cells_;
-  std::vector<double> tops_;  ///< [m]
+  std::vector<double>& tops_;  ///< [m]
 };
 
 /// Candidate ground points: near enough, below the body, and with nothing on them.
-std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points) {
-  const Columns columns(points);
-  std::vector<Eigen::Vector3d> kept;
-  kept.reserve(points.size());
+void list_candidates(std::span<const Eigen::Vector3f> points, GroundLists& lists) {
+  const Columns columns(points, lists.tops);
+  lists.candidates.clear();
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3d p = point.cast<double>();
     const double away = p.head<2>().norm();
@@ -96,9 +94,8 @@ std::vector<Eigen::Vector3d> below(std::span<const Eigen::Vector3f> points) {
     if (!(away < kGroundRadius) || p.z() > tilted - kMinHeight || p.z() < -tilted - kMaxHeight) {
       continue;
     }
-    if (columns.is_free(p)) kept.push_back(p);
+    if (columns.is_free(p)) lists.candidates.push_back(p);
   }
-  return kept;
 }
 
 /// The lowest well-filled height [m] of the points within half the radius.
@@ -156,13 +153,12 @@ int part_of(const Eigen::Vector3d& p, double radius) {
 }
 
 /// Largest median height of a part over the plane [m].
-double bend_of(const std::vector<Eigen::Vector3d>& points, const HeightFit& fit, double radius) {
+double bend_of(GroundLists& lists, const HeightFit& fit, double radius) {
   double largest = 0.0;
-  std::vector<double> heights;
-  heights.reserve(points.size());
+  std::vector<double>& heights = lists.heights;
   for (int part = 0; part < kParts; ++part) {
     heights.clear();
-    for (const Eigen::Vector3d& p : points) {
+    for (const Eigen::Vector3d& p : lists.candidates) {
       const double height = fit.height_over(p);
       if (std::abs(height) <= kBendReach && part_of(p, radius) == part) heights.push_back(height);
     }
@@ -201,8 +197,9 @@ void describe(Fields& f, GroundConstraintConfig& c) {
   f.number("sigma_slope", c.sigma_slope, {"rad", positive_up_to(10.0), "slope of ramps, 1 sigma"});
 }
 
-std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points) {
-  const std::vector<Eigen::Vector3d> candidates = below(points);
+std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points, GroundLists& lists) {
+  list_candidates(points, lists);
+  const std::vector<Eigen::Vector3d>& candidates = lists.candidates;
   if (candidates.size() < static_cast<std::size_t>(kMinPoints)) return std::nullopt;
   const std::optional<double> mode = lowest_mode(candidates);
   if (!mode) return std::nullopt;
@@ -216,7 +213,7 @@ std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points) {
   GroundPlane plane = plane_of(fit);
   if (!plane.normal.allFinite() || !(plane.residual <= kMaxResidual)) return std::nullopt;
   if (plane.height < kMinHeight || plane.height > kMaxHeight) return std::nullopt;
-  plane.bend = bend_of(candidates, fit, kGroundRadius);
+  plane.bend = bend_of(lists, fit, kGroundRadius);
   return plane;
 }
 

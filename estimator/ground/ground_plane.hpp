@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/config.hpp"
 
@@ -45,10 +46,18 @@ struct GroundPlane {
   Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
 };
 
+/// Memory of fit_ground(), which keeps it from scan to scan.
+struct GroundLists {
+  std::vector<double> tops;                 ///< highest point of each column around the robot [m]
+  std::vector<Eigen::Vector3d> candidates;  ///< points that may lie on the ground [m]
+  std::vector<double> heights;              ///< of a part of the ground over the plane [m]
+};
+
 /// The lowest wide plane below a robot that stands roughly upright: a mode of the point heights
 /// near the robot, then least squares within a band that shrinks to 4 cm. Empty when the inliers
 /// are few, badly spread or scattered, or the height is that of no legged robot. Deterministic.
-/// `points` are deskewed returns in body axes at the scan's end [m].
-std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points);
+/// `points` are deskewed returns in body axes at the scan's end [m]; what `lists` hold before has
+/// no effect.
+std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points, GroundLists& lists);
 
 }  // namespace aims

@@ -36,7 +36,7 @@ void describe(Fields& f, ZeroVelocityConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "zero-velocity update while the robot stands still"});
 }
 
-std::optional<ImuStatistics> imu_statistics(const std::deque<ImuSample>& samples, Time end,
+std::optional<ImuStatistics> imu_statistics(std::span<const ImuSample> samples, Time end,
                                             Duration window) {
   ImuStatistics statistics;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
@@ -107,7 +107,7 @@ bool ZeroVelocityDetector::imu_still(const Eigen::Vector3d& gyro_bias, double fa
          (statistics_->rate - gyro_bias).norm() <= max_rate;
 }
 
-bool ZeroVelocityDetector::update(const LegOdometrySample& legs, const std::deque<ImuSample>& imu,
+bool ZeroVelocityDetector::update(const LegOdometrySample& legs, std::span<const ImuSample> imu,
                                   const Eigen::Vector3d& gyro_bias, const WhiteDeviation& white) {
   const double factor = standing_ ? kHysteresis : 1.0;
   if (!quiet_) quiet_ = white;

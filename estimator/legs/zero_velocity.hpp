@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <deque>
 #include <optional>
+#include <span>
 
 #include "core/config.hpp"
 #include "core/measurements.hpp"
@@ -33,7 +33,7 @@ struct ImuStatistics {
 };
 
 /// Statistics of the samples in (end - window, end]; empty when they do not cover it.
-std::optional<ImuStatistics> imu_statistics(const std::deque<ImuSample>& samples, Time end,
+std::optional<ImuStatistics> imu_statistics(std::span<const ImuSample> samples, Time end,
                                             Duration window);
 
 /// Zero velocity of the body: the residual is its velocity in body axes [m/s].
@@ -49,7 +49,7 @@ class ZeroVelocityDetector {
   /// Adds a leg sample, with the IMU samples up to it; `gyro_bias` is the current estimate [rad/s],
   /// `white` the deviation of one IMU sample, whose least so far is what a standing robot shows.
   /// True while the robot stands.
-  bool update(const LegOdometrySample& legs, const std::deque<ImuSample>& imu,
+  bool update(const LegOdometrySample& legs, std::span<const ImuSample> imu,
               const Eigen::Vector3d& gyro_bias, const WhiteDeviation& white = {});
 
   /// The IMU statistics if a measurement is due: one per window, since neighbouring samples share

@@ -170,7 +170,7 @@ void MovingReturns::keep(const Pose& T_odom_body) {
   past_.push_back(std::move(now_));
   if (past_.back().stamp - past_.front().stamp > kAges.back() + kMaxOlder) {
     now_ = std::move(past_.front());
-    past_.pop_front();
+    past_.erase(past_.begin());
   } else {
     now_ = Past();
   }

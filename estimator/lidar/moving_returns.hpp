@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include "core/lie.hpp"
@@ -85,7 +84,7 @@ class MovingReturns {
   bool confirmed(const Eigen::Vector3f& point) const;
 
   Eigen::Vector3d lever_;
-  std::deque<Past> past_;  ///< oldest first
+  std::vector<Past> past_;  ///< oldest first
   Past now_;
   std::vector<Reference> references_;
   PointBlocks from_lidar_;

@@ -59,11 +59,10 @@ double allocations_per_scan(const char* name) {
   return static_cast<double>(total) / scans;
 }
 
-// One row of diagnostics, the knots of the motion within the scan, three lists of the ground fit,
-// and what the growth of the recorded results and of the history of the IMU takes.
-TEST(Operations, AScanAllocatesHardlyAnything) {
+// The row of diagnostics is part of the result; the rest is the growth of lists of the results.
+TEST(Operations, AScanAllocatesItsResultAlone) {
   for (const char* name : {"aims_d", "aims", "tfs_plus", "lio"}) {
-    EXPECT_LT(allocations_per_scan(name), 9.0) << name;
+    EXPECT_LT(allocations_per_scan(name), 1.2) << name;
   }
 }
 

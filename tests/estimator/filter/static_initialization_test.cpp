@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-std::deque<ImuSample> standing(const Eigen::Quaterniond& R_world_body, const Eigen::Vector3d& bias,
-                               int count) {
-  std::deque<ImuSample> samples;
+std::vector<ImuSample> standing(const Eigen::Quaterniond& R_world_body, const Eigen::Vector3d& bias,
+                                int count) {
+  std::vector<ImuSample> samples;
   for (int i = 0; i < count; ++i) {
     samples.push_back({(i + 1) * 20 * kMillisecond, bias,
                        R_world_body.conjugate() * Eigen::Vector3d(0.0, 0.0, kGravity)});
@@ -54,7 +54,7 @@ TEST(Initialization, MotionEndsTheStandingStart) {
 
 TEST(Initialization, AMovingStartTakesTiltFromTheMeanForceAndLeavesTheVelocityUnknown) {
   const Eigen::Quaterniond tilt = so3_exp({0.0, 0.06, 0.0});
-  std::deque<ImuSample> samples;
+  std::vector<ImuSample> samples;
   for (int i = 0; i < 60; ++i) {  // footfalls at 5 Hz and a swaying trunk
     const double phase = 2.0 * M_PI * i / 10.0;
     const Eigen::Vector3d footfall(1.5 * std::sin(phase), 0.5 * std::cos(phase),
@@ -74,7 +74,7 @@ TEST(Initialization, AMovingStartTakesTiltFromTheMeanForceAndLeavesTheVelocityUn
 }
 
 TEST(Initialization, MovingStartIsUncertain) {
-  std::deque<ImuSample> samples;
+  std::vector<ImuSample> samples;
   for (int i = 0; i < 60; ++i) {
     samples.push_back({i * 20 * kMillisecond, {0.0, 0.0, 1.0}, {0.0, 0.0, kGravity}});
   }
@@ -138,13 +138,13 @@ TEST(Initialization, TheCovarianceOfTiltAndBiasIsThatOfTheirErrors) {
   }
 }
 
-std::optional<InitialBelief> run_static(const std::deque<ImuSample>& samples) {
+std::optional<InitialBelief> run_static(std::span<const ImuSample> samples) {
   return initialize_static(samples, InitializationConfig{}, kGravity);
 }
 
 /// The samples with a force [m/s^2] from the side added in [begin, end) [s].
-std::deque<ImuSample> pushed(std::deque<ImuSample> samples, double begin, double end,
-                             double force) {
+std::vector<ImuSample> pushed(std::vector<ImuSample> samples, double begin, double end,
+                              double force) {
   for (ImuSample& sample : samples) {
     const double t = to_seconds(sample.stamp);
     if (t >= begin && t < end) sample.specific_force.y() += force;

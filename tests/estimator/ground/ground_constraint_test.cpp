@@ -71,7 +71,7 @@ TEST(GroundConstraint, JacobianMatchesFiniteDifferences) {
 
 /// The belief of a standing start whose mean specific force gives the attitude of `pose` (yaw 0).
 Belief start_from(const Pose& pose) {
-  std::deque<ImuSample> samples;
+  std::vector<ImuSample> samples;
   for (int i = 0; i < 110; ++i) {
     samples.push_back({(i + 1) * 20 * kMillisecond, Eigen::Vector3d::Zero(),
                        pose.rotation.conjugate() * Eigen::Vector3d(0.0, 0.0, kGravity)});
@@ -188,7 +188,8 @@ struct Sequence {
     truth = next;
     block(belief.covariance, E::kRotation, E::kRotation) += Eigen::Matrix3d::Identity() * 1e-7;
     block(belief.covariance, E::kPosition, E::kPosition) += Eigen::Matrix3d::Identity() * 1e-6;
-    auto plane = fit_ground(test::scan_ground(scene, truth, random));
+    GroundLists lists;
+    auto plane = fit_ground(test::scan_ground(scene, truth, random), lists);
     if (plane) {
       const Eigen::Vector3d error(random.normal(), random.normal(), 0.0);
       plane->normal = so3_exp(scan_noise * error) * plane->normal;

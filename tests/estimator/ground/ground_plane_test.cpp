@@ -18,7 +18,8 @@ Pose body_at(double x, double z, double pitch = 0.0, double roll = 0.0) {
 
 std::optional<GroundPlane> fit(const GroundScene& scene, const Pose& T_world_body, int seed = 1) {
   RandomStream random(static_cast<std::uint64_t>(seed), "floor");
-  return fit_ground(test::scan_ground(scene, T_world_body, random));
+  GroundLists lists;
+  return fit_ground(test::scan_ground(scene, T_world_body, random), lists);
 }
 
 /// Roll and pitch error [rad] of the normal against the vertical.
@@ -83,7 +84,8 @@ TEST(GroundPlane, IsNotFoundInAPit) {
   GroundScene scene;
   scene.height = [](double, double) { return -3.0; };
   EXPECT_FALSE(fit(scene, body_at(0.0, kHeight)).has_value());
-  EXPECT_FALSE(fit_ground({}).has_value());
+  GroundLists lists;
+  EXPECT_FALSE(fit_ground({}, lists).has_value());
 }
 
 TEST(GroundPlane, ARampAheadBendsOrTiltsIt) {

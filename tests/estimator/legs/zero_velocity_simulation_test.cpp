@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
+#include <vector>
 
 #include "estimator/legs/zero_velocity.hpp"
 #include "tests/estimator/simulated_sequence.hpp"
@@ -68,12 +68,12 @@ bool is_walking(const Truth& truth, Time stamp) {
 
 Outcome observe(const SimulatedSequence& sequence) {
   ZeroVelocityDetector detector;
-  std::deque<ImuSample> imu;
+  std::vector<ImuSample> imu;
   Outcome outcome;
   for (const Delivery& delivery : sequence.deliveries) {
     if (const auto* sample = std::get_if<ImuSample>(&delivery.measurement)) {
       imu.push_back(*sample);
-      while (imu.front().stamp < sample->stamp - kSecond) imu.pop_front();
+      std::erase_if(imu, [&](const ImuSample& s) { return s.stamp < sample->stamp - kSecond; });
     }
     const auto* legs = std::get_if<LegOdometrySample>(&delivery.measurement);
     if (legs == nullptr) continue;

@@ -30,7 +30,7 @@ struct Outcome {
 Outcome observe(const Rig& rig, double seconds = 3.0) {
   RandomStream random(7, "standstill.test");
   ZeroVelocityDetector detector;
-  std::deque<ImuSample> imu;
+  std::vector<ImuSample> imu;
   Outcome outcome;
   for (Time t = 0; t < from_seconds(seconds); t += kLegPeriod) {
     if (t % kImuPeriod == 0) {
