@@ -15,7 +15,7 @@ constexpr double kRegularization = 1e-9;
 /// Smaller shifts between scans count as standing [m].
 constexpr double kMinShift = 0.05;
 /// At the start each scan repeats the same pattern of rings, and the halves share it: real
-/// fractions below this are free, and less so over this distance.
+/// fractions below this are free, and less so over this distance, over which scans come to count.
 constexpr double kFreeAtStart = 0.8;
 constexpr double kStartDistance = 1.0;  // [m]
 /// Distance over which information is averaged: a few times the reach of the neighbours of a plane,
@@ -30,6 +30,8 @@ void describe(Fields& f, CrossValidationConfig& c) {
 }
 
 /// The first scan counts until there is a second one: all scans of a standing robot show its noise.
+/// Those after it count the more the farther the robot has come from the pattern of rings that the
+/// halves share, so that the average does not keep it.
 void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& position) {
   const bool first = !last_position_;
   const double moved = first ? 0.0 : (position - *last_position_).norm();
@@ -37,8 +39,9 @@ void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& pos
   last_position_ = position;
   distance_ += moved;
   const double kept = std::exp(-moved / kAveragingDistance);
-  weight_ = kept * weight_ + (1.0 - kept);
-  average(scan, first ? 1.0 : (1.0 - kept) / weight_);
+  const double added = (1.0 - kept) * (1.0 - std::exp(-distance_ / kStartDistance));
+  weight_ = kept * weight_ + added;
+  average(scan, first ? 1.0 : added / weight_);
   update_fraction();
 }
 

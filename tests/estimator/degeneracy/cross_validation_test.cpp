@@ -120,6 +120,20 @@ TEST(RealFraction, AStandingRobotDoesNotBecomeConfident) {
   }
 }
 
+// What the halves have in common near the start, where each scan repeats the pattern of rings that
+// is mapped, says nothing about the corridor, and must not stay in the average beyond the start.
+TEST(RealFraction, ThePatternOfTheStartConstrainsNothing) {
+  RealFraction fraction;
+  for (double distance = 0.0; distance < 10.0; distance += kStep) {
+    HalvesInformation scan;
+    scan.within.diagonal() << 1.0, 1.0, 1.0, 1.0, 300.0, 300.0;  // walls across the corridor
+    scan.across = scan.within;
+    scan.across(3, 3) = 0.7 * std::exp(-distance / 0.3);
+    fraction.add(scan, Eigen::Vector3d(distance, 0.0, 0.0));
+    EXPECT_TRUE(fraction.leaves_direction_free()) << "after " << distance << " m";
+  }
+}
+
 TEST(RealFraction, BeforeTheFirstScanNothingIsConstrained) {
   const RealFraction fraction;
   EXPECT_TRUE(fraction.leaves_direction_free());
