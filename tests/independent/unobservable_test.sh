@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# In a corridor that constrains nothing along it, `aims_d` is no worse than the legs alone and than
+# `tfs_plus`: mean of M_list over 30 recordings whose seeds chose nothing.
+#   unobservable_test.sh SOURCE_FOLDER BINARY_FOLDER [SEEDS]
+set -euo pipefail
+source_folder=$1 binaries=$2 seeds=${3:-$(seq -s, 71 85)}
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+
+bash "$source_folder/bench/independent.sh" --bin "$binaries" --out "$out" --cells plain_open_30 \
+  --rates 50,200 --seeds "$seeds" --length 40 --estimators aims_d,tfs_plus,leg --keep no |
+  tee "$out/table.txt"
+
+awk -v recordings="$((2 * $(tr -cd , <<<"$seeds" | wc -c) + 2))" '
+  NR > 1 { sum[$2] += ($3 + $4) / 2; ++count[$2] }
+  END {
+    for (name in sum) {
+      if (count[name] != recordings) { print "FAILED: " count[name] " rows of " name; exit 1 }
+      printf "%s: M_list %.2f %%, mean of %d recordings\n", name, sum[name] / recordings, recordings
+    }
+    if (recordings > 0 && length(sum) == 3 && sum["aims_d"] <= sum["leg"] &&
+        sum["aims_d"] <= sum["tfs_plus"]) exit 0
+    print "FAILED: aims_d is worse than the legs or tfs_plus"
+    exit 1
+  }' "$out/table.txt"
