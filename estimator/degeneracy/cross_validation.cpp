@@ -21,6 +21,15 @@ constexpr double kStartDistance = 1.0;  // [m]
 /// Distance over which information is averaged: a few times the reach of the neighbours of a plane,
 /// so that the noise is seen several times anew [m].
 constexpr double kAveragingDistance = 3.0;
+/// Real fractions below this leave nothing to divide; only avoids 0 / 0.
+constexpr double kMinFraction = 1e-6;
+
+/// K, 3x3: a position error p is best explained with the rotation error -K p.
+Eigen::Matrix3d coupling(const Matrix6& information) {
+  const Eigen::Matrix3d rotation =
+      information.topLeftCorner<3, 3>() + kRegularization * Eigen::Matrix3d::Identity();
+  return rotation.inverse() * information.topRightCorner<3, 3>();
+}
 
 }  // namespace
 
@@ -52,13 +61,12 @@ void RealFraction::average(const HalvesInformation& scan, double gain) {
 }
 
 void RealFraction::update_fraction() {
-  // X V = W V diag(f) with V^T W V = I: V diagonalizes C and F as well, to (1 + f) / 2 and
-  // 2 f / (1 + f).
+  // X V = W V diag(f) with V^T W V = I: V diagonalizes C as well, to (1 + f) / 2.
   const Eigen::Matrix3d within = within_ + kRegularization * Eigen::Matrix3d::Identity();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(across_, within);
   const Eigen::Matrix3d& V = solver.eigenvectors();
   const double at_start = kFreeAtStart * std::exp(-distance_ / kStartDistance);
-  Eigen::Vector3d fraction = Eigen::Vector3d::Zero();
+  Eigen::Array3d fraction = Eigen::Array3d::Zero();
   constrained_.setIdentity();
   for (int i = 0; i < 3; ++i) {
     const double free =
@@ -73,18 +81,21 @@ void RealFraction::update_fraction() {
   const auto undo = [&](const Eigen::Array3d& diagonal) -> Eigen::Matrix3d {
     return within * V * diagonal.matrix().asDiagonal() * V.transpose();
   };
-  const Eigen::Array3d noise = (1.0 + fraction.array()) / 2.0;
-  noise_ = undo(noise.sqrt());
-  gain_ = undo(fraction.array() / noise);
+  const Eigen::Array3d kept = fraction.square() / ((1.0 + fraction) / 2.0);
+  const Eigen::Array3d slope = solver.eigenvalues().array().max(kMinFraction).min(1.0);
+  matrix_root_ = undo(kept.sqrt());
+  vector_gain_ = undo(kept / slope);
 }
 
 PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {
-  Matrix6 F = Matrix6::Identity();
-  Matrix6 L = Matrix6::Identity();
-  F.bottomRightCorner<3, 3>() = gain_;
-  L.bottomRightCorner<3, 3>() = noise_;
-  const Matrix6 root = F * L;
-  return {root * scan.within * root.transpose(), F * scan.across_vector};
+  const Eigen::Matrix3d S = position_information(scan.within);
+  const Eigen::Vector3d rotation = scan.across_vector.head<3>();
+  const Eigen::Vector3d position =
+      scan.across_vector.tail<3>() - coupling(scan.across).transpose() * rotation;
+  PoseInformation applied{scan.within, scan.across_vector};
+  applied.matrix.bottomRightCorner<3, 3>() += matrix_root_ * S * matrix_root_.transpose() - S;
+  applied.vector.tail<3>() = coupling(scan.within).transpose() * rotation + vector_gain_ * position;
+  return applied;
 }
 
 Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,

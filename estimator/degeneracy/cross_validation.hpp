@@ -43,16 +43,19 @@ inline constexpr double kFreeTilt = 0.006;
 /// j_a j_b^T, since the halves have independent noise; so `across` is on average the real part X
 /// of the information W = `within`, whatever the noise, and x = X^-1 `across_vector` the estimate
 /// with instrumental variables, free of the bias towards no motion. The noise covariance of the
-/// vector is C = (W + X) / 2 at most; x then tells X C^-1 X = F C F^T about the pose, F = X C^-1.
+/// vector is C = (W + X) / 2 at most; x then tells A = X C^-1 X about the position.
 ///
-/// The scatter of X makes F C F^T positive where X is zero, so X and W of the position are averaged
-/// over the way; a robot that stands sees the same noise in every scan.
+/// The scatter of X makes A positive where X is zero, so X and W are averaged over the way; a robot
+/// that stands sees the same noise in every scan. All of it is about the position with the rotation
+/// unknown: in a curved corridor the robot moves freely along an arc only, and a share of what is
+/// known about the position with the rotation given would hold it to another one.
 class RealFraction {
  public:
   /// Adds a scan at `position` [m]; scans of a robot that stands count once.
   void add(const HalvesInformation& scan, const Eigen::Vector3d& position);
 
-  /// F C F^T and F x; the real fraction of the rotation is taken as 1.
+  /// A and A x of the position with the rotation unknown; the rotation with the position given is
+  /// taken as real.
   PoseInformation applied_to(const HalvesInformation& scan) const;
 
   /// Projection of the position onto the directions that scans do not leave free.
@@ -71,9 +74,9 @@ class RealFraction {
   double weakest_ = 0.0;  ///< smallest entry of the diagonal below
   double sum_of_weights_ = 0.0;  ///< of the returns, average [1/m^2]
   Eigen::Matrix3d constrained_ = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();   ///< L, with C = L W L^T
-  Eigen::Matrix3d gain_ = Eigen::Matrix3d::Zero();    ///< F
-  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();  ///< of the position, odometry axes
+  Eigen::Matrix3d matrix_root_ = Eigen::Matrix3d::Zero();  ///< M, with A = M W M^T
+  Eigen::Matrix3d vector_gain_ = Eigen::Matrix3d::Zero();  ///< A X^-1
+  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();       ///< of the position, odometry axes
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
 };
 

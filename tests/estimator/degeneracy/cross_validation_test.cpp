@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "core/random.hpp"
@@ -132,6 +133,61 @@ TEST(RealFraction, ThePatternOfTheStartConstrainsNothing) {
     fraction.add(scan, Eigen::Vector3d(distance, 0.0, 0.0));
     EXPECT_TRUE(fraction.leaves_direction_free()) << "after " << distance << " m";
   }
+}
+
+/// Walls on both sides of a corridor that bends about a point 10 m to the left, floor and ceiling,
+/// with `noise` of the normals added to `within`, and a share `real` of it to `across`.
+HalvesInformation scan_curve(double noise, double real) {
+  const Eigen::Vector3d center(0.0, 10.0, 0.0);
+  HalvesInformation scan;
+  const auto add = [&](const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
+    const Vector6 j = plane_row({normal, point, true}, point, Eigen::Matrix3d::Identity(),
+                                Eigen::Vector3d::Zero())
+                          .jacobian;
+    scan.within += kWeight * j * j.transpose();
+  };
+  for (int i = -20; i <= 20; ++i) {
+    const double angle = 0.02 * i;
+    const Eigen::Vector3d outward(std::sin(angle), -std::cos(angle), 0.0);
+    for (const double side : {-1.2, 1.2}) {
+      add(center + (10.0 + side) * outward + 0.5 * (i % 3 - 1) * Eigen::Vector3d::UnitZ(), outward);
+      add(center + (10.0 + 0.5 * side) * outward + side * Eigen::Vector3d::UnitZ(),
+          Eigen::Vector3d::UnitZ());
+    }
+  }
+  scan.across = scan.within;
+  scan.within(3, 3) += noise;
+  scan.across(3, 3) += real * noise;
+  return scan;
+}
+
+// Along the arc of a curved corridor the heading turns with the position: less information about
+// the position must not become more about this motion, nor about any other.
+TEST(RealFraction, ACurvedCorridorIsNotHeldToAnotherArc) {
+  const HalvesInformation scan = scan_curve(100.0, 0.4);
+  RealFraction fraction;
+  for (int k = 0; k < 60; ++k) fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
+  const Matrix6 kept = fraction.applied_to(scan).matrix;
+  const Vector6 arc = (Vector6() << 0.0, 0.0, 0.1, 1.0, 0.0, 0.0).finished();
+  EXPECT_LT(arc.dot(kept * arc), arc.dot(scan.within * arc));
+  const Eigen::SelfAdjointEigenSolver<Matrix6> more(kept - scan.within, Eigen::EigenvaluesOnly);
+  EXPECT_LT(more.eigenvalues()(5), 1e-6 * scan.within.norm());
+  const Eigen::SelfAdjointEigenSolver<Matrix6> information(kept, Eigen::EigenvaluesOnly);
+  EXPECT_GT(information.eigenvalues()(0), -1e-6 * scan.within.norm());
+}
+
+// A smaller weight is no longer step: what is left of the information asks for the same shift.
+TEST(RealFraction, ARescaledFractionKeepsTheStep) {
+  constexpr double kShift = 0.05;
+  HalvesInformation scan = scan_curve(2000.0, 0.4);
+  const Vector6 shift = (Vector6() << 0.001, -0.002, 0.003, kShift, 0.02, -0.01).finished();
+  scan.across_vector = scan.across * shift;
+  RealFraction fraction;
+  for (int k = 0; k < 60; ++k) fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
+  EXPECT_FALSE(fraction.leaves_direction_free());
+  const PoseInformation applied = fraction.applied_to(scan);
+  const Vector6 step = applied.matrix.ldlt().solve(applied.vector);
+  EXPECT_NEAR(step(3), kShift, 1e-3 * kShift);
 }
 
 TEST(RealFraction, BeforeTheFirstScanNothingIsConstrained) {
