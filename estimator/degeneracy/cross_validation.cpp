@@ -21,8 +21,11 @@ constexpr double kStartDistance = 1.0;  // [m]
 /// Distance over which information is averaged: a few times the reach of the neighbours of a plane,
 /// so that the noise is seen several times anew [m].
 constexpr double kAveragingDistance = 3.0;
-/// Real fractions below this leave nothing to divide; only avoids 0 / 0.
-constexpr double kMinFraction = 1e-6;
+
+/// What is left of a real fraction when the share `free` of the information is none.
+double without(double free, double fraction) {
+  return free < 1.0 ? std::clamp((fraction - free) / (1.0 - free), 0.0, 1.0) : 0.0;
+}
 
 /// K, 3x3: a position error p is best explained with the rotation error -K p.
 Eigen::Matrix3d coupling(const Matrix6& information) {
@@ -66,14 +69,16 @@ void RealFraction::update_fraction() {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(across_, within);
   const Eigen::Matrix3d& V = solver.eigenvectors();
   const double at_start = kFreeAtStart * std::exp(-distance_ / kStartDistance);
-  Eigen::Array3d fraction = Eigen::Array3d::Zero();
+  Eigen::Array3d fraction;
+  Eigen::Array3d step = Eigen::Array3d::Zero();
   constrained_.setIdentity();
   for (int i = 0; i < 3; ++i) {
-    const double free =
-        std::max(at_start, kFreeTilt * kFreeTilt * sum_of_weights_ * V.col(i).squaredNorm());
-    if (free < 1.0) {
-      fraction(i) = std::clamp((solver.eigenvalues()(i) - free) / (1.0 - free), 0.0, 1.0);
-    }
+    const double f = solver.eigenvalues()(i);
+    const double tilt = kFreeTilt * kFreeTilt * sum_of_weights_ * V.col(i).squaredNorm();
+    fraction(i) = without(std::max(at_start, tilt), f);
+    // What the tilt takes is left out to be safe, and the vector still asks for it; the pattern of
+    // the start is no displacement.
+    if (fraction(i) > 0.0) step(i) = without(tilt, f) / std::min(f, 1.0);
     const Eigen::Vector3d axis = V.col(i).normalized();
     if (fraction(i) <= 0.0) constrained_ -= axis * axis.transpose();
   }
@@ -81,10 +86,9 @@ void RealFraction::update_fraction() {
   const auto undo = [&](const Eigen::Array3d& diagonal) -> Eigen::Matrix3d {
     return within * V * diagonal.matrix().asDiagonal() * V.transpose();
   };
-  const Eigen::Array3d kept = fraction.square() / ((1.0 + fraction) / 2.0);
-  const Eigen::Array3d slope = solver.eigenvalues().array().max(kMinFraction).min(1.0);
-  matrix_root_ = undo(kept.sqrt());
-  vector_gain_ = undo(kept / slope);
+  const Eigen::Array3d root_of_noise = ((1.0 + fraction) / 2.0).sqrt();
+  matrix_root_ = undo(fraction / root_of_noise);
+  vector_gain_ = undo(step * fraction / root_of_noise.square());
 }
 
 PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {

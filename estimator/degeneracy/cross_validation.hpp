@@ -75,7 +75,7 @@ class RealFraction {
   double sum_of_weights_ = 0.0;  ///< of the returns, average [1/m^2]
   Eigen::Matrix3d constrained_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d matrix_root_ = Eigen::Matrix3d::Zero();  ///< M, with A = M W M^T
-  Eigen::Matrix3d vector_gain_ = Eigen::Matrix3d::Zero();  ///< A X^-1
+  Eigen::Matrix3d vector_gain_ = Eigen::Matrix3d::Zero();  ///< A over the slope of x
   Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();       ///< of the position, odometry axes
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
 };

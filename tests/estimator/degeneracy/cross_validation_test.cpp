@@ -179,11 +179,11 @@ TEST(RealFraction, ACurvedCorridorIsNotHeldToAnotherArc) {
 // A smaller weight is no longer step: what is left of the information asks for the same shift.
 TEST(RealFraction, ARescaledFractionKeepsTheStep) {
   constexpr double kShift = 0.05;
-  HalvesInformation scan = scan_curve(2000.0, 0.4);
+  HalvesInformation scan = scan_curve(20.0, 0.4);
   const Vector6 shift = (Vector6() << 0.001, -0.002, 0.003, kShift, 0.02, -0.01).finished();
   scan.across_vector = scan.across * shift;
   RealFraction fraction;
-  for (int k = 0; k < 60; ++k) fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
+  for (int k = 0; k < 200; ++k) fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
   EXPECT_FALSE(fraction.leaves_direction_free());
   const PoseInformation applied = fraction.applied_to(scan);
   const Vector6 step = applied.matrix.ldlt().solve(applied.vector);
