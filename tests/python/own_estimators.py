@@ -122,7 +122,7 @@ class Slow(Legs):
 
     def add_legs(self, *given):
         if 100 <= self.count < 120:
-            time.sleep(0.04)
+            time.sleep(0.2)
         return super().add_legs(*given)
 
 
