@@ -5,10 +5,10 @@
   bench/speed/shards.py AIMS [--estimator aims_d] [--jobs 16] [--small-jobs 256] [--shards 1,2,8,64]
 
 Sweeps a limit of the scoring over `corridor`, seed 1, whose sequence is cached first: with one
-process at a time, then with two. The overheads are measured too: starting a shard that has nothing to do, and
-merging, by a sweep of `leg`, whose jobs are short. On paper each shard then does its part of a list
-of 16 sequences with 120 jobs each, in the order of the list and with the measured times in turn;
-the speed-up includes the start of each shard and the merge at the end.
+process at a time, then with two. The overheads are measured too: starting a shard that has nothing
+to do, and merging, by a sweep of `leg`, whose jobs are short. On paper each shard then does its part
+of 1,920 jobs with the measured times in turn; their sequences are taken as simulated before. The
+speed-up includes the start of each shard and the merge at the end.
 """
 
 import argparse
@@ -19,7 +19,7 @@ import subprocess
 import tempfile
 import time
 
-SEQUENCES, JOBS_PER_SEQUENCE = 16, 120
+JOBS_ON_PAPER = 1920  # 16 sequences with 120 jobs each
 
 
 def timed(command):
@@ -41,17 +41,11 @@ def job_times(folder):
     return [json.loads(file.read_text())["wall_s"] for file in sorted(pathlib.Path(folder, "jobs").glob("*.json"))]
 
 
-def parts(count, shards):
-    """Sizes of the shards: neighbours in the list, at most one job apart."""
-    return [count * (i + 1) // shards - count * i // shards for i in range(shards)]
-
-
 def on_paper(times, process, start, merge_per_job, shards):
     """Wall time of the list on so many shards, one process each [s]."""
-    count = SEQUENCES * JOBS_PER_SEQUENCE
-    endless = itertools.cycle(times)
-    works = [start + sum(next(endless) + process for _ in range(size)) for size in parts(count, shards)]
-    return max(works) + merge_per_job * count
+    largest = -(-JOBS_ON_PAPER // shards)  # shards differ by one job at most
+    work = sum(itertools.islice(itertools.cycle(times), largest)) + process * largest
+    return start + work + merge_per_job * JOBS_ON_PAPER
 
 
 def main():
@@ -83,7 +77,7 @@ def main():
     print(f"a job {sum(times) / count:.2f} s ({min(times):.2f} to {max(times):.2f}), its process {1000 * process:.0f} ms, "
           f"start of a shard {1000 * start:.0f} ms, merge {1000 * merge_per_job:.2f} ms per job")
     alone = on_paper(times, process, start, merge_per_job, 1)
-    print(f"on paper, {SEQUENCES} sequences, {SEQUENCES * JOBS_PER_SEQUENCE} jobs:")
+    print(f"on paper, {JOBS_ON_PAPER} jobs:")
     for shards in (int(each) for each in options.shards.split(",")):
         wall = on_paper(times, process, start, merge_per_job, shards)
         print(f"  {shards:3} shards: {wall:8.1f} s, speed-up {alone / wall:5.1f}, {alone / wall / shards:.2f} of all")

@@ -43,7 +43,7 @@ inline constexpr double kFreeTilt = 0.006;
 /// j_a j_b^T, since the halves have independent noise; so `across` is on average the real part X
 /// of the information W = `within`, whatever the noise, and x = X^-1 `across_vector` the estimate
 /// with instrumental variables, free of the bias towards no motion. The noise covariance of the
-/// vector is C = (W + X) / 2 at most; x then tells A = X C^-1 X about the position.
+/// vector is C = (W + X) / 2 at most; x then states A = X C^-1 X about the position.
 ///
 /// The scatter of X makes A positive where X is zero, so X and W are averaged over the way; a robot
 /// that stands sees the same noise in every scan. All of it is about the position with the rotation
@@ -54,8 +54,8 @@ class RealFraction {
   /// Adds a scan at `position` [m]; scans of a robot that stands count once.
   void add(const HalvesInformation& scan, const Eigen::Vector3d& position);
 
-  /// A and A x of the position with the rotation unknown; the rotation with the position given is
-  /// taken as real.
+  /// A of the position with the rotation unknown and the vector that belongs to it; the rotation
+  /// with the position given is taken as real.
   PoseInformation applied_to(const HalvesInformation& scan) const;
 
   /// Projection of the position onto the directions that scans do not leave free.
