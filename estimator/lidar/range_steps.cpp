@@ -31,7 +31,7 @@ unsigned first_lanes(std::size_t left) { return left < 4 ? (1U << left) - 1U : 1
 }  // namespace
 
 void RangeSteps::mark(const LidarScan& scan) {
-  mixed_.assign(scan.points.size(), 0);
+  marked_.assign(scan.points.size(), 0);
   sort(scan);
   deviations_.clear();
   for (Ring& ring : rings_) {
@@ -154,8 +154,11 @@ void RangeSteps::mark_ring(const Ring& ring) {
   for (std::size_t a = ring.begin + kBase; a + kBase + 2 < end; a += 4) {
     unsigned lanes = steps_after(ring, a) & first_lanes(end - (a + kBase + 2));
     for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      mixed_[static_cast<std::size_t>(indices_[a + lane + 1])] = 1;
+      const std::size_t before = a + static_cast<std::size_t>(std::countr_zero(lanes));
+      const std::size_t after = before + 2;
+      const std::size_t nearer = inverse_ranges_[before] > inverse_ranges_[after] ? before : after;
+      marked_[static_cast<std::size_t>(indices_[before + 1])] = 1;
+      marked_[static_cast<std::size_t>(indices_[nearer])] = 1;
     }
   }
 }

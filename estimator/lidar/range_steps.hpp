@@ -10,25 +10,28 @@
 
 namespace aims {
 
-/// Finds mixed returns: where a surface ends in front of another one, the footprint of a beam
-/// covers both and its echo lies between them. Such returns lie where nothing is, farther along the
-/// beam the flatter the surfaces are seen, so they follow the robot; and a scan that is matched
-/// with a map of them moves too far, by 1 to 4 % along a corridor with recesses
-/// (docs/estimators.md).
+/// Finds the returns where a surface ends in front of another one, which would move a scan too far
+/// along a corridor with recesses (docs/estimators.md):
+/// - mixed returns: the footprint of a beam covers both surfaces and its echo lies between them, by
+///   1 to 4 %. Such returns lie where nothing is, farther along the beam the flatter the surfaces
+///   are seen, so they follow the robot;
+/// - the last returns of the nearer surface: what comes after them is hidden from the scan, but not
+///   from the map, whose planes tilt towards it. Returns on both sides of such an edge balance each
+///   other, and here those of one side are missing; by about 0.05 %.
 ///
 /// Along a ring the inverse range of a flat surface is linear in the angle. Between two returns
 /// there is a step when the nearer one lies in front of the line through the returns beyond the
 /// farther one, and the farther one behind the line through those beyond the nearer one. At a
 /// corner, where the surfaces meet, both lie on the same side. A return with a step between its
-/// neighbours is mixed.
+/// neighbours may be mixed; the nearer one of these is the last of its surface.
 class RangeSteps {
  public:
-  /// Marks the mixed returns of `scan`. What counts as a step follows from the range noise of the
-  /// scan itself. Returns without rings deviate from lines everywhere; then no step stands out.
+  /// Marks such returns of `scan`. What counts as a step follows from the range noise of the scan
+  /// itself. Returns without rings deviate from lines everywhere; then no step stands out.
   void mark(const LidarScan& scan);
 
-  /// Whether return `i` of the scan that was marked is mixed.
-  bool mixed(std::size_t i) const { return mixed_[i] != 0; }
+  /// Whether return `i` of the scan is marked.
+  bool marked(std::size_t i) const { return marked_[i] != 0; }
 
   /// Deviation of a range, from the differences between the returns of a ring [m].
   double range_noise() const { return range_noise_; }
@@ -53,7 +56,7 @@ class RangeSteps {
   unsigned steps_after(const Ring& ring, std::size_t a) const;
   void mark_ring(const Ring& ring);
 
-  std::vector<char> mixed_;
+  std::vector<char> marked_;
   std::vector<Ring> rings_;
   std::vector<float> inverse_ranges_;  ///< [1/m]
   std::vector<std::int32_t> times_;    ///< after the scan's stamp [ns]

@@ -60,10 +60,10 @@ int ScanSelection::begin(const LidarScan& scan) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const bool here = usable(scan.points[i]);
-    const bool mixed = config_.leave_out_mixed && steps_.mixed(i);
+    const bool at_step = config_.leave_out_mixed && steps_.marked(i);
     candidates_[count] = static_cast<std::int32_t>(i);
     in_range += static_cast<int>(here);
-    count += static_cast<std::size_t>(here && !mixed);
+    count += static_cast<std::size_t>(here && !at_step);
   }
   candidates_.resize(count);
   return in_range;

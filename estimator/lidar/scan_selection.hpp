@@ -24,8 +24,8 @@ class ScanSelection {
  public:
   explicit ScanSelection(const LidarUpdateConfig& config) : config_(config) {}
 
-  /// Lists the returns of `scan` to select from: the usable ones that are not mixed. Returns how
-  /// many are usable, mixed or not. The scan must exist while returns are selected.
+  /// Lists the returns of `scan` to select from: the usable ones that are not at a step in range.
+  /// Returns how many are usable, at a step or not. The scan must exist while returns are selected.
   int begin(const LidarScan& scan);
 
   /// Replaces `kept` by indices into the scan of the last begin(), thinned evenly to at most

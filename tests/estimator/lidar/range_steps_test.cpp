@@ -55,15 +55,15 @@ ProfileScan scan_of(const Profile& profile, double noise, int rings, RandomStrea
 
 /// What is marked of a scan.
 struct Marks {
-  explicit Marks(const LidarScan& scan) : mixed(scan.points.size(), false) {
+  explicit Marks(const LidarScan& scan) : marked(scan.points.size(), false) {
     RangeSteps steps;
     steps.mark(scan);
-    for (std::size_t i = 0; i < scan.points.size(); ++i) mixed[i] = steps.mixed(i);
+    for (std::size_t i = 0; i < scan.points.size(); ++i) marked[i] = steps.marked(i);
     range_noise = steps.range_noise();
   }
-  auto count() const { return std::ranges::count(mixed, true); }
+  auto count() const { return std::ranges::count(marked, true); }
 
-  std::vector<bool> mixed;  ///< by the index of the return
+  std::vector<bool> marked;  ///< by the index of the return
   double range_noise = 0.0;
 };
 
@@ -99,36 +99,68 @@ TEST(RangeSteps, TakesNoiseForNoStep) {
   }
 }
 
-TEST(RangeSteps, ASharpEdgeMixesAtMostOneReturnOfARing) {
+TEST(RangeSteps, ASharpEdgeMarksAtMostThreeReturnsOfARing) {
   RandomStream random(1, "range_steps.test");
   const ProfileScan seen = scan_of(wall_with_recess(0.3), 0.01, 16, random);
   const Marks marks(seen.scan);
   const double edge = std::atan2(kWall, 3.0);  // the wall ends 3 m ahead
   int elsewhere = 0;
   for (std::size_t i = 0; i < seen.azimuth.size(); ++i) {
-    if (marks.mixed[i] && std::abs(seen.azimuth[i] - edge) > 1.01 * kStep) ++elsewhere;
+    const double on_the_wall = (seen.azimuth[i] - edge) / kStep;
+    if (marks.marked[i] && (on_the_wall < -1.01 || on_the_wall > 2.01)) ++elsewhere;
   }
-  EXPECT_LE(elsewhere, 2) << "noise, of 14000 returns";
-  EXPECT_LE(marks.count(), 2 * 16 + 2);
+  EXPECT_LE(elsewhere, 3) << "noise, of 14000 returns";
+  EXPECT_LE(marks.count(), 3 * 16 + 3);
+}
+
+// The wall ends in front of the back of a recess. What is hidden behind its end is missing from the
+// scan, so the end itself has to be; the back of the recess begins where the map may see it begin.
+TEST(RangeSteps, MarksTheEndOfTheNearerSurfaceOnEitherSideOfTheRobot) {
+  RandomStream random(9, "range_steps.test");
+  for (const bool behind : {false, true}) {
+    const auto from_the_recess = [&](double azimuth) { return behind ? M_PI - azimuth : azimuth; };
+    const Profile wall = wall_with_recess(0.3);
+    const auto profile = [&](double azimuth) { return wall(from_the_recess(azimuth)); };
+    const ProfileScan seen = scan_of(profile, 0.005, 16, random);
+    const Marks marks(seen.scan);
+    int ends = 0;
+    for (std::size_t i = 0; i < seen.azimuth.size(); ++i) {
+      const double edge = std::atan2(kWall, 3.0);
+      const double on_the_wall = (from_the_recess(seen.azimuth[i]) - edge) / kStep;
+      if (on_the_wall > 0.0 && on_the_wall < 1.0) {
+        EXPECT_TRUE(marks.marked[i]) << on_the_wall;
+        ++ends;
+      }
+      if (on_the_wall < -1.01 && on_the_wall > -10.0) {
+        EXPECT_FALSE(marks.marked[i]) << on_the_wall;
+      }
+    }
+    EXPECT_EQ(ends, 16) << "behind: " << behind;
+  }
 }
 
 TEST(RangeSteps, MarksTheReturnBetweenBothSurfaces) {
   RandomStream random(5, "range_steps.test");
   const double edge = std::atan2(kWall, 3.0);
   const Profile sharp = wall_with_recess(0.3);
+  double wall = 0.0;                        // part of the footprint that is on the wall
   const auto mixed = [&](double azimuth) {  // the footprint is as wide as the step between firings
     if (std::abs(azimuth - edge) > 0.5 * kStep) return sharp(azimuth);
-    return 0.5 * (sharp(azimuth - kStep) + sharp(azimuth + kStep));
+    return wall * sharp(azimuth + kStep) + (1.0 - wall) * sharp(azimuth - kStep);
   };
-  const ProfileScan seen = scan_of(mixed, 0.005, 16, random);
-  const Marks marks(seen.scan);
-  int between = 0;
-  for (std::size_t i = 0; i < seen.azimuth.size(); ++i) {
-    if (std::abs(seen.azimuth[i] - edge) > 0.5 * kStep) continue;
-    EXPECT_TRUE(marks.mixed[i]);
-    ++between;
+  // A tenth of 0.87 m is too little, with this noise, to take it for the end of a nearer surface.
+  for (const auto& [part, noise] : {std::pair{0.5, 0.005}, {0.1, 0.02}}) {
+    wall = part;
+    const ProfileScan seen = scan_of(mixed, noise, 16, random);
+    const Marks marks(seen.scan);
+    int between = 0;
+    for (std::size_t i = 0; i < seen.azimuth.size(); ++i) {
+      if (std::abs(seen.azimuth[i] - edge) > 0.5 * kStep) continue;
+      EXPECT_TRUE(marks.marked[i]) << part;
+      ++between;
+    }
+    EXPECT_EQ(between, 16);
   }
-  EXPECT_EQ(between, 16);
 }
 
 TEST(RangeSteps, AGapIsNoStep) {
@@ -167,9 +199,9 @@ TEST(RangeSteps, IgnoresReturnsThatAreNotFinite) {
     seen.scan.points[i].position.setConstant(std::numeric_limits<float>::infinity());
   }
   const Marks marks(seen.scan);
-  EXPECT_FALSE(marks.mixed[100]);
-  EXPECT_FALSE(marks.mixed[200]);
-  EXPECT_FALSE(marks.mixed[40]);
+  EXPECT_FALSE(marks.marked[100]);
+  EXPECT_FALSE(marks.marked[200]);
+  EXPECT_FALSE(marks.marked[40]);
   EXPECT_NEAR(marks.range_noise, 0.01, 0.002);
   EXPECT_GT(marks.count(), 0);
 }
