@@ -7,7 +7,7 @@ void describe(Fields& f, LidarUpdateConfig& c) {
   f.number("min_range", c.min_range, {"m", up_to(1e4), "nearer returns are ignored"});
   f.number("max_range", c.max_range, {"m", positive_up_to(1e4), "farther returns are ignored"});
   f.flag("leave_out_mixed", c.leave_out_mixed,
-         {"", any(), "leave out returns between two surfaces, and the last before them"});
+         {"", any(), "leave out returns between two surfaces, and the last of the nearer one"});
   f.number("selection_voxel", c.selection_voxel,
            {"m", in_range(0.01, 10.0), "one return per voxel of the raw scan is matched"});
   f.integer("max_points", c.max_points,
