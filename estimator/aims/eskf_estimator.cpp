@@ -30,6 +30,9 @@ double max_leg_speed(const EskfConfig& config) {
   return config.legs.enabled ? 5.0 : std::numeric_limits<double>::infinity();
 }
 
+/// Scans in the map before it may wait, half of them in each of its halves.
+constexpr int kScansBeforeWaiting = 10;
+
 /// Returns that a scan is compared with earlier ones by, at most: two per pixel of a RangeImage.
 constexpr int kMaxImagePoints = 10000;
 
@@ -220,7 +223,11 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   health_.scan(diagnostics, match_points_.size());
   last_scan_ = scan->end;
   leg_free_.restart(belief_, scan->end);
-  extend_map();
+  if (map_waits(diagnostics)) {
+    ++result_.counts["map.waited"];
+  } else {
+    extend_map();
+  }
   moving_.keep(belief_.state.T_odom_body());
   diagnostics.delay = belief_.state.delay;
   diagnostics.mount = so3_log(belief_.state.mount);
@@ -316,7 +323,17 @@ void EskfEstimator::fuse_ground_constraint() {
   ground_.corrected(belief_.state);
 }
 
+/// What was mapped before the first steps shows the error of the legs' scale as soon as scans count;
+/// scans mapped from where those legs take the robot would blur it. So the map waits, as long as
+/// the present scan finds its planes there.
+bool EskfEstimator::map_waits(const ScanDiagnostics& diagnostics) const {
+  const auto points = static_cast<double>(match_points_.size());
+  return lidar_update_.follows_unknown_legs() && scans_mapped_ >= kScansBeforeWaiting &&
+         diagnostics.iterations > 0 && diagnostics.points_used > kMinMatched * points;
+}
+
 void EskfEstimator::extend_map() {
+  ++scans_mapped_;
   const Eigen::Matrix3f R = belief_.state.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f t = belief_.state.position.cast<float>();
   for (Eigen::Vector3f& point : insert_points_) point = R * point + t;

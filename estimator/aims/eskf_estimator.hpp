@@ -55,6 +55,7 @@ class EskfEstimator : public Estimator {
   void leave_out_moving();
   void fuse_scan(ScanDiagnostics& diagnostics);
   void fuse_ground_constraint();
+  bool map_waits(const ScanDiagnostics& diagnostics) const;
   void extend_map();
   /// Takes the belief `updated`, unless it is not finite: then it is counted and rejected.
   void accept(const Belief& updated);
@@ -68,6 +69,7 @@ class EskfEstimator : public Estimator {
   MovingReturns moving_;
   LegFreePrediction leg_free_;
   VoxelMap map_;
+  int scans_mapped_ = 0;
   GroundConstraint ground_;
   GroundLists ground_lists_;
   LegNoiseModel leg_noise_;

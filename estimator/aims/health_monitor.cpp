@@ -28,7 +28,6 @@ constexpr double kRotationDisagreement = 5e-3;  ///< of scan and prediction [rad
 constexpr double kPositionDisagreement = 0.01;  ///< of scan and prediction [m]; usual: 2e-3
 constexpr double kNoiseFactor = 3.0;            ///< on what the noise of the IMU makes of them
 constexpr double kScanInterval = 0.1;           ///< over which it acts [s]
-constexpr double kMinMatched = 0.3;             ///< fraction of a scan's points
 constexpr int kScansWithoutUpdate = 5;
 constexpr int kLongWithoutUpdate = 50;
 constexpr int kWeakScans = 50;

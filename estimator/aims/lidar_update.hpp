@@ -43,6 +43,12 @@ class LidarUpdate {
     return cross_validation_.enabled && fraction_.leaves_direction_free();
   }
 
+  /// Whether the robot has just started along a direction that scans leave free: its position along
+  /// it then follows legs whose scale nothing has measured yet.
+  bool follows_unknown_legs() const {
+    return cross_validation_.enabled && fraction_.leaves_start_free();
+  }
+
   /// Gain mask of what measures the velocity. While scans leave a direction free, the position
   /// along it is the integral of the velocity, and both carry the error of the leg scale. That
   /// error is common to the whole route and cancels in the gain only as far as the models of scale

@@ -14,6 +14,9 @@ namespace aims {
 /// A quantity that was not computed: an empty cell in the diagnostics file.
 inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
+/// A scan of which a smaller fraction of the points has planes is not where its map is.
+inline constexpr double kMinMatched = 0.3;
+
 /// Diagnostics of one LiDAR update; quantities of the paper have its symbols.
 struct ScanDiagnostics {
   Time stamp = 0;                              ///< end of the scan

@@ -91,6 +91,10 @@ void RealFraction::update_fraction() {
   vector_gain_ = undo(step * fraction / root_of_noise.square());
 }
 
+bool RealFraction::leaves_start_free() const {
+  return leaves_direction_free() && distance_ > 0.0 && distance_ < kStartDistance;
+}
+
 PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {
   const Eigen::Matrix3d S = position_information(scan.within);
   const Eigen::Vector3d rotation = scan.across_vector.head<3>();

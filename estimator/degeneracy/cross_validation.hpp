@@ -64,6 +64,9 @@ class RealFraction {
   /// Whether scans leave a direction of the position free.
   bool leaves_direction_free() const { return weakest_ <= 0.0; }
 
+  /// Whether it does so after the first step, within the distance over which scans come to count.
+  bool leaves_start_free() const;
+
  private:
   void average(const HalvesInformation& scan, double gain);
   void update_fraction();

@@ -231,6 +231,40 @@ TEST(Eskf, MapMemoryIsBounded) {
   }
 }
 
+/// The map's points every half second of a walk along a corridor without end walls.
+std::vector<std::size_t> map_growth(double recess_depth, EstimatorResult& result) {
+  KinematicConfig config;
+  config.corridor = {.begin = -40.0, .end = 60.0, .recess_depth = recess_depth, .open_ends = true};
+  config.walk = {.distance = 6.0, .stand = 4.0, .there_and_back = false};
+  config.sensors.lidar_range = 20.0;
+  KinematicWorld world(config);
+  EskfEstimator estimator(eskf_preset("aims_d"), world.rig());
+  std::vector<std::size_t> sizes;
+  std::vector<Delivery> deliveries;
+  while (world.advance(kSecond / 2, deliveries)) {
+    for (const Delivery& delivery : deliveries) estimator.consume(delivery);
+    deliveries.clear();
+    sizes.push_back(estimator.map_points().size());
+  }
+  result = estimator.result();
+  return sizes;
+}
+
+// Legs of unknown scale take the robot along a plain corridor; scans mapped from there would lie
+// beside those of the standing robot.
+TEST(Eskf, TheMapWaitsWhileTheStartIsFree) {
+  EstimatorResult plain;
+  const std::vector<std::size_t> sizes = map_growth(0.0, plain);
+  const int waited = plain.counts["map.waited"];
+  EXPECT_GT(waited, 8);
+  EXPECT_LT(waited, 20) << "1 m at 0.7 m/s";
+  EXPECT_EQ(sizes[9], sizes[10]) << "between 5 and 5.5 s, about 0.4 to 0.8 m from the start";
+  EXPECT_GT(sizes.back(), sizes[10] + 1000) << "it grows again";
+  EstimatorResult doors;
+  map_growth(0.5, doors);
+  EXPECT_LT(doors.counts["map.waited"], waited / 2) << "the doors show how far it came";
+}
+
 /// The short sequence with `modify` applied to each delivery; false drops it.
 EstimatorResult run_modified(const std::function<bool(Delivery&)>& modify, double& error) {
   KinematicWorld world(short_sequence());
