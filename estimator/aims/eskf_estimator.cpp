@@ -89,7 +89,8 @@ bool EskfEstimator::start() {
                            ? initialize_static(samples, config_.initialization, config_.imu.gravity)
                            : initialize(samples, config_.initialization, config_.imu.gravity);
   if (!initial) return false;
-  if (!initial->stood_still) ++result_.counts["initialization.moving"];
+  stood_still_ = initial->stood_still;
+  if (!stood_still_) ++result_.counts["initialization.moving"];
   belief_ = open_leg_states(initial->belief, leg_states_of(config_));
   belief_ = open_calibration(belief_, config_.calibration, rig_.imu_rate_hz);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
@@ -339,7 +340,12 @@ void EskfEstimator::extend_map() {
   for (Eigen::Vector3f& point : insert_points_) point = R * point + t;
   const Eigen::Matrix3d position =
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
-  map_.insert(insert_points_, t, (position + lidar_update_.map_covariance()).cast<float>());
+  const Eigen::Matrix3f covariance = (position + lidar_update_.map_covariance()).cast<float>();
+  // The attitude of a start in motion is rough, and settles on the first scan from the second on if
+  // that scan is in both halves.
+  const bool both_halves = map_.empty() && !stood_still_;
+  map_.insert(insert_points_, t, covariance);
+  if (both_halves) map_.insert(insert_points_, t, covariance);
 }
 
 void EskfEstimator::accept(const Belief& updated) {

@@ -78,6 +78,7 @@ class EskfEstimator : public Estimator {
   EstimatorResult result_;
 
   bool started_ = false;
+  bool stood_still_ = true;     ///< before the start
   Time time_ = 0;               ///< of the belief
   Pose first_pose_;             ///< of the belief at the start
   Time last_pose_ = 0;          ///< of the newest pose, or of the start

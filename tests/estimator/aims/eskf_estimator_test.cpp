@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 #include "estimator/aims/presets.hpp"
@@ -112,6 +114,22 @@ TEST(Eskf, FillsDiagnostics) {
   EXPECT_GE(at("O_lidar"), 0.0);
   EXPECT_LE(at("O_lidar"), 1.0);
   EXPECT_TRUE(result.diagnostics.scans[100].covariance);
+}
+
+// The attitude of a start in motion is rough. Were the first two scans mapped at two of them, one in
+// each half, the halves would agree on little, and nothing would correct it.
+TEST(Eskf, AfterAStartInMotionTheSecondScanMeetsTheFirst) {
+  KinematicWorld world(short_sequence());
+  const auto deliveries = record(world);
+  std::vector<Delivery> walking;
+  std::ranges::copy_if(deliveries, std::back_inserter(walking),
+                       [](const Delivery& each) { return each.arrival > from_seconds(3.0); });
+  const EstimatorResult moving = run("aims_d", walking, world.rig());
+  ASSERT_EQ(moving.counts.at("initialization.moving"), 1);
+  EXPECT_TRUE(moving.diagnostics.updated(1));
+  EXPECT_LT(largest_error(moving, world), 0.1);
+  const EstimatorResult standing = run("aims_d", deliveries, world.rig());
+  EXPECT_FALSE(standing.diagnostics.updated(1)) << "each half has another scan";
 }
 
 TEST(Eskf, HasOneConsistencyWithoutLegsAndTwoWithThem) {
