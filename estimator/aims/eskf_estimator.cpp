@@ -341,8 +341,8 @@ void EskfEstimator::extend_map() {
   const Eigen::Matrix3d position =
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
   const Eigen::Matrix3f covariance = (position + lidar_update_.map_covariance()).cast<float>();
-  // The attitude of a start in motion is rough, and settles on the first scan from the second on if
-  // that scan is in both halves.
+  // The attitude of a start in motion is rough. With the first scan in both halves the second one is
+  // matched and corrects it.
   const bool both_halves = map_.empty() && !stood_still_;
   map_.insert(insert_points_, t, covariance);
   if (both_halves) map_.insert(insert_points_, t, covariance);
