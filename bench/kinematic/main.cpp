@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Along-path errors of estimators in a closed-form corridor with recesses, seconds a run. Range noise
-// is the only error of the LiDAR; IMU and legs have theirs (tests/support/kinematic_world.hpp).
+// Along-path errors of estimators in a closed-form corridor with recesses, seconds a run. Range
+// noise is the only error of the LiDAR; IMU and legs have theirs
+// (tests/support/kinematic_world.hpp).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
