@@ -14,8 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/metrics/statistics.hpp"
 #include "bench/run/seeds.hpp"
 #include "bench/run/stream.hpp"
+#include "estimator/estimator_spec.hpp"
 #include "tests/support/kinematic_world.hpp"
 
 namespace aims {
@@ -25,7 +27,7 @@ namespace {
 constexpr double kBeyond = 60.0;
 
 struct Options {
-  std::string estimators = "aims_d,tfs_plus,lio";
+  std::vector<std::string> estimators{"aims_d", "tfs_plus", "lio"};  ///< specs, split at commas
   std::string seeds = "1-8";
   double length = 25.0;  ///< of the route [m]
   test::KinematicConfig world;
@@ -41,22 +43,24 @@ double end_error(const Trajectory& trajectory, const test::KinematicWorld& world
   return at.x() - world.T_world_body(last.stamp).translation.x();
 }
 
-/// Adds the end errors of every estimator on the walk of one seed, by label.
-Result<void> walk(const Options& options, std::uint64_t seed,
-                  std::map<std::string, std::vector<double>>& errors) {
-  test::KinematicConfig config = options.world;
-  config.seed = seed;
+/// End errors by label [m].
+using EndErrors = std::map<std::string, std::vector<double>>;
+
+/// Adds the end error of every estimator of `specs` with the noise of one seed.
+Result<void> add_end_errors(const test::KinematicConfig& config, std::span<const std::string> specs,
+                            EndErrors& errors) {
   test::KinematicWorld world(config);
-  const std::vector<std::string> specs = CLI::detail::split(options.estimators, ',');
   auto estimators = make_estimators(specs, {}, world.rig());
-  if (!estimators) return failure(estimators.error().message);
+  if (!estimators) return tl::unexpected(estimators.error());
   const auto next = [&](std::vector<Delivery>& batch) -> Result<bool> {
     return world.advance(kStreamBatch, batch);
   };
   stream(next, *estimators, 1, [] { return true; });
   for (const TimedEstimator& each : *estimators) {
     const Trajectory& trajectory = each.estimator().result().trajectory;
-    if (trajectory.empty()) return failure(fmt::format("{}: no pose, seed {}", each.name(), seed));
+    if (trajectory.empty()) {
+      return failure(fmt::format("{}: no pose, seed {}", each.name(), config.seed));
+    }
     errors[each.name()].push_back(end_error(trajectory, world));
   }
   return {};
@@ -64,27 +68,24 @@ Result<void> walk(const Options& options, std::uint64_t seed,
 
 /// Mean with its deviation, which one error does not have, root mean square and largest value.
 void print_row(const std::string& label, const std::vector<double>& errors, double length) {
-  double sum = 0.0;
-  double squares = 0.0;
-  double largest = 0.0;
-  for (const double error : errors) {
-    sum += error;
-    squares += error * error;
-    largest = std::max(largest, std::abs(error));
-  }
-  const auto count = static_cast<double>(errors.size());
-  const double mean = sum / count;
-  const double variance = std::max(squares / count - mean * mean, 0.0);
+  std::vector<double> squares;
+  for (const double error : errors) squares.push_back(error * error);
+  const double average = mean(errors).value();
+  const double mean_square = mean(squares).value();
+  const double variance = std::max(mean_square - average * average, 0.0);
+  const auto others = static_cast<double>(errors.size() - 1);
   const std::string deviation =
-      errors.size() < 2 ? "-" : fmt::format("{:.3f}", std::sqrt(variance / (count - 1.0)));
-  fmt::print("{:<40} {:+9.3f} ± {:<7} {:+9.2f} {:9.3f} {:9.3f}\n", label, mean, deviation,
-             100.0 * mean / length, std::sqrt(squares / count), largest);
+      errors.size() < 2 ? "-" : fmt::format("{:.3f}", std::sqrt(variance / others));
+  fmt::print("{:<40} {:+9.3f} ± {:<7} {:+9.2f} {:9.3f} {:9.3f}\n", label, average, deviation,
+             100.0 * average / length, std::sqrt(mean_square),
+             std::sqrt(std::ranges::max(squares)));
 }
 
 void add_options(CLI::App& app, Options& options) {
   test::CorridorShape& corridor = options.world.corridor;
   test::KinematicSensors& sensors = options.world.sensors;
-  app.add_option("--estimators", options.estimators, "As for aims run (aims_d,tfs_plus,lio)");
+  app.add_option("--estimators", options.estimators, "As for aims run (aims_d,tfs_plus,lio)")
+      ->delimiter(',');
   app.add_option("--seeds", options.seeds, "Seeds of all noise (1-8)");
   app.add_option("--length", options.length, "Route, one way [m] (25)")
       ->check(CLI::Range(1.0, 1e3));
@@ -101,18 +102,6 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--leg-scale-error", sensors.leg_scale_error,
                  "Legs report too short by [-] (0.045)")
       ->check(CLI::Range(-0.5, 0.5));
-}
-
-/// End errors on the walks of all seeds [m], by label.
-Result<std::map<std::string, std::vector<double>>> end_errors(
-    const Options& options, std::span<const std::uint64_t> seeds) {
-  std::map<std::string, std::vector<double>> errors;
-  for (const std::uint64_t seed : seeds) {
-    if (const auto walked = walk(options, seed, errors); !walked) {
-      return failure(walked.error().message);
-    }
-  }
-  return errors;
 }
 
 int refuse(const std::string& message) {
@@ -133,13 +122,18 @@ int run(int argc, char** argv) {
   options.world.walk.there_and_back = false;
   const auto seeds = parse_seeds(options.seeds);
   if (!seeds) return refuse(seeds.error().message);
-  const auto errors = end_errors(options, *seeds);
-  if (!errors) return refuse(errors.error().message);
+  const std::vector<std::string> specs = joined_specs(options.estimators);
+  EndErrors errors;
+  for (const std::uint64_t seed : *seeds) {
+    options.world.seed = seed;
+    const auto added = add_end_errors(options.world, specs, errors);
+    if (!added) return refuse(added.error().message);
+  }
   fmt::print("Error along the path after {} m, positive where too long, seeds {}\n", options.length,
              options.seeds);
   fmt::print("{:<40} {:>19} {:>9} {:>9} {:>9}\n", "estimator", "mean [m]", "[%]", "RMS [m]",
              "worst [m]");
-  for (const auto& [label, each] : *errors) print_row(label, each, options.length);
+  for (const auto& [label, each] : errors) print_row(label, each, options.length);
   return 0;
 }
 
