@@ -30,8 +30,9 @@ double max_leg_speed(const EskfConfig& config) {
   return config.legs.enabled ? 5.0 : std::numeric_limits<double>::infinity();
 }
 
-/// Scans in the map before it may wait, half of them in each of its halves.
-constexpr int kScansBeforeWaiting = 10;
+/// A scale of the legs that is known this well no longer smears what is mapped along a direction
+/// that scans leave free [-].
+constexpr double kKnownLegScale = 0.05;
 
 /// Returns that a scan is compared with earlier ones by, at most: two per pixel of a RangeImage.
 constexpr int kMaxImagePoints = 10000;
@@ -94,6 +95,7 @@ bool EskfEstimator::start() {
   belief_ = open_leg_states(initial->belief, leg_states_of(config_));
   belief_ = open_calibration(belief_, config_.calibration, rig_.imu_rate_hz);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
+  if (config_.cross_validation.enabled) mapping_ = belief_;
   time_ = initial->stamp;
   first_pose_ = belief_.state.T_odom_body();
   last_pose_ = time_;
@@ -175,9 +177,16 @@ bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
   ++result_.counts["zero_velocity.used"];
   GainMask mask = lidar_update_.odometry_mask();
   mask.legs = false;
-  accept(fuse(belief_, zero_velocity_model(belief_.state, kSigmaZeroVelocity), mask));
-  accept(fuse(belief_, zero_rate_model(belief_.state, statistics->rate, kSigmaZeroRate), mask));
+  fuse_standing(belief_, statistics->rate, mask);
+  if (mapping_) fuse_standing(*mapping_, statistics->rate, {.legs = false});
   return true;
+}
+
+/// Zero velocity and zero rate; `rate` is the mean reading of the gyro, body axes [rad/s].
+void EskfEstimator::fuse_standing(Belief& belief, const Eigen::Vector3d& rate,
+                                  const GainMask& mask) {
+  accept(belief, fuse(belief, zero_velocity_model(belief.state, kSigmaZeroVelocity), mask));
+  accept(belief, fuse(belief, zero_rate_model(belief.state, rate, kSigmaZeroRate), mask));
 }
 
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
@@ -199,7 +208,12 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(fuse(belief_, measurement, lidar_update_.odometry_mask()));
+  accept(belief_, fuse(belief_, measurement, lidar_update_.odometry_mask()));
+  if (!mapping_) return;
+  const Eigen::Matrix3d noise =
+      leg_velocity_noise(config_.legs, rig_.leg_rate_hz, sample.linear_velocity);
+  accept(*mapping_,
+         fuse(*mapping_, leg_velocity_model(mapping_->state, rig_.T_body_base, rate, legs, noise)));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {
@@ -223,13 +237,10 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   if (config_.ground_constraint.enabled) fuse_ground_constraint();
   health_.scan(diagnostics, match_points_.size());
   last_scan_ = scan->end;
-  leg_free_.restart(belief_, scan->end);
-  if (map_waits(diagnostics)) {
-    ++result_.counts["map.waited"];
-  } else {
-    extend_map();
-  }
-  moving_.keep(belief_.state.T_odom_body());
+  leg_free_.restart(matching(), scan->end);
+  if (mapping_) ++result_.counts["map.before_legs_known"];
+  extend_map();
+  moving_.keep(matching().state.T_odom_body());
   diagnostics.delay = belief_.state.delay;
   diagnostics.mount = so3_log(belief_.state.mount);
   const Eigen::Matrix3d rig =
@@ -244,12 +255,14 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
 void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   const NominalState predicted = belief_.state;
   const CalibrationModel calibration{rig_.T_body_lidar.translation, scan_twist_};
-  accept(lidar_update_.update(belief_, match_points_, map_, calibration, diagnostics,
-                              leg_free_.belief()));
+  const ScanPart part = mapping_ ? ScanPart::kAll : ScanPart::kReal;
+  accept(matching(), lidar_update_.update(matching(), match_points_, map_, calibration, part,
+                                          diagnostics, leg_free_.belief()));
   if (diagnostics.iterations == 0) {
     ++result_.counts["lidar.no_update"];
     return;
   }
+  if (mapping_) accept(belief_, lidar_update_.update_with_real_part(belief_, map_));
   if (last_scan_) {
     const ErrorVector y = boxminus(belief_.state, predicted);
     // Across the robot only: along it a corridor may leave the velocity free.
@@ -259,8 +272,26 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
                                         across.tail<2>().squaredNorm() / 2.0,
                                         to_seconds(time_ - *last_scan_));
   }
-  belief_ = after_delay_change(belief_, belief_.state.delay - predicted.delay, scan_twist_);
+  apply_calibration(belief_.state.delay - predicted.delay);
+  if (legs_are_known()) mapping_.reset();
+}
+
+/// Whether the estimate may map: where scans leave no direction free it lies where they are
+/// matched, and along those that they leave free later the legs take it there.
+bool EskfEstimator::legs_are_known() const {
+  const int scale = ErrorState::kLegScale.offset;
+  return !lidar_update_.considers_legs() &&
+         belief_.covariance(scale, scale) < kKnownLegScale * kKnownLegScale;
+}
+
+/// There is one calibration, that of the belief; its delay has changed by `delay_change` [s].
+void EskfEstimator::apply_calibration(double delay_change) {
+  belief_ = after_delay_change(belief_, delay_change, scan_twist_);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
+  if (!mapping_) return;
+  mapping_ = after_delay_change(*mapping_, delay_change, scan_twist_);
+  mapping_->state.mount = belief_.state.mount;
+  mapping_->state.delay = belief_.state.delay;
 }
 
 void EskfEstimator::predict_to(Time stamp) {
@@ -268,14 +299,22 @@ void EskfEstimator::predict_to(Time stamp) {
   queue_.imu().observe_noise(stamp);
   queue_.imu().segments(time_, stamp, segments_);
   for (const InertialSegment& segment : segments_) {
-    const double dt = to_seconds(segment.end - segment.begin);
-    accept(propagate(belief_, segment, dt, config_.imu));
     if (!segment.measured) ++result_.counts["imu.bridged"];
   }
-  walk_leg_states(belief_, leg_states_of(config_), to_seconds(stamp - time_));
-  walk_calibration(belief_, config_.calibration, to_seconds(stamp - time_));
+  predict(belief_, to_seconds(stamp - time_));
+  if (mapping_) predict(*mapping_, to_seconds(stamp - time_));
   time_ = stamp;
   queue_.imu().forget_before(stamp - kSecond);
+}
+
+/// Over `segments_`, `duration` long [s].
+void EskfEstimator::predict(Belief& belief, double duration) {
+  for (const InertialSegment& segment : segments_) {
+    const double dt = to_seconds(segment.end - segment.begin);
+    accept(belief, propagate(belief, segment, dt, config_.imu));
+  }
+  walk_leg_states(belief, leg_states_of(config_), duration);
+  walk_calibration(belief, config_.calibration, duration);
 }
 
 void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics) {
@@ -302,7 +341,7 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 void EskfEstimator::find_moving(const LidarScan& scan) {
   selection_.thin(kMaxImagePoints, indices_);
   deskew(scan, indices_, scan_motion_, image_points_);
-  moving_.compare(image_points_, scan.end, belief_.state.T_odom_body());
+  moving_.compare(image_points_, scan.end, matching().state.T_odom_body());
 }
 
 void EskfEstimator::leave_out_moving() {
@@ -320,39 +359,34 @@ void EskfEstimator::fuse_ground_constraint() {
   if (ground_.status() == GroundStatus::kSloped) ++result_.counts["ground.not_level"];
   if (!measurement) return;
   ++result_.counts["ground.used"];
-  accept(fuse_ground(above_ground, *measurement));
+  accept(belief_, fuse_ground(above_ground, *measurement));
+  if (mapping_) {
+    const Belief above = with_map_error(*mapping_, lidar_update_.map_covariance());
+    accept(*mapping_, fuse_ground(above, *measurement));
+  }
   ground_.corrected(belief_.state);
 }
 
-/// What was mapped before the first steps shows the error of the legs' scale as soon as scans count;
-/// scans mapped from where those legs take the robot would blur it. So the map waits, as long as
-/// the present scan finds its planes there.
-bool EskfEstimator::map_waits(const ScanDiagnostics& diagnostics) const {
-  const auto points = static_cast<double>(match_points_.size());
-  return lidar_update_.follows_unknown_legs() && scans_mapped_ >= kScansBeforeWaiting &&
-         diagnostics.iterations > 0 && diagnostics.points_used > kMinMatched * points;
-}
-
 void EskfEstimator::extend_map() {
-  ++scans_mapped_;
-  const Eigen::Matrix3f R = belief_.state.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f t = belief_.state.position.cast<float>();
+  const NominalState& state = matching().state;
+  const Eigen::Matrix3f R = state.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f t = state.position.cast<float>();
   for (Eigen::Vector3f& point : insert_points_) point = R * point + t;
   const Eigen::Matrix3d position =
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
   const Eigen::Matrix3f covariance = (position + lidar_update_.map_covariance()).cast<float>();
-  // The attitude of a start in motion is rough. With the first scan in both halves the second one is
-  // matched and corrects it.
+  // The attitude of a start in motion is rough. With the first scan in both halves the second one
+  // is matched and corrects it.
   const bool both_halves = map_.empty() && !stood_still_;
   map_.insert(insert_points_, t, covariance);
   if (both_halves) map_.insert(insert_points_, t, covariance);
 }
 
-void EskfEstimator::accept(const Belief& updated) {
+void EskfEstimator::accept(Belief& belief, const Belief& updated) {
   const bool valid = is_finite(updated.state) && updated.covariance.allFinite() &&
                      (updated.covariance.diagonal().array() > 0.0).all();
   if (valid) {
-    belief_ = updated;
+    belief = updated;
   } else {
     ++result_.counts["filter.rejected"];
     health_.not_finite();

@@ -43,6 +43,7 @@ class EskfEstimator : public Estimator {
   void correct(const LegOdometrySample& sample);
   void correct(const LidarScanPtr& scan);
   void predict_to(Time stamp);
+  void predict(Belief& belief, double duration);
   void report_pose_without_scan(Time stamp);
   void coast();
   void judge_health();
@@ -50,15 +51,19 @@ class EskfEstimator : public Estimator {
   void fuse_leg_velocity(const LegOdometrySample& sample);
   Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
   bool fuse_zero_velocity(const LegOdometrySample& sample);
+  void fuse_standing(Belief& belief, const Eigen::Vector3d& rate, const GainMask& mask);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void find_moving(const LidarScan& scan);
   void leave_out_moving();
   void fuse_scan(ScanDiagnostics& diagnostics);
+  void apply_calibration(double delay_change);
+  bool legs_are_known() const;
   void fuse_ground_constraint();
-  bool map_waits(const ScanDiagnostics& diagnostics) const;
   void extend_map();
-  /// Takes the belief `updated`, unless it is not finite: then it is counted and rejected.
-  void accept(const Belief& updated);
+  /// The belief whose pose matches and maps scans.
+  Belief& matching() { return mapping_ ? *mapping_ : belief_; }
+  /// `belief` becomes `updated`, unless that is not finite: then it is counted and rejected.
+  void accept(Belief& belief, const Belief& updated);
 
   EskfConfig config_;
   SensorRig rig_;
@@ -69,7 +74,6 @@ class EskfEstimator : public Estimator {
   MovingReturns moving_;
   LegFreePrediction leg_free_;
   VoxelMap map_;
-  int scans_mapped_ = 0;
   GroundConstraint ground_;
   GroundLists ground_lists_;
   LegNoiseModel leg_noise_;
@@ -85,6 +89,9 @@ class EskfEstimator : public Estimator {
   Time last_correction_ = 0;    ///< stamp of the newest, or of the start
   std::optional<Time> judged_;  ///< arrival
   Belief belief_;
+  /// With `cross_validation`, until the scale of the legs is known: takes all information of scans,
+  /// so that they are mapped where they fit, and not where legs that are far off take the estimate.
+  std::optional<Belief> mapping_;
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
   StrideMean stride_mean_;
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]

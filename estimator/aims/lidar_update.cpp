@@ -19,6 +19,10 @@ constexpr double kRematchPosition = 1e-2;    ///< [m]
 constexpr double kConvergedRotation = 1e-4;  ///< [rad]
 constexpr double kConvergedPosition = 1e-3;  ///< [m]
 
+/// kFreeTilt of a map whose scans lie where their noise holds them, which both halves then have in
+/// common (docs/decisions.md) [rad].
+constexpr double kFreeTiltOfNoise = 0.009;
+
 /// Smallest eigenvalue and condition number of the translation information with unknown rotation
 /// (its Schur complement).
 void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagnostics) {
@@ -47,18 +51,22 @@ LidarUpdate::LidarUpdate(const EskfConfig& config)
       matcher_(config.lidar.correlated_points, config.robust_kernel),
       severity_(config.degeneracy.alpha) {}
 
-/// The scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies its information
-/// by gamma_lidar; with `cross_validation` only its real part counts.
-Linearization LidarUpdate::fused(const MatchInformation& scan, double gamma,
-                                 const NominalState& state) const {
-  const PoseInformation pose = cross_validation_.enabled
-                                   ? fraction_.applied_to(scan.halves)
-                                   : PoseInformation{scan.halves.within, scan.halves.within_vector};
+/// Part of the present scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies
+/// its information by gamma_lidar.
+Linearization LidarUpdate::fused(ScanPart part, double gamma, const NominalState& state) const {
+  const bool real = part == ScanPart::kReal && cross_validation_.enabled;
+  const PoseInformation pose =
+      real ? fraction_.applied_to(scan_.halves)
+           : PoseInformation{scan_.halves.within, scan_.halves.within_vector};
   Linearization linearization{scan_measurement(gamma * pose.matrix, gamma * pose.vector,
                                                calibration_, state.rotation.toRotationMatrix()),
-                              odometry_mask()};
+                              real ? odometry_mask() : GainMask()};
   linearization.mask.velocity = linearization.mask.position;
   return linearization;
+}
+
+double LidarUpdate::free_tilt() const {
+  return part_ == ScanPart::kAll ? kFreeTiltOfNoise : kFreeTilt;
 }
 
 GainMask LidarUpdate::odometry_mask() const {
@@ -73,10 +81,10 @@ NominalState LidarUpdate::first_guess(const Belief& predicted,
                                       ScanDiagnostics& diagnostics) {
   const NominalState& at = predicted.state;
   matcher_.match(at, points, map, kGuessStride);
-  const MatchInformation scan = matcher_.linearize(at);
+  scan_ = matcher_.linearize(at);
   diagnostics.residual_sigma_prior = std::sqrt(residual_statistics(matcher_.residuals()).variance);
-  if (scan.used < kMinMatches) return at;
-  const Linearization guess = fused(scan, 1.0, at);
+  if (scan_.used < kMinMatches) return at;
+  const Linearization guess = fused(part_, 1.0, at);
   return fuse(predicted, at, guess.measurement, guess.mask).state;
 }
 
@@ -93,12 +101,12 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
       matched_at = at;
       matcher_.match(matched_at, points, map);
     }
-    const MatchInformation scan = matcher_.linearize(at);
-    diagnostics.points_used = scan.used;
-    if (scan.used < kMinMatches) return std::nullopt;
-    if (first && cross_validation_.enabled) fraction_.add(scan.halves, at.position);
+    scan_ = matcher_.linearize(at);
+    diagnostics.points_used = scan_.used;
+    if (scan_.used < kMinMatches) return std::nullopt;
+    if (first && cross_validation_.enabled) fraction_.add(scan_.halves, at.position, free_tilt());
     first = false;
-    return fused(scan, 1.0, at);
+    return fused(part_, 1.0, at);
   };
   const auto converged = [&](const NominalState& before, const NominalState& after) {
     return !moved(after, before, kConvergedRotation, kConvergedPosition);
@@ -140,50 +148,67 @@ void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& d
 /// axes that the scan hardly constrains, and the difference would show up as inconsistency of the
 /// LiDAR. The scan is linearized at the trial state, which both updates share when converged; with
 /// the robust kernel its weights are those of the last iteration, one later than in the trial.
-double LidarUpdate::leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
-                                         const MatchInformation& scan) const {
-  const Linearization measured = fused(scan, 1.0, linearization);
+double LidarUpdate::leg_free_consistency(const Belief& leg_free,
+                                         const NominalState& linearization) const {
+  const Linearization measured = fused(part_, 1.0, linearization);
   const Belief updated = fuse(leg_free, linearization, measured.measurement, measured.mask);
   return lidar_consistency(updated.state, leg_free);
 }
 
-void LidarUpdate::update_map_covariance(const VoxelMap& map, const Belief& predicted,
-                                        const Belief& updated) {
+/// `matching`: where the scan lies in the map.
+void LidarUpdate::update_map_covariance(const VoxelMap& map, const NominalState& matching,
+                                        const Belief& predicted, const Belief& updated) {
+  if (!map_covariance_enabled_) return;
   const auto position = [](const Belief& belief) {
     return Eigen::Matrix3d(block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition));
   };
   map_covariance_ =
       map_covariance_after_scan(map_covariance_, position(predicted), position(updated),
-                                matcher_.mapped_planes(updated.state, map));
+                                matcher_.mapped_planes(matching, map));
 }
 
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
-                           const VoxelMap& map, const CalibrationModel& calibration,
+                           const VoxelMap& map, const CalibrationModel& calibration, ScanPart part,
                            ScanDiagnostics& diagnostics, const Belief* leg_free) {
   calibration_ = calibration;
+  part_ = part;
+  predicted_ = predicted.state;
   const auto trial = this->trial(predicted, points, map, diagnostics);
   const NominalState& at = trial.belief.state;
-  MatchInformation scan;
-  if (!trial.refused) {
-    scan = matcher_.linearize(at);
-    diagnostics.points_used = scan.used;
-  }
+  scan_ = trial.refused ? MatchInformation() : matcher_.linearize(at);
+  if (!trial.refused) diagnostics.points_used = scan_.used;
   // The residual gate may leave fewer matches at the result of the trial than before it.
   Belief belief = predicted;
-  if (scan.used >= kMinMatches) {
+  if (scan_.used >= kMinMatches) {
+    matched_at_ = at;
     diagnostics.iterations = trial.iterations;
     diagnostics.converged = trial.converged;
-    record_localizability(scan.halves, diagnostics);
-    if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at, scan);
+    record_localizability(scan_.halves, diagnostics);
+    if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at);
     assess(predicted, at, diagnostics);
-    const Linearization weighed = fused(scan, gamma_lidar_, at);
+    const Linearization weighed = fused(part_, gamma_lidar_, at);
     belief = fuse(predicted, at, weighed.measurement, weighed.mask);
     matcher_.learn_noise();
-    if (map_covariance_enabled_) update_map_covariance(map, predicted, belief);
+    if (part_ == ScanPart::kReal || !cross_validation_.enabled) {
+      update_map_covariance(map, belief.state, predicted, belief);
+    }
   }
   if (degeneracy_.enabled) diagnostics.D_smoothed = severity_.value();
   diagnostics.gamma_lidar = gamma_lidar_;
   diagnostics.gamma_leg = gamma_leg_;
+  return belief;
+}
+
+/// Linearized where the scan was matched, but along free directions at the predicted position: it
+/// may be far from the map there, and the scan has no information about that.
+Belief LidarUpdate::update_with_real_part(const Belief& predicted, const VoxelMap& map) {
+  NominalState at = predicted.state;
+  at.rotation = matched_at_.rotation;
+  const Eigen::Vector3d apart = predicted.state.position - predicted_.position;
+  at.position = matched_at_.position + apart - odometry_mask().position * apart;
+  const Linearization real = fused(ScanPart::kReal, gamma_lidar_, at);
+  const Belief belief = fuse(predicted, at, real.measurement, real.mask);
+  update_map_covariance(map, matched_at_, predicted, belief);
   return belief;
 }
 

@@ -18,9 +18,15 @@ namespace aims {
 /// Planes needed for an update.
 inline constexpr int kMinMatches = 30;
 
+/// What of the information of a scan is fused.
+enum class ScanPart {
+  kAll,   ///< that from the noise of the map included
+  kReal,  ///< that on which both halves of the map agree
+};
+
 /// The LiDAR correction: an iterated trial update with the nominal noise, the degeneracy index from
 /// its residuals and innovation, and the final update with the noise scaled by the index. With
-/// `cross_validation` the information that comes from the noise of the map is removed.
+/// `cross_validation` the information that comes from the noise of the map can be left out.
 class LidarUpdate {
  public:
   explicit LidarUpdate(const EskfConfig& config);
@@ -29,10 +35,16 @@ class LidarUpdate {
   /// index, weights and statistics of `diagnostics`. With too few planes at any linearization, the
   /// last included, the belief and the index are unchanged and `iterations` is 0. `leg_free` is the
   /// prediction of the IMU alone, for C_IL; null: not known, C_IL then takes `predicted`.
-  /// `calibration` is the scan's dependence on mount and delay.
+  /// `calibration` is the scan's dependence on mount and delay. Without `cross_validation` a scan
+  /// has no part but kAll.
   Belief update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
-                const VoxelMap& map, const CalibrationModel& calibration,
+                const VoxelMap& map, const CalibrationModel& calibration, ScanPart part,
                 ScanDiagnostics& diagnostics, const Belief* leg_free = nullptr);
+
+  /// Another belief, `predicted` for the same time, after the real part of the scan that update()
+  /// fused last, in at least one iteration, with the same map. Along what the scan leaves free the
+  /// two beliefs may be far apart.
+  Belief update_with_real_part(const Belief& predicted, const VoxelMap& map);
 
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
@@ -41,12 +53,6 @@ class LidarUpdate {
   /// the legs measures the velocity along it.
   bool considers_legs() const {
     return cross_validation_.enabled && fraction_.leaves_direction_free();
-  }
-
-  /// Whether the robot has just started along a direction that scans leave free: its position along
-  /// it then follows legs whose scale nothing has measured yet.
-  bool follows_unknown_legs() const {
-    return cross_validation_.enabled && fraction_.leaves_start_free();
   }
 
   /// Gain mask of what measures the velocity. While scans leave a direction free, the position
@@ -60,7 +66,8 @@ class LidarUpdate {
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 
  private:
-  Linearization fused(const MatchInformation& scan, double gamma, const NominalState& state) const;
+  double free_tilt() const;
+  Linearization fused(ScanPart part, double gamma, const NominalState& state) const;
   NominalState first_guess(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics);
   IteratedUpdate trial(const Belief& predicted, std::span<const Eigen::Vector3f> points,
@@ -68,12 +75,16 @@ class LidarUpdate {
   void assess(const Belief& predicted, const NominalState& trial_state,
               ScanDiagnostics& diagnostics);
   void assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics);
-  double leg_free_consistency(const Belief& leg_free, const NominalState& linearization,
-                              const MatchInformation& scan) const;
-  void update_map_covariance(const VoxelMap& map, const Belief& predicted, const Belief& updated);
+  double leg_free_consistency(const Belief& leg_free, const NominalState& linearization) const;
+  void update_map_covariance(const VoxelMap& map, const NominalState& matching,
+                             const Belief& predicted, const Belief& updated);
 
   int max_iterations_;            ///< of the trial update
   CalibrationModel calibration_;  ///< of the present scan
+  ScanPart part_;                 ///< of it that update() fuses
+  MatchInformation scan_;         ///< the present scan at the last linearization
+  NominalState predicted_;        ///< for it, by the belief of update()
+  NominalState matched_at_;       ///< where its matches were linearized last
   DegeneracyConfig degeneracy_;
   CrossValidationConfig cross_validation_;
   RealFraction fraction_;

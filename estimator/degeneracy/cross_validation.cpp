@@ -44,7 +44,8 @@ void describe(Fields& f, CrossValidationConfig& c) {
 /// The first scan counts until there is a second one: all scans of a standing robot show its noise.
 /// Those after it count the more the farther the robot has come from the pattern of rings that the
 /// halves share, so that the average does not keep it.
-void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& position) {
+void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& position,
+                       double free_tilt) {
   const bool first = !last_position_;
   const double moved = first ? 0.0 : (position - *last_position_).norm();
   if (!first && moved < kMinShift) return;
@@ -54,7 +55,7 @@ void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& pos
   const double added = (1.0 - kept) * (1.0 - std::exp(-distance_ / kStartDistance));
   weight_ = kept * weight_ + added;
   average(scan, first ? 1.0 : added / weight_);
-  update_fraction();
+  update_fraction(free_tilt);
 }
 
 void RealFraction::average(const HalvesInformation& scan, double gain) {
@@ -63,7 +64,7 @@ void RealFraction::average(const HalvesInformation& scan, double gain) {
   sum_of_weights_ += gain * (scan.within.bottomRightCorner<3, 3>().trace() - sum_of_weights_);
 }
 
-void RealFraction::update_fraction() {
+void RealFraction::update_fraction(double free_tilt) {
   // X V = W V diag(f) with V^T W V = I: V diagonalizes C as well, to (1 + f) / 2.
   const Eigen::Matrix3d within = within_ + kRegularization * Eigen::Matrix3d::Identity();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(across_, within);
@@ -74,7 +75,7 @@ void RealFraction::update_fraction() {
   constrained_.setIdentity();
   for (int i = 0; i < 3; ++i) {
     const double f = solver.eigenvalues()(i);
-    const double tilt = kFreeTilt * kFreeTilt * sum_of_weights_ * V.col(i).squaredNorm();
+    const double tilt = free_tilt * free_tilt * sum_of_weights_ * V.col(i).squaredNorm();
     fraction(i) = without(std::max(at_start, tilt), f);
     // What the tilt takes is left out to be safe, and the vector still asks for it; the pattern of
     // the start is no displacement.
@@ -89,10 +90,6 @@ void RealFraction::update_fraction() {
   const Eigen::Array3d root_of_noise = ((1.0 + fraction) / 2.0).sqrt();
   matrix_root_ = undo(fraction / root_of_noise);
   vector_gain_ = undo(step * fraction / root_of_noise.square());
-}
-
-bool RealFraction::leaves_start_free() const {
-  return leaves_direction_free() && distance_ > 0.0 && distance_ < kStartDistance;
 }
 
 PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {

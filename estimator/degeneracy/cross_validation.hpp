@@ -51,8 +51,10 @@ inline constexpr double kFreeTilt = 0.006;
 /// known about the position with the rotation given would hold it to another one.
 class RealFraction {
  public:
-  /// Adds a scan at `position` [m]; scans of a robot that stands count once.
-  void add(const HalvesInformation& scan, const Eigen::Vector3d& position);
+  /// Adds a scan at `position` [m]; scans of a robot that stands count once. `free_tilt`: kFreeTilt
+  /// of its map [rad].
+  void add(const HalvesInformation& scan, const Eigen::Vector3d& position,
+           double free_tilt = kFreeTilt);
 
   /// A of the position with the rotation unknown and the vector that belongs to it; the rotation
   /// with the position given is taken as real.
@@ -64,12 +66,9 @@ class RealFraction {
   /// Whether scans leave a direction of the position free.
   bool leaves_direction_free() const { return weakest_ <= 0.0; }
 
-  /// Whether it does so after the first step, within the distance over which scans come to count.
-  bool leaves_start_free() const;
-
  private:
   void average(const HalvesInformation& scan, double gain);
-  void update_fraction();
+  void update_fraction(double free_tilt);
 
   std::optional<Eigen::Vector3d> last_position_;
   double distance_ = 0.0;  ///< moved since the first scan [m]

@@ -64,7 +64,7 @@ RayHit cast_ray(const CorridorShape& c, const Eigen::Vector3d& origin,
   const Eigen::Vector3d hit = origin + distance * direction;
   if (axis == 1 && direction.y() > 0.0 && c.door_spacing > 0.0 && hit.z() < c.door_height) {
     const double center = std::round(hit.x() / c.door_spacing) * c.door_spacing;
-    if (std::abs(hit.x() - center) < c.door_width / 2.0) {
+    if (center >= c.first_door && std::abs(hit.x() - center) < c.door_width / 2.0) {
       const Eigen::Vector3d recess_low(center - c.door_width / 2.0, high.y() - 1.0, 0.0);
       const Eigen::Vector3d recess_high(center + c.door_width / 2.0, high.y() + c.recess_depth,
                                         c.door_height);

@@ -18,6 +18,7 @@ struct CorridorShape {
   double width = 2.2;          ///< [m]
   double height = 2.6;         ///< [m]
   double door_spacing = 8.0;   ///< 0: no doors [m]
+  double first_door = -1e9;    ///< no doors before this x [m]
   double door_width = 0.9;     ///< [m]
   double door_height = 2.1;    ///< [m]
   double recess_depth = 0.15;  ///< [m]

@@ -116,8 +116,8 @@ TEST(Eskf, FillsDiagnostics) {
   EXPECT_TRUE(result.diagnostics.scans[100].covariance);
 }
 
-// The attitude of a start in motion is rough. Were the first two scans mapped at two of them, one in
-// each half, the halves would agree on little, and nothing would correct it.
+// The attitude of a start in motion is rough. Were the first two scans mapped at two of them, one
+// in each half, the halves would agree on little, and nothing would correct it.
 TEST(Eskf, AfterAStartInMotionTheSecondScanMeetsTheFirst) {
   KinematicWorld world(short_sequence());
   const auto deliveries = record(world);
@@ -249,38 +249,55 @@ TEST(Eskf, MapMemoryIsBounded) {
   }
 }
 
-/// The map's points every half second of a walk along a corridor without end walls.
-std::vector<std::size_t> map_growth(double recess_depth, EstimatorResult& result) {
-  KinematicConfig config;
-  config.corridor = {.begin = -40.0, .end = 60.0, .recess_depth = recess_depth, .open_ends = true};
-  config.walk = {.distance = 6.0, .stand = 4.0, .there_and_back = false};
-  config.sensors.lidar_range = 20.0;
-  KinematicWorld world(config);
-  EskfEstimator estimator(eskf_preset("aims_d"), world.rig());
-  std::vector<std::size_t> sizes;
-  std::vector<Delivery> deliveries;
-  while (world.advance(kSecond / 2, deliveries)) {
-    for (const Delivery& delivery : deliveries) estimator.consume(delivery);
-    deliveries.clear();
-    sizes.push_back(estimator.map_points().size());
-  }
-  result = estimator.result();
-  return sizes;
+/// Error of the position along the corridor at `stamp` [m].
+double error_along(const EstimatorResult& result, const KinematicWorld& world, Time stamp) {
+  const auto at = std::ranges::lower_bound(result.trajectory, stamp, {}, &StampedPose::stamp);
+  const StampedPose& first = result.trajectory.front();
+  const Pose T_world_odom = world.T_world_body(first.stamp) * first.pose.inverse();
+  return (T_world_odom * at->pose).translation.x() - world.T_world_body(at->stamp).translation.x();
 }
 
-// Legs of unknown scale take the robot along a plain corridor; scans mapped from there would lie
-// beside those of the standing robot.
-TEST(Eskf, TheMapWaitsWhileTheStartIsFree) {
-  EstimatorResult plain;
-  const std::vector<std::size_t> sizes = map_growth(0.0, plain);
-  const int waited = plain.counts["map.waited"];
-  EXPECT_GT(waited, 8);
-  EXPECT_LT(waited, 20) << "1 m at 0.7 m/s";
-  EXPECT_EQ(sizes[9], sizes[10]) << "between 5 and 5.5 s, about 0.4 to 0.8 m from the start";
-  EXPECT_GT(sizes.back(), sizes[10] + 1000) << "it grows again";
-  EstimatorResult doors;
-  map_growth(0.5, doors);
-  EXPECT_LT(doors.counts["map.waited"], waited / 2) << "the doors show how far it came";
+/// A walk of 26 m along a corridor without ends, with doors from `first_door` on [m] and legs that
+/// report 14 % too little.
+KinematicConfig far_off_legs(double first_door) {
+  KinematicConfig config;
+  config.corridor = {.begin = -60.0,
+                     .end = 80.0,
+                     .door_spacing = 4.0,
+                     .first_door = first_door,
+                     .open_ends = true};
+  config.walk = {.distance = 26.0, .there_and_back = false};
+  config.sensors.lidar_range = 8.0;
+  config.sensors.lidar_columns = 900;
+  config.sensors.leg_scale_error = 0.14;
+  return config;
+}
+
+// Legs take the estimate along a plain corridor until doors come into range. Mapped from where they
+// take it, each door would be elsewhere in every scan, and nothing would show that the corridor is
+// no longer plain.
+TEST(Eskf, DoorsAfterAPlainCorridorAreFoundWhereLegsAreFarOff) {
+  const KinematicConfig config = far_off_legs(12.0);
+  KinematicWorld world(config);
+  const EstimatorResult result = run("aims_d", record(world), world.rig());
+  const auto at = [&](double x) {
+    return error_along(result, world, from_seconds(config.walk.stand + x / config.walk.speed));
+  };
+  EXPECT_LT(at(12.0), -0.8) << "the legs took it along as far as the doors";
+  EXPECT_GT(at(24.0), at(12.0) - 0.1) << "not after them";
+}
+
+TEST(Eskf, TheEstimateMapsOnceTheLegsAreKnown) {
+  const auto before = [](double first_door, std::string_view preset) {
+    KinematicWorld world(far_off_legs(first_door));
+    const EstimatorResult result = run(preset, record(world), world.rig());
+    const auto count = result.counts.find("map.before_legs_known");
+    const int scans = count == result.counts.end() ? 0 : count->second;
+    return scans / static_cast<double>(result.diagnostics.scans.size());
+  };
+  EXPECT_LT(before(-60.0, "aims_d"), 0.4) << "doors from the start show the scale of the legs";
+  EXPECT_EQ(before(80.0, "aims_d"), 1.0) << "nothing shows it";
+  EXPECT_EQ(before(-60.0, "tfs_plus"), 0.0) << "its only belief takes all information";
 }
 
 /// The short sequence with `modify` applied to each delivery; false drops it.

@@ -68,15 +68,16 @@ struct Sequence {
     }
   }
 
-  /// The belief after a scan taken at `truth`, level and facing along x.
-  Belief fuse(const Belief& predicted, const Belief* leg_free = nullptr) {
+  /// The belief after `part` of a scan taken at `truth`, level and facing along x.
+  Belief fuse(const Belief& predicted, ScanPart part = ScanPart::kReal,
+              const Belief* leg_free = nullptr) {
     std::vector<Eigen::Vector3f> scan;
     for (int i = 0; i < 800; ++i) {
       const Eigen::Vector3d p = corridor.point(truth.x() - kRange, truth.x() + kRange);
       scan.push_back((p - truth).cast<float>());
     }
     diagnostics = ScanDiagnostics();
-    return update.update(predicted, scan, map, CalibrationModel(), diagnostics, leg_free);
+    return update.update(predicted, scan, map, CalibrationModel(), part, diagnostics, leg_free);
   }
 
   RandomStream random{1, "lidar_update.test"};
@@ -117,6 +118,32 @@ TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
   EXPECT_GT(updated.covariance(x, x), 0.8 * predicted.covariance(x, x));
 }
 
+// Between plain walls the noise of the map holds a belief where it is predicted to be.
+TEST(LidarUpdate, AllInformationContainsThatOfNoise) {
+  Sequence sequence(false);
+  const Belief predicted = correlated_prediction(sequence.truth);
+  const Belief updated = sequence.fuse(predicted, ScanPart::kAll);
+  const int x = E::kPosition.offset;
+  EXPECT_LT(updated.covariance(x, x), 0.5 * predicted.covariance(x, x));
+  EXPECT_GT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 1e-4);
+}
+
+// The estimate may be far from the belief that maps: between plain walls that changes nothing of
+// what the real part of a scan does to it; between pillars the scan takes it to the other one.
+TEST(LidarUpdate, TheRealPartActsWhereTheScanWasMatched) {
+  for (const bool pillars : {false, true}) {
+    Sequence sequence(pillars);
+    Belief predicted = correlated_prediction(sequence.truth);
+    block(predicted.covariance, E::kPosition, E::kPosition) += 4.0 * Eigen::Matrix3d::Identity();
+    (void)sequence.fuse(predicted, ScanPart::kAll);
+    predicted.state.position.x() += 2.0;
+    const Belief updated = sequence.update.update_with_real_part(predicted, sequence.map);
+    EXPECT_LT((updated.state.position - sequence.truth).tail<2>().norm(), 0.02);
+    const double x = updated.state.position.x() - sequence.truth.x();
+    EXPECT_NEAR(x, pillars ? 0.0 : 2.05, 0.03);
+  }
+}
+
 // A leg sample whose model of the scale is off by a percent, after a distance over which the
 // scale has made the position uncertain by metres: without the mask the gain along x is 0.1 m per
 // m/s, and 200 samples a second would carry the position away.
@@ -150,7 +177,7 @@ TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {
   Belief leg_free = predicted;
   leg_free.state.position.y() += 0.05;
   leg_free.covariance *= 2.0;
-  (void)sequence.fuse(predicted, &leg_free);
+  (void)sequence.fuse(predicted, ScanPart::kReal, &leg_free);
   const ScanDiagnostics with_both = sequence.diagnostics;
   EXPECT_EQ(with_both.C_IL, with_both.C_IL_imu) << "the paper's reading is the default";
   EXPECT_GT(with_both.C_IL_imu, 3.0 * with_both.C_IL_imu_legs);
@@ -197,8 +224,8 @@ TEST(LidarUpdate, IsRefusedWhenItsLastLinearizationHasTooFewPlanes) {
     EskfConfig config = eskf_preset("tfs_clean");
     config.lidar.max_iterations = 1;
     ScanDiagnostics diagnostics;
-    const Belief belief =
-        LidarUpdate(config).update(predicted, returns_about_a_wall(count), map, {}, diagnostics);
+    const Belief belief = LidarUpdate(config).update(predicted, returns_about_a_wall(count), map,
+                                                     {}, ScanPart::kReal, diagnostics);
     EXPECT_EQ(boxminus(belief.state, predicted.state).isZero(0.0), diagnostics.iterations == 0);
     return diagnostics;
   };
@@ -230,7 +257,7 @@ double normalised_error_along(double facing, std::uint64_t seed) {
       scan.push_back((corridor.point(-2.8, 2.8) - truth).cast<float>());
     }
     ScanDiagnostics diagnostics;
-    return update.update(predicted, scan, map, {}, diagnostics);
+    return update.update(predicted, scan, map, {}, ScanPart::kReal, diagnostics);
   };
   Belief belief;
   belief.covariance = 1e-6 * ErrorMatrix::Identity();

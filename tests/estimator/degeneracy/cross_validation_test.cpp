@@ -138,27 +138,6 @@ TEST(RealFraction, ThePatternOfTheStartConstrainsNothing) {
   }
 }
 
-TEST(RealFraction, TheStartIsFreeFromTheFirstStepUntilScansCount) {
-  RandomStream random(9, "cross_validation.start");
-  RealFraction plain;
-  RealFraction faces;
-  std::vector<double> free_at;  // distances [m]
-  double constrained_from = std::numeric_limits<double>::infinity();
-  for (double distance = 0.0; distance < 6.0; distance += kStep) {
-    const Eigen::Vector3d position(distance, 0.0, 0.0);
-    plain.add(scan_corridor(random, 0), position);
-    faces.add(scan_corridor(random, 60), position);
-    if (plain.leaves_start_free()) free_at.push_back(distance);
-    if (!faces.leaves_start_free() && distance > 0.0) {
-      constrained_from = std::min(constrained_from, distance);
-    }
-  }
-  ASSERT_FALSE(free_at.empty());
-  EXPECT_NEAR(free_at.front(), kStep, 1e-9);
-  EXPECT_NEAR(free_at.back(), 1.0, 1.5 * kStep);
-  EXPECT_LT(constrained_from, 0.9);
-}
-
 /// Walls on both sides of a corridor that bends about a point 10 m to the left, floor and ceiling,
 /// with `noise` of the normals added to `within`, and a share `real` of it to `across`.
 HalvesInformation scan_curve(double noise, double real) {
