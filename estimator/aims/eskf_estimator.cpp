@@ -34,6 +34,10 @@ double max_leg_speed(const EskfConfig& config) {
 /// that scans leave free [-].
 constexpr double kKnownLegScale = 0.05;
 
+/// Legs weigh in the belief that maps as in `tfs_plus`, by its defaults: so little that scans fit
+/// each other (docs/decisions.md).
+const LegConfig kLegsWhileMapping;
+
 /// Returns that a scan is compared with earlier ones by, at most: two per pixel of a RangeImage.
 constexpr int kMaxImagePoints = 10000;
 
@@ -211,7 +215,7 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   accept(belief_, fuse(belief_, measurement, lidar_update_.odometry_mask()));
   if (!mapping_) return;
   const Eigen::Matrix3d noise =
-      leg_velocity_noise(config_.legs, rig_.leg_rate_hz, sample.linear_velocity);
+      leg_velocity_noise(kLegsWhileMapping, rig_.leg_rate_hz, sample.linear_velocity);
   accept(*mapping_,
          fuse(*mapping_, leg_velocity_model(mapping_->state, rig_.T_body_base, rate, legs, noise)));
 }

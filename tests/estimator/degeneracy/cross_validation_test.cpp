@@ -138,6 +138,21 @@ TEST(RealFraction, ThePatternOfTheStartConstrainsNothing) {
   }
 }
 
+TEST(RealFraction, TheLimitOnTheTiltDecidesWhatIsFree) {
+  constexpr double kTilt = 0.0075;  // of the planes towards the corridor's axis [rad]
+  for (const double limit : {0.006, 0.009}) {
+    RealFraction fraction;
+    for (double distance = 0.0; distance < 10.0; distance += kStep) {
+      HalvesInformation scan;
+      scan.within.diagonal() << 1.0, 1.0, 1.0, 1.0, 300.0, 300.0;
+      scan.across = scan.within;
+      scan.across(3, 3) = kTilt * kTilt * scan.within.bottomRightCorner<3, 3>().trace();
+      fraction.add(scan, Eigen::Vector3d(distance, 0.0, 0.0), limit);
+    }
+    EXPECT_EQ(fraction.leaves_direction_free(), kTilt < limit) << "limit " << limit;
+  }
+}
+
 /// Walls on both sides of a corridor that bends about a point 10 m to the left, floor and ceiling,
 /// with `noise` of the normals added to `within`, and a share `real` of it to `across`.
 HalvesInformation scan_curve(double noise, double real) {
