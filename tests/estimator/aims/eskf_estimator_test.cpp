@@ -54,13 +54,18 @@ EstimatorResult run(const EskfConfig& config, const std::vector<Delivery>& deliv
   return run(estimator, deliveries);
 }
 
+/// The odometry frame in the world, from the first pose.
+Pose T_world_odom(const EstimatorResult& result, const KinematicWorld& world) {
+  const StampedPose& first = result.trajectory.front();
+  return world.T_world_body(first.stamp) * first.pose.inverse();
+}
+
 /// Largest distance [m] between the estimate, aligned at its first pose, and the truth.
 double largest_error(const EstimatorResult& result, const KinematicWorld& world) {
-  const StampedPose& first = result.trajectory.front();
-  const Pose T_world_odom = world.T_world_body(first.stamp) * first.pose.inverse();
+  const Pose aligned = T_world_odom(result, world);
   double largest = 0.0;
   for (const StampedPose& each : result.trajectory) {
-    const Pose error = world.T_world_body(each.stamp).inverse() * T_world_odom * each.pose;
+    const Pose error = world.T_world_body(each.stamp).inverse() * aligned * each.pose;
     if (!error.translation.allFinite()) return std::numeric_limits<double>::infinity();
     largest = std::max(largest, error.translation.norm());
   }
@@ -252,9 +257,8 @@ TEST(Eskf, MapMemoryIsBounded) {
 /// Error of the position along the corridor at `stamp` [m].
 double error_along(const EstimatorResult& result, const KinematicWorld& world, Time stamp) {
   const auto at = std::ranges::lower_bound(result.trajectory, stamp, {}, &StampedPose::stamp);
-  const StampedPose& first = result.trajectory.front();
-  const Pose T_world_odom = world.T_world_body(first.stamp) * first.pose.inverse();
-  return (T_world_odom * at->pose).translation.x() - world.T_world_body(at->stamp).translation.x();
+  const Pose estimate = T_world_odom(result, world) * at->pose;
+  return estimate.translation.x() - world.T_world_body(at->stamp).translation.x();
 }
 
 /// A walk of 26 m along a corridor without ends, with doors from `first_door` on [m] and legs that
@@ -290,9 +294,8 @@ TEST(Eskf, DoorsAfterAPlainCorridorAreFoundWhereLegsAreFarOff) {
 TEST(Eskf, TheEstimateMapsOnceTheLegsAreKnown) {
   const auto before = [](double first_door, std::string_view preset) {
     KinematicWorld world(far_off_legs(first_door));
-    const EstimatorResult result = run(preset, record(world), world.rig());
-    const auto count = result.counts.find("map.before_legs_known");
-    const int scans = count == result.counts.end() ? 0 : count->second;
+    EstimatorResult result = run(preset, record(world), world.rig());
+    const double scans = result.counts["map.before_legs_known"];
     return scans / static_cast<double>(result.diagnostics.scans.size());
   };
   EXPECT_LT(before(-60.0, "aims_d"), 0.4) << "doors from the start show the scale of the legs";

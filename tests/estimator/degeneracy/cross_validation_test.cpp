@@ -5,9 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <algorithm>
-#include <limits>
-#include <vector>
+#include <cmath>
 
 #include "core/random.hpp"
 #include "estimator/lidar/plane_model.hpp"
