@@ -33,6 +33,13 @@ ErrorMatrix masked_covariance(const ErrorMatrix& P, const Columns<rows>& PH,
 
 }  // namespace
 
+LinearMeasurement moved(const LinearMeasurement& measurement, const NominalState& from,
+                        const NominalState& to) {
+  LinearMeasurement there = measurement;
+  there.residual += measurement.jacobian * boxminus(to, from);
+  return there;
+}
+
 ErrorMatrix GainMask::matrix() const { return *this * ErrorMatrix(ErrorMatrix::Identity()); }
 
 Belief fuse(const Belief& prior, const LinearMeasurement& measurement, const GainMask& mask) {

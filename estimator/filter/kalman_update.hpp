@@ -21,6 +21,11 @@ struct LinearMeasurement {
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< covariance
 };
 
+/// A measurement linearized at `from`, for the nearby state `to`: its residual there, with the same
+/// Jacobian.
+LinearMeasurement moved(const LinearMeasurement& measurement, const NominalState& from,
+                        const NominalState& to);
+
 /// Any number of linearized rows r + h y of six numbers y = jacobian d, such as the error of the
 /// pose, in information form: the sums h^T R^-1 h and h^T R^-1 r.
 struct PoseMeasurement {

@@ -152,6 +152,21 @@ TEST(GainMask, LeavesOutTheLegsAndNothingElse) {
   EXPECT_EQ(GainMask{.legs = false}.matrix(), expected) << "mount and delay are corrected";
 }
 
+// Its error is of second order: a tenth of the distance, a hundredth of the error.
+TEST(LinearMeasurement, HasTheResidualOfTheStateThatItIsMovedTo) {
+  RandomStream random(5, "moved_measurement");
+  const NominalState from = boxplus(NominalState(), 0.2 * normal_error(random));
+  const ErrorVector direction = normal_error(random);
+  const auto error_at = [&](double distance) {
+    const NominalState to = boxplus(from, distance * direction);
+    return (moved(some_legs(from), from, to).residual - some_legs(to).residual).norm();
+  };
+  const NominalState far = boxplus(from, 0.1 * direction);
+  const double without = (some_legs(from).residual - some_legs(far).residual).norm();
+  EXPECT_LT(error_at(0.1), 0.2 * without);
+  EXPECT_NEAR(error_at(0.01) / error_at(0.1), 0.01, 0.004);
+}
+
 /// Measurement x^2 = 4 of the position with the deviation 0.1, refused beyond `limit`.
 std::optional<Linearization> square_is_four(const NominalState& at, double limit) {
   const double x = at.position.x();
