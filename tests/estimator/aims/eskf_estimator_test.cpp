@@ -267,7 +267,7 @@ KinematicConfig far_off_legs(double first_door) {
   KinematicConfig config;
   config.corridor = {.begin = -60.0,
                      .end = 80.0,
-                     .door_spacing = 4.0,
+                     .door_spacing = 3.0,
                      .first_door = first_door,
                      .open_ends = true};
   config.walk = {.distance = 26.0, .there_and_back = false};
