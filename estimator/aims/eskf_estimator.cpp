@@ -366,7 +366,7 @@ void EskfEstimator::fuse_ground_constraint() {
   accept(belief_, fuse_ground(above_ground, *measurement));
   if (mapping_) {
     const Belief above = with_map_error(*mapping_, lidar_update_.map_covariance());
-    accept(*mapping_, fuse_ground(above, moved(*measurement, above_ground.state, above.state)));
+    accept(*mapping_, fuse_ground(above, moved_to(*measurement, above_ground.state, above.state)));
   }
   ground_.corrected(belief_.state);
 }

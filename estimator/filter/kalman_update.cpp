@@ -33,8 +33,8 @@ ErrorMatrix masked_covariance(const ErrorMatrix& P, const Columns<rows>& PH,
 
 }  // namespace
 
-LinearMeasurement moved(const LinearMeasurement& measurement, const NominalState& from,
-                        const NominalState& to) {
+LinearMeasurement moved_to(const LinearMeasurement& measurement, const NominalState& from,
+                           const NominalState& to) {
   LinearMeasurement there = measurement;
   there.residual += measurement.jacobian * boxminus(to, from);
   return there;

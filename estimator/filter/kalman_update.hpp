@@ -23,8 +23,8 @@ struct LinearMeasurement {
 
 /// A measurement linearized at `from`, for the nearby state `to`: its residual there, with the same
 /// Jacobian.
-LinearMeasurement moved(const LinearMeasurement& measurement, const NominalState& from,
-                        const NominalState& to);
+LinearMeasurement moved_to(const LinearMeasurement& measurement, const NominalState& from,
+                           const NominalState& to);
 
 /// Any number of linearized rows r + h y of six numbers y = jacobian d, such as the error of the
 /// pose, in information form: the sums h^T R^-1 h and h^T R^-1 r.

@@ -159,7 +159,7 @@ TEST(LinearMeasurement, HasTheResidualOfTheStateThatItIsMovedTo) {
   const ErrorVector direction = normal_error(random);
   const auto error_at = [&](double distance) {
     const NominalState to = boxplus(from, distance * direction);
-    return (moved(some_legs(from), from, to).residual - some_legs(to).residual).norm();
+    return (moved_to(some_legs(from), from, to).residual - some_legs(to).residual).norm();
   };
   const NominalState far = boxplus(from, 0.1 * direction);
   const double without = (some_legs(from).residual - some_legs(far).residual).norm();
