@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/aims/eskf_estimator.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "estimator/filter/imu_propagation.hpp"
@@ -38,9 +39,6 @@ constexpr double kKnownLegScale = 0.05;
 /// each other (docs/decisions.md).
 const LegConfig kLegsWhileMapping;
 
-/// Returns that a scan is compared with earlier ones by, at most: two per pixel of a RangeImage.
-constexpr int kMaxImagePoints = 10000;
-
 /// Without fusion, the leg states stay fixed.
 LegStatesConfig leg_states_of(const EskfConfig& config) {
   return config.legs.enabled ? config.leg_states : LegStatesConfig();
@@ -52,9 +50,8 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
     : config_(config),
       rig_(rig),
       queue_(config_.queue, config_.imu, rig.imu_rate_hz, max_leg_speed(config_)),
-      selection_(config_.lidar),
+      points_(config_.lidar, config_.map, rig.T_body_lidar.translation),
       lidar_update_(config_),
-      moving_(rig.T_body_lidar.translation),
       leg_free_(config_.imu),
       map_(config_.map),
       ground_(config_.ground_constraint),
@@ -239,12 +236,12 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
     fuse_scan(diagnostics);
   }
   if (config_.ground_constraint.enabled) fuse_ground_constraint();
-  health_.scan(diagnostics, match_points_.size());
+  health_.scan(diagnostics, points_.to_match().size());
   last_scan_ = scan->end;
   leg_free_.restart(matching(), scan->end);
   if (mapping_) ++result_.counts["map.before_legs_known"];
   extend_map();
-  moving_.keep(matching().state.T_odom_body());
+  points_.keep(matching().state.T_odom_body());
   diagnostics.delay = belief_.state.delay;
   diagnostics.mount = so3_log(belief_.state.mount);
   const Eigen::Matrix3d rig =
@@ -260,7 +257,7 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   const NominalState predicted = belief_.state;
   const CalibrationModel calibration{rig_.T_body_lidar.translation, scan_twist_};
   const ScanPart part = mapping_ ? ScanPart::kAll : ScanPart::kReal;
-  accept(matching(), lidar_update_.update(matching(), match_points_, map_, calibration, part,
+  accept(matching(), lidar_update_.update(matching(), points_.to_match(), map_, calibration, part,
                                           diagnostics, leg_free_.belief()));
   if (diagnostics.iterations == 0) {
     ++result_.counts["lidar.no_update"];
@@ -326,37 +323,13 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
   scan_twist_ = mean_twist(belief_.state, segments_, config_.imu.gravity);
   scan_motion_.assign(belief_.state, segments_, corrected_mount(belief_.state, rig_.T_body_lidar),
                       config_.imu.gravity);
-  diagnostics.points_in = selection_.begin(scan);
-  find_moving(scan);
-  const auto select = [&](double voxel, int limit, std::vector<Eigen::Vector3f>& points) {
-    selection_.select(voxel, limit, indices_);
-    deskew(scan, indices_, scan_motion_, points);
-  };
-  const LidarUpdateConfig& lidar = config_.lidar;
-  const MapConfig& map = config_.map;
-  const bool map_is_finer = map.insertion_voxel <= lidar.selection_voxel;
-  if (map_is_finer) select(map.insertion_voxel, map.max_insertions, insert_points_);
-  select(lidar.selection_voxel, lidar.max_points, match_points_);
-  if (!map_is_finer) select(map.insertion_voxel, map.max_insertions, insert_points_);
-  leave_out_moving();
-}
-
-/// Compares the scan with earlier ones, before its returns are thinned.
-void EskfEstimator::find_moving(const LidarScan& scan) {
-  selection_.thin(kMaxImagePoints, indices_);
-  deskew(scan, indices_, scan_motion_, image_points_);
-  moving_.compare(image_points_, scan.end, matching().state.T_odom_body());
-}
-
-void EskfEstimator::leave_out_moving() {
-  moving_.remove_from(match_points_);
-  if (const int moving = moving_.remove_from(insert_points_); moving > 0) {
-    result_.counts["lidar.moving"] += moving;
-  }
+  points_.prepare(scan, scan_motion_, matching().state.T_odom_body());
+  diagnostics.points_in = points_.in_range();
+  if (points_.moving() > 0) result_.counts["lidar.moving"] += points_.moving();
 }
 
 void EskfEstimator::fuse_ground_constraint() {
-  const auto plane = fit_ground(insert_points_, ground_lists_);
+  const auto plane = fit_ground(points_.to_map(), ground_lists_);
   const Belief above_ground = with_map_error(belief_, lidar_update_.map_covariance());
   const auto measurement = ground_.measure(above_ground, plane);
   if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];
@@ -375,15 +348,17 @@ void EskfEstimator::extend_map() {
   const NominalState& state = matching().state;
   const Eigen::Matrix3f R = state.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f t = state.position.cast<float>();
-  for (Eigen::Vector3f& point : insert_points_) point = R * point + t;
+  mapped_.resize(points_.to_map().size());
+  std::ranges::transform(points_.to_map(), mapped_.begin(),
+                         [&](const Eigen::Vector3f& p) -> Eigen::Vector3f { return R * p + t; });
   const Eigen::Matrix3d position =
       block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
   const Eigen::Matrix3f covariance = (position + lidar_update_.map_covariance()).cast<float>();
   // The attitude of a start in motion is rough. With the first scan in both halves the second one
   // is matched and corrects it.
   const bool both_halves = map_.empty() && !stood_still_;
-  map_.insert(insert_points_, t, covariance);
-  if (both_halves) map_.insert(insert_points_, t, covariance);
+  map_.insert(mapped_, t, covariance);
+  if (both_halves) map_.insert(mapped_, t, covariance);
 }
 
 void EskfEstimator::accept(Belief& belief, const Belief& updated) {

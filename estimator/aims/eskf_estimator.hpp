@@ -16,8 +16,7 @@
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/zero_velocity.hpp"
 #include "estimator/lidar/deskew.hpp"
-#include "estimator/lidar/moving_returns.hpp"
-#include "estimator/lidar/scan_selection.hpp"
+#include "estimator/lidar/scan_points.hpp"
 #include "estimator/lidar/voxel_map.hpp"
 
 namespace aims {
@@ -53,8 +52,6 @@ class EskfEstimator : public Estimator {
   bool fuse_zero_velocity(const LegOdometrySample& sample);
   void fuse_standing(Belief& belief, const Eigen::Vector3d& rate, const GainMask& mask);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
-  void find_moving(const LidarScan& scan);
-  void leave_out_moving();
   void fuse_scan(ScanDiagnostics& diagnostics);
   void apply_calibration(double delay_change);
   bool legs_are_known() const;
@@ -69,9 +66,8 @@ class EskfEstimator : public Estimator {
   SensorRig rig_;
   MeasurementQueue queue_;
   int counted_ = 0;  ///< by the queue, when its counts were last taken over
-  ScanSelection selection_;
+  ScanPoints points_;
   LidarUpdate lidar_update_;
-  MovingReturns moving_;
   LegFreePrediction leg_free_;
   VoxelMap map_;
   GroundConstraint ground_;
@@ -98,13 +94,10 @@ class EskfEstimator : public Estimator {
   int leg_updates_ = 0;
 
   std::vector<InertialSegment> segments_;
-  std::vector<int> indices_;
-  MeanTwist scan_twist_;                        ///< of the present scan
-  ScanMotion scan_motion_;                      ///< of the present scan
-  std::optional<Time> last_scan_;               ///< end of the last scan
-  PointBlocks image_points_;                    ///< body axes at the scan's end
-  std::vector<Eigen::Vector3f> match_points_;   ///< body axes at the scan's end
-  std::vector<Eigen::Vector3f> insert_points_;  ///< the same, then in the odometry frame
+  MeanTwist scan_twist_;                 ///< of the present scan
+  ScanMotion scan_motion_;               ///< of the present scan
+  std::optional<Time> last_scan_;        ///< end of the last scan
+  std::vector<Eigen::Vector3f> mapped_;  ///< points of the present scan, odometry frame
 };
 
 }  // namespace aims

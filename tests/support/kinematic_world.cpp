@@ -210,4 +210,34 @@ bool KinematicWorld::advance(Duration span, std::vector<Delivery>& deliveries) {
   return now_ < duration();
 }
 
+KinematicConfig short_walk() {
+  KinematicConfig config;
+  config.walk.distance = 2.5;
+  config.corridor.end = 20.0;
+  config.sensors.lidar_columns = 450;
+  return config;
+}
+
+std::vector<Delivery> record(KinematicWorld& world) {
+  std::vector<Delivery> deliveries;
+  world.advance(world.duration(), deliveries);
+  return deliveries;
+}
+
+Pose T_world_odom(const Trajectory& estimate, const KinematicWorld& world) {
+  const StampedPose& first = estimate.front();
+  return world.T_world_body(first.stamp) * first.pose.inverse();
+}
+
+double largest_error(const Trajectory& estimate, const KinematicWorld& world) {
+  const Pose aligned = T_world_odom(estimate, world);
+  double largest = 0.0;
+  for (const StampedPose& each : estimate) {
+    const Pose error = world.T_world_body(each.stamp).inverse() * aligned * each.pose;
+    if (!error.translation.allFinite()) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, error.translation.norm());
+  }
+  return largest;
+}
+
 }  // namespace aims::test

@@ -105,4 +105,17 @@ class KinematicWorld {
   RandomStream lidar_random_;
 };
 
+/// A walk of 2.5 m there and back in a box of 21.5 m, with a coarse LiDAR: quick to simulate.
+KinematicConfig short_walk();
+
+/// All deliveries of the walk.
+std::vector<Delivery> record(KinematicWorld& world);
+
+/// The odometry frame of an estimate in the world, by its first pose.
+Pose T_world_odom(const Trajectory& estimate, const KinematicWorld& world);
+
+/// Largest distance between an estimate, aligned at its first pose, and the truth; infinite for one
+/// that is not finite [m].
+double largest_error(const Trajectory& estimate, const KinematicWorld& world);
+
 }  // namespace aims::test

@@ -18,24 +18,13 @@ namespace {
 
 using test::KinematicConfig;
 using test::KinematicWorld;
+using test::largest_error;
+using test::record;
+using test::short_walk;
+using test::T_world_odom;
 
 /// The first two scans start the halves of the map.
 constexpr std::size_t kFirstUpdate = 2;
-
-/// A short sequence with a coarse LiDAR, quick to simulate.
-KinematicConfig short_sequence() {
-  KinematicConfig config;
-  config.walk.distance = 2.5;
-  config.corridor.end = 20.0;
-  config.sensors.lidar_columns = 450;
-  return config;
-}
-
-std::vector<Delivery> record(KinematicWorld& world) {
-  std::vector<Delivery> deliveries;
-  world.advance(world.duration(), deliveries);
-  return deliveries;
-}
 
 EstimatorResult run(Estimator& estimator, const std::vector<Delivery>& deliveries) {
   for (const Delivery& delivery : deliveries) estimator.consume(delivery);
@@ -54,38 +43,20 @@ EstimatorResult run(const EskfConfig& config, const std::vector<Delivery>& deliv
   return run(estimator, deliveries);
 }
 
-/// The odometry frame in the world, from the first pose.
-Pose T_world_odom(const EstimatorResult& result, const KinematicWorld& world) {
-  const StampedPose& first = result.trajectory.front();
-  return world.T_world_body(first.stamp) * first.pose.inverse();
-}
-
-/// Largest distance [m] between the estimate, aligned at its first pose, and the truth.
-double largest_error(const EstimatorResult& result, const KinematicWorld& world) {
-  const Pose aligned = T_world_odom(result, world);
-  double largest = 0.0;
-  for (const StampedPose& each : result.trajectory) {
-    const Pose error = world.T_world_body(each.stamp).inverse() * aligned * each.pose;
-    if (!error.translation.allFinite()) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, error.translation.norm());
-  }
-  return largest;
-}
-
 TEST(Eskf, TracksTheCorridorWithinCentimetres) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   const auto deliveries = record(world);
   for (const char* name : {"aims", "tfs", "tfs_clean", "lio"}) {
     const EstimatorResult result = run(name, deliveries, world.rig());
     ASSERT_GT(result.trajectory.size(), 150U) << name;
     EXPECT_EQ(result.trajectory.size(), result.diagnostics.scans.size());
     EXPECT_LT(result.trajectory.front().pose.translation.norm(), 0.01);
-    EXPECT_LT(largest_error(result, world), 0.05) << name;
+    EXPECT_LT(largest_error(result.trajectory, world), 0.05) << name;
   }
 }
 
 TEST(Eskf, LegOdometryAloneKeepsItsScaleError) {
-  KinematicConfig config = short_sequence();
+  KinematicConfig config = short_walk();
   config.sensors.leg_noise = 0.0;
   config.sensors.leg_slow_noise = 0.0;
   config.sensors.gyro_bias = 0.0;
@@ -101,7 +72,7 @@ TEST(Eskf, LegOdometryAloneKeepsItsScaleError) {
 }
 
 TEST(Eskf, FillsDiagnostics) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   const EstimatorResult result = run("aims", record(world), world.rig());
   const auto at = [&](const char* name) { return result.diagnostics.value(100, name); };
   EXPECT_GT(at("points_in"), 1000);
@@ -124,7 +95,7 @@ TEST(Eskf, FillsDiagnostics) {
 // The attitude of a start in motion is rough. Were the first two scans mapped at two of them, one
 // in each half, the halves would agree on little, and nothing would correct it.
 TEST(Eskf, AfterAStartInMotionTheSecondScanMeetsTheFirst) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   const auto deliveries = record(world);
   std::vector<Delivery> walking;
   std::ranges::copy_if(deliveries, std::back_inserter(walking),
@@ -132,13 +103,13 @@ TEST(Eskf, AfterAStartInMotionTheSecondScanMeetsTheFirst) {
   const EstimatorResult moving = run("aims_d", walking, world.rig());
   ASSERT_EQ(moving.counts.at("initialization.moving"), 1);
   EXPECT_TRUE(moving.diagnostics.updated(1));
-  EXPECT_LT(largest_error(moving, world), 0.1);
+  EXPECT_LT(largest_error(moving.trajectory, world), 0.1);
   const EstimatorResult standing = run("aims_d", deliveries, world.rig());
   EXPECT_FALSE(standing.diagnostics.updated(1)) << "each half has another scan";
 }
 
 TEST(Eskf, HasOneConsistencyWithoutLegsAndTwoWithThem) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   const auto deliveries = record(world);
   const Diagnostics lio = run("lio", deliveries, world.rig()).diagnostics;
   const Diagnostics aims = run("aims", deliveries, world.rig()).diagnostics;
@@ -158,7 +129,7 @@ TEST(Eskf, HasOneConsistencyWithoutLegsAndTwoWithThem) {
 }
 
 TEST(Eskf, WeighsByTheConsistencyThatIsChosen) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   EskfConfig config = eskf_preset("aims");
   config.degeneracy.prediction = ConsistencyPrediction::kImuAndLegs;
   const DegeneracyConfig& d = config.degeneracy;
@@ -173,7 +144,7 @@ TEST(Eskf, WeighsByTheConsistencyThatIsChosen) {
 }
 
 TEST(Eskf, LeavesOutOfItsSeriesWhatAVariantOrAScanDoesNotCompute) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   const auto deliveries = record(world);
   const Diagnostics aims = run("aims", deliveries, world.rig()).diagnostics;
   EXPECT_FALSE(aims.updated(0)) << "the first scans start the map";
@@ -187,7 +158,7 @@ TEST(Eskf, LeavesOutOfItsSeriesWhatAVariantOrAScanDoesNotCompute) {
 }
 
 TEST(Eskf, WeightsEachScanByItsOwnSmoothedIndex) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   const EstimatorResult result = run("aims", record(world), world.rig());
   const DegeneracyConfig config;
   const Diagnostics& diagnostics = result.diagnostics;
@@ -206,7 +177,7 @@ TEST(Eskf, WeightsEachScanByItsOwnSmoothedIndex) {
 }
 
 TEST(Eskf, SameDataGivesSameBytes) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   const auto deliveries = record(world);
   const EstimatorResult a = run("aims", deliveries, world.rig());
   const EstimatorResult b = run("aims", deliveries, world.rig());
@@ -218,7 +189,7 @@ TEST(Eskf, SameDataGivesSameBytes) {
 }
 
 TEST(Eskf, IgnoresOrderOfArrivalWithinTheLag) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   auto deliveries = record(world);
   const EstimatorResult in_order = run("aims", deliveries, world.rig());
   for (std::size_t i = 0; i + 4 < deliveries.size(); i += 5) {
@@ -231,7 +202,7 @@ TEST(Eskf, IgnoresOrderOfArrivalWithinTheLag) {
 }
 
 TEST(Eskf, OnlyTfsRepeatsLostLegPackets) {
-  KinematicConfig config = short_sequence();
+  KinematicConfig config = short_walk();
   config.sensors.leg_loss = 0.3;
   KinematicWorld world(config);
   const auto deliveries = record(world);
@@ -244,7 +215,7 @@ TEST(Eskf, OnlyTfsRepeatsLostLegPackets) {
 }
 
 TEST(Eskf, MapMemoryIsBounded) {
-  KinematicWorld world(short_sequence());
+  KinematicWorld world(short_walk());
   EskfConfig config = eskf_preset("aims");
   config.map.max_voxels = 300;
   EskfEstimator estimator(config, world.rig());
@@ -257,7 +228,7 @@ TEST(Eskf, MapMemoryIsBounded) {
 /// Error of the position along the corridor at `stamp` [m].
 double error_along(const EstimatorResult& result, const KinematicWorld& world, Time stamp) {
   const auto at = std::ranges::lower_bound(result.trajectory, stamp, {}, &StampedPose::stamp);
-  const Pose estimate = T_world_odom(result, world) * at->pose;
+  const Pose estimate = T_world_odom(result.trajectory, world) * at->pose;
   return estimate.translation.x() - world.T_world_body(at->stamp).translation.x();
 }
 
@@ -301,106 +272,6 @@ TEST(Eskf, TheEstimateMapsOnceTheLegsAreKnown) {
   EXPECT_LT(before(-60.0, "aims_d"), 0.4) << "doors from the start show the scale of the legs";
   EXPECT_EQ(before(80.0, "aims_d"), 1.0) << "nothing shows it";
   EXPECT_EQ(before(-60.0, "tfs_plus"), 0.0) << "its only belief takes all information";
-}
-
-/// The short sequence with `modify` applied to each delivery; false drops it.
-EstimatorResult run_modified(const std::function<bool(Delivery&)>& modify, double& error) {
-  KinematicWorld world(short_sequence());
-  std::vector<Delivery> kept;
-  for (Delivery& delivery : record(world)) {
-    if (modify(delivery)) kept.push_back(delivery);
-  }
-  EstimatorResult result = run("aims", kept, world.rig());
-  error = result.trajectory.empty() ? 0.0 : largest_error(result, world);
-  return result;
-}
-
-bool within(const Delivery& d, double begin, double end) {
-  return d.arrival > from_seconds(begin) && d.arrival <= from_seconds(end);
-}
-
-TEST(Eskf, SurvivesThreeSecondsWithoutImu) {
-  double error = 0.0;
-  const auto result = run_modified(
-      [](const Delivery& d) {
-        return !(std::holds_alternative<ImuSample>(d.measurement) && within(d, 4.0, 7.0));
-      },
-      error);
-  EXPECT_GT(result.counts.at("imu.bridged"), 0);
-  EXPECT_LT(error, 0.3);
-}
-
-TEST(Eskf, SurvivesTwoSecondsWithoutLidar) {
-  double error = 0.0;
-  run_modified(
-      [](const Delivery& d) {
-        return !(std::holds_alternative<LidarScanPtr>(d.measurement) && within(d, 4.0, 6.0));
-      },
-      error);
-  EXPECT_LT(error, 0.3);
-}
-
-/// Longest time between two poses.
-Duration longest_gap(const Trajectory& trajectory) {
-  Duration longest = 0;
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    longest = std::max(longest, trajectory[i].stamp - trajectory[i - 1].stamp);
-  }
-  return longest;
-}
-
-TEST(Eskf, ReportsPosesWithoutLidar) {
-  KinematicWorld world(short_sequence());
-  std::vector<Delivery> kept;
-  for (const Delivery& d : record(world)) {
-    if (!std::holds_alternative<LidarScanPtr>(d.measurement) || !within(d, 4.0, 7.0)) {
-      kept.push_back(d);
-    }
-  }
-  for (const char* name : {"aims", "lio", "leg"}) {
-    const EstimatorResult result = run(name, kept, world.rig());
-    EXPECT_LE(longest_gap(result.trajectory), kMaxPoseInterval + 10 * kMillisecond) << name;
-    if (result.diagnostics.scans.empty()) continue;
-    const auto bridged = result.trajectory.size() - result.diagnostics.scans.size();
-    EXPECT_NEAR(static_cast<double>(bridged), 12.0, 1.0) << name;
-  }
-}
-
-TEST(Eskf, WorksWithoutLegs) {
-  double error = 0.0;
-  run_modified(
-      [](const Delivery& d) { return !std::holds_alternative<LegOdometrySample>(d.measurement); },
-      error);
-  EXPECT_LT(error, 0.05);
-}
-
-TEST(Eskf, WithoutImuTheTrajectoryIsEmpty) {
-  double error = 0.0;
-  const auto result = run_modified(
-      [](const Delivery& d) { return !std::holds_alternative<ImuSample>(d.measurement); }, error);
-  EXPECT_TRUE(result.trajectory.empty());
-}
-
-TEST(Eskf, SurvivesEmptyAndBrokenScans) {
-  double error = 0.0;
-  int count = 0;
-  const auto result = run_modified(
-      [&count](Delivery& d) {
-        const auto* scan = std::get_if<LidarScanPtr>(&d.measurement);
-        if (scan == nullptr || ++count % 3 != 0) return true;
-        auto broken = std::make_shared<LidarScan>(**scan);
-        if (count % 2 == 0) {
-          broken->points.clear();
-        } else {
-          const float nan = std::numeric_limits<float>::quiet_NaN();
-          for (auto& point : broken->points) point.position.x() = nan;
-        }
-        d.measurement = LidarScanPtr(broken);
-        return true;
-      },
-      error);
-  EXPECT_GT(result.counts.at("lidar.no_update"), 10);
-  EXPECT_LT(error, 0.1);
 }
 
 }  // namespace

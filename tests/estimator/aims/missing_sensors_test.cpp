@@ -11,20 +11,9 @@
 namespace aims {
 namespace {
 
-using test::KinematicConfig;
-using test::KinematicWorld;
-
 class MissingSensors : public ::testing::Test {
  protected:
-  MissingSensors() : world_(short_sequence()) { world_.advance(world_.duration(), deliveries_); }
-
-  static KinematicConfig short_sequence() {
-    KinematicConfig config;
-    config.walk.distance = 2.5;
-    config.corridor.end = 20.0;
-    config.sensors.lidar_columns = 450;
-    return config;
-  }
+  MissingSensors() : world_(test::short_walk()), deliveries_(test::record(world_)) {}
 
   /// The result on the deliveries for which `keep` is true; `change` changes them before.
   EstimatorResult run(const char* name, const std::function<bool(Delivery&)>& keep) const {
@@ -37,7 +26,18 @@ class MissingSensors : public ::testing::Test {
   }
 
   static bool is_scan(const Delivery& delivery) { return delivery.measurement.index() == 2; }
+  static bool is_legs(const Delivery& delivery) { return delivery.measurement.index() == 1; }
   static bool is_imu(const Delivery& delivery) { return delivery.measurement.index() == 0; }
+
+  /// Whether it arrived after `begin`, and at `end` or before [s].
+  static bool within(const Delivery& delivery, double begin, double end) {
+    return delivery.arrival > from_seconds(begin) && delivery.arrival <= from_seconds(end);
+  }
+
+  /// Largest error of a result [m].
+  double error(const EstimatorResult& result) const {
+    return test::largest_error(result.trajectory, world_);
+  }
 
   static HealthState worst(const EstimatorResult& result) {
     HealthState state = HealthState::kStarting;
@@ -54,7 +54,7 @@ class MissingSensors : public ::testing::Test {
     return longest;
   }
 
-  KinematicWorld world_;
+  test::KinematicWorld world_;
   std::vector<Delivery> deliveries_;
 };
 
@@ -139,6 +139,58 @@ TEST_F(MissingSensors, ADeadLidarIsNamedAndItsReturnToo) {
   }
   EXPECT_TRUE(named);
   EXPECT_EQ(result.health.back().state, HealthState::kHealthy);
+}
+
+TEST_F(MissingSensors, ThreeSecondsWithoutImuAreBridged) {
+  const EstimatorResult result =
+      run("aims", [](Delivery& d) { return !(is_imu(d) && within(d, 4.0, 7.0)); });
+  EXPECT_GT(result.counts.at("imu.bridged"), 0);
+  EXPECT_LT(error(result), 0.3);
+}
+
+TEST_F(MissingSensors, TwoSecondsWithoutLidarAreBridged) {
+  const EstimatorResult result =
+      run("aims", [](Delivery& d) { return !(is_scan(d) && within(d, 4.0, 6.0)); });
+  EXPECT_LT(error(result), 0.3);
+}
+
+TEST_F(MissingSensors, PosesGoOnWithoutLidar) {
+  for (const char* name : {"aims", "lio", "leg"}) {
+    const EstimatorResult result =
+        run(name, [](Delivery& d) { return !(is_scan(d) && within(d, 4.0, 7.0)); });
+    const Time first = result.trajectory.front().stamp;
+    EXPECT_LE(longest_gap(result, first), kMaxPoseInterval + 10 * kMillisecond) << name;
+    if (result.diagnostics.scans.empty()) continue;
+    const auto bridged = result.trajectory.size() - result.diagnostics.scans.size();
+    EXPECT_NEAR(static_cast<double>(bridged), 12.0, 1.0) << name;
+  }
+}
+
+TEST_F(MissingSensors, LegsMayBeMissing) {
+  EXPECT_LT(error(run("aims", [](Delivery& d) { return !is_legs(d); })), 0.05);
+}
+
+TEST_F(MissingSensors, WithoutImuTheTrajectoryIsEmpty) {
+  EXPECT_TRUE(run("aims", [](Delivery& d) { return !is_imu(d); }).trajectory.empty());
+}
+
+TEST_F(MissingSensors, EmptyAndBrokenScansAreCounted) {
+  int count = 0;
+  const EstimatorResult result = run("aims", [&count](Delivery& d) {
+    const auto* scan = std::get_if<LidarScanPtr>(&d.measurement);
+    if (scan == nullptr || ++count % 3 != 0) return true;
+    auto broken = std::make_shared<LidarScan>(**scan);
+    if (count % 2 == 0) {
+      broken->points.clear();
+    } else {
+      const float nan = std::numeric_limits<float>::quiet_NaN();
+      for (LidarPoint& point : broken->points) point.position.x() = nan;
+    }
+    d.measurement = LidarScanPtr(broken);
+    return true;
+  });
+  EXPECT_GT(result.counts.at("lidar.no_update"), 10);
+  EXPECT_LT(error(result), 0.1);
 }
 
 }  // namespace

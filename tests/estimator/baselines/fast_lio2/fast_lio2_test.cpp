@@ -14,7 +14,9 @@ namespace {
 /// A walk of 2.5 m there and back between end walls 21.5 m apart: a box.
 class FastLio2InABox : public ::testing::Test {
  protected:
-  FastLio2InABox() : world_(box()) { world_.advance(world_.duration(), deliveries_); }
+  FastLio2InABox() : world_(aims::test::short_walk()) {
+    world_.advance(world_.duration(), deliveries_);
+  }
 
   /// Every return of the coarse LiDAR, in small voxels.
   static Config fine() {
@@ -22,14 +24,6 @@ class FastLio2InABox : public ::testing::Test {
     config.points.every_nth = 1;
     config.points.voxel = 0.2;
     config.map.voxel = 0.2;
-    return config;
-  }
-
-  static aims::test::KinematicConfig box() {
-    aims::test::KinematicConfig config;
-    config.walk.distance = 2.5;
-    config.corridor.end = 20.0;
-    config.sensors.lidar_columns = 450;
     return config;
   }
 
@@ -45,17 +39,9 @@ class FastLio2InABox : public ::testing::Test {
     return estimator.result();
   }
 
-  /// Largest distance [m] from the truth after alignment at the first pose.
+  /// Largest error of a result [m].
   double largest_error(const EstimatorResult& result) const {
-    const StampedPose& first = result.trajectory.front();
-    const Pose T_world_odom = world_.T_world_body(first.stamp) * first.pose.inverse();
-    double largest = 0.0;
-    for (const StampedPose& each : result.trajectory) {
-      const Pose error = world_.T_world_body(each.stamp).inverse() * T_world_odom * each.pose;
-      if (!error.translation.allFinite()) return std::numeric_limits<double>::infinity();
-      largest = std::max(largest, error.translation.norm());
-    }
-    return largest;
+    return aims::test::largest_error(result.trajectory, world_);
   }
 
   aims::test::KinematicWorld world_;

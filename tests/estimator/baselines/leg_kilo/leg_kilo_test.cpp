@@ -40,8 +40,7 @@ class Walk {
   /// Largest distance [m] from the truth after alignment at the first pose; along x alone with
   /// `along`.
   double largest_error(const EstimatorResult& result, bool along = false) const {
-    const StampedPose& first = result.trajectory.front();
-    const Pose T_world_odom = world_.T_world_body(first.stamp) * first.pose.inverse();
+    const Pose T_world_odom = aims::test::T_world_odom(result.trajectory, world_);
     double largest = 0.0;
     for (const StampedPose& each : result.trajectory) {
       const Eigen::Vector3d error =
@@ -61,15 +60,6 @@ class Walk {
   SensorRig rig_;
   std::vector<Delivery> deliveries_;
 };
-
-/// A walk of 2.5 m there and back between end walls 21.5 m apart: a box.
-aims::test::KinematicConfig box() {
-  aims::test::KinematicConfig config;
-  config.walk.distance = 2.5;
-  config.corridor.end = 20.0;
-  config.sensors.lidar_columns = 450;
-  return config;
-}
 
 /// A walk of 4 m in a smooth corridor of which no scan reaches an end; legs without error.
 aims::test::KinematicConfig smooth_corridor() {
@@ -107,7 +97,7 @@ double mean_feet(const EstimatorResult& result, std::size_t from, std::size_t to
 }
 
 TEST(LegKiloInABox, StaysWithinCentimetres) {
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   const EstimatorResult result = walk.run(every_return());
   ASSERT_GT(result.trajectory.size(), 150U);
   EXPECT_EQ(result.trajectory.size(), result.diagnostics.scans.size());
@@ -117,7 +107,7 @@ TEST(LegKiloInABox, StaysWithinCentimetres) {
 }
 
 TEST(LegKiloInABox, ReportsItsResidualsAndWhatTheyConstrain) {
-  const EstimatorResult result = Walk(box()).run(every_return());
+  const EstimatorResult result = Walk(aims::test::short_walk()).run(every_return());
   const std::size_t last = result.diagnostics.scans.size() - 1;
   const auto value = [&](const char* name) { return result.diagnostics.value(last, name); };
   EXPECT_GT(value("points_used"), 50.0);
@@ -184,7 +174,7 @@ TEST(LegKiloLegs, JointsOfFeetInContactAndTheTwistGiveTheSameMotion) {
 }
 
 TEST(LegKiloLegs, WithoutPacketsNoFootStandsAndTheImuIsUsedAlone) {
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   const EstimatorResult lost =
       walk.run(every_return(), [](Delivery& each) { return !is_legs(each); });
   const EstimatorResult disabled = walk.run(without_legs());
@@ -194,7 +184,7 @@ TEST(LegKiloLegs, WithoutPacketsNoFootStandsAndTheImuIsUsedAlone) {
 }
 
 TEST(LegKiloLegs, ABurstOfLostPacketsEndsTheKinematicRowsUntilTheNextOne) {
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   const Time begin = walk.begin() + 3 * kSecond;
   const EstimatorResult result = walk.run(every_return(), [&](Delivery& each) {
     return !is_legs(each) || each.arrival < begin || each.arrival >= begin + kSecond;
@@ -213,7 +203,7 @@ TEST(LegKiloLegs, ABurstOfLostPacketsEndsTheKinematicRowsUntilTheNextOne) {
 }
 
 TEST(LegKiloLegs, LegDataAsOldAsTheLimitBelongToNoImuSample) {
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   // Packets that are stamped 12 ms before the IMU's samples, and none nearer.
   const Keep sparse = [](Delivery& each) {
     auto* sample = std::get_if<LegOdometrySample>(&each.measurement);
@@ -230,7 +220,7 @@ TEST(LegKiloLegs, LegDataAsOldAsTheLimitBelongToNoImuSample) {
 }
 
 TEST(LegKiloInputs, ScansWithoutImuAreCountedAndSkipped) {
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   const Time begin = walk.begin() + 4 * kSecond;
   const EstimatorResult result = walk.run(every_return(), [&](Delivery& each) {
     return !is_imu(each) || each.arrival < begin || each.arrival > begin + kSecond / 2;
@@ -242,7 +232,7 @@ TEST(LegKiloInputs, ScansWithoutImuAreCountedAndSkipped) {
 }
 
 TEST(LegKiloInputs, EmptyScansAreCountedAndPredictedThrough) {
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   int scans = 0;
   const EstimatorResult result = walk.run(every_return(), [&](Delivery& each) {
     if (is_scan(each) && ++scans % 10 == 0) {
@@ -257,7 +247,7 @@ TEST(LegKiloInputs, EmptyScansAreCountedAndPredictedThrough) {
 }
 
 TEST(LegKiloInputs, PointsThatAreNoNumbersChangeNothing) {
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   const EstimatorResult result = walk.run(every_return(), [](Delivery& each) {
     if (!is_scan(each)) return true;
     LidarScan scan = *std::get<LidarScanPtr>(each.measurement);
@@ -272,7 +262,7 @@ TEST(LegKiloInputs, PointsThatAreNoNumbersChangeNothing) {
 
 TEST(LegKiloInputs, AStateThatRunsAwayEndsTheEstimateWithoutAnException) {
   // Large but allowed forces, and stamps 20 s apart: the position leaves every bound.
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   Duration late = 0;
   const Time begin = walk.begin() + 4 * kSecond;
   const EstimatorResult result = walk.run(every_return(), [&](Delivery& each) {
@@ -352,7 +342,7 @@ TEST(LegKiloInputs, GroupsWithoutAPlaneRepeatThePredictionOfTheCovariance) {
 }
 
 TEST(LegKiloPresets, ThePublishedMinimumRangeLeavesFewerPoints) {
-  const Walk walk(box());
+  const Walk walk(aims::test::short_walk());
   const EstimatorResult corridor = walk.run(Config());
   const EstimatorResult with_published = walk.run(published());
   const std::size_t last = corridor.diagnostics.scans.size() - 1;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/lidar/scan_points.hpp"
+
+namespace aims {
+namespace {
+
+/// Returns that a scan is compared with earlier ones by, at most: two per pixel of a RangeImage.
+constexpr int kMaxImagePoints = 10000;
+
+}  // namespace
+
+ScanPoints::ScanPoints(const LidarUpdateConfig& lidar, const MapConfig& map,
+                       const Eigen::Vector3d& lever)
+    : lidar_(lidar), map_(map), selection_(lidar), moving_(lever) {}
+
+void ScanPoints::prepare(const LidarScan& scan, const ScanMotion& motion, const Pose& T_odom_body) {
+  in_range_ = selection_.begin(scan);
+  find_moving(scan, motion, T_odom_body);
+  const auto select = [&](double voxel, int limit, std::vector<Eigen::Vector3f>& points) {
+    selection_.select(voxel, limit, indices_);
+    deskew(scan, indices_, motion, points);
+  };
+  // Each selection chooses among the returns that the one before left: the finer one is first.
+  const bool map_is_finer = map_.insertion_voxel <= lidar_.selection_voxel;
+  if (map_is_finer) select(map_.insertion_voxel, map_.max_insertions, to_map_);
+  select(lidar_.selection_voxel, lidar_.max_points, to_match_);
+  if (!map_is_finer) select(map_.insertion_voxel, map_.max_insertions, to_map_);
+  moving_.remove_from(to_match_);
+  moving_count_ = moving_.remove_from(to_map_);
+}
+
+/// Compares the scan with earlier ones, before its returns are thinned.
+void ScanPoints::find_moving(const LidarScan& scan, const ScanMotion& motion,
+                             const Pose& T_odom_body) {
+  selection_.thin(kMaxImagePoints, indices_);
+  deskew(scan, indices_, motion, image_);
+  moving_.compare(image_, scan.end, T_odom_body);
+}
+
+}  // namespace aims
