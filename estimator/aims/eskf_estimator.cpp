@@ -2,6 +2,7 @@
 #include "estimator/aims/eskf_estimator.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "estimator/filter/imu_propagation.hpp"
@@ -362,7 +363,8 @@ void EskfEstimator::extend_map() {
 }
 
 void EskfEstimator::accept(Belief& belief, const Belief& updated) {
-  const bool valid = is_finite(updated.state) && updated.covariance.allFinite() &&
+  // A sum is finite only if all of it is, and takes one pass of four lanes.
+  const bool valid = is_finite(updated.state) && std::isfinite(updated.covariance.sum()) &&
                      (updated.covariance.diagonal().array() > 0.0).all();
   if (valid) {
     belief = updated;
