@@ -4,11 +4,14 @@
 namespace aims {
 
 void describe(Fields& f, ImuPropagationConfig& c) {
-  f.number("gravity", c.gravity, {"m/s^2", positive_up_to(1e5), "magnitude of gravity"});
+  f.number("gravity", c.gravity,
+           {"m/s^2", positive_up_to(1e5), "magnitude of gravity", "9.78 to 9.83 by latitude"});
   f.number("gyro_bias_walk", c.gyro_bias_walk,
-           {"rad/s^2/sqrt(Hz)", positive_up_to(1e3), "random walk of the gyro bias"});
+           {"rad/s^2/sqrt(Hz)", positive_up_to(1e3), "random walk of the gyro bias",
+            "MEMS: 1.9e-5 in the ADIS16448 of EuRoC"});
   f.number("accelerometer_bias_walk", c.accelerometer_bias_walk,
-           {"m/s^3/sqrt(Hz)", positive_up_to(1e3), "random walk of the accelerometer bias"});
+           {"m/s^3/sqrt(Hz)", positive_up_to(1e3), "random walk of the accelerometer bias",
+            "MEMS: 2e-4 in the example of Kalibr"});
 }
 
 namespace {

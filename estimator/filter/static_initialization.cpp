@@ -229,14 +229,17 @@ InitialBelief begin_with(std::span<const ImuSample> samples, const StaticInterva
 }  // namespace
 
 void describe(Fields& f, InitializationConfig& c) {
-  f.number("duration", c.duration,
-           {"s", in_range(0.1, kMaxDuration),
-            "standing time at the start; its second half is averaged"});
+  f.number(
+      "duration", c.duration,
+      {"s", in_range(0.1, kMaxDuration), "standing time at the start; its second half is averaged",
+       "chosen: a robot that has risen stands for seconds"});
   f.number("sigma_gyro_bias", c.sigma_gyro_bias,
-           {"rad/s", positive_up_to(1e4), "gyro bias after averaging"});
+           {"rad/s", positive_up_to(1e4), "gyro bias after averaging",
+            "chosen: noise and sway, averaged for a second"});
   f.number(
       "sigma_accelerometer_bias", c.sigma_accelerometer_bias,
-      {"m/s^2", positive_up_to(1e5), "accelerometer bias, inseparable from tilt while standing"});
+      {"m/s^2", positive_up_to(1e5), "accelerometer bias, inseparable from tilt while standing",
+       "MEMS: 50 mg as two sigma in the ICM-20948"});
 }
 
 void describe(Fields& f, StaticInitializationConfig& c) {

@@ -193,8 +193,11 @@ GroundPlane plane_of(const HeightFit& fit) {
 void describe(Fields& f, GroundConstraintConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "constrain height and tilt by level ground"});
   f.number("sigma_height", c.sigma_height,
-           {"m", positive_up_to(1e4), "unevenness of level ground"});
-  f.number("sigma_slope", c.sigma_slope, {"rad", positive_up_to(10.0), "slope of ramps, 1 sigma"});
+           {"m", positive_up_to(1e4), "unevenness of level ground",
+            "DIN 18202: 15 mm over 15 m, as three sigma"});
+  f.number("sigma_slope", c.sigma_slope,
+           {"rad", positive_up_to(10.0), "slope of ramps, 1 sigma",
+            "accessible ramps: 8 %, as two sigma"});
 }
 
 std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points, GroundLists& lists) {

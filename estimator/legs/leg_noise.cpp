@@ -25,9 +25,11 @@ void describe(Fields& f, LegNoiseConfig& c) {
          {"", any(), "leg noise from stance feet, yaw rate, lost packets and innovation"});
   f.vector(
       "velocity_sigma", c.velocity_sigma,
-      {"m/s", positive_up_to(1e3), "error of one sample with consistent stance feet, base axes"});
+      {"m/s", positive_up_to(1e3), "error of one sample with consistent stance feet, base axes",
+       "docs/decisions.md#leg-noise-of-007-ms-per-sample"});
   f.number("nominal_spread", c.nominal_spread,
-           {"m/s", up_to(1e3), "spread of the velocities from feet that do not slip"});
+           {"m/s", up_to(1e3), "spread of the velocities from feet that do not slip",
+            "docs/decisions.md#spread-of-the-feet-slips-only"});
 }
 
 StanceFeet compare_stance_feet(const LegOdometrySample& sample,

@@ -19,9 +19,11 @@ void add_variance(ErrorMatrix& covariance, ErrorState::Block at, double sigma, d
 void describe(Fields& f, LegStatesConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "estimate scale and bias of the leg odometry"});
   f.number("scale_sigma", c.scale_sigma,
-           {"-", positive_up_to(1e6), "initial deviation of the scale"});
+           {"-", positive_up_to(1e6), "initial deviation of the scale",
+            "docs/decisions.md#leg-scale-per-stride-with-a-prior-of-012"});
   f.number("bias_sigma", c.bias_sigma,
-           {"m/s", positive_up_to(1e3), "initial deviation of the bias"});
+           {"m/s", positive_up_to(1e3), "initial deviation of the bias",
+            "docs/decisions.md#what-a-leg-sample-is-worth"});
 }
 
 Belief open_leg_states(Belief belief, const LegStatesConfig& config) {

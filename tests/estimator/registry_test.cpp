@@ -81,5 +81,16 @@ TEST(EstimatorConfigs, AimsDHasFortySettingsWithAnEffect) {
   EXPECT_LE(std::ranges::count_if(fields.parameters(), acts), 40);
 }
 
+TEST(EstimatorConfigs, EveryNumberOfAimsDHasAUnitAndASource) {
+  EstimatorConfigs configs;
+  const Fields fields = fields_of(configs);
+  for (const Parameter& parameter : fields.parameters()) {
+    if (!parameter.key.starts_with("aims_d.") || !parameter.idle.empty()) continue;
+    if (!is_number(parameter) && !parameter.sequence) continue;
+    EXPECT_NE(parameter.spec.unit, "") << parameter.key;
+    EXPECT_NE(parameter.spec.source, "") << parameter.key;
+  }
+}
+
 }  // namespace
 }  // namespace aims
