@@ -8,13 +8,13 @@
 namespace aims {
 namespace {
 
-constexpr double kImuRate = 50.0;  // [Hz]
+constexpr double kImuHz = 50.0;  // [Hz]
 constexpr Duration kPeriod = 20 * kMillisecond;
 
 ImuSample sample(Time stamp, double rate) { return {stamp, {rate, 0.0, 0.0}, {0.0, 0.0, 9.81}}; }
 
 ImuHistory history_of(std::initializer_list<int> periods) {
-  ImuHistory history(ImuPropagationConfig{}, kImuRate);
+  ImuHistory history(ImuPropagationConfig{}, kImuHz);
   for (int i : periods) history.insert(sample(i * kPeriod, i));
   return history;
 }
@@ -45,8 +45,8 @@ TEST(ImuHistory, ASampleAfterAGapHoldsOverOnePeriod) {
 // Every time but the stamps of the samples is on the clock of the LiDAR.
 TEST(ImuHistory, ADelayGivesTheSegmentsOfTheShiftedSignal) {
   constexpr Duration kDelay = 7 * kMillisecond;
-  ImuHistory late(ImuPropagationConfig{}, kImuRate);
-  ImuHistory exact(ImuPropagationConfig{}, kImuRate);
+  ImuHistory late(ImuPropagationConfig{}, kImuHz);
+  ImuHistory exact(ImuPropagationConfig{}, kImuHz);
   for (int i : {1, 2, 3, 5, 6, 20}) {
     late.insert(sample(i * kPeriod + kDelay, i * i));
     exact.insert(sample(i * kPeriod, i * i));
@@ -67,7 +67,7 @@ TEST(ImuHistory, ADelayGivesTheSegmentsOfTheShiftedSignal) {
 }
 
 TEST(ImuHistory, ForgetsByTheClockOfTheLidar) {
-  ImuHistory history(ImuPropagationConfig{}, kImuRate);
+  ImuHistory history(ImuPropagationConfig{}, kImuHz);
   for (int i = 0; i < 100; ++i) history.insert(sample(i * kPeriod, i));
   history.set_delay(kPeriod);
   history.forget_before(20 * kPeriod);
@@ -77,7 +77,7 @@ TEST(ImuHistory, ForgetsByTheClockOfTheLidar) {
 }
 
 TEST(ImuHistory, BridgedSpansAreLessCertain) {
-  ImuHistory history(ImuPropagationConfig{}, kImuRate);
+  ImuHistory history(ImuPropagationConfig{}, kImuHz);
   for (int i = 0; i < 100; ++i) history.insert(sample(i * kPeriod, std::sin(0.3 * i)));
   history.observe_noise(110 * kPeriod);
   const auto segments = segments_of(history, 98 * kPeriod, 110 * kPeriod);
@@ -104,7 +104,7 @@ TEST(ImuHistory, ALostSampleIsReplacedByTheMeanOfItsNeighbours) {
 }
 
 TEST(ImuHistory, CoversASpanWithoutAnySample) {
-  const auto segments = segments_of(ImuHistory(ImuPropagationConfig{}, kImuRate), 0, kSecond);
+  const auto segments = segments_of(ImuHistory(ImuPropagationConfig{}, kImuHz), 0, kSecond);
   ASSERT_EQ(segments.size(), 1U);
   EXPECT_FALSE(segments[0].measured);
   EXPECT_EQ(segments[0].end, kSecond);
