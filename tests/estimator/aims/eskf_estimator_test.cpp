@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
-#include <limits>
 
 #include "estimator/aims/presets.hpp"
 #include "estimator/registry.hpp"

@@ -134,7 +134,9 @@ TEST_F(MissingSensors, ADeadLidarIsNamedAndItsReturnToo) {
   bool named = false;
   for (const HealthRow& row : result.health) {
     const bool dead = row.stamp > 5600 * kMillisecond && row.stamp < 7 * kSecond;
-    if (dead) EXPECT_EQ(row.state, HealthState::kDegraded) << to_seconds(row.stamp);
+    if (dead) {
+      EXPECT_EQ(row.state, HealthState::kDegraded) << to_seconds(row.stamp);
+    }
     named = named || (dead && row.reasons.front() == "no LiDAR scans");
   }
   EXPECT_TRUE(named);

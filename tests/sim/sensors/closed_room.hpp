@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "sim/sensors/lidar.hpp"
+#include "tests/sim/sensors/lidar_scans.hpp"
 
 namespace aims::testing {
 
@@ -55,16 +53,6 @@ struct ClosedRoom {
 
   Trajectory poses() const { return {{0, {Eigen::Quaterniond::Identity(), sensor}}}; }
 };
-
-/// A VLP-16 without errors that misses nothing.
-inline LidarConfig flawless_lidar() {
-  LidarConfig config;
-  config.range_sigma = 0.0;
-  config.miss_probability = 0.0;
-  config.range_at_10_percent = 1e4;
-  config.body_mask_min = config.body_mask_max = Eigen::Vector3d::Zero();
-  return config;
-}
 
 /// Mean and deviation of numbers.
 struct Spread {

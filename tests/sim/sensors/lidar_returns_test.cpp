@@ -15,10 +15,10 @@ namespace aims {
 namespace {
 
 using Eigen::Vector3d;
-using test::one_scan;
-using test::perfect;
-using test::plain_corridor;
-using test::still;
+using testing::flawless_lidar;
+using testing::one_scan;
+using testing::plain_corridor;
+using testing::still;
 
 /// One large facing wall at x = `distance` and nothing else in reach.
 Scene wall_at(double distance, double reflectivity) {
@@ -34,7 +34,7 @@ Scene wall_at(double distance, double reflectivity) {
 }
 
 TEST(Lidar, RangeNoiseHasTheConfiguredSigma) {
-  LidarConfig config = perfect();
+  LidarConfig config = flawless_lidar();
   const LidarScan exact = one_scan(plain_corridor(), config, still());
   config.range_sigma = 0.02;
   const LidarScan noisy = one_scan(plain_corridor(), config, still());
@@ -52,7 +52,7 @@ TEST(Lidar, RangeNoiseHasTheConfiguredSigma) {
 }
 
 TEST(Lidar, DropsWhatIsTooNearOrTooFar) {
-  LidarConfig config = perfect();
+  LidarConfig config = flawless_lidar();
   config.range_sigma = 0.02;
   config.range_min = 1.2;
   config.range_max = 8.0;
@@ -67,7 +67,7 @@ TEST(Lidar, DropsWhatIsTooNearOrTooFar) {
 }
 
 TEST(Lidar, MissesTheConfiguredFractionAtRandom) {
-  LidarConfig config = perfect();
+  LidarConfig config = flawless_lidar();
   config.miss_probability = 0.05;
   const double points =
       static_cast<double>(one_scan(plain_corridor(), config, still()).points.size());
@@ -76,7 +76,7 @@ TEST(Lidar, MissesTheConfiguredFractionAtRandom) {
 
 TEST(Lidar, SeesNothingInTheOpen) {
   Scene scene = wall_at(500.0, 0.5);
-  EXPECT_TRUE(one_scan(scene, perfect(), still(Vector3d::Zero())).points.empty());
+  EXPECT_TRUE(one_scan(scene, flawless_lidar(), still(Vector3d::Zero())).points.empty());
 }
 
 TEST(LidarDetection, FallsWithRangeAndIncidenceAndRisesWithReflectivity) {
@@ -96,7 +96,7 @@ TEST(LidarDetection, FallsWithRangeAndIncidenceAndRisesWithReflectivity) {
 TEST(LidarDetection, HalfTheReturnsOfAFacingTenPercentTargetAreSeenAtItsRange) {
   const LidarConfig config;
   EXPECT_DOUBLE_EQ(detection_probability(config, 0.1, 1.0, config.range_at_10_percent), 0.5);
-  LidarConfig narrow = perfect();
+  LidarConfig narrow = flawless_lidar();
   narrow.range_at_10_percent = 30.0;
   narrow.rings = 3;
   narrow.elevation_min_deg = -0.1;
@@ -129,7 +129,7 @@ TEST(LidarDetection, GrazingWallsVanishBeforeTheEndWall) {
 }
 
 TEST(Lidar, StrengthIsReflectivityTimesCosineOfIncidence) {
-  const LidarScan scan = one_scan(plain_corridor(), perfect(), still());
+  const LidarScan scan = one_scan(plain_corridor(), flawless_lidar(), still());
   int checked = 0;
   for (const LidarPoint& point : scan.points) {
     const Vector3d p = point.position.cast<double>();
@@ -143,7 +143,7 @@ TEST(Lidar, StrengthIsReflectivityTimesCosineOfIncidence) {
 }
 
 TEST(Lidar, BeamsInTheBodyMaskReturnNothing) {
-  LidarConfig config = perfect();
+  LidarConfig config = flawless_lidar();
   const std::size_t open = one_scan(plain_corridor(), config, still()).points.size();
   config.body_mask_min = LidarConfig().body_mask_min;
   config.body_mask_max = LidarConfig().body_mask_max;
@@ -164,7 +164,7 @@ TEST(Lidar, BeamsInTheBodyMaskReturnNothing) {
 TEST(Lidar, DeadRingsAreTheConfiguredFractionAndConstantInARun) {
   const Scene scene = plain_corridor();
   const RayCaster caster(scene);
-  LidarConfig config = perfect();
+  LidarConfig config = flawless_lidar();
   config.defects.dead_ring_fraction = 0.25;
   Lidar lidar(config, caster, 3);
   const auto rings_of = [&](Time start) {
@@ -181,7 +181,7 @@ TEST(Lidar, DeadRingsAreTheConfiguredFractionAndConstantInARun) {
 }
 
 TEST(Lidar, ABlockedSectorReturnsNothingAndTheRestIsUnchanged) {
-  LidarConfig config = perfect();
+  LidarConfig config = flawless_lidar();
   const LidarScan whole = one_scan(plain_corridor(), config, still());
   config.defects.blocked_sector_center_deg = 170.0;  // reaches over the seam at 180 degrees
   config.defects.blocked_sector_width_deg = 60.0;

@@ -8,10 +8,10 @@
 #include "sim/environment/scene_config.hpp"
 #include "sim/sensors/lidar.hpp"
 
-namespace aims::test {
+namespace aims::testing {
 
-/// A sensor without noise that sees everything.
-inline LidarConfig perfect() {
+/// A VLP-16 without errors that misses nothing.
+inline LidarConfig flawless_lidar() {
   LidarConfig config;
   config.range_sigma = 0.0;
   config.miss_probability = 0.0;
@@ -39,4 +39,4 @@ inline LidarScan one_scan(const Scene& scene, const LidarConfig& config, const T
   return Lidar(config, caster, seed).scan(poses.front().stamp, poses);
 }
 
-}  // namespace aims::test
+}  // namespace aims::testing

@@ -13,10 +13,10 @@ namespace aims {
 namespace {
 
 using Eigen::Vector3d;
-using test::one_scan;
-using test::perfect;
-using test::plain_corridor;
-using test::still;
+using testing::flawless_lidar;
+using testing::one_scan;
+using testing::plain_corridor;
+using testing::still;
 
 /// Poses of a sensor that moves and turns hard, sampled every 2.5 ms.
 Trajectory rough_motion() {
@@ -39,7 +39,7 @@ double off_surface(const Vector3d& p) {
 
 TEST(Lidar, PointsSeenFromTheirOwnFiringsLieOnTheSurfaces) {
   const Trajectory poses = rough_motion();
-  const LidarScan scan = one_scan(plain_corridor(), perfect(), poses);
+  const LidarScan scan = one_scan(plain_corridor(), flawless_lidar(), poses);
   EXPECT_EQ(scan.points.size(), 28'800U);
   double worst = 0.0;
   double worst_frozen = 0.0;
@@ -55,7 +55,7 @@ TEST(Lidar, PointsSeenFromTheirOwnFiringsLieOnTheSurfaces) {
 }
 
 TEST(Lidar, FiresColumnByColumnFromTheLowestRingUpClockwise) {
-  const LidarScan scan = one_scan(plain_corridor(), perfect(), still());
+  const LidarScan scan = one_scan(plain_corridor(), flawless_lidar(), still());
   ASSERT_EQ(scan.points.size(), 28'800U);
   EXPECT_EQ(scan.stamp, 0);
   EXPECT_EQ(scan.end, 100 * kMillisecond);
@@ -80,7 +80,7 @@ TEST(Lidar, FiresColumnByColumnFromTheLowestRingUpClockwise) {
 }
 
 TEST(Lidar, TimesAreThoseThatFloat32SecondsHold) {
-  const LidarScan scan = one_scan(plain_corridor(), perfect(), still());
+  const LidarScan scan = one_scan(plain_corridor(), flawless_lidar(), still());
   const double column_ns = 1e8 / 1800.0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const std::int32_t offset = scan.points[i].time_offset_ns;
@@ -93,12 +93,12 @@ TEST(Lidar, TimesAreThoseThatFloat32SecondsHold) {
 }
 
 TEST(Lidar, FiringsOfEveryPatternLeaveFromTheirOwnPoses) {
-  LidarConfig table = perfect();
+  LidarConfig table = flawless_lidar();
   table.column_interval_us = 55.296;
   table.table.elevations_deg = {-15.0, 1.0, -13.0, 3.0};
   table.table.azimuth_offsets_deg = {1.4, -4.2, 4.2, -1.4};
   table.table.firing_delays_us = {0.0, 2.304, 4.608, 6.912};
-  LidarConfig rosette = perfect();
+  LidarConfig rosette = flawless_lidar();
   rosette.pattern = LidarPattern::kRosette;
   rosette.rosette = {.point_rate = 2e5,
                      .prism_deflections_deg = {67.5, 26.5},
@@ -121,7 +121,7 @@ TEST(Lidar, FiringsOfEveryPatternLeaveFromTheirOwnPoses) {
 }
 
 TEST(Lidar, AnglesHaveTheConfiguredNoiseAcrossAndUp) {
-  LidarConfig config = perfect();
+  LidarConfig config = flawless_lidar();
   const LidarScan exact = one_scan(plain_corridor(), config, still());
   config.direction_sigma_deg = 0.15;
   const LidarScan noisy = one_scan(plain_corridor(), config, still());
@@ -143,7 +143,7 @@ TEST(Lidar, AnglesHaveTheConfiguredNoiseAcrossAndUp) {
 }
 
 TEST(Lidar, ColumnsNeedNotFillTheLastPacket) {
-  LidarConfig config = perfect();
+  LidarConfig config = flawless_lidar();
   config.columns = 1000 + 7;
   config.rings = 5;
   const LidarScan scan = one_scan(plain_corridor(), config, still());

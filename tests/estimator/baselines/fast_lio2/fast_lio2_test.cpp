@@ -14,9 +14,7 @@ namespace {
 /// A walk of 2.5 m there and back between end walls 21.5 m apart: a box.
 class FastLio2InABox : public ::testing::Test {
  protected:
-  FastLio2InABox() : world_(aims::test::short_walk()) {
-    world_.advance(world_.duration(), deliveries_);
-  }
+  FastLio2InABox() : world_(aims::test::short_walk()), deliveries_(aims::test::record(world_)) {}
 
   /// Every return of the coarse LiDAR, in small voxels.
   static Config fine() {

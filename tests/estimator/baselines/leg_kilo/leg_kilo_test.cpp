@@ -23,9 +23,8 @@ bool keep_all(Delivery&) { return true; }
 /// A sequence of a kinematic world.
 class Walk {
  public:
-  explicit Walk(const aims::test::KinematicConfig& config) : world_(config), rig_(world_.rig()) {
-    world_.advance(world_.duration(), deliveries_);
-  }
+  explicit Walk(const aims::test::KinematicConfig& config)
+      : world_(config), rig_(world_.rig()), deliveries_(aims::test::record(world_)) {}
 
   /// The result on the deliveries for which `keep` is true; `keep` may change them.
   EstimatorResult run(const Config& config, const Keep& keep = keep_all) const {

@@ -14,7 +14,7 @@ namespace {
 
 using aims::testing::position_error;
 
-test::KinematicConfig short_walk() {
+test::KinematicConfig walk_past_recesses() {
   test::KinematicConfig config;
   config.walk.distance = 4.0;
   config.walk.there_and_back = false;
@@ -55,8 +55,8 @@ double end_error(const Walked& run, const test::KinematicConfig& config) {
 }
 
 TEST(LioSam, FollowsAWalkAndReportsEveryScan) {
-  const Walked walk = run(short_walk(), corridor(), unchanged);
-  EXPECT_LT(end_error(walk, short_walk()), 0.3);
+  const Walked walk = run(walk_past_recesses(), corridor(), unchanged);
+  EXPECT_LT(end_error(walk, walk_past_recesses()), 0.3);
   const Trajectory& trajectory = walk.result.trajectory;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     EXPECT_EQ(trajectory[i].stamp - trajectory[i - 1].stamp, 100 * kMillisecond);
@@ -66,7 +66,7 @@ TEST(LioSam, FollowsAWalkAndReportsEveryScan) {
 }
 
 TEST(LioSam, RegistersEverySecondScanAndReportsItsDegeneracy) {
-  const Walked walk = run(short_walk(), corridor(), unchanged);
+  const Walked walk = run(walk_past_recesses(), corridor(), unchanged);
   const Diagnostics& diagnostics = walk.result.diagnostics;
   int updated = 0;
   for (std::size_t i = 0; i < diagnostics.scans.size(); ++i) {
@@ -79,8 +79,8 @@ TEST(LioSam, RegistersEverySecondScanAndReportsItsDegeneracy) {
 }
 
 TEST(LioSam, TheSameStreamYieldsTheSameNumbers) {
-  const Walked a = run(short_walk(), corridor(), unchanged);
-  const Walked b = run(short_walk(), corridor(), unchanged);
+  const Walked a = run(walk_past_recesses(), corridor(), unchanged);
+  const Walked b = run(walk_past_recesses(), corridor(), unchanged);
   ASSERT_EQ(a.result.trajectory.size(), b.result.trajectory.size());
   for (std::size_t i = 0; i < a.result.trajectory.size(); ++i) {
     EXPECT_EQ(a.result.trajectory[i].pose.translation, b.result.trajectory[i].pose.translation);
@@ -95,8 +95,8 @@ TEST(LioSam, WithoutOrientationAFilterStandsInForIt) {
     }
     return true;
   };
-  const Walked without = run(short_walk(), corridor(), unchanged);
-  const Walked with = run(short_walk(), corridor(), with_orientation);
+  const Walked without = run(walk_past_recesses(), corridor(), unchanged);
+  const Walked with = run(walk_past_recesses(), corridor(), with_orientation);
   EXPECT_GT(without.result.counts.at("imu.without_orientation"), 100);
   EXPECT_FALSE(with.result.counts.contains("imu.without_orientation"));
   EXPECT_EQ(without.result.trajectory.back().pose.translation,
@@ -109,7 +109,7 @@ TEST(LioSam, UsesTheOrientationOfTheImu) {
     if (auto* sample = std::get_if<ImuSample>(&each.measurement)) sample->orientation = tilt;
     return true;
   };
-  const Walked walk = run(short_walk(), corridor(), tilted);
+  const Walked walk = run(walk_past_recesses(), corridor(), tilted);
   EXPECT_NEAR(angles_of(walk.result.trajectory.front().pose.rotation).roll, 0.1, 1e-6);
 }
 
@@ -118,7 +118,7 @@ TEST(LioSam, ScansThatTheImuDoesNotCoverAreDropped) {
     const auto* sample = std::get_if<ImuSample>(&each.measurement);
     return sample == nullptr || sample->stamp < 3 * kSecond || sample->stamp > 4 * kSecond;
   };
-  const Walked walk = run(short_walk(), corridor(), gap);
+  const Walked walk = run(walk_past_recesses(), corridor(), gap);
   EXPECT_GT(walk.result.counts.at("lidar.without_imu"), 0);
   EXPECT_TRUE(walk.result.trajectory.back().pose.translation.allFinite());
 }
@@ -132,7 +132,7 @@ TEST(LioSam, SurvivesAnImuThatRaves) {
     }
     return true;
   };
-  const Walked walk = run(short_walk(), corridor(), raving);
+  const Walked walk = run(walk_past_recesses(), corridor(), raving);
   const Diagnostics& diagnostics = walk.result.diagnostics;
   EXPECT_GT(diagnostics.value(diagnostics.scans.size() - 1, "imu_resets"), 0.0);
   for (const StampedPose& each : walk.result.trajectory) {
