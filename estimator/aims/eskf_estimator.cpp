@@ -36,9 +36,9 @@ double max_leg_speed(const EskfConfig& config) {
 /// that scans leave free [-].
 constexpr double kKnownLegScale = 0.05;
 
-/// Legs weigh in the belief that maps as in `tfs_plus`, by its defaults: so little that scans fit
-/// each other (docs/decisions.md).
-const LegConfig kLegsWhileMapping;
+/// Before their scale is known legs weigh as in `tfs_plus`, by its defaults: so little that scans
+/// fit each other (docs/decisions.md).
+const LegConfig kLegsOfUnknownScale;
 
 /// Without fusion, the leg states stay fixed.
 LegStatesConfig leg_states_of(const EskfConfig& config) {
@@ -56,7 +56,7 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
       leg_free_(config_.imu),
       map_(config_.map),
       ground_(config_.ground_constraint),
-      leg_noise_(config_.leg_noise, rig),
+      leg_gate_(rig.leg_rate_hz),
       health_({.lidar = true, .legs = config_.legs.enabled, .imu = true}, config_.imu.gravity) {
   result_.diagnostics.series = scan_series();
 }
@@ -156,15 +156,11 @@ void EskfEstimator::repeat_lost_legs(Time until) {
   }
 }
 
-/// Covariance of one sample; `rate` is the gyro's reading in body axes [rad/s].
-Eigen::Matrix3d EskfEstimator::leg_covariance(const LegOdometrySample& sample,
-                                              const Eigen::Vector3d& rate) {
-  const Eigen::Matrix3d R_base_body = rig_.T_body_base.R().transpose();
-  const Eigen::Matrix3d R_leg =
-      config_.leg_noise.enabled
-          ? leg_noise_.noise(sample, R_base_body * (rate - belief_.state.gyro_bias))
-          : leg_velocity_noise(config_.legs, rig_.leg_rate_hz, sample.linear_velocity);
-  return R_leg / lidar_update_.gamma_leg();  // eq. (11)
+/// Covariance of one sample, eq. (11). Before their scale is known legs weigh little.
+Eigen::Matrix3d EskfEstimator::leg_covariance(const LegOdometrySample& sample) const {
+  const LegConfig& legs = mapping_ ? kLegsOfUnknownScale : config_.legs;
+  return leg_velocity_noise(legs, rig_.leg_rate_hz, sample.linear_velocity) /
+         lidar_update_.gamma_leg();
 }
 
 /// While the robot stands, zero velocity and zero rate replace the leg velocity; true then. The leg
@@ -198,10 +194,10 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
       queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
   const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
   LinearMeasurement measurement =
-      leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_covariance(sample, rate));
+      leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_covariance(sample));
   health_.leg_residual(uncorrected_residual(measurement, belief_.state, legs));
-  if (config_.leg_noise.enabled) {
-    const auto inflation = leg_noise_.inflation(measurement, belief_.covariance);
+  if (config_.leg_gate.enabled) {
+    const auto inflation = leg_gate_.inflation(sample.stamp, measurement, belief_.covariance);
     if (!inflation) {
       ++result_.counts["leg.rejected"];
       return;
@@ -210,10 +206,10 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(belief_, fuse(belief_, measurement, lidar_update_.odometry_mask()));
+  accept(belief_, lidar_update_.fuse_legs(belief_, measurement));
   if (!mapping_) return;
   const Eigen::Matrix3d noise =
-      leg_velocity_noise(kLegsWhileMapping, rig_.leg_rate_hz, sample.linear_velocity);
+      leg_velocity_noise(kLegsOfUnknownScale, rig_.leg_rate_hz, sample.linear_velocity);
   accept(*mapping_,
          fuse(*mapping_, leg_velocity_model(mapping_->state, rig_.T_body_base, rate, legs, noise)));
 }

@@ -12,7 +12,7 @@
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 #include "estimator/ground/ground_constraint.hpp"
-#include "estimator/legs/leg_noise.hpp"
+#include "estimator/legs/leg_gate.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/zero_velocity.hpp"
 #include "estimator/lidar/deskew.hpp"
@@ -48,7 +48,7 @@ class EskfEstimator : public Estimator {
   void judge_health();
   void repeat_lost_legs(Time until);
   void fuse_leg_velocity(const LegOdometrySample& sample);
-  Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample, const Eigen::Vector3d& rate);
+  Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample) const;
   bool fuse_zero_velocity(const LegOdometrySample& sample);
   void fuse_standing(Belief& belief, const Eigen::Vector3d& rate, const GainMask& mask);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
@@ -72,7 +72,7 @@ class EskfEstimator : public Estimator {
   VoxelMap map_;
   GroundConstraint ground_;
   GroundLists ground_lists_;
-  LegNoiseModel leg_noise_;
+  LegGate leg_gate_;
   ZeroVelocityDetector zero_velocity_;
   HealthMonitor health_;
   EstimatorResult result_;

@@ -74,6 +74,10 @@ GainMask LidarUpdate::odometry_mask() const {
   return {.legs = false, .position = fraction_.constrained()};
 }
 
+Belief LidarUpdate::fuse_legs(const Belief& belief, const LinearMeasurement& legs) const {
+  return considers_legs() ? fuse_given_legs(belief, legs) : fuse(belief, legs);
+}
+
 /// One step with a few of the points: where all of them meet nearly the planes of the result, so
 /// that they are searched once.
 NominalState LidarUpdate::first_guess(const Belief& predicted,

@@ -31,7 +31,8 @@ constexpr std::array kPresets = {
                "beyond the paper: real information per axis, leg scale, ground constraint",
                [] {
                  EskfConfig config = without_directional_weights();
-                 config.leg_noise.enabled = true;
+                 config.legs.velocity_sigma.setConstant(0.03);
+                 config.leg_gate.enabled = true;
                  config.cross_validation.enabled = true;
                  return config;
                }},
@@ -42,8 +43,10 @@ constexpr std::array kPresets = {
                  return config;
                }},
     EskfPreset{"tfs_clean", "fixed weights, lost leg packets skipped", [] { return EskfConfig(); }},
-    EskfPreset{"tfs_plus", "tfs_clean with all parts of aims_d but cross-validation and leg noise",
-               [] { return without_directional_weights(); }},
+    EskfPreset{
+        "tfs_plus",
+        "tfs_clean with all parts of aims_d but cross-validation, noise and gate of leg samples",
+        [] { return without_directional_weights(); }},
     EskfPreset{"lio", "LiDAR and IMU only, fixed weights",
                [] {
                  EskfConfig config;

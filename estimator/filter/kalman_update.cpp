@@ -19,16 +19,22 @@ Columns<rows> projected(const ErrorMatrix& P,
   return P.lazyProduct(jacobian.transpose());
 }
 
-/// P - K H P - (K H P)^T + K (H P H^T + R) K^T with the gain K = M P H^T W, the mask M and
-/// W = (H P H^T + R)^-1: Joseph's form for any mask. `PH` is P H^T.
+/// P - K H P - (K H P)^T + K S K^T: Joseph's form for any gain K. `PH` is P H^T and `KS` is K S,
+/// with S = H P H^T + R.
+template <int rows>
+ErrorMatrix covariance_after(const ErrorMatrix& P, const Columns<rows>& PH,
+                             const Columns<rows>& gain, const Columns<rows>& KS) {
+  const Columns<rows> left = PH - 0.5 * KS;
+  const ErrorMatrix half = gain.lazyProduct(left.transpose());
+  return P - half - half.transpose();
+}
+
+/// The same with the gain M P H^T W, the mask M and W = S^-1.
 template <int rows>
 ErrorMatrix masked_covariance(const ErrorMatrix& P, const Columns<rows>& PH,
                               const Square<rows>& weight, const GainMask& mask) {
   const Columns<rows> masked = mask * PH;
-  const Columns<rows> gain = masked.lazyProduct(weight);
-  const Columns<rows> left = PH - 0.5 * masked;
-  const ErrorMatrix half = gain.lazyProduct(left.transpose());
-  return P - half - half.transpose();
+  return covariance_after<rows>(P, PH, masked.lazyProduct(weight), masked);
 }
 
 }  // namespace
@@ -49,6 +55,24 @@ Belief fuse(const Belief& prior, const LinearMeasurement& measurement, const Gai
   const ErrorVector delta = mask * ErrorVector(-PH * (weight * measurement.residual));
   return {boxplus(prior.state, delta),
           reset_covariance(masked_covariance(prior.covariance, PH, weight, mask), delta)};
+}
+
+Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement) {
+  using E = ErrorState;
+  const ErrorMatrix& P = prior.covariance;
+  const Columns<3> PH = projected<3>(P, measurement.jacobian);
+  const auto with_legs = P.middleCols<E::kLegSize>(E::kLegScale.offset);
+  const Matrix6 legs = with_legs.middleRows<E::kLegSize>(E::kLegScale.offset);
+  const Eigen::Matrix<double, E::kLegSize, 3> legs_PH =
+      PH.middleRows<E::kLegSize>(E::kLegScale.offset);
+  Columns<3> given = PH - with_legs * legs.ldlt().solve(legs_PH);
+  given.middleRows<E::kLegSize>(E::kLegScale.offset).setZero();
+  const Eigen::Matrix3d variance = measurement.jacobian.lazyProduct(given) + measurement.noise;
+  const Columns<3> gain = given.lazyProduct(variance.inverse());
+  const Eigen::Matrix3d stated = measurement.jacobian.lazyProduct(PH) + measurement.noise;
+  const ErrorVector delta = -gain * measurement.residual;
+  return {boxplus(prior.state, delta),
+          reset_covariance(covariance_after<3>(P, PH, gain, gain.lazyProduct(stated)), delta)};
 }
 
 Belief fuse(const Belief& prior, const NominalState& linearization,

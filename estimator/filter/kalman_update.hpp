@@ -62,6 +62,11 @@ struct GainMask {
 /// The belief after fusing `measurement`, linearized at the belief.
 Belief fuse(const Belief& prior, const LinearMeasurement& measurement, const GainMask& mask = {});
 
+/// The belief after fusing `measurement` with the gain of a filter that knows scale and bias of the
+/// legs (docs/estimators.md#cross-validated-information): these stay, and nothing follows from the
+/// errors that others have in common with them. The covariance is that of this gain.
+Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement);
+
 /// One step of the iterated update: the belief after fusing `measurement`, linearized at
 /// `linearization`, with `prior`. With linearization == prior.state it is the standard update. The
 /// covariance is that of the error about the returned state.

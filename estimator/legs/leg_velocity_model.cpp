@@ -10,9 +10,11 @@ void describe(Fields& f, LegConfig& c) {
   f.flag("repeat_lost", c.repeat_lost,
          {"", any(), "repeat the last packet while packets are lost (zero-order hold)"});
   f.vector("velocity_sigma", c.velocity_sigma,
-           {"m/s", positive_up_to(1e3), "error of one sample along the base axes, R_leg"});
+           {"m/s", positive_up_to(1e3), "error of one sample along the base axes, R_leg",
+            "docs/decisions.md#leg-noise-of-003-ms-per-sample"});
   f.number("scale_sigma", c.scale_sigma,
-           {"-", up_to(1e6), "error proportional to the speed, R_leg"});
+           {"-", up_to(1e6), "error proportional to the speed, R_leg",
+            "docs/decisions.md#leg-noise-of-003-ms-per-sample"});
 }
 
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
@@ -41,13 +43,16 @@ Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
   return measurement.residual - state.leg_scale.cwiseProduct(legs.stride_mean) - state.leg_bias;
 }
 
+double correlated_leg_samples(double rate_hz) {
+  return std::max(1.0, 2.0 * kLegCorrelationTime * rate_hz);
+}
+
 Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
                                    const Eigen::Vector3d& measured) {
-  const double repeats = std::max(1.0, 2.0 * kLegCorrelationTime * rate_hz);
   const double scale_error = config.scale_sigma * measured.norm();
   const Eigen::Vector3d variance =
       config.velocity_sigma.cwiseAbs2() + Eigen::Vector3d::Constant(scale_error * scale_error);
-  return (repeats * variance).asDiagonal();
+  return (correlated_leg_samples(rate_hz) * variance).asDiagonal();
 }
 
 }  // namespace aims

@@ -40,9 +40,12 @@ LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_bo
 Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
                                      const NominalState& state, const LegVelocity& legs);
 
-/// R_leg, the nominal covariance of one sample [m^2/s^2] at `rate_hz` [Hz]. Consecutive samples
-/// share their error (a scale, a slipping stance), so the variance is multiplied by the samples per
-/// correlation time, 2 tau f.
+/// Consecutive samples that share one error (a slipping stance) at `rate_hz` [Hz]: 2 tau f, at
+/// least 1.
+double correlated_leg_samples(double rate_hz);
+
+/// R_leg, the nominal covariance of one sample [m^2/s^2] at `rate_hz` [Hz], times the consecutive
+/// samples that share its error.
 Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
                                    const Eigen::Vector3d& measured);
 

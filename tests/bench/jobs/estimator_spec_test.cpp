@@ -54,7 +54,7 @@ TEST(EstimatorSpec, AnEstimatorNameIsItsOwnLabel) {
 
 TEST(EstimatorSpec, HoldsLabelNameAndSettingsInOrder) {
   const EstimatorSpec spec =
-      parsed("no_ground=aims_d+ground_constraint.enabled=false+leg_noise.nominal_spread=10");
+      parsed("no_ground=aims_d+ground_constraint.enabled=false+legs.scale_sigma=10");
   EXPECT_EQ(spec.label, "no_ground");
   EXPECT_EQ(spec.name, "aims_d");
   ASSERT_EQ(spec.settings.size(), 2U);
@@ -63,7 +63,7 @@ TEST(EstimatorSpec, HoldsLabelNameAndSettingsInOrder) {
   const auto config = config_with(spec, {});
   ASSERT_TRUE(config);
   EXPECT_EQ(text_in(**config, "ground_constraint.enabled"), "false");
-  EXPECT_EQ(text_in(**config, "leg_noise.nominal_spread"), "10");
+  EXPECT_EQ(text_in(**config, "legs.scale_sigma"), "10");
 }
 
 TEST(EstimatorSpec, TextReadsBackAsTheSameSpec) {
@@ -174,8 +174,7 @@ TEST(SettingsWithoutEffect, AWildcardNeedsOneEstimatorThatRuns) {
 
 TEST(SettingsWithoutEffect, AreNotInTheTextOfAConfigurationThatLoadsBack) {
   const std::string run = "run=[aims, x=lio+imu.gravity=9.8]";
-  EXPECT_NE(refusal_of({run, "estimators.lio.leg_noise.nominal_spread=10"}), "")
-      << "no legs in lio";
+  EXPECT_NE(refusal_of({run, "estimators.lio.legs.scale_sigma=10"}), "") << "no legs in lio";
   const auto good = default_scenario(std::vector<std::string>{run, "estimators.lio.queue.lag=0.1"});
   ASSERT_TRUE(good) << good.error().message;
   const std::string text = config_text(*good);

@@ -43,11 +43,11 @@ TEST(AblationSpecs, AreTheWholeAndItselfWithoutEachPartThatIsOn) {
 }
 
 TEST(AblationSpecs, APartThatItsOwnSettingsNeedStays) {
-  const auto specs = ablation_specs("mine=aims_d+leg_noise.nominal_spread=10", {}, {});
+  const auto specs = ablation_specs("mine=aims_d+leg_states.scale_sigma=0.2", {}, {});
   ASSERT_TRUE(specs) << specs.error().message;
-  for (const std::string& spec : *specs) EXPECT_FALSE(spec.starts_with("no_leg_noise=")) << spec;
+  for (const std::string& spec : *specs) EXPECT_FALSE(spec.starts_with("no_leg_states=")) << spec;
   EXPECT_TRUE(contains(
-      *specs, "no_robust_kernel=aims_d+leg_noise.nominal_spread=10+robust_kernel.enabled=false"));
+      *specs, "no_robust_kernel=aims_d+leg_states.scale_sigma=0.2+robust_kernel.enabled=false"));
 }
 
 TEST(AblationSpecs, TurnOnWhatTheScenarioOrTheSpecTurnsOff) {
@@ -64,9 +64,9 @@ TEST(AblationSpecs, TurnOnWhatTheScenarioOrTheSpecTurnsOff) {
 }
 
 TEST(AblationSpecs, AGroupWithoutFlagsThatHaveAnEffectIsRefused) {
-  EXPECT_FALSE(ablation_specs("aims_d", {"leg_noize"}, {}));
-  EXPECT_FALSE(ablation_specs("amis_d", {"leg_noise"}, {}));
-  EXPECT_FALSE(ablation_specs("lio", {"leg_noise"}, {}));
+  EXPECT_FALSE(ablation_specs("aims_d", {"leg_gaet"}, {}));
+  EXPECT_FALSE(ablation_specs("amis_d", {"leg_gate"}, {}));
+  EXPECT_FALSE(ablation_specs("lio", {"leg_gate"}, {}));
 }
 
 /// A record whose scores are those of the labels.

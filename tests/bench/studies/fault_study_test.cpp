@@ -81,12 +81,16 @@ class FaultStudy : public ::testing::Test {
  protected:
   FaultStudy() : cache_(folder_.path()) {
     scenario_.simulation.lidar.columns = 300;
-    EXPECT_TRUE(cache_.make(scenario_, 1));
+    const auto made = cache_.make(scenario_, 1);
+    EXPECT_TRUE(made) << made.error().message;
   }
   std::vector<FaultCase> study(std::vector<std::string> faults, int jobs = 1) const {
     const auto sequence =
         open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_, 1);
-    EXPECT_TRUE(sequence);
+    if (!sequence) {
+      ADD_FAILURE() << sequence.error().message;
+      return {};
+    }
     const auto cases =
         fault_study(*sequence, scenario_, {{"aims_d", "leg"}, std::move(faults), 1, jobs},
                     [](std::size_t, std::size_t) { return true; });
@@ -121,6 +125,7 @@ TEST_F(FaultStudy, NamesADeadSensorAndDoesNotDependOnTheThreads) {
 TEST_F(FaultStudy, RefusesAFaultThatDoesNotExist) {
   const auto sequence =
       open_sequence(cache_.file_of(SequenceCache::id_of(scenario_, 1)), scenario_, 1);
+  ASSERT_TRUE(sequence) << sequence.error().message;
   const auto cases = fault_study(*sequence, scenario_, {{"leg"}, {"imu.fire"}, 1, 1},
                                  [](std::size_t, std::size_t) { return true; });
   ASSERT_FALSE(cases);

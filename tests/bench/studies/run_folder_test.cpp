@@ -20,13 +20,14 @@ using test::short_walk;
 
 Json read_json(const fs::path& file) { return Json::parse(std::ifstream(file)); }
 
-/// Does what `aims run` does, but for pictures and page.
+/// Does what `aims run` does, but for pictures and page. An error fails the test with its message.
 Result<Suite> run(const Scenario& scenario, const std::vector<std::uint64_t>& seeds,
                   const fs::path& out, int processes = 1) {
   SuiteOptions options = options_for(out, processes);
   options.seeds = seeds;
   options.jobs.outputs.trajectories = true;
   auto suite = run_suite({{"short.yaml", scenario}}, options, keep_going);
+  EXPECT_TRUE(suite) << suite.error().message;
   if (!suite) return suite;
   if (auto written = write_runs(*suite, out); !written) return tl::unexpected(written.error());
   return suite;

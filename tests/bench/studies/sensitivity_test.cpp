@@ -24,7 +24,7 @@ TEST(SettingVariants, ScaleEachNumberThatHasAnEffect) {
   ASSERT_TRUE(variants) << variants.error().message;
   EXPECT_EQ(value_of(*variant_of(*variants, "map.voxel_size", 0.5)), "0.25");
   EXPECT_EQ(value_of(*variant_of(*variants, "lidar.max_points", 2.0)), "8000");
-  EXPECT_EQ(value_of(*variant_of(*variants, "leg_noise.velocity_sigma", 2.0)), "[0.14,0.14,0.14]");
+  EXPECT_EQ(value_of(*variant_of(*variants, "legs.velocity_sigma", 2.0)), "[0.06,0.06,0.06]");
   EXPECT_EQ(variant_of(*variants, "degeneracy.eta", 2.0), nullptr) << "has no effect";
   EXPECT_EQ(variant_of(*variants, "robust_kernel.enabled", 2.0), nullptr) << "is no number";
   std::vector<std::string> specs = {"aims_d"};

@@ -159,28 +159,39 @@ TEST(LidarUpdate, TheRealPartActsWhereTheScanWasMatched) {
 }
 
 // A leg sample whose model of the scale is off by a percent, after a distance over which the
-// scale has made the position uncertain by metres: without the mask the gain along x is 0.1 m per
-// m/s, and 200 samples a second would carry the position away.
-TEST(LidarUpdate, BetweenPlainWallsTheVelocityDoesNotCorrectThePositionAlongThem) {
-  Sequence sequence(false);
+// scale has made the position uncertain by metres: the gain along x is 0.1 m per m/s then, and 200
+// samples a second would carry the position away. What position and velocity have in common
+// besides, of the last moments, does correct it.
+TEST(LidarUpdate, BetweenPlainWallsLegsCorrectThePositionAsIfTheirScaleWereKnown) {
+  const Sequence sequence(false);
   Belief belief;
   ErrorVector common = ErrorVector::Zero();
   common(E::kPosition.offset) = -3.0;
   common(E::kVelocity.offset) = -0.09;
   common(E::kLegScale.offset) = 0.12;
   belief.covariance = common * common.transpose() + 1e-4 * ErrorMatrix::Identity();
+  belief.covariance.diagonal().segment<E::kLegSize>(E::kLegScale.offset).array() += 1e-8 - 1e-4;
   LinearMeasurement legs;
   legs.residual = Eigen::Vector3d(0.05, 0.05, 0.0);
   columns(legs.jacobian, E::kVelocity).setIdentity();
   columns(legs.jacobian, E::kLegScale) = Eigen::Vector3d(0.73, 0.0, 0.0).asDiagonal();
   legs.noise = 0.01 * Eigen::Matrix3d::Identity();
   const double plain = fuse(belief, legs).state.position.x();
-  EXPECT_GT(std::abs(plain), 0.005) << "the mask has something to do";
-  const Belief updated = fuse(belief, legs, sequence.update.odometry_mask());
+  EXPECT_GT(std::abs(plain), 0.005) << "the scale has something to do";
+  const Belief updated = sequence.update.fuse_legs(belief, legs);
   EXPECT_LT(std::abs(updated.state.position.x()), 1e-3);
   EXPECT_LT(updated.state.leg_scale.norm(), 1e-12);
   EXPECT_NE(updated.state.velocity.y(), 0.0);
-  EXPECT_EQ(Sequence(true).update.odometry_mask(), GainMask()) << "pillars constrain x";
+
+  const double recent = 5e-5;
+  belief.covariance(E::kPosition.offset, E::kVelocity.offset) += recent;
+  belief.covariance(E::kVelocity.offset, E::kPosition.offset) += recent;
+  const double moved = sequence.update.fuse_legs(belief, legs).state.position.x();
+  EXPECT_NEAR(moved - updated.state.position.x(), -recent * 0.05 / 0.0101, 5e-6);
+
+  const Belief constrained = Sequence(true).update.fuse_legs(belief, legs);
+  EXPECT_EQ(constrained.covariance, fuse(belief, legs).covariance) << "pillars constrain x";
+  EXPECT_EQ(Sequence(true).update.odometry_mask(), GainMask());
 }
 
 TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {

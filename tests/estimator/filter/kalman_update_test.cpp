@@ -145,6 +145,108 @@ TEST(KalmanUpdate, MaskedDirectionsKeepTheirValueAndUncertainty) {
   EXPECT_NEAR(updated.covariance(x, x) / prior.covariance(x, x), 1.0, 1e-6);
 }
 
+// The gain is that of the covariance given the legs, from its definition; the covariance is
+// Joseph's form over the whole state.
+TEST(KalmanUpdate, GivenLegsEqualsTheDenseOne) {
+  RandomStream random(7, "given_legs");
+  const Belief prior{test::some_state(), some_covariance(random)};
+  const LinearMeasurement m = some_legs(prior.state);
+  const ErrorMatrix& P = prior.covariance;
+  const auto legs = Eigen::seqN(E::kLegScale.offset, E::kLegSize);
+  const Matrix6 inverse = P(legs, legs).inverse();
+  const ErrorMatrix given = P - P(Eigen::all, legs) * inverse * P(legs, Eigen::all);
+  const Eigen::Matrix3d S = m.jacobian * given * m.jacobian.transpose() + m.noise;
+  const Eigen::Matrix<double, E::kSize, 3> K = given * m.jacobian.transpose() * S.inverse();
+  const ErrorMatrix kept = ErrorMatrix::Identity() - K * m.jacobian;
+  const NominalState result = boxplus(prior.state, -K * m.residual);
+  const ErrorMatrix G = moved_prior(prior.state, result);
+  const ErrorMatrix joseph = kept * P * kept.transpose() + K * m.noise * K.transpose();
+  expect_same(fuse_given_legs(prior, m), {result, G * joseph * G.transpose()});
+  EXPECT_LT((result.leg_scale - prior.state.leg_scale).norm(), 1e-12);
+}
+
+TEST(KalmanUpdate, GivenLegsThatAreKnownItIsThePlainOne) {
+  RandomStream random(8, "known_legs");
+  const ErrorMatrix legs_kept = GainMask{.legs = false}.matrix();
+  const Belief prior{test::some_state(), legs_kept * some_covariance(random) * legs_kept};
+  const LinearMeasurement m = some_legs(prior.state);
+  expect_same(fuse_given_legs(prior, m), fuse(prior, m));
+}
+
+/// Ten seconds at 0.7 m/s, with a noisy IMU and legs that are 5 % short.
+class Walk {
+ public:
+  explicit Walk(std::uint64_t seed) : random_(seed, "walk") {
+    belief_.state.velocity.x() = kReported;
+    belief_.covariance = 1e-10 * ErrorMatrix::Identity();
+    block(belief_.covariance, E::kLegScale, E::kLegScale) *= 0.05 * 0.05 / 1e-10;
+  }
+
+  /// The distance of the estimate from the path that the legs report [m]. `update(belief, legs)`.
+  template <class Update>
+  double run(const Update& update) {
+    double reported = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      predict();
+      const double sample = kReported + kLegNoise * random_.normal();
+      reported += sample * kStep;
+      const LegVelocity legs{{sample, 0.0, 0.0}, {kReported, 0.0, 0.0}};
+      belief_ = update(belief_, leg_velocity_model(belief_.state, Pose{}, Eigen::Vector3d::Zero(),
+                                                   legs, kLegNoise * kLegNoise * I3()));
+    }
+    return belief_.state.position.x() - reported;
+  }
+
+  /// Of the position along the path [m].
+  double stated() const {
+    return std::sqrt(belief_.covariance(E::kPosition.offset, E::kPosition.offset));
+  }
+
+  static constexpr double kSpeed = 0.7;
+
+ private:
+  static constexpr double kReported = 0.95 * kSpeed;
+  static constexpr double kStep = 0.005;
+  static constexpr double kImuNoise = 0.2;  // [m/s^2/sqrt(Hz)]
+  static constexpr double kLegNoise = 0.4;  // [m/s]
+  static Eigen::Matrix3d I3() { return Eigen::Matrix3d::Identity(); }
+
+  void predict() {
+    ErrorMatrix F = ErrorMatrix::Identity();
+    block(F, E::kPosition, E::kVelocity) = kStep * I3();
+    belief_.state.position += kStep * belief_.state.velocity;
+    belief_.state.velocity.x() += kImuNoise * std::sqrt(kStep) * random_.normal();
+    belief_.covariance = F * belief_.covariance * F.transpose();
+    block(belief_.covariance, E::kVelocity, E::kVelocity) += kImuNoise * kImuNoise * kStep * I3();
+  }
+
+  RandomStream random_;
+  Belief belief_;
+};
+
+// With legs alone the position is where they report it. A velocity that is corrected without the
+// position lags behind its own corrections, and the noise of the IMU meanwhile stays in the
+// position.
+TEST(KalmanUpdate, GivenLegsThePositionIsTheIntegralOfWhatTheyReport) {
+  const GainMask velocity_only{.legs = false, .position = Eigen::Matrix3d::Zero()};
+  double squared = 0.0;
+  double squared_velocity_only = 0.0;
+  constexpr int kWalks = 20;
+  for (int seed = 1; seed <= kWalks; ++seed) {
+    Walk walk(static_cast<std::uint64_t>(seed));
+    squared += std::pow(walk.run(fuse_given_legs), 2) / kWalks;
+    EXPECT_NEAR(walk.stated(), 10.0 * Walk::kSpeed * 0.05, 0.1) << "mostly the scale";
+    Walk other(static_cast<std::uint64_t>(seed));
+    squared_velocity_only += std::pow(other.run([&](const Belief& belief, const auto& legs) {
+                               return fuse(belief, legs, velocity_only);
+                             }),
+                                      2) /
+                             kWalks;
+  }
+  EXPECT_LT(std::sqrt(squared), 0.03);
+  EXPECT_GT(std::sqrt(squared_velocity_only), 0.06);
+}
+
 TEST(GainMask, LeavesOutTheLegsAndNothingElse) {
   ErrorMatrix expected = ErrorMatrix::Identity();
   EXPECT_EQ(GainMask().matrix(), expected);
