@@ -173,18 +173,24 @@ bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
   const std::optional<ImuStatistics> statistics = zero_velocity_.due_measurement();
   if (!statistics) return true;
   ++result_.counts["zero_velocity.used"];
-  GainMask mask = lidar_update_.odometry_mask();
-  mask.legs = false;
-  fuse_standing(belief_, statistics->rate, mask);
-  if (mapping_) fuse_standing(*mapping_, statistics->rate, {.legs = false});
+  fuse_standing(statistics->rate);
   return true;
 }
 
 /// Zero velocity and zero rate; `rate` is the mean reading of the gyro, body axes [rad/s].
-void EskfEstimator::fuse_standing(Belief& belief, const Eigen::Vector3d& rate,
-                                  const GainMask& mask) {
-  accept(belief, fuse(belief, zero_velocity_model(belief.state, kSigmaZeroVelocity), mask));
-  accept(belief, fuse(belief, zero_rate_model(belief.state, rate, kSigmaZeroRate), mask));
+void EskfEstimator::fuse_standing(const Eigen::Vector3d& rate) {
+  const auto standing = [&](Belief& belief, const auto& fused) {
+    accept(belief, fused(belief, zero_velocity_model(belief.state, kSigmaZeroVelocity)));
+    accept(belief, fused(belief, zero_rate_model(belief.state, rate, kSigmaZeroRate)));
+  };
+  const GainMask without_legs{.legs = false};
+  standing(belief_, [&](const Belief& belief, const LinearMeasurement& measurement) {
+    return lidar_update_.fuse_velocity(belief, measurement, without_legs);
+  });
+  if (!mapping_) return;
+  standing(*mapping_, [&](const Belief& belief, const LinearMeasurement& measurement) {
+    return fuse(belief, measurement, without_legs);
+  });
 }
 
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
@@ -206,12 +212,10 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(belief_, lidar_update_.fuse_legs(belief_, measurement));
+  accept(belief_, lidar_update_.fuse_velocity(belief_, measurement));
   if (!mapping_) return;
-  const Eigen::Matrix3d noise =
-      leg_velocity_noise(kLegsOfUnknownScale, rig_.leg_rate_hz, sample.linear_velocity);
-  accept(*mapping_,
-         fuse(*mapping_, leg_velocity_model(mapping_->state, rig_.T_body_base, rate, legs, noise)));
+  accept(*mapping_, fuse(*mapping_, leg_velocity_model(mapping_->state, rig_.T_body_base, rate,
+                                                       legs, leg_covariance(sample))));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {

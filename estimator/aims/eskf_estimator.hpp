@@ -50,7 +50,7 @@ class EskfEstimator : public Estimator {
   void fuse_leg_velocity(const LegOdometrySample& sample);
   Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample) const;
   bool fuse_zero_velocity(const LegOdometrySample& sample);
-  void fuse_standing(Belief& belief, const Eigen::Vector3d& rate, const GainMask& mask);
+  void fuse_standing(const Eigen::Vector3d& rate);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void fuse_scan(ScanDiagnostics& diagnostics);
   void apply_calibration(double delay_change);

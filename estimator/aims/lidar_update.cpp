@@ -58,24 +58,24 @@ Linearization LidarUpdate::fused(ScanPart part, double gamma, const NominalState
   const PoseInformation pose =
       real ? fraction_.applied_to(scan_.halves)
            : PoseInformation{scan_.halves.within, scan_.halves.within_vector};
-  Linearization linearization{scan_measurement(gamma * pose.matrix, gamma * pose.vector,
-                                               calibration_, state.rotation.toRotationMatrix()),
-                              real ? odometry_mask() : GainMask()};
-  linearization.mask.velocity = linearization.mask.position;
-  return linearization;
+  return {scan_measurement(gamma * pose.matrix, gamma * pose.vector, calibration_,
+                           state.rotation.toRotationMatrix()),
+          real ? scan_mask() : GainMask()};
+}
+
+GainMask LidarUpdate::scan_mask() const {
+  if (!considers_legs()) return {};
+  const Eigen::Matrix3d constrained = fraction_.constrained();
+  return {.legs = false, .position = constrained, .velocity = constrained};
 }
 
 double LidarUpdate::free_tilt() const {
   return part_ == ScanPart::kAll ? kFreeTiltOfNoise : kFreeTilt;
 }
 
-GainMask LidarUpdate::odometry_mask() const {
-  if (!considers_legs()) return {};
-  return {.legs = false, .position = fraction_.constrained()};
-}
-
-Belief LidarUpdate::fuse_legs(const Belief& belief, const LinearMeasurement& legs) const {
-  return considers_legs() ? fuse_given_legs(belief, legs) : fuse(belief, legs);
+Belief LidarUpdate::fuse_velocity(const Belief& belief, const LinearMeasurement& velocity,
+                                  const GainMask& mask) const {
+  return considers_legs() ? fuse_given_legs(belief, velocity) : fuse(belief, velocity, mask);
 }
 
 /// One step with a few of the points: where all of them meet nearly the planes of the result, so
@@ -209,7 +209,7 @@ Belief LidarUpdate::update_with_real_part(const Belief& predicted, const VoxelMa
   NominalState at = predicted.state;
   at.rotation = matched_at_.rotation;
   const Eigen::Vector3d apart = predicted.state.position - predicted_.position;
-  at.position = matched_at_.position + apart - odometry_mask().position * apart;
+  at.position = matched_at_.position + apart - scan_mask().position * apart;
   const Linearization real = fused(ScanPart::kReal, gamma_lidar_, at);
   const Belief belief = fuse(predicted, at, real.measurement, real.mask);
   update_map_covariance(map, matched_at_, predicted, belief);

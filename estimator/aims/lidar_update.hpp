@@ -55,22 +55,20 @@ class LidarUpdate {
     return cross_validation_.enabled && fraction_.leaves_direction_free();
   }
 
-  /// Gain mask of zero velocity. While scans leave a direction free, the position along it is the
-  /// integral of the velocity, and both carry the error of the leg scale.
-  GainMask odometry_mask() const;
-
-  /// The belief after fusing a velocity of the legs. While scans leave a direction free, position
-  /// and velocity along it both carry the error of the leg scale, which is common to the whole
-  /// route. It cancels in the gain only as far as the models of scale and velocity agree to a
-  /// percent; what is left, times metres of uncertainty, would move the position with every sample.
-  /// The gain of a filter that knows the legs has none of it.
-  Belief fuse_legs(const Belief& belief, const LinearMeasurement& legs) const;
+  /// The belief after fusing a velocity, with `mask` where scans constrain all directions. While
+  /// scans leave a direction free, position and velocity along it both carry the error of the leg
+  /// scale, which is common to the whole route. It cancels in the gain only as far as the models of
+  /// scale and velocity agree to a percent; what is left, times metres of uncertainty, would move
+  /// the position with every sample. The gain of a filter that knows the legs has none of it.
+  Belief fuse_velocity(const Belief& belief, const LinearMeasurement& velocity,
+                       const GainMask& mask = {}) const;
 
   /// Covariance of the map at the robot, odometry axes [m^2]; see map_covariance_after_scan().
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 
  private:
   double free_tilt() const;
+  GainMask scan_mask() const;
   Linearization fused(ScanPart part, double gamma, const NominalState& state) const;
   NominalState first_guess(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics);

@@ -178,7 +178,7 @@ TEST(LidarUpdate, BetweenPlainWallsLegsCorrectThePositionAsIfTheirScaleWereKnown
   legs.noise = 0.01 * Eigen::Matrix3d::Identity();
   const double plain = fuse(belief, legs).state.position.x();
   EXPECT_GT(std::abs(plain), 0.005) << "the scale has something to do";
-  const Belief updated = sequence.update.fuse_legs(belief, legs);
+  const Belief updated = sequence.update.fuse_velocity(belief, legs);
   EXPECT_LT(std::abs(updated.state.position.x()), 1e-3);
   EXPECT_LT(updated.state.leg_scale.norm(), 1e-12);
   EXPECT_NE(updated.state.velocity.y(), 0.0);
@@ -186,12 +186,15 @@ TEST(LidarUpdate, BetweenPlainWallsLegsCorrectThePositionAsIfTheirScaleWereKnown
   const double recent = 5e-5;
   belief.covariance(E::kPosition.offset, E::kVelocity.offset) += recent;
   belief.covariance(E::kVelocity.offset, E::kPosition.offset) += recent;
-  const double moved = sequence.update.fuse_legs(belief, legs).state.position.x();
+  const double moved = sequence.update.fuse_velocity(belief, legs).state.position.x();
   EXPECT_NEAR(moved - updated.state.position.x(), -recent * 0.05 / 0.0101, 5e-6);
 
-  const Belief constrained = Sequence(true).update.fuse_legs(belief, legs);
-  EXPECT_EQ(constrained.covariance, fuse(belief, legs).covariance) << "pillars constrain x";
-  EXPECT_EQ(Sequence(true).update.odometry_mask(), GainMask());
+  const Sequence constrained(true);
+  for (const GainMask& mask : {GainMask(), GainMask{.legs = false}}) {
+    EXPECT_EQ(constrained.update.fuse_velocity(belief, legs, mask).covariance,
+              fuse(belief, legs, mask).covariance)
+        << "pillars constrain x";
+  }
 }
 
 TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {
