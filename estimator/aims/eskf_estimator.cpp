@@ -179,18 +179,18 @@ bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
 
 /// Zero velocity and zero rate; `rate` is the mean reading of the gyro, body axes [rad/s].
 void EskfEstimator::fuse_standing(const Eigen::Vector3d& rate) {
-  const auto standing = [&](Belief& belief, const auto& fused) {
-    accept(belief, fused(belief, zero_velocity_model(belief.state, kSigmaZeroVelocity)));
-    accept(belief, fused(belief, zero_rate_model(belief.state, rate, kSigmaZeroRate)));
-  };
   const GainMask without_legs{.legs = false};
-  standing(belief_, [&](const Belief& belief, const LinearMeasurement& measurement) {
-    return lidar_update_.fuse_velocity(belief, measurement, without_legs);
-  });
+  const auto still = [](const Belief& belief) {
+    return zero_velocity_model(belief.state, kSigmaZeroVelocity);
+  };
+  const auto not_turning = [&](const Belief& belief) {
+    return zero_rate_model(belief.state, rate, kSigmaZeroRate);
+  };
+  accept(belief_, lidar_update_.fuse_velocity(belief_, still(belief_), without_legs));
+  accept(belief_, lidar_update_.fuse_velocity(belief_, not_turning(belief_), without_legs));
   if (!mapping_) return;
-  standing(*mapping_, [&](const Belief& belief, const LinearMeasurement& measurement) {
-    return fuse(belief, measurement, without_legs);
-  });
+  accept(*mapping_, fuse(*mapping_, still(*mapping_), without_legs));
+  accept(*mapping_, fuse(*mapping_, not_turning(*mapping_), without_legs));
 }
 
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
@@ -199,8 +199,9 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   const Eigen::Vector3d rate =
       queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
   const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
+  const Eigen::Matrix3d noise = leg_covariance(sample);
   LinearMeasurement measurement =
-      leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, leg_covariance(sample));
+      leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, noise);
   health_.leg_residual(uncorrected_residual(measurement, belief_.state, legs));
   if (config_.leg_gate.enabled) {
     const auto inflation = leg_gate_.inflation(sample.stamp, measurement, belief_.covariance);
@@ -214,8 +215,8 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   ++leg_updates_;
   accept(belief_, lidar_update_.fuse_velocity(belief_, measurement));
   if (!mapping_) return;
-  accept(*mapping_, fuse(*mapping_, leg_velocity_model(mapping_->state, rig_.T_body_base, rate,
-                                                       legs, leg_covariance(sample))));
+  accept(*mapping_,
+         fuse(*mapping_, leg_velocity_model(mapping_->state, rig_.T_body_base, rate, legs, noise)));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {
