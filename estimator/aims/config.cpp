@@ -6,7 +6,7 @@ namespace {
 
 void state_dependencies(Fields& f, const EskfConfig& c) {
   f.idle_if(!c.legs.enabled, "legs.enabled is false",
-            {"leg_gate", "leg_states", "zero_velocity", "degeneracy.gamma_min"});
+            {"leg_states", "zero_velocity", "degeneracy.gamma_min"});
 }
 
 }  // namespace
@@ -16,7 +16,6 @@ void describe(Fields& f, EskfConfig& c) {
   f.group("initialization", c.initialization);
   f.group("static_initialization", c.static_initialization);
   f.group("legs", c.legs);
-  f.group("leg_gate", c.leg_gate);
   f.group("leg_states", c.leg_states);
   f.group("zero_velocity", c.zero_velocity);
   f.group("ground_constraint", c.ground_constraint);

@@ -9,7 +9,6 @@
 #include "estimator/filter/measurement_queue.hpp"
 #include "estimator/filter/static_initialization.hpp"
 #include "estimator/ground/ground_plane.hpp"
-#include "estimator/legs/leg_gate.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
 #include "estimator/legs/zero_velocity.hpp"
@@ -25,7 +24,6 @@ struct EskfConfig {
   InitializationConfig initialization;
   StaticInitializationConfig static_initialization;
   LegConfig legs;
-  LegGateConfig leg_gate;
   LegStatesConfig leg_states;
   ZeroVelocityConfig zero_velocity;
   GroundConstraintConfig ground_constraint;

@@ -56,7 +56,6 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
       leg_free_(config_.imu),
       map_(config_.map),
       ground_(config_.ground_constraint),
-      leg_gate_(rig.leg_rate_hz),
       health_({.lidar = true, .legs = config_.legs.enabled, .imu = true}, config_.imu.gravity) {
   result_.diagnostics.series = scan_series();
 }
@@ -198,19 +197,11 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   if (fuse_zero_velocity(sample)) return;
   const Eigen::Vector3d rate =
       queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
-  const LegVelocity legs{sample.linear_velocity, stride_mean_.update(sample)};
+  const LegVelocity legs = stride_means_.update(sample);
   const Eigen::Matrix3d noise = leg_covariance(sample);
-  LinearMeasurement measurement =
+  const LinearMeasurement measurement =
       leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, noise);
   health_.leg_residual(uncorrected_residual(measurement, belief_.state, legs));
-  if (config_.leg_gate.enabled) {
-    const auto inflation = leg_gate_.inflation(sample.stamp, measurement, belief_.covariance);
-    if (!inflation) {
-      ++result_.counts["leg.rejected"];
-      return;
-    }
-    measurement.noise *= *inflation;
-  }
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
   accept(belief_, lidar_update_.fuse_velocity(belief_, measurement));

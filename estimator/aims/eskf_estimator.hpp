@@ -12,7 +12,6 @@
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 #include "estimator/ground/ground_constraint.hpp"
-#include "estimator/legs/leg_gate.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/zero_velocity.hpp"
 #include "estimator/lidar/deskew.hpp"
@@ -72,7 +71,6 @@ class EskfEstimator : public Estimator {
   VoxelMap map_;
   GroundConstraint ground_;
   GroundLists ground_lists_;
-  LegGate leg_gate_;
   ZeroVelocityDetector zero_velocity_;
   HealthMonitor health_;
   EstimatorResult result_;
@@ -89,7 +87,7 @@ class EskfEstimator : public Estimator {
   /// so that they are mapped where they fit, and not where legs that are far off take the estimate.
   std::optional<Belief> mapping_;
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
-  StrideMean stride_mean_;
+  StrideMeans stride_means_;
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]
   int leg_updates_ = 0;
 

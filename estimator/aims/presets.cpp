@@ -32,7 +32,6 @@ constexpr std::array kPresets = {
                [] {
                  EskfConfig config = without_directional_weights();
                  config.legs.velocity_sigma.setConstant(0.03);
-                 config.leg_gate.enabled = true;
                  config.cross_validation.enabled = true;
                  return config;
                }},
@@ -45,7 +44,7 @@ constexpr std::array kPresets = {
     EskfPreset{"tfs_clean", "fixed weights, lost leg packets skipped", [] { return EskfConfig(); }},
     EskfPreset{
         "tfs_plus",
-        "tfs_clean with all parts of aims_d but cross-validation, noise and gate of leg samples",
+        "tfs_clean with all parts of aims_d but cross-validation and the noise of its leg samples",
         [] { return without_directional_weights(); }},
     EskfPreset{"lio", "LiDAR and IMU only, fixed weights",
                [] {

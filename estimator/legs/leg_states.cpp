@@ -20,7 +20,7 @@ void describe(Fields& f, LegStatesConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "estimate scale and bias of the leg odometry"});
   f.number("scale_sigma", c.scale_sigma,
            {"-", positive_up_to(1e6), "initial deviation of the scale",
-            "docs/decisions.md#leg-scale-per-stride-with-a-prior-of-012"});
+            "docs/decisions.md#leg-scale-with-a-prior-of-012"});
   f.number("bias_sigma", c.bias_sigma,
            {"m/s", positive_up_to(1e3), "initial deviation of the bias",
             "docs/decisions.md#what-a-leg-sample-is-worth"});
@@ -39,11 +39,13 @@ void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt) {
   add_variance(belief.covariance, ErrorState::kLegBias, kLegBiasWalk, dt);
 }
 
-const Eigen::Vector3d& StrideMean::update(const LegOdometrySample& sample) {
+LegVelocity StrideMeans::update(const LegOdometrySample& sample) {
   const double dt = stamp_ ? std::max(to_seconds(sample.stamp - *stamp_), 0.0) : kStride;
+  const double gain = 1.0 - std::exp(-dt / kStride);
   stamp_ = sample.stamp;
-  mean_ += (1.0 - std::exp(-dt / kStride)) * (sample.linear_velocity - mean_);
-  return mean_;
+  mean_ += gain * (sample.linear_velocity - mean_);
+  mean_of_mean_ += gain * (mean_ - mean_of_mean_);
+  return {sample.linear_velocity, 2.0 * mean_ - mean_of_mean_, mean_of_mean_};
 }
 
 }  // namespace aims

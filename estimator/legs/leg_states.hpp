@@ -6,6 +6,7 @@
 #include "core/config.hpp"
 #include "core/measurements.hpp"
 #include "estimator/filter/kalman_update.hpp"
+#include "estimator/legs/leg_velocity_model.hpp"
 
 namespace aims {
 
@@ -28,15 +29,17 @@ Belief open_leg_states(Belief belief, const LegStatesConfig& config);
 /// Adds the random walk of the enabled leg states over `dt` [s].
 void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt);
 
-/// First-order low pass of the velocity from leg odometry, with the time constant of a stride.
-class StrideMean {
+/// Means of the velocity from leg odometry over strides: two first-order low passes in series, each
+/// with the time constant T of a stride. Constant acceleration a delays them by T a and 2 T a.
+class StrideMeans {
  public:
-  /// Adds a sample and returns the mean, base axes [m/s].
-  const Eigen::Vector3d& update(const LegOdometrySample& sample);
+  /// Adds a sample; its velocity and the means, base axes [m/s].
+  LegVelocity update(const LegOdometrySample& sample);
 
  private:
   std::optional<Time> stamp_;
   Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean_of_mean_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace aims

@@ -32,7 +32,7 @@ LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_bo
   columns(m.jacobian, E::kRotation) = R_base_body * hat(velocity_in_body);
   columns(m.jacobian, E::kVelocity) = R_base_body * R_body_odom;
   columns(m.jacobian, E::kGyroBias) = R_base_body * hat(lever);
-  columns(m.jacobian, E::kLegScale) = legs.stride_mean.asDiagonal();
+  columns(m.jacobian, E::kLegScale) = legs.past_mean.asDiagonal();
   columns(m.jacobian, E::kLegBias).setIdentity();
   m.noise = noise;
   return m;
@@ -43,16 +43,13 @@ Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
   return measurement.residual - state.leg_scale.cwiseProduct(legs.stride_mean) - state.leg_bias;
 }
 
-double correlated_leg_samples(double rate_hz) {
-  return std::max(1.0, 2.0 * kLegCorrelationTime * rate_hz);
-}
-
 Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
                                    const Eigen::Vector3d& measured) {
   const double scale_error = config.scale_sigma * measured.norm();
   const Eigen::Vector3d variance =
       config.velocity_sigma.cwiseAbs2() + Eigen::Vector3d::Constant(scale_error * scale_error);
-  return (correlated_leg_samples(rate_hz) * variance).asDiagonal();
+  const double correlated_samples = std::max(1.0, 2.0 * kLegCorrelationTime * rate_hz);
+  return (correlated_samples * variance).asDiagonal();
 }
 
 }  // namespace aims

@@ -23,14 +23,17 @@ void describe(Fields& fields, LegConfig& config);
 /// Velocity reported by leg odometry.
 struct LegVelocity {
   Eigen::Vector3d measured = Eigen::Vector3d::Zero();     ///< of the base, base axes [m/s]
-  Eigen::Vector3d stride_mean = Eigen::Vector3d::Zero();  ///< its mean over the last stride [m/s]
+  Eigen::Vector3d stride_mean = Eigen::Vector3d::Zero();  ///< its mean over strides, no lag [m/s]
+  Eigen::Vector3d past_mean = Eigen::Vector3d::Zero();    ///< the same of past samples [m/s]
 };
 
 /// Leg odometry as relative motion over its interval: the measured velocity is
 /// u + scale u_mean + bias per axis, with the base velocity in base axes
-/// u = R_body_base^T (R^T v + (omega - b_g) x p_body_base). The scale multiplies the mean over a
-/// stride: within a stride the IMU measures the velocity better than the legs, and the difference
-/// would be taken as scale. `angular_velocity` is the gyro's reading in body axes [rad/s].
+/// u = R_body_base^T (R^T v + (omega - b_g) x p_body_base). The scale multiplies the mean over
+/// strides: within a stride the IMU measures the velocity better than the legs, and the difference
+/// would be taken as scale. So would the noise that mean and sample share: the Jacobian takes the
+/// mean of past samples, an instrumental variable (docs/decisions.md). `angular_velocity` is the
+/// gyro's reading in body axes [rad/s].
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
                                      const Eigen::Vector3d& angular_velocity,
                                      const LegVelocity& legs, const Eigen::Matrix3d& noise);
@@ -40,12 +43,8 @@ LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_bo
 Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
                                      const NominalState& state, const LegVelocity& legs);
 
-/// Consecutive samples that share one error (a slipping stance) at `rate_hz` [Hz]: 2 tau f, at
-/// least 1.
-double correlated_leg_samples(double rate_hz);
-
 /// R_leg, the nominal covariance of one sample [m^2/s^2] at `rate_hz` [Hz], times the consecutive
-/// samples that share its error.
+/// samples that share one error (a slipping stance): 2 tau f, at least 1.
 Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
                                    const Eigen::Vector3d& measured);
 

@@ -65,7 +65,6 @@ TEST(EstimatorConfigs, ReasonsOfIdleSettingsNameTheSwitch) {
   EXPECT_EQ(idle("tfs.degeneracy.eta"), "degeneracy.enabled is false");
   EXPECT_EQ(idle("tfs.degeneracy.enabled"), "");
   EXPECT_EQ(idle("lio.legs.repeat_lost"), "legs.enabled is false");
-  EXPECT_EQ(idle("lio.leg_gate.enabled"), "legs.enabled is false");
   EXPECT_EQ(idle("lio.leg_states.enabled"), "legs.enabled is false");
   EXPECT_EQ(idle("aims.leg_states.scale_sigma"), "leg_states.enabled is false");
   EXPECT_EQ(idle("aims.calibration.mount_sigma"), "");

@@ -64,9 +64,9 @@ TEST(AblationSpecs, TurnOnWhatTheScenarioOrTheSpecTurnsOff) {
 }
 
 TEST(AblationSpecs, AGroupWithoutFlagsThatHaveAnEffectIsRefused) {
-  EXPECT_FALSE(ablation_specs("aims_d", {"leg_gaet"}, {}));
-  EXPECT_FALSE(ablation_specs("amis_d", {"leg_gate"}, {}));
-  EXPECT_FALSE(ablation_specs("lio", {"leg_gate"}, {}));
+  EXPECT_FALSE(ablation_specs("aims_d", {"leg_staets"}, {}));
+  EXPECT_FALSE(ablation_specs("amis_d", {"leg_states"}, {}));
+  EXPECT_FALSE(ablation_specs("lio", {"leg_states"}, {}));
 }
 
 /// A record whose scores are those of the labels.

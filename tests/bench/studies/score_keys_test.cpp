@@ -48,7 +48,7 @@ TEST(ScoreKeys, OfTheRunItselfAreThoseOfARealRun) {
 TEST(ScoreKeys, FollowTheSegmentsOfTheScenario) {
   Scenario scenario = test::short_walk();
   EXPECT_TRUE(check_score("it", "m_list_signed_percent.a-b", scenario));
-  EXPECT_TRUE(check_score("it", "counts.leg.rejected", scenario));
+  EXPECT_TRUE(check_score("it", "counts.lidar.no_update", scenario));
   const auto unknown = check_score("it", "m_list_percent.b-a", scenario);
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().message.find("it: no score 'm_list_percent.b-a'"), std::string::npos);

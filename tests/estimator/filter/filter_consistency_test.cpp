@@ -30,10 +30,10 @@ Belief after_legs(const Belief& belief, const NominalState& truth, const Eigen::
                   RandomStream& random) {
   const Eigen::Vector3d mean(0.6, 0.1, -0.2);
   const Eigen::Matrix3d noise = 0.01 * Eigen::Matrix3d::Identity();
-  const LinearMeasurement exact =
-      leg_velocity_model(truth, kBase, gyro, LegVelocity{Eigen::Vector3d::Zero(), mean}, noise);
+  const LinearMeasurement exact = leg_velocity_model(
+      truth, kBase, gyro, LegVelocity{Eigen::Vector3d::Zero(), mean, mean}, noise);
   const Eigen::Vector3d reported = exact.residual + 0.1 * random.normal3();
-  return fuse(belief, leg_velocity_model(belief.state, kBase, gyro, {reported, mean}, noise));
+  return fuse(belief, leg_velocity_model(belief.state, kBase, gyro, {reported, mean, mean}, noise));
 }
 
 NominalState moved_on(const NominalState& state, double seconds, const MeanTwist& twist) {

@@ -30,7 +30,8 @@ ErrorVector normal_error(RandomStream& random) {
 
 LinearMeasurement some_legs(const NominalState& at) {
   const Eigen::Matrix3d noise = Eigen::Vector3d(0.04, 0.02, 0.1).asDiagonal();
-  return leg_velocity_model(at, Pose{}, {0.1, 0.2, 0.3}, {{0.7, 0.0, 0.0}, {0.6, 0.1, 0.0}}, noise);
+  return leg_velocity_model(at, Pose{}, {0.1, 0.2, 0.3},
+                            {{0.7, 0.0, 0.0}, {0.6, 0.1, 0.0}, {0.6, 0.1, 0.0}}, noise);
 }
 
 /// A scan that constrains five of six directions, and depends on mount and delay.
@@ -190,7 +191,7 @@ class Walk {
       predict();
       const double sample = kReported + kLegNoise * random_.normal();
       reported += sample * kStep;
-      const LegVelocity legs{{sample, 0.0, 0.0}, {kReported, 0.0, 0.0}};
+      const LegVelocity legs{{sample, 0.0, 0.0}, {kReported, 0.0, 0.0}, {kReported, 0.0, 0.0}};
       belief_ = update(belief_, leg_velocity_model(belief_.state, Pose{}, Eigen::Vector3d::Zero(),
                                                    legs, kLegNoise * kLegNoise * I3()));
     }
