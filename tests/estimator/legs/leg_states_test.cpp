@@ -112,7 +112,7 @@ double error_of_learned_scale(std::uint64_t seed) {
 }
 
 // Errors in variables: were the Jacobian the mean that contains the sample, its noise, 0.4 m/s,
-// would be taken as a scale of 0.015.
+// would be taken as a scale of 0.018.
 TEST(StrideMeans, TheNoiseOfASampleIsNotTakenAsScale) {
   double mean = 0.0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) mean += error_of_learned_scale(seed) / 20.0;
