@@ -30,7 +30,7 @@ Belief open_leg_states(Belief belief, const LegStatesConfig& config);
 void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt);
 
 /// Means of the velocity from leg odometry over strides: two first-order low passes in series, each
-/// with the time constant T of a stride. Constant acceleration a delays them by T a and 2 T a.
+/// with the time constant T of a stride. They lag by T and 2 T.
 class StrideMeans {
  public:
   /// Adds a sample; its velocity and the means, base axes [m/s].

@@ -24,7 +24,7 @@ void describe(Fields& fields, LegConfig& config);
 struct LegVelocity {
   Eigen::Vector3d measured = Eigen::Vector3d::Zero();     ///< of the base, base axes [m/s]
   Eigen::Vector3d stride_mean = Eigen::Vector3d::Zero();  ///< its mean over strides, no lag [m/s]
-  Eigen::Vector3d past_mean = Eigen::Vector3d::Zero();    ///< the same of past samples [m/s]
+  Eigen::Vector3d past_mean = Eigen::Vector3d::Zero();    ///< mean of past samples, lags [m/s]
 };
 
 /// Leg odometry as relative motion over its interval: the measured velocity is
