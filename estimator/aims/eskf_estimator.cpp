@@ -98,7 +98,7 @@ bool EskfEstimator::start() {
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
   if (config_.cross_validation.enabled) mapping_ = belief_;
   time_ = initial->stamp;
-  first_pose_ = belief_.state.T_odom_body();
+  first_belief_ = belief_;
   last_pose_ = time_;
   last_correction_ = time_;
   started_ = true;
@@ -234,11 +234,11 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   leg_free_.restart(matching(), scan->end);
   if (mapping_) ++result_.counts["map.before_legs_known"];
   extend_map();
-  points_.keep(matching().state.T_odom_body());
+  points_.keep(matched_pose());
   diagnostics.delay = belief_.state.delay;
   diagnostics.mount = so3_log(belief_.state.mount);
-  const Eigen::Matrix3d rig =
-      rig_covariance(first_pose_, belief_.state.T_odom_body(), config_.calibration);
+  const Eigen::Matrix3d rig = rig_covariance(first_belief_.state.T_odom_body(),
+                                             belief_.state.T_odom_body(), config_.calibration);
   record_covariance(belief_, lidar_update_.map_covariance() + rig, diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   last_pose_ = scan->end;
@@ -248,9 +248,8 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
 /// Fuses the prepared points, and learns from the correction how noisy the IMU is.
 void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   const NominalState predicted = belief_.state;
-  const CalibrationModel calibration{rig_.T_body_lidar.translation, scan_twist_};
   const ScanPart part = mapping_ ? ScanPart::kAll : ScanPart::kReal;
-  accept(matching(), lidar_update_.update(matching(), points_.to_match(), map_, calibration, part,
+  accept(matching(), lidar_update_.update(matching(), points_.to_match(), map_, calibration_, part,
                                           diagnostics, leg_free_.belief()));
   if (diagnostics.iterations == 0) {
     ++result_.counts["lidar.no_update"];
@@ -266,7 +265,7 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
                                         across.tail<2>().squaredNorm() / 2.0,
                                         to_seconds(time_ - *last_scan_));
   }
-  apply_calibration(belief_.state.delay - predicted.delay);
+  apply_calibration();
   if (legs_are_known()) mapping_.reset();
 }
 
@@ -278,14 +277,17 @@ bool EskfEstimator::legs_are_known() const {
          belief_.covariance(scale, scale) < kKnownLegScale * kKnownLegScale;
 }
 
-/// There is one calibration, that of the belief; its delay has changed by `delay_change` [s].
-void EskfEstimator::apply_calibration(double delay_change) {
-  belief_ = after_delay_change(belief_, delay_change, scan_twist_);
-  queue_.imu().set_delay(from_seconds(belief_.state.delay));
+/// There is one calibration, that of the belief. With it the scan stays where it was matched.
+void EskfEstimator::apply_calibration() {
+  const Pose matched = matched_pose();
+  const double delay = belief_.state.delay;
+  belief_ = after_delay_change(belief_, delay - calibration_.delay, calibration_.twist);
+  calibration_.delay = delay;
+  queue_.imu().set_delay(from_seconds(delay));
   if (!mapping_) return;
-  mapping_ = after_delay_change(*mapping_, delay_change, scan_twist_);
   mapping_->state.mount = belief_.state.mount;
-  mapping_->state.delay = belief_.state.delay;
+  mapping_->state.delay = delay;
+  mapping_->state = at_scan_pose(mapping_->state, matched, calibration_);
 }
 
 void EskfEstimator::predict_to(Time stamp) {
@@ -313,7 +315,9 @@ void EskfEstimator::predict(Belief& belief, double duration) {
 
 void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics) {
   queue_.imu().segments(scan.stamp, scan.end, segments_);
-  scan_twist_ = mean_twist(belief_.state, segments_, config_.imu.gravity);
+  calibration_ = {rig_.T_body_lidar.translation,
+                  mean_twist(belief_.state, segments_, config_.imu.gravity), belief_.state.mount,
+                  belief_.state.delay};
   scan_motion_.assign(belief_.state, segments_, corrected_mount(belief_.state, rig_.T_body_lidar),
                       config_.imu.gravity);
   points_.prepare(scan, scan_motion_, matching().state.T_odom_body());
@@ -322,25 +326,44 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 }
 
 void EskfEstimator::fuse_ground_constraint() {
-  const auto plane = fit_ground(points_.to_map(), ground_lists_);
-  const Belief above_ground = with_map_error(belief_, lidar_update_.map_covariance());
-  const auto measurement = ground_.measure(above_ground, plane);
+  auto plane = fit_ground(points_.to_map(), ground_lists_);
+  if (plane) plane = without_mount(*plane, calibration_.mount);
+  // The map is tilted as the first belief is, and scans that are matched in it do not show it.
+  const bool tilted_map = plane && !ground_seen_ && !map_.empty() && near_start();
+  const auto above_ground = [&](const Belief& belief) {
+    const Belief above = with_map_error(belief, lidar_update_.map_covariance());
+    return tilted_map ? with_tilt_of(above, first_belief_) : above;
+  };
+  const Belief above = above_ground(belief_);
+  const auto measurement = ground_.measure(above, plane);
   if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];
   if (ground_.status() == GroundStatus::kSloped) ++result_.counts["ground.not_level"];
+  ground_seen_ = ground_seen_ || plane;
   if (!measurement) return;
   ++result_.counts["ground.used"];
-  accept(belief_, fuse_ground(above_ground, *measurement));
+  accept(belief_, fuse_ground(above, *measurement));
   if (mapping_) {
-    const Belief above = with_map_error(*mapping_, lidar_update_.map_covariance());
-    accept(*mapping_, fuse_ground(above, moved_to(*measurement, above_ground.state, above.state)));
+    const Belief mapping = above_ground(*mapping_);
+    accept(*mapping_, fuse_ground(mapping, moved_to(*measurement, above.state, mapping.state)));
   }
   ground_.corrected(belief_.state);
+  if (tilted_map) forget_map();
+}
+
+/// Whether all that was mapped is still in view.
+bool EskfEstimator::near_start() const {
+  return (belief_.state.position - first_belief_.state.position).norm() < kGroundRadius;
+}
+
+void EskfEstimator::forget_map() {
+  map_ = VoxelMap(config_.map);
+  points_.forget();
 }
 
 void EskfEstimator::extend_map() {
-  const NominalState& state = matching().state;
-  const Eigen::Matrix3f R = state.rotation.toRotationMatrix().cast<float>();
-  const Eigen::Vector3f t = state.position.cast<float>();
+  const Pose pose = matched_pose();
+  const Eigen::Matrix3f R = pose.R().cast<float>();
+  const Eigen::Vector3f t = pose.translation.cast<float>();
   mapped_.resize(points_.to_map().size());
   std::ranges::transform(points_.to_map(), mapped_.begin(),
                          [&](const Eigen::Vector3f& p) -> Eigen::Vector3f { return R * p + t; });

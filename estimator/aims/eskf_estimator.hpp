@@ -52,12 +52,16 @@ class EskfEstimator : public Estimator {
   void fuse_standing(const Eigen::Vector3d& rate);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void fuse_scan(ScanDiagnostics& diagnostics);
-  void apply_calibration(double delay_change);
+  void apply_calibration();
   bool legs_are_known() const;
   void fuse_ground_constraint();
+  bool near_start() const;
+  void forget_map();
   void extend_map();
   /// The belief whose pose matches and maps scans.
   Belief& matching() { return mapping_ ? *mapping_ : belief_; }
+  /// Where the points of the present scan lie in the map.
+  Pose matched_pose() { return scan_pose(matching().state, calibration_); }
   /// `belief` becomes `updated`, unless that is not finite: then it is counted and rejected.
   void accept(Belief& belief, const Belief& updated);
 
@@ -78,7 +82,8 @@ class EskfEstimator : public Estimator {
   bool started_ = false;
   bool stood_still_ = true;     ///< before the start
   Time time_ = 0;               ///< of the belief
-  Pose first_pose_;             ///< of the belief at the start
+  Belief first_belief_;         ///< at the start
+  bool ground_seen_ = false;    ///< below the robot, in any scan
   Time last_pose_ = 0;          ///< of the newest pose, or of the start
   Time last_correction_ = 0;    ///< stamp of the newest, or of the start
   std::optional<Time> judged_;  ///< arrival
@@ -92,7 +97,7 @@ class EskfEstimator : public Estimator {
   int leg_updates_ = 0;
 
   std::vector<InertialSegment> segments_;
-  MeanTwist scan_twist_;                 ///< of the present scan
+  CalibrationModel calibration_;         ///< of the present scan
   ScanMotion scan_motion_;               ///< of the present scan
   std::optional<Time> last_scan_;        ///< end of the last scan
   std::vector<Eigen::Vector3f> mapped_;  ///< points of the present scan, odometry frame

@@ -36,9 +36,9 @@ void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagn
 }
 
 /// Whether the pose changed by more than `rotation` [rad] or `position` [m].
-bool moved(const NominalState& state, const NominalState& since, double rotation, double position) {
-  return state.rotation.angularDistance(since.rotation) > rotation ||
-         (state.position - since.position).norm() > position;
+bool moved(const Pose& pose, const Pose& since, double rotation, double position) {
+  return pose.rotation.angularDistance(since.rotation) > rotation ||
+         (pose.translation - since.translation).norm() > position;
 }
 
 }  // namespace
@@ -84,8 +84,9 @@ NominalState LidarUpdate::first_guess(const Belief& predicted,
                                       std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                                       ScanDiagnostics& diagnostics) {
   const NominalState& at = predicted.state;
-  matcher_.match(at, points, map, kGuessStride);
-  scan_ = matcher_.linearize(at);
+  const Pose pose = scan_pose(at, calibration_);
+  matcher_.match(pose, points, map, kGuessStride);
+  scan_ = matcher_.linearize(pose);
   diagnostics.residual_sigma_prior = std::sqrt(residual_statistics(matcher_.residuals()).variance);
   if (scan_.used < kMinMatches) return at;
   const Linearization guess = fused(part_, 1.0, at);
@@ -97,15 +98,16 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
   matcher_.reset(calibration_.lever);
   const NominalState start = first_guess(predicted, points, map, diagnostics);
   matcher_.start_robust_weights();
-  NominalState matched_at = start;
+  Pose matched_at = scan_pose(start, calibration_);
   matcher_.match(matched_at, points, map);
   bool first = true;
   const auto linearize = [&](const NominalState& at) -> std::optional<Linearization> {
-    if (moved(at, matched_at, kRematchRotation, kRematchPosition)) {
-      matched_at = at;
+    const Pose pose = scan_pose(at, calibration_);
+    if (moved(pose, matched_at, kRematchRotation, kRematchPosition)) {
+      matched_at = pose;
       matcher_.match(matched_at, points, map);
     }
-    scan_ = matcher_.linearize(at);
+    scan_ = matcher_.linearize(pose);
     diagnostics.points_used = scan_.used;
     if (scan_.used < kMinMatches) return std::nullopt;
     if (first && cross_validation_.enabled) fraction_.add(scan_.halves, at.position, free_tilt());
@@ -113,7 +115,8 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
     return fused(part_, 1.0, at);
   };
   const auto converged = [&](const NominalState& before, const NominalState& after) {
-    return !moved(after, before, kConvergedRotation, kConvergedPosition);
+    return !moved(scan_pose(after, calibration_), scan_pose(before, calibration_),
+                  kConvergedRotation, kConvergedPosition);
   };
   return iterated_update(predicted, start, max_iterations_, linearize, converged);
 }
@@ -168,7 +171,7 @@ void LidarUpdate::update_map_covariance(const VoxelMap& map, const NominalState&
   };
   map_covariance_ =
       map_covariance_after_scan(map_covariance_, position(predicted), position(updated),
-                                matcher_.mapped_planes(matching, map));
+                                matcher_.mapped_planes(scan_pose(matching, calibration_), map));
 }
 
 Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vector3f> points,
@@ -179,7 +182,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
   predicted_ = predicted.state;
   const auto trial = this->trial(predicted, points, map, diagnostics);
   const NominalState& at = trial.belief.state;
-  scan_ = trial.refused ? MatchInformation() : matcher_.linearize(at);
+  scan_ = trial.refused ? MatchInformation() : matcher_.linearize(scan_pose(at, calibration_));
   if (!trial.refused) diagnostics.points_used = scan_.used;
   // The residual gate may leave fewer matches at the result of the trial than before it.
   Belief belief = predicted;
@@ -208,6 +211,8 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
 Belief LidarUpdate::update_with_real_part(const Belief& predicted, const VoxelMap& map) {
   NominalState at = predicted.state;
   at.rotation = matched_at_.rotation;
+  at.mount = matched_at_.mount;
+  at.delay = matched_at_.delay;
   const Eigen::Vector3d apart = predicted.state.position - predicted_.position;
   at.position = matched_at_.position + apart - scan_mask().position * apart;
   const Linearization real = fused(ScanPart::kReal, gamma_lidar_, at);

@@ -31,22 +31,27 @@ Eigen::Vector3d misfit(const GroundPlane& plane) {
   return {slope * slope, slope * slope, 0.25 * plane.bend * plane.bend};
 }
 
-/// How much likelier the bend of the ground is on level ground than at the ends of slopes.
-double bend_ratio(const GroundConstraintConfig& config, const GroundPlane& plane) {
+/// How much likelier the bend of the ground is on level ground than on a slope that ends within the
+/// radius of the fit with the probability `ends`.
+double bend_ratio(const GroundConstraintConfig& config, const GroundPlane& plane, double ends) {
   const double level = config.sigma_height * config.sigma_height;
   const double kink = 0.25 * kGroundRadius * config.sigma_slope;
-  const double sloped = level + kink * kink;
+  const double bent = level + kink * kink;
   const double square = plane.bend * plane.bend;
-  return std::exp(0.5 * square / sloped - 0.5 * square / level) * std::sqrt(sloped / level);
+  const double bent_over_level =
+      std::exp(0.5 * square / level - 0.5 * square / bent) * std::sqrt(level / bent);
+  return 1.0 / (1.0 - ends + ends * bent_over_level);
 }
 
 /// Derivative of floor_of() by the filter's error; that of the height by the rotation is of second
-/// order.
+/// order. An error of the mount turns the plane as one of the attitude does.
 Matrix3xError jacobian_of(const NominalState& state, const GroundPlane& plane) {
   using E = ErrorState;
-  const Eigen::Matrix3d turning = -state.rotation.toRotationMatrix() * hat(plane.normal);
+  const Eigen::Matrix3d turning =
+      -state.rotation.toRotationMatrix() * hat(state.mount * plane.normal);
   Matrix3xError jacobian = Matrix3xError::Zero();
   columns(jacobian, E::kRotation).topRows<2>() = turning.topRows<2>();
+  columns(jacobian, E::kMount).topRows<2>() = turning.topRows<2>();
   jacobian(2, E::kPosition.offset + 2) = 1.0;
   return jacobian;
 }
@@ -89,7 +94,10 @@ void GroundConstraint::weigh(const Belief& belief) {
   const double change = std::min(0.5, kGroundRadius / kLevelDistance);
   const Eigen::Vector3d zero_height(tracker_.floor().x(), tracker_.floor().y(), 0.0);
   const double weight_sloped = change * density(zero_height, sloped);
-  const double weight_new = change * density(zero_height, step);
+  // A start is on a level that was not met before, or anywhere on a slope. Later the slope begins
+  // within the radius.
+  const bool start = levels_.empty();
+  const double weight_new = (start ? 1.0 - change : change) * density(zero_height, step);
   double weight_known = 0.0;
   double best = 0.0;
   std::optional<std::size_t> nearest;
@@ -103,7 +111,8 @@ void GroundConstraint::weigh(const Belief& belief) {
     best = weight;
     nearest = i;
   }
-  const double weight_level = (weight_known + weight_new) * bend_ratio(config_, *plane_);
+  const double weight_level =
+      (weight_known + weight_new) * bend_ratio(config_, *plane_, start ? change : 1.0);
   level_probability_ = weight_level > 0.0 ? weight_level / (weight_level + weight_sloped) : 0.0;
   status_ = level_probability_ > 0.5 ? GroundStatus::kLevel : GroundStatus::kSloped;
   if (status_ == GroundStatus::kSloped) {
@@ -163,6 +172,24 @@ Belief with_map_error(const Belief& belief, const Eigen::Matrix3d& map_covarianc
   widened.covariance(E::kPosition.offset + 2, E::kPosition.offset + 2) += height;
   // Roll and pitch of a body that stands about upright.
   widened.covariance.diagonal().segment<2>(E::kRotation.offset).array() += tilt;
+  return widened;
+}
+
+Belief with_tilt_of(const Belief& belief, const Belief& start) {
+  using E = ErrorState;
+  const Eigen::Matrix3d turn = (belief.state.rotation.conjugate() * start.state.rotation).matrix();
+  const auto of_start = [&start](E::Block row, E::Block column) {
+    return Eigen::Matrix3d(block(start.covariance, row, column));
+  };
+  const Eigen::Matrix3d with_bias = turn * of_start(E::kRotation, E::kAccelerometerBias);
+  Belief widened = belief;
+  ErrorMatrix& P = widened.covariance;
+  block(P, E::kRotation, E::kRotation) +=
+      turn * of_start(E::kRotation, E::kRotation) * turn.transpose();
+  block(P, E::kRotation, E::kAccelerometerBias) += with_bias;
+  block(P, E::kAccelerometerBias, E::kRotation) += with_bias.transpose();
+  block(P, E::kAccelerometerBias, E::kAccelerometerBias) +=
+      of_start(E::kAccelerometerBias, E::kAccelerometerBias);
   return widened;
 }
 

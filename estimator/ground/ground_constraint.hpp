@@ -27,8 +27,9 @@ class GroundConstraint {
   explicit GroundConstraint(const GroundConstraintConfig& config)
       : config_(config), tracker_(config) {}
 
-  /// Weighs the hypotheses for the ground plane of a scan at `belief`. Returns two rows that make
-  /// the normal vertical and one for the height; empty when there is nothing to fuse.
+  /// Weighs the hypotheses for the ground plane of a scan (see without_mount()) at `belief`.
+  /// Returns two rows that make the normal vertical and one for the height; empty when there is
+  /// nothing to fuse.
   std::optional<LinearMeasurement> measure(const Belief& belief,
                                            const std::optional<GroundPlane>& plane);
 
@@ -72,6 +73,10 @@ class GroundConstraint {
 /// as this height error over the radius of the ground. Without it the constraint loses against
 /// scans that agree with a bent map.
 Belief with_map_error(const Belief& belief, const Eigen::Matrix3d& map_covariance);
+
+/// The belief with the uncertainty that `start` has of tilt and accelerometer bias: scans that are
+/// matched in a map from there measure neither.
+Belief with_tilt_of(const Belief& belief, const Belief& start);
 
 /// The belief after fusing a ground measurement: a Schmidt-Kalman update that corrects rotation,
 /// height, vertical velocity and inertial biases only. In a corridor the unobservable direction is

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,5 +60,9 @@ struct GroundLists {
 /// `points` are deskewed returns in body axes at the scan's end [m]; what `lists` hold before has
 /// no effect.
 std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points, GroundLists& lists);
+
+/// The plane as it would be without the correction `mount` of its points (NominalState::mount). The
+/// height stays: the lever of the LiDAR changes it by less than a millimetre.
+GroundPlane without_mount(GroundPlane plane, const Eigen::Quaterniond& mount);
 
 }  // namespace aims

@@ -36,6 +36,9 @@ class MovingReturns {
   /// Keeps that scan, at its corrected pose, for the comparison with later ones.
   void keep(const Pose& T_odom_body);
 
+  /// Forgets all scans that were kept.
+  void forget() { past_.clear(); }
+
  private:
   /// An earlier scan.
   struct Past {

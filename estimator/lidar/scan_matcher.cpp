@@ -68,13 +68,13 @@ void ScanMatcher::reset(const Eigen::Vector3d& sensor) {
   robust_ = false;
 }
 
-void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector3f> points,
+void ScanMatcher::match(const Pose& T_odom_body, std::span<const Eigen::Vector3f> points,
                         const VoxelMap& map, std::size_t stride) {
   matches_.clear();
-  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
+  const Eigen::Matrix3d R = T_odom_body.R();
   for (std::size_t i = 0; i < points.size(); i += stride) {
     const Eigen::Vector3d p_body = points[i].cast<double>();
-    const PlanePair planes = map.planes_at((R * p_body + state.position).cast<float>());
+    const PlanePair planes = map.planes_at((R * p_body + T_odom_body.translation).cast<float>());
     if (!planes.valid()) continue;
     const double cosine = std::abs(planes.a.normal.dot(R * (p_body - sensor_).normalized()));
     const double thickest = std::max(planes.a.thickness, planes.b.thickness);
@@ -85,14 +85,15 @@ void ScanMatcher::match(const NominalState& state, std::span<const Eigen::Vector
   }
 }
 
-MatchInformation ScanMatcher::linearize(const NominalState& state) {
+MatchInformation ScanMatcher::linearize(const Pose& T_odom_body) {
   HalvesSum sum;
   residuals_.clear();
   incident_residuals_.clear();
-  const Eigen::Matrix3d R = state.rotation.toRotationMatrix();
+  const Eigen::Matrix3d R = T_odom_body.R();
+  const Eigen::Vector3d& t = T_odom_body.translation;
   for (const Match& match : matches_) {
-    const PlaneRow a = plane_row(match.planes.a, match.p_body, R, state.position);
-    const PlaneRow b = aligned(plane_row(match.planes.b, match.p_body, R, state.position), a);
+    const PlaneRow a = plane_row(match.planes.a, match.p_body, R, t);
+    const PlaneRow b = aligned(plane_row(match.planes.b, match.p_body, R, t), a);
     const double residual = 0.5 * (a.residual + b.residual);
     if (!(std::abs(residual) <= kMaxResidual)) continue;
     if (std::abs(a.residual - b.residual) > kMaxDisagreement * match.sigma) continue;
@@ -105,11 +106,11 @@ MatchInformation ScanMatcher::linearize(const NominalState& state) {
   return {sum.halves(), static_cast<int>(residuals_.size())};
 }
 
-std::span<const MappedPlane> ScanMatcher::mapped_planes(const NominalState& state,
+std::span<const MappedPlane> ScanMatcher::mapped_planes(const Pose& T_odom_body,
                                                         const VoxelMap& map) {
   mapped_planes_.clear();
   for (const Match& match : matches_) {
-    const Eigen::Vector3d p_odom = state.T_odom_body() * match.p_body;
+    const Eigen::Vector3d p_odom = T_odom_body * match.p_body;
     mapped_planes_.push_back(
         {match.planes.a.normal, map.covariance_at(p_odom.cast<float>()).cast<double>()});
   }

@@ -30,12 +30,12 @@ class ScanMatcher {
   /// start_robust_weights().
   void reset(const Eigen::Vector3d& sensor);
 
-  /// Searches the planes of one in `stride` of `points` (body axes) at `state`.
-  void match(const NominalState& state, std::span<const Eigen::Vector3f> points,
-             const VoxelMap& map, std::size_t stride = 1);
+  /// Searches the planes of one in `stride` of `points` (body axes) at `T_odom_body`.
+  void match(const Pose& T_odom_body, std::span<const Eigen::Vector3f> points, const VoxelMap& map,
+             std::size_t stride = 1);
 
-  /// Sums the rows of the matches within the residual gate at `state`.
-  MatchInformation linearize(const NominalState& state);
+  /// Sums the rows of the matches within the residual gate at `T_odom_body`.
+  MatchInformation linearize(const Pose& T_odom_body);
 
   /// From now on a Cauchy kernel weighs each residual by its own deviation.
   void start_robust_weights() { robust_ = kernel_.enabled; }
@@ -46,8 +46,8 @@ class ScanMatcher {
   /// Residuals of the last linearization [m].
   const std::vector<double>& residuals() const { return residuals_; }
 
-  /// The matched planes with the map covariance at the points, for the pose in `state`.
-  std::span<const MappedPlane> mapped_planes(const NominalState& state, const VoxelMap& map);
+  /// The matched planes with the map covariance at the points, for the pose `T_odom_body`.
+  std::span<const MappedPlane> mapped_planes(const Pose& T_odom_body, const VoxelMap& map);
 
  private:
   /// A point with its planes.

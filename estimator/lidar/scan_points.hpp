@@ -39,6 +39,9 @@ class ScanPoints {
   /// Keeps the scan, at its corrected pose, to find what moves in later ones.
   void keep(const Pose& T_odom_body) { moving_.keep(T_odom_body); }
 
+  /// Forgets the scans that were kept.
+  void forget() { moving_.forget(); }
+
  private:
   void find_moving(const LidarScan& scan, const ScanMotion& motion, const Pose& T_odom_body);
 

@@ -66,6 +66,22 @@ MeanTwist mean_twist(const NominalState& end_state, std::span<const InertialSegm
           so3_log(begin.rotation.conjugate() * end_state.rotation) / duration};
 }
 
+Pose scan_pose(const NominalState& state, const CalibrationModel& model) {
+  const Eigen::Quaterniond& R = state.rotation;
+  const Eigen::Vector3d turned = so3_log(state.mount * model.mount.conjugate());
+  const double late = state.delay - model.delay;
+  return {(R * so3_exp(turned + late * model.twist.angular_velocity)).normalized(),
+          state.position + R * model.lever.cross(turned) + late * model.twist.velocity};
+}
+
+NominalState at_scan_pose(NominalState state, const Pose& pose, const CalibrationModel& model) {
+  state.rotation.setIdentity();
+  state.position.setZero();
+  state.rotation = (pose.rotation * scan_pose(state, model).rotation.conjugate()).normalized();
+  state.position = pose.translation - scan_pose(state, model).translation;
+  return state;
+}
+
 PoseMeasurement scan_measurement(const Matrix6& matrix, const Vector6& vector,
                                  const CalibrationModel& model, const Eigen::Matrix3d& R) {
   using E = ErrorState;

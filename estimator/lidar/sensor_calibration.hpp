@@ -61,7 +61,17 @@ MeanTwist mean_twist(const NominalState& end_state, std::span<const InertialSegm
 struct CalibrationModel {
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();  ///< t, position of the LiDAR, body axes [m]
   MeanTwist twist;
+  /// NominalState::mount and delay that its points in body axes were computed with.
+  Eigen::Quaterniond mount = Eigen::Quaterniond::Identity();
+  double delay = 0.0;  ///< [s]
 };
+
+/// The body pose at which the points of a scan lie where `state` says: its own, turned and moved by
+/// what its mount and delay differ from those that the points have.
+Pose scan_pose(const NominalState& state, const CalibrationModel& model);
+
+/// `state` with the body pose for which scan_pose() is `pose`.
+NominalState at_scan_pose(NominalState state, const Pose& pose, const CalibrationModel& model);
 
 /// A scan as a measurement of pose, mount and delay, from its information about the pose (matrix
 /// h^T R^-1 h and vector h^T R^-1 r) at the attitude `R`.

@@ -142,6 +142,23 @@ TEST(LidarUpdate, AllInformationContainsThatOfNoise) {
   EXPECT_GT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 1e-4);
 }
 
+// The scan is 20 mrad off, and attitude and mount are as uncertain as each other.
+TEST(LidarUpdate, AScanThatTurnsTheMountTooLiesInTheMap) {
+  for (const ScanPart part : {ScanPart::kAll, ScanPart::kReal}) {
+    Sequence sequence(true);
+    Belief predicted;
+    predicted.state.position = sequence.truth;
+    predicted.state.rotation = so3_exp({0.0, 0.0, 0.02});
+    predicted.covariance = 1e-6 * ErrorMatrix::Identity();
+    block(predicted.covariance, E::kRotation, E::kRotation) = 9e-4 * Eigen::Matrix3d::Identity();
+    block(predicted.covariance, E::kMount, E::kMount) = 9e-4 * Eigen::Matrix3d::Identity();
+    const NominalState updated = sequence.fuse(predicted, part).state;
+    EXPECT_NEAR(so3_log(updated.rotation).z(), 0.01, 1e-3);
+    EXPECT_NEAR(so3_log(updated.mount).z(), -0.01, 1e-3);
+    EXPECT_LT(so3_log(scan_pose(updated, CalibrationModel()).rotation).norm(), 1e-3);
+  }
+}
+
 // The estimate may be far from the belief that maps: between plain walls that changes nothing of
 // what the real part of a scan does to it; between pillars the scan takes it to the other one.
 TEST(LidarUpdate, TheRealPartActsWhereTheScanWasMatched) {

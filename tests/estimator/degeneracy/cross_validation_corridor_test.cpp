@@ -99,10 +99,9 @@ class MappedCorridor {
   }
 
   MatchInformation match(std::span<const Eigen::Vector3f> points, const VoxelMap& map) {
-    NominalState state;
-    state.position = sensor_;
-    matcher_.match(state, points, map);
-    return matcher_.linearize(state);
+    const Pose pose{Eigen::Quaterniond::Identity(), sensor_};
+    matcher_.match(pose, points, map);
+    return matcher_.linearize(pose);
   }
 
   /// Adds the returns that are accepted with noise and without, one by one.

@@ -25,12 +25,13 @@ GroundPlane plane_at(const Pose& T_world_body, double ground_z = 0.0) {
   return plane;
 }
 
-/// A belief at the pose with the deviations of a standing start.
+/// A belief at the pose with the deviations of a standing start and a known mount.
 Belief belief_at(const Pose& pose, double sigma_tilt = 5e-3, double sigma_z = 1e-4) {
   Belief belief;
   belief.state.rotation = pose.rotation;
   belief.state.position = pose.translation;
   belief.covariance = ErrorMatrix::Identity() * 1e-4;
+  block(belief.covariance, E::kMount, E::kMount).setZero();
   block(belief.covariance, E::kRotation, E::kRotation) =
       Eigen::Matrix3d::Identity() * sigma_tilt * sigma_tilt;
   block(belief.covariance, E::kPosition, E::kPosition) =
@@ -54,7 +55,9 @@ TEST(GroundConstraint, JacobianMatchesFiniteDifferences) {
     return fresh.measure(later, plane).value();
   };
   const LinearMeasurement m = residual_of(belief);
-  for (int i = 0; i < E::kPoseSize; ++i) {
+  std::vector<int> errors = {E::kMount.offset, E::kMount.offset + 1, E::kMount.offset + 2};
+  for (int i = 0; i < E::kPoseSize; ++i) errors.push_back(i);
+  for (const int i : errors) {
     constexpr double kStep = 1e-6;
     ErrorVector delta = ErrorVector::Zero();
     delta(i) = kStep;
@@ -63,7 +66,7 @@ TEST(GroundConstraint, JacobianMatchesFiniteDifferences) {
     const Eigen::Vector3d slope = (residual_of(moved).residual - m.residual) / kStep;
     // The height's row leaves out what a tilt of a few milliradians does to it.
     EXPECT_LT((slope.head<2>() - m.jacobian.col(i).head<2>()).norm(), 1e-5) << i;
-    if (i >= 3) {
+    if (i >= E::kPosition.offset && i < E::kPoseSize) {
       EXPECT_NEAR(slope.z(), m.jacobian(2, i), 1e-6) << i;
     }
   }
@@ -98,6 +101,26 @@ TEST(GroundConstraint, TheFirstScanEstimatesTiltAndAccelerometerBias) {
   EXPECT_LT((found.state.accelerometer_bias - bias).norm(), 0.1 * bias.norm());
 }
 
+// Scans made the attitude certain in a map that is tilted as the start.
+TEST(GroundConstraint, TheTiltOfTheStartIsFoundAfterTheMapHidIt) {
+  const double error = 0.025;
+  const Pose truth{so3_exp({0.0, 0.016, 0.4}), {0.0, 0.0, kHeight}};
+  const Belief start = start_from({so3_exp({0.0, error, 0.0}), truth.translation});
+  Belief later = belief_at({so3_exp({0.0, 0.016 + error, 0.4}), truth.translation}, 1e-3);
+  later.state.accelerometer_bias = start.state.accelerometer_bias;
+  block(later.covariance, E::kAccelerometerBias, E::kAccelerometerBias) =
+      1e-4 * Eigen::Matrix3d::Identity();
+  GroundConstraint alone{GroundConstraintConfig{}};
+  EXPECT_FALSE(alone.measure(later, plane_at(truth)).has_value());
+  const Belief widened = with_tilt_of(later, start);
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  const auto measurement = constraint.measure(widened, plane_at(truth));
+  ASSERT_TRUE(measurement.has_value());
+  const Belief found = fuse_ground(widened, *measurement);
+  EXPECT_LT(so3_log(truth.rotation.conjugate() * found.state.rotation).head<2>().norm(), 2e-3);
+  EXPECT_NEAR(found.state.accelerometer_bias.norm(), kGravity * error, 0.03);
+}
+
 TEST(GroundConstraint, AStartOnASlopeUsesGravityUnlessGravityIsUncertain) {
   const Pose on_slope{so3_exp({0.0, -0.06, 0.0}), {0.0, 0.0, kHeight}};
   GroundPlane plane_along_body;
@@ -109,6 +132,52 @@ TEST(GroundConstraint, AStartOnASlopeUsesGravityUnlessGravityIsUncertain) {
   GroundConstraint uncertain{GroundConstraintConfig{}};
   EXPECT_TRUE(uncertain.measure(belief_at(on_slope, 0.05), plane_along_body).has_value());
   EXPECT_GT(uncertain.level_probability(), 0.5);
+}
+
+/// Probability that the ground of the first scan is level, after a start whose gravity is known to
+/// 25 mrad, on a slope of `pitch` [rad].
+double probability_of_level_start(double pitch) {
+  GroundPlane plane_along_body;
+  plane_along_body.height = kHeight;
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  const Pose pose{so3_exp({0.0, -pitch, 0.0}), {0.0, 0.0, kHeight}};
+  (void)constraint.measure(belief_at(pose, 0.0255), plane_along_body);
+  return constraint.level_probability();
+}
+
+TEST(GroundConstraint, AStartInTheMiddleOfASlopeNeedsNoBendInView) {
+  EXPECT_GT(probability_of_level_start(0.0), 0.9);
+  EXPECT_GT(probability_of_level_start(0.02), 0.85);
+  EXPECT_LT(probability_of_level_start(0.08), 0.3);
+}
+
+/// A map that is tilted by 5 mrad, in which scans locate the LiDAR to 0.5 mrad, does not agree
+/// with level ground. Attitude and mount have one error in common there.
+TEST(GroundConstraint, ATiltedMapDoesNotTurnTheMount) {
+  constexpr double kTilt = 0.005;
+  constexpr double kScan = 5e-4;
+  GroundConstraint constraint{GroundConstraintConfig{}};
+  Belief belief = belief_at({so3_exp({0.0, kTilt, 0.0}), {0.0, 0.0, kHeight}});
+  block(belief.covariance, E::kMount, E::kMount) = 5e-3 * 5e-3 * Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 200; ++i) {
+    belief.state.position.x() += 0.07;
+    block(belief.covariance, E::kRotation, E::kRotation) += 1e-6 * Eigen::Matrix3d::Identity();
+    const Eigen::Quaterniond lidar = belief.state.rotation * belief.state.mount;
+    LinearMeasurement scan;
+    scan.residual = so3_log(so3_exp({0.0, kTilt, 0.0}).conjugate() * lidar);
+    columns(scan.jacobian, E::kRotation).setIdentity();
+    columns(scan.jacobian, E::kMount).setIdentity();
+    scan.noise = kScan * kScan * Eigen::Matrix3d::Identity();
+    belief = fuse(belief, scan);
+    GroundPlane plane;  // level, below a LiDAR that is tilted as the map is
+    plane.height = kHeight;
+    const Belief widened = with_map_error(belief, 1e-4 * Eigen::Matrix3d::Identity());
+    if (const auto m = constraint.measure(widened, plane)) {
+      belief = fuse_ground(widened, *m);
+      constraint.corrected(belief.state);
+    }
+  }
+  EXPECT_LT(so3_log(belief.state.mount).norm(), 1e-3);
 }
 
 TEST(GroundConstraint, IsUsedOnceWhileTheRobotStands) {

@@ -30,7 +30,7 @@ int used_with_step(float step) {
   map.insert(floor_points(400, 0.0F, random), Eigen::Vector3f::Zero());
   ScanMatcher matcher(20.0, RobustKernelConfig{});
   matcher.reset({0.0, 0.0, 1.0});
-  const NominalState at;
+  const Pose at;
   Points points = floor_points(400, 0.0F, random);
   std::erase_if(points, [](const Eigen::Vector3f& p) {
     return std::abs(p.x()) < 0.5F || std::abs(p.x()) > 1.7F || std::abs(p.y()) > 0.7F;

@@ -50,6 +50,23 @@ TEST(SensorCalibration, DerivativeMatchesFiniteDifferences) {
   EXPECT_GT(std::abs(row(E::kDelay)), 0.1);
 }
 
+// With the body points of another mount and delay a return lies in the same place.
+TEST(SensorCalibration, ScanPoseMakesUpForThePointsOfAnotherCalibration) {
+  const NominalState state = test::some_state();
+  NominalState later = state;
+  later.mount = so3_exp({0.003, -0.002, 0.004}) * state.mount;
+  later.delay = state.delay + 0.002;
+  const CalibrationModel points{kNominal.translation, kTwist, state.mount, state.delay};
+  const Eigen::Vector3d p_body = corrected_mount(state, kNominal) * kReturn;
+  const Pose pose = scan_pose(later, points);
+  const double residual = plane_row(kPlane, p_body, pose.R(), pose.translation).residual;
+  EXPECT_NEAR(residual, residual_at(later, state), 1e-4);
+  EXPECT_GT(std::abs(residual - residual_at(state, state)), 1e-3) << "something was tested";
+  const Pose back = at_scan_pose(later, pose, points).T_odom_body();
+  EXPECT_LT((back.translation - later.position).norm(), 1e-12);
+  EXPECT_LT(back.rotation.angularDistance(later.rotation), 1e-12);
+}
+
 TEST(SensorCalibration, OpensWithHalfOfTheLargestDelay) {
   Belief belief;
   belief.covariance = 1e-16 * ErrorMatrix::Identity();
