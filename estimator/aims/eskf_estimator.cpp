@@ -13,14 +13,15 @@ namespace aims {
 namespace {
 
 /// The stated pose covariance in body axes: that of the filter plus `others` of the position
-/// (odometry axes) [m^2].
-void record_covariance(const Belief& belief, const Eigen::Matrix3d& others,
+/// (odometry axes) [m^2] and the deviation `sigma_attitude` per axis [rad].
+void record_covariance(const Belief& belief, const Eigen::Matrix3d& others, double sigma_attitude,
                        ScanDiagnostics& diagnostics) {
   using E = ErrorState;
   const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
   const Eigen::Matrix3d position = block(belief.covariance, E::kPosition, E::kPosition) + others;
   diagnostics.covariance.position = R.transpose() * position * R;
   diagnostics.covariance.rotation = block(belief.covariance, E::kRotation, E::kRotation);
+  diagnostics.covariance.rotation.diagonal().array() += sigma_attitude * sigma_attitude;
 }
 
 /// Without corrections for longer, the IMU is the clock of the poses.
@@ -43,6 +44,20 @@ const LegConfig kLegsOfUnknownScale;
 /// Without fusion, the leg states stay fixed.
 LegStatesConfig leg_states_of(const EskfConfig& config) {
   return config.legs.enabled ? config.leg_states : LegStatesConfig();
+}
+
+/// On level ground a tilt of the mount acts as a bias of the accelerometer does, and nothing
+/// measures its heading: with the ground constraint the mount is not estimated (docs/decisions.md).
+CalibrationConfig estimated_calibration(const EskfConfig& config) {
+  CalibrationConfig calibration = config.calibration;
+  if (config.ground_constraint.enabled) calibration.mount_sigma = 0.0;
+  return calibration;
+}
+
+/// Deviation of the attitude, per axis, that a mount which is not estimated adds [rad].
+double sigma_of_fixed_mount(const EskfConfig& config) {
+  const bool fixed = config.calibration.enabled && config.ground_constraint.enabled;
+  return fixed ? config.calibration.mount_sigma : 0.0;
 }
 
 }  // namespace
@@ -94,7 +109,7 @@ bool EskfEstimator::start() {
   stood_still_ = initial->stood_still;
   if (!stood_still_) ++result_.counts["initialization.moving"];
   belief_ = open_leg_states(initial->belief, leg_states_of(config_));
-  belief_ = open_calibration(belief_, config_.calibration, rig_.imu_rate_hz);
+  belief_ = open_calibration(belief_, estimated_calibration(config_), rig_.imu_rate_hz);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
   if (config_.cross_validation.enabled) mapping_ = belief_;
   time_ = initial->stamp;
@@ -239,7 +254,8 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   diagnostics.mount = so3_log(belief_.state.mount);
   const Eigen::Matrix3d rig = rig_covariance(first_belief_.state.T_odom_body(),
                                              belief_.state.T_odom_body(), config_.calibration);
-  record_covariance(belief_, lidar_update_.map_covariance() + rig, diagnostics);
+  record_covariance(belief_, lidar_update_.map_covariance() + rig, sigma_of_fixed_mount(config_),
+                    diagnostics);
   result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
   last_pose_ = scan->end;
   result_.diagnostics.scans.push_back(row_of(diagnostics));
@@ -310,7 +326,7 @@ void EskfEstimator::predict(Belief& belief, double duration) {
     accept(belief, propagate(belief, segment, dt, config_.imu));
   }
   walk_leg_states(belief, leg_states_of(config_), duration);
-  walk_calibration(belief, config_.calibration, duration);
+  walk_calibration(belief, estimated_calibration(config_), duration);
 }
 
 void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics) {
@@ -326,8 +342,7 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 }
 
 void EskfEstimator::fuse_ground_constraint() {
-  auto plane = fit_ground(points_.to_map(), ground_lists_);
-  if (plane) plane = without_mount(*plane, calibration_.mount);
+  const auto plane = fit_ground(points_.to_map(), ground_lists_);
   // The map is tilted as the first belief is, and scans that are matched in it do not show it.
   const bool tilted_map = plane && !ground_seen_ && !map_.empty() && near_start();
   const auto above_ground = [&](const Belief& belief) {
@@ -356,6 +371,7 @@ bool EskfEstimator::near_start() const {
 }
 
 void EskfEstimator::forget_map() {
+  ++result_.counts["map.restarted"];
   map_ = VoxelMap(config_.map);
   points_.forget();
 }

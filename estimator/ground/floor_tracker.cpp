@@ -18,13 +18,13 @@ Eigen::Matrix3d variances(double slope, double height) {
 }  // namespace
 
 Eigen::Vector3d floor_of(const NominalState& state, const GroundPlane& plane) {
-  const Eigen::Vector3d normal = state.rotation * (state.mount * plane.normal);
+  const Eigen::Vector3d normal = state.rotation * plane.normal;
   return {normal.x(), normal.y(), state.position.z() - plane.height / std::max(normal.z(), 0.5)};
 }
 
 void FloorTracker::update(const NominalState& state, const GroundPlane& plane) {
   const Eigen::Vector3d measured = floor_of(state, plane);
-  estimate_noise(measured, plane, (state.rotation * state.mount).toRotationMatrix());
+  estimate_noise(measured, plane, state.rotation.toRotationMatrix());
   const Eigen::Vector3d motion =
       started_ ? Eigen::Vector3d(state.position - position_) : Eigen::Vector3d::Zero();
   position_ = state.position;

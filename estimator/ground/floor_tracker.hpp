@@ -10,7 +10,7 @@
 namespace aims {
 
 /// The ground plane below the robot in odometry axes: x and y of its upward normal, and its height
-/// below the body [rad, rad, m]. `plane` is in body axes without the correction of the mount.
+/// below the body [rad, rad, m].
 Eigen::Vector3d floor_of(const NominalState& state, const GroundPlane& plane);
 
 /// The floor plane below the robot as a state with its own covariance, apart from the filter: slope

@@ -44,14 +44,12 @@ double bend_ratio(const GroundConstraintConfig& config, const GroundPlane& plane
 }
 
 /// Derivative of floor_of() by the filter's error; that of the height by the rotation is of second
-/// order. An error of the mount turns the plane as one of the attitude does.
+/// order.
 Matrix3xError jacobian_of(const NominalState& state, const GroundPlane& plane) {
   using E = ErrorState;
-  const Eigen::Matrix3d turning =
-      -state.rotation.toRotationMatrix() * hat(state.mount * plane.normal);
+  const Eigen::Matrix3d turning = -state.rotation.toRotationMatrix() * hat(plane.normal);
   Matrix3xError jacobian = Matrix3xError::Zero();
   columns(jacobian, E::kRotation).topRows<2>() = turning.topRows<2>();
-  columns(jacobian, E::kMount).topRows<2>() = turning.topRows<2>();
   jacobian(2, E::kPosition.offset + 2) = 1.0;
   return jacobian;
 }

@@ -27,9 +27,8 @@ class GroundConstraint {
   explicit GroundConstraint(const GroundConstraintConfig& config)
       : config_(config), tracker_(config) {}
 
-  /// Weighs the hypotheses for the ground plane of a scan (see without_mount()) at `belief`.
-  /// Returns two rows that make the normal vertical and one for the height; empty when there is
-  /// nothing to fuse.
+  /// Weighs the hypotheses for the ground plane of a scan at `belief`. Returns two rows that make
+  /// the normal vertical and one for the height; empty when there is nothing to fuse.
   std::optional<LinearMeasurement> measure(const Belief& belief,
                                            const std::optional<GroundPlane>& plane);
 

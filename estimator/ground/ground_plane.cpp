@@ -220,11 +220,4 @@ std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points, G
   return plane;
 }
 
-GroundPlane without_mount(GroundPlane plane, const Eigen::Quaterniond& mount) {
-  const Eigen::Matrix3d back = mount.conjugate().toRotationMatrix();
-  plane.normal = back * plane.normal;
-  plane.normal_covariance = back * plane.normal_covariance * back.transpose();
-  return plane;
-}
-
 }  // namespace aims

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <optional>
 #include <span>
 #include <vector>
@@ -60,9 +59,5 @@ struct GroundLists {
 /// `points` are deskewed returns in body axes at the scan's end [m]; what `lists` hold before has
 /// no effect.
 std::optional<GroundPlane> fit_ground(std::span<const Eigen::Vector3f> points, GroundLists& lists);
-
-/// The plane as it would be without the correction `mount` of its points (NominalState::mount). The
-/// height stays: the lever of the LiDAR changes it by less than a millimetre.
-GroundPlane without_mount(GroundPlane plane, const Eigen::Quaterniond& mount);
 
 }  // namespace aims

@@ -36,7 +36,8 @@ Belief open_calibration(Belief belief, const CalibrationConfig& config, double i
 
 void walk_calibration(Belief& belief, const CalibrationConfig& config, double dt) {
   if (!config.enabled) return;
-  add_variance(belief.covariance, kMountWalk * std::sqrt(dt), kDelayWalk * std::sqrt(dt));
+  const double mount_walk = config.mount_sigma > 0.0 ? kMountWalk : 0.0;
+  add_variance(belief.covariance, mount_walk * std::sqrt(dt), kDelayWalk * std::sqrt(dt));
 }
 
 Pose corrected_mount(const NominalState& state, const Pose& nominal) {

@@ -24,9 +24,9 @@ struct CalibrationConfig {
 
 void describe(Fields& fields, CalibrationConfig& config);
 
-/// The belief with the first mount and delay. A sample of an IMU with `imu_rate_hz` [Hz] may be the
-/// value at its stamp or the mean over the interval before it, so its delay is between 0 and half
-/// that interval.
+/// The belief with the first mount and delay; a mount with a deviation of zero is known. A sample
+/// of an IMU with `imu_rate_hz` [Hz] may be the value at its stamp or the mean over the interval
+/// before it, so its delay is between 0 and half that interval.
 Belief open_calibration(Belief belief, const CalibrationConfig& config, double imu_rate_hz);
 
 /// Adds the random walk of mount and delay over `dt` [s].

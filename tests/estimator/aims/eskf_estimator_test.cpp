@@ -293,6 +293,7 @@ TEST(Eskf, GroundThatIsSeenLateLevelsTheMap) {
   const StampedPose& first = result.trajectory.front();
   const Eigen::Quaterniond truth = world.T_world_body(first.stamp).rotation;
   EXPECT_GT(truth.angularDistance(first.pose.rotation), 0.01) << "something was tested";
+  EXPECT_EQ(result.counts.at("map.restarted"), 1);
   EXPECT_GT(result.counts.at("ground.used"), 20);
   EXPECT_EQ(result.counts.count("ground.not_level"), 0U) << "the map was levelled with the start";
   double largest = 0.0;

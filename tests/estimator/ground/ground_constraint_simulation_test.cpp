@@ -61,6 +61,20 @@ double largest_height_error(const EstimatorResult& result, const Truth& truth) {
   return largest;
 }
 
+/// Mean tilt between the estimated and the true attitude over the second half [rad].
+double mean_tilt_error(const EstimatorResult& result, const Truth& truth) {
+  const Trajectory body = body_trajectory(truth);
+  const std::size_t half = result.trajectory.size() / 2;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (std::size_t i = half; i < result.trajectory.size(); ++i) {
+    const StampedPose& estimate = result.trajectory[i];
+    const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+    const Eigen::Quaterniond true_attitude = pose_at(body, estimate.stamp).value().rotation;
+    sum += (estimate.pose.rotation.conjugate() * up - true_attitude.conjugate() * up).head<2>();
+  }
+  return sum.norm() / static_cast<double>(result.trajectory.size() - half);
+}
+
 int count_of(const EstimatorResult& result, const char* name) {
   const auto found = result.counts.find(name);
   return found == result.counts.end() ? 0 : static_cast<int>(found->second);
@@ -111,6 +125,7 @@ TEST(GroundConstraintSimulation, AVibratingImuAndAWrongMountLeaveLevelGroundInUs
   const double error = largest_height_error(result, sequence.truth);
   EXPECT_LT(error, 0.05);
   EXPECT_EQ(count_of(result, "ground.not_level"), 0);
+  EXPECT_LT(mean_tilt_error(result, sequence.truth), 0.008) << "hardly more than the mount";
   estimator.ground_constraint.enabled = false;
   EXPECT_GT(largest_height_error(estimate(sequence, estimator), sequence.truth), 1.2 * error);
 }
