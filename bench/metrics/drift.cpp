@@ -20,11 +20,19 @@ std::optional<Eigen::Vector3d> direction_of(const Trajectory& truth, const Segme
   return along.normalized();
 }
 
+/// Angle between the directions in which both attitudes see the vertical; roll and pitch at once.
+double tilt_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  const Eigen::Vector3d up_a = a.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up_b = b.conjugate() * Eigen::Vector3d::UnitZ();
+  return std::atan2(up_a.cross(up_b).norm(), up_a.dot(up_b));
+}
+
 AxisError split(const PosePair& pair, const Eigen::Vector3d& along) {
   const Eigen::Vector3d error = pair.estimate.translation - pair.truth.translation;
   const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(along);
   return {along.dot(error), left.dot(error), error.z(),
-          wrap_angle(yaw_of(pair.estimate.rotation) - yaw_of(pair.truth.rotation))};
+          wrap_angle(yaw_of(pair.estimate.rotation) - yaw_of(pair.truth.rotation)),
+          tilt_between(pair.estimate.rotation, pair.truth.rotation)};
 }
 
 void add_square(AxisError& sum, const AxisError& e) {
@@ -32,6 +40,7 @@ void add_square(AxisError& sum, const AxisError& e) {
   sum.lateral_m += e.lateral_m * e.lateral_m;
   sum.vertical_m += e.vertical_m * e.vertical_m;
   sum.heading_rad += e.heading_rad * e.heading_rad;
+  sum.tilt_rad += e.tilt_rad * e.tilt_rad;
 }
 
 void raise(AxisError& largest, const AxisError& e) {
@@ -39,11 +48,13 @@ void raise(AxisError& largest, const AxisError& e) {
   largest.lateral_m = std::max(largest.lateral_m, std::abs(e.lateral_m));
   largest.vertical_m = std::max(largest.vertical_m, std::abs(e.vertical_m));
   largest.heading_rad = std::max(largest.heading_rad, std::abs(e.heading_rad));
+  largest.tilt_rad = std::max(largest.tilt_rad, e.tilt_rad);
 }
 
 AxisError root_of_mean(const AxisError& sum, double count) {
   return {std::sqrt(sum.longitudinal_m / count), std::sqrt(sum.lateral_m / count),
-          std::sqrt(sum.vertical_m / count), std::sqrt(sum.heading_rad / count)};
+          std::sqrt(sum.vertical_m / count), std::sqrt(sum.heading_rad / count),
+          std::sqrt(sum.tilt_rad / count)};
 }
 
 }  // namespace

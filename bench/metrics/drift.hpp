@@ -11,12 +11,14 @@
 namespace aims {
 
 /// A position error in the axes of the present route segment: longitudinal = horizontal direction
-/// of the true segment, lateral = to its left, vertical = up. Signed unless it summarizes many.
+/// of the true segment, lateral = to its left, vertical = up; and that of the attitude. Signed
+/// unless it summarizes many.
 struct AxisError {
   double longitudinal_m = 0.0;
   double lateral_m = 0.0;
   double vertical_m = 0.0;
   double heading_rad = 0.0;  ///< estimated minus true, wrapped
+  double tilt_rad = 0.0;     ///< angle between estimated and true vertical in body axes, unsigned
 };
 
 /// Errors of the estimate aligned at the start, each in the axes of the segment of that time

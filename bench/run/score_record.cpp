@@ -22,7 +22,8 @@ Json axis_json(const AxisError& error) {
   return {{"longitudinal", error.longitudinal_m},
           {"lateral", error.lateral_m},
           {"vertical", error.vertical_m},
-          {"heading_rad", error.heading_rad}};
+          {"heading_rad", error.heading_rad},
+          {"tilt_rad", error.tilt_rad}};
 }
 
 Json drift_json(const std::optional<DriftSummary>& drift) {

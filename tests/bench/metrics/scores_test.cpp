@@ -37,7 +37,8 @@ std::vector<double> numbers_of(const Scores& s) {
     take(each.rotation_rmse_rad);
   }
   const auto take_axes = [&numbers](const AxisError& e) {
-    numbers.insert(numbers.end(), {e.longitudinal_m, e.lateral_m, e.vertical_m, e.heading_rad});
+    numbers.insert(numbers.end(),
+                   {e.longitudinal_m, e.lateral_m, e.vertical_m, e.heading_rad, e.tilt_rad});
   };
   if (s.drift) {
     take_axes(s.drift->rmse);
@@ -96,6 +97,19 @@ TEST(Scores, AnInitialHeadingErrorSwingsTheFarEndAside) {
   EXPECT_NEAR(s.m_list_percent.value(), 0.0, 1e-6);
   EXPECT_NEAR(s.drift.value().max.lateral_m, test::kLength * std::sin(psi), 1e-9);
   EXPECT_NEAR(s.drift->end.heading_rad, psi, 1e-9);
+}
+
+// The estimate takes the body for tilted; its path is right.
+TEST(Scores, AnAttitudeThatIsTiltedInBodyAxesIsSeenThoughThePathIsRight) {
+  const Eigen::Vector3d tilt(0.03, -0.04, 0.0);
+  const Scores s = scores_of(test::estimated_walk([&tilt](double, Pose pose) {
+    pose.rotation = pose.rotation * so3_exp(tilt);
+    return pose;
+  }));
+  EXPECT_NEAR(s.drift.value().rmse.tilt_rad, tilt.norm(), 1e-6);
+  EXPECT_NEAR(s.drift->max.tilt_rad, tilt.norm(), 1e-6);
+  EXPECT_NEAR(s.drift->end.tilt_rad, tilt.norm(), 1e-6);
+  EXPECT_LT(s.max_error_m.value(), 0.2) << "but for the heading that the first pose gives";
 }
 
 TEST(Scores, OfATiltedEstimateOfAStraightWalkHaveNoErrorAfterSe3Alignment) {

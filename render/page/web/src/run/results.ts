@@ -111,6 +111,7 @@ function errorTable(list: Row[]): HTMLElement {
     score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE across the true heading"),
     score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE of the height"),
     score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
+    score("tilt", "rad", ["drift_m", "rmse", "tilt_rad"], "RMSE of roll and pitch together"),
     score("CPU", "ms", ["cpu_per_scan_ms", "mean"], "Processor time from one scan to the next"),
     score("CPU p99", "ms", ["cpu_per_scan_ms", "p99"], "99th percentile of the processor time"),
     score(
