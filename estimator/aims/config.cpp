@@ -34,4 +34,15 @@ Requirements requirements_of(const EskfConfig& config) {
   return {.lidar = true, .imu = true, .legs = config.legs.enabled};
 }
 
+CalibrationConfig estimated_calibration(const EskfConfig& config) {
+  CalibrationConfig calibration = config.calibration;
+  if (config.ground_constraint.enabled) calibration.mount_sigma = 0.0;
+  return calibration;
+}
+
+double sigma_of_fixed_mount(const EskfConfig& config) {
+  const bool fixed = config.calibration.enabled && config.ground_constraint.enabled;
+  return fixed ? config.calibration.mount_sigma : 0.0;
+}
+
 }  // namespace aims

@@ -42,4 +42,12 @@ void describe(Fields& fields, EskfConfig& config);
 
 Requirements requirements_of(const EskfConfig& config);
 
+/// What of the calibration is estimated. On level ground a tilt of the mount acts as a bias of the
+/// accelerometer does, and nothing measures its heading: with the ground constraint the mount is
+/// known, with a deviation of zero (docs/decisions.md).
+CalibrationConfig estimated_calibration(const EskfConfig& config);
+
+/// Deviation of the attitude, per axis, that a mount which is not estimated adds [rad].
+double sigma_of_fixed_mount(const EskfConfig& config);
+
 }  // namespace aims

@@ -46,20 +46,6 @@ LegStatesConfig leg_states_of(const EskfConfig& config) {
   return config.legs.enabled ? config.leg_states : LegStatesConfig();
 }
 
-/// On level ground a tilt of the mount acts as a bias of the accelerometer does, and nothing
-/// measures its heading: with the ground constraint the mount is not estimated (docs/decisions.md).
-CalibrationConfig estimated_calibration(const EskfConfig& config) {
-  CalibrationConfig calibration = config.calibration;
-  if (config.ground_constraint.enabled) calibration.mount_sigma = 0.0;
-  return calibration;
-}
-
-/// Deviation of the attitude, per axis, that a mount which is not estimated adds [rad].
-double sigma_of_fixed_mount(const EskfConfig& config) {
-  const bool fixed = config.calibration.enabled && config.ground_constraint.enabled;
-  return fixed ? config.calibration.mount_sigma : 0.0;
-}
-
 }  // namespace
 
 EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
