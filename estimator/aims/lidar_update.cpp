@@ -13,7 +13,7 @@ namespace {
 /// One of this many points serves the first guess.
 constexpr std::size_t kGuessStride = 5;
 
-/// Larger steps of an iteration search the planes again, smaller ones end it.
+/// Larger steps of an iteration search the planes again and never end it, smaller ones end it.
 constexpr double kRematchRotation = 2e-3;    ///< [rad]
 constexpr double kRematchPosition = 1e-2;    ///< [m]
 constexpr double kConvergedRotation = 1e-4;  ///< [rad]
@@ -39,6 +39,13 @@ void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagn
 bool moved(const Pose& pose, const Pose& since, double rotation, double position) {
   return pose.rotation.angularDistance(since.rotation) > rotation ||
          (pose.translation - since.translation).norm() > position;
+}
+
+/// A step that asks for other planes is large: its result fits planes that are not those there.
+Step step_between(const Pose& before, const Pose& after) {
+  if (moved(after, before, kRematchRotation, kRematchPosition)) return Step::kLarge;
+  return moved(after, before, kConvergedRotation, kConvergedPosition) ? Step::kSmall
+                                                                      : Step::kConverged;
 }
 
 }  // namespace
@@ -114,11 +121,10 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
     first = false;
     return fused(part_, 1.0, at);
   };
-  const auto converged = [&](const NominalState& before, const NominalState& after) {
-    return !moved(scan_pose(after, calibration_), scan_pose(before, calibration_),
-                  kConvergedRotation, kConvergedPosition);
+  const auto step_of = [&](const NominalState& before, const NominalState& after) {
+    return step_between(scan_pose(before, calibration_), scan_pose(after, calibration_));
   };
-  return iterated_update(predicted, start, max_iterations_, linearize, converged);
+  return iterated_update(predicted, start, max_iterations_, linearize, step_of);
 }
 
 void LidarUpdate::assess(const Belief& predicted, const NominalState& trial_state,

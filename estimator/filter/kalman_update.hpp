@@ -79,30 +79,46 @@ struct Linearization {
   GainMask mask;
 };
 
+/// How far a step of the iterated update went.
+enum class Step {
+  kConverged,  ///< no further step is needed
+  kSmall,
+  kLarge,  ///< beyond where its linearization holds: never the last
+};
+
+/// Bound on the steps of an iterated update, for those that stay large.
+inline constexpr int kMaxSteps = 20;
+
 /// How an iterated update ended.
 struct IteratedUpdate {
   Belief belief;           ///< the prior when the measurement was refused
   int iterations = 0;      ///< steps taken
-  bool converged = false;  ///< the last step was small
+  bool converged = false;  ///< the last step was kConverged
   bool refused = false;    ///< a linearization gave no measurement
 };
 
-/// The iterated update: up to `max_iterations` steps, the first linearized at `start`, each other
-/// at the result of the last. `linearize(state)` returns the measurement there
-/// (std::optional<Linearization>), empty to refuse it: then the prior stays. `converged(before,
-/// after)` tells whether a step was small.
-template <class Linearize, class Converged>
+/// The iterated update: up to `max_iterations` steps, more while they are large, the first
+/// linearized at `start`, each other at the result of the last. `linearize(state)` returns the
+/// measurement there (std::optional<Linearization>), empty to refuse it: then the prior stays.
+/// `step_of(before, after)` returns the Step between two states.
+template <class Linearize, class StepOf>
 IteratedUpdate iterated_update(const Belief& prior, const NominalState& start, int max_iterations,
-                               Linearize&& linearize, Converged&& converged) {
+                               Linearize&& linearize, StepOf&& step_of) {
   IteratedUpdate update{prior};
-  while (update.iterations < max_iterations && !update.converged) {
+  const auto goes_on = [&](Step last) {
+    if (last == Step::kLarge) return update.iterations < kMaxSteps;
+    return last == Step::kSmall && update.iterations < max_iterations;
+  };
+  Step last = Step::kSmall;
+  while (goes_on(last)) {
     const NominalState before = update.iterations == 0 ? start : update.belief.state;
     const std::optional<Linearization> at = linearize(before);
     if (!at) return {prior, update.iterations, false, true};
     update.belief = fuse(prior, before, at->measurement, at->mask);
-    update.converged = converged(before, update.belief.state);
     ++update.iterations;
+    last = step_of(before, update.belief.state);
   }
+  update.converged = last == Step::kConverged;
   return update;
 }
 

@@ -21,7 +21,8 @@ void describe(Fields& f, LidarUpdateConfig& c) {
             "residuals that share one error; multiplies the variance of the residuals in R_lidar",
             "docs/decisions.md#r_lidar-from-the-residuals"});
   f.integer("max_iterations", c.max_iterations,
-            {"-", in_range(1, 50), "iterations of the trial update at most", "bound on time"});
+            {"-", in_range(1, 50),
+             "iterations of the trial update at most, more while they are large", "bound on time"});
 }
 
 void describe(Fields& f, RobustKernelConfig& c) {

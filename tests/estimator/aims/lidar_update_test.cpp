@@ -244,12 +244,32 @@ TEST(LidarUpdate, PillarsCorrectTheLongitudinalDirectionAndTheLegs) {
   EXPECT_GT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 0.03);
 }
 
-/// Returns near one wall of a plain corridor: seven of nine 0.17 m outside it, two as far inside.
-/// The first step moves the body so far that the residual gate takes those two away.
+// After seconds without scans the attitude is far off. A step there fits the planes that happen to
+// lie where the prediction puts the points.
+TEST(LidarUpdate, FindsBackFromAPredictionThatIsFarOff) {
+  for (const std::string_view preset : {"aims_d", "lio"}) {
+    Sequence sequence(true, preset);
+    const int usual = sequence.diagnostics.points_used;
+    Belief predicted;
+    predicted.state.position = sequence.truth + Eigen::Vector3d(0.1, 0.1, -0.1);
+    predicted.state.rotation = so3_exp({-0.05, 0.3, -0.05});
+    predicted.covariance = 1e-6 * ErrorMatrix::Identity();
+    block(predicted.covariance, E::kRotation, E::kRotation) = 9e-4 * Eigen::Matrix3d::Identity();
+    block(predicted.covariance, E::kPosition, E::kPosition) = 0.01 * Eigen::Matrix3d::Identity();
+    const Belief updated = sequence.fuse(predicted);
+    EXPECT_LT(so3_log(updated.state.rotation).norm(), 0.003) << preset;
+    EXPECT_LT((updated.state.position - sequence.truth).norm(), 0.005) << preset;
+    EXPECT_GT(sequence.diagnostics.points_used, 0.9 * usual) << preset;
+    EXPECT_GT(sequence.diagnostics.iterations, eskf_preset(preset).lidar.max_iterations);
+  }
+}
+
+/// Returns near one wall of a plain corridor: seven of nine 0.196 m outside it, two as far inside.
+/// Millimetres towards the seven, and the residual gate takes those two away.
 std::vector<Eigen::Vector3f> returns_about_a_wall(int count) {
   std::vector<Eigen::Vector3f> scan;
   for (int i = 0; i < count; ++i) {
-    const float offset = 7 * i % 9 < 7 ? 0.17F : -0.17F;
+    const float offset = 7 * i % 9 < 7 ? 0.196F : -0.196F;
     scan.emplace_back(-2.0F + 0.4F * static_cast<float>(i % 10),
                       static_cast<float>(kHalfWidth) + offset,
                       -0.8F + 0.2F * static_cast<float>(i / 10));
@@ -264,7 +284,7 @@ TEST(LidarUpdate, IsRefusedWhenItsLastLinearizationHasTooFewPlanes) {
   fill(map, corridor, -5.0, 5.0);
   Belief predicted;
   predicted.covariance = 1e-6 * ErrorMatrix::Identity();
-  block(predicted.covariance, E::kPosition, E::kPosition) = 0.01 * Eigen::Matrix3d::Identity();
+  block(predicted.covariance, E::kPosition, E::kPosition) = 2e-5 * Eigen::Matrix3d::Identity();
   const auto update = [&](int count) {
     EskfConfig config = eskf_preset("tfs_clean");
     config.lidar.max_iterations = 1;
@@ -274,9 +294,8 @@ TEST(LidarUpdate, IsRefusedWhenItsLastLinearizationHasTooFewPlanes) {
     EXPECT_EQ(boxminus(belief.state, predicted.state).isZero(0.0), diagnostics.iterations == 0);
     return diagnostics;
   };
-  const ScanDiagnostics fused = update(90);
-  EXPECT_EQ(fused.iterations, 1);
-  EXPECT_FALSE(fused.converged);
+  const ScanDiagnostics fused = update(80);
+  EXPECT_GE(fused.iterations, 1);
   ASSERT_GE(fused.points_used, 40);
   ASSERT_LE(fused.points_used, 70) << "the gate took returns away";
   const ScanDiagnostics refused = update(36);

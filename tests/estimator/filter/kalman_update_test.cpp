@@ -289,14 +289,18 @@ Belief prior_on_line() {
   return prior;
 }
 
-IteratedUpdate update_on_line(int iterations, double limit, double start = 1.5) {
+/// Steps beyond `large` are large.
+IteratedUpdate update_on_line(int iterations, double limit, double start = 1.5,
+                              double large = 1e9) {
   NominalState first;
   first.position.x() = start;
   return iterated_update(
       prior_on_line(), first, iterations,
       [&](const NominalState& at) { return square_is_four(at, limit); },
-      [](const NominalState& before, const NominalState& after) {
-        return (after.position - before.position).norm() < 1e-9;
+      [&](const NominalState& before, const NominalState& after) {
+        const double length = (after.position - before.position).norm();
+        if (length > large) return Step::kLarge;
+        return length < 1e-9 ? Step::kConverged : Step::kSmall;
       });
 }
 
@@ -317,6 +321,17 @@ TEST(IteratedUpdate, FindsTheSameStateInFewerStepsFromNearby) {
   const IteratedUpdate near = update_on_line(50, 1e9, 1.9);
   EXPECT_NEAR(near.belief.state.position.x(), far.belief.state.position.x(), 1e-9);
   EXPECT_LT(near.iterations, far.iterations);
+}
+
+TEST(IteratedUpdate, NeverEndsWithALargeStep) {
+  const double found = update_on_line(50, 1e9).belief.state.position.x();
+  EXPECT_GT(std::abs(update_on_line(1, 1e9).belief.state.position.x() - found), 0.02);
+  const IteratedUpdate update = update_on_line(1, 1e9, 1.5, 0.01);
+  EXPECT_GT(update.iterations, 1);
+  EXPECT_NEAR(update.belief.state.position.x(), found, 1e-3);
+  const IteratedUpdate endless = update_on_line(1, 1e9, 1.5, -1.0);
+  EXPECT_EQ(endless.iterations, kMaxSteps) << "all steps are large";
+  EXPECT_FALSE(endless.converged);
 }
 
 TEST(IteratedUpdate, SaysWhetherItConvergedAndKeepsThePriorWhenRefused) {
