@@ -72,8 +72,7 @@ Linearization LidarUpdate::fused(ScanPart part, double gamma, const NominalState
 
 GainMask LidarUpdate::scan_mask() const {
   if (!considers_legs()) return {};
-  const Eigen::Matrix3d constrained = fraction_.constrained();
-  return {.legs = false, .position = constrained, .velocity = constrained};
+  return {.legs = false, .translation = fraction_.constrained()};
 }
 
 double LidarUpdate::free_tilt() const {
@@ -220,7 +219,7 @@ Belief LidarUpdate::update_with_real_part(const Belief& predicted, const VoxelMa
   at.mount = matched_at_.mount;
   at.delay = matched_at_.delay;
   const Eigen::Vector3d apart = predicted.state.position - predicted_.position;
-  at.position = matched_at_.position + apart - scan_mask().position * apart;
+  at.position = matched_at_.position + apart - scan_mask().translation * apart;
   const Linearization real = fused(ScanPart::kReal, gamma_lidar_, at);
   const Belief belief = fuse(predicted, at, real.measurement, real.mask);
   update_map_covariance(map, matched_at_, predicted, belief);

@@ -37,9 +37,9 @@ struct PoseMeasurement {
 /// What of a correction is applied (Schmidt-Kalman update): the gain K is replaced by matrix() K.
 /// States that are not corrected keep their value and their uncertainty.
 struct GainMask {
-  bool legs = true;                                        ///< scale and bias of the legs
-  Eigen::Matrix3d position = Eigen::Matrix3d::Identity();  ///< factors, odometry axes
-  Eigen::Matrix3d velocity = Eigen::Matrix3d::Identity();
+  bool legs = true;  ///< scale and bias of the legs
+  /// Factors of position and velocity, odometry axes.
+  Eigen::Matrix3d translation = Eigen::Matrix3d::Identity();
 
   ErrorMatrix matrix() const;
 
@@ -50,8 +50,8 @@ struct GainMask {
     using E = ErrorState;
     auto position_rows = gain.template middleRows<3>(E::kPosition.offset);
     auto velocity_rows = gain.template middleRows<3>(E::kVelocity.offset);
-    position_rows = position.lazyProduct(position_rows).eval();
-    velocity_rows = velocity.lazyProduct(velocity_rows).eval();
+    position_rows = translation.lazyProduct(position_rows).eval();
+    velocity_rows = translation.lazyProduct(velocity_rows).eval();
     if (!legs) gain.template middleRows<E::kLegSize>(E::kLegScale.offset).setZero();
     return gain;
   }

@@ -193,7 +193,7 @@ Belief with_tilt_of(const Belief& belief, const Belief& start) {
 
 Belief fuse_ground(const Belief& belief, const LinearMeasurement& measurement) {
   const Eigen::Matrix3d up = Eigen::Vector3d::UnitZ() * Eigen::Vector3d::UnitZ().transpose();
-  return fuse(belief, measurement, {.legs = false, .position = up, .velocity = up});
+  return fuse(belief, measurement, {.legs = false, .translation = up});
 }
 
 }  // namespace aims
