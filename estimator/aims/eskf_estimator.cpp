@@ -330,30 +330,34 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 void EskfEstimator::fuse_ground_constraint() {
   const auto plane = fit_ground(points_.to_map(), ground_lists_);
   // The map is tilted as the first belief is, and scans that are matched in it do not show it.
-  const bool tilted_map = plane && !ground_seen_ && !map_.empty() && near_start();
-  const auto above_ground = [&](const Belief& belief) {
+  const bool hidden_tilt = plane && !levelled_ && !map_.empty() && near_start();
+  const auto above_ground = [&](const Belief& belief, bool tilted_as_start) {
     const Belief above = with_map_error(belief, lidar_update_.map_covariance());
-    return tilted_map ? with_tilt_of(above, first_belief_) : above;
+    return tilted_as_start ? with_tilt_of(above, first_belief_) : above;
   };
-  const Belief above = above_ground(belief_);
-  const auto measurement = ground_.measure(above, plane);
+  const auto measurement = ground_.measure(above_ground(belief_, hidden_tilt), plane);
   if (ground_.status() == GroundStatus::kNotFound) ++result_.counts["ground.not_found"];
   if (ground_.status() == GroundStatus::kSloped) ++result_.counts["ground.not_level"];
-  ground_seen_ = ground_seen_ || plane;
   if (!measurement) return;
   ++result_.counts["ground.used"];
-  accept(belief_, fuse_ground(above, *measurement));
-  if (mapping_) {
-    const Belief mapping = above_ground(*mapping_);
-    accept(*mapping_, fuse_ground(mapping, moved_to(*measurement, above.state, mapping.state)));
-  }
-  ground_.corrected(belief_.state);
-  if (tilted_map) forget_map();
+  if (ground_.start_was_sloped()) ++result_.counts["ground.start_was_sloped"];
+  const bool level_start = hidden_tilt || ground_.start_was_sloped();
+  const auto level = [&](Belief& belief, const LinearMeasurement& ground) {
+    const Belief levelled = fuse_ground(above_ground(belief, level_start), ground);
+    accept(belief, level_start ? with_turned_path(levelled, belief.state, first_belief_.state)
+                               : levelled);
+  };
+  const NominalState measured_at = belief_.state;
+  level(belief_, *measurement);
+  if (mapping_) level(*mapping_, moved_to(*measurement, measured_at, mapping_->state));
+  ground_.corrected(belief_.state, level_start);
+  levelled_ = true;
+  if (level_start) forget_map();
 }
 
-/// Whether all that was mapped is still in view.
+/// Whether the robot is where the first level floor may be, on average.
 bool EskfEstimator::near_start() const {
-  return (belief_.state.position - first_belief_.state.position).norm() < kGroundRadius;
+  return (belief_.state.position - first_belief_.state.position).norm() < kLevelDistance;
 }
 
 void EskfEstimator::forget_map() {

@@ -83,7 +83,7 @@ class EskfEstimator : public Estimator {
   bool stood_still_ = true;     ///< before the start
   Time time_ = 0;               ///< of the belief
   Belief first_belief_;         ///< at the start
-  bool ground_seen_ = false;    ///< below the robot, in any scan
+  bool levelled_ = false;       ///< by level ground, at least once
   Time last_pose_ = 0;          ///< of the newest pose, or of the start
   Time last_correction_ = 0;    ///< stamp of the newest, or of the start
   std::optional<Time> judged_;  ///< arrival

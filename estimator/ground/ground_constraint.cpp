@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/ground/ground_constraint.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace aims {
@@ -10,6 +12,9 @@ namespace {
 
 /// Correlation length of the tilt of level ground along the path [m].
 constexpr double kCorrelationLength = 0.7;
+
+/// Prior probability of a change of the floor within the radius of the fit.
+constexpr double kChange = kGroundRadius / kLevelDistance;
 
 /// Bound on the heights that are kept.
 constexpr std::size_t kMaxLevels = 32;
@@ -54,6 +59,13 @@ Matrix3xError jacobian_of(const NominalState& state, const GroundPlane& plane) {
   return jacobian;
 }
 
+/// The symmetric matrix without its negative eigenvalues.
+Matrix6 positive_part(const Matrix6& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(symmetric);
+  const auto& axes = solver.eigenvectors();
+  return axes * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * axes.transpose();
+}
+
 }  // namespace
 
 std::optional<LinearMeasurement> GroundConstraint::measure(
@@ -71,15 +83,15 @@ std::optional<LinearMeasurement> GroundConstraint::measure(
     return std::nullopt;
   }
   last_height_ = tracker_.floor().z();
-  if (!measured_) distance_since_used_ = 2.0 * kCorrelationLength;
   if (!(distance_since_used_ > 0.0)) return std::nullopt;  // the same ground again
-  measured_ = true;
   const LinearMeasurement m = rows(belief, tracker_.measured());
   distance_since_used_ = 0.0;
   return m;
 }
 
-/// The probabilities of the hypotheses, and the most likely level when the floor is level.
+/// The probabilities of the hypotheses, and the most likely level when the floor is level. Gravity
+/// shows that the start was a slope: the accelerometer then agrees with this floor, not with that
+/// of the start.
 void GroundConstraint::weigh(const Belief& belief) {
   const Matrix3xError J = jacobian_of(belief.state, *plane_);
   Eigen::Matrix3d level = tracker_.covariance() + J * belief.covariance * J.transpose();
@@ -89,37 +101,52 @@ void GroundConstraint::weigh(const Belief& belief) {
   Eigen::Matrix3d sloped = step;
   sloped.diagonal().head<2>().array() += std::pow(config_.sigma_slope, 2);
 
-  const double change = std::min(0.5, kGroundRadius / kLevelDistance);
   const Eigen::Vector3d zero_height(tracker_.floor().x(), tracker_.floor().y(), 0.0);
-  const double weight_sloped = change * density(zero_height, sloped);
+  const double weight_sloped = kChange * density(zero_height, sloped);
   // A start is on a level that was not met before, or anywhere on a slope. Later the slope begins
   // within the radius.
   const bool start = levels_.empty();
-  const double weight_new = (start ? 1.0 - change : change) * density(zero_height, step);
-  double weight_known = 0.0;
-  double best = 0.0;
-  std::optional<std::size_t> nearest;
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
-    const double prior = !current_        ? (1.0 - change) / static_cast<double>(levels_.size())
-                         : i == *current_ ? 1.0 - change
-                                          : change;
-    const double weight = prior * level_density(i, level);
-    weight_known += weight;
-    if (weight <= best) continue;
-    best = weight;
-    nearest = i;
-  }
+  const double weight_new = (start ? 1.0 - kChange : kChange) * density(zero_height, step);
+  const KnownLevels known = known_levels(level);
   const double weight_level =
-      (weight_known + weight_new) * bend_ratio(config_, *plane_, start ? change : 1.0);
+      (known.weight + weight_new) * bend_ratio(config_, *plane_, start ? kChange : 1.0);
   level_probability_ = weight_level > 0.0 ? weight_level / (weight_level + weight_sloped) : 0.0;
   status_ = level_probability_ > 0.5 ? GroundStatus::kLevel : GroundStatus::kSloped;
-  if (status_ == GroundStatus::kSloped) {
+  const double weight_start = sloped_start_weight(belief, step);
+  start_was_sloped_ = weight_start > weight_level + weight_sloped;
+  if (start_was_sloped_) {
+    level_probability_ = weight_start / (weight_start + weight_level + weight_sloped);
+    status_ = GroundStatus::kLevel;
+    start_.reset();
+    start_again(belief);
+  } else if (start && status_ == GroundStatus::kLevel) {
+    start_ = start_of(belief, weight_sloped / weight_level, level.topLeftCorner<2, 2>());
+    start_again(belief);
+  } else if (status_ == GroundStatus::kSloped) {
     current_.reset();
-  } else if (weight_known > weight_new) {
-    current_ = nearest;
+  } else if (known.weight > weight_new) {
+    current_ = known.likeliest;
   } else {
     add_level(belief);
   }
+}
+
+/// `covariance` is that of a level floor at a known height.
+GroundConstraint::KnownLevels GroundConstraint::known_levels(
+    const Eigen::Matrix3d& covariance) const {
+  KnownLevels known;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    const double prior = !current_        ? (1.0 - kChange) / static_cast<double>(levels_.size())
+                         : i == *current_ ? 1.0 - kChange
+                                          : kChange;
+    const double weight = prior * level_density(i, covariance);
+    known.weight += weight;
+    if (weight <= largest) continue;
+    largest = weight;
+    known.likeliest = i;
+  }
+  return known;
 }
 
 /// The current level is tested by what the floor's height changed since the last scan: the drift of
@@ -131,6 +158,36 @@ double GroundConstraint::level_density(std::size_t index, const Eigen::Matrix3d&
   Eigen::Vector3d residual = tracker_.floor();
   residual.z() -= current ? last_height_ : levels_[index].z;
   return density(residual, total);
+}
+
+/// Weight of a start that was a slope and of a level floor here, of which it is in view.
+/// `covariance` is that of a level floor at any height.
+double GroundConstraint::sloped_start_weight(const Belief& belief,
+                                             const Eigen::Matrix3d& covariance) const {
+  if (!start_ || (belief.state.position - start_->position).norm() > kLevelDistance) return 0.0;
+  Eigen::Matrix3d total = covariance;
+  const Eigen::Vector2d lag = (tracker_.measured() - tracker_.floor()).head<2>();
+  total.topLeftCorner<2, 2>() += start_->covariance + lag * lag.transpose();
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  residual.head<2>() = tracker_.floor().head<2>() + start_->slope;
+  return start_->odds * kChange * density(residual, total) * bend_ratio(config_, *plane_, kChange);
+}
+
+/// The start as a slope, with the prior of slopes. `tilt`: covariance of a level floor.
+GroundConstraint::Start GroundConstraint::start_of(const Belief& belief, double odds,
+                                                   const Eigen::Matrix2d& tilt) const {
+  const Eigen::Matrix2d prior = std::pow(config_.sigma_slope, 2) * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d gain = prior * (prior + tilt).inverse();
+  return {belief.state.position, odds, gain * tracker_.floor().head<2>(), gain * tilt};
+}
+
+/// The floor of the last scan is the first level, and what was tracked before it is not level.
+void GroundConstraint::start_again(const Belief& belief) {
+  tracker_ = FloorTracker(config_);
+  tracker_.update(belief.state, *plane_);
+  distance_since_used_ = 2.0 * kCorrelationLength;
+  levels_.clear();
+  add_level(belief);
 }
 
 void GroundConstraint::add_level(const Belief& belief) {
@@ -156,10 +213,11 @@ LinearMeasurement GroundConstraint::rows(const Belief& belief, const Eigen::Vect
   return m;
 }
 
-void GroundConstraint::corrected(const NominalState& state) {
+void GroundConstraint::corrected(const NominalState& state, bool start) {
   if (!plane_) return;
   tracker_.shift(floor_of(state, *plane_) - tracker_.measured());
   last_height_ = tracker_.floor().z();
+  if (start) levels_[*current_].z = last_height_;
 }
 
 Belief with_map_error(const Belief& belief, const Eigen::Matrix3d& map_covariance) {
@@ -174,21 +232,24 @@ Belief with_map_error(const Belief& belief, const Eigen::Matrix3d& map_covarianc
 }
 
 Belief with_tilt_of(const Belief& belief, const Belief& start) {
-  using E = ErrorState;
-  const Eigen::Matrix3d turn = (belief.state.rotation.conjugate() * start.state.rotation).matrix();
-  const auto of_start = [&start](E::Block row, E::Block column) {
-    return Eigen::Matrix3d(block(start.covariance, row, column));
-  };
-  const Eigen::Matrix3d with_bias = turn * of_start(E::kRotation, E::kAccelerometerBias);
+  constexpr int kR = ErrorState::kRotation.offset;
+  constexpr int kB = ErrorState::kAccelerometerBias.offset;
+  constexpr std::array kStates = {kR, kR + 1, kR + 2, kB, kB + 1, kB + 2};
+  // The tilt is fixed in the odometry frame, the bias in the body.
+  Matrix6 turn = Matrix6::Identity();
+  turn.topLeftCorner<3, 3>() = (belief.state.rotation.conjugate() * start.state.rotation).matrix();
+  const Matrix6 at_start = turn * start.covariance(kStates, kStates) * turn.transpose();
   Belief widened = belief;
-  ErrorMatrix& P = widened.covariance;
-  block(P, E::kRotation, E::kRotation) +=
-      turn * of_start(E::kRotation, E::kRotation) * turn.transpose();
-  block(P, E::kRotation, E::kAccelerometerBias) += with_bias;
-  block(P, E::kAccelerometerBias, E::kRotation) += with_bias.transpose();
-  block(P, E::kAccelerometerBias, E::kAccelerometerBias) +=
-      of_start(E::kAccelerometerBias, E::kAccelerometerBias);
+  widened.covariance(kStates, kStates) +=
+      positive_part(at_start - belief.covariance(kStates, kStates));
   return widened;
+}
+
+Belief with_turned_path(Belief belief, const NominalState& before, const NominalState& start) {
+  const Eigen::Quaterniond turn = belief.state.rotation * before.rotation.conjugate();
+  belief.state.position = start.position + turn * (before.position - start.position);
+  belief.state.velocity = turn * before.velocity;
+  return belief;
 }
 
 Belief fuse_ground(const Belief& belief, const LinearMeasurement& measurement) {

@@ -33,9 +33,14 @@ class GroundConstraint {
                                            const std::optional<GroundPlane>& plane);
 
   /// Keeps the tracked floor in the corrected frame; call it after a measurement was fused.
-  void corrected(const NominalState& state);
+  /// `start`: also the path since the start was corrected, so that the floor has another height.
+  void corrected(const NominalState& state, bool start = false);
 
   GroundStatus status() const { return status_; }
+
+  /// Whether the last ground plane showed that the start, which passed for level, was a slope: the
+  /// frame and all that was mapped in it are tilted. The measurement levels them.
+  bool start_was_sloped() const { return start_was_sloped_; }
 
   /// Probability that the ground of the last scan is level [-].
   double level_probability() const { return level_probability_; }
@@ -50,8 +55,26 @@ class GroundConstraint {
     double variance = 0.0;  ///< of the body height when it was added [m^2]
   };
 
+  /// The levels that were found, as hypotheses of one scan.
+  struct KnownLevels {
+    double weight = 0.0;                   ///< of all
+    std::optional<std::size_t> likeliest;  ///< in `levels_`
+  };
+
+  /// The first level, in case it was a slope.
+  struct Start {
+    Eigen::Vector3d position;    ///< of the body, odometry frame [m]
+    double odds;                 ///< of a slope against level ground [-]
+    Eigen::Vector2d slope;       ///< of its ground, in axes that the constraint has not levelled
+    Eigen::Matrix2d covariance;  ///< of this slope [rad^2]
+  };
+
   void weigh(const Belief& belief);
+  KnownLevels known_levels(const Eigen::Matrix3d& covariance) const;
+  double sloped_start_weight(const Belief& belief, const Eigen::Matrix3d& covariance) const;
   double level_density(std::size_t index, const Eigen::Matrix3d& covariance) const;
+  Start start_of(const Belief& belief, double odds, const Eigen::Matrix2d& tilt) const;
+  void start_again(const Belief& belief);
   void add_level(const Belief& belief);
   LinearMeasurement rows(const Belief& belief, const Eigen::Vector3d& floor) const;
 
@@ -62,9 +85,10 @@ class GroundConstraint {
   std::vector<Level> levels_;
   std::optional<std::size_t> current_;  ///< in `levels_`; empty on a slope
   double last_height_ = 0.0;            ///< of the tracked floor when it was last level [m]
-  bool measured_ = false;               ///< at least once
   double distance_since_used_ = 0.0;    ///< travelled since the last measurement [m]
   std::optional<GroundPlane> plane_;    ///< of the last scan
+  std::optional<Start> start_;
+  bool start_was_sloped_ = false;
 };
 
 /// The belief about height and tilt above the ground. A scan locates the body in the map, which has
@@ -73,9 +97,12 @@ class GroundConstraint {
 /// scans that agree with a bent map.
 Belief with_map_error(const Belief& belief, const Eigen::Matrix3d& map_covariance);
 
-/// The belief with the uncertainty that `start` has of tilt and accelerometer bias: scans that are
+/// The belief, at least as uncertain of attitude and accelerometer bias as `start`: scans that are
 /// matched in a map from there measure neither.
 Belief with_tilt_of(const Belief& belief, const Belief& start);
+
+/// The belief with the path since `start` turned as its attitude was since `before`.
+Belief with_turned_path(Belief belief, const NominalState& before, const NominalState& start);
 
 /// The belief after fusing a ground measurement: a Schmidt-Kalman update that corrects rotation,
 /// height, vertical velocity and inertial biases only. In a corridor the unobservable direction is

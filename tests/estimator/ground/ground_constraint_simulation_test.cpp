@@ -111,6 +111,32 @@ TEST(GroundConstraintSimulation, ARampIsRejectedAndItsHeightKept) {
   EXPECT_LT(error, 0.05) << "of a climb of 0.35 m";
 }
 
+/// A start on a slope of 8 % that ends after 4 m, up to 20 m.
+SimulatedSequence from_a_slope(std::uint64_t seed) {
+  SimulationConfig config = testing::straight_sequence(18.0, kColumns);
+  config.scene.ramp = {.start = 0.0, .length = 8.0, .grade = 0.08};
+  config.route.points = {{"a", 4.0, 0.0}, {"b", 17.0, 0.0}};
+  config.imu.accelerometer.turn_on_bias = 0.2;
+  return testing::simulate(config, seed);
+}
+
+TEST(GroundConstraintSimulation, AStartOnASlopeThatPassedForLevelIsLevelledAtItsEnd) {
+  const SimulatedSequence sequence = from_a_slope(7);
+  const EstimatorResult result = estimate(sequence, with_ground());
+  EXPECT_EQ(count_of(result, "ground.start_was_sloped"), 1);
+  EXPECT_EQ(count_of(result, "map.restarted"), 1);
+  EXPECT_LT(mean_tilt_error(result, sequence.truth), 8e-3);
+}
+
+TEST(GroundConstraintSimulation, AStartOnASlopeThatIsSeenAsOneIsLevelledAtItsEndToo) {
+  const SimulatedSequence sequence = from_a_slope(3);
+  const EstimatorResult result = estimate(sequence, with_ground());
+  EXPECT_EQ(count_of(result, "ground.start_was_sloped"), 0);
+  EXPECT_EQ(count_of(result, "map.restarted"), 1) << "at the first level ground";
+  EXPECT_LT(mean_tilt_error(result, sequence.truth), 4e-3);
+  EXPECT_LT(largest_height_error(result, sequence.truth), 0.05);
+}
+
 /// What recordings show: samples of an instant on a vibrating trunk at 50 Hz, a mount 0.2 degrees
 /// off, and an accelerometer that tilts the start by up to 15 mrad.
 TEST(GroundConstraintSimulation, AVibratingImuAndAWrongMountLeaveLevelGroundInUse) {

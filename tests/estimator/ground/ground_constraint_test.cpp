@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "estimator/filter/static_initialization.hpp"
 #include "tests/estimator/ground/ground_scene.hpp"
@@ -211,14 +212,14 @@ struct Sequence {
                     const Eigen::Vector3d& tilt = Eigen::Vector3d::Zero(), double sigma_tilt = 1e-3)
       : scene(over) {
     truth.translation.z() = scene.height(0.0, 0.0) + kHeight;
+    truth.rotation = attitude_on_ground(0.0);
     belief = belief_at({truth.rotation * so3_exp(tilt), truth.translation}, sigma_tilt);
+    first = belief;
   }
 
   void step(double dx) {
     const double x = truth.translation.x() + dx;
-    const double slope = (scene.height(x + 0.2, 0.0) - scene.height(x - 0.2, 0.0)) / 0.4;
-    const Pose next{so3_exp({0.0, -std::atan(slope), 0.0}),
-                    {x, 0.0, scene.height(x, 0.0) + kHeight}};
+    const Pose next{attitude_on_ground(x), {x, 0.0, scene.height(x, 0.0) + kHeight}};
     const Eigen::Quaterniond frame = belief.state.rotation * truth.rotation.conjugate();
     belief.state.rotation = belief.state.rotation * (truth.rotation.conjugate() * next.rotation);
     belief.state.position += frame * (next.translation - truth.translation);
@@ -232,13 +233,28 @@ struct Sequence {
       plane->normal = so3_exp(scan_noise * error) * plane->normal;
     }
     if (const auto m = constraint.measure(belief, plane)) {
-      belief = fuse_ground(belief, *m);
-      constraint.corrected(belief.state);
+      fuse_level(*m);
+      constraint.corrected(belief.state, constraint.start_was_sloped());
     }
     ++scans;
     level += static_cast<int>(constraint.status() == GroundStatus::kLevel);
     worst_z = std::max(worst_z, std::abs(z_error()));
     worst_tilt = std::max(worst_tilt, tilt_error());
+  }
+
+  void fuse_level(const LinearMeasurement& m) {
+    if (!constraint.start_was_sloped()) {
+      belief = fuse_ground(belief, m);
+      return;
+    }
+    revised_at = truth.translation.x();
+    belief =
+        with_turned_path(fuse_ground(with_tilt_of(belief, first), m), belief.state, first.state);
+  }
+
+  Eigen::Quaterniond attitude_on_ground(double x) const {
+    const double slope = (scene.height(x + 0.2, 0.0) - scene.height(x - 0.2, 0.0)) / 0.4;
+    return so3_exp({0.0, -std::atan(slope), 0.0});
   }
 
   void walk_to(double x) {
@@ -254,9 +270,11 @@ struct Sequence {
   test::GroundScene scene;
   Pose truth;
   Belief belief;
+  Belief first;
   GroundConstraint constraint{GroundConstraintConfig{}};
   RandomStream random{1, "floor_walk"};
   double scan_noise = 0.0;  ///< of the normal of one scan, which its covariance leaves out [rad]
+  std::optional<double> revised_at;  ///< where the start was found to be a slope [m]
   int scans = 0;
   int level = 0;
   double worst_z = 0.0;
@@ -294,6 +312,43 @@ TEST(GroundConstraint, ARampOfFivePercentKeepsItsSlopeAndItsClimb) {
 }
 
 TEST(GroundConstraint, ARampIsKeptWithNoisyScans) { expect_ramp_kept(0.05, 4e-3, 0.04); }
+
+/// Starts on a slope of 8 % that ends after 5 m. The accelerometer hides all but `seen` of it
+/// [rad].
+Sequence start_on_slope(double seen) {
+  test::GroundScene scene;
+  scene.height = [](double x, double) { return test::ramp_height(x, -5.0, 10.0, 0.08); };
+  return Sequence(scene, {0.0, 0.08 - seen, 0.0}, 0.025);
+}
+
+TEST(GroundConstraint, AStartThatPassedForLevelIsASlopeOnceTheFloorAheadAgreesWithGravity) {
+  Sequence sequence = start_on_slope(0.05);
+  sequence.walk_to(2.0);
+  EXPECT_GT(sequence.level, 10) << "the slope passes for level";
+  EXPECT_GT(sequence.tilt_error(), 0.07) << "and tilts the frame";
+  EXPECT_FALSE(sequence.revised_at.has_value());
+  sequence.walk_to(15.0);
+  ASSERT_TRUE(sequence.revised_at.has_value());
+  EXPECT_LT(*sequence.revised_at, 8.0);
+  EXPECT_LT(sequence.tilt_error(), 4e-3);
+  EXPECT_LT(std::abs(sequence.z_error()), 0.08) << "of a climb of 0.4 m";
+  EXPECT_EQ(sequence.constraint.levels(), 1);
+}
+
+/// Whether a level start, tilted by `error` [rad], counts as sloped on the way over a ramp.
+bool revises_level_start(double grade, double error) {
+  Sequence sequence(ramp(grade), {0.0, error, 0.0}, 0.025);
+  sequence.walk_to(20.0);
+  return sequence.revised_at.has_value();
+}
+
+TEST(GroundConstraint, ALevelStartStaysLevelBeforeSlopes) {
+  for (const double grade : {-0.08, -0.05, -0.03, 0.03, 0.05, 0.08}) {
+    EXPECT_FALSE(revises_level_start(grade, std::copysign(0.02, grade))) << grade;
+  }
+  // A slope of 4 % at the start, if it was one, makes one of 8 % no likelier.
+  EXPECT_FALSE(revises_level_start(0.08, 0.04));
+}
 
 TEST(GroundConstraint, LevelGroundKeepsTiltAndHeightAgainstDrift) {
   Sequence sequence({}, {0.002, -0.003, 0.0});
