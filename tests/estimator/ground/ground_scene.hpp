@@ -10,6 +10,7 @@
 
 #include "core/lie.hpp"
 #include "core/random.hpp"
+#include "estimator/filter/kalman_update.hpp"
 
 namespace aims::test {
 
@@ -18,6 +19,24 @@ struct GroundScene {
   std::function<double(double, double)> height = [](double, double) { return 0.0; };
   double noise = 0.02;  ///< of a range [m]
 };
+
+/// Of the body above the ground [m].
+inline constexpr double kHeight = 0.32;
+
+/// A belief at the pose with the deviations of a standing start.
+inline Belief belief_at(const Pose& pose, double sigma_tilt = 5e-3, double sigma_z = 1e-4) {
+  Belief belief;
+  belief.state.rotation = pose.rotation;
+  belief.state.position = pose.translation;
+  belief.covariance = ErrorMatrix::Identity() * 1e-4;
+  block(belief.covariance, ErrorState::kRotation, ErrorState::kRotation) =
+      Eigen::Matrix3d::Identity() * sigma_tilt * sigma_tilt;
+  block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition) =
+      Eigen::Matrix3d::Identity() * sigma_z * sigma_z;
+  block(belief.covariance, ErrorState::kAccelerometerBias, ErrorState::kAccelerometerBias) =
+      Eigen::Matrix3d::Identity() * 0.05 * 0.05;
+  return belief;
+}
 
 /// Height [m] of ground that rises by `grade` from `start` over `length`.
 inline double ramp_height(double x, double start, double length, double grade) {
