@@ -258,6 +258,7 @@ bool EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
     ++result_.counts["lidar.no_update"];
     return false;
   }
+  if (diagnostics.relocated) ++result_.counts["lidar.relocated"];
   if (mapping_) accept(belief_, lidar_update_.update_with_real_part(belief_, map_));
   apply_calibration();
   return true;

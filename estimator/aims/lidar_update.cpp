@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimator/aims/leg_free_prediction.hpp"
+#include "estimator/lidar/relocalization.hpp"
 
 namespace aims {
 namespace {
@@ -19,9 +20,28 @@ constexpr double kRematchPosition = 1e-2;    ///< [m]
 constexpr double kConvergedRotation = 1e-4;  ///< [rad]
 constexpr double kConvergedPosition = 1e-3;  ///< [m]
 
+/// Where a scan is searched in the map, in deviations of the prediction along its least certain
+/// axis, and at most [m]: the search takes time in proportion.
+constexpr double kSearchedDeviations = 3.0;
+constexpr double kMaxSearched = 3.0;
+/// Smaller offsets are left to the residuals, which reach as far.
+constexpr double kMinOffset = 0.5 * kMaxResidual;
+
 /// kFreeTilt of a map whose scans lie where their noise holds them, which both halves then have in
 /// common (docs/decisions.md) [rad].
 constexpr double kFreeTiltOfNoise = 0.009;
+
+/// An axis of the position [odometry axes] and the deviation along it [m].
+struct Uncertainty {
+  Eigen::Vector3d axis;
+  double sigma;
+};
+
+/// The largest of a position's `covariance` [m^2].
+Uncertainty largest_uncertainty(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  return {solver.eigenvectors().col(2), std::sqrt(solver.eigenvalues()(2))};
+}
 
 /// Smallest eigenvalue and condition number of the translation information with unknown rotation
 /// (its Schur complement).
@@ -99,13 +119,40 @@ NominalState LidarUpdate::first_guess(const Belief& predicted,
   return fuse(predicted, at, guess.measurement, guess.mask).state;
 }
 
+/// Matches the points at `guess`, or where more of them lie in the map. A robot that comes back
+/// with a drift larger than a residual may be has no match with what it has mapped there before,
+/// and would map it a second time.
+NominalState LidarUpdate::match_along_drift(const Belief& predicted, const NominalState& guess,
+                                            std::span<const Eigen::Vector3f> points,
+                                            const VoxelMap& map, ScanDiagnostics& diagnostics) {
+  const Pose here = scan_pose(guess, calibration_);
+  matcher_.match(here, points, map);
+  const Uncertainty drift = largest_uncertainty(
+      block(predicted.covariance, ErrorState::kPosition, ErrorState::kPosition) + map_covariance_);
+  const double reach = std::min(kSearchedDeviations * drift.sigma, kMaxSearched);
+  if (reach <= kMaxResidual) return guess;
+  const auto offset = offset_by_consensus(matcher_.unmatched(), here, drift.axis, reach, map);
+  if (!offset || std::abs(*offset) < kMinOffset) return guess;
+  const int agreeing = matcher_.agreeing(here);
+  NominalState moved = guess;
+  moved.position += *offset * drift.axis;
+  const Pose there = scan_pose(moved, calibration_);
+  matcher_.match(there, points, map);
+  if (matcher_.agreeing(there) > agreeing) {
+    diagnostics.relocated = true;
+    return moved;
+  }
+  matcher_.match(here, points, map);
+  return guess;
+}
+
 IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                                   const VoxelMap& map, ScanDiagnostics& diagnostics) {
   matcher_.reset(calibration_.lever);
-  const NominalState start = first_guess(predicted, points, map, diagnostics);
+  const NominalState guess = first_guess(predicted, points, map, diagnostics);
   matcher_.start_robust_weights();
+  const NominalState start = match_along_drift(predicted, guess, points, map, diagnostics);
   Pose matched_at = scan_pose(start, calibration_);
-  matcher_.match(matched_at, points, map);
   bool first = true;
   const auto linearize = [&](const NominalState& at) -> std::optional<Linearization> {
     const Pose pose = scan_pose(at, calibration_);

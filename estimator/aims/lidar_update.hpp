@@ -72,6 +72,9 @@ class LidarUpdate {
   Linearization fused(ScanPart part, double gamma, const NominalState& state) const;
   NominalState first_guess(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics);
+  NominalState match_along_drift(const Belief& predicted, const NominalState& guess,
+                                 std::span<const Eigen::Vector3f> points, const VoxelMap& map,
+                                 ScanDiagnostics& diagnostics);
   IteratedUpdate trial(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                        const VoxelMap& map, ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const NominalState& trial_state,

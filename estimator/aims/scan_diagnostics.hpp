@@ -52,6 +52,7 @@ struct ScanDiagnostics {
   Eigen::Vector3d mount =
       Eigen::Vector3d::Constant(kNotComputed);  ///< correction of the mount, rotation vector [rad]
   PoseCovariance covariance;                    ///< after the update
+  bool relocated = false;                       ///< the scan was matched elsewhere than predicted
 };
 
 /// The series that the filter reports: name, unit and meaning of each member above.

@@ -15,6 +15,9 @@ struct Plane {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< q_i, mean of the map points [m]
   bool valid = false;      ///< the points span it in two directions, more than across it
   double thickness = 0.0;  ///< largest distance of one in five of its points from it [m]
+
+  /// Of a point from it, positive along the normal [m].
+  double distance(const Eigen::Vector3d& p) const { return normal.dot(p - point); }
 };
 
 /// The map is in two halves that share no return, so that the noise of their planes is independent.

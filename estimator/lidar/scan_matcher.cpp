@@ -20,8 +20,8 @@ constexpr double kKernelScale = 5.0;
 /// residual [-]: where they differ the surface is no plane (docs/estimators.md).
 constexpr double kMaxDisagreement = 1.0;
 
-/// Larger residuals are rejected [m].
-constexpr double kMaxResidual = 0.2;
+/// Largest residual of noise, in its deviations [-].
+constexpr double kNoise = 3.0;
 
 /// The row with the sign of its normal turned to that of `other`.
 PlaneRow aligned(PlaneRow row, const PlaneRow& other) {
@@ -71,11 +71,15 @@ void ScanMatcher::reset(const Eigen::Vector3d& sensor) {
 void ScanMatcher::match(const Pose& T_odom_body, std::span<const Eigen::Vector3f> points,
                         const VoxelMap& map, std::size_t stride) {
   matches_.clear();
+  unmatched_.clear();
   const Eigen::Matrix3d R = T_odom_body.R();
   for (std::size_t i = 0; i < points.size(); i += stride) {
     const Eigen::Vector3d p_body = points[i].cast<double>();
-    const PlanePair planes = map.planes_at((R * p_body + T_odom_body.translation).cast<float>());
-    if (!planes.valid()) continue;
+    const Eigen::Vector3d p_odom = R * p_body + T_odom_body.translation;
+    const PlanePair planes = map.planes_at(p_odom.cast<float>());
+    const bool valid = planes.valid();
+    if (!valid || std::abs(planes.a.distance(p_odom)) > kMaxResidual) unmatched_.push_back(p_body);
+    if (!valid) continue;
     const double cosine = std::abs(planes.a.normal.dot(R * (p_body - sensor_).normalized()));
     const double thickest = std::max(planes.a.thickness, planes.b.thickness);
     const double sigma = noise_.sigma(cosine);
@@ -104,6 +108,12 @@ MatchInformation ScanMatcher::linearize(const Pose& T_odom_body) {
     incident_residuals_.push_back({residual, match.cosine});
   }
   return {sum.halves(), static_cast<int>(residuals_.size())};
+}
+
+int ScanMatcher::agreeing(const Pose& T_odom_body) const {
+  return static_cast<int>(std::ranges::count_if(matches_, [&](const Match& match) {
+    return std::abs(match.planes.a.distance(T_odom_body * match.p_body)) <= kNoise * match.sigma;
+  }));
 }
 
 std::span<const MappedPlane> ScanMatcher::mapped_planes(const Pose& T_odom_body,

@@ -14,6 +14,9 @@
 
 namespace aims {
 
+/// Larger residuals are rejected [m].
+inline constexpr double kMaxResidual = 0.2;
+
 /// The rows of all accepted matches at one pose, nominal noise.
 struct MatchInformation {
   HalvesInformation halves;
@@ -33,6 +36,12 @@ class ScanMatcher {
   /// Searches the planes of one in `stride` of `points` (body axes) at `T_odom_body`.
   void match(const Pose& T_odom_body, std::span<const Eigen::Vector3f> points, const VoxelMap& map,
              std::size_t stride = 1);
+
+  /// The points without a plane within kMaxResidual where match() searched, body axes.
+  std::span<const Eigen::Vector3d> unmatched() const { return unmatched_; }
+
+  /// Matches whose residual at `T_odom_body` is that of noise.
+  int agreeing(const Pose& T_odom_body) const;
 
   /// Sums the rows of the matches within the residual gate at `T_odom_body`.
   MatchInformation linearize(const Pose& T_odom_body);
@@ -65,6 +74,7 @@ class ScanMatcher {
   Eigen::Vector3d sensor_ = Eigen::Vector3d::Zero();
   bool robust_ = false;
   std::vector<Match> matches_;
+  std::vector<Eigen::Vector3d> unmatched_;  ///< body axes
   std::vector<double> residuals_;
   std::vector<IncidentResidual> incident_residuals_;
   std::vector<MappedPlane> mapped_planes_;
