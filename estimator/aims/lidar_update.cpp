@@ -24,6 +24,9 @@ constexpr double kConvergedPosition = 1e-3;  ///< [m]
 /// axis, and at most [m]: the search takes time in proportion.
 constexpr double kSearchedDeviations = 3.0;
 constexpr double kMaxSearched = 3.0;
+/// One of so many scans is searched: half a second of a surface that is mapped a second time has no
+/// planes in both halves of the map yet.
+constexpr int kSearchEvery = 5;
 /// Smaller offsets are left to the residuals, which reach as far.
 constexpr double kMinOffset = 0.5 * kMaxResidual;
 
@@ -127,18 +130,20 @@ NominalState LidarUpdate::match_along_drift(const Belief& predicted, const Nomin
                                             const VoxelMap& map, ScanDiagnostics& diagnostics) {
   const Pose here = scan_pose(guess, calibration_);
   matcher_.match(here, points, map);
+  if (++scans_ % kSearchEvery != 0) return guess;
   const Uncertainty drift = largest_uncertainty(
       block(predicted.covariance, ErrorState::kPosition, ErrorState::kPosition) + map_covariance_);
   const double reach = std::min(kSearchedDeviations * drift.sigma, kMaxSearched);
   if (reach <= kMaxResidual) return guess;
   const auto offset = offset_by_consensus(matcher_.unmatched(), here, drift.axis, reach, map);
   if (!offset || std::abs(*offset) < kMinOffset) return guess;
-  const int agreeing = matcher_.agreeing(here);
+  const Agreement usual = matcher_.agreement(here, drift.axis);
   NominalState moved = guess;
   moved.position += *offset * drift.axis;
   const Pose there = scan_pose(moved, calibration_);
   matcher_.match(there, points, map);
-  if (matcher_.agreeing(there) > agreeing) {
+  const Agreement found = matcher_.agreement(there, drift.axis);
+  if (found.facing >= usual.facing + kMinConsensus && found.all > usual.all) {
     diagnostics.relocated = true;
     return moved;
   }

@@ -85,6 +85,7 @@ class LidarUpdate {
                              const Belief& predicted, const Belief& updated);
 
   int max_iterations_;            ///< of the trial update
+  int scans_ = 0;                 ///< so far
   CalibrationModel calibration_;  ///< of the present scan
   ScanPart part_;                 ///< of it that update() fuses
   MatchInformation scan_;         ///< the present scan at the last linearization

@@ -25,9 +25,8 @@ std::optional<double> offset_onto_plane(const Eigen::Vector3d& point, const Eige
     const Eigen::Vector3d query = point + searched * axis;
     const PlanePair planes = map.planes_at(query.cast<float>());
     if (!planes.valid()) continue;
-    const double cosine = planes.a.normal.dot(axis);
-    if (std::abs(cosine) < kMinCosine) continue;
-    const double further = -planes.a.distance(query) / cosine;
+    if (!faces_along(planes.a, axis)) continue;
+    const double further = -planes.a.distance(query) / planes.a.normal.dot(axis);
     const double offset = searched + further;
     if (std::abs(further) > kSearchStep || std::abs(offset) > reach) continue;
     if (!nearest || std::abs(offset) < std::abs(*nearest)) nearest = offset;
@@ -36,6 +35,10 @@ std::optional<double> offset_onto_plane(const Eigen::Vector3d& point, const Eige
 }
 
 }  // namespace
+
+bool faces_along(const Plane& plane, const Eigen::Vector3d& axis) {
+  return std::abs(plane.normal.dot(axis)) >= kMinCosine;
+}
 
 std::optional<double> offset_by_consensus(std::span<const Eigen::Vector3d> points,
                                           const Pose& T_odom_body, const Eigen::Vector3d& axis,

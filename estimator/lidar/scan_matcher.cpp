@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/lidar/relocalization.hpp"
+
 namespace aims {
 namespace {
 
@@ -110,10 +112,15 @@ MatchInformation ScanMatcher::linearize(const Pose& T_odom_body) {
   return {sum.halves(), static_cast<int>(residuals_.size())};
 }
 
-int ScanMatcher::agreeing(const Pose& T_odom_body) const {
-  return static_cast<int>(std::ranges::count_if(matches_, [&](const Match& match) {
-    return std::abs(match.planes.a.distance(T_odom_body * match.p_body)) <= kNoise * match.sigma;
-  }));
+Agreement ScanMatcher::agreement(const Pose& T_odom_body, const Eigen::Vector3d& axis) const {
+  Agreement agreement;
+  for (const Match& match : matches_) {
+    const Plane& plane = match.planes.a;
+    if (std::abs(plane.distance(T_odom_body * match.p_body)) > kNoise * match.sigma) continue;
+    ++agreement.all;
+    if (faces_along(plane, axis)) ++agreement.facing;
+  }
+  return agreement;
 }
 
 std::span<const MappedPlane> ScanMatcher::mapped_planes(const Pose& T_odom_body,

@@ -23,6 +23,12 @@ struct MatchInformation {
   int used = 0;  ///< accepted matches
 };
 
+/// How many matches agree with a pose.
+struct Agreement {
+  int all = 0;
+  int facing = 0;  ///< those whose planes face along the axis that is in question
+};
+
 /// Matches the points of a scan with the planes of the map and linearizes eq. (2).
 class ScanMatcher {
  public:
@@ -40,8 +46,8 @@ class ScanMatcher {
   /// The points without a plane within kMaxResidual where match() searched, body axes.
   std::span<const Eigen::Vector3d> unmatched() const { return unmatched_; }
 
-  /// Matches whose residual at `T_odom_body` is that of noise.
-  int agreeing(const Pose& T_odom_body) const;
+  /// Of the matches, those whose residual at `T_odom_body` is that of noise.
+  Agreement agreement(const Pose& T_odom_body, const Eigen::Vector3d& axis) const;
 
   /// Sums the rows of the matches within the residual gate at `T_odom_body`.
   MatchInformation linearize(const Pose& T_odom_body);

@@ -272,34 +272,45 @@ Eigen::Vector3d on_face(double x, RandomStream& random) {
          kNoise * random.normal3();
 }
 
-/// What becomes of a prediction that is `drift` too far along the corridor, with a deviation of
-/// `sigma`, after a scan of which 20 of 800 returns lie on a face `seen` ahead of the robot, while
-/// the map has one `mapped` ahead [m].
-Belief fuse_with_faces(Sequence& sequence, double mapped, double seen, double drift, double sigma,
-                       ScanPart part) {
+/// What a scan of which 20 of 800 returns lie on a face `seen` ahead of where the robot was makes
+/// of a prediction that is `drift` too far along the corridor, with a deviation of `sigma`, while
+/// the map has a face `mapped` ahead [m]. Of five scans, over which the robot walks on by 0.2 m
+/// each, the first that is matched elsewhere, or the last one.
+struct FaceScan {
+  double error = 0.0;  ///< of the position along the corridor afterwards [m]
+  bool relocated = false;
+};
+
+FaceScan fuse_with_faces(Sequence& sequence, double mapped, double seen, double drift, double sigma,
+                         ScanPart part) {
   RandomStream& random = sequence.random;
-  sequence.truth.x() += 0.2;
-  const double x = sequence.truth.x();
+  const double start = sequence.truth.x();
   for (int i = 0; i < 60; ++i) {  // enough for both halves
     std::vector<Eigen::Vector3f> face;
-    for (int k = 0; k < 100; ++k) face.push_back(on_face(x + mapped, random).cast<float>());
+    for (int k = 0; k < 100; ++k) face.push_back(on_face(start + mapped, random).cast<float>());
     sequence.map.insert(face, Eigen::Vector3f::Zero());
   }
-  std::vector<Eigen::Vector3f> scan;
-  for (int i = 0; i < 780; ++i) {
-    const Eigen::Vector3d p = sequence.corridor.point(x - kRange, x + std::min(mapped, seen));
-    scan.push_back((p - sequence.truth).cast<float>());
+  FaceScan result;
+  for (int scans = 0; scans < 5 && !result.relocated; ++scans) {
+    sequence.truth.x() += 0.2;
+    std::vector<Eigen::Vector3f> scan;
+    const auto add = [&](const Eigen::Vector3d& p) {
+      scan.push_back((p - sequence.truth).cast<float>());
+    };
+    for (int i = 0; i < 780; ++i) {
+      add(sequence.corridor.point(start + 1.0 - kRange, start + std::min(mapped, seen)));
+    }
+    for (int i = 0; i < 20; ++i) add(on_face(start + seen, random));
+    Belief predicted;
+    predicted.state.position = sequence.truth + drift * Eigen::Vector3d::UnitX();
+    predicted.covariance = 1e-4 * ErrorMatrix::Identity();
+    predicted.covariance(E::kPosition.offset, E::kPosition.offset) = sigma * sigma;
+    sequence.diagnostics = ScanDiagnostics();
+    const Belief updated = sequence.update.update(predicted, scan, sequence.map, CalibrationModel(),
+                                                  part, sequence.diagnostics);
+    result = {updated.state.position.x() - sequence.truth.x(), sequence.diagnostics.relocated};
   }
-  for (int i = 0; i < 20; ++i) {
-    scan.push_back((on_face(x + seen, random) - sequence.truth).cast<float>());
-  }
-  Belief predicted;
-  predicted.state.position = sequence.truth + drift * Eigen::Vector3d::UnitX();
-  predicted.covariance = 1e-4 * ErrorMatrix::Identity();
-  predicted.covariance(E::kPosition.offset, E::kPosition.offset) = sigma * sigma;
-  sequence.diagnostics = ScanDiagnostics();
-  return sequence.update.update(predicted, scan, sequence.map, CalibrationModel(), part,
-                                sequence.diagnostics);
+  return result;
 }
 
 // A robot that comes back with a drift larger than a residual may be has no match with the end
@@ -308,26 +319,25 @@ TEST(LidarUpdate, FindsAnEndWallAlongItsDrift) {
   for (const ScanPart part : {ScanPart::kAll, ScanPart::kReal}) {
     for (const double drift : {-0.6, -0.35, 0.35, 1.0}) {
       Sequence sequence(false);
-      const Belief updated = fuse_with_faces(sequence, 5.0, 5.0, drift, std::abs(drift), part);
-      EXPECT_TRUE(sequence.diagnostics.relocated) << drift << " m";
-      EXPECT_NEAR(updated.state.position.x(), sequence.truth.x(), 0.1 * std::abs(drift));
+      const FaceScan scan = fuse_with_faces(sequence, 5.0, 5.0, drift, std::abs(drift), part);
+      EXPECT_TRUE(scan.relocated) << drift << " m";
+      EXPECT_NEAR(scan.error, 0.0, 0.1 * std::abs(drift)) << drift << " m";
     }
   }
 }
 
 TEST(LidarUpdate, SearchesOnlyWhereItsPredictionMayBe) {
   Sequence sequence(false);
-  (void)fuse_with_faces(sequence, 5.0, 5.0, 0.6, 0.15, ScanPart::kReal);
-  EXPECT_FALSE(sequence.diagnostics.relocated);
+  EXPECT_FALSE(fuse_with_faces(sequence, 5.0, 5.0, 0.6, 0.15, ScanPart::kReal).relocated);
 }
 
 // The back of a pillar is met on the way back only. At the offset that puts it onto the front,
 // which the map has, fewer of the other returns match.
 TEST(LidarUpdate, StaysWhereMoreOfTheScanMatches) {
   Sequence sequence(true);
-  const Belief updated = fuse_with_faces(sequence, 4.3, 5.0, 0.0, 0.5, ScanPart::kReal);
-  EXPECT_FALSE(sequence.diagnostics.relocated);
-  EXPECT_NEAR(updated.state.position.x(), sequence.truth.x(), 0.02);
+  const FaceScan scan = fuse_with_faces(sequence, 4.3, 5.0, 0.0, 0.5, ScanPart::kReal);
+  EXPECT_FALSE(scan.relocated);
+  EXPECT_NEAR(scan.error, 0.0, 0.02);
 }
 
 /// Returns near one wall of a plain corridor: seven of nine 0.196 m outside it, two as far inside.
