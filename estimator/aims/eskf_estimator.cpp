@@ -226,12 +226,10 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   diagnostics.imu_noise = queue_.imu().noise().density();
   leg_updates_ = 0;
   prepare_points(*scan, diagnostics);
-  const bool matched = !map_.empty() && fuse_scan(diagnostics);
-  if (config_.ground_constraint.enabled) fuse_ground_constraint();
-  if (matched) {
-    if (!map_.empty()) learn_imu_noise();
-    if (legs_are_known()) mapping_.reset();
+  if (!map_.empty()) {
+    fuse_scan(diagnostics);
   }
+  if (config_.ground_constraint.enabled) fuse_ground_constraint();
   health_.scan(diagnostics, points_.to_match().size());
   last_scan_ = scan->end;
   leg_free_.restart(matching(), scan->end);
@@ -249,29 +247,29 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   result_.diagnostics.scans.push_back(row_of(diagnostics));
 }
 
-/// Fuses the prepared points; whether any matched the map.
-bool EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
+/// Fuses the prepared points, and learns from the correction how noisy the IMU is.
+void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
+  const NominalState predicted = belief_.state;
   const ScanPart part = mapping_ ? ScanPart::kAll : ScanPart::kReal;
   accept(matching(), lidar_update_.update(matching(), points_.to_match(), map_, calibration_, part,
                                           diagnostics, leg_free_.belief()));
   if (diagnostics.iterations == 0) {
     ++result_.counts["lidar.no_update"];
-    return false;
+    return;
   }
   if (diagnostics.relocated) ++result_.counts["lidar.relocated"];
   if (mapping_) accept(belief_, lidar_update_.update_with_real_part(belief_, map_));
+  if (last_scan_) {
+    const ErrorVector y = boxminus(belief_.state, predicted);
+    // Across the robot only: along it a corridor may leave the velocity free.
+    const Eigen::Vector3d across =
+        belief_.state.rotation.conjugate() * segment(y, ErrorState::kVelocity);
+    queue_.imu().noise().add_correction(segment(y, ErrorState::kRotation).squaredNorm() / 3.0,
+                                        across.tail<2>().squaredNorm() / 2.0,
+                                        to_seconds(time_ - *last_scan_));
+  }
   apply_calibration();
-  return true;
-}
-
-/// How noisy the IMU is, from what legs, scan and ground have corrected since the last scan. A
-/// start that has just been levelled, with the map forgotten, is no noise.
-void EskfEstimator::learn_imu_noise() {
-  const ErrorVector y = boxminus(matching().state, leg_free_.belief()->state);
-  const Eigen::Quaterniond to_body = matching().state.rotation.conjugate();
-  queue_.imu().noise().add_correction(segment(y, ErrorState::kRotation),
-                                      to_body * segment(y, ErrorState::kVelocity),
-                                      to_seconds(time_ - last_scan_));
+  if (legs_are_known()) mapping_.reset();
 }
 
 /// Whether the estimate may map: where scans leave no direction free it lies where they are
@@ -347,8 +345,8 @@ void EskfEstimator::fuse_ground_constraint() {
   const bool level_start = hidden_tilt || ground_.start_was_sloped();
   const auto level = [&](Belief& belief, const LinearMeasurement& ground) {
     const Belief levelled = fuse_ground(above_ground(belief, level_start), ground);
-    accept(belief,
-           level_start ? with_turned_path(levelled, belief.state, first_belief_.state) : levelled);
+    accept(belief, level_start ? with_turned_path(levelled, belief.state, first_belief_.state)
+                               : levelled);
   };
   const NominalState measured_at = belief_.state;
   level(belief_, *measurement);

@@ -51,8 +51,7 @@ class EskfEstimator : public Estimator {
   bool fuse_zero_velocity(const LegOdometrySample& sample);
   void fuse_standing(const Eigen::Vector3d& rate);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
-  bool fuse_scan(ScanDiagnostics& diagnostics);
-  void learn_imu_noise();
+  void fuse_scan(ScanDiagnostics& diagnostics);
   void apply_calibration();
   bool legs_are_known() const;
   void fuse_ground_constraint();
@@ -100,7 +99,7 @@ class EskfEstimator : public Estimator {
   std::vector<InertialSegment> segments_;
   CalibrationModel calibration_;         ///< of the present scan
   ScanMotion scan_motion_;               ///< of the present scan
-  Time last_scan_ = 0;                   ///< end of the last scan
+  std::optional<Time> last_scan_;        ///< end of the last scan
   std::vector<Eigen::Vector3f> mapped_;  ///< points of the present scan, odometry frame
 };
 

@@ -13,13 +13,13 @@ constexpr double kAveragingTime = 0.5;
 /// Gain of the quick average: about three samples.
 constexpr double kFastGain = 0.3;
 
-/// Scans over which the fraction is averaged: many strides, far less than a run.
+/// Scans over which the share of noise is averaged: many strides, far less than a run.
 constexpr double kScans = 100.0;
-/// Scans for which the first guess of it counts.
+/// Scans for which the first guess of the share counts.
 constexpr double kPriorScans = 10.0;
-/// Bounds on it: a filtered IMU of high rate, and a noise that the samples hardly show.
-constexpr double kMinFraction = 1e-3;
-constexpr double kMaxFraction = 10.0;
+/// Bounds on the share: a filtered IMU of high rate, and a noise that the samples hardly show.
+constexpr double kMinShare = 1e-3;
+constexpr double kMaxShare = 10.0;
 
 /// What the samples do not show: attitude errors of a map, a milliradian over seconds, let gravity
 /// act as 0.01 m/s^2, and scale and axes of a MEMS gyro are wrong by half a percent of 0.5 rad/s.
@@ -61,41 +61,28 @@ void ImuNoise::add(const ImuSample& sample) {
   started_ = true;
 }
 
-void NoiseFraction::add(const Eigen::Vector3d& correction, double expected) {
-  last_[static_cast<std::size_t>(count_ % kSummed)] = {correction, expected};
-  ++count_;
-  Correction sum;
-  for (const Correction& each : last_) {
-    sum.of_integral += each.of_integral;
-    sum.expected += each.expected;
-  }
-  const double summed = std::min(count_, kSummed);
-  const double square = sum.of_integral.squaredNorm() / summed;
-  const double expected_square = sum.expected / summed;
-  if (count_ == 1) {
+void NoiseShare::add(double correction, double expected) {
+  if (expected_ == 0.0) {
     expected_ = expected * kPriorScans / kScans;
     corrections_ = expected_;
   }
-  expected_ += (expected_square - expected_) / kScans;
-  corrections_ += (square - corrections_) / kScans;
+  expected_ += (expected - expected_) / kScans;
+  corrections_ += (correction - corrections_) / kScans;
 }
 
-double NoiseFraction::value() const {
-  return expected_ > 0.0 ? std::clamp(corrections_ / expected_, kMinFraction, kMaxFraction) : 1.0;
+double NoiseShare::value() const {
+  return expected_ > 0.0 ? std::clamp(corrections_ / expected_, kMinShare, kMaxShare) : 1.0;
 }
 
-void ImuNoise::add_correction(const Eigen::Vector3d& rotation, const Eigen::Vector3d& velocity,
-                              double duration) {
-  const double noise_time = period_ * duration;
-  const Eigen::Vector3d across(0.0, velocity.y(), velocity.z());
-  rate_fraction_.add(rotation, 3.0 * rate_.variance().white * noise_time);
-  force_fraction_.add(across, 2.0 * force_.variance().white * noise_time);
+void ImuNoise::add_correction(double rotation, double velocity, double duration) {
+  rate_share_.add(rotation, rate_.variance().white * period_ * duration);
+  force_share_.add(velocity, force_.variance().white * period_ * duration);
 }
 
 ImuNoiseDensity ImuNoise::density() const {
   return {
-      std::max(kLeast.gyro, std::sqrt(rate_fraction_.value() * period_) * white().rate),
-      std::max(kLeast.accelerometer, std::sqrt(force_fraction_.value() * period_) * white().force)};
+      std::max(kLeast.gyro, std::sqrt(rate_share_.value() * period_) * white().rate),
+      std::max(kLeast.accelerometer, std::sqrt(force_share_.value() * period_) * white().force)};
 }
 
 ImuNoiseDensity ImuNoise::bridge_density() const {

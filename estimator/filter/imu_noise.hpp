@@ -43,27 +43,15 @@ class SignalStatistics {
   SignalVariance variance_;
 };
 
-/// Fraction of the white part of a signal that is noise, learned from corrections of its integral.
-///
-/// The corrections of the last few scans are summed before they are squared: a filter that corrects
-/// late, because it takes the noise for too small, corrects the same way several times.
-class NoiseFraction {
+/// Share of the white part of a signal that is noise, learned from corrections of its integral.
+class NoiseShare {
  public:
-  /// Adds a correction, the integral of the signal since the last one, and the mean square norm
-  /// that it had if all of the white part were noise.
-  void add(const Eigen::Vector3d& correction, double expected);
+  /// Adds a mean square correction, `expected` if all of the white part were noise.
+  void add(double correction, double expected);
 
   double value() const;
 
  private:
-  /// Scans whose corrections are summed: half a second, longer than a correction takes.
-  static constexpr int kSummed = 5;
-  struct Correction {
-    Eigen::Vector3d of_integral = Eigen::Vector3d::Zero();
-    double expected = 0.0;  ///< square norm
-  };
-  std::array<Correction, kSummed> last_;
-  int count_ = 0;  ///< of corrections
   double corrections_ = 0.0;
   double expected_ = 0.0;
 };
@@ -78,10 +66,9 @@ struct WhiteDeviation {
 ///
 /// Vibration above half the sampling rate aliases into the samples and does not average out in
 /// their sum: a sample's white part of deviation s adds a random walk of density s sqrt(T). What
-/// fraction of that part is noise, and not motion that the samples follow (a filtered IMU), shows
-/// in the corrections y of rotation and velocity from scan to scan: in the steady state
-/// E[y y^T] = Q, the covariance that was added since the last scan (Myers and Tapley 1976). So y is
-/// that of the prediction by the IMU alone, to which legs contribute as the scan does.
+/// share of that part is noise, and not motion that the samples follow (a filtered IMU), shows in
+/// the corrections y of rotation and velocity by scans: in the steady state E[y y^T] = Q, the
+/// covariance that was added since the last scan (Myers and Tapley 1976).
 class ImuNoise {
  public:
   explicit ImuNoise(double rate_hz);
@@ -89,11 +76,9 @@ class ImuNoise {
   /// Adds the next sample in order of stamp.
   void add(const ImuSample& sample);
 
-  /// Adds what is corrected of the rotation [rad] and the velocity [m/s], body axes, that the IMU
-  /// alone predicts for the end of a scan, `duration` [s] after the last one. Of the velocity only
-  /// the part across the robot counts: along it a corridor may leave it free.
-  void add_correction(const Eigen::Vector3d& rotation, const Eigen::Vector3d& velocity,
-                      double duration);
+  /// Adds a scan's mean square correction per axis, of rotation [rad^2] and velocity [m^2/s^2],
+  /// `duration` [s] after the last scan, to the learned shares of noise.
+  void add_correction(double rotation, double velocity, double duration);
 
   /// Of the sum of the samples.
   ImuNoiseDensity density() const;
@@ -110,8 +95,8 @@ class ImuNoise {
   bool started_ = false;
   SignalStatistics rate_;
   SignalStatistics force_;
-  NoiseFraction rate_fraction_;
-  NoiseFraction force_fraction_;
+  NoiseShare rate_share_;
+  NoiseShare force_share_;
 };
 
 }  // namespace aims

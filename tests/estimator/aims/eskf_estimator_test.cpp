@@ -303,35 +303,6 @@ TEST(Eskf, GroundThatIsSeenLateLevelsTheMap) {
   EXPECT_LT(largest, 0.06);
 }
 
-/// Densities of the IMU's noise that `preset` has learned by the second half of a walk, over the
-/// true ones [-].
-ImuNoiseDensity learned_noise(std::string_view preset) {
-  KinematicConfig config = short_walk();
-  config.sensors.gyro_noise = 0.05;
-  config.sensors.force_noise = 1.5;
-  KinematicWorld world(config);
-  const EstimatorResult result = run(preset, record(world), world.rig());
-  const std::size_t scans = result.diagnostics.scans.size();
-  ImuNoiseDensity sum;
-  for (std::size_t i = scans / 2; i < scans; ++i) {
-    sum.gyro += result.diagnostics.value(i, "gyro_noise");
-    sum.accelerometer += result.diagnostics.value(i, "accelerometer_noise");
-  }
-  const double per_density =
-      std::sqrt(world.rig().imu_rate_hz) / static_cast<double>(scans - scans / 2);
-  return {sum.gyro * per_density / config.sensors.gyro_noise,
-          sum.accelerometer * per_density / config.sensors.force_noise};
-}
-
-// Legs correct the velocity before a scan does.
-TEST(Eskf, LegsDoNotHideTheNoiseOfTheImu) {
-  for (const std::string_view preset : {"lio", "tfs_plus", "aims_d"}) {
-    const ImuNoiseDensity learned = learned_noise(preset);
-    EXPECT_NEAR(learned.gyro, 1.0, 0.3) << preset;
-    EXPECT_NEAR(learned.accelerometer, 1.0, 0.3) << preset;
-  }
-}
-
 TEST(Eskf, TheEstimateMapsOnceTheLegsAreKnown) {
   const auto before = [](double first_door, std::string_view preset) {
     KinematicWorld world(far_off_legs(first_door));

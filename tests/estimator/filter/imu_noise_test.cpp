@@ -111,21 +111,21 @@ TEST(ImuNoise, OneLostSampleIsNoVibration) {
   EXPECT_NEAR(noise.white().rate, 0.0, 1e-9);
 }
 
-/// The integral of one signal of the IMU, corrected ten times a second by a filter that takes the
+/// One axis of the integral of the IMU, corrected ten times a second by a filter that takes the
 /// estimated density for true.
-class Integral {
+class Axis {
  public:
-  Integral(double density, double measured) : density_(density), measured_(measured) {}
+  Axis(double density, double measured) : density_(density), measured_(measured) {}
 
   void move(double dt, double assumed, RandomStream& random) {
-    error_ += density_ * std::sqrt(dt) * random.normal3();
+    error_ += density_ * std::sqrt(dt) * random.normal();
     variance_ += assumed * assumed * dt;
   }
 
   /// The correction by a measurement.
-  Eigen::Vector3d correct(RandomStream& random) {
+  double correct(RandomStream& random) {
     const double gain = variance_ / (variance_ + measured_ * measured_);
-    const Eigen::Vector3d correction = gain * (error_ + measured_ * random.normal3());
+    const double correction = gain * (error_ + measured_ * random.normal());
     error_ -= correction;
     variance_ *= 1.0 - gain;
     return correction;
@@ -134,21 +134,21 @@ class Integral {
  private:
   double density_;
   double measured_;  ///< deviation of a measurement
-  Eigen::Vector3d error_ = Eigen::Vector3d::Zero();
-  double variance_ = 1e-4;  ///< per axis
+  double error_ = 0.0;
+  double variance_ = 1e-4;
 };
 
 // The filter's own correction feeds back on the density that it assumes; it must settle at the true
 // one whether the first guess is too large or too small.
-TEST(ImuNoise, CorrectionsLeadToTheFractionOfTheWhitePartThatIsNoise) {
+TEST(ImuNoise, CorrectionsLeadToTheShareOfTheWhitePartThatIsNoise) {
   constexpr double kRate = 50.0;
-  for (const double fraction : {0.1, 1.0, 4.0}) {
-    RandomStream random(3, "imu_noise.fraction");
+  for (const double share : {0.1, 1.0, 4.0}) {
+    RandomStream random(3, "imu_noise.share");
     ImuNoise noise(kRate);
-    const double gyro_density = std::sqrt(fraction / kRate) * kRateSigma;
-    const double force_density = std::sqrt(fraction / kRate) * kForceSigma;
-    Integral rotation(gyro_density, 2e-3);
-    Integral velocity(force_density, 0.1);
+    const double gyro_density = std::sqrt(share / kRate) * kRateSigma;
+    const double force_density = std::sqrt(share / kRate) * kForceSigma;
+    Axis rotation(gyro_density, 2e-3);
+    Axis velocity(force_density, 0.1);
     double gyro = 0.0;
     double force = 0.0;
     for (int i = 0; i < 20000; ++i) {
@@ -156,15 +156,15 @@ TEST(ImuNoise, CorrectionsLeadToTheFractionOfTheWhitePartThatIsNoise) {
       rotation.move(1.0 / kRate, noise.density().gyro, random);
       velocity.move(1.0 / kRate, noise.density().accelerometer, random);
       if (i % 5 != 4) continue;
-      const Eigen::Vector3d turn = rotation.correct(random);
-      const Eigen::Vector3d push = velocity.correct(random);
-      noise.add_correction(turn, push, 0.1);
+      const double turn = rotation.correct(random);
+      const double push = velocity.correct(random);
+      noise.add_correction(turn * turn, push * push, 0.1);
       if (i < 10000) continue;
       gyro += noise.density().gyro / 2000.0;
       force += noise.density().accelerometer / 2000.0;
     }
-    EXPECT_NEAR(gyro / gyro_density, 1.0, 0.15) << "fraction " << fraction << ", seed 3";
-    EXPECT_NEAR(force / force_density, 1.0, 0.15) << "fraction " << fraction << ", seed 3";
+    EXPECT_NEAR(gyro / gyro_density, 1.0, 0.15) << "share " << share << ", seed 3";
+    EXPECT_NEAR(force / force_density, 1.0, 0.15) << "share " << share << ", seed 3";
   }
 }
 
