@@ -50,7 +50,7 @@ struct PlaneRow {
 inline PlaneRow plane_row(const Plane& plane, const Eigen::Vector3d& p_body,
                           const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
   PlaneRow row;
-  row.residual = plane.normal.dot(R * p_body + t - plane.point);  // eq. (2)
+  row.residual = plane.distance(R * p_body + t);  // eq. (2)
   const Eigen::Vector3d normal_in_body = R.transpose() * plane.normal;
   segment(row.jacobian, ErrorState::kRotation) = p_body.cross(normal_in_body);
   segment(row.jacobian, ErrorState::kPosition) = plane.normal;

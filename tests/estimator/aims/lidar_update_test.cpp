@@ -272,15 +272,16 @@ Eigen::Vector3d on_face(double x, RandomStream& random) {
          kNoise * random.normal3();
 }
 
-/// What a scan of which 20 of 800 returns lie on a face `seen` ahead of where the robot was makes
-/// of a prediction that is `drift` too far along the corridor, with a deviation of `sigma`, while
-/// the map has a face `mapped` ahead [m]. Of five scans, over which the robot walks on by 0.2 m
-/// each, the first that is matched elsewhere, or the last one.
+/// What a scan made of its prediction.
 struct FaceScan {
   double error = 0.0;  ///< of the position along the corridor afterwards [m]
   bool relocated = false;
 };
 
+/// What a scan of which 20 of 800 returns lie on a face `seen` ahead of where the robot was makes
+/// of a prediction that is `drift` too far along the corridor, with a deviation of `sigma`, while
+/// the map has a face `mapped` ahead [m]. Of five scans, over which the robot walks on by 0.2 m
+/// each, the first that is matched elsewhere, or the last one.
 FaceScan fuse_with_faces(Sequence& sequence, double mapped, double seen, double drift, double sigma,
                          ScanPart part) {
   RandomStream& random = sequence.random;
