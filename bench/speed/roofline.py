@@ -82,11 +82,18 @@ def times(command, folder):
     return seconds
 
 
+def cache_of(size):
+    """A cache of `size` bytes in cachegrind's words, with 8 ways or the next number that leaves a power of 2 of sets."""
+    lines = size // LINE
+    ways = next(ways for ways in range(8, lines + 1) if lines % ways == 0 and (lines // ways).bit_count() == 1)
+    return f"{size},{ways},{LINE}"
+
+
 def counts(command, folder, sizes):
     """Instructions and misses of the first and the second cache by stage."""
     data = folder + "/cachegrind.out"
-    run(["valgrind", "--tool=cachegrind", "--cache-sim=yes", f"--D1={sizes[0]},8,{LINE}",
-         f"--LL={sizes[1]},8,{LINE}", f"--cachegrind-out-file={data}"] + command)
+    run(["valgrind", "--tool=cachegrind", "--cache-sim=yes", f"--D1={cache_of(sizes[0])}",
+         f"--LL={cache_of(sizes[1])}", f"--cachegrind-out-file={data}"] + command)
     events, totals, stage = [], collections.defaultdict(collections.Counter), REST
     for line in pathlib.Path(data).read_text().splitlines():
         if line.startswith("events:"):
