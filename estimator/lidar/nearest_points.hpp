@@ -44,41 +44,89 @@ class NearestPoints {
     }
   }
 
-  /// Points farther than this have no effect: five are as near, or it is the gate [m^2].
-  float reach() const {
+  /// Points farther than this have no effect on `a` and `b`: five are as near in each, or it is the
+  /// gate [m^2].
+  static float reach(const NearestPoints& a, const NearestPoints& b) {
     // Five are the nearest of each lane and the nearest of the second ones.
-    const Float4& a = rows_[0];
-    const Float4& b = rows_[1];
-    const float first = std::max(std::max(a[0], a[1]), std::max(a[2], a[3]));
-    const float second = std::min(std::min(b[0], b[1]), std::min(b[2], b[3]));
-    return std::max(first, second);
+    const Float4 first =
+        larger(low_lanes(a.rows_[0], b.rows_[0]), high_lanes(a.rows_[0], b.rows_[0]));
+    const Float4 second =
+        smaller(low_lanes(a.rows_[1], b.rows_[1]), high_lanes(a.rows_[1], b.rows_[1]));
+    const Float4 both = larger(larger(first, swapped(first)), smaller(second, swapped(second)));
+    return std::max(both[0], both[2]);
   }
 
-  /// The nearest, nearest first; returns how many there are.
-  std::size_t sorted(std::array<Found, kWanted>& found) const {
-    std::array<std::array<std::uint32_t, 4>, kWanted + 1> keys;
+  /// The points found, nearest first.
+  struct Sorted {
+    std::array<Found, kWanted> points;
+    std::size_t count = 0;
+  };
+
+  /// Those of `a` and of `b`, which have the same gate: sorted side by side.
+  static std::array<Sorted, 2> sorted(const NearestPoints& a, const NearestPoints& b) {
+    Rows first;
+    Rows second;
     for (std::size_t k = 0; k < kWanted; ++k) {
-      keys[k] = std::bit_cast<std::array<std::uint32_t, 4>>(rows_[k]);
+      first[k] = low_lanes(a.rows_[k], b.rows_[k]);
+      second[k] = high_lanes(a.rows_[k], b.rows_[k]);
     }
-    keys[kWanted].fill(none_);
-    std::array<std::size_t, 4> next{};
+    first = smallest_of(first, second);
     for (std::size_t k = 0; k < kWanted; ++k) {
-      std::uint32_t lane = 0;
-      for (std::uint32_t other = 1; other < 4; ++other) {
-        lane = keys[next[other]][other] < keys[next[lane]][lane] ? other : lane;
-      }
-      const std::uint32_t key = keys[next[lane]++][lane];
-      if (key == none_) return k;
-      found[k] = {key & static_cast<std::uint32_t>(kGroupBits), lane};
+      second[k] = swapped(first[k]);
     }
-    return kWanted;
+    const Rows keys = smallest_of(first, second);
+    return {a.places_of(keys, 0), b.places_of(keys, 2)};
   }
 
  private:
   static constexpr std::int32_t kGroupBits = 0xff;
+  /// In each lane five numbers, the smallest first.
+  using Rows = std::array<Float4, kWanted>;
 
-  std::array<Float4, kWanted> rows_;  ///< of each lane, nearest first
-  std::uint32_t none_ = 0;            ///< the key of the gate
+  static Float4 low_lanes(Float4 a, Float4 b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
+  static Float4 high_lanes(Float4 a, Float4 b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }
+  static Float4 swapped(Float4 a) { return __builtin_shufflevector(a, a, 1, 0, 3, 2); }
+
+  /// In each lane, the five smallest of both.
+  static Rows smallest_of(const Rows& a, const Rows& b) {
+    Rows rows;
+    for (std::size_t k = 0; k < kWanted; ++k) rows[k] = smaller(a[k], b[kWanted - 1 - k]);
+    // The shortest sorting network of five.
+    constexpr std::array<std::array<std::size_t, 2>, 9> kPairs{
+        {{0, 3}, {1, 4}, {0, 2}, {1, 3}, {0, 1}, {2, 4}, {1, 2}, {3, 4}, {2, 3}}};
+    for (const auto& [i, j] : kPairs) {
+      const Float4 larger_one = larger(rows[i], rows[j]);
+      rows[i] = smaller(rows[i], rows[j]);
+      rows[j] = larger_one;
+    }
+    return rows;
+  }
+
+  /// Of the points whose keys are in lane `lane` of `keys`.
+  Sorted places_of(const Rows& keys, std::size_t lane) const {
+    Sorted sorted;
+    std::uint32_t before = none_;
+    unsigned lanes = 0;
+    for (const Float4& row : keys) {
+      const auto key = std::bit_cast<std::uint32_t>(row[lane]);
+      if (key == none_) break;
+      // Points of one group that are as near as each other have one key.
+      lanes = key == before ? lanes & (lanes - 1) : lanes_with(row[lane]);
+      before = key;
+      sorted.points[sorted.count++] = {key & static_cast<std::uint32_t>(kGroupBits),
+                                       static_cast<std::uint32_t>(std::countr_zero(lanes))};
+    }
+    return sorted;
+  }
+
+  unsigned lanes_with(float key) const {
+    Int4 here{};
+    for (const Float4& row : rows_) here |= row == Float4{} + key;
+    return lanes_of(here);
+  }
+
+  Rows rows_;               ///< of each lane, nearest first
+  std::uint32_t none_ = 0;  ///< the key of the gate
 };
 
 }  // namespace aims

@@ -8,18 +8,18 @@
 namespace aims {
 namespace {
 
-/// Places before, at and after a voxel along an axis, and the squared distances of a point in it to
-/// the voxels there [m^2]; the voxel itself comes first.
-struct Steps {
-  std::array<int, 3> offsets{0, -1, 1};
-  std::array<float, 3> gaps{};
+/// Steps along an axis from a voxel to those beside it; itself comes first.
+constexpr std::array kSteps{0, -1, 1};
 
-  Steps(float at, std::int32_t home, float size) {
-    const float inside = at - size * static_cast<float>(home);
-    const float rest = size - inside;
-    gaps = {0.0F, inside * inside, rest * rest};
-  }
-};
+/// Squared distances along an axis from a point `at` in a voxel to the voxels after these steps
+/// [m^2].
+std::array<float, 3> squared_gaps(float at, std::int32_t voxel, float size) {
+  const float inside = at - size * static_cast<float>(voxel);
+  const float rest = size - inside;
+  return {0.0F, inside * inside, rest * rest};
+}
+
+float smallest_of(Float4 a) { return std::min(std::min(a[0], a[1]), std::min(a[2], a[3])); }
 
 }  // namespace
 
@@ -48,58 +48,73 @@ class VoxelMap::Surroundings {
   Surroundings(const VoxelMap& map, const Eigen::Vector3f& point)
       : map_(map),
         index_(voxel_of(point, map.inverse_size_)),
-        steps_{Steps(point.x(), index_.x, map.size_), Steps(point.y(), index_.y, map.size_),
-               Steps(point.z(), index_.z, map.size_)},
-        home_(map.voxels_.index_of(voxel_key(index_))) {}
+        home_(map.voxels_.index_of(voxel_key(index_))) {
+    const auto x = squared_gaps(point.x(), index_.x, map.size_);
+    const auto y = squared_gaps(point.y(), index_.y, map.size_);
+    const auto z = squared_gaps(point.z(), index_.z, map.size_);
+    const Float4 column{z[0], z[1], z[2], std::numeric_limits<float>::infinity()};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) gaps_[3 * i + j] = (x[i] + y[j]) + column;
+    }
+  }
 
   /// Calls `visit(index)` for each voxel within reach() [m^2] of the point, its own first; reach()
   /// may shrink meanwhile.
   template <class Reach, class Visit>
   void visit(const Reach& reach, const Visit& visit) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (steps_[0].gaps[i] > reach()) continue;
-      for (std::size_t j = 0; j < 3; ++j) {
-        if (steps_[0].gaps[i] + steps_[1].gaps[j] > reach()) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const float gap = steps_[0].gaps[i] + steps_[1].gaps[j] + steps_[2].gaps[k];
-          if (gap > reach()) continue;
-          const std::int32_t at =
-              voxel(steps_[0].offsets[i], steps_[1].offsets[j], steps_[2].offsets[k]);
-          if (at != kNone) visit(at);
-        }
-      }
+    if (home_ != kNone) visit(home_);
+    for (std::uint64_t places = places_within(reach()); places != 0; places &= places - 1) {
+      const auto place = static_cast<std::size_t>(std::countr_zero(places));
+      if (gaps_[place / 4][place % 4] > reach()) continue;
+      const std::int32_t at = voxel(place);
+      if (at != kNone) visit(at);
     }
   }
 
  private:
-  std::int32_t voxel(int dx, int dy, int dz) const {
-    if (home_ != kNone) return map_.voxels_[home_].around[place_of(dx, dy, dz)];
-    return map_.voxels_.index_of(voxel_key({index_.x + dx, index_.y + dy, index_.z + dz}));
+  /// Bit i: whether there may be a voxel at place i, within `reach`; without the first place.
+  std::uint64_t places_within(float reach) const {
+    std::uint64_t places = 0;
+    for (std::size_t i = 0; i < gaps_.size(); ++i) {
+      Int4 within = gaps_[i] <= reach;
+      if (home_ != kNone) within &= load4(&map_.voxels_[home_].around[4 * i]) != kNone;
+      places |= static_cast<std::uint64_t>(lanes_of(within)) << (4 * i);
+    }
+    return places & ~std::uint64_t{1};
+  }
+
+  std::int32_t voxel(std::size_t place) const {
+    if (home_ != kNone) return map_.voxels_[home_].around[place];
+    return map_.voxels_.index_of(voxel_key(neighbor(index_, place)));
   }
 
   const VoxelMap& map_;
   VoxelIndex index_;
-  std::array<Steps, 3> steps_;
   std::int32_t home_;
+  std::array<Float4, kPlaces / 4> gaps_;  ///< squared distances to the voxels, by place [m^2]
 };
 
-std::size_t VoxelMap::place_of(int dx, int dy, int dz) {
-  return static_cast<std::size_t>(9 * (dx + 1) + 3 * (dy + 1) + dz + 1);
+/// The voxel at a place around another one.
+VoxelIndex VoxelMap::neighbor(const VoxelIndex& voxel, std::size_t place) {
+  return {voxel.x + kSteps[place / 12], voxel.y + kSteps[place / 4 % 3],
+          voxel.z + kSteps[place % 4]};
+}
+
+/// The place of the voxel from which the one at `place` is seen: steps of -1 and 1 change.
+std::size_t VoxelMap::opposite(std::size_t place) {
+  constexpr std::array<std::size_t, 3> kBack{0, 2, 1};
+  return 12 * kBack[place / 12] + 4 * kBack[place / 4 % 3] + kBack[place % 4];
 }
 
 /// Links a voxel with those around it, in both directions.
 void VoxelMap::link(Voxel& voxel) {
   const std::int32_t at = voxels_.index_of(voxel.key);
   const VoxelIndex index = voxel_of(voxel.first, inverse_size_);
-  for (int dx = -1; dx <= 1; ++dx) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dz = -1; dz <= 1; ++dz) {
-        const std::int32_t other =
-            voxels_.index_of(voxel_key({index.x + dx, index.y + dy, index.z + dz}));
-        voxel.around[place_of(dx, dy, dz)] = other;
-        if (other != kNone) voxels_[other].around[place_of(-dx, -dy, -dz)] = at;
-      }
-    }
+  for (std::size_t place = 0; place < kPlaces; ++place) {
+    if (place % 4 == 3) continue;
+    const std::int32_t other = voxels_.index_of(voxel_key(neighbor(index, place)));
+    voxel.around[place] = other;
+    if (other != kNone) voxels_[other].around[opposite(place)] = at;
   }
 }
 
@@ -132,24 +147,35 @@ void VoxelMap::insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& covar
   }
 }
 
+/// Each lane keeps the nearest of its own, the first of those that are as near.
 VoxelMap::Place VoxelMap::nearest_within_spacing(const Eigen::Vector3f& point) {
-  Place place;
-  float nearest = spacing_ * spacing_;
+  Float4 nearest = Float4{} + spacing_ * spacing_;
+  Int4 groups{};  // of these points, numbered over all voxels
+  std::array<std::int32_t, kNeighborhood> voxels;
+  std::int32_t count = 0;
+  float reach = spacing_ * spacing_;
   const auto search = [&](std::int32_t at) {
     const Half& half = voxels_[at].halves[half_];
-    for (int begin = 0; begin < half.count; begin += 4) {
-      const Float4 squared =
-          half.points[static_cast<std::size_t>(begin / 4)].squared_distances(point);
-      for (unsigned lanes = lanes_of(squared < nearest); lanes != 0; lanes &= lanes - 1) {
-        const int lane = std::countr_zero(lanes);
-        if (squared[lane] >= nearest) continue;
-        nearest = squared[lane];
-        place = {at, begin + lane};
-      }
+    for (std::int32_t group = 0; 4 * group < half.count; ++group) {
+      const Float4 squared = half.points[static_cast<std::size_t>(group)].squared_distances(point);
+      const Int4 nearer = squared < nearest;
+      const auto id = count * static_cast<std::int32_t>(kGroups) + group;
+      nearest = smaller(squared, nearest);
+      groups = (groups & ~nearer) | (nearer & id);
     }
+    reach = smallest_of(nearest);
+    voxels[static_cast<std::size_t>(count++)] = at;
   };
-  Surroundings(*this, point).visit([&] { return nearest; }, search);
-  return place;
+  Surroundings(*this, point).visit([&] { return reach; }, search);
+  if (reach >= spacing_ * spacing_) return {};
+  unsigned lanes = lanes_of(nearest == Float4{} + reach);
+  int first = std::countr_zero(lanes);
+  for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    if (groups[lane] < groups[first]) first = lane;
+  }
+  const auto id = static_cast<std::uint32_t>(groups[first]);
+  return {voxels[id / kGroups], static_cast<int>(4 * (id % kGroups)) + first};
 }
 
 /// A mean that crosses a border goes over to the voxel that it then lies in.
@@ -227,19 +253,18 @@ struct VoxelMap::Search {
       nearest[0].offer(a.points[group].squared_distances(query), id);
       nearest[1].offer(b.points[group].squared_distances(query), id);
     }
-    reach = std::max(nearest[0].reach(), nearest[1].reach());
+    reach = NearestPoints::reach(nearest[0], nearest[1]);
     voxels[count++] = &voxel;
   }
 
-  Neighbors found(std::size_t half) const {
-    std::array<NearestPoints::Found, NearestPoints::kWanted> ids;
+  /// The points of `half` that were found.
+  Neighbors found(const NearestPoints::Sorted& sorted, std::size_t half) const {
     Neighbors neighbors;
-    neighbors.count = static_cast<int>(nearest[half].sorted(ids));
-    for (int k = 0; k < neighbors.count; ++k) {
-      const auto [group, lane] = ids[static_cast<std::size_t>(k)];
-      const Half& points = voxels[group / kGroups]->halves[half];
-      neighbors.points[k] = points.point(static_cast<int>(4 * (group % kGroups) + lane));
-      neighbors.squared_distances[k] = (neighbors.points[k] - query).squaredNorm();
+    neighbors.count = static_cast<int>(sorted.count);
+    for (std::size_t k = 0; k < sorted.count; ++k) {
+      const auto [group, lane] = sorted.points[k];
+      neighbors.points[k] =
+          voxels[group / kGroups]->halves[half].points[group % kGroups].point(lane);
     }
     return neighbors;
   }
@@ -250,7 +275,10 @@ int VoxelMap::nearest(const Eigen::Vector3f& query,
   Search search(query, size_ * size_);
   Surroundings(*this, query)
       .visit([&] { return search.reach; }, [&](std::int32_t at) { search.add(voxels_[at]); });
-  for (std::size_t half = 0; half < kHalves; ++half) neighbors[half] = search.found(half);
+  const auto sorted = NearestPoints::sorted(search.nearest[0], search.nearest[1]);
+  for (std::size_t half = 0; half < kHalves; ++half) {
+    neighbors[half] = search.found(sorted[half], half);
+  }
   return static_cast<int>(search.count);
 }
 

@@ -22,7 +22,6 @@ namespace aims {
 struct Neighbors {
   static constexpr int kWanted = NearestPoints::kWanted;
   std::array<Eigen::Vector3f, kWanted> points;
-  std::array<float, kWanted> squared_distances{};  ///< [m^2]
   int count = 0;
 };
 
@@ -61,6 +60,8 @@ class VoxelMap {
 
  private:
   static constexpr std::size_t kNeighborhood = 27;  ///< a voxel and those around it
+  /// Their places, itself first: four for each step along x and y, of which the last one is none.
+  static constexpr std::size_t kPlaces = 36;
   static constexpr std::int32_t kNone = VoxelHash::kNone;
   static constexpr float kFar = 1e12F;  ///< [m]
   static constexpr int kCapacity = 32;  ///< points of one half in a voxel
@@ -84,12 +85,14 @@ class VoxelMap {
   };
 
   struct Voxel {
+    Voxel() { around.fill(kNone); }
+
     std::uint64_t key = 0;
     Eigen::Vector3f first = Eigen::Vector3f::Zero();  ///< its first point
     bool empty = true;
     std::uint32_t seen = 0;  ///< the last insertion that put a point in it
-    /// Indices of the voxels around it and of itself, by place_of(); kNone where there is none.
-    std::array<std::int32_t, kNeighborhood> around;
+    /// Indices of the voxels at its places; kNone where there is none.
+    std::array<std::int32_t, kPlaces> around;
     std::array<Half, kHalves> halves;
     Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
   };
@@ -106,7 +109,8 @@ class VoxelMap {
   void insert(const Eigen::Vector3f& point, const Eigen::Matrix3f& covariance);
   void end_insertion();
   Place nearest_within_spacing(const Eigen::Vector3f& point);
-  static std::size_t place_of(int dx, int dy, int dz);
+  static VoxelIndex neighbor(const VoxelIndex& voxel, std::size_t place);
+  static std::size_t opposite(std::size_t place);
   void link(Voxel& voxel);
   void merge(const Eigen::Vector3f& point, const Place& into, const Eigen::Matrix3f& covariance);
   void add(const Eigen::Vector3f& point, std::uint8_t merged, const Eigen::Matrix3f& covariance);
