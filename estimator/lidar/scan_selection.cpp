@@ -24,6 +24,9 @@ std::uint64_t rank_of(std::int32_t index) {
   return mixed_bits(static_cast<std::uint64_t>(index) + kRankSeed);
 }
 
+/// All bits where `condition` holds, none elsewhere.
+std::uint64_t all_bits_if(bool condition) { return -static_cast<std::uint64_t>(condition); }
+
 bool same_voxel(Int4 a, Int4 b) { return (lanes_of(a == b) & 7U) == 7U; }
 
 std::uint64_t key_of(Int4 voxel) { return voxel_key({voxel[0], voxel[1], voxel[2]}); }
@@ -58,7 +61,9 @@ int ScanSelection::begin(const LidarScan& scan) {
   candidates_.resize(scan.points.size());
   int in_range = 0;
   std::size_t count = 0;
+  ring_count_ = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    ring_count_ = std::max(ring_count_, scan.points[i].ring + std::size_t{1});
     const bool here = usable(scan.points[i]);
     const bool at_step = config_.leave_out_mixed && steps_.marked(i);
     candidates_[count] = static_cast<std::int32_t>(i);
@@ -69,35 +74,42 @@ int ScanSelection::begin(const LidarScan& scan) {
   return in_range;
 }
 
-/// Neighbours of a ring are mostly in one voxel: they are looked up together.
-void ScanSelection::keep_one_per_run(float inverse_size) {
+/// Neighbours of a ring are mostly in one voxel: they are looked up together. Where a run ends is
+/// as good as random, and so is which return has the lowest rank: no branch depends on it.
+std::size_t ScanSelection::keep_one_per_run(float inverse_size) {
   const Float4 shift{static_cast<float>(grid_shift_[0]), static_cast<float>(grid_shift_[1]),
                      static_cast<float>(grid_shift_[2]), 0.0F};
-  runs_.clear();
-  for (Run& run : last_) run.open = false;
+  if (runs_.size() < candidates_.size()) runs_.resize(candidates_.size());
+  last_.assign(ring_count_, Run());
+  std::size_t count = 0;
   for (const std::int32_t index : candidates_) {
     const LidarPoint& point = scan_->points[static_cast<std::size_t>(index)];
-    if (point.ring >= last_.size()) last_.resize(point.ring + 1U);
     Run& run = last_[point.ring];
     const Int4 voxel = floored(position_of(point) * inverse_size + shift);
+    const auto goes_on = all_bits_if(same_voxel(run.voxel, voxel));
+    run.place = (run.place & goes_on) | (count & ~goes_on);
+    run.lowest |= ~goes_on;
+    count += static_cast<std::size_t>(goes_on + 1);
     const std::uint64_t rank = rank_of(index);
-    if (!run.open || !same_voxel(run.voxel, voxel)) {
-      run = {voxel, rank, runs_.size(), true};
-      runs_.push_back(Kept{voxel[0], voxel[1], voxel[2], index});
-    } else if (rank < run.rank) {
-      run.rank = rank;
-      runs_[run.place][kIndex] = index;
-    }
+    const auto lower = all_bits_if(rank <= run.lowest);
+    run.index = static_cast<std::int32_t>((static_cast<std::uint64_t>(index) & lower) |
+                                          (static_cast<std::uint64_t>(run.index) & ~lower));
+    run.lowest = (rank & lower) | (run.lowest & ~lower);
+    run.voxel = voxel;
+    Kept kept = voxel;
+    kept[kIndex] = run.index;
+    runs_[run.place] = kept;
   }
+  return count;
 }
 
-void ScanSelection::keep_one_per_voxel() {
+void ScanSelection::keep_one_per_voxel(std::span<const Kept> runs) {
   kept_.clear();
-  slots_.assign(std::bit_ceil(runs_.size() + runs_.size() / 2 + 1), kFree);
+  slots_.assign(std::bit_ceil(runs.size() + runs.size() / 2 + 1), kFree);
   const auto home = [this](Kept run) { return mixed_bits(key_of(run)) & (slots_.size() - 1); };
-  for (std::size_t k = 0; k < runs_.size(); ++k) {
-    if (k + kAhead < runs_.size()) __builtin_prefetch(&slots_[home(runs_[k + kAhead])]);
-    const Kept run = runs_[k];
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (k + kAhead < runs.size()) __builtin_prefetch(&slots_[home(runs[k + kAhead])]);
+    const Kept run = runs[k];
     std::size_t i = home(run);
     while (slots_[i] != kFree && !same_voxel(kept_[static_cast<std::size_t>(slots_[i])], run)) {
       i = (i + 1) & (slots_.size() - 1);
@@ -113,8 +125,8 @@ void ScanSelection::keep_one_per_voxel() {
 }
 
 void ScanSelection::select(double voxel, int limit, std::vector<int>& kept) {
-  keep_one_per_run(static_cast<float>(1.0 / voxel));
-  keep_one_per_voxel();
+  const std::size_t runs = keep_one_per_run(static_cast<float>(1.0 / voxel));
+  keep_one_per_voxel({runs_.data(), runs});
   const std::size_t count = kept_.size();
   candidates_.resize(count);
   for (std::size_t i = 0; i < count; ++i) candidates_[i] = kept_[i][kIndex];

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "core/measurements.hpp"
@@ -46,27 +48,28 @@ class ScanSelection {
  private:
   /// A return that is kept, and its voxel: the three coordinates of the voxel, then the index.
   using Kept = Int4;
-  /// The run of a ring that its next return may belong to.
+  /// The last run of a ring, which its next return may belong to.
   struct Run {
-    Int4 voxel{};            ///< coordinates; the fourth number has no meaning
-    std::uint64_t rank = 0;  ///< of the return that is kept, the lowest
-    std::size_t place = 0;   ///< in `runs_`
-    bool open = false;
+    Int4 voxel = Int4{} + std::numeric_limits<std::int32_t>::min();  ///< three coordinates
+    std::uint64_t lowest = 0;                                        ///< rank in it
+    std::size_t place = 0;                                           ///< in `runs_`
+    std::int32_t index = 0;                                          ///< of the return so ranked
   };
   static constexpr std::int32_t kFree = -1;
 
   void shift_grid();
-  void keep_one_per_run(float inverse_size);
-  void keep_one_per_voxel();
+  std::size_t keep_one_per_run(float inverse_size);
+  void keep_one_per_voxel(std::span<const Kept> runs);
 
   LidarUpdateConfig config_;
   RangeSteps steps_;
   const LidarScan* scan_ = nullptr;
   std::array<double, 3> grid_shift_{};    ///< of the voxels, in their edges, by axis
   std::vector<std::int32_t> candidates_;  ///< returns to select from
-  std::vector<Kept> runs_;                ///< of neighbours of a ring in one voxel
-  std::vector<Run> last_;                 ///< of each ring
-  std::vector<Kept> kept_;                ///< of the selection, in order of their voxels
+  std::vector<Kept> runs_;                ///< of neighbours of a ring in one voxel; room for more
+  std::size_t ring_count_ = 0;
+  std::vector<Run> last_;            ///< of each ring
+  std::vector<Kept> kept_;           ///< of the selection, in order of their voxels
   std::vector<std::int32_t> slots_;  ///< into `kept_`, by the hash of the voxel; the next if taken
 };
 
