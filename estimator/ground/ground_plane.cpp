@@ -58,7 +58,7 @@ class Columns {
     tops_.assign(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_), -kHigh);
     for (const Eigen::Vector3f& point : points) {
       const double z = point.z();
-      if (!(point.head<2>().norm() < kGroundRadius) || !(z < kHigh)) continue;
+      if (!(z < kHigh) || !(point.head<2>().norm() < kGroundRadius)) continue;
       double& top = tops_[at(point.cast<double>())];
       top = std::max(top, z);
     }
@@ -85,10 +85,12 @@ class Columns {
 
 /// Candidate ground points: near enough, below the body, and with nothing on them.
 void list_candidates(std::span<const Eigen::Vector3f> points, GroundLists& lists) {
+  constexpr double kHighest = kMaxSlope * kGroundRadius - kMinHeight;
   const Columns columns(points, lists.tops);
   lists.candidates.clear();
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3d p = point.cast<double>();
+    if (p.z() > kHighest) continue;
     const double away = p.head<2>().norm();
     const double tilted = kMaxSlope * away;
     if (!(away < kGroundRadius) || p.z() > tilted - kMinHeight || p.z() < -tilted - kMaxHeight) {

@@ -62,6 +62,8 @@ class PointBlocks {
     z_[i] = point.z();
   }
 
+  Eigen::Vector3f point(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+
   FourPoints block(std::size_t i) const {
     return {load4(&x_[4 * i]), load4(&y_[4 * i]), load4(&z_[4 * i])};
   }

@@ -2,6 +2,7 @@
 #include "estimator/lidar/range_image.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -49,29 +50,36 @@ Int4 RangeImage::pixels_of(const FourPoints& points, Float4 ranges) {
 
 void RangeImage::fill(const PointBlocks& points) {
   std::fill(ranges_.begin(), ranges_.end(), kEmpty);
-  nearest_.clear();
   for (std::size_t i = 0; i < points.block_count(); ++i) {
     const FourPoints block = points.block(i);
     const Float4 ranges = square_root(block.squared_norms());
     const Int4 pixels = pixels_of(block, ranges);
     for (std::size_t lane = 0; lane < 4; ++lane) {
-      if (!(ranges[lane] > 0.0F)) continue;
-      offer(block.point(lane), ranges[lane], static_cast<std::size_t>(pixels[lane]));
+      const auto pixel = static_cast<std::size_t>(pixels[lane]);
+      const bool nearer = ranges[lane] > 0.0F && ranges[lane] < ranges_[pixel];
+      ranges_[pixel] = nearer ? ranges[lane] : ranges_[pixel];
+      index_[pixel] = nearer ? static_cast<std::int32_t>(4 * i + lane) : index_[pixel];
     }
   }
+  list_nearest(points);
   wrap_around();
   find_around();
 }
 
-void RangeImage::offer(const Eigen::Vector3f& point, float range, std::size_t pixel) {
-  if (!(range < ranges_[pixel])) return;
-  if (ranges_[pixel] == kEmpty) {
-    index_[pixel] = static_cast<std::uint16_t>(nearest_.size());
-    nearest_.push_back(point);
-  } else {
-    nearest_.set(index_[pixel], point);
+/// Four pixels of a row at a time, as find_around().
+void RangeImage::list_nearest(const PointBlocks& points) {
+  static_assert(kColumns % 4 == 0);
+  nearest_.clear();
+  for (std::size_t row = 1; row <= kRows; ++row) {
+    for (std::size_t column = 1; column <= kColumns; column += 4) {
+      const std::size_t first = row * kStride + column;
+      unsigned lanes = lanes_of(load4(&ranges_[first]) < kEmpty);
+      for (; lanes != 0; lanes &= lanes - 1) {
+        const std::size_t pixel = first + static_cast<std::size_t>(std::countr_zero(lanes));
+        nearest_.push_back(points.point(static_cast<std::size_t>(index_[pixel])));
+      }
+    }
   }
-  ranges_[pixel] = range;
 }
 
 /// Copies the first and last columns beyond each other.
@@ -82,9 +90,7 @@ void RangeImage::wrap_around() {
   }
 }
 
-/// Four pixels of a row at a time.
 void RangeImage::find_around() {
-  static_assert(kColumns % 4 == 0);
   for (std::size_t row = 1; row <= kRows; ++row) {
     for (std::size_t column = 1; column <= kColumns; column += 4) {
       const float* const pixels = ranges_.data() + row * kStride + column;

@@ -41,13 +41,13 @@ class RangeImage {
   static constexpr std::size_t kPixels = static_cast<std::size_t>(kStride * (kRows + 2));
 
   static Int4 pixels_of(const FourPoints& points, Float4 ranges);
-  void offer(const Eigen::Vector3f& point, float range, std::size_t pixel);
+  void list_nearest(const PointBlocks& points);
   void wrap_around();
   void find_around();
 
-  std::vector<float> ranges_;         ///< infinity: no return [m]
-  std::vector<float> around_;         ///< nearest of 3 x 3 pixels; 0: too few have returns [m]
-  std::vector<std::uint16_t> index_;  ///< of a pixel with a return, in `nearest_`
+  std::vector<float> ranges_;        ///< infinity: no return [m]
+  std::vector<float> around_;        ///< nearest of 3 x 3 pixels; 0: too few have returns [m]
+  std::vector<std::int32_t> index_;  ///< of the return, for a pixel with one
   PointBlocks nearest_;
 };
 
