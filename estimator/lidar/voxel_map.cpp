@@ -76,10 +76,9 @@ class VoxelMap::Surroundings {
   std::uint64_t places_within(float reach) const {
     std::uint64_t places = 0;
     for (std::size_t i = 0; i < gaps_.size(); ++i) {
-      Int4 within = gaps_[i] <= reach;
-      if (home_ != kNone) within &= load4(&map_.voxels_[home_].around[4 * i]) != kNone;
-      places |= static_cast<std::uint64_t>(lanes_of(within)) << (4 * i);
+      places |= static_cast<std::uint64_t>(lanes_of(gaps_[i] <= reach)) << (4 * i);
     }
+    if (home_ != kNone) places &= map_.voxels_[home_].linked;
     return places & ~std::uint64_t{1};
   }
 
@@ -110,11 +109,13 @@ std::size_t VoxelMap::opposite(std::size_t place) {
 void VoxelMap::link(Voxel& voxel) {
   const std::int32_t at = voxels_.index_of(voxel.key);
   const VoxelIndex index = voxel_of(voxel.first, inverse_size_);
+  voxel.linked = 0;
   for (std::size_t place = 0; place < kPlaces; ++place) {
     if (place % 4 == 3) continue;
     const std::int32_t other = voxels_.index_of(voxel_key(neighbor(index, place)));
-    voxel.around[place] = other;
-    if (other != kNone) voxels_[other].around[opposite(place)] = at;
+    if (other == kNone) continue;
+    voxel.link(place, other);
+    voxels_[other].link(opposite(place), at);
   }
 }
 

@@ -85,14 +85,17 @@ class VoxelMap {
   };
 
   struct Voxel {
-    Voxel() { around.fill(kNone); }
+    void link(std::size_t place, std::int32_t index) {
+      linked |= std::uint64_t{1} << place;
+      around[place] = index;
+    }
 
     std::uint64_t key = 0;
     Eigen::Vector3f first = Eigen::Vector3f::Zero();  ///< its first point
     bool empty = true;
-    std::uint32_t seen = 0;  ///< the last insertion that put a point in it
-    /// Indices of the voxels at its places; kNone where there is none.
-    std::array<std::int32_t, kPlaces> around;
+    std::uint32_t seen = 0;                      ///< the last insertion that put a point in it
+    std::uint64_t linked = 0;                    ///< bit i: there is a voxel at place i
+    std::array<std::int32_t, kPlaces> around{};  ///< their indices
     std::array<Half, kHalves> halves;
     Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
   };
