@@ -10,90 +10,16 @@
 
 #include "core/random.hpp"
 #include "estimator/aims/presets.hpp"
+#include "tests/estimator/aims/corridor_walk.hpp"
 
 namespace aims {
 namespace {
 
 using E = ErrorState;
-
-constexpr double kHalfLength = 15.0;  // of the corridor [m]
-constexpr double kHalfWidth = 1.2;    // of a square cross-section [m]
-constexpr double kRange = 6.0;        // of the LiDAR [m]
-constexpr double kNoise = 0.01;       // of a return [m]
-
-/// A square corridor along x, with a pillar's face across it every two metres that takes the
-/// fraction `facing` of the points; its surfaces draw nearer by the angle `taper` [rad] each.
-class Corridor {
- public:
-  Corridor(double facing, RandomStream& random, double taper = 0.0)
-      : facing_(facing), random_(random), taper_(taper) {}
-
-  /// A noisy point of its surfaces, between the given coordinates.
-  Eigen::Vector3d point(double from, double to) {
-    Eigen::Vector3d p;
-    p.x() = from + (to - from) * random_.uniform();
-    const int wall = static_cast<int>(4.0 * random_.uniform());
-    p(1 + wall % 2) = (wall < 2 ? 1.0 : -1.0) * (kHalfWidth - taper_ * p.x());
-    p(2 - wall % 2) = kHalfWidth * (2.0 * random_.uniform() - 1.0);
-    if (random_.uniform() < facing_) {
-      p.x() = 2.0 * std::round(0.5 * p.x());
-      p(1 + wall % 2) *= 0.6 + 0.4 * random_.uniform();
-    }
-    return p + kNoise * random_.normal3();
-  }
-
- private:
-  double facing_;
-  RandomStream& random_;
-  double taper_;
-};
-
-/// Puts 30000 points of the corridor between both coordinates into each half of `map`.
-void fill(VoxelMap& map, Corridor& corridor, double from, double to) {
-  for (std::size_t half = 0; half < kHalves; ++half) {
-    std::vector<Eigen::Vector3f> points;
-    for (int i = 0; i < 30000; ++i) points.push_back(corridor.point(from, to).cast<float>());
-    map.insert(points, Eigen::Vector3f::Zero());
-  }
-}
-
-/// The LiDAR update of `preset` with `part` of each scan, after 6 m along a corridor with a known
-/// map.
-struct Sequence {
-  explicit Sequence(bool pillars, std::string_view preset = "aims_d", double taper = 0.0,
-                    ScanPart part = ScanPart::kReal)
-      : corridor(pillars ? 0.2 : 0.0, random, taper),
-        map(MapConfig{}),
-        update(eskf_preset(preset)) {
-    fill(map, corridor, -kHalfLength, kHalfLength);
-    while (truth.x() < 6.0) {
-      truth.x() += 0.2;
-      Belief belief;
-      belief.state.position = truth;
-      belief.covariance = 1e-4 * ErrorMatrix::Identity();
-      (void)fuse(belief, part);
-    }
-  }
-
-  /// The belief after `part` of a scan taken at `truth`, level and facing along x.
-  Belief fuse(const Belief& predicted, ScanPart part = ScanPart::kReal,
-              const Belief* leg_free = nullptr) {
-    std::vector<Eigen::Vector3f> scan;
-    for (int i = 0; i < 800; ++i) {
-      const Eigen::Vector3d p = corridor.point(truth.x() - kRange, truth.x() + kRange);
-      scan.push_back((p - truth).cast<float>());
-    }
-    diagnostics = ScanDiagnostics();
-    return update.update(predicted, scan, map, CalibrationModel(), part, diagnostics, leg_free);
-  }
-
-  RandomStream random{1, "lidar_update.test"};
-  Corridor corridor;
-  VoxelMap map;
-  LidarUpdate update;
-  ScanDiagnostics diagnostics;  ///< of the last scan
-  Eigen::Vector3d truth = Eigen::Vector3d::Zero();
-};
+using test::Corridor;
+using test::CorridorWalk;
+using test::fill;
+using test::kHalfWidth;
 
 /// A prediction with an error of 5 cm along every axis, and fully correlated errors of position and
 /// leg scale.
@@ -108,17 +34,18 @@ Belief correlated_prediction(const Eigen::Vector3d& truth) {
 }
 
 TEST(LidarUpdate, ConsidersTheLegStatesBetweenPlainWallsOnly) {
-  EXPECT_TRUE(Sequence(false).update.considers_legs());
-  EXPECT_FALSE(Sequence(false, "tfs_plus").update.considers_legs()) << "without cross-validation";
-  EXPECT_FALSE(Sequence(true).update.considers_legs())
+  EXPECT_TRUE(CorridorWalk(false).update.considers_legs());
+  EXPECT_FALSE(CorridorWalk(false, "tfs_plus").update.considers_legs())
+      << "without cross-validation";
+  EXPECT_FALSE(CorridorWalk(true).update.considers_legs())
       << "pillars constrain the longitudinal direction";
 }
 
 TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
-  Sequence sequence(false);
-  const Belief predicted = correlated_prediction(sequence.truth);
-  const Belief updated = sequence.fuse(predicted);
-  EXPECT_LT((updated.state.position - sequence.truth).tail<2>().norm(), 0.015);
+  CorridorWalk walk(false);
+  const Belief predicted = correlated_prediction(walk.truth);
+  const Belief updated = walk.fuse(predicted);
+  EXPECT_LT((updated.state.position - walk.truth).tail<2>().norm(), 0.015);
   EXPECT_NEAR(updated.state.position.x(), predicted.state.position.x(), 0.005);
   EXPECT_LT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 1e-9);
   const int x = E::kPosition.offset;
@@ -129,15 +56,15 @@ TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
 // as much by itself.
 TEST(LidarUpdate, MoreTiltIsFreeWhileAllInformationIsTaken) {
   constexpr double kTaper = 0.0075;  // [rad]
-  EXPECT_FALSE(Sequence(false, "aims_d", kTaper, ScanPart::kReal).update.considers_legs());
-  EXPECT_TRUE(Sequence(false, "aims_d", kTaper, ScanPart::kAll).update.considers_legs());
+  EXPECT_FALSE(CorridorWalk(false, "aims_d", kTaper, ScanPart::kReal).update.considers_legs());
+  EXPECT_TRUE(CorridorWalk(false, "aims_d", kTaper, ScanPart::kAll).update.considers_legs());
 }
 
 // Between plain walls the noise of the map holds a belief where it is predicted to be.
 TEST(LidarUpdate, AllInformationContainsThatOfNoise) {
-  Sequence sequence(false);
-  const Belief predicted = correlated_prediction(sequence.truth);
-  const Belief updated = sequence.fuse(predicted, ScanPart::kAll);
+  CorridorWalk walk(false);
+  const Belief predicted = correlated_prediction(walk.truth);
+  const Belief updated = walk.fuse(predicted, ScanPart::kAll);
   const int x = E::kPosition.offset;
   EXPECT_LT(updated.covariance(x, x), 0.5 * predicted.covariance(x, x));
   EXPECT_GT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 1e-4);
@@ -146,14 +73,14 @@ TEST(LidarUpdate, AllInformationContainsThatOfNoise) {
 // The scan is 20 mrad off, and attitude and mount are as uncertain as each other.
 TEST(LidarUpdate, AScanThatTurnsTheMountTooLiesInTheMap) {
   for (const ScanPart part : {ScanPart::kAll, ScanPart::kReal}) {
-    Sequence sequence(true);
+    CorridorWalk walk(true);
     Belief predicted;
-    predicted.state.position = sequence.truth;
+    predicted.state.position = walk.truth;
     predicted.state.rotation = so3_exp({0.0, 0.0, 0.02});
     predicted.covariance = 1e-6 * ErrorMatrix::Identity();
     block(predicted.covariance, E::kRotation, E::kRotation) = 9e-4 * Eigen::Matrix3d::Identity();
     block(predicted.covariance, E::kMount, E::kMount) = 9e-4 * Eigen::Matrix3d::Identity();
-    const NominalState updated = sequence.fuse(predicted, part).state;
+    const NominalState updated = walk.fuse(predicted, part).state;
     EXPECT_NEAR(so3_log(updated.rotation).z(), 0.01, 1e-3);
     EXPECT_NEAR(so3_log(updated.mount).z(), -0.01, 1e-3);
     EXPECT_LT(so3_log(scan_pose(updated, CalibrationModel()).rotation).norm(), 1e-3);
@@ -164,14 +91,14 @@ TEST(LidarUpdate, AScanThatTurnsTheMountTooLiesInTheMap) {
 // what the real part of a scan does to it; between pillars the scan takes it to the other one.
 TEST(LidarUpdate, TheRealPartActsWhereTheScanWasMatched) {
   for (const bool pillars : {false, true}) {
-    Sequence sequence(pillars);
-    Belief predicted = correlated_prediction(sequence.truth);
+    CorridorWalk walk(pillars);
+    Belief predicted = correlated_prediction(walk.truth);
     block(predicted.covariance, E::kPosition, E::kPosition) += 4.0 * Eigen::Matrix3d::Identity();
-    (void)sequence.fuse(predicted, ScanPart::kAll);
+    (void)walk.fuse(predicted, ScanPart::kAll);
     predicted.state.position.x() += 2.0;
-    const Belief updated = sequence.update.update_with_real_part(predicted, sequence.map);
-    EXPECT_LT((updated.state.position - sequence.truth).tail<2>().norm(), 0.02);
-    const double x = updated.state.position.x() - sequence.truth.x();
+    const Belief updated = walk.update.update_with_real_part(predicted, walk.map);
+    EXPECT_LT((updated.state.position - walk.truth).tail<2>().norm(), 0.02);
+    const double x = updated.state.position.x() - walk.truth.x();
     EXPECT_NEAR(x, pillars ? 0.0 : 2.05, 0.03);
   }
 }
@@ -181,7 +108,7 @@ TEST(LidarUpdate, TheRealPartActsWhereTheScanWasMatched) {
 // samples a second would carry the position away. What position and velocity have in common
 // besides, of the last moments, does correct it.
 TEST(LidarUpdate, BetweenPlainWallsLegsCorrectThePositionAsIfTheirScaleWereKnown) {
-  const Sequence sequence(false);
+  const CorridorWalk walk(false);
   Belief belief;
   ErrorVector common = ErrorVector::Zero();
   common(E::kPosition.offset) = -3.0;
@@ -196,7 +123,7 @@ TEST(LidarUpdate, BetweenPlainWallsLegsCorrectThePositionAsIfTheirScaleWereKnown
   legs.noise = 0.01 * Eigen::Matrix3d::Identity();
   const double plain = fuse(belief, legs).state.position.x();
   EXPECT_GT(std::abs(plain), 0.005) << "the scale has something to do";
-  const Belief updated = sequence.update.fuse_velocity(belief, legs);
+  const Belief updated = walk.update.fuse_velocity(belief, legs);
   EXPECT_LT(std::abs(updated.state.position.x()), 1e-3);
   EXPECT_LT(updated.state.leg_scale.norm(), 1e-12);
   EXPECT_NE(updated.state.velocity.y(), 0.0);
@@ -204,10 +131,10 @@ TEST(LidarUpdate, BetweenPlainWallsLegsCorrectThePositionAsIfTheirScaleWereKnown
   const double recent = 5e-5;
   belief.covariance(E::kPosition.offset, E::kVelocity.offset) += recent;
   belief.covariance(E::kVelocity.offset, E::kPosition.offset) += recent;
-  const double moved = sequence.update.fuse_velocity(belief, legs).state.position.x();
+  const double moved = walk.update.fuse_velocity(belief, legs).state.position.x();
   EXPECT_NEAR(moved - updated.state.position.x(), -recent * 0.05 / 0.0101, 5e-6);
 
-  const Sequence constrained(true);
+  const CorridorWalk constrained(true);
   for (const GainMask& mask : {GainMask(), GainMask{.legs = false}}) {
     EXPECT_EQ(constrained.update.fuse_velocity(belief, legs, mask).covariance,
               fuse(belief, legs, mask).covariance)
@@ -216,20 +143,20 @@ TEST(LidarUpdate, BetweenPlainWallsLegsCorrectThePositionAsIfTheirScaleWereKnown
 }
 
 TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {
-  Sequence sequence(true, "aims");
+  CorridorWalk walk(true, "aims");
   Belief predicted;
-  predicted.state.position = sequence.truth;
+  predicted.state.position = walk.truth;
   predicted.covariance = 1e-4 * ErrorMatrix::Identity();
   Belief leg_free = predicted;
   leg_free.state.position.y() += 0.05;
   leg_free.covariance *= 2.0;
-  (void)sequence.fuse(predicted, ScanPart::kReal, &leg_free);
-  const ScanDiagnostics with_both = sequence.diagnostics;
+  (void)walk.fuse(predicted, ScanPart::kReal, &leg_free);
+  const ScanDiagnostics with_both = walk.diagnostics;
   EXPECT_EQ(with_both.C_IL, with_both.C_IL_imu) << "the paper's reading is the default";
   EXPECT_GT(with_both.C_IL_imu, 3.0 * with_both.C_IL_imu_legs);
 
   // The same scan as if the filter itself had predicted so.
-  Sequence same(true, "aims");
+  CorridorWalk same(true, "aims");
   (void)same.fuse(leg_free);
   EXPECT_NEAR(with_both.C_IL_imu, same.diagnostics.C_IL_imu_legs,
               0.02 * same.diagnostics.C_IL_imu_legs);
@@ -238,10 +165,10 @@ TEST(LidarUpdate, JudgesThePredictionOfTheImuByWhatTheScanMakesOfIt) {
 }
 
 TEST(LidarUpdate, PillarsCorrectTheLongitudinalDirectionAndTheLegs) {
-  Sequence sequence(true);
-  const Belief predicted = correlated_prediction(sequence.truth);
-  const Belief updated = sequence.fuse(predicted);
-  EXPECT_LT((updated.state.position - sequence.truth).norm(), 0.02);
+  CorridorWalk walk(true);
+  const Belief predicted = correlated_prediction(walk.truth);
+  const Belief updated = walk.fuse(predicted);
+  EXPECT_LT((updated.state.position - walk.truth).norm(), 0.02);
   EXPECT_GT((updated.state.leg_scale - predicted.state.leg_scale).norm(), 0.03);
 }
 
@@ -249,96 +176,20 @@ TEST(LidarUpdate, PillarsCorrectTheLongitudinalDirectionAndTheLegs) {
 // lie where the prediction puts the points.
 TEST(LidarUpdate, FindsBackFromAPredictionThatIsFarOff) {
   for (const std::string_view preset : {"aims_d", "lio"}) {
-    Sequence sequence(true, preset);
-    const int usual = sequence.diagnostics.points_used;
+    CorridorWalk walk(true, preset);
+    const int usual = walk.diagnostics.points_used;
     Belief predicted;
-    predicted.state.position = sequence.truth + Eigen::Vector3d(0.1, 0.1, -0.1);
+    predicted.state.position = walk.truth + Eigen::Vector3d(0.1, 0.1, -0.1);
     predicted.state.rotation = so3_exp({-0.05, 0.3, -0.05});
     predicted.covariance = 1e-6 * ErrorMatrix::Identity();
     block(predicted.covariance, E::kRotation, E::kRotation) = 9e-4 * Eigen::Matrix3d::Identity();
     block(predicted.covariance, E::kPosition, E::kPosition) = 0.01 * Eigen::Matrix3d::Identity();
-    const Belief updated = sequence.fuse(predicted);
+    const Belief updated = walk.fuse(predicted);
     EXPECT_LT(so3_log(updated.state.rotation).norm(), 0.003) << preset;
-    EXPECT_LT((updated.state.position - sequence.truth).norm(), 0.005) << preset;
-    EXPECT_GT(sequence.diagnostics.points_used, 0.9 * usual) << preset;
-    EXPECT_GT(sequence.diagnostics.iterations, eskf_preset(preset).lidar.max_iterations);
+    EXPECT_LT((updated.state.position - walk.truth).norm(), 0.005) << preset;
+    EXPECT_GT(walk.diagnostics.points_used, 0.9 * usual) << preset;
+    EXPECT_GT(walk.diagnostics.iterations, eskf_preset(preset).lidar.max_iterations);
   }
-}
-
-/// A point of a face across the corridor at `x`.
-Eigen::Vector3d on_face(double x, RandomStream& random) {
-  return Eigen::Vector3d(x, kHalfWidth * (2.0 * random.uniform() - 1.0),
-                         kHalfWidth * (2.0 * random.uniform() - 1.0)) +
-         kNoise * random.normal3();
-}
-
-/// What a scan made of its prediction.
-struct FaceScan {
-  double error = 0.0;  ///< of the position along the corridor afterwards [m]
-  bool relocated = false;
-};
-
-/// What a scan of which 20 of 800 returns lie on a face `seen` ahead of where the robot was makes
-/// of a prediction that is `drift` too far along the corridor, with a deviation of `sigma`, while
-/// the map has a face `mapped` ahead [m]. Of five scans, over which the robot walks on by 0.2 m
-/// each, the first that is matched elsewhere, or the last one.
-FaceScan fuse_with_faces(Sequence& sequence, double mapped, double seen, double drift, double sigma,
-                         ScanPart part) {
-  RandomStream& random = sequence.random;
-  const double start = sequence.truth.x();
-  for (int i = 0; i < 60; ++i) {  // enough for both halves
-    std::vector<Eigen::Vector3f> face;
-    for (int k = 0; k < 100; ++k) face.push_back(on_face(start + mapped, random).cast<float>());
-    sequence.map.insert(face, Eigen::Vector3f::Zero());
-  }
-  FaceScan result;
-  for (int scans = 0; scans < 5 && !result.relocated; ++scans) {
-    sequence.truth.x() += 0.2;
-    std::vector<Eigen::Vector3f> scan;
-    const auto add = [&](const Eigen::Vector3d& p) {
-      scan.push_back((p - sequence.truth).cast<float>());
-    };
-    for (int i = 0; i < 780; ++i) {
-      add(sequence.corridor.point(start + 1.0 - kRange, start + std::min(mapped, seen)));
-    }
-    for (int i = 0; i < 20; ++i) add(on_face(start + seen, random));
-    Belief predicted;
-    predicted.state.position = sequence.truth + drift * Eigen::Vector3d::UnitX();
-    predicted.covariance = 1e-4 * ErrorMatrix::Identity();
-    predicted.covariance(E::kPosition.offset, E::kPosition.offset) = sigma * sigma;
-    sequence.diagnostics = ScanDiagnostics();
-    const Belief updated = sequence.update.update(predicted, scan, sequence.map, CalibrationModel(),
-                                                  part, sequence.diagnostics);
-    result = {updated.state.position.x() - sequence.truth.x(), sequence.diagnostics.relocated};
-  }
-  return result;
-}
-
-// A robot that comes back with a drift larger than a residual may be has no match with the end
-// wall.
-TEST(LidarUpdate, FindsAnEndWallAlongItsDrift) {
-  for (const ScanPart part : {ScanPart::kAll, ScanPart::kReal}) {
-    for (const double drift : {-0.6, -0.35, 0.35, 1.0}) {
-      Sequence sequence(false);
-      const FaceScan scan = fuse_with_faces(sequence, 5.0, 5.0, drift, std::abs(drift), part);
-      EXPECT_TRUE(scan.relocated) << drift << " m";
-      EXPECT_NEAR(scan.error, 0.0, 0.1 * std::abs(drift)) << drift << " m";
-    }
-  }
-}
-
-TEST(LidarUpdate, SearchesOnlyWhereItsPredictionMayBe) {
-  Sequence sequence(false);
-  EXPECT_FALSE(fuse_with_faces(sequence, 5.0, 5.0, 0.6, 0.15, ScanPart::kReal).relocated);
-}
-
-// The back of a pillar is met on the way back only. At the offset that puts it onto the front,
-// which the map has, fewer of the other returns match.
-TEST(LidarUpdate, StaysWhereMoreOfTheScanMatches) {
-  Sequence sequence(true);
-  const FaceScan scan = fuse_with_faces(sequence, 4.3, 5.0, 0.0, 0.5, ScanPart::kReal);
-  EXPECT_FALSE(scan.relocated);
-  EXPECT_NEAR(scan.error, 0.0, 0.02);
 }
 
 /// Returns near one wall of a plain corridor: seven of nine 0.196 m outside it, two as far inside.
