@@ -71,9 +71,7 @@ class NearestPoints {
       second[k] = high_lanes(a.rows_[k], b.rows_[k]);
     }
     first = smallest_of(first, second);
-    for (std::size_t k = 0; k < kWanted; ++k) {
-      second[k] = swapped(first[k]);
-    }
+    for (std::size_t k = 0; k < kWanted; ++k) second[k] = swapped(first[k]);
     const Rows keys = smallest_of(first, second);
     return {a.places_of(keys, 0), b.places_of(keys, 2)};
   }

@@ -14,6 +14,8 @@ namespace {
 /// Added to the index of a return before its bits are mixed.
 constexpr std::uint64_t kRankSeed = 0x9e3779b97f4a7c15ULL;
 
+constexpr std::uint64_t kHighestRank = std::numeric_limits<std::uint64_t>::max();
+
 /// Runs whose places in the table are asked for ahead.
 constexpr std::size_t kAhead = 16;
 
@@ -24,8 +26,11 @@ std::uint64_t rank_of(std::int32_t index) {
   return mixed_bits(static_cast<std::uint64_t>(index) + kRankSeed);
 }
 
-/// All bits where `condition` holds, none elsewhere.
-std::uint64_t all_bits_if(bool condition) { return -static_cast<std::uint64_t>(condition); }
+/// `a` if `first` holds, else `b`, without a branch.
+std::uint64_t one_of(bool first, std::uint64_t a, std::uint64_t b) {
+  const std::uint64_t mask = -static_cast<std::uint64_t>(first);
+  return (a & mask) | (b & ~mask);
+}
 
 bool same_voxel(Int4 a, Int4 b) { return (lanes_of(a == b) & 7U) == 7U; }
 
@@ -86,18 +91,17 @@ std::size_t ScanSelection::keep_one_per_run(float inverse_size) {
     const LidarPoint& point = scan_->points[static_cast<std::size_t>(index)];
     Run& run = last_[point.ring];
     const Int4 voxel = floored(position_of(point) * inverse_size + shift);
-    const auto goes_on = all_bits_if(same_voxel(run.voxel, voxel));
-    run.place = (run.place & goes_on) | (count & ~goes_on);
-    run.lowest |= ~goes_on;
-    count += static_cast<std::size_t>(goes_on + 1);
+    const bool goes_on = same_voxel(run.voxel, voxel);
+    run.place = one_of(goes_on, run.place, count);
+    run.lowest = one_of(goes_on, run.lowest, kHighestRank);
+    count += static_cast<std::size_t>(!goes_on);
     const std::uint64_t rank = rank_of(index);
-    const auto lower = all_bits_if(rank <= run.lowest);
-    run.index = static_cast<std::int32_t>((static_cast<std::uint64_t>(index) & lower) |
-                                          (static_cast<std::uint64_t>(run.index) & ~lower));
-    run.lowest = (rank & lower) | (run.lowest & ~lower);
+    const bool lower = rank <= run.lowest;
+    run.index = one_of(lower, static_cast<std::uint64_t>(index), run.index);
+    run.lowest = one_of(lower, rank, run.lowest);
     run.voxel = voxel;
     Kept kept = voxel;
-    kept[kIndex] = run.index;
+    kept[kIndex] = static_cast<std::int32_t>(run.index);
     runs_[run.place] = kept;
   }
   return count;

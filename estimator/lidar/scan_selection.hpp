@@ -51,9 +51,9 @@ class ScanSelection {
   /// The last run of a ring, which its next return may belong to.
   struct Run {
     Int4 voxel = Int4{} + std::numeric_limits<std::int32_t>::min();  ///< three coordinates
-    std::uint64_t lowest = 0;                                        ///< rank in it
+    std::uint64_t lowest = 0;                                        ///< rank of a return in it
+    std::uint64_t index = 0;                                         ///< of that return
     std::size_t place = 0;                                           ///< in `runs_`
-    std::int32_t index = 0;                                          ///< of the return so ranked
   };
   static constexpr std::int32_t kFree = -1;
 
@@ -67,9 +67,9 @@ class ScanSelection {
   std::array<double, 3> grid_shift_{};    ///< of the voxels, in their edges, by axis
   std::vector<std::int32_t> candidates_;  ///< returns to select from
   std::vector<Kept> runs_;                ///< of neighbours of a ring in one voxel; room for more
-  std::size_t ring_count_ = 0;
-  std::vector<Run> last_;            ///< of each ring
-  std::vector<Kept> kept_;           ///< of the selection, in order of their voxels
+  std::size_t ring_count_ = 0;            ///< one more than the highest ring of the scan
+  std::vector<Run> last_;                 ///< of each ring
+  std::vector<Kept> kept_;                ///< of the selection, in order of their voxels
   std::vector<std::int32_t> slots_;  ///< into `kept_`, by the hash of the voxel; the next if taken
 };
 
