@@ -32,10 +32,10 @@ STAGES = [
     ("moving returns", r"RangeImage|MovingReturns"),
     ("thinning", r"ScanSelection"),
     ("deskewing", r"deskew|ScanMotion"),
-    ("nearest points", r"VoxelMap::nearest|VoxelMap::planes_at"),
+    ("nearest points, map insertion", r"VoxelMap::nearest|VoxelMap::planes_at"),
     ("plane fits", r"fit_plane|lies_among"),
     ("linearization", r"ScanMatcher|HalvesSum|ResidualNoise|aligned|plane_row"),
-    ("map", r"VoxelMap|VoxelStore|VoxelHash"),
+    ("map, the rest", r"VoxelMap|VoxelStore|VoxelHash"),
     ("ground", r"ground|Ground|refit|Floor"),
     ("filter", r"propagate|Eskf|fuse|Eigen::|covariance|Leg|Imu|Belief|iterated_update"),
 ]
@@ -83,7 +83,7 @@ def times(command, folder):
 
 
 def cache_of(size):
-    """A cache of `size` bytes in cachegrind's words, with 8 ways or the next number that leaves a power of 2 of sets."""
+    """A cache of `size` bytes as cachegrind takes it: of 8 ways, or more so that its sets are a power of two."""
     lines = size // LINE
     ways = next(ways for ways in range(8, lines + 1) if lines % ways == 0 and (lines // ways).bit_count() == 1)
     return f"{size},{ways},{LINE}"
@@ -131,7 +131,7 @@ def main():
         counted = counts(command, folder, best["sizes"])
     scans = result["scans"]
     print(f"\n{scans} scans, {result['cpu_per_scan_ms']['mean']:.2f} ms each, without reading")
-    print(f"{'stage':24}{'us':>8}{'k instr':>9}{'kB > 1st':>10}{'kB > 2nd':>10}{'floor us':>10}{'ratio':>7}")
+    print(f"{'stage':30}{'us':>8}{'k instr':>9}{'kB > 1st':>10}{'kB > 2nd':>10}{'floor us':>10}{'ratio':>7}")
     total = collections.Counter()
     for stage in [name for name, _ in STAGES] + [REST, "all"]:
         count = total if stage == "all" else counted[stage]
@@ -143,7 +143,7 @@ def main():
         third = LINE * (count["DLmr"] + count["DLmw"]) / scans
         floor = max(instructions / best["instructions"], second / best["second"], third / best["third"])
         time = seconds[stage] / scans
-        print(f"{stage:24}{1e6 * time:8.0f}{instructions / 1e3:9.0f}{second / 1e3:10.0f}{third / 1e3:10.0f}"
+        print(f"{stage:30}{1e6 * time:8.0f}{instructions / 1e3:9.0f}{second / 1e3:10.0f}{third / 1e3:10.0f}"
               f"{1e6 * floor:10.0f}{time / floor:7.1f}")
 
 

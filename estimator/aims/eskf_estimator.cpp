@@ -226,9 +226,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   diagnostics.imu_noise = queue_.imu().noise().density();
   leg_updates_ = 0;
   prepare_points(*scan, diagnostics);
-  if (!map_.empty()) {
-    fuse_scan(diagnostics);
-  }
+  if (!map_.empty()) fuse_scan(diagnostics);
   if (config_.ground_constraint.enabled) fuse_ground_constraint();
   health_.scan(diagnostics, points_.to_match().size());
   last_scan_ = scan->end;
@@ -345,8 +343,8 @@ void EskfEstimator::fuse_ground_constraint() {
   const bool level_start = hidden_tilt || ground_.start_was_sloped();
   const auto level = [&](Belief& belief, const LinearMeasurement& ground) {
     const Belief levelled = fuse_ground(above_ground(belief, level_start), ground);
-    accept(belief, level_start ? with_turned_path(levelled, belief.state, first_belief_.state)
-                               : levelled);
+    accept(belief,
+           level_start ? with_turned_path(levelled, belief.state, first_belief_.state) : levelled);
   };
   const NominalState measured_at = belief_.state;
   level(belief_, *measurement);

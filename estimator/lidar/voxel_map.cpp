@@ -52,6 +52,7 @@ class VoxelMap::Surroundings {
     const auto x = squared_gaps(point.x(), index_.x, map.size_);
     const auto y = squared_gaps(point.y(), index_.y, map.size_);
     const auto z = squared_gaps(point.z(), index_.z, map.size_);
+    // The fourth place of each column is none.
     const Float4 column{z[0], z[1], z[2], std::numeric_limits<float>::infinity()};
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) gaps_[3 * i + j] = (x[i] + y[j]) + column;
