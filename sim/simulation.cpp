@@ -22,6 +22,10 @@ namespace {
 
 constexpr Duration kSnapshotPeriod = 100 * kMillisecond;
 
+BuildErrors build_errors(const LegOdometryConfig& legs) {
+  return {.link_length = legs.link_length_error, .foot_radius = legs.foot_radius_difference};
+}
+
 Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene,
                                std::uint64_t seed) {
   const RobotConfig& robot = config.robot;
@@ -34,7 +38,7 @@ Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scen
                     height_field_data(scene.floor),
                     config.physics.timestep,
                     config.scene.floor_friction,
-                    built_legs(robot.legs, config.leg_odometry.link_length_error, seed),
+                    built_legs(robot.legs, build_errors(config.leg_odometry), seed),
                     robot.legs,
                     robot.gait.body_height,
                     robot.gait.stance_width};

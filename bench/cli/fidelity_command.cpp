@@ -28,6 +28,9 @@ void print_fidelity(const Fidelity& fidelity) {
   print_out("Allan deviation of the standing IMU\n{}\n", to_text(allan_table(fidelity.allan)));
   print_out("Measured minus true range\n{}\n", to_text(range_table(fidelity.ranges)));
   print_out("Leg odometry; below zero: reads short\n{}\n", to_text(leg_drift_table(fidelity.legs)));
+  print_out("Stance (real: Unitree Go1 under motion capture)\n{}\n{}\n",
+            to_text(stance_profile_table(fidelity.stance)),
+            to_text(stance_agreement_table(stance_agreement(fidelity.stance))));
 }
 
 /// Prints each step once, unless `quiet`.
@@ -58,7 +61,7 @@ int fidelity_command(const SharedOptions& given) {
   if (written) written = folder->commit();
   if (!written) return bad_input(kFidelityName, written.error());
   print_fidelity(*fidelity);
-  print_out("results: {}, imu.csv, allan.csv, ranges.csv, leg_drift.csv\n",
+  print_out("results: {}, imu.csv, allan.csv, ranges.csv, leg_drift.csv, stance.csv\n",
             (out / "fidelity.md").string());
   return kOk;
 }

@@ -59,8 +59,8 @@ std::shared_ptr<const Scenario> scenario_of_seed(std::shared_ptr<const Scenario>
                                                  std::uint64_t seed);
 
 /// Seeds of scenarios with draws on which estimators are judged, and nothing is chosen.
-inline constexpr std::uint64_t kFirstReportingSeed = 1001;
-inline constexpr std::uint64_t kLastReportingSeed = 1200;
+inline constexpr std::uint64_t kFirstReportingSeed = 2001;
+inline constexpr std::uint64_t kLastReportingSeed = 2400;
 
 /// Error for seeds of that range when the scenario has draws, for commands that choose.
 Result<void> check_seeds_to_choose_on(const Scenario& scenario,

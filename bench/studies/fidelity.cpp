@@ -23,6 +23,11 @@ constexpr Duration kRunUp = 2 * kSecond;        ///< from setting off until the 
 constexpr Duration kTrotLength = 16 * kSecond;  ///< as the real robot's recording
 constexpr Duration kSettling = 500 * kMillisecond;  ///< before the standing robot is looked at
 
+/// Gait of the real robot of the stance profile; a duty factor that gives its length of stance.
+constexpr double kProfilePeriod = 0.502;  ///< [s]
+constexpr double kProfileDuty = 0.52;     ///< [-]
+constexpr double kProfileSpeed = 0.93;    ///< [m/s]
+
 /// What a simulated walk leaves for the study.
 struct Walk {
   Truth truth;
@@ -30,6 +35,7 @@ struct Walk {
   std::vector<ImuSample> imu;  ///< at `kImuStatisticsRate`
   std::vector<LidarScanPtr> scans;
   Trajectory leg_odometry;  ///< of the body, in the odometry's frame
+  std::vector<LegOdometrySample> legs;
 };
 
 void take(const std::vector<Delivery>& deliveries, std::size_t& scans_seen, Walk& walk) {
@@ -38,6 +44,7 @@ void take(const std::vector<Delivery>& deliveries, std::size_t& scans_seen, Walk
       if (scans_seen++ % kScansPerTaken == 0) walk.scans.push_back(*scan);
     } else if (const auto* legs = std::get_if<LegOdometrySample>(&delivery.measurement)) {
       walk.leg_odometry.push_back({legs->stamp, legs->T_odom_base * walk.T_body_base.inverse()});
+      walk.legs.push_back(*legs);
     }
   }
 }
@@ -207,6 +214,26 @@ Result<void> add_legs(const SimulationConfig& fast, const Task& task, Fidelity& 
   return {};
 }
 
+/// Fills in the profile of a steady walk with the gait of the real robot.
+Result<void> add_stance(const SimulationConfig& fast, const Task& task, Fidelity& fidelity) {
+  SimulationConfig config = without_lidar(fast);
+  config.leg_odometry.rate = kStanceProfileRate;
+  config.robot.gait.period = kProfilePeriod;
+  config.robot.gait.duty_factor = kProfileDuty;
+  config.route.speed = kProfileSpeed;
+  auto walk = simulated(config, task, "stance profile");
+  if (!walk) return tl::unexpected(walk.error());
+  const auto& times = walk->truth.waypoint_times;
+  if (times.size() < 2) return failure("the walk ended before its second waypoint");
+  std::erase_if(walk->legs, [&](const LegOdometrySample& each) {
+    return each.stamp < times[0].stamp + kRunUp || each.stamp > times[1].stamp - kSecond;
+  });
+  const auto profile = stance_profile(foot_readings(walk->truth, walk->legs, config.robot.legs));
+  if (!profile) return failure("route: expected two strides of trot before the second waypoint");
+  fidelity.stance = *profile;
+  return {};
+}
+
 }  // namespace
 
 Result<Fidelity> fidelity_study(const Scenario& scenario, std::uint64_t seed, double standing_time,
@@ -222,6 +249,7 @@ Result<Fidelity> fidelity_study(const Scenario& scenario, std::uint64_t seed, do
   if (auto ok = add_imu(*walk, fidelity); !ok) return tl::unexpected(ok.error());
   fidelity.ranges = residual_bins(residuals_of(*walk, RayCaster(build_scene(config.scene, seed))));
   if (auto ok = add_legs(config, task, fidelity); !ok) return tl::unexpected(ok.error());
+  if (auto ok = add_stance(config, task, fidelity); !ok) return tl::unexpected(ok.error());
   if (auto ok = add_allan(config, task, standing_time, fidelity); !ok) {
     return tl::unexpected(ok.error());
   }

@@ -11,6 +11,7 @@
 #include "bench/run/range_residuals.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/studies/imu_statistics.hpp"
+#include "bench/studies/stance_profile.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
 #include "core/leg_kinematics.hpp"
@@ -42,15 +43,16 @@ struct Fidelity {
   std::vector<StandingDeviation> allan;
   std::vector<ResidualBin> ranges;
   std::vector<LegDrift> legs;
+  std::vector<StanceBin> stance;
 };
 
 /// Receives what is being done, after each simulated second; returns false to stop the study.
 using FidelityObserver = std::function<bool(std::string_view step)>;
 
 /// Simulates the scenario's route with its sensors on perfect links, once for IMU and LiDAR, once
-/// standing for `standing_time` [s], and once per foot model and contact threshold of the leg
-/// odometry. Error for a simulation that cannot start or that falls, and for a study that the
-/// observer stopped.
+/// standing for `standing_time` [s], once with the gait of the real robot of the stance profile,
+/// and once per foot model and contact threshold of the leg odometry. Error for a simulation that
+/// cannot start or that falls, and for a study that the observer stopped.
 Result<Fidelity> fidelity_study(const Scenario& scenario, std::uint64_t seed, double standing_time,
                                 const FidelityObserver& observer);
 
@@ -58,7 +60,8 @@ TextTable allan_table(const std::vector<StandingDeviation>& allan);
 TextTable range_table(const std::vector<ResidualBin>& bins);
 TextTable leg_drift_table(const std::vector<LegDrift>& legs);
 
-/// Writes fidelity.md and the CSV tables imu.csv, allan.csv, ranges.csv, leg_drift.csv.
+/// Writes fidelity.md and the CSV tables imu.csv, allan.csv, ranges.csv, leg_drift.csv,
+/// stance.csv.
 Result<void> write_fidelity(const Fidelity& fidelity, const std::filesystem::path& folder);
 
 }  // namespace aims

@@ -58,11 +58,31 @@ std::string report_of(const Fidelity& fidelity) {
       "## IMU while standing\n\n{}\n"
       "## Allan deviation of the standing IMU\n\nRoot mean square over the axes.\n\n{}\n"
       "## LiDAR\n\nMeasured range minus the range to the true surface.\n\n{}\n"
-      "## Leg odometry\n\nBelow zero: reads short. Heading: change of its error.\n\n{}",
+      "## Leg odometry\n\nBelow zero: reads short. Heading: change of its error.\n\n{}\n"
+      "## Stance\n\nReal: a Unitree Go1 under motion capture; the simulated robot has its speed "
+      "and "
+      "period.\n\n{}\n{}",
       fidelity.scenario, fidelity.seed, to_markdown(imu_statistics_table(fidelity.trot)),
       to_markdown(imu_statistics_table(fidelity.standing)),
       to_markdown(allan_table(fidelity.allan)), to_markdown(range_table(fidelity.ranges)),
-      to_markdown(leg_drift_table(fidelity.legs)));
+      to_markdown(leg_drift_table(fidelity.legs)),
+      to_markdown(stance_profile_table(fidelity.stance)),
+      to_markdown(stance_agreement_table(stance_agreement(fidelity.stance))));
+}
+
+CsvTable stance_csv(const std::vector<StanceBin>& profile) {
+  CsvTable table({"event", "time_s", "slip_mps", "real_slip_mps", "height_m", "real_height_m",
+                  "load", "real_load", "slip_over_tolerance", "height_over_tolerance",
+                  "load_over_tolerance"});
+  for (const StanceBin& bin : profile) {
+    table.add(bin.event == StanceEvent::kTouchdown ? "touchdown" : "lift_off").add(bin.time);
+    table.add(bin.simulated.slip).add(bin.real.slip);
+    table.add(bin.simulated.height).add(bin.real.height);
+    table.add(bin.simulated.load).add(bin.real.load);
+    for (const double each : stance_deviation(bin)) table.add(each);
+    table.end_row();
+  }
+  return table;
 }
 
 }  // namespace
@@ -97,6 +117,7 @@ Result<void> write_fidelity(const Fidelity& fidelity, const std::filesystem::pat
   if (auto ok = write_csv(folder / "allan.csv", allan); !ok) return ok;
   if (auto ok = write_csv(folder / "leg_drift.csv", legs); !ok) return ok;
   if (auto ok = write_csv(folder / "ranges.csv", ranges); !ok) return ok;
+  if (auto ok = write_csv(folder / "stance.csv", stance_csv(fidelity.stance)); !ok) return ok;
   return write_file_atomically(folder / "fidelity.md", report_of(fidelity));
 }
 

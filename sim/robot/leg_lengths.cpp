@@ -7,15 +7,17 @@
 
 namespace aims {
 
-LegGeometries built_legs(const LegGeometry& drawn, double error, std::uint64_t run_seed) {
+LegGeometries built_legs(const LegGeometry& drawn, const BuildErrors& errors,
+                         std::uint64_t run_seed) {
   RandomStream random(run_seed, "leg.lengths");
-  const double sigma = error * std::sqrt(0.5);
+  const double sigma = errors.link_length * std::sqrt(0.5);
   const double thigh = sigma * random.normal();
   const double calf = sigma * random.normal();
   LegGeometries legs = {drawn, drawn, drawn, drawn};
   for (LegGeometry& leg : legs) {
     leg.thigh *= 1.0 + thigh + sigma * random.normal();
     leg.calf *= 1.0 + calf + sigma * random.normal();
+    leg.foot_radius += errors.foot_radius;
   }
   return legs;
 }

@@ -16,9 +16,16 @@ using LegGeometries = std::array<LegGeometry, kLegCount>;
 inline constexpr LegGeometries kNominalLegs = {kRobotGeometry, kRobotGeometry, kRobotGeometry,
                                                kRobotGeometry};
 
-/// Legs of one built robot: thighs and calves differ from the drawings by a relative error of
-/// standard deviation `error`. Half of its variance is common to the four legs, as a wrong drawing
-/// is, half is each leg's own, as wear is. Random stream: "leg.lengths".
-LegGeometries built_legs(const LegGeometry& drawn, double error, std::uint64_t run_seed);
+/// How the legs of a built robot differ from the drawings.
+struct BuildErrors {
+  /// Standard deviation of the relative error of thighs and calves. Half of its variance is common
+  /// to the four legs, as a wrong drawing is, half is each leg's own, as wear is [-].
+  double link_length = 0.0;
+  double foot_radius = 0.0;  ///< true radius of every foot less the drawn one [m]
+};
+
+/// Legs of one built robot. Random stream: "leg.lengths".
+LegGeometries built_legs(const LegGeometry& drawn, const BuildErrors& errors,
+                         std::uint64_t run_seed);
 
 }  // namespace aims

@@ -305,7 +305,7 @@ std::array<double, kLegCount> World::slip_speed() const {
     const Eigen::Vector3d in_base =
         s.angular_velocity.cross(foot_in_base(leg, q, impl_->legs[leg])) +
         foot_jacobian(leg, q, impl_->legs[leg]) * rate;
-    const Eigen::Vector3d down(0.0, 0.0, -impl_->body.legs.foot_radius);
+    const Eigen::Vector3d down(0.0, 0.0, -impl_->legs[leg].foot_radius);
     const Eigen::Quaterniond& R = s.T_world_base.rotation;
     const Eigen::Vector3d patch = s.velocity + R * in_base + (R * turning).cross(down);
     speed[leg] = patch.head<2>().norm();

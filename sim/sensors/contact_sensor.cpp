@@ -1,27 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/sensors/contact_sensor.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace aims {
+namespace {
+
+/// Share of a step that an output with that time constant follows within a physics step.
+double gain_of(double time_constant, Duration timestep) {
+  return time_constant > 0.0 ? 1.0 - std::exp(-to_seconds(timestep) / time_constant) : 1.0;
+}
+
+std::size_t steps_of(double time, Duration timestep) {
+  return static_cast<std::size_t>(std::lround(time / to_seconds(timestep)));
+}
+
+}  // namespace
 
 ContactSensor::ContactSensor(const LegOdometryConfig& config, Duration timestep,
                              std::uint64_t run_seed)
     : config_(config),
-      gain_(config.load_time_constant > 0.0
-                ? 1.0 - std::exp(-to_seconds(timestep) / config.load_time_constant)
-                : 1.0),
-      delay_(static_cast<std::size_t>(std::lround(config.load_latency / to_seconds(timestep)))),
+      rise_(gain_of(config.load_rise_time, timestep)),
+      fall_(gain_of(config.load_fall_time, timestep)),
+      hold_(steps_of(config.load_hold, timestep)),
+      delay_(steps_of(config.load_latency, timestep)),
       noise_(run_seed, "leg.contact") {
   RandomStream run(run_seed, "leg.load");
   for (int leg = 0; leg < kLegCount; ++leg) {
     offset_[leg] = config.load_offset * run.normal();
     scale_[leg] = 1.0 + config.load_scale_error * run.normal();
   }
+  RandomStream zero(run_seed, "leg.load_zero");
+  for (double& each : zero_) each = config.load_zero * zero.uniform();
 }
 
 void ContactSensor::begin(const FootLoads& loads) {
-  filtered_ = loads;
+  held_.assign(1, loads);
+  response_ = loads;
   delayed_.assign(1, loads);
   for (int leg = 0; leg < kLegCount; ++leg) {
     loaded_[leg] = load(leg) > config_.contact_on;
@@ -30,11 +46,15 @@ void ContactSensor::begin(const FootLoads& loads) {
 }
 
 void ContactSensor::update(const FootLoads& loads) {
+  held_.push_back(loads);
+  if (held_.size() > hold_ + 1) held_.pop_front();
   for (int leg = 0; leg < kLegCount; ++leg) {
-    filtered_[leg] =
-        gain_ < 1.0 ? filtered_[leg] + gain_ * (loads[leg] - filtered_[leg]) : loads[leg];
+    double largest = loads[leg];
+    for (const FootLoads& each : held_) largest = std::max(largest, each[leg]);
+    const double gain = largest > response_[leg] ? rise_ : fall_;
+    response_[leg] = gain < 1.0 ? response_[leg] + gain * (largest - response_[leg]) : largest;
   }
-  delayed_.push_back(filtered_);
+  delayed_.push_back(response_);
   if (delayed_.size() > delay_ + 1) delayed_.pop_front();
 }
 
@@ -45,8 +65,9 @@ double ContactSensor::load(int leg) const {
 std::array<bool, kLegCount> ContactSensor::detect(double interval) {
   std::array<bool, kLegCount> contact{};
   for (int leg = 0; leg < kLegCount; ++leg) {
-    measured_[leg] = load(leg) + config_.load_noise * noise_.normal();
-    loaded_[leg] = measured_[leg] > (loaded_[leg] ? config_.contact_off : config_.contact_on);
+    const double noisy = load(leg) + config_.load_noise * noise_.normal();
+    measured_[leg] = noisy + zero_[leg];
+    loaded_[leg] = noisy > (loaded_[leg] ? config_.contact_off : config_.contact_on);
     loaded_time_[leg] = loaded_[leg] ? loaded_time_[leg] + interval : 0.0;
     contact[leg] = loaded_[leg] && loaded_time_[leg] > config_.contact_debounce;
   }

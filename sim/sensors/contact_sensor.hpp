@@ -11,11 +11,14 @@
 
 namespace aims {
 
-/// Force sensors in the feet and the detection of contact: a late, low-passed load with offset,
-/// scale error and noise crosses one threshold upwards and another downwards.
+/// Force sensors in the feet and the detection of contact. A sensor reads the largest load of the
+/// last `load_hold`, follows it with one time constant upwards and another downwards, and is late.
+/// With offset, scale error and noise that load crosses one threshold upwards and another
+/// downwards.
 class ContactSensor {
  public:
-  /// Random streams: "leg.contact" for the noise, "leg.load" for the errors of each sensor.
+  /// Random streams: "leg.contact" for the noise, "leg.load" and "leg.load_zero" for the errors of
+  /// each sensor.
   ContactSensor(const LegOdometryConfig& config, Duration timestep, std::uint64_t run_seed);
 
   /// At rest under those loads, with contacts detected.
@@ -27,20 +30,25 @@ class ContactSensor {
   /// Contacts at the end of an interval of `interval` [s].
   std::array<bool, kLegCount> detect(double interval);
 
-  /// The loads by which the last call of `detect` decided.
+  /// What the sensors read in the last call of `detect`: the loads by which it decided, plus what
+  /// each sensor reads without load [N].
   const FootLoads& measured() const { return measured_; }
 
-  /// What the sensor of that foot reads, without noise [N].
+  /// The load of that foot by which contact is detected, without noise [N].
   double load(int leg) const;
 
  private:
   LegOdometryConfig config_;
-  double gain_;        ///< of the low-pass, per physics step
+  double rise_;        ///< of the response, per physics step
+  double fall_;        ///< of the response, per physics step
+  std::size_t hold_;   ///< physics steps
   std::size_t delay_;  ///< physics steps
   RandomStream noise_;
+  FootLoads zero_{};                       ///< reading without load [N]
   FootLoads offset_{};                     ///< [N]
   std::array<double, kLegCount> scale_{};  ///< measured over true load
-  FootLoads filtered_{};                   ///< present output of the low-pass [N]
+  std::deque<FootLoads> held_;             ///< true loads of the last hold, oldest first [N]
+  FootLoads response_{};                   ///< present output [N]
   std::deque<FootLoads> delayed_;          ///< that output, oldest first [N]
   FootLoads measured_{};                   ///< with noise [N]
   std::array<bool, kLegCount> loaded_{};

@@ -21,13 +21,27 @@ JointEncoders::JointEncoders(const LegOdometryConfig& config, Duration timestep,
       offset_(offset),
       window_(steps_in(config.joint_rate_window, timestep)),
       window_length_(static_cast<double>(window_) * to_seconds(timestep)),
+      delay_(config.encoder_delay / to_seconds(timestep)),
       noise_(run_seed, "leg.encoder"),
       window_noise_(run_seed, "leg.encoder_window") {}
 
 void JointEncoders::update(const JointMotion& motion) {
-  rate_ = motion.rate;
-  angles_.push_back(motion.angle);
-  if (angles_.size() > window_ + 1) angles_.pop_front();
+  motions_.push_back(motion);
+  if (motions_.size() > window_ + static_cast<std::size_t>(std::ceil(delay_)) + 1) {
+    motions_.pop_front();
+  }
+}
+
+/// Motion so many physics steps ago, interpolated; the oldest known one beyond that.
+JointMotion JointEncoders::motion_before(double steps) const {
+  const double oldest = static_cast<double>(motions_.size() - 1);
+  const double at = std::max(0.0, oldest - steps);
+  const auto index = static_cast<std::size_t>(at);
+  const double part = at - static_cast<double>(index);
+  const JointMotion& from = motions_[index];
+  if (part == 0.0) return from;
+  const JointMotion& to = motions_[index + 1];
+  return {from.angle + part * (to.angle - from.angle), from.rate + part * (to.rate - from.rate)};
 }
 
 /// The encoder counts whole steps.
@@ -38,14 +52,14 @@ double JointEncoders::reading(double angle, double noise) const {
 }
 
 void JointEncoders::read(LegOdometrySample& sample) {
-  const JointVector& now = angles_.back();
-  const JointVector& before = angles_.front();
+  const JointMotion now = motion_before(delay_);
+  const JointVector before = motion_before(delay_ + static_cast<double>(window_)).angle;
   const double sigma = config_.joint_angle_noise;
   for (int i = 0; i < kJointCount; ++i) {
-    const double angle = reading(now[i] + offset_[i], sigma * noise_.normal());
+    const double angle = reading(now.angle[i] + offset_[i], sigma * noise_.normal());
     const double rate_noise = config_.joint_rate_noise * noise_.normal();
     sample.joint_position[i] = angle;
-    sample.joint_velocity[i] = rate_[i] + rate_noise;
+    sample.joint_velocity[i] = now.rate[i] + rate_noise;
     if (window_ == 0) continue;
     const double earlier = reading(before[i] + offset_[i], sigma * window_noise_.normal());
     sample.joint_velocity[i] = (angle - earlier) / window_length_ + rate_noise;

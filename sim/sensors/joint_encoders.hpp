@@ -18,7 +18,8 @@ struct JointMotion {
 };
 
 /// Encoders of the twelve joints: offset, noise and resolution of the angle; the rate is either
-/// the true one with noise, or the difference of two readings, half the window late.
+/// the true one with noise, or the difference of two readings, half the window late. Both are late
+/// by the delay.
 class JointEncoders {
  public:
   /// `offset` is the constant error of each angle [rad]. Random streams: "leg.encoder",
@@ -29,19 +30,20 @@ class JointEncoders {
   /// Takes the motion after a physics step; call once per step.
   void update(const JointMotion& motion);
 
-  /// Fills the joint angles and rates of `sample` with readings of the last motion.
+  /// Fills the joint angles and rates of `sample` with readings of the motion a delay ago.
   void read(LegOdometrySample& sample);
 
  private:
   double reading(double angle, double noise) const;
+  JointMotion motion_before(double steps) const;
 
   LegOdometryConfig config_;
   JointVector offset_;
   std::size_t window_;    ///< physics steps, 0: the rate is not differenced
   double window_length_;  ///< [s]
+  double delay_;          ///< physics steps
   RandomStream noise_, window_noise_;
-  JointVector rate_ = JointVector::Zero();
-  std::deque<JointVector> angles_;  ///< of the last window, oldest first [rad]
+  std::deque<JointMotion> motions_;  ///< of the last window and delay, oldest first
 };
 
 }  // namespace aims

@@ -54,6 +54,10 @@ void describe_legs(Fields& f, LegOdometryConfig& c) {
             .range = in_range(0.0, 0.05),
             .meaning = "Standard deviation of the relative error of the lengths of thighs and "
                        "calves that the kinematics assume, constant in a run."});
+  f.number("foot_radius_difference", c.foot_radius_difference,
+           {.unit = "m",
+            .range = within(0.005),
+            .meaning = "True radius of the feet less the one that the kinematics assume."});
   f.number("joint_stiffness", c.joint_stiffness,
            {.unit = "N m/rad",
             .range = up_to(1e6),
@@ -91,6 +95,10 @@ void describe_encoders(Fields& f, LegOdometryConfig& c) {
             .range = in_range(0.0, 0.1),
             .meaning = "Time over which two angles are differenced to a joint rate; 0 for the "
                        "true rate."});
+  f.number("encoder_delay", c.encoder_delay,
+           {.unit = "s",
+            .range = in_range(0.0, 0.1),
+            .meaning = "Age of joint angles and rates at the stamp of their sample."});
 }
 
 void describe_contacts(Fields& f, LegOdometryConfig& c) {
@@ -113,10 +121,23 @@ void describe_contacts(Fields& f, LegOdometryConfig& c) {
             .range = in_range(0.0, 1.0),
             .meaning = "Standard deviation of the scale error of a foot's force sensor, constant "
                        "in a run."});
-  f.number("load_time_constant", c.load_time_constant,
+  f.number("load_zero", c.load_zero,
+           {.unit = "N",
+            .range = up_to(1e5),
+            .meaning = "Largest reading of an unloaded foot; each has its own, constant in a run. "
+                       "The robot's own detection of contact subtracts it."});
+  f.number("load_rise_time", c.load_rise_time,
            {.unit = "s",
             .range = in_range(0.0, 1.0),
-            .meaning = "Time constant of the low-pass of a foot's force sensor."});
+            .meaning = "Time constant with which a foot's force sensor follows a rising load."});
+  f.number("load_hold", c.load_hold,
+           {.unit = "s",
+            .range = in_range(0.0, 0.2),
+            .meaning = "Time for which a foot's force sensor keeps the largest load."});
+  f.number("load_fall_time", c.load_fall_time,
+           {.unit = "s",
+            .range = in_range(0.0, 1.0),
+            .meaning = "Time constant with which it follows a falling load after that."});
   f.number("load_latency", c.load_latency,
            {.unit = "s",
             .range = in_range(0.0, 0.2),

@@ -23,7 +23,7 @@ const std::string kFolder = AIMS_SCENARIOS;
 std::vector<std::uint64_t> both_ranges() {
   std::vector<std::uint64_t> seeds;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) seeds.push_back(seed);
-  for (std::uint64_t seed = 1001; seed <= 1200; ++seed) seeds.push_back(seed);
+  for (std::uint64_t seed = 2001; seed <= 2400; ++seed) seeds.push_back(seed);
   return seeds;
 }
 
@@ -138,11 +138,11 @@ TEST(ScenarioDraws, ProbabilitiesAndConditionsDecide) {
 }
 
 TEST(ScenarioDraws, SameSeedSameBytesAndDrawnOnce) {
-  for (const char* name : {"random_corridor", "random_garage"}) {
+  for (const char* name : {"random_corridor", "random_garage", "random_robot"}) {
     const Scenario scenario = load_scenario(find_scenario(name, kFolder).value(), {}).value();
     EXPECT_FALSE(scenario.draw.empty());
     std::set<std::string> texts;
-    for (const std::uint64_t seed : {1, 2, 3, 1001}) {
+    for (const std::uint64_t seed : {1, 2, 3, 2001}) {
       const Scenario own = scenario_of_seed(scenario, seed);
       EXPECT_TRUE(own.draw.empty());
       const std::string text = effective_config(scenario, seed);
@@ -254,14 +254,14 @@ TEST(ScenarioDraws, BadEntriesAreErrorsWithFileAndLine) {
 TEST(ScenarioDraws, SeedsForReportingAreNotChosenOn) {
   const Scenario random = drawing({range("route.speed", 0.3, 1.0)});
   const Scenario fixed = default_scenario({}).value();
-  for (const std::uint64_t seed : {1001, 1100, 1200}) {
+  for (const std::uint64_t seed : {2001, 2200, 2400}) {
     const auto checked = check_seeds_to_choose_on(random, {{1, seed}});
     ASSERT_FALSE(checked);
     EXPECT_NE(checked.error().message.find(random.name), std::string::npos);
     EXPECT_NE(checked.error().message.find(std::to_string(seed)), std::string::npos);
     EXPECT_TRUE(check_seeds_to_choose_on(fixed, {{seed}}));
   }
-  EXPECT_TRUE(check_seeds_to_choose_on(random, {{1, 200, 1000, 1201}}));
+  EXPECT_TRUE(check_seeds_to_choose_on(random, {{1, 200, 2000, 2401}}));
 }
 
 }  // namespace

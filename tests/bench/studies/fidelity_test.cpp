@@ -36,6 +36,11 @@ TEST(Fidelity, FindsTheConfiguredErrors) {
     if (each.tau != 0.1) continue;
     EXPECT_NEAR(each.gyro, 0.001 / std::sqrt(0.1), 0.0005) << "white noise: N / sqrt(tau)";
   }
+  ASSERT_FALSE(fidelity->stance.empty());
+  for (const StanceBin& each : fidelity->stance) {
+    if (each.event != StanceEvent::kTouchdown || each.time < 0.08) continue;
+    EXPECT_NEAR(each.simulated.slip, 0.0, 0.1) << "stiff legs: a loaded foot does not slip";
+  }
   ASSERT_EQ(fidelity->legs.size(), 4U) << "two foot models, two thresholds, one segment";
   for (const LegDrift& each : fidelity->legs) {
     EXPECT_LT(each.signed_percent, -15.0) << "20 % short by the injected scale";

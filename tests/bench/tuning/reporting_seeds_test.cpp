@@ -33,29 +33,29 @@ void expect_refused(const std::string& message, const char* seed) {
 }
 
 TEST(ReportingSeeds, AreRefusedBySweepsOnScenariosWithDraws) {
-  const auto jobs = plan_jobs(sweep_of("1,1001"), AIMS_SCENARIOS);
+  const auto jobs = plan_jobs(sweep_of("1,2001"), AIMS_SCENARIOS);
   ASSERT_FALSE(jobs);
-  expect_refused(jobs.error().message, "1001");
+  expect_refused(jobs.error().message, "2001");
   EXPECT_TRUE(plan_jobs(sweep_of("1,200,1201"), AIMS_SCENARIOS));
-  SweepPlan fixed = sweep_of("1001");
+  SweepPlan fixed = sweep_of("2001");
   fixed.scenarios = {"corridor"};
   EXPECT_TRUE(plan_jobs(fixed, AIMS_SCENARIOS));
 }
 
 TEST(ReportingSeeds, AreRefusedByTuningAlsoWhenHeldOut) {
-  const auto tuned = tune_task(tune_of("random_corridor", "1150", "1"), AIMS_SCENARIOS);
+  const auto tuned = tune_task(tune_of("random_corridor", "2150", "1"), AIMS_SCENARIOS);
   ASSERT_FALSE(tuned);
-  expect_refused(tuned.error().message, "1150");
-  const auto held = tune_task(tune_of("random_corridor", "1-2", "1200"), AIMS_SCENARIOS);
+  expect_refused(tuned.error().message, "2150");
+  const auto held = tune_task(tune_of("random_corridor", "1-2", "2400"), AIMS_SCENARIOS);
   ASSERT_FALSE(held);
-  expect_refused(held.error().message, "1200");
-  TunePlan other = tune_of("corridor", "1-2", "1010");
+  expect_refused(held.error().message, "2400");
+  TunePlan other = tune_of("corridor", "1-2", "2010");
   other.held_out.scenarios = {"random_corridor"};
   const auto held_scenario = tune_task(other, AIMS_SCENARIOS);
   ASSERT_FALSE(held_scenario);
-  expect_refused(held_scenario.error().message, "1010");
+  expect_refused(held_scenario.error().message, "2010");
   EXPECT_TRUE(tune_task(tune_of("random_corridor", "1-2", "3"), AIMS_SCENARIOS));
-  EXPECT_TRUE(tune_task(tune_of("corridor", "1001", "1002"), AIMS_SCENARIOS));
+  EXPECT_TRUE(tune_task(tune_of("corridor", "2001", "2002"), AIMS_SCENARIOS));
 }
 
 TEST(DrawnSweep, VariesAKeyInsteadOfDrawingItAndDrawsTheOthers) {

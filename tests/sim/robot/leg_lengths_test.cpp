@@ -11,7 +11,7 @@ namespace aims {
 namespace {
 
 TEST(LegLengths, WithoutErrorTheLegsAreTheDrawn) {
-  EXPECT_EQ(built_legs(kRobotGeometry, 0.0, 7), kNominalLegs);
+  EXPECT_EQ(built_legs(kRobotGeometry, {}, 7), kNominalLegs);
 }
 
 TEST(LegLengths, ErrorsHaveTheirStandardDeviationAndHalfOfItIsCommon) {
@@ -19,7 +19,7 @@ TEST(LegLengths, ErrorsHaveTheirStandardDeviationAndHalfOfItIsCommon) {
   double products = 0.0;
   constexpr int kRuns = 500;
   for (int seed = 1; seed <= kRuns; ++seed) {
-    const LegGeometries legs = built_legs(kRobotGeometry, 0.01, seed);
+    const LegGeometries legs = built_legs(kRobotGeometry, {.link_length = 0.01}, seed);
     const double front = legs[0].calf / kRobotGeometry.calf - 1.0;
     const double rear = legs[3].calf / kRobotGeometry.calf - 1.0;
     squares += 0.5 * (front * front + rear * rear);
@@ -31,13 +31,10 @@ TEST(LegLengths, ErrorsHaveTheirStandardDeviationAndHalfOfItIsCommon) {
   EXPECT_NEAR(products / squares, 0.5, 0.12) << "seeds 1 to 500";
 }
 
-/// Length that the nominal kinematics measure, over the length walked, less one.
-double short_reading(double longer) {
+/// Length that the nominal kinematics measure with those legs, over the length walked, less one.
+double short_reading(const LegGeometry& built) {
   WorldSetup setup = testing::corridor_world(4.0, 0.8, 0.0);
-  for (LegGeometry& leg : setup.legs) {
-    leg.thigh *= 1.0 + longer;
-    leg.calf *= 1.0 + longer;
-  }
+  setup.legs = {built, built, built, built};
   RouteConfig route;
   route.points = {{"a", 0.0, 0.0}, {"b", 4.0, 0.0}};
   const testing::Walk walk = testing::walk(setup, route);
@@ -56,10 +53,32 @@ double short_reading(double longer) {
   return end.head<2>().norm() / walked.head<2>().norm() - 1.0;
 }
 
+LegGeometry longer(double part) {
+  LegGeometry leg = kRobotGeometry;
+  leg.thigh *= 1.0 + part;
+  leg.calf *= 1.0 + part;
+  return leg;
+}
+
 /// The same angles carry longer legs further.
 TEST(LegLengths, KinematicsOfLegsThatAreLongerInTruthReadShort) {
-  EXPECT_NEAR(short_reading(0.04) - short_reading(0.0), -0.04, 0.01);
-  EXPECT_NEAR(short_reading(-0.04) - short_reading(0.0), 0.04, 0.01);
+  const double nominal = short_reading(kRobotGeometry);
+  EXPECT_NEAR(short_reading(longer(0.04)) - nominal, -0.04, 0.01);
+  EXPECT_NEAR(short_reading(longer(-0.04)) - nominal, 0.04, 0.01);
+}
+
+TEST(LegLengths, FeetAreAsMuchLargerAsTheDifferenceSays) {
+  for (const LegGeometry& leg : built_legs(kRobotGeometry, {.foot_radius = 0.002}, 7)) {
+    EXPECT_DOUBLE_EQ(leg.foot_radius, kRobotGeometry.foot_radius + 0.002);
+    EXPECT_EQ(leg.calf, kRobotGeometry.calf);
+  }
+}
+
+/// A foot rolls by its radius per radian of the calf: 5 mm of some 0.28 m of leg.
+TEST(LegLengths, KinematicsOfFeetThatAreLargerInTruthReadShort) {
+  LegGeometry large = kRobotGeometry;
+  large.foot_radius += 0.005;
+  EXPECT_NEAR(short_reading(large) - short_reading(kRobotGeometry), -0.018, 0.006);
 }
 
 }  // namespace

@@ -20,15 +20,51 @@ LegOdometryConfig silent() {
 
 FootLoads all(double load) { return {load, load, load, load}; }
 
-TEST(ContactSensor, ALowPassFollowsAStepOfTheLoad) {
+TEST(ContactSensor, ItFollowsARisingLoadWithItsRiseTime) {
   LegOdometryConfig config = silent();
-  config.load_time_constant = 0.02;
+  config.load_rise_time = 0.02;
+  config.load_fall_time = 0.5;
   ContactSensor sensor(config, kStep, 1);
   sensor.begin(all(0.0));
   for (int i = 1; i <= 20; ++i) {
     sensor.update(all(kLoad));
     EXPECT_NEAR(sensor.load(2), kLoad * (1.0 - std::exp(-i * kDt / 0.02)), 1e-9);
   }
+}
+
+TEST(ContactSensor, ItKeepsALoadForTheHoldAndThenFallsWithItsFallTime) {
+  LegOdometryConfig config = silent();
+  config.load_rise_time = 0.5;
+  config.load_hold = 0.02;
+  config.load_fall_time = 0.025;
+  ContactSensor sensor(config, kStep, 1);
+  sensor.begin(all(kLoad));
+  for (int i = 1; i <= 30; ++i) {
+    sensor.update(all(0.0));
+    const double falling = std::max(0.0, i * kDt - 0.02);
+    EXPECT_NEAR(sensor.load(1), kLoad * std::exp(-falling / 0.025), 1e-9) << i;
+  }
+}
+
+/// What an unloaded sensor reads is in the measured load, not in the detection.
+TEST(ContactSensor, EachUnloadedSensorReadsItsOwnPartOfTheLargestZero) {
+  LegOdometryConfig config = silent();
+  config.load_zero = 40.0;
+  double sum = 0.0;
+  constexpr int kRuns = 300;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    ContactSensor sensor(config, kStep, seed);
+    sensor.begin(all(0.0));
+    sensor.update(all(0.0));
+    for (const bool contact : sensor.detect(kDt)) EXPECT_FALSE(contact) << "seed " << seed;
+    EXPECT_NE(sensor.measured()[0], sensor.measured()[1]);
+    for (const double zero : sensor.measured()) {
+      EXPECT_GE(zero, 0.0);
+      EXPECT_LE(zero, 40.0);
+      sum += zero;
+    }
+  }
+  EXPECT_NEAR(sum / (4 * kRuns), 20.0, 1.0) << "seeds 1 to 300";
 }
 
 TEST(ContactSensor, MeasuredLoadsAreThoseThatDecide) {
@@ -90,12 +126,12 @@ TEST(ContactSensor, ALowThresholdHoldsTheContactLonger) {
   EXPECT_NEAR(contact_times(high).second, 10.0 / 2000.0, 2.0 * kDt);
 }
 
-/// After 60 N the low-pass needs tau ln(60 / threshold) to fall to the threshold.
+/// After 60 N the response needs tau ln(60 / threshold) to fall to the threshold.
 TEST(ContactSensor, ASlowSensorReportsAFootThatHasLeft) {
   LegOdometryConfig config = silent();
   config.contact_on = config.contact_off = 15.0;
   const double prompt = contact_times(config).second;
-  config.load_time_constant = 0.03;
+  config.load_fall_time = 0.03;
   EXPECT_NEAR(contact_times(config).second - prompt, 0.03 * std::log(4.0), 0.015);
 }
 

@@ -55,6 +55,28 @@ TEST(JointEncoders, ADifferencedRateIsHalfTheWindowLate) {
   EXPECT_NEAR(rate, kAcceleration * (0.1 - 0.01), 1e-9);
 }
 
+/// Interpolated where the delay is no whole number of physics steps.
+TEST(JointEncoders, AnglesAndRatesAreThoseOfADelayAgo) {
+  for (const double delay : {0.005, 0.008, 0.02}) {
+    LegOdometryConfig config = silent();
+    config.encoder_delay = delay;
+    const LegOdometrySample sample = accelerated(config, 40);
+    const double then = 0.1 - delay;
+    // A chord of the parabola lies at most a h^2 / 8 above it.
+    EXPECT_NEAR(sample.joint_position[2], 0.5 * kAcceleration * then * then,
+                kAcceleration * 0.0025 * 0.0025 / 8.0 + 1e-12);
+    EXPECT_NEAR(sample.joint_velocity[2], kAcceleration * then, 1e-9);
+    config.joint_rate_window = 0.01;
+    EXPECT_NEAR(accelerated(config, 40).joint_velocity[2], kAcceleration * (then - 0.005), 1e-4);
+  }
+}
+
+TEST(JointEncoders, BeforeTheDelayHasPassedTheyReadTheFirstMotion) {
+  LegOdometryConfig config = silent();
+  config.encoder_delay = 0.05;
+  EXPECT_DOUBLE_EQ(accelerated(config, 4).joint_position[0], 0.0);
+}
+
 TEST(JointEncoders, ACoarseEncoderMakesACoarseRate) {
   LegOdometryConfig config = silent();
   config.joint_rate_window = 0.005;

@@ -54,9 +54,9 @@ LegOdometryConfig without_errors(const LegOdometryConfig& config) {
   LegOdometryConfig c = config;
   c.link_length_error = c.joint_stiffness = c.foot_stiffness = 0.0;
   c.joint_angle_noise = c.joint_angle_offset = c.joint_angle_resolution = 0.0;
-  c.joint_rate_noise = c.joint_rate_window = 0.0;
-  c.load_noise = c.load_offset = c.load_scale_error = 0.0;
-  c.load_time_constant = c.load_latency = 0.0;
+  c.joint_rate_noise = c.joint_rate_window = c.encoder_delay = 0.0;
+  c.load_noise = c.load_zero = c.load_offset = c.load_scale_error = 0.0;
+  c.load_rise_time = c.load_hold = c.load_fall_time = c.load_latency = 0.0;
   c.gyro_noise_density = c.gyro_bias = c.gyro_scale_error = 0.0;
   c.velocity_scale = 1.0;
   c.velocity_scale_error = c.slip_rate = 0.0;
@@ -65,7 +65,8 @@ LegOdometryConfig without_errors(const LegOdometryConfig& config) {
 
 Walk drift_walk(const SimulationConfig& config, double friction, std::uint64_t seed) {
   WorldSetup setup = corridor_world(kLength, friction, 0.0, seed);
-  setup.legs = built_legs(kRobotGeometry, config.leg_odometry.link_length_error, seed);
+  setup.legs =
+      built_legs(kRobotGeometry, {.link_length = config.leg_odometry.link_length_error}, seed);
   return walk(setup, there_and_back(kLength), config.robot.gait);
 }
 
@@ -79,7 +80,7 @@ Walk square_walk(const SimulationConfig& config, double friction, std::uint64_t 
       {},
       kTimestep,
       friction,
-      built_legs(kRobotGeometry, config.leg_odometry.link_length_error, seed)};
+      built_legs(kRobotGeometry, {.link_length = config.leg_odometry.link_length_error}, seed)};
   RouteConfig route;
   route.points = {{"a", 0.0, 0.0}, {"", 3.2, 0.0}, {"", 3.2, 3.4}, {"", 0.0, 3.4}, {"a", 0.0, 0.0}};
   route.stand_before = 0.5;
