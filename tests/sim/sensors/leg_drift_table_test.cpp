@@ -21,6 +21,8 @@ using testing::drift_walk;
 using testing::LegDrift;
 using testing::without_errors;
 
+constexpr const char* kLateLoad = "force sensor: response";
+
 /// Keys whose zero switches a cause off.
 struct Cause {
   std::string name;
@@ -34,7 +36,8 @@ const std::vector<Cause>& causes() {
        {&Legs::joint_angle_noise, &Legs::joint_angle_offset, &Legs::joint_angle_resolution}},
       {"rates: window, noise", {&Legs::joint_rate_window, &Legs::joint_rate_noise}},
       {"encoder delay", {&Legs::encoder_delay}},
-      {"force sensor: response", {&Legs::load_rise_time, &Legs::load_hold, &Legs::load_fall_time}},
+      {kLateLoad,
+       {&Legs::load_rise_time, &Legs::load_hold, &Legs::load_fall_time, &Legs::load_latency}},
       {"force sensor: offset, scale, noise",
        {&Legs::load_offset, &Legs::load_scale_error, &Legs::load_noise}},
       {"joint compliance", {&Legs::joint_stiffness}},
@@ -173,13 +176,21 @@ TEST(LegDriftTable, ByCause) {
   print_square({1, 2, 3, 11, 12, 13});
 }
 
-/// The drift is no single figure under another name.
-TEST(LegDriftTable, NoCauseAloneMakesTheDriftAndItRemainsWithoutAnyOne) {
+/// As on a real Go1: feet that count as standing while they already swing. No other cause makes
+/// half of the drift, and without any other one most of it remains.
+TEST(LegDriftTable, TheLateLoadIsTheMainCause) {
   DriftTable table({11, 12, 13});
   const double all = table.row(config_at(SensorLevel::kField), 0.7).rolling.mean();
   for (const Cause& cause : causes()) {
-    EXPECT_GT(table.row(with_only(cause), 0.7).rolling.mean(), 0.65 * all) << cause.name;
-    EXPECT_LT(table.row(with_all_but(cause), 0.7).rolling.mean(), 0.35 * all) << cause.name;
+    const double alone = table.row(with_only(cause), 0.7).rolling.mean();
+    const double without = table.row(with_all_but(cause), 0.7).rolling.mean();
+    if (cause.name == kLateLoad) {
+      EXPECT_LT(alone, 0.5 * all);
+      EXPECT_GT(without, 0.5 * all);
+    } else {
+      EXPECT_GT(alone, 0.5 * all) << cause.name;
+      EXPECT_LT(without, 0.7 * all) << cause.name;
+    }
   }
 }
 

@@ -44,22 +44,24 @@ TEST(LegDrift, RollingFeetOnGoodGroundWithoutErrorsReadTheDistance) {
 }
 
 /// Seeds that no figure of the preset was chosen on.
-TEST(LegDrift, PointFeetOfTheFieldReadFiveToSeventeenPercentShort) {
+TEST(LegDrift, PointFeetOfTheFieldReadTenToTwentyPercentShort) {
   for (const std::uint64_t seed : {21, 22}) {
     const LegDrift drift = field_drift(FootModel::kPoint, seed);
     for (const double way : {drift.out, drift.back}) {
-      EXPECT_LT(way, -0.05) << "seed " << seed;
-      EXPECT_GT(way, -0.17) << "seed " << seed;
+      EXPECT_LT(way, -0.10) << "seed " << seed;
+      EXPECT_GT(way, -0.20) << "seed " << seed;
     }
   }
 }
 
-/// A rolling foot accounts for its radius over the height of the hip, about 7 %, and no more.
+/// A rolling foot accounts for its radius over the height of the hip, about 7 %, and no more: less
+/// where feet that swing count as standing, whose calves turn back.
 TEST(LegDrift, RollingFeetOfTheFieldReadLessShortButShort) {
   const LegDrift point = field_drift(FootModel::kPoint, 21);
   const LegDrift rolling = field_drift(FootModel::kRolling, 21);
-  EXPECT_NEAR(rolling.mean() - point.mean(), kRobotGeometry.foot_radius / GaitConfig{}.body_height,
-              0.015);
+  const double rolled = rolling.mean() - point.mean();
+  EXPECT_LT(rolled, kRobotGeometry.foot_radius / GaitConfig{}.body_height + 0.015);
+  EXPECT_GT(rolled, 0.03);
   EXPECT_LT(rolling.mean(), -0.02);
 }
 
@@ -76,13 +78,13 @@ TEST(LegDrift, ChangesWithTheContactThreshold) {
 }
 
 /// A robot that turns at the corners of a square, as the Go1 did.
-TEST(LegDrift, ASquareOfPointFeetIsFiveToSeventeenPercentShort) {
+TEST(LegDrift, ASquareOfPointFeetIsTenToTwentyPercentShort) {
   SimulationConfig config = config_at(SensorLevel::kField);
   const testing::Walk walk = testing::square_walk(config, kFriction, 23);
   ASSERT_TRUE(walk.done);
   const double point = testing::path_error(walk, config, 23);
-  EXPECT_LT(point, -0.05);
-  EXPECT_GT(point, -0.17);
+  EXPECT_LT(point, -0.10);
+  EXPECT_GT(point, -0.20);
   config.leg_odometry.foot_model = FootModel::kRolling;
   EXPECT_GT(testing::path_error(walk, config, 23), point + 0.03);
 }
