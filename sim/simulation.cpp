@@ -26,8 +26,7 @@ BuildErrors build_errors(const LegOdometryConfig& legs) {
   return {.link_length = legs.link_length_error, .foot_radius = legs.foot_radius_difference};
 }
 
-Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene,
-                               std::uint64_t seed) {
+Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scene, RunSeeds seeds) {
   const RobotConfig& robot = config.robot;
   const auto model = robot_model(robot.model);
   if (!model) return tl::unexpected(model.error());
@@ -38,7 +37,7 @@ Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scen
                     height_field_data(scene.floor),
                     config.physics.timestep,
                     config.scene.floor_friction,
-                    built_legs(robot.legs, build_errors(config.leg_odometry), seed),
+                    built_legs(robot.legs, build_errors(config.leg_odometry), seeds.robot),
                     robot.legs,
                     robot.gait.body_height,
                     robot.gait.stance_width};
@@ -46,11 +45,11 @@ Result<WorldSetup> world_setup(const SimulationConfig& config, const Scene& scen
 
 /// The second output of the IMU: the same random draws give the same turn-on biases and scales.
 std::optional<Imu> second_output(const SimulationConfig& config, Duration timestep,
-                                 std::uint64_t seed) {
+                                 RunSeeds seeds) {
   if (config.fast_imu_rate <= 0.0) return std::nullopt;
   ImuConfig fast = config.imu;
   fast.rate = config.fast_imu_rate;
-  return Imu(fast, timestep, seed);
+  return Imu(fast, timestep, seeds);
 }
 
 /// What the estimators are told of the robot: no drawn error is part of it.
@@ -143,16 +142,18 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, int thread
       monitor(ready_monitor),
       pushes(config.push, seed),
       caster(scene),
-      lidar(config.lidar, caster, seed),
-      imu(config.imu, walker.world().timestep(), seed),
-      fast_imu(second_output(config, walker.world().timestep(), seed)),
-      legs(config.leg_odometry, config.robot.legs, walker.world().timestep(), seed),
+      lidar(config.lidar, caster, run_seeds(config, seed)),
+      imu(config.imu, walker.world().timestep(), run_seeds(config, seed)),
+      fast_imu(second_output(config, walker.world().timestep(), run_seeds(config, seed))),
+      legs(config.leg_odometry, config.robot.legs, walker.world().timestep(),
+           run_seeds(config, seed)),
       imu_link(config.links.imu, seed, "imu"),
       leg_link(config.links.leg_odometry, seed, "leg_odometry"),
       lidar_link(config.links.lidar, seed, "lidar"),
       rig(nominal_rig(config)),
       casts(threads) {
-  truth.mounts = true_mounts(nominal_mounts(config.robot.mounts), config.calibration, seed);
+  truth.mounts = true_mounts(nominal_mounts(config.robot.mounts), config.calibration,
+                             run_seeds(config, seed).robot);
   record();
 }
 
@@ -245,7 +246,7 @@ Result<Simulation> Simulation::create(const SimulationConfig& given, std::uint64
   config.route = route_in(given.scene, given.route);
   if (auto ok = validate(config); !ok) return tl::unexpected(ok.error());
   Scene scene = build_scene(config.scene, seed);
-  auto setup = world_setup(config, scene, seed);
+  auto setup = world_setup(config, scene, run_seeds(config, seed));
   if (!setup) return tl::unexpected(setup.error());
   auto walker =
       Walker::create(*setup, config.robot.gait, config.route, start_offset(config.robot, seed));

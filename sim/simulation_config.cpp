@@ -49,11 +49,20 @@ void describe(Fields& f, SimulationConfig& c) {
            {.unit = "s",
             .range = up_to(1e5),
             .meaning = "Time at which the sensors are switched on; the robot walks from time 0."});
+  f.integer("robot_seed", c.robot_seed,
+            {.unit = "-",
+             .range = in_range(0, 2147483647),
+             .meaning = "Seed of what belongs to the robot: dimensions, mounts, constant errors of "
+                        "its sensors, and their draws; 0 for the seed of the run."});
   f.number(
       "max_duration", c.max_duration,
       {.unit = "s",
        .range = positive_up_to(1e5),
        .meaning = "Simulated time after which the run ends, whether or not the route is done."});
+}
+
+RunSeeds run_seeds(const SimulationConfig& config, std::uint64_t seed) {
+  return {seed, config.robot_seed > 0 ? static_cast<std::uint64_t>(config.robot_seed) : seed};
 }
 
 Result<void> validate(const SimulationConfig& config) {

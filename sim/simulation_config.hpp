@@ -8,6 +8,7 @@
 #include "sim/robot/push.hpp"
 #include "sim/robot/robot_config.hpp"
 #include "sim/robot/route.hpp"
+#include "sim/run_seeds.hpp"
 #include "sim/sensors/imu.hpp"
 #include "sim/sensors/leg_odometry.hpp"
 #include "sim/sensors/lidar_config.hpp"
@@ -42,9 +43,13 @@ struct SimulationConfig {
   LinksConfig links;
   double fast_imu_rate = 0.0;    ///< of the IMU's second output, for recordings; 0: none [Hz]
   double recording_start = 0.0;  ///< the robot walks unrecorded until then [s]
+  int robot_seed = 0;            ///< of what belongs to the robot; 0: the run's seed
   double max_duration = 900.0;   ///< simulated time after which the run ends [s]
 };
 void describe(Fields& f, SimulationConfig& c);
+
+/// The seeds of a run with that seed.
+RunSeeds run_seeds(const SimulationConfig& config, std::uint64_t seed);
 
 /// Error for values that do not fit together, naming the key.
 Result<void> validate(const SimulationConfig& config);

@@ -72,6 +72,13 @@ std::optional<std::string> drawn_value(const Draw& draw, std::uint64_t seed) {
   return value_at(draw, part);
 }
 
+/// Whether the key describes the robot, so that its draw stays over the runs of one robot.
+bool is_of_robot(std::string_view key) {
+  constexpr std::string_view kGroups[] = {"robot.", "imu.", "leg_odometry.", "lidar.",
+                                          "calibration."};
+  return std::ranges::any_of(kGroups, [&](std::string_view each) { return key.starts_with(each); });
+}
+
 Result<void> check_range(const Draw& draw, const std::string& name, const Parameter& parameter) {
   const bool log = draw.scale == DrawScale::kLog;
   if (!draw.values.empty()) {
@@ -212,12 +219,14 @@ Scenario scenario_of_seed(const Scenario& scenario, std::uint64_t seed) {
   own.draw.clear();
   own.drawn.clear();
   const Fields fields = fields_of(own.simulation);
+  const RunSeeds seeds = run_seeds(own.simulation, seed);
   std::set<std::string> settled;
   for (const Draw& draw : scenario.draw) {
     const auto met = [&](const std::string& condition) { return holds(condition, fields); };
     if (settled.contains(draw.key) || !std::ranges::all_of(draw.when, met)) continue;
     settled.insert(draw.key);
-    if (const auto value = drawn_value(draw, seed)) (void)assign(fields, draw.key, *value);
+    const std::uint64_t of_draw = is_of_robot(draw.key) ? seeds.robot : seeds.run;
+    if (const auto value = drawn_value(draw, of_draw)) (void)assign(fields, draw.key, *value);
   }
   std::set<std::string> open;
   for (const Draw& draw : scenario.draw) {

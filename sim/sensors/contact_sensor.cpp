@@ -18,20 +18,19 @@ std::size_t steps_of(double time, Duration timestep) {
 
 }  // namespace
 
-ContactSensor::ContactSensor(const LegOdometryConfig& config, Duration timestep,
-                             std::uint64_t run_seed)
+ContactSensor::ContactSensor(const LegOdometryConfig& config, Duration timestep, RunSeeds seeds)
     : config_(config),
       rise_(gain_of(config.load_rise_time, timestep)),
       fall_(gain_of(config.load_fall_time, timestep)),
       hold_(steps_of(config.load_hold, timestep)),
       delay_(steps_of(config.load_latency, timestep)),
-      noise_(run_seed, "leg.contact") {
-  RandomStream run(run_seed, "leg.load");
+      noise_(seeds.run, "leg.contact") {
+  RandomStream errors(seeds.robot, "leg.load");
   for (int leg = 0; leg < kLegCount; ++leg) {
-    offset_[leg] = config.load_offset * run.normal();
-    scale_[leg] = 1.0 + config.load_scale_error * run.normal();
+    offset_[leg] = config.load_offset * errors.normal();
+    scale_[leg] = 1.0 + config.load_scale_error * errors.normal();
   }
-  RandomStream zero(run_seed, "leg.load_zero");
+  RandomStream zero(seeds.robot, "leg.load_zero");
   for (double& each : zero_) each = config.load_zero * zero.uniform();
 }
 

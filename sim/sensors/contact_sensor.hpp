@@ -7,6 +7,7 @@
 
 #include "core/measurements.hpp"
 #include "core/random.hpp"
+#include "sim/run_seeds.hpp"
 #include "sim/sensors/leg_odometry_config.hpp"
 
 namespace aims {
@@ -17,9 +18,9 @@ namespace aims {
 /// downwards.
 class ContactSensor {
  public:
-  /// Random streams: "leg.contact" for the noise, "leg.load" and "leg.load_zero" for the errors of
-  /// each sensor.
-  ContactSensor(const LegOdometryConfig& config, Duration timestep, std::uint64_t run_seed);
+  /// Random streams: "leg.contact" for the noise; of the robot, "leg.load" and "leg.load_zero" for
+  /// the errors of each sensor.
+  ContactSensor(const LegOdometryConfig& config, Duration timestep, RunSeeds seeds);
 
   /// At rest under those loads, with contacts detected.
   void begin(const FootLoads& loads);

@@ -27,11 +27,11 @@ Eigen::Vector3d mean_rate(const TruthSample& before, const TruthSample& after) {
 }
 
 /// Noise of a sample at an instant has the power that the chip's filter lets pass.
-InertialTriad triad(const ImuConfig& config, const InertialErrorConfig& errors, std::uint64_t seed,
+InertialTriad triad(const ImuConfig& config, const InertialErrorConfig& errors, RunSeeds seeds,
                     std::string_view name) {
   const bool point = config.sampling == ImuSampling::kPoint;
   const double bandwidth = point ? noise_bandwidth(config.bandwidth, config.filter_order) : 0.0;
-  return {errors, 1.0 / config.rate, bandwidth, seed, name};
+  return {errors, 1.0 / config.rate, bandwidth, seeds, name};
 }
 
 }  // namespace
@@ -42,12 +42,12 @@ Result<void> validate(const ImuConfig& config, Duration timestep) {
   return {};
 }
 
-Imu::Imu(const ImuConfig& config, Duration timestep, std::uint64_t run_seed)
+Imu::Imu(const ImuConfig& config, Duration timestep, RunSeeds seeds)
     : sampling_(config.sampling),
       steps_(*steps_per_sample("imu.rate", config.rate, timestep)),
-      gyro_(triad(config, config.gyro, run_seed, "imu.gyro")),
-      accelerometer_(triad(config, config.accelerometer, run_seed, "imu.accelerometer")),
-      vibration_(config.vibration, to_seconds(timestep), run_seed),
+      gyro_(triad(config, config.gyro, seeds, "imu.gyro")),
+      accelerometer_(triad(config, config.accelerometer, seeds, "imu.accelerometer")),
+      vibration_(config.vibration, to_seconds(timestep), seeds),
       gyro_filter_(config.bandwidth, config.filter_order, to_seconds(timestep)),
       accelerometer_filter_(config.bandwidth, config.filter_order, to_seconds(timestep)),
       disturbed_(config.bandwidth > 0.0 || vibration_.active()) {}

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/measurements.hpp"
 #include "sim/robot/truth.hpp"
+#include "sim/run_seeds.hpp"
 #include "sim/sensors/inertial_errors.hpp"
 #include "sim/sensors/low_pass.hpp"
 #include "sim/sensors/structural_vibration.hpp"
@@ -36,7 +37,7 @@ class Imu {
   /// `config` is valid. Random streams: those of InertialTriad under "imu.gyro" and
   /// "imu.accelerometer", and those of StructuralVibration. They do not depend on the rate, so that
   /// two outputs of one device share what is drawn per run.
-  Imu(const ImuConfig& config, Duration timestep, std::uint64_t run_seed);
+  Imu(const ImuConfig& config, Duration timestep, RunSeeds seeds);
 
   /// Processes the true motion before the first and after each physics step, with the normal forces
   /// of the feet in that step [N]; returns a sample at the end of each interval. An average of

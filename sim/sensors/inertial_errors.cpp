@@ -14,6 +14,15 @@ Eigen::Matrix3d drawn_matrix(double sigma, RandomStream& random) {
   return terms;
 }
 
+/// Second draw of the stream "name" of the robot; that of the run, if it is another, leaves it out.
+Eigen::Vector3d drawn_scale(const InertialErrorConfig& errors, RunSeeds seeds,
+                            std::string_view name, RandomStream& of_run) {
+  RandomStream of_robot(seeds.robot, name);
+  of_robot.normal3();
+  of_run.normal3();
+  return Eigen::Vector3d::Ones() + errors.scale_error * of_robot.normal3();
+}
+
 }  // namespace
 
 BiasDrift::BiasDrift(double sigma, double correlation_time, std::uint64_t run_seed,
@@ -35,18 +44,18 @@ Eigen::Vector3d BiasDrift::at(Time stamp) {
 }
 
 InertialTriad::InertialTriad(const InertialErrorConfig& errors, double interval, double bandwidth,
-                             std::uint64_t run_seed, std::string_view name)
+                             RunSeeds seeds, std::string_view name)
     : errors_(errors),
       walk_step_(errors.bias_walk * std::sqrt(interval)),
       noise_sigma_(2.0 * bandwidth * interval > 1.0
                        ? errors.noise_density * std::sqrt(2.0 * bandwidth)
                        : errors.noise_density / std::sqrt(interval)),
-      random_(run_seed, name),
+      random_(seeds.run, name),
       walked_(errors.turn_on_bias * random_.normal3()),
-      scale_(Eigen::Vector3d::Ones() + errors.scale_error * random_.normal3()),
-      drift_(errors.drift, errors.drift_time, run_seed, std::string(name) + ".drift"),
+      scale_(drawn_scale(errors, seeds, name, random_)),
+      drift_(errors.drift, errors.drift_time, seeds.run, std::string(name) + ".drift"),
       bias_(walked_) {
-  RandomStream axes(run_seed, std::string(name) + ".axes");
+  RandomStream axes(seeds.robot, std::string(name) + ".axes");
   cross_axis_ = drawn_matrix(errors.misalignment, axes);
   cross_axis_.diagonal().setZero();
   g_sensitivity_ = drawn_matrix(errors.g_sensitivity, axes);

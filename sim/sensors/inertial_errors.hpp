@@ -8,6 +8,7 @@
 #include "core/config.hpp"
 #include "core/random.hpp"
 #include "core/time.hpp"
+#include "sim/run_seeds.hpp"
 
 namespace aims {
 
@@ -52,7 +53,7 @@ class InertialTriad {
   /// Random streams: `name` (bias, scale, noise), `name`.axes (misalignment, g-sensitivity) and
   /// `name`.drift. `interval` between samples [s]; noise of at least `bandwidth` [Hz].
   InertialTriad(const InertialErrorConfig& errors, double interval, double bandwidth,
-                std::uint64_t run_seed, std::string_view name);
+                RunSeeds seeds, std::string_view name);
 
   /// The output for a true value, under that specific force [m/s^2].
   Eigen::Vector3d measure(Time stamp, const Eigen::Vector3d& truth, const Eigen::Vector3d& force);

@@ -16,8 +16,8 @@ JointVector joints_in(const std::array<double, kJointCount>& values) {
   return Eigen::Map<const JointVector>(values.data());
 }
 
-LegRunErrors draw_errors(const LegOdometryConfig& config, std::uint64_t run_seed) {
-  RandomStream run(run_seed, "leg.run");
+LegRunErrors draw_errors(const LegOdometryConfig& config, std::uint64_t robot_seed) {
+  RandomStream run(robot_seed, "leg.run");
   LegRunErrors errors;
   errors.velocity_scale =
       config.velocity_scale * (1.0 + config.velocity_scale_error * run.normal());
@@ -30,17 +30,17 @@ LegRunErrors draw_errors(const LegOdometryConfig& config, std::uint64_t run_seed
 }  // namespace
 
 LegOdometry::LegOdometry(const LegOdometryConfig& config, const LegGeometry& legs,
-                         Duration timestep, std::uint64_t run_seed)
+                         Duration timestep, RunSeeds seeds)
     : config_(config),
       legs_(legs),
       steps_(*steps_per_sample("leg_odometry.rate", config.rate, timestep)),
       interval_(1.0 / config.rate),
-      errors_(draw_errors(config, run_seed)),
+      errors_(draw_errors(config, seeds.robot)),
       compliance_(config, legs, timestep),
-      encoders_(config, timestep, errors_.angle_offset, run_seed),
-      contacts_(config, timestep, run_seed),
-      gyro_(run_seed, "leg.gyro"),
-      slip_(run_seed, "leg.slip") {}
+      encoders_(config, timestep, errors_.angle_offset, seeds.run),
+      contacts_(config, timestep, seeds),
+      gyro_(seeds.run, "leg.gyro"),
+      slip_(seeds.run, "leg.slip") {}
 
 /// The odometry frame is the base's frame at the start, made level.
 void LegOdometry::begin(const RobotState& truth) {

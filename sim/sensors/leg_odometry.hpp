@@ -9,6 +9,7 @@
 #include "core/measurements.hpp"
 #include "core/random.hpp"
 #include "sim/robot/world.hpp"
+#include "sim/run_seeds.hpp"
 #include "sim/sensors/contact_sensor.hpp"
 #include "sim/sensors/joint_encoders.hpp"
 #include "sim/sensors/leg_compliance.hpp"
@@ -28,10 +29,10 @@ struct LegRunErrors {
 /// and pitch are corrected by gravity, as by an attitude filter.
 class LegOdometry {
  public:
-  /// `config` is valid; `legs` as drawn. Random streams: "leg.run", "leg.gyro", "leg.slip" and
-  /// those of the parts.
+  /// `config` is valid; `legs` as drawn. Random streams: "leg.gyro", "leg.slip", of the robot
+  /// "leg.run", and those of the parts.
   LegOdometry(const LegOdometryConfig& config, const LegGeometry& legs, Duration timestep,
-              std::uint64_t run_seed);
+              RunSeeds seeds);
 
   /// Processes the true state before the first and after each physics step; returns a sample at
   /// the end of each interval.

@@ -20,17 +20,17 @@ void ScanTruth::clear() {
   range_sigmas.clear();
 }
 
-Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed)
+Lidar::Lidar(const LidarConfig& config, const RayCaster& caster, RunSeeds seeds)
     : config_(config),
       caster_(&caster),
       pattern_(config),
-      calibration_(draw_calibration(config, run_seed)),
+      calibration_(draw_calibration(config, seeds.robot)),
       model_(config, calibration_),
-      noise_(run_seed, "lidar.noise"),
-      detection_(run_seed, "lidar.detection"),
-      intensity_noise_(run_seed, "lidar.intensity"),
-      direction_noise_(run_seed, "lidar.direction"),
-      works_(working_lines(config, run_seed)),
+      noise_(seeds.run, "lidar.noise"),
+      detection_(seeds.run, "lidar.detection"),
+      intensity_noise_(seeds.run, "lidar.intensity"),
+      direction_noise_(seeds.run, "lidar.direction"),
+      works_(working_lines(config, seeds.robot)),
       beams_(make_beams(config, pattern_, calibration_, works_, 0)),
       columns_(pattern_.columns(0)),
       returns_(static_cast<std::size_t>(pattern_.lines())),

@@ -11,6 +11,7 @@
 #include "core/random.hpp"
 #include "core/trajectory.hpp"
 #include "sim/environment/ray_caster.hpp"
+#include "sim/run_seeds.hpp"
 #include "sim/sensors/beam_footprint.hpp"
 #include "sim/sensors/lidar_beams.hpp"
 #include "sim/sensors/lidar_config.hpp"
@@ -39,7 +40,7 @@ class Lidar {
  public:
   /// `caster` must outlive the LiDAR. Random streams: "lidar.noise", "lidar.detection",
   /// "lidar.intensity", "lidar.direction", "lidar.calibration", "lidar.defects".
-  Lidar(const LidarConfig& config, const RayCaster& caster, std::uint64_t run_seed);
+  Lidar(const LidarConfig& config, const RayCaster& caster, RunSeeds seeds);
 
   /// Nominal length of one scan.
   Duration period() const { return scan_period(config_); }

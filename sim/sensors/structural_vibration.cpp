@@ -24,14 +24,14 @@ Eigen::Matrix<double, 3, 2> drawn_gains(const Eigen::Vector3d& level, double var
 }  // namespace
 
 StructuralVibration::StructuralVibration(const VibrationConfig& config, double timestep,
-                                         std::uint64_t run_seed)
-    : floor_(run_seed, "imu.vibration.floor") {
+                                         RunSeeds seeds)
+    : floor_(seeds.run, "imu.vibration.floor") {
   // White noise of a step has its power up to half the physics rate.
   const double scale = std::sqrt(0.5 / timestep / kFloorBandwidth);
   floor_acceleration_ = scale * config.floor_acceleration;
   floor_rate_ = scale * config.floor_rate;
   if (config.level <= 0.0) return;
-  RandomStream random(run_seed, "imu.vibration");
+  RandomStream random(seeds.robot, "imu.vibration");
   for (const VibrationMode& mode : config.modes) {
     modes_.push_back({SecondOrderSystem(mode.frequency, config.damping, timestep),
                       drawn_gains(config.level * mode.acceleration, config.variation, random),

@@ -8,6 +8,7 @@
 #include "core/config.hpp"
 #include "core/measurements.hpp"
 #include "core/random.hpp"
+#include "sim/run_seeds.hpp"
 #include "sim/sensors/second_order.hpp"
 
 namespace aims {
@@ -46,7 +47,7 @@ struct Vibration {
 class StructuralVibration {
  public:
   /// Random streams: "imu.vibration" (signs and levels), "imu.vibration.floor".
-  StructuralVibration(const VibrationConfig& config, double timestep, std::uint64_t run_seed);
+  StructuralVibration(const VibrationConfig& config, double timestep, RunSeeds seeds);
 
   bool active() const { return floor_acceleration_ > 0.0 || floor_rate_ > 0.0 || !modes_.empty(); }
 

@@ -152,6 +152,26 @@ TEST(Simulation, StartsNearTheFirstPointWithAnOffsetPerSeed) {
   }
 }
 
+/// Mounts and legs are of the robot, start and noise of the run.
+TEST(Simulation, ARobotKeepsItsErrorsOverItsRuns) {
+  SimulationConfig config = short_walk();
+  config.calibration = {.rotation_sigma_deg = 0.5, .translation_sigma = 0.01};
+  const Recording own = record(config, 5);
+  config.robot_seed = 5;
+  const Recording named = record(config, 5);
+  EXPECT_EQ(bytes_of<ImuSample>(own), bytes_of<ImuSample>(named));
+  EXPECT_EQ(bytes_of<LegOdometrySample>(own), bytes_of<LegOdometrySample>(named));
+  EXPECT_EQ(bytes_of<LidarScanPtr>(own), bytes_of<LidarScanPtr>(named));
+  const Recording again = record(config, 6);
+  EXPECT_EQ(again.truth.mounts.T_body_lidar.translation, own.truth.mounts.T_body_lidar.translation);
+  EXPECT_EQ(again.truth.mounts.T_base_body.rotation.coeffs(),
+            own.truth.mounts.T_base_body.rotation.coeffs());
+  EXPECT_NE(bytes_of<ImuSample>(own), bytes_of<ImuSample>(again));
+  config.robot_seed = 6;
+  EXPECT_NE(record(config, 6).truth.mounts.T_body_lidar.translation,
+            own.truth.mounts.T_body_lidar.translation);
+}
+
 TEST(Simulation, OneSensorsNoiseLeavesTheOthersUntouched) {
   const Recording base = record(short_walk(), 5);
   SimulationConfig changed = short_walk();

@@ -251,6 +251,18 @@ TEST(ScenarioDraws, BadEntriesAreErrorsWithFileAndLine) {
   fails("key: route.speed, min: 0.3, max: 1.0, when: [route.speed<=1]", "drawn later");
 }
 
+TEST(ScenarioDraws, ARobotKeepsItsDrawsAndTheSceneIsOfTheRun) {
+  Scenario scenario =
+      drawing({range("leg_odometry.joint_stiffness", 80.0, 2000.0), range("route.speed", 0.3, 1.0)});
+  const Scenario own = scenario_of_seed(scenario, 5);
+  scenario.simulation.robot_seed = 5;
+  EXPECT_EQ(scenario_of_seed(scenario, 5).drawn, own.drawn);
+  const Scenario again = scenario_of_seed(scenario, 6);
+  EXPECT_EQ(drawn(again, "leg_odometry.joint_stiffness"),
+            drawn(own, "leg_odometry.joint_stiffness"));
+  EXPECT_NE(drawn(again, "route.speed"), drawn(own, "route.speed"));
+}
+
 TEST(ScenarioDraws, SeedsForReportingAreNotChosenOn) {
   const Scenario random = drawing({range("route.speed", 0.3, 1.0)});
   const Scenario fixed = default_scenario({}).value();

@@ -135,6 +135,22 @@ TEST(ContactSensor, ASlowSensorReportsAFootThatHasLeft) {
   EXPECT_NEAR(contact_times(config).second - prompt, 0.03 * std::log(4.0), 0.015);
 }
 
+TEST(ContactSensor, ItsErrorsAreThoseOfTheRobot) {
+  LegOdometryConfig config = silent();
+  config.load_offset = 6.0;
+  config.load_scale_error = 0.2;
+  config.load_zero = 30.0;
+  const auto reading = [&config](RunSeeds seeds) {
+    ContactSensor sensor(config, kStep, seeds);
+    sensor.begin(all(kLoad));
+    sensor.detect(kDt);
+    return sensor.measured();
+  };
+  EXPECT_EQ(reading({1, 7}), reading({2, 7}));
+  EXPECT_EQ(reading({1, 7}), reading(7));
+  EXPECT_NE(reading({1, 7}), reading({1, 8}));
+}
+
 TEST(ContactSensor, EachSensorHasItsOwnOffsetAndScale) {
   LegOdometryConfig config = silent();
   config.load_offset = 6.0;

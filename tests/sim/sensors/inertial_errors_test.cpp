@@ -11,17 +11,17 @@ namespace {
 constexpr double kInterval = 0.02;  ///< [s]
 
 /// A triad with that error alone.
-InertialTriad triad(const InertialErrorConfig& errors, std::uint64_t seed = 1) {
-  return {errors, kInterval, 0.0, seed, "test"};
+InertialTriad triad(const InertialErrorConfig& errors, RunSeeds seeds = 1) {
+  return {errors, kInterval, 0.0, seeds, "test"};
 }
 
 InertialErrorConfig none() { return {.range = 1e3}; }
 
 /// The answer to each unit vector as columns, without the answer to zero.
-Eigen::Matrix3d response(const InertialErrorConfig& errors, bool to_force, std::uint64_t seed) {
+Eigen::Matrix3d response(const InertialErrorConfig& errors, bool to_force, RunSeeds seeds) {
   Eigen::Matrix3d columns;
   for (int axis = 0; axis < 3; ++axis) {
-    InertialTriad device = triad(errors, seed);
+    InertialTriad device = triad(errors, seeds);
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
     const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
     columns.col(axis) = device.measure(0, to_force ? zero : unit, to_force ? unit : zero);
@@ -49,6 +49,18 @@ TEST(InertialTriad, MisalignmentIsAConstantShareOfEachAxisInTheOthers) {
   const Eigen::Vector3d first = device.measure(0, {1.0, 2.0, 3.0}, {});
   EXPECT_EQ(device.measure(0, {1.0, 2.0, 3.0}, {}), first);
   EXPECT_TRUE(device.measure(0, {2.0, 4.0, 6.0}, {}).isApprox(2.0 * first, 1e-12));
+}
+
+TEST(InertialTriad, ScaleAndAxesAreOfTheRobotAndTheTurnOnBiasOfTheRun) {
+  InertialErrorConfig errors = none();
+  errors.misalignment = errors.scale_error = 0.01;
+  EXPECT_EQ(response(errors, false, {1, 7}), response(errors, false, {2, 7}));
+  EXPECT_EQ(response(errors, false, {1, 7}), response(errors, false, 7));
+  EXPECT_NE(response(errors, false, {1, 7}), response(errors, false, {1, 8}));
+  errors = none();
+  errors.turn_on_bias = 0.01;
+  EXPECT_EQ(triad(errors, {1, 7}).bias(), triad(errors, {1, 8}).bias());
+  EXPECT_NE(triad(errors, {1, 7}).bias(), triad(errors, {2, 7}).bias());
 }
 
 TEST(InertialTriad, GSensitivityAnswersToEachAxisOfTheSpecificForce) {
