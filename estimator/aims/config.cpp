@@ -5,8 +5,11 @@ namespace aims {
 namespace {
 
 void state_dependencies(Fields& f, const EskfConfig& c) {
+  f.idle_if(!c.lidar.enabled, "lidar.enabled is false",
+            {"ground_constraint", "calibration", "robust_kernel", "map", "map_covariance",
+             "degeneracy", "cross_validation"});
   f.idle_if(!c.legs.enabled, "legs.enabled is false",
-            {"leg_states", "zero_velocity", "degeneracy.gamma_min"});
+            {"feet", "leg_states", "zero_velocity", "degeneracy.gamma_min"});
 }
 
 }  // namespace
@@ -16,6 +19,7 @@ void describe(Fields& f, EskfConfig& c) {
   f.group("initialization", c.initialization);
   f.group("static_initialization", c.static_initialization);
   f.group("legs", c.legs);
+  f.group("feet", c.feet);
   f.group("leg_states", c.leg_states);
   f.group("zero_velocity", c.zero_velocity);
   f.group("ground_constraint", c.ground_constraint);
@@ -31,7 +35,7 @@ void describe(Fields& f, EskfConfig& c) {
 }
 
 Requirements requirements_of(const EskfConfig& config) {
-  return {.lidar = true, .imu = true, .legs = config.legs.enabled};
+  return {.lidar = config.lidar.enabled, .imu = true, .legs = config.legs.enabled};
 }
 
 CalibrationConfig estimated_calibration(const EskfConfig& config) {

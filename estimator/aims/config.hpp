@@ -9,6 +9,7 @@
 #include "estimator/filter/measurement_queue.hpp"
 #include "estimator/filter/static_initialization.hpp"
 #include "estimator/ground/ground_plane.hpp"
+#include "estimator/legs/feet.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
 #include "estimator/legs/zero_velocity.hpp"
@@ -24,6 +25,7 @@ struct EskfConfig {
   InitializationConfig initialization;
   StaticInitializationConfig static_initialization;
   LegConfig legs;
+  FeetConfig feet;
   LegStatesConfig leg_states;
   ZeroVelocityConfig zero_velocity;
   GroundConstraintConfig ground_constraint;

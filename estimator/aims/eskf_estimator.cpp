@@ -41,6 +41,15 @@ constexpr double kKnownLegScale = 0.05;
 /// fit each other (docs/decisions.md).
 const LegConfig kLegsOfUnknownScale;
 
+/// Feet that creep and roll by more than their model says would turn the robot.
+GainMask without_heading(const NominalState& state) {
+  const Eigen::Vector3d up = state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  GainMask mask;
+  mask.gyro_bias = false;
+  mask.rotation -= up * up.transpose();
+  return mask;
+}
+
 /// Without fusion, the leg states stay fixed.
 LegStatesConfig leg_states_of(const EskfConfig& config) {
   return config.legs.enabled ? config.leg_states : LegStatesConfig();
@@ -57,7 +66,10 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
       leg_free_(config_.imu),
       map_(config_.map),
       ground_(config_.ground_constraint),
-      health_({.lidar = true, .legs = config_.legs.enabled, .imu = true}, config_.imu.gravity) {
+      health_({.lidar = config_.lidar.enabled, .legs = config_.legs.enabled, .imu = true},
+              config_.imu.gravity),
+      feet_(config_.feet, rig, config_.imu.gravity,
+            config_.lidar.enabled ? VerticalReference::kFilter : VerticalReference::kLevelGround) {
   result_.diagnostics.series = scan_series();
 }
 
@@ -113,6 +125,7 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
     return;
   }
   const Duration period = from_seconds(1.0 / rig_.leg_rate_hz);
+  if (!last_leg_ && feet_.applies(sample)) expect_feet();
   if (last_leg_) {
     const auto lost = static_cast<int>((sample.stamp - last_leg_->stamp - period / 2) / period);
     if (lost > 0) result_.counts["leg.lost"] += lost;
@@ -123,14 +136,28 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
   report_pose_without_scan(sample.stamp);
 }
 
+/// Legs that are measured foot by foot have a scale that is known from the start: scans are mapped
+/// from the estimate.
+void EskfEstimator::expect_feet() {
+  if (!config_.leg_states.enabled) return;
+  const double sigma = std::min(kFeetScaleSigma, config_.leg_states.scale_sigma);
+  block(belief_.covariance, ErrorState::kLegScale, ErrorState::kLegScale) =
+      sigma * sigma * Eigen::Matrix3d::Identity();
+  mapping_.reset();
+}
+
 /// Appends a predicted pose after `kMaxPoseInterval` without a scan; leg packets are the clock.
 void EskfEstimator::report_pose_without_scan(Time stamp) {
   if (stamp - last_pose_ < kMaxPoseInterval) return;
   predict_to(stamp);
   leg_free_.predict_to(stamp, queue_.imu());
+  report_pose(stamp);
+  ++result_.counts["pose.without_scan"];
+}
+
+void EskfEstimator::report_pose(Time stamp) {
   result_.trajectory.push_back({stamp, belief_.state.T_odom_body()});
   last_pose_ = stamp;
-  ++result_.counts["pose.without_scan"];
 }
 
 /// While neither legs nor scans arrive, IMU samples are the clock of the predicted poses.
@@ -156,11 +183,17 @@ void EskfEstimator::repeat_lost_legs(Time until) {
   }
 }
 
-/// Covariance of one sample, eq. (11). Before their scale is known legs weigh little.
-Eigen::Matrix3d EskfEstimator::leg_covariance(const LegOdometrySample& sample) const {
+/// The velocity that the robot reports, with the covariance of eq. (11). Before their scale is
+/// known legs weigh little.
+LinearMeasurement EskfEstimator::reported_velocity(const LegOdometrySample& sample) {
   const LegConfig& legs = mapping_ ? kLegsOfUnknownScale : config_.legs;
-  return leg_velocity_noise(legs, rig_.leg_rate_hz, sample.linear_velocity) /
-         lidar_update_.gamma_leg();
+  const Eigen::Matrix3d noise =
+      leg_velocity_noise(legs, rig_.leg_rate_hz, belief_.state.velocity.norm()) /
+      lidar_update_.gamma_leg();
+  const Eigen::Vector3d rate =
+      queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
+  velocity_ = stride_means_.update(sample.stamp, sample.linear_velocity);
+  return leg_velocity_model(belief_.state, rig_.T_body_base, rate, velocity_, noise);
 }
 
 /// While the robot stands, zero velocity and zero rate replace the leg velocity; true then. The leg
@@ -195,20 +228,19 @@ void EskfEstimator::fuse_standing(const Eigen::Vector3d& rate) {
 
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   predict_to(sample.stamp);
-  if (fuse_zero_velocity(sample)) return;
-  const Eigen::Vector3d rate =
-      queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
-  const LegVelocity legs = stride_means_.update(sample);
-  const Eigen::Matrix3d noise = leg_covariance(sample);
-  const LinearMeasurement measurement =
-      leg_velocity_model(belief_.state, rig_.T_body_base, rate, legs, noise);
+  const bool by_feet = feet_.applies(sample);
+  const std::optional<LinearMeasurement> feet =
+      by_feet ? feet_.measure(sample, belief_, queue_.imu()) : std::nullopt;
+  if (fuse_zero_velocity(sample) || (by_feet && !feet)) return;
+  const LinearMeasurement measurement = by_feet ? *feet : reported_velocity(sample);
+  const LegVelocity& legs = by_feet ? feet_.velocity() : velocity_;
   health_.leg_residual(uncorrected_residual(measurement, belief_.state, legs));
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  accept(belief_, lidar_update_.fuse_velocity(belief_, measurement));
+  const GainMask mask = by_feet ? without_heading(belief_.state) : GainMask();
+  accept(belief_, lidar_update_.fuse_velocity(belief_, measurement, mask));
   if (!mapping_) return;
-  accept(*mapping_,
-         fuse(*mapping_, leg_velocity_model(mapping_->state, rig_.T_body_base, rate, legs, noise)));
+  accept(*mapping_, fuse(*mapping_, moved_to(measurement, belief_.state, mapping_->state), mask));
 }
 
 void EskfEstimator::correct(const LidarScanPtr& scan) {
@@ -218,6 +250,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   }
   repeat_lost_legs(scan->end);
   predict_to(scan->end);
+  if (!config_.lidar.enabled) return report_pose(scan->end);
   leg_free_.predict_to(scan->end, queue_.imu());
   ScanDiagnostics diagnostics;
   diagnostics.stamp = scan->end;
@@ -240,8 +273,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
                                              belief_.state.T_odom_body(), config_.calibration);
   record_covariance(belief_, lidar_update_.map_covariance() + rig, sigma_of_fixed_mount(config_),
                     diagnostics);
-  result_.trajectory.push_back({scan->end, belief_.state.T_odom_body()});
-  last_pose_ = scan->end;
+  report_pose(scan->end);
   result_.diagnostics.scans.push_back(row_of(diagnostics));
 }
 

@@ -12,6 +12,7 @@
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 #include "estimator/ground/ground_constraint.hpp"
+#include "estimator/legs/feet_odometry.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/zero_velocity.hpp"
 #include "estimator/lidar/deskew.hpp"
@@ -42,12 +43,14 @@ class EskfEstimator : public Estimator {
   void correct(const LidarScanPtr& scan);
   void predict_to(Time stamp);
   void predict(Belief& belief, double duration);
+  void expect_feet();
   void report_pose_without_scan(Time stamp);
+  void report_pose(Time stamp);
   void coast();
   void judge_health();
   void repeat_lost_legs(Time until);
   void fuse_leg_velocity(const LegOdometrySample& sample);
-  Eigen::Matrix3d leg_covariance(const LegOdometrySample& sample) const;
+  LinearMeasurement reported_velocity(const LegOdometrySample& sample);
   bool fuse_zero_velocity(const LegOdometrySample& sample);
   void fuse_standing(const Eigen::Vector3d& rate);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
@@ -92,7 +95,9 @@ class EskfEstimator : public Estimator {
   /// so that they are mapped where they fit, and not where legs that are far off take the estimate.
   std::optional<Belief> mapping_;
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
+  FeetOdometry feet_;
   StrideMeans stride_means_;
+  LegVelocity velocity_;  ///< reported last
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]
   int leg_updates_ = 0;
 

@@ -104,7 +104,7 @@ double LidarUpdate::free_tilt() const {
 
 Belief LidarUpdate::fuse_velocity(const Belief& belief, const LinearMeasurement& velocity,
                                   const GainMask& mask) const {
-  return considers_legs() ? fuse_given_legs(belief, velocity) : fuse(belief, velocity, mask);
+  return considers_legs() ? fuse_given_legs(belief, velocity, mask) : fuse(belief, velocity, mask);
 }
 
 /// One step with a few of the points: where all of them meet nearly the planes of the result, so

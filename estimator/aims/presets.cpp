@@ -12,6 +12,8 @@ namespace {
 EskfConfig without_directional_weights() {
   EskfConfig config;
   config.static_initialization.enabled = true;
+  config.legs.velocity_sigma.setConstant(0.03);
+  config.feet.enabled = true;
   config.leg_states.enabled = true;
   config.zero_velocity.enabled = true;
   config.ground_constraint.enabled = true;
@@ -31,7 +33,6 @@ constexpr std::array kPresets = {
                "beyond the paper: real information per axis, leg scale, ground constraint",
                [] {
                  EskfConfig config = without_directional_weights();
-                 config.legs.velocity_sigma.setConstant(0.03);
                  config.cross_validation.enabled = true;
                  return config;
                }},
@@ -44,8 +45,14 @@ constexpr std::array kPresets = {
     EskfPreset{"tfs_clean", "fixed weights, lost leg packets skipped", [] { return EskfConfig(); }},
     EskfPreset{
         "tfs_plus",
-        "tfs_clean with all parts of aims_d but cross-validation and the noise of its leg samples",
+        "tfs_clean with all parts of aims_d but cross-validation",
         [] { return without_directional_weights(); }},
+    EskfPreset{"leg_inertial", "IMU and legs alone, each foot a measurement",
+               [] {
+                 EskfConfig config = without_directional_weights();
+                 config.lidar.enabled = false;
+                 return config;
+               }},
     EskfPreset{"lio", "LiDAR and IMU only, fixed weights",
                [] {
                  EskfConfig config;

@@ -57,7 +57,8 @@ Belief fuse(const Belief& prior, const LinearMeasurement& measurement, const Gai
           reset_covariance(masked_covariance(prior.covariance, PH, weight, mask), delta)};
 }
 
-Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement) {
+Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement,
+                       const GainMask& mask) {
   using E = ErrorState;
   const ErrorMatrix& P = prior.covariance;
   const Columns<3> PH = projected<3>(P, measurement.jacobian);
@@ -68,7 +69,7 @@ Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement
   Columns<3> given = PH - with_legs * legs.ldlt().solve(legs_PH);
   given.middleRows<E::kLegSize>(E::kLegScale.offset).setZero();
   const Eigen::Matrix3d variance = measurement.jacobian.lazyProduct(given) + measurement.noise;
-  const Columns<3> gain = given.lazyProduct(variance.inverse());
+  const Columns<3> gain = mask * Columns<3>(given.lazyProduct(variance.inverse()));
   const Eigen::Matrix3d stated = measurement.jacobian.lazyProduct(PH) + measurement.noise;
   const ErrorVector delta = -gain * measurement.residual;
   return {boxplus(prior.state, delta),

@@ -37,7 +37,10 @@ struct PoseMeasurement {
 /// What of a correction is applied (Schmidt-Kalman update): the gain K is replaced by matrix() K.
 /// States that are not corrected keep their value and their uncertainty.
 struct GainMask {
-  bool legs = true;  ///< scale and bias of the legs
+  bool legs = true;      ///< scale and bias of the legs
+  bool gyro_bias = true;  ///< bias of the gyro
+  /// Factor of the attitude, body axes.
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   /// Factors of position and velocity, odometry axes.
   Eigen::Matrix3d translation = Eigen::Matrix3d::Identity();
 
@@ -48,10 +51,13 @@ struct GainMask {
   Eigen::Matrix<double, ErrorState::kSize, columns> operator*(
       Eigen::Matrix<double, ErrorState::kSize, columns> gain) const {
     using E = ErrorState;
+    auto rotation_rows = gain.template middleRows<3>(E::kRotation.offset);
     auto position_rows = gain.template middleRows<3>(E::kPosition.offset);
     auto velocity_rows = gain.template middleRows<3>(E::kVelocity.offset);
+    rotation_rows = rotation.lazyProduct(rotation_rows).eval();
     position_rows = translation.lazyProduct(position_rows).eval();
     velocity_rows = translation.lazyProduct(velocity_rows).eval();
+    if (!gyro_bias) gain.template middleRows<3>(E::kGyroBias.offset).setZero();
     if (!legs) gain.template middleRows<E::kLegSize>(E::kLegScale.offset).setZero();
     return gain;
   }
@@ -65,7 +71,8 @@ Belief fuse(const Belief& prior, const LinearMeasurement& measurement, const Gai
 /// The belief after fusing `measurement` with the gain of a filter that knows scale and bias of the
 /// legs (docs/estimators.md#cross-validated-information): these stay, and nothing follows from the
 /// errors that others have in common with them. The covariance is that of this gain.
-Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement);
+Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement,
+                       const GainMask& mask = {});
 
 /// One step of the iterated update: the belief after fusing `measurement`, linearized at
 /// `linearization`, with `prior`. With linearization == prior.state it is the standard update. The

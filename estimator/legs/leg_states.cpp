@@ -39,13 +39,13 @@ void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt) {
   add_variance(belief.covariance, ErrorState::kLegBias, kLegBiasWalk, dt);
 }
 
-LegVelocity StrideMeans::update(const LegOdometrySample& sample) {
-  const double dt = stamp_ ? std::max(to_seconds(sample.stamp - *stamp_), 0.0) : kStride;
+LegVelocity StrideMeans::update(Time stamp, const Eigen::Vector3d& velocity) {
+  const double dt = stamp_ ? std::max(to_seconds(stamp - *stamp_), 0.0) : kStride;
   const double gain = 1.0 - std::exp(-dt / kStride);
-  stamp_ = sample.stamp;
-  mean_ += gain * (sample.linear_velocity - mean_);
+  stamp_ = stamp;
+  mean_ += gain * (velocity - mean_);
   mean_of_mean_ += gain * (mean_ - mean_of_mean_);
-  return {sample.linear_velocity, 2.0 * mean_ - mean_of_mean_, mean_of_mean_};
+  return {velocity, 2.0 * mean_ - mean_of_mean_, mean_of_mean_};
 }
 
 }  // namespace aims

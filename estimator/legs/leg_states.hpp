@@ -14,6 +14,10 @@ namespace aims {
 inline constexpr double kLegScaleWalk = 1e-3;
 inline constexpr double kLegBiasWalk = 1e-4;
 
+/// Deviation of the scale of legs that are measured foot by foot [-]
+/// (docs/decisions.md#each-foot-is-a-measurement).
+inline constexpr double kFeetScaleSigma = 0.04;
+
 /// Scale and bias of the leg odometry as filter states.
 struct LegStatesConfig {
   bool enabled = false;       ///< estimate a scale and a bias per axis
@@ -29,12 +33,12 @@ Belief open_leg_states(Belief belief, const LegStatesConfig& config);
 /// Adds the random walk of the enabled leg states over `dt` [s].
 void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt);
 
-/// Means of the velocity from leg odometry over strides: two first-order low passes in series, each
+/// Means of a velocity over strides: two first-order low passes in series, each
 /// with the time constant T of a stride. They lag by T and 2 T.
 class StrideMeans {
  public:
-  /// Adds a sample; its velocity and the means, base axes [m/s].
-  LegVelocity update(const LegOdometrySample& sample);
+  /// Adds a `velocity` at `stamp`; it and the means, base axes [m/s].
+  LegVelocity update(Time stamp, const Eigen::Vector3d& velocity);
 
  private:
   std::optional<Time> stamp_;

@@ -43,9 +43,8 @@ Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
   return measurement.residual - state.leg_scale.cwiseProduct(legs.stride_mean) - state.leg_bias;
 }
 
-Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
-                                   const Eigen::Vector3d& measured) {
-  const double scale_error = config.scale_sigma * measured.norm();
+Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz, double speed) {
+  const double scale_error = config.scale_sigma * speed;
   const Eigen::Vector3d variance =
       config.velocity_sigma.cwiseAbs2() + Eigen::Vector3d::Constant(scale_error * scale_error);
   const double correlated_samples = std::max(1.0, 2.0 * kLegCorrelationTime * rate_hz);

@@ -44,8 +44,8 @@ Eigen::Vector3d uncorrected_residual(const LinearMeasurement& measurement,
                                      const NominalState& state, const LegVelocity& legs);
 
 /// R_leg, the nominal covariance of one sample [m^2/s^2] at `rate_hz` [Hz], times the consecutive
-/// samples that share one error (a slipping stance): 2 tau f, at least 1.
-Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz,
-                                   const Eigen::Vector3d& measured);
+/// samples that share one error (a slipping stance): 2 tau f, at least 1. `speed` [m/s] is that of
+/// the filter: with the speed of the sample itself fast samples would weigh less than slow ones.
+Eigen::Matrix3d leg_velocity_noise(const LegConfig& config, double rate_hz, double speed);
 
 }  // namespace aims

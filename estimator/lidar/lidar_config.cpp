@@ -4,6 +4,7 @@
 namespace aims {
 
 void describe(Fields& f, LidarUpdateConfig& c) {
+  f.flag("enabled", c.enabled, {"", any(), "fuse scans of the LiDAR"});
   f.number("min_range", c.min_range,
            {"m", up_to(1e4), "nearer returns are ignored", "LiDAR datasheets: 0.1 to 0.5 m"});
   f.number(

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/legs/feet_odometry.hpp"
+
+#include <algorithm>
+
+#include "estimator/filter/imu_propagation.hpp"
+
+namespace aims {
+namespace {
+
+Eigen::Vector3d up_in_base(const NominalState& state, const Pose& T_body_base) {
+  return T_body_base.rotation.conjugate() *
+         (state.rotation.conjugate() * Eigen::Vector3d::UnitZ());
+}
+
+/// The derivative of R^T v, body axes [m/s^2].
+Eigen::Vector3d acceleration_in_body(const NominalState& state, const InertialSegment& motion,
+                                     double gravity) {
+  const Eigen::Quaterniond R_body_odom = state.rotation.conjugate();
+  const Eigen::Vector3d rate = motion.angular_velocity - state.gyro_bias;
+  return motion.specific_force - state.accelerometer_bias -
+         R_body_odom * Eigen::Vector3d(0.0, 0.0, gravity) -
+         rate.cross(R_body_odom * state.velocity);
+}
+
+}  // namespace
+
+bool FeetOdometry::applies(const LegOdometrySample& sample) const {
+  const Eigen::Map<const JointVector> angle(sample.joint_position.data());
+  return config_.enabled && !angle.isZero(0.0) && angle.allFinite();
+}
+
+/// The state `age` [s] before `stamp`, the time of `state`, and the motion there.
+FeetOdometry::Instant FeetOdometry::instant_before(Time stamp, double age,
+                                                   const NominalState& state,
+                                                   const ImuHistory& imu) {
+  imu.segments(stamp - std::max<Duration>(from_seconds(age), 1), stamp, segments_);
+  Instant instant{state, segments_.front()};
+  for (auto each = segments_.rbegin(); each != segments_.rend(); ++each) {
+    const double back = -to_seconds(each->end - each->begin);
+    instant.state = propagate_state(instant.state, *each, back, gravity_);
+  }
+  return instant;
+}
+
+std::optional<JointState> FeetOdometry::joints_of_packet(const LegOdometrySample& sample,
+                                                         const NominalState& state) {
+  const Eigen::Map<const JointVector> angle(sample.joint_position.data());
+  const Eigen::Vector3d up = up_in_base(state, rig_.T_body_base);
+  return difference_.update(
+      {sample.stamp, angle,
+       compliance_.yield(sample, up, rig_.leg_geometry, rig_.leg_rate_hz)});
+}
+
+/// The detected contacts; all feet where no packet has reported any.
+std::array<bool, kLegCount> FeetOdometry::contacts_of(const LegOdometrySample& sample) {
+  contacts_reported_ = contacts_reported_ || std::ranges::count(sample.contact, true) > 0;
+  std::array<bool, kLegCount> all{};
+  all.fill(true);
+  return contacts_reported_ ? sample.contact : all;
+}
+
+std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& sample,
+                                                       const Belief& belief,
+                                                       const ImuHistory& imu) {
+  const std::optional<JointState> joints = joints_of_packet(sample, belief.state);
+  if (!joints) return std::nullopt;
+  const auto [state, motion] =
+      instant_before(sample.stamp, joints->age + delay_.value(), belief.state, imu);
+  const auto model = [&](const LegVelocity& legs, double variance) {
+    return leg_velocity_model(state, rig_.T_body_base, motion.angular_velocity, legs,
+                              variance * Eigen::Matrix3d::Identity());
+  };
+  const LinearMeasurement prediction = model({}, 0.0);
+  const Eigen::Vector3d predicted = prediction.residual;
+  const double predicted_variance =
+      (prediction.jacobian * belief.covariance * prediction.jacobian.transpose()).trace() / 3.0;
+  velocity_ = stride_means_.update(sample.stamp, predicted);
+
+  const Eigen::Matrix3d R_base_body = rig_.T_body_base.R().transpose();
+  const Eigen::Vector3d turning = R_base_body * (motion.angular_velocity - state.gyro_bias);
+  const Eigen::Vector3d up = up_in_base(state, rig_.T_body_base);
+  const FootVelocities feet =
+      velocities_from_feet(*joints, compliance_.value(), turning, up, rig_.leg_geometry);
+  const FootWeights weights =
+      weights_of_feet(feet, contacts_of(sample), predicted, predicted_variance, config_);
+  const double weight = total_weight(weights);
+  if (weight == 0.0) return std::nullopt;
+  velocity_.measured = mean_of_feet(feet, weights);
+  const double variance = variance_of_feet(weight, rig_.leg_rate_hz, config_);
+  const LinearMeasurement measurement = model(velocity_, variance);
+
+  delay_.update(measurement.residual, R_base_body * acceleration_in_body(state, motion, gravity_),
+                predicted_variance + variance);
+  const JointState yielding{joints->angle, joints->yield_rate, JointVector::Zero(), 0.0};
+  const FootVelocities change =
+      velocities_from_feet(yielding, 0.0, Eigen::Vector3d::Zero(), up, rig_.leg_geometry);
+  const double climb = vertical_ == VerticalReference::kFilter ? up.dot(predicted) : 0.0;
+  compliance_.update(up.dot(velocity_.measured) - climb, up.dot(mean_of_feet(change, weights)),
+                     rig_.leg_rate_hz);
+  return measurement;
+}
+
+}  // namespace aims

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/measurements.hpp"
+#include "estimator/filter/imu_history.hpp"
+#include "estimator/filter/kalman_update.hpp"
+#include "estimator/legs/feet.hpp"
+#include "estimator/legs/joint_compliance.hpp"
+#include "estimator/legs/leg_states.hpp"
+#include "estimator/legs/leg_velocity_model.hpp"
+
+namespace aims {
+
+/// Where the true vertical velocity is known from, against which feet show their compliance.
+enum class VerticalReference {
+  kFilter,       ///< the belief, which scans hold
+  kLevelGround,  ///< nothing measures it: the ground is taken as level on average
+};
+
+/// Turns leg packets with joint angles into measurements of the base velocity, foot by foot.
+class FeetOdometry {
+ public:
+  FeetOdometry(const FeetConfig& config, const SensorRig& rig, double gravity,
+               VerticalReference vertical)
+      : config_(config), rig_(rig), gravity_(gravity), vertical_(vertical) {}
+
+  /// Whether the packet has joint angles: then its velocity is not to be fused.
+  bool applies(const LegOdometrySample& sample) const;
+
+  /// The measurement by `sample` for `belief`, whose time is the stamp; empty while no foot stands
+  /// or no earlier packet gives joint rates. It is linearized where the feet were measured, a few
+  /// milliseconds earlier. Call once per packet that applies.
+  std::optional<LinearMeasurement> measure(const LegOdometrySample& sample, const Belief& belief,
+                                           const ImuHistory& imu);
+
+  /// The last measured velocity with the means of `leg_velocity_model`.
+  const LegVelocity& velocity() const { return velocity_; }
+
+ private:
+  /// State and motion at an instant.
+  struct Instant {
+    NominalState state;
+    InertialSegment motion;
+  };
+  Instant instant_before(Time stamp, double age, const NominalState& state, const ImuHistory& imu);
+  std::optional<JointState> joints_of_packet(const LegOdometrySample& sample,
+                                             const NominalState& state);
+  std::array<bool, kLegCount> contacts_of(const LegOdometrySample& sample);
+
+  FeetConfig config_;
+  SensorRig rig_;
+  double gravity_;
+  VerticalReference vertical_;
+  JointDifference difference_;
+  JointDelay delay_;
+  JointCompliance compliance_;
+  StrideMeans stride_means_;  ///< of the predicted velocity: that of a foot is too noisy
+  LegVelocity velocity_;
+  bool contacts_reported_ = false;  ///< by any packet so far
+  std::vector<InertialSegment> segments_;
+};
+
+}  // namespace aims

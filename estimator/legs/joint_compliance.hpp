@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/leg_geometry.hpp"
+#include "core/leg_kinematics.hpp"
+#include "core/measurements.hpp"
+
+namespace aims {
+
+/// Compliance of the joints: under the load f a link lies beyond its encoder by J^T f / K, with the
+/// stiffness K. Loads are seldom calibrated, so f_i = W s_i u with the share s_i of a foot in the
+/// mean sum W of all loads, along the upward unit vector u, and W / K [rad/m] is one unknown.
+///
+/// A leg that yields gives way at touchdown and springs back after the foot has left the ground,
+/// where it no longer counts: by its encoders the robot sinks, or climbs, with every step. So the
+/// mean vertical velocity by the feet, against the true one, shows W / K; what happens within a
+/// stance does not, since other errors of a foot look alike there.
+class JointCompliance {
+ public:
+  double value() const { return value_; }        ///< W / K [rad/m]
+  double variance() const { return variance_; }  ///< [rad^2/m^2]
+
+  /// Angles of the links beyond their encoders for W / K = 1 rad/m [m], by the loads of `sample`;
+  /// `up` in base axes. Zero without loads. Call once per sample: it follows the mean load.
+  JointVector yield(const LegOdometrySample& sample, const Eigen::Vector3d& up,
+                    const LegGeometry& geometry, double rate_hz);
+
+  /// `climb`: vertical velocity by the feet minus the true one [m/s]; `change`: its derivative by
+  /// W / K [m^2/(rad s)]; at `rate_hz` [Hz].
+  void update(double climb, double change, double rate_hz);
+
+ private:
+  double value_ = 0.0;
+  double variance_ = 0.7 * 0.7;  ///< legs of 100 N m/rad under 125 N have 1.2 rad/m
+  double mean_load_ = 0.0;       ///< of all feet together
+  double climb_ = 0.0;           ///< mean over a second [m/s]
+  double change_ = 0.0;          ///< likewise
+};
+
+}  // namespace aims
