@@ -136,14 +136,12 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
   report_pose_without_scan(sample.stamp);
 }
 
-/// Legs that are measured foot by foot have a scale that is known from the start: scans are mapped
-/// from the estimate.
+/// The scale of legs that are measured foot by foot is known better than that of reported ones.
 void EskfEstimator::expect_feet() {
   if (!config_.leg_states.enabled) return;
   const double sigma = std::min(kFeetScaleSigma, config_.leg_states.scale_sigma);
   block(belief_.covariance, ErrorState::kLegScale, ErrorState::kLegScale) =
       sigma * sigma * Eigen::Matrix3d::Identity();
-  mapping_.reset();
 }
 
 /// Appends a predicted pose after `kMaxPoseInterval` without a scan; leg packets are the clock.

@@ -97,7 +97,7 @@ class EskfEstimator : public Estimator {
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
   FeetOdometry feet_;
   StrideMeans stride_means_;
-  LegVelocity velocity_;  ///< reported last
+  LegVelocity velocity_;                  ///< reported last
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]
   int leg_updates_ = 0;
 

@@ -43,10 +43,8 @@ constexpr std::array kPresets = {
                  return config;
                }},
     EskfPreset{"tfs_clean", "fixed weights, lost leg packets skipped", [] { return EskfConfig(); }},
-    EskfPreset{
-        "tfs_plus",
-        "tfs_clean with all parts of aims_d but cross-validation",
-        [] { return without_directional_weights(); }},
+    EskfPreset{"tfs_plus", "tfs_clean with all parts of aims_d but cross-validation",
+               [] { return without_directional_weights(); }},
     EskfPreset{"leg_inertial", "IMU and legs alone, each foot a measurement",
                [] {
                  EskfConfig config = without_directional_weights();

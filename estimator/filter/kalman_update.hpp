@@ -37,7 +37,7 @@ struct PoseMeasurement {
 /// What of a correction is applied (Schmidt-Kalman update): the gain K is replaced by matrix() K.
 /// States that are not corrected keep their value and their uncertainty.
 struct GainMask {
-  bool legs = true;      ///< scale and bias of the legs
+  bool legs = true;       ///< scale and bias of the legs
   bool gyro_bias = true;  ///< bias of the gyro
   /// Factor of the attitude, body axes.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();

@@ -59,12 +59,12 @@ FootVelocities velocities_from_feet(const JointState& joints, double compliance,
                                     const LegGeometry& geometry);
 
 /// How far each foot is taken to stand, 0 to 1. A swinging foot moves over the ground by metres per
-/// second, which load sensors report tens of milliseconds late. So each foot weighs by its agreement
-/// with the velocity that the IMU predicts (`predicted`, base axes, with `variance` per axis):
-/// w_i = 1 / (1 + |y_i|^2 / (c^2 + 2 variance))^2 with the innovation y_i, the Geman-McClure kernel.
-/// Without a detected contact it is a tenth of that, since a threshold may be too high. Feet swing
-/// forward; a foot that moves backward over the ground yields, and its y_i counts 2/3. The more
-/// uncertain the prediction, the less it decides.
+/// second, which load sensors report tens of milliseconds late. So each foot weighs by its
+/// agreement with the velocity that the IMU predicts (`predicted`, base axes, with `variance` per
+/// axis): w_i = 1 / (1 + |y_i|^2 / (c^2 + 2 variance))^2 with the innovation y_i, the Geman-McClure
+/// kernel. Without a detected contact it is a tenth of that, since a threshold may be too high.
+/// Feet swing forward; a foot that moves backward over the ground yields, and its y_i counts 2/3.
+/// The more uncertain the prediction, the less it decides.
 FootWeights weights_of_feet(const FootVelocities& feet, const std::array<bool, kLegCount>& contact,
                             const Eigen::Vector3d& predicted, double variance,
                             const FeetConfig& config);

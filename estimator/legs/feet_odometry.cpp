@@ -9,8 +9,7 @@ namespace aims {
 namespace {
 
 Eigen::Vector3d up_in_base(const NominalState& state, const Pose& T_body_base) {
-  return T_body_base.rotation.conjugate() *
-         (state.rotation.conjugate() * Eigen::Vector3d::UnitZ());
+  return T_body_base.rotation.conjugate() * (state.rotation.conjugate() * Eigen::Vector3d::UnitZ());
 }
 
 /// The derivative of R^T v, body axes [m/s^2].
@@ -48,8 +47,7 @@ std::optional<JointState> FeetOdometry::joints_of_packet(const LegOdometrySample
   const Eigen::Map<const JointVector> angle(sample.joint_position.data());
   const Eigen::Vector3d up = up_in_base(state, rig_.T_body_base);
   return difference_.update(
-      {sample.stamp, angle,
-       compliance_.yield(sample, up, rig_.leg_geometry, rig_.leg_rate_hz)});
+      {sample.stamp, angle, compliance_.yield(sample, up, rig_.leg_geometry, rig_.leg_rate_hz)});
 }
 
 /// The detected contacts; all feet where no packet has reported any.

@@ -11,9 +11,9 @@ namespace {
 constexpr double kLoadTime = 2.0;
 constexpr double kClimbTime = 1.0;
 
-/// Error of the mean vertical velocity by rigid feet over kClimbTime: lengths of links, rolling
-/// [m/s].
-constexpr double kClimbSigma = 0.04;
+/// Error of the mean vertical velocity by rigid feet over kClimbTime: lengths of links, rolling,
+/// rubber that yields [m/s].
+constexpr double kClimbSigma = 0.08;
 
 /// Softer joints do not carry a robot [rad/m].
 constexpr double kLargestCompliance = 3.0;
@@ -33,7 +33,8 @@ JointVector JointCompliance::yield(const LegOdometrySample& sample, const Eigen:
     load = std::isfinite(load) ? std::max(load, 0.0) : 0.0;
     sum += load;
   }
-  mean_load_ = mean_load_ == 0.0 ? sum : mean_load_ + gain_of(kLoadTime, rate_hz) * (sum - mean_load_);
+  mean_load_ =
+      mean_load_ == 0.0 ? sum : mean_load_ + gain_of(kLoadTime, rate_hz) * (sum - mean_load_);
   if (!(mean_load_ > 0.0)) return yield;
   const Eigen::Map<const JointVector> angle(sample.joint_position.data());
   for (int leg = 0; leg < kLegCount; ++leg) {

@@ -11,7 +11,7 @@
 namespace aims {
 
 /// Random walks of the scale [1/sqrt(s)] and the bias [m/s/sqrt(s)].
-inline constexpr double kLegScaleWalk = 1e-3;
+inline constexpr double kLegScaleWalk = 2e-3;
 inline constexpr double kLegBiasWalk = 1e-4;
 
 /// Deviation of the scale of legs that are measured foot by foot [-]

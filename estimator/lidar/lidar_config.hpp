@@ -16,7 +16,7 @@ struct LidarUpdateConfig {
   /// plane is fitted to five map points, each of which serves as many other returns, and the next
   /// scans meet the same planes.
   double correlated_points = 20.0;
-  bool enabled = true;      ///< fuse scans
+  bool enabled = true;     ///< fuse scans
   int max_iterations = 4;  ///< of the trial update
 };
 

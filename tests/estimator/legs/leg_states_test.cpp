@@ -49,10 +49,7 @@ class Walk {
  public:
   /// Adds the next sample.
   LegVelocity next(double speed) {
-    LegOdometrySample sample;
-    sample.stamp = stamp_ += kPeriod;
-    sample.linear_velocity.x() = speed;
-    return means_.update(sample);
+    return means_.update(stamp_ += kPeriod, speed * Eigen::Vector3d::UnitX());
   }
 
  private:

@@ -41,7 +41,7 @@ TEST(LegVelocity, NoiseGrowsByTheCorrelatedSamples) {
   LegConfig config;
   config.velocity_sigma = {0.1, 0.2, 0.3};
   config.scale_sigma = 0.0;
-  const Eigen::Matrix3d noise = leg_velocity_noise(config, 200.0, Eigen::Vector3d::UnitX());
+  const Eigen::Matrix3d noise = leg_velocity_noise(config, 200.0, 1.0);
   EXPECT_NEAR(noise(0, 0), 40.0 * 0.01, 1e-12);
   EXPECT_NEAR(noise(2, 2), 40.0 * 0.09, 1e-12);
 }

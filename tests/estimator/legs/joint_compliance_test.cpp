@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/legs/joint_compliance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace aims {
+namespace {
+
+constexpr LegGeometry kLegs{0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
+constexpr double kRate = 200.0;
+
+LegOdometrySample standing(double load) {
+  LegOdometrySample sample;
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const Eigen::Vector3d q = leg_angles(
+        leg, hip_in_base(leg, kLegs) + Eigen::Vector3d(0.03, side_of(leg) * 0.08, -0.29), kLegs);
+    for (int i = 0; i < 3; ++i) sample.joint_position[static_cast<std::size_t>(3 * leg + i)] = q[i];
+  }
+  sample.contact_force = FootLoads{load, load, load, load};
+  return sample;
+}
+
+// tau = J^T f, and each foot carries a quarter: K dq = J^T u W / 4.
+TEST(JointCompliance, YieldsByTheTorqueOfItsShareOfTheLoad) {
+  JointCompliance compliance;
+  const JointVector yield =
+      compliance.yield(standing(31.0), Eigen::Vector3d::UnitZ(), kLegs, kRate);
+  const double stiffness = 200.0;
+  const double weight = 4.0 * 31.0;
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const Eigen::Vector3d q(standing(31.0).joint_position.data() + 3 * leg);
+    const Eigen::Vector3d torque =
+        foot_jacobian(leg, q, kLegs).transpose() * Eigen::Vector3d(0.0, 0.0, 31.0);
+    EXPECT_LT((weight / stiffness * joints_of(yield, leg) - torque / stiffness).norm(), 1e-12);
+  }
+}
+
+TEST(JointCompliance, WithoutLoadsIsZeroAndStaysUnknown) {
+  JointCompliance compliance;
+  LegOdometrySample sample = standing(0.0);
+  sample.contact_force.reset();
+  EXPECT_TRUE(compliance.yield(sample, Eigen::Vector3d::UnitZ(), kLegs, kRate).isZero(0.0));
+  const double before = compliance.variance();
+  for (int i = 0; i < 1000; ++i) compliance.update(-0.1, 0.0, kRate);
+  EXPECT_EQ(compliance.value(), 0.0);
+  EXPECT_EQ(compliance.variance(), before);
+}
+
+// Legs that sink by 0.1 m/s per unit of compliance not yet accounted for.
+TEST(JointCompliance, IsLearnedFromTheVerticalDrift) {
+  for (double truth : {0.0, 0.3, 1.5}) {
+    JointCompliance compliance;
+    for (int i = 0; i < 60 * 200; ++i) {
+      const double ripple = 0.2 * std::sin(2.0 * M_PI * 4.0 * i / kRate);
+      compliance.update(0.1 * (compliance.value() - truth) + ripple, 0.1, kRate);
+    }
+    EXPECT_NEAR(compliance.value(), truth, 0.1 * truth + 0.02);
+    EXPECT_LT(compliance.variance(), 0.1);
+  }
+}
+
+TEST(JointCompliance, IsNeverNegative) {
+  JointCompliance compliance;
+  for (int i = 0; i < 4000; ++i) compliance.update(0.1, 0.1, kRate);
+  EXPECT_EQ(compliance.value(), 0.0);
+}
+
+}  // namespace
+}  // namespace aims
