@@ -89,16 +89,27 @@ std::pair<std::size_t, std::size_t> leading(const ResponseTable& table,
   return std::minmax(order[0], order[1]);
 }
 
+/// Whether a point lies on the map: but for the two parameters, it has what the map holds.
+bool shows(const std::vector<double>& point, const std::vector<double>& held, std::size_t first,
+           std::size_t second) {
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    if (i != first && i != second && point[i] != held[i]) return false;
+  }
+  return true;
+}
+
 Result<bool> draw_map(const ResponseTable& table, const Objective& objective, std::size_t first,
                       std::size_t second, const std::filesystem::path& file) {
   FieldPlot plot;
   bool measured = false;
   std::string held;
+  std::vector<double> held_at;
   for (const std::string& group : groups_of(table)) {
     const Slice slice = map_of(table, objective, first, second, group);
     if (slice.is_empty()) continue;
     measured = !slice.measured.empty();
     held = held_text(table, slice);
+    held_at = slice.held;
     FieldPanel panel{name_of_group(group), {}};
     for (const SlicePoint& point : measured ? slice.measured : slice.fit) {
       panel.cells.push_back({point.x, point.y, point.objective});
@@ -118,7 +129,8 @@ Result<bool> draw_map(const ResponseTable& table, const Objective& objective, st
   plot.logarithmic_y = y.log;
   plot.logarithmic_value = true;
   plot.marks.push_back({{table.defaults[first], table.defaults[second]}, "default"});
-  if (const auto best = best_point(table, objective)) {
+  const auto best = best_point(table, objective);
+  if (best && shows(best->values, held_at, first, second)) {
     plot.marks.push_back({{best->values[first], best->values[second]}, "best"});
   }
   if (auto written = write_field_plot(file, plot); !written) return tl::unexpected(written.error());
