@@ -115,16 +115,16 @@ const char* name_of(Fulfilment fulfilment) {
   return "missing";
 }
 
-/// Of a file that does not load, everything but its name is null.
-Json scenario_json(const ScenarioFile& file) {
-  const Scenario* scenario = file.scenario ? &*file.scenario : nullptr;
+/// Of a file whose head cannot be read, everything but its name is null.
+Json scenario_json(const ListedScenario& file) {
+  const ScenarioHead* scenario = file.head ? &*file.head : nullptr;
   const bool leveled = scenario != nullptr && !scenario->family.empty();
   Json json = {{"name", file.file.stem().string()}, {"file", file.file.string()}};
   json["description"] = scenario != nullptr ? Json(scenario->description) : Json();
   json["tags"] = scenario != nullptr ? Json(scenario->tags) : Json();
   json["family"] = leveled ? Json(scenario->family) : Json();
   json["level"] = leveled ? Json(scenario->level) : Json();
-  json["error"] = scenario != nullptr ? Json() : Json(file.scenario.error().message);
+  json["error"] = scenario != nullptr ? Json() : Json(file.head.error().message);
   return json;
 }
 
@@ -136,12 +136,12 @@ void add_json(Command& command, bool& json) {
 
 void print_json(const Json& json) { print_out("{}\n", json_text(json, 2)); }
 
-Json list_json(const std::filesystem::path& folder, std::span<const ScenarioFile> files) {
+Json list_json(const std::filesystem::path& folder, std::span<const ListedScenario> files) {
   Json json = {{"schema", "aims.list/1"},    {"folder", folder.string()},
                {"scenarios", Json::array()}, {"families", Json::array()},
                {"robots", Json::array()},    {"lidars", Json::array()},
                {"estimators", Json::array()}};
-  for (const ScenarioFile& each : files) json["scenarios"].push_back(scenario_json(each));
+  for (const ListedScenario& each : files) json["scenarios"].push_back(scenario_json(each));
   for (const Family& each : families_of(files)) {
     json["families"].push_back(
         {{"name", each.name}, {"level_unit", each.level_unit}, {"scenarios", each.cases}});

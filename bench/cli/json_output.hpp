@@ -23,7 +23,7 @@ void add_json(Command& command, bool& json);
 void print_json(const Json& json);
 
 /// What `aims list` shows; schema aims.list/1.
-Json list_json(const std::filesystem::path& folder, std::span<const ScenarioFile> files);
+Json list_json(const std::filesystem::path& folder, std::span<const ListedScenario> files);
 
 /// Parameters with value, documentation and whether they have an effect; schema aims.config/1.
 Json config_json(const std::string& name, const Fields& fields);

@@ -21,7 +21,7 @@ void print_entry(const CatalogueEntry& entry) {
 }
 
 int list_command(const SharedOptions& shared, bool json) {
-  const auto files = scenarios_in(shared.folder, shared.tags);
+  const auto files = scenario_heads(shared.folder, shared.tags);
   if (!files) return bad_input("list", files.error());
   if (json) {
     print_json(list_json(shared.folder, *files));

@@ -5,11 +5,10 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
-#include "bench/cli/sweep_points.hpp"
+#include "bench/cli/sweep_results.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/tuning/objective.hpp"
 #include "bench/tuning/sweep_store.hpp"
-#include "bench/tuning/sweep_summary.hpp"
-#include "render/results/response_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -23,16 +22,6 @@ struct MergeArguments {
   SharedOptions shared;
   std::string score = Objective{}.score;
 };
-
-/// Writes sweep.md, which a sweep without ranges does not have.
-void write_summary(const MergedSweep& sweep, const std::string& score, const fs::path& out) {
-  Objective objective;
-  objective.score = score;
-  std::vector<std::string> warnings;
-  const auto written = write_sweep_summary(sweep, objective, out, draw_response, warnings);
-  if (!written) warnings.push_back("no sweep.md: " + written.error().message);
-  for (const std::string& warning : warnings) print_out("note: {}\n", warning);
-}
 
 /// Lists jobs that failed or are missing, up to a number.
 void print_open(const MergedSweep& sweep) {
@@ -57,12 +46,9 @@ int merge_command(const MergeArguments& arguments) {
       arguments.shared.out.empty() ? folders.front() : fs::path(arguments.shared.out);
   const auto sweep = merge_sweeps(folders);
   if (!sweep) return bad_input("merge", sweep.error());
-  std::error_code code;
-  fs::create_directories(out, code);
-  auto written = write_sqlite(*sweep, out / "sweep.sqlite");
-  if (written) written = write_sweep_csv(*sweep, out / "sweep.csv");
-  if (!written) return bad_input("merge", written.error());
-  write_summary(*sweep, arguments.score, out);
+  if (auto written = write_results(*sweep, arguments.score, out); !written) {
+    return bad_input("merge", written.error());
+  }
   print_out("{}\n", to_text(merge_table(*sweep)));
   print_points(*sweep, arguments.score);
   print_open(*sweep);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <utility>
@@ -27,11 +28,11 @@ void on_interrupt(int signal) {
 
 bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
-/// "45 s", "12 min" or "3 h 05 min".
+/// "45 s", "12 min 05 s" or "3 h 05 min".
 std::string duration_text(double seconds) {
   const int whole = static_cast<int>(seconds + 0.5);
   if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min", (whole + 59) / 60);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
@@ -107,7 +108,7 @@ void JobDisplay::show(const JobProgress& progress) {
   const bool due = terminal_ || progress.elapsed_s >= shown_at_s_ + kLineEvery ||
                    progress.done == progress.total;
   if (quiet_ || !due) return;
-  std::string line = fmt::format("{:3.0f} %, {} of {} jobs", 100.0 * progress.fraction,
+  std::string line = fmt::format("{:3.0f} %, {} of {} jobs", std::floor(100.0 * progress.fraction),
                                  progress.done, progress.total);
   if (progress.failed > 0) line += fmt::format(", {} failed", progress.failed);
   if (progress.sequences > 0) line += fmt::format(", {} sequences simulated", progress.sequences);

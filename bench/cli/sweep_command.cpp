@@ -2,11 +2,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
-#include "bench/cli/sweep_points.hpp"
+#include "bench/cli/sweep_results.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/jobs/job_runner.hpp"
 #include "bench/tuning/objective.hpp"
@@ -26,7 +27,6 @@ struct SweepArguments {
   std::optional<int> samples;
   std::optional<int> design_seed;
   std::optional<double> timeout;
-  bool include_defaults = false;
   std::string shard = "1/1";
   bool list = false;
   bool simulate_only = false;
@@ -35,8 +35,8 @@ struct SweepArguments {
 
 /// Error for options of the design that this design does not read.
 Result<void> check_design(const SweepArguments& arguments, const SweepPlan& plan) {
-  if (plan.params.empty() && (!arguments.design.empty() || arguments.include_defaults)) {
-    return failure("--design, --include-defaults: no effect without --param");
+  if (plan.params.empty() && !arguments.design.empty()) {
+    return failure("--design: no effect without --param");
   }
   if (plan.design == DesignKind::kGrid && (arguments.samples || arguments.design_seed)) {
     return failure(
@@ -64,12 +64,11 @@ Result<SweepPlan> plan_of(const SweepArguments& arguments) {
   plan.samples = arguments.samples.value_or(plan.samples);
   plan.design_seed = arguments.design_seed.value_or(plan.design_seed);
   plan.timeout = arguments.timeout.value_or(plan.timeout);
-  plan.include_defaults = plan.include_defaults || arguments.include_defaults;
   if (auto right = check_design(arguments, plan); !right) return tl::unexpected(right.error());
   return plan;
 }
 
-void print_results(const JobRun& run, const SharedOptions& shared) {
+void print_counts(const JobRun& run, const SharedOptions& shared, bool merged) {
   print_out("{} jobs done, {} of them failed; {} found finished; {} sequences simulated\n",
             run.done, run.failed, run.reused, run.sequences);
   print_pruned(run.pruned, shared);
@@ -81,14 +80,23 @@ void print_results(const JobRun& run, const SharedOptions& shared) {
   if (run.failed > 0) {
     print_out("why jobs failed: aims merge {0}; to repeat them: --retry\n", shared.out);
   }
-  print_out("results: {}; to collect them: aims merge {}\n",
-            (fs::path(shared.out) / "jobs").string(), shared.out);
+  const fs::path out = shared.out;
+  if (merged) {
+    print_out("results: {}, sweep.csv, sweep.sqlite; to view them: aims page {}\n",
+              (out / "sweep.md").string(), shared.out);
+  } else {
+    print_out("results: {}; to collect them: aims merge {}\n", (out / "jobs").string(), shared.out);
+  }
 }
 
-/// The points that are done in the folder.
-void print_points_of(const fs::path& folder) {
-  const std::vector<fs::path> folders = {folder};
-  if (const auto sweep = merge_sweeps(folders)) print_points(*sweep, Objective{}.score);
+/// Prints the points that are done in the folder; of a complete sweep also writes its results.
+Result<void> collect(const SharedOptions& shared, bool complete) {
+  const std::vector<fs::path> folders = {shared.out};
+  const auto sweep = merge_sweeps(folders);
+  if (!sweep) return tl::unexpected(sweep.error());
+  const std::string score = Objective{}.score;
+  print_points(*sweep, score);
+  return complete ? write_results(*sweep, score, shared.out) : Result<void>();
 }
 
 int sweep_command(const SweepArguments& arguments) {
@@ -113,9 +121,13 @@ int sweep_command(const SweepArguments& arguments) {
       run_jobs({*jobs, *shard, plan_text(*plan), arguments.force}, options, display.observer());
   display.close();
   if (!run) return bad_input("sweep", run.error());
-  const bool whole = shard->count == 1 && !options.simulate_only;  // else `aims merge` prints them
-  if (whole) print_points_of(arguments.shared.out);
-  print_results(*run, arguments.shared);
+  const bool whole = shard->count == 1 && !options.simulate_only;
+  if (whole) {
+    if (auto collected = collect(arguments.shared, run->complete); !collected) {
+      return bad_input("sweep", collected.error());
+    }
+  }
+  print_counts(*run, arguments.shared, whole && run->complete && !plan->params.empty());
   if (!run->complete) return interrupted_code();
   if (run->failed > 0) return kExpectationFailed;
   return run->invalid == 0 ? kOk : kInvalidRun;
@@ -128,8 +140,6 @@ void add_design(Command& command, SweepArguments& arguments) {
   command.option("--samples", arguments.samples, {1, kMost},
                  "Points of every design but a grid (64)");
   command.option("--design-seed", arguments.design_seed, {0, 1e9}, "Seed of those points (1)");
-  command.flag("--include-defaults", arguments.include_defaults,
-               "Also run each estimator at its default setting");
   command.option("--timeout", arguments.timeout, {0, 1e9},
                  "Wall time of a job [s]; 0: no limit (0)");
 }

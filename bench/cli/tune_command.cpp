@@ -10,6 +10,7 @@
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/tuning/tune.hpp"
+#include "bench/tuning/tune_overlay.hpp"
 #include "bench/tuning/tune_summary.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "render/results/response_pictures.hpp"
@@ -59,7 +60,8 @@ Result<TuneResult> work(const SharedOptions& shared, const TuneTask& task) {
   watch_interrupt();
   JobRunner runner(std::move(options));
   JobDisplay display(shared.quiet);
-  auto result = tune(task, run_by_jobs(runner, display.observer(), task.plan.objectives));
+  auto result = tune(
+      task, run_by_jobs(runner, display.observer(), task.plan.objectives, expected_jobs(task)));
   display.close();
   print_pruned(runner.pruned(), shared);
   return result;
@@ -73,8 +75,9 @@ int finish(const TuneArguments& arguments, const TuneResult& result) {
   }
   for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
   if (!result.complete) print_out("interrupted: the same command continues\n");
+  const bool front = result.tables.size() > 1;
   if (!result.chosen.empty()) {
-    const bool front = result.tables.size() > 1;
+    if (!front) print_out("tuned values: {}\n", held_out_verdict(result));
     print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
   }
   const auto left_out = left_out_lines(result);
@@ -86,7 +89,11 @@ int finish(const TuneArguments& arguments, const TuneResult& result) {
   if (auto written = write_overlay(result, arguments.apply); !written) {
     return bad_input("tune", written.error());
   }
-  print_out("tuned values: {0}; to use them: --set @{0}\n", arguments.apply);
+  if (verdict_of(held_out_gain(result)) == Verdict::kUseThem) {
+    print_out("tuned values: {0}; to use them: --set @{0}\n", arguments.apply);
+  } else {
+    print_out("tuned values: {} ({})\n", arguments.apply, held_out_verdict(result));
+  }
   return code;
 }
 

@@ -230,7 +230,8 @@ Result<void> JobSchedule::fail(const Job& job, JobOutcome outcome, std::string m
 bool JobSchedule::notify() {
   progress_.elapsed_s = stopwatch_.seconds();
   const double done = static_cast<double>(steps_done_) + pool_.under_way();
-  progress_.fraction = steps_ == 0 ? 1.0 : std::min(1.0, done / static_cast<double>(steps_));
+  const double fraction = steps_ == 0 ? 1.0 : std::min(1.0, done / static_cast<double>(steps_));
+  progress_.fraction = std::max(progress_.fraction, fraction);  // a sequence made anew adds a step
   progress_.left_s.reset();
   if (progress_.fraction > 0.0) {
     progress_.left_s = progress_.elapsed_s * (1.0 - progress_.fraction) / progress_.fraction;

@@ -18,17 +18,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool has_any(const Scenario& scenario, std::span<const std::string> tags) {
+bool has_any(const ScenarioHead& scenario, std::span<const std::string> tags) {
   return std::any_of(tags.begin(), tags.end(), [&](const std::string& tag) {
     return std::find(scenario.tags.begin(), scenario.tags.end(), tag) != scenario.tags.end();
   });
 }
 
 /// Error for the first tag that no scenario has, with those that there are.
-Result<void> check_tags(std::span<const ScenarioFile> files, std::span<const std::string> tags) {
+Result<void> check_tags(std::span<const ListedScenario> files, std::span<const std::string> tags) {
   std::set<std::string> known;
-  for (const ScenarioFile& each : files) {
-    if (each.scenario) known.insert(each.scenario->tags.begin(), each.scenario->tags.end());
+  for (const ListedScenario& each : files) {
+    if (each.head) known.insert(each.head->tags.begin(), each.head->tags.end());
   }
   for (const std::string& tag : tags) {
     if (!known.contains(tag)) {
@@ -41,19 +41,28 @@ Result<void> check_tags(std::span<const ScenarioFile> files, std::span<const std
 
 }  // namespace
 
+Result<std::vector<ListedScenario>> scenario_heads(const fs::path& folder,
+                                                   std::span<const std::string> tags) {
+  const auto paths = scenario_files(folder);
+  if (!paths) return tl::unexpected(paths.error());
+  std::vector<ListedScenario> files;
+  for (const fs::path& path : *paths) files.push_back({path, load_scenario_head(path, folder)});
+  if (tags.empty()) return files;
+  if (auto known = check_tags(files, tags); !known) return tl::unexpected(known.error());
+  std::erase_if(
+      files, [&](const ListedScenario& each) { return each.head && !has_any(*each.head, tags); });
+  return files;
+}
+
 Result<std::vector<ScenarioFile>> scenarios_in(const fs::path& folder,
                                                std::span<const std::string> tags,
                                                std::span<const std::string> overrides) {
-  const auto paths = scenario_files(folder);
-  if (!paths) return tl::unexpected(paths.error());
+  const auto heads = scenario_heads(folder, tags);
+  if (!heads) return tl::unexpected(heads.error());
   std::vector<ScenarioFile> files;
-  for (const fs::path& path : *paths)
-    files.push_back({path, load_scenario(path, overrides, folder)});
-  if (tags.empty()) return files;
-  if (auto known = check_tags(files, tags); !known) return tl::unexpected(known.error());
-  std::erase_if(files, [&](const ScenarioFile& each) {
-    return each.scenario && !has_any(*each.scenario, tags);
-  });
+  for (const ListedScenario& each : *heads) {
+    files.push_back({each.file, load_scenario(each.file, overrides, folder)});
+  }
   return files;
 }
 
@@ -81,31 +90,29 @@ Result<std::vector<ScenarioFile>> select_scenarios(std::span<const std::string> 
   return failure(fmt::format("{}: holds no scenario", folder.string()));
 }
 
-std::vector<CatalogueEntry> scenario_catalogue(std::span<const ScenarioFile> files) {
+std::vector<CatalogueEntry> scenario_catalogue(std::span<const ListedScenario> files) {
   std::vector<CatalogueEntry> entries;
-  for (const auto& [file, scenario] : files) {
-    if (scenario) {
-      entries.push_back({file.stem().string(), scenario->description, scenario->tags});
+  for (const auto& [file, head] : files) {
+    if (head) {
+      entries.push_back({file.stem().string(), head->description, head->tags});
     } else {
-      entries.push_back({file.stem().string(), "does not load: " + scenario.error().message, {}});
+      entries.push_back({file.stem().string(), "does not load: " + head.error().message, {}});
     }
   }
   return entries;
 }
 
-std::vector<Family> families_of(std::span<const ScenarioFile> files) {
-  std::map<std::string, std::vector<const Scenario*>> members;
-  for (const ScenarioFile& each : files) {
-    if (each.scenario && !each.scenario->family.empty()) {
-      members[each.scenario->family].push_back(&*each.scenario);
-    }
+std::vector<Family> families_of(std::span<const ListedScenario> files) {
+  std::map<std::string, std::vector<const ScenarioHead*>> members;
+  for (const ListedScenario& each : files) {
+    if (each.head && !each.head->family.empty()) members[each.head->family].push_back(&*each.head);
   }
   std::vector<Family> families;
   for (auto& [name, scenarios] : members) {
     std::stable_sort(scenarios.begin(), scenarios.end(),
-                     [](const Scenario* a, const Scenario* b) { return a->level < b->level; });
+                     [](const auto* a, const auto* b) { return a->level < b->level; });
     Family family{name, scenarios.front()->level_unit, {}};
-    for (const Scenario* scenario : scenarios) family.cases.push_back(scenario->name);
+    for (const ScenarioHead* scenario : scenarios) family.cases.push_back(scenario->name);
     families.push_back(std::move(family));
   }
   return families;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/run/scenario.hpp"
+#include "bench/run/scenario_head.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -14,7 +15,7 @@ namespace aims {
 /// One line of a listing.
 struct CatalogueEntry {
   std::string name;
-  std::string description;  ///< for a scenario that does not load: why
+  std::string description;  ///< for a scenario whose head cannot be read: why
   std::vector<std::string> tags;
 };
 
@@ -31,8 +32,18 @@ struct ScenarioFile {
   Result<Scenario> scenario;
 };
 
+/// A scenario file and its head, or why that cannot be read.
+struct ListedScenario {
+  std::filesystem::path file;
+  Result<ScenarioHead> head;
+};
+
+/// The head of every scenario file in `folder` and below; with tags, as of `scenarios_in`.
+Result<std::vector<ListedScenario>> scenario_heads(const std::filesystem::path& folder,
+                                                   std::span<const std::string> tags);
+
 /// Every scenario file in `folder` and below, read with `overrides` on top. With tags, only
-/// scenarios that have any of them, and files that do not load, whose tags are unknown. Errors:
+/// scenarios that have any of them, and files whose tags cannot be read. Errors:
 /// two files of one name, a tag that no scenario has.
 Result<std::vector<ScenarioFile>> scenarios_in(const std::filesystem::path& folder,
                                                std::span<const std::string> tags,
@@ -47,10 +58,10 @@ Result<std::vector<ScenarioFile>> select_scenarios(std::span<const std::string> 
                                                    std::span<const std::string> overrides = {});
 
 /// A line per scenario.
-std::vector<CatalogueEntry> scenario_catalogue(std::span<const ScenarioFile> files);
+std::vector<CatalogueEntry> scenario_catalogue(std::span<const ListedScenario> files);
 
 /// The families of those scenarios, by name.
-std::vector<Family> families_of(std::span<const ScenarioFile> files);
+std::vector<Family> families_of(std::span<const ListedScenario> files);
 
 /// Every robot, with its mass and legs.
 std::vector<CatalogueEntry> robot_catalogue();

@@ -9,6 +9,7 @@
 #include "bench/run/lidar_sheet.hpp"
 #include "bench/run/python_classes.hpp"
 #include "bench/run/robot_sheet.hpp"
+#include "bench/run/scenario_head.hpp"
 #include "bench/run/score_keys.hpp"
 #include "core/file_name.hpp"
 #include "core/files/config_dump.hpp"
@@ -193,14 +194,7 @@ void describe(Fields& f, Expectation& e) {
 }
 
 void describe(Fields& f, Scenario& s) {
-  f.text("name", s.name, {.meaning = "name of the scenario; the file's name when absent"});
-  f.text("description", s.description, {.meaning = "one line for listings"});
-  f.texts("tags", s.tags, {.meaning = "sets that the scenario belongs to, for --tags"});
-  f.text("family", s.family, {.meaning = "scenarios that differ in one quantity; empty: none"});
-  f.number(
-      "level", s.level,
-      {.unit = "level_unit", .range = within(1e9), .meaning = "that quantity in this scenario"});
-  f.text("level_unit", s.level_unit, {.meaning = "unit of the level"});
+  describe_head(f, s);
   f.integer(
       "seed", s.seed,
       {.unit = "-", .range = in_range(0, 2147483647), .meaning = "seed of every random stream"});

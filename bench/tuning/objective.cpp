@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
@@ -70,9 +72,36 @@ std::string text_of(const Objective& objective) {
   if (objective.statistic == ObjectiveStatistic::kQuantile) {
     statistic = fmt::format("{} quantile", objective.quantile);
   }
-  return fmt::format("{} of {}{}, a diverged run counts {}", statistic, objective.score,
+  return fmt::format("{} of {}{}; a diverged run counts {}, and {} times their fraction is added",
+                     statistic, objective.score,
                      objective.relative ? " over that of the defaults" : "",
-                     objective.divergence_penalty);
+                     objective.divergence_penalty, objective.divergence_penalty);
+}
+
+std::string axis_label(const Objective& objective) {
+  if (objective.relative) return "objective: " + objective.score + " over the defaults'";
+  const std::string unit = unit_of_score(objective.score);
+  return "objective: " + objective.score + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+std::string unit_of_score(const std::string& score) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kSuffixes = {{
+      {"_percent", "%"},
+      {"_m_per_s", "m/s"},
+      {"_ms", "ms"},
+      {"_m", "m"},
+      {"_s", "s"},
+      {"_rad", "rad"},
+      {"_deg", "deg"},
+      {"_hz", "Hz"},
+  }};
+  std::istringstream parts(score);
+  for (std::string part; std::getline(parts, part, '.');) {
+    for (const auto& [suffix, unit] : kSuffixes) {
+      if (part.ends_with(suffix)) return std::string(unit);
+    }
+  }
+  return "";
 }
 
 RunScore run_score(const JobResult& job, const std::string& score) {
@@ -107,6 +136,19 @@ std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string&
     if (family.empty() || table.cases[i].family == family) indices.push_back(i);
   }
   return indices;
+}
+
+std::vector<std::size_t> cases_of_seeds(const ResponseTable& table, const std::string& family,
+                                        std::span<const std::uint64_t> seeds,
+                                        std::span<const std::size_t> drawn) {
+  std::vector<std::size_t> cases;
+  const auto all = cases_of(table, family);
+  for (const std::size_t index : drawn) {
+    for (const std::size_t i : all) {
+      if (table.cases[i].seed == seeds[index]) cases.push_back(i);
+    }
+  }
+  return cases;
 }
 
 std::vector<std::string> families_of(const ResponseTable& table) {
@@ -155,6 +197,17 @@ std::optional<double> objective_at(const ResponseTable& table, const Objective& 
     if (!table.default_runs.empty()) reference.push_back(table.default_runs[i]);
   }
   return objective_value(objective, runs, reference);
+}
+
+std::optional<double> gain_over(const std::optional<double>& defaults,
+                                const std::optional<double>& best) {
+  if (!defaults || !best || !(*defaults > 0.0)) return std::nullopt;
+  return 1.0 - *best / *defaults;
+}
+
+Objective objective_for(Objective objective, const ResponseTable& table) {
+  objective.relative = objective.relative && !table.default_runs.empty();
+  return objective;
 }
 
 }  // namespace aims

@@ -18,7 +18,8 @@ namespace aims {
 /// Statistic of a score over many runs.
 enum class ObjectiveStatistic { kMedian, kWorst, kMean, kQuantile };
 
-/// One number for many runs, of which less is better.
+/// One number for many runs, of which less is better: a statistic of their *scores*, which are as
+/// measured, with a penalty for those that diverged.
 struct Objective {
   std::string score = "ate_m";  ///< dotted key of scores.json, e.g. "m_list_percent.all"
   ObjectiveStatistic statistic = ObjectiveStatistic::kMedian;
@@ -29,8 +30,14 @@ struct Objective {
 
 void describe(Fields& fields, Objective& objective);
 
-/// "median of ate_m over the defaults' (a diverged run counts 10)".
+/// "median of ate_m over that of the defaults; a diverged run counts 10, and ...".
 std::string text_of(const Objective& objective);
+
+/// "objective: ate_m [m]", for axes.
+std::string axis_label(const Objective& objective);
+
+/// The unit in a score's name: "m" of "ate_m", "%" of "m_list_percent.all"; empty: none.
+std::string unit_of_score(const std::string& score);
 
 /// One score of one run.
 struct RunScore {
@@ -71,6 +78,11 @@ struct ResponseTable {
 /// Indices of the cases of one family, or of all for "".
 std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family);
 
+/// Cases of the seeds with the indices `drawn`, each seed with all its scenarios of the family.
+std::vector<std::size_t> cases_of_seeds(const ResponseTable& table, const std::string& family,
+                                        std::span<const std::uint64_t> seeds,
+                                        std::span<const std::size_t> drawn);
+
 /// The families of the table's cases, in the order in which they appear.
 std::vector<std::string> families_of(const ResponseTable& table);
 
@@ -86,5 +98,12 @@ std::vector<std::uint64_t> seeds_of(const ResponseTable& table);
 inline constexpr std::size_t kDefaults = static_cast<std::size_t>(-1);
 std::optional<double> objective_at(const ResponseTable& table, const Objective& objective,
                                    std::size_t point, std::span<const std::size_t> cases);
+
+/// Reduction of the objective from the defaults to a point, as a fraction of the defaults'.
+std::optional<double> gain_over(const std::optional<double>& defaults,
+                                const std::optional<double>& point);
+
+/// The objective where the table has default runs, else the same of plain scores.
+Objective objective_for(Objective objective, const ResponseTable& table);
 
 }  // namespace aims

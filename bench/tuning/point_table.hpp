@@ -9,8 +9,9 @@
 
 namespace aims {
 
-/// A row per estimator and point: the varied values, median and largest score over its runs that
-/// have it, diverged runs. The default setting, where it was run, comes first.
-TextTable point_table(std::span<const SweepResponse> responses, const std::string& score);
+/// A row per estimator and point: the varied values, the objective ("-" while sequences are
+/// missing), median and largest score over its runs that have it, diverged runs. The default
+/// setting comes first; the least objective of an estimator is marked "best".
+TextTable point_table(std::span<const SweepResponse> responses, const Objective& objective);
 
 }  // namespace aims

@@ -58,20 +58,36 @@ std::vector<std::string> gain_row(const ResponseTable& table, const Objective& o
           diverged_text(table.runs[point], cases)};
 }
 
-/// The surrogate's error, negligible parameters and interactions.
-std::string sensitivity_markdown(const ResponseTable& table, const Sensitivity& sensitivity) {
-  const Surrogate& surrogate = sensitivity.surrogate;
+/// Where the indices come from, or why there are none.
+std::string source_text(const Sensitivity& sensitivity) {
+  const std::string of = sensitivity.logarithmic ? "the objective's logarithm" : "the objective";
+  if (sensitivity.of_grid) {
+    return fmt::format(
+        "\nIndices by an analysis of variance of {} at the {} points of the complete grid.\n", of,
+        sensitivity.points);
+  }
+  const Surrogate& surrogate = *sensitivity.surrogate;
   const std::string error =
       sensitivity.logarithmic ? fmt::format("{:.0f} %", 100.0 * (std::exp(surrogate.error()) - 1.0))
                               : figure_text(surrogate.error());
-  std::string text = fmt::format(
-      "\nA polynomial of {} terms through {} points explains {} of the variance of the objective{} "
-      "at\npoints left out of the fit (cross-validation); its error there is {}.\n",
-      surrogate.terms(), sensitivity.points, percent_text(std::max(0.0, surrogate.explained())),
-      sensitivity.logarithmic ? "'s logarithm" : "", error);
-  if (!sensitivity.is_reliable()) {
-    return text + "**Below 50 %, no sensitivity indices are reported.**\n";
-  }
+  const std::string fit = fmt::format(
+      "A polynomial of {} terms through {} points has a\ncross-validated R² of {} for {}; its "
+      "error "
+      "at points left out is {}.\n",
+      surrogate.terms(), sensitivity.points, percent_text(std::max(0.0, surrogate.explained())), of,
+      error);
+  return sensitivity.is_resolved()
+             ? "\nIndices by a fit. " + fit
+             : fmt::format(
+                   "\n**Indices are not resolved**, which takes a cross-validated R² of at "
+                   "least {:.0f} %. {}",
+                   100.0 * kLeastExplained, fit);
+}
+
+/// The source of the indices, negligible parameters and interactions.
+std::string sensitivity_markdown(const ResponseTable& table, const Sensitivity& sensitivity) {
+  std::string text = source_text(sensitivity);
+  if (!sensitivity.is_resolved()) return text;
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     if (!sensitivity.is_negligible(i)) continue;
     text +=
@@ -81,7 +97,7 @@ std::string sensitivity_markdown(const ResponseTable& table, const Sensitivity& 
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     for (std::size_t k = i + 1; k < table.ranges.size(); ++k) {
       const double fraction =
-          surrogate.indices().second(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+          sensitivity.indices.second(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
       if (fraction < kInteracts) continue;
       text += fmt::format("\n- `{}` and `{}` interact: {} of the variance.", table.ranges[i].key,
                           table.ranges[k].key, percent_text(fraction));
@@ -106,8 +122,7 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
   TextTable text;
   text.header = {"parameter", "range", "default", "best [95 %]",
                  "distance from default [of range]"};
-  const bool indices_known = sensitivity != nullptr && sensitivity->is_reliable();
-  if (indices_known) {
+  if (sensitivity != nullptr) {
     text.header.insert(text.header.end(), {"first-order index", "total index [95 %]"});
   }
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
@@ -116,8 +131,12 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
         {range.key, fmt::format("{} to {}{}", range.low, range.high, range.log ? ", log" : ""),
          fmt::format("{}", table.defaults[i]), figure_text(best.values[i], best.between[i]),
          fmt::format("{:+.2f}", best.distance[i])});
-    if (!indices_known) continue;
-    const SobolIndices& indices = sensitivity->surrogate.indices();
+    if (sensitivity == nullptr) continue;
+    if (!sensitivity->is_resolved()) {
+      text.rows.back().insert(text.rows.back().end(), {"not resolved", "not resolved"});
+      continue;
+    }
+    const SobolIndices& indices = sensitivity->indices;
     text.rows.back().push_back(percent_text(indices.first[i]));
     text.rows.back().push_back(percent_text(indices.total[i], indices.total_interval[i]));
   }
@@ -126,8 +145,10 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
 
 TextTable gain_table(const ResponseTable& table, const Objective& objective, std::size_t point) {
   TextTable text;
-  text.header = {"scenario",     objective.score + ", defaults", "tuned", "objective, defaults",
-                 "tuned [95 %]", "diverged, defaults",           "tuned"};
+  text.header = {"scenario",     "score (median " + objective.score + "), defaults",
+                 "tuned",        "objective, defaults",
+                 "tuned [95 %]", "diverged, defaults",
+                 "tuned"};
   std::vector<std::string> names;
   for (const ResponseCase& each : table.cases) {
     if (std::find(names.begin(), names.end(), each.scenario) == names.end()) {
@@ -154,11 +175,15 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
   }
   const auto sensitivity = sensitivity_of(table, objective);
   std::string text = fmt::format(
-      "Objective: {}. The best of {} points has {}; the defaults have {}.\n", text_of(objective),
-      table.points.size(), figure_text(best->objective, best->objective_interval),
+      "Objective: {}.\nThe best of {} points has an objective of {} and a score (median {}) of {}; "
+      "the defaults have an objective of {}.\n",
+      text_of(objective), table.points.size(),
+      figure_text(best->objective, best->objective_interval), objective.score,
+      figure_text(median(scores_of(table.runs[best->point], cases_of(table, "")))),
       figure_text(best->defaults));
   if (best->gain) {
-    text += fmt::format("Reduction by {}.\n", percent_text(best->gain, best->gain_interval));
+    text += fmt::format("Reduction by {} on these sequences, among which the best was chosen.\n",
+                        percent_text(best->gain, best->gain_interval));
   }
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
   const std::size_t seeds = seeds_of(table).size();
@@ -168,7 +193,7 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
   text += '\n';
   text += to_markdown(parameter_table(table, *best, sensitivity ? &*sensitivity : nullptr));
   text += sensitivity ? sensitivity_markdown(table, *sensitivity)
-                      : "\nNo surrogate: " + sensitivity.error().message + ".\n";
+                      : "\nNo indices: " + sensitivity.error().message + ".\n";
   return text;
 }
 

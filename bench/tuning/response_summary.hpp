@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/tuning/analysis.hpp"
+#include "bench/tuning/sensitivity.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
 
@@ -21,7 +22,7 @@ std::string figure_text(const std::optional<double>& value);
 std::string figure_text(const std::optional<double>& value, const Interval& interval);
 
 /// A row per parameter: range, default, best with its interval, distance of the best from the
-/// default, and, with a surrogate, the Sobol indices.
+/// default, and the Sobol indices, "not resolved" where they mean nothing.
 TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
                           const Sensitivity* sensitivity);
 
@@ -29,8 +30,8 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
 /// of the point with its interval over seeds, diverged runs of both.
 TextTable gain_table(const ResponseTable& table, const Objective& objective, std::size_t point);
 
-/// Markdown of the best point and, by a surrogate with its error, of sensitivity indices,
-/// negligible parameters and interactions.
+/// Markdown of the best point, of sensitivity indices with their source, negligible parameters and
+/// interactions.
 std::string response_markdown(const ResponseTable& table, const Objective& objective);
 
 /// Draws the objective of a table into a folder; the files, by name

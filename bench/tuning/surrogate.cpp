@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "core/random.hpp"
 
@@ -63,13 +65,28 @@ void add_terms(std::size_t input, int inputs_left, Degrees& term, int max_degree
   term[input] = 0;
 }
 
+/// Highest degree that the points determine in each input: below the number of its levels.
+Degrees degrees_in(const Eigen::MatrixXd& points) {
+  Degrees most;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const std::set<double> levels(points.col(i).begin(), points.col(i).end());
+    most.push_back(static_cast<int>(std::min<std::size_t>(kMaxDegree, levels.size() - 1)));
+  }
+  return most;
+}
+
 /// Every term that may enter, the constant first; a lower degree where there would be too many.
-std::vector<Degrees> candidate_terms(std::size_t inputs) {
+std::vector<Degrees> candidate_terms(const Eigen::MatrixXd& points) {
+  const auto inputs = static_cast<std::size_t>(points.cols());
+  const Degrees most = degrees_in(points);
   std::vector<Degrees> terms;
   for (int degree = kMaxDegree; degree >= 1; --degree) {
     terms.clear();
     Degrees term(inputs, 0);
     add_terms(0, kMaxInputs, term, degree, terms);
+    std::erase_if(terms, [&](const Degrees& each) {
+      return !std::equal(each.begin(), each.end(), most.begin(), std::less_equal<>());
+    });
     if (terms.size() <= kMaxTerms) break;
   }
   return terms;
@@ -250,7 +267,7 @@ Result<Surrogate> Surrogate::fit(const Eigen::MatrixXd& points, const Eigen::Vec
     return failure("a surrogate needs points and values that are finite");
   }
   const auto inputs = static_cast<std::size_t>(points.cols());
-  const auto candidates = candidate_terms(inputs);
+  const auto candidates = candidate_terms(points);
   const Eigen::MatrixXd matrix = design_matrix(candidates, points);
   const auto chosen = chosen_columns(matrix, values);
   const Eigen::MatrixXd used = columns_of(matrix, chosen);

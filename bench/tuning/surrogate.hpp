@@ -7,25 +7,17 @@
 #include <span>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/tuning/sobol_indices.hpp"
 #include "core/error.hpp"
 
 namespace aims {
-
-/// Fractions of the variance of a function whose inputs are independent and uniform in their ranges
-/// (I. M. Sobol, 2001).
-struct SobolIndices {
-  std::vector<double> first;  ///< of each input alone
-  std::vector<double> total;  ///< of each input with all its interactions
-  Eigen::MatrixXd second;     ///< of each pair beyond both alone; symmetric, zero diagonal
-  std::vector<Interval> total_interval;  ///< 95 %, over points drawn again
-};
 
 /// A polynomial chaos expansion: a function in the unit cube as a sum of products of Legendre
 /// polynomials that are orthonormal there (Xiu and Karniadakis 2002). Terms of up to three inputs
 /// and of degree 10 in one, fewer in several (Blatman and Sudret 2011, q = 0.75), enter one by one,
 /// the one that explains most first (orthogonal least squares, Chen et al. 1989), as long as the
-/// leave-one-out error falls. The Sobol indices are sums of squared coefficients (Sudret 2008).
+/// leave-one-out error falls; the degree in an input is below the number of its different values.
+/// The Sobol indices are sums of squared coefficients (Sudret 2008).
 class Surrogate {
  public:
   /// Through `values` at `points` (a row each, in [0, 1]). Error for fewer than eight points, sizes

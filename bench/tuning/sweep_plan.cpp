@@ -53,7 +53,7 @@ struct PlannedPoint {
   ScenarioVariant variant;
 };
 
-/// The estimators at every point of the design, or as they are when nothing is varied.
+/// The estimators at their default setting and at every point of the design.
 Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
                                             std::span<const ParameterRange> ranges,
                                             const std::shared_ptr<const Scenario>& scenario) {
@@ -73,8 +73,7 @@ Result<std::vector<PlannedPoint>> points_of(const SweepPlan& plan,
   std::vector<PlannedPoint> planned;
   planned.reserve(estimators->size() * (points.size() + 1));
   for (const EstimatorSpec& estimator : *estimators) {
-    if (plan.include_defaults || ranges.empty())
-      planned.push_back({estimator, variants.untouched()});
+    planned.push_back({estimator, variants.untouched()});
     for (const auto& point : points) {
       auto variant = variants.at(point);
       if (!variant) return tl::unexpected(variant.error());
@@ -160,8 +159,6 @@ void describe(Fields& f, SweepPlan& p) {
           {.meaning = "parameters that vary, any number of `aims config`: KEY=LOW:HIGH:COUNT or "
                       "KEY=log(LOW,HIGH,COUNT)"});
   f.texts("set", p.set, {.meaning = "key=value on top of every scenario"});
-  f.flag("include_defaults", p.include_defaults,
-         {.meaning = "also run each estimator at its default setting, as the baseline"});
   f.choice("design", p.design,
            {{"grid", DesignKind::kGrid},
             {"random", DesignKind::kRandom},

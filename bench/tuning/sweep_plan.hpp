@@ -14,7 +14,8 @@
 
 namespace aims {
 
-/// What a sweep is to do: every point of a design, on every sequence, with every estimator.
+/// What a sweep is to do: the default setting and every point of a design, on every sequence, with
+/// every estimator.
 struct SweepPlan {
   std::vector<std::string> scenarios;  ///< files or names
   std::vector<std::string> tags;       ///< with them, all scenarios with any of these tags
@@ -22,7 +23,6 @@ struct SweepPlan {
   std::vector<std::string> estimators = {"aims"};  ///< specs (estimator/estimator_spec.hpp)
   std::vector<std::string> params;                 ///< ranges (bench/tuning/design.hpp)
   std::vector<std::string> set;                    ///< "key=value" on top of every scenario
-  bool include_defaults = false;  ///< also run each estimator at its default setting
   DesignKind design = DesignKind::kGrid;
   int samples = 64;      ///< points of every design but a grid
   int design_seed = 1;   ///< of those points

@@ -208,7 +208,7 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
   return responses;
 }
 
-Result<void> write_sweep_summary(const MergedSweep& sweep, Objective objective,
+Result<void> write_sweep_summary(const MergedSweep& sweep, const Objective& objective,
                                  const fs::path& folder, const DrawResponse& draw,
                                  std::vector<std::string>& warnings) {
   const auto responses = sweep_responses(sweep, objective.score);
@@ -217,8 +217,7 @@ Result<void> write_sweep_summary(const MergedSweep& sweep, Objective objective,
   text += fmt::format("\n{} of {} jobs done.\n", sweep.count("done"), sweep.jobs.size());
   for (std::size_t i = 0; i < responses->size(); ++i) {
     const SweepResponse& response = (*responses)[i];
-    Objective own = objective;
-    own.relative = own.relative && !response.table.default_runs.empty();
+    const Objective own = objective_for(objective, response.table);
     text += fmt::format("\n## `{}`\n\n", response.estimator);
     if (response.incomplete > 0) {
       text += fmt::format("{} points are left out: not all of their sequences are done.\n\n",

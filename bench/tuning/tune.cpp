@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
+#include "bench/tuning/batch_progress.hpp"
 #include "bench/tuning/optimizer.hpp"
 
 namespace aims {
@@ -153,14 +155,27 @@ Result<TuneResult> tune(const TuneTask& task, const RunOnSequences& run) {
   return Tuning(task, run)();
 }
 
+std::size_t expected_jobs(const TuneTask& task) {
+  const OptimizerOptions& optimizer = task.plan.optimizer;
+  const auto population = static_cast<std::size_t>(optimizer.population);
+  const auto generations = static_cast<std::size_t>(optimizer.generations) + 1;
+  const std::size_t validated = task.plan.objectives.size() > 1 ? population : 1;
+  return task.sequences.size() * (1 + generations * population) +
+         task.held_out.size() * (1 + validated);
+}
+
 RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
-                           const std::vector<Objective>& objectives) {
-  return [&runner, observer, objectives](
+                           const std::vector<Objective>& objectives, std::size_t expected) {
+  const auto batches = std::make_shared<BatchProgress>(expected);
+  return [&runner, observer, objectives, batches](
              std::span<const EstimatorSpec> estimators,
              std::span<const ScenarioSeed> sequences) -> Result<std::optional<SequenceScores>> {
     const std::vector<Job> jobs = jobs_of(estimators, sequences);
-    const auto run = runner.run(jobs, observer);
+    const auto run = runner.run(jobs, [&](const JobProgress& progress) {
+      return observer(batches->overall(jobs.size(), progress));
+    });
     if (!run) return tl::unexpected(run.error());
+    batches->end(jobs.size(), *run);
     if (!run->complete) return std::optional<SequenceScores>();
     const std::vector<std::vector<RunScore>> none(sequences.size());
     SequenceScores scores(estimators.size(), none);

@@ -39,9 +39,14 @@ struct TuneResult {
 /// on time. Error when the default setting has no objective on the sequences.
 Result<TuneResult> tune(const TuneTask& task, const RunOnSequences& run);
 
-/// Runs estimators as jobs, those that `runner` has not stored yet, and reads their scores.
+/// Jobs of a tuning that does not converge early: the default setting, every generation, and what
+/// is held out (of several objectives about a population of points).
+std::size_t expected_jobs(const TuneTask& task);
+
+/// Runs estimators as jobs, those that `runner` has not stored yet, and reads their scores. The
+/// observer is told of all batches as of one work of `expected` jobs.
 RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
-                           const std::vector<Objective>& objectives);
+                           const std::vector<Objective>& objectives, std::size_t expected);
 
 /// The task's estimator with the values of a point.
 EstimatorSpec estimator_at(const TuneTask& task, std::span<const double> point);

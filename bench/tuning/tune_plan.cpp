@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "bench/run/score_keys.hpp"
@@ -81,10 +83,19 @@ Result<void> check_seeds(const Scenarios& scenarios, const std::vector<std::uint
   return {};
 }
 
+bool is_among(std::span<const ScenarioSeed> sequences, const std::string& scenario,
+              std::uint64_t seed) {
+  return std::any_of(sequences.begin(), sequences.end(), [&](const ScenarioSeed& each) {
+    return each.seed == seed && each.scenario->name == scenario;
+  });
+}
+
+/// Adds those that are not among the sequences yet.
 void add_sequences(const Scenarios& scenarios, const std::vector<std::uint64_t>& seeds,
                    std::vector<ScenarioSeed>& sequences) {
   for (const auto& scenario : scenarios) {
     for (const std::uint64_t seed : seeds) {
+      if (is_among(sequences, scenario->name, seed)) continue;
       sequences.push_back({scenario_of_seed(scenario, seed), seed});
     }
   }
@@ -108,13 +119,10 @@ Result<void> add_held_out(const Scenarios& tuned, const std::vector<std::uint64_
     add_sequences(*others, seeds, task.held_out);
   }
   for (const ScenarioSeed& sequence : task.held_out) {
-    for (const ScenarioSeed& seen : task.sequences) {
-      if (sequence.seed != seen.seed || sequence.scenario->name != seen.scenario->name) continue;
-      return failure(
-          fmt::format("held_out: {} seed {} is also tuned on; expected other seeds or "
-                      "scenarios",
-                      sequence.scenario->name, sequence.seed));
-    }
+    if (!is_among(task.sequences, sequence.scenario->name, sequence.seed)) continue;
+    return failure(
+        fmt::format("held_out: {} seed {} is also tuned on; expected other seeds or scenarios",
+                    sequence.scenario->name, sequence.seed));
   }
   return {};
 }

@@ -4,82 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "bench/run/code_version.hpp"
 #include "bench/tuning/response_summary.hpp"
+#include "bench/tuning/tune_overlay.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
-#include "estimator/python/python_estimator.hpp"
 
 namespace aims {
 namespace {
-
-/// "corridor, severity_5; seeds 1 2 3".
-std::string sequences_text(std::span<const ScenarioSeed> sequences) {
-  std::vector<std::string> scenarios;
-  std::vector<std::string> seeds;
-  const auto add = [](std::vector<std::string>& texts, const std::string& text) {
-    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
-  };
-  for (const ScenarioSeed& sequence : sequences) {
-    add(scenarios, sequence.scenario->name);
-    add(seeds, fmt::format("{}", sequence.seed));
-  }
-  return fmt::format("{} sequences: {}; seeds {}", sequences.size(), fmt::join(scenarios, ", "),
-                     fmt::join(seeds, " "));
-}
-
-std::string interval_text(const Interval& interval) {
-  if (!interval.low || !interval.high) return "-";
-  return fmt::format("{:+.1f} to {:+.1f}", 100.0 * *interval.low, 100.0 * *interval.high);
-}
-
-/// The chosen point alone, as the best of a table.
-Result<BestPoint> chosen_point(const TuneResult& result, bool held_out) {
-  ResponseTable table = held_out ? result.held_out.front() : result.tables.front();
-  const std::size_t point = held_out ? 0 : result.chosen.front();
-  table.points = {table.points[point]};
-  table.runs = {table.runs[point]};
-  return best_point(table, result.task.plan.objectives.front());
-}
-
-std::vector<std::string> outcome_row(const std::string& name, const Result<BestPoint>& point) {
-  if (!point) return {name, "-", "-", "-", "-"};
-  const std::string gain = point->gain ? fmt::format("{:+.1f} %", 100.0 * *point->gain) : "-";
-  return {name, figure_text(point->defaults),
-          figure_text(point->objective, point->objective_interval), gain,
-          interval_text(point->gain_interval)};
-}
-
-/// Whether the gain holds on the held-out sequences.
-std::string verdict(const TuneResult& result) {
-  if (result.held_out.empty()) {
-    return "**No sequences were held out, so the gain is not validated.**\n";
-  }
-  const auto tuned = chosen_point(result, false);
-  const auto held = chosen_point(result, true);
-  if (!tuned || !held || !tuned->gain || !held->gain) return "";
-  const Interval& interval = held->gain_interval;
-  if (!interval.low || !interval.high) return "One held-out seed gives the gain no interval.\n";
-  if (*interval.low > 0.0) {
-    return fmt::format(
-        "The gain holds on the held-out sequences, where it is {:.0f} % of that on the tuned "
-        "ones.\n",
-        100.0 * *held->gain / std::max(1e-9, *tuned->gain));
-  }
-  return *interval.high < 0.0
-             ? "**On the held-out sequences the tuned values are worse than the defaults.**\n"
-             : "**On the held-out sequences the gain is not significant: keep the defaults unless "
-               "there is\nanother reason.**\n";
-}
-
-std::string search_text(const TuneResult& result) {
-  const int generations = result.generation.empty() ? 0 : result.generation.back();
-  return fmt::format("{} points in {} generations of {}, seed {}{}", result.generation.size(),
-                     generations, result.task.plan.optimizer.population,
-                     result.task.plan.optimizer.seed, result.converged ? ", converged" : "");
-}
 
 /// The best objective so far after each generation, a few to a line.
 std::string history_markdown(const TuneResult& result) {
@@ -108,15 +41,18 @@ std::string settings_text(const TuneResult& result) {
 
 std::string single_markdown(const TuneResult& result) {
   const Objective& objective = result.task.plan.objectives.front();
-  std::string text = fmt::format("\n{}\n{}", to_markdown(outcome_table(result)), verdict(result));
+  std::string text = fmt::format("\n{}\n", to_markdown(outcome_table(result)));
+  text +=
+      "The change on the sequences that were tuned on is optimistic: the values were chosen on "
+      "them.\n";
   text += "\n## Values\n\n" + response_markdown(result.tables.front(), objective);
   text += history_markdown(result);
   text += settings_text(result);
-  text += "\n## Tuned on\n\n" +
-          to_markdown(gain_table(result.tables.front(), objective, result.chosen.front()));
   if (!result.held_out.empty()) {
     text += "\n## Held out\n\n" + to_markdown(gain_table(result.held_out.front(), objective, 0));
   }
+  text += "\n## Tuned on\n\n" +
+          to_markdown(gain_table(result.tables.front(), objective, result.chosen.front()));
   return text;
 }
 
@@ -124,6 +60,9 @@ std::string markdown_of(const TuneResult& result, const std::vector<std::string>
   const TuneTask& task = result.task;
   std::string text = fmt::format("# Tuning `{}`\n\n", text_of(task.estimator));
   if (!result.complete) text += "**Interrupted: only finished points are included.**\n\n";
+  if (!result.chosen.empty() && task.plan.objectives.size() == 1) {
+    text += fmt::format("**Tuned values: {}.**\n\n", held_out_verdict(result));
+  }
   for (const Objective& objective : task.plan.objectives) {
     text += fmt::format("- objective: {}\n", text_of(objective));
   }
@@ -164,74 +103,65 @@ CsvTable csv_of(const TuneResult& result) {
   return table;
 }
 
-/// Lines of `text`, each after "# ".
-std::string commented(const std::string& text) {
-  std::istringstream lines(text);
-  std::string result;
-  for (std::string line; std::getline(lines, line);) result += "#   " + line + "\n";
-  return result;
-}
-
-/// Nested YAML of settings whose keys are dotted and sorted.
-std::string nested_yaml(const std::vector<std::pair<std::string, std::string>>& settings) {
-  std::string text;
-  std::vector<std::string> open;
-  for (const auto& [key, value] : settings) {
-    std::vector<std::string> parts;
-    std::istringstream stream(key);
-    for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
-    std::size_t shared = 0;
-    while (shared + 1 < parts.size() && shared < open.size() && open[shared] == parts[shared]) {
-      ++shared;
-    }
-    for (std::size_t i = shared; i < parts.size(); ++i) {
-      text += fmt::format("{}{}:{}\n", std::string(2 * i, ' '), parts[i],
-                          i + 1 == parts.size() ? " " + value : "");
-    }
-    open.assign(parts.begin(), parts.end() - 1);
-  }
-  return text;
-}
-
-std::string outcome_line(const char* name, const Result<BestPoint>& point) {
-  if (!point) return fmt::format("# {}: -\n", name);
-  return fmt::format("# {}: {} of the defaults, {} of these; gain {} % [{}]\n", name,
-                     figure_text(point->defaults),
-                     figure_text(point->objective, point->objective_interval),
-                     point->gain ? fmt::format("{:+.1f}", 100.0 * *point->gain) : "-",
-                     interval_text(point->gain_interval));
+std::vector<std::string> outcome_row(const std::string& name, const ResponseTable& table,
+                                     const Objective& objective, std::size_t point) {
+  const PairedGain gain = paired_gain(table, objective, point);
+  const auto all = cases_of(table, "");
+  const bool bounded = gain.interval.low && gain.interval.high;
+  return {name,
+          fmt::format("{}", gain.sequences),
+          figure_text(objective_at(table, objective, kDefaults, all)),
+          figure_text(objective_at(table, objective, point, all)),
+          gain.gain ? change_text(*gain.gain) : "-",
+          bounded ? fmt::format("{} to {}", change_text(*gain.interval.low),
+                                change_text(*gain.interval.high))
+                  : "-"};
 }
 
 }  // namespace
 
-std::string overlay_text(const TuneResult& result) {
-  const TuneTask& task = result.task;
-  std::string text =
-      fmt::format("# Values of `{}` by aims tune; on top of any scenario: --set @FILE\n",
-                  text_of(task.estimator));
-  text += fmt::format("# objective: {}\n", text_of(task.plan.objectives.front()));
-  text += fmt::format("# tuned on {}\n", sequences_text(task.sequences));
-  text += outcome_line("  objective there", chosen_point(result, false));
-  if (!result.held_out.empty()) {
-    text += fmt::format("# held out {}\n", sequences_text(task.held_out));
-    text += outcome_line("  objective there", chosen_point(result, true));
+std::string sequences_text(std::span<const ScenarioSeed> sequences) {
+  std::vector<std::string> scenarios;
+  std::vector<std::string> seeds;
+  const auto add = [](std::vector<std::string>& texts, const std::string& text) {
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+  };
+  for (const ScenarioSeed& sequence : sequences) {
+    add(scenarios, sequence.scenario->name);
+    add(seeds, fmt::format("{}", sequence.seed));
   }
-  text += fmt::format("# search: {}\n# code: {}\n# plan:\n{}", search_text(result), code_version(),
-                      commented(plan_text(task.plan)));
-  auto settings = settings_of(task, result.tables.front().points[result.chosen.front()]);
-  const EstimatorSpec& estimator = result.task.estimator;
-  const std::string& name = is_python_name(estimator.name) ? estimator.label : estimator.name;
-  for (auto& [key, value] : settings) key = fmt::format("estimators.{}.{}", name, key);
-  std::sort(settings.begin(), settings.end());
-  return text + nested_yaml(settings);
+  return fmt::format("{} sequences: {}; seeds {}", sequences.size(), fmt::join(scenarios, ", "),
+                     fmt::join(seeds, " "));
+}
+
+std::string search_text(const TuneResult& result) {
+  const int generations = result.generation.empty() ? 0 : result.generation.back();
+  return fmt::format("{} points in {} generations of {}, seed {}{}", result.generation.size(),
+                     generations, result.task.plan.optimizer.population,
+                     result.task.plan.optimizer.seed, result.converged ? ", converged" : "");
+}
+
+PairedGain held_out_gain(const TuneResult& result) {
+  if (result.held_out.empty()) return {};
+  return paired_gain(result.held_out.front(), result.task.plan.objectives.front(), 0);
+}
+
+std::string held_out_verdict(const TuneResult& result) {
+  if (result.held_out.empty() && !result.task.held_out.empty()) {
+    return "not validated: interrupted before the held-out sequences were run";
+  }
+  return verdict_text(held_out_gain(result));
 }
 
 TextTable outcome_table(const TuneResult& result) {
-  TextTable table{{"objective", "defaults", "tuned [95 %]", "gain", "95 %"}, {}};
-  table.rows.push_back(outcome_row("tuned on", chosen_point(result, false)));
+  const Objective& objective = result.task.plan.objectives.front();
+  TextTable table{{"objective", "sequences", "defaults", "tuned", "change", "95 % over sequences"},
+                  {}};
   if (!result.held_out.empty()) {
-    table.rows.push_back(outcome_row("held out", chosen_point(result, true)));
+    table.rows.push_back(outcome_row("held out", result.held_out.front(), objective, 0));
   }
+  table.rows.push_back(
+      outcome_row("tuned on", result.tables.front(), objective, result.chosen.front()));
   return table;
 }
 
@@ -289,10 +219,6 @@ Result<void> write_tuning(const TuneResult& result, const std::filesystem::path&
   written = write_file_atomically(folder / "tune.csv", csv_of(result).text());
   if (!written || result.chosen.empty() || result.tables.size() != 1) return written;
   return write_overlay(result, folder / "tuned.yaml");
-}
-
-Result<void> write_overlay(const TuneResult& result, const std::filesystem::path& file) {
-  return write_file_atomically(file, overlay_text(result));
 }
 
 }  // namespace aims

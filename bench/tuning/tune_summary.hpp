@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "bench/tuning/held_out.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune.hpp"
 #include "core/error.hpp"
@@ -13,15 +15,20 @@
 
 namespace aims {
 
-/// The chosen point as a configuration file to be laid on top of any scenario (`--set @FILE`), with
-/// where it comes from as comments: objective before and after, sequences, algorithm, code, plan.
-/// Expects one objective and a chosen point.
-std::string overlay_text(const TuneResult& result);
+/// "3 sequences: corridor, severity_5; seeds 1 2 3".
+std::string sequences_text(std::span<const ScenarioSeed> sequences);
 
-/// Writes `overlay_text` to a file, whole or not at all.
-Result<void> write_overlay(const TuneResult& result, const std::filesystem::path& file);
+/// "90 points in 8 generations of 10, seed 1".
+std::string search_text(const TuneResult& result);
 
-/// A row per part of the sequences: objective of the defaults, of the chosen point, and the gain.
+/// What the held-out sequences say of the chosen point, in the first objective.
+PairedGain held_out_gain(const TuneResult& result);
+
+/// What they say in words, as `verdict_text`; of a tuning that was interrupted before them, so.
+std::string held_out_verdict(const TuneResult& result);
+
+/// A row per part of the sequences, held out first: objective of the defaults and of the chosen
+/// point, and the change. Expects a chosen point.
 TextTable outcome_table(const TuneResult& result);
 
 /// A row per point of the front: its values and objectives, tuned and held out.

@@ -54,7 +54,9 @@ Result<void> YamlAssigner::assign_map(const YAML::Node& map, const std::string& 
     }
     seen.push_back(name);
     if (prefix.empty() && name == kBaseKey) continue;
-    if (prefix.empty() && !target_.only.empty() && name != target_.only) continue;
+    const auto& only = target_.only;
+    const bool skipped = !only.empty() && std::find(only.begin(), only.end(), name) == only.end();
+    if (prefix.empty() && skipped) continue;
     if (auto assigned = assign_entry(entry.first, entry.second, key); !assigned) return assigned;
   }
   return {};

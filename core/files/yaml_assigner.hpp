@@ -21,7 +21,7 @@ struct SettingTarget {
   const CollectFields& collect;
   std::vector<AssignedKey>* assigned = nullptr;
   std::filesystem::path named;
-  std::string only = {};  ///< the only key of the top level that is set; empty: any
+  std::vector<std::string> only = {};  ///< the only keys of the top level that are set; none: any
 };
 
 /// Where settings come from.

@@ -10,6 +10,7 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/yaml_assigner.hpp"
 #include "core/files/yaml_document.hpp"
+#include "core/files/yaml_head.hpp"
 #include "core/files/yaml_size.hpp"
 #include "core/text.hpp"
 
@@ -139,6 +140,12 @@ Result<void> load_config(const fs::path& file, const CollectFields& collect,
   return reported(file.string(), [&] { return load_file(file, {collect, assigned, named}, {}); });
 }
 
+Result<void> load_keys(const fs::path& file, std::span<const std::string> keys,
+                       const CollectFields& collect, const fs::path& named) {
+  const SettingTarget target = {collect, nullptr, named, {keys.begin(), keys.end()}};
+  return reported(file.string(), [&] { return load_file(file, target, {}); });
+}
+
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect) {
   return reported(name, [&] {
@@ -167,7 +174,7 @@ Result<std::optional<std::vector<std::string>>> read_texts(const fs::path& file,
     fields.texts(key, texts, {});
     return fields;
   };
-  const SettingTarget target = {collect, &assigned, named, key};
+  const SettingTarget target = {collect, &assigned, named, {key}};
   const auto read = [&](const fs::path& from) {
     return reported(from.string(), [&] { return load_file(from, target, {}); });
   };

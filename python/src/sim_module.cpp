@@ -158,7 +158,7 @@ class CachedSequence {
 py::dict scenarios(const fs::path& folder, const Texts& tags) {
   py::dict dict;
   for (const CatalogueEntry& each :
-       scenario_catalogue(value_or_raise(scenarios_in(folder, tags)))) {
+       scenario_catalogue(value_or_raise(scenario_heads(folder, tags)))) {
     dict[py::str(each.name)] = each.description;
   }
   return dict;

@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "bench/tuning/analysis.hpp"
+#include "bench/tuning/held_out.hpp"
+#include "bench/tuning/sensitivity.hpp"
+#include "bench/tuning/slice.hpp"
 
 namespace aims {
 namespace {
@@ -37,47 +40,64 @@ Json best_json(const BestPoint& best) {
 }
 
 Json sensitivity_json(const Sensitivity& sensitivity, std::size_t parameters) {
-  const SobolIndices& indices = sensitivity.surrogate.indices();
+  const SobolIndices& indices = sensitivity.indices;
   Json second = Json::array();
   for (Eigen::Index i = 0; i < indices.second.rows(); ++i) {
     Json row = Json::array();
     for (Eigen::Index k = 0; k < indices.second.cols(); ++k) row.push_back(indices.second(i, k));
     second.push_back(std::move(row));
   }
-  Json idle = Json::array();
-  for (std::size_t i = 0; i < parameters; ++i) idle.push_back(sensitivity.is_negligible(i));
-  return {{"points", sensitivity.points},
-          {"logarithmic", sensitivity.logarithmic},
-          {"trustworthy", sensitivity.is_reliable()},
-          {"terms", sensitivity.surrogate.terms()},
-          {"error", sensitivity.surrogate.error()},
-          {"explained", sensitivity.surrogate.explained()},
-          {"first", indices.first},
-          {"total", indices.total},
-          {"total_interval", intervals_json(indices.total_interval)},
-          {"second", std::move(second)},
-          {"does_not_matter", std::move(idle)}};
+  Json negligible = Json::array();
+  for (std::size_t i = 0; i < parameters; ++i) negligible.push_back(sensitivity.is_negligible(i));
+  Json json = {{"points", sensitivity.points},
+               {"logarithmic", sensitivity.logarithmic},
+               {"of_grid", sensitivity.of_grid},
+               {"resolved", sensitivity.is_resolved()},
+               {"least_explained", kLeastExplained},
+               {"fit", nullptr},
+               {"first", indices.first},
+               {"total", indices.total},
+               {"total_interval", intervals_json(indices.total_interval)},
+               {"second", std::move(second)},
+               {"negligible", std::move(negligible)}};
+  if (sensitivity.surrogate) {
+    json["fit"] = {{"terms", sensitivity.surrogate->terms()},
+                   {"error", sensitivity.surrogate->error()},
+                   {"explained", sensitivity.surrogate->explained()}};
+  }
+  return json;
 }
 
-/// Null for a slice without points.
-Json slice_json(const Slice& slice, PageData& page) {
-  if (slice.points.empty()) return {};
+/// Null for none.
+Json points_json(const std::vector<SlicePoint>& points, bool has_y, PageData& page) {
+  if (points.empty()) return {};
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> x, y, value, low, high;
-  for (const SlicePoint& point : slice.points) {
+  for (const SlicePoint& point : points) {
     x.push_back(point.x);
     y.push_back(point.y);
     value.push_back(point.objective.value_or(kNone));
     low.push_back(point.interval.low.value_or(kNone));
     high.push_back(point.interval.high.value_or(kNone));
   }
-  Json json = {{"first", slice.first}, {"family", slice.family}, {"measured", slice.measured}};
-  if (slice.second) json["second"] = *slice.second;
-  json["x"] = page.f32(x);
-  if (slice.second) json["y"] = page.f32(y);
-  json["value"] = page.f32(value);
+  Json json = {{"x", page.f32(x)}, {"value", page.f32(value)}};
+  if (has_y) json["y"] = page.f32(y);
   json["low"] = page.f32(low);
   json["high"] = page.f32(high);
+  return json;
+}
+
+/// Null for an empty slice.
+Json slice_json(const ResponseTable& table, const Slice& slice, PageData& page) {
+  if (slice.is_empty()) return {};
+  const bool has_y = slice.second.has_value();
+  Json json = {{"first", slice.first},
+               {"family", slice.family},
+               {"held", held_text(table, slice)},
+               {"held_at", slice.held},
+               {"measured", points_json(slice.measured, has_y, page)},
+               {"fit", points_json(slice.fit, has_y, page)}};
+  if (has_y) json["second"] = *slice.second;
   return json;
 }
 
@@ -88,7 +108,7 @@ Json curves_json(const ResponseTable& table, const Objective& objective, PageDat
   Json curves = Json::array();
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     for (const std::string& family : families) {
-      Json curve = slice_json(curve_of(table, objective, i, family), page);
+      Json curve = slice_json(table, curve_of(table, objective, i, family), page);
       if (!curve.is_null()) curves.push_back(std::move(curve));
     }
   }
@@ -101,22 +121,38 @@ Json maps_json(const ResponseTable& table, const Objective& objective, PageData&
   if (count * (count - 1) / 2 > kMostMaps) return maps;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = i + 1; k < count; ++k) {
-      Json map = slice_json(map_of(table, objective, i, k), page);
+      Json map = slice_json(table, map_of(table, objective, i, k), page);
       if (!map.is_null()) maps.push_back(std::move(map));
     }
   }
   return maps;
 }
 
+const char* name_of(Verdict verdict) {
+  if (verdict == Verdict::kUseThem) return "use";
+  return verdict == Verdict::kDoNotUse ? "do not use" : "undecided";
+}
+
 }  // namespace
+
+Json held_out_json(const PairedGain& gain) {
+  return {{"verdict", name_of(verdict_of(gain))},
+          {"text", verdict_text(gain)},
+          {"sequences", gain.sequences},
+          {"gain", json_of(gain.gain)},
+          {"gain_interval", interval_json(gain.interval)},
+          {"p", gain.p}};
+}
 
 Json analysis_json(const ResponseTable& table, const Objective& objective, PageData& page) {
   Json json = {{"score", objective.score},
                {"objective", text_of(objective)},
+               {"axis", axis_label(objective)},
                {"relative", objective.relative},
                {"points", table.points.size()},
                {"seeds", seeds_of(table).size()},
                {"best", nullptr},
+               {"held_out", nullptr},
                {"sensitivity", nullptr},
                {"curves", Json::array()},
                {"maps", Json::array()}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench/run/score_record.hpp"
+#include "bench/tuning/held_out.hpp"
 #include "bench/tuning/objective.hpp"
 #include "render/page/page_data.hpp"
 
@@ -12,5 +13,8 @@ namespace aims {
 /// scenarios and of every family, and the map over every pair of parameters. Parts that the points
 /// do not yield are null and give the reason. Curves and maps are arrays of `page`.
 Json analysis_json(const ResponseTable& table, const Objective& objective, PageData& page);
+
+/// What the held-out sequences say of a point.
+Json held_out_json(const PairedGain& gain);
 
 }  // namespace aims

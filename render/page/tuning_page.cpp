@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +18,7 @@
 #include "bench/tuning/sweep_summary.hpp"
 #include "render/page/json_access.hpp"
 #include "render/page/links.hpp"
-#include "render/page/tuning_analysis.hpp"
+#include "render/page/tuning_analyses.hpp"
 
 namespace aims {
 namespace {
@@ -154,6 +153,17 @@ Json points_json(const EstimatorRows& own, const std::vector<double>& defaults,
 /// Beyond the values of JobOutcome: on an invalid run.
 constexpr std::uint8_t kInvalidOutcome = 4;
 
+/// The scores of a job by their dotted keys, each read once; none of a job that is not done.
+std::map<std::string, double> numbers_in(const JobResult& result) {
+  std::map<std::string, double> numbers;
+  if (result.outcome != JobOutcome::kDone || !result.scores.is_object()) return numbers;
+  visit_leaves(result.scores, "", [&](const std::string& key, const Json& value) {
+    if (value.is_number()) numbers.emplace(key, value.get<double>());
+    if (value.is_boolean()) numbers.emplace(key, value.get<bool>() ? 1.0 : 0.0);
+  });
+  return numbers;
+}
+
 Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores, PageData& page) {
   std::vector<double> point, sequence, values;
   std::vector<std::uint8_t> outcome, diverged, held_out;
@@ -164,72 +174,15 @@ Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores,
     outcome.push_back(invalid ? kInvalidOutcome : static_cast<std::uint8_t>(row.result.outcome));
     diverged.push_back(run_score(row.result, "success").diverged ? 1 : 0);
     held_out.push_back(row.held_out ? 1 : 0);
+    const auto known = invalid ? std::map<std::string, double>() : numbers_in(row.result);
     for (const std::string& key : scores) {
-      values.push_back(invalid ? kNone : score_in(row.result, key).value_or(kNone));
+      const auto found = known.find(key);
+      values.push_back(found == known.end() ? kNone : found->second);
     }
   }
   return {{"point", page.f32(point)},      {"sequence", page.f32(sequence)},
           {"outcome", page.u8(outcome)},   {"diverged", page.u8(diverged)},
           {"held_out", page.u8(held_out)}, {"scores", page.f32(values)}};
-}
-
-/// The objectives that are analysed: those of the plan, then the first one of each headline score.
-std::vector<Objective> analysed(const TuningSource& source) {
-  std::vector<Objective> objectives = source.objectives;
-  for (const HeadlineScore& score : kHeadlineScores) {
-    const bool known = std::any_of(objectives.begin(), objectives.end(),
-                                   [&](const auto& each) { return each.score == score.key; });
-    if (known) continue;
-    Objective objective = source.objectives.front();
-    objective.score = score.key;
-    objectives.push_back(objective);
-  }
-  return objectives;
-}
-
-/// The table as the tuning has it: the untuned values are its first point (and one job with it),
-/// the others stand in the order of the search where that is known.
-ResponseTable in_tuning_order(const ResponseTable& table, const TuningSource& source) {
-  ResponseTable ordered = table;
-  const auto& points = table.points;
-  if (!table.default_runs.empty() &&
-      std::find(points.begin(), points.end(), table.defaults) == points.end()) {
-    ordered.points.insert(ordered.points.begin(), table.defaults);
-    ordered.runs.insert(ordered.runs.begin(), table.default_runs);
-  }
-  const auto place = [&](std::size_t i) {
-    const auto found = source.points.find(ordered.points[i]);
-    return found == source.points.end() ? source.points.size() : found->second.index;
-  };
-  std::vector<std::size_t> order(ordered.points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  ResponseTable sorted = ordered;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    sorted.points[i] = ordered.points[order[i]];
-    sorted.runs[i] = ordered.runs[order[i]];
-  }
-  return sorted;
-}
-
-/// The analysis of each objective, over the complete points of that estimator.
-Result<Json> analyses_json(const TuningSource& source, const std::string& estimator,
-                           PageData& page) {
-  Json analyses = Json::array();
-  for (Objective objective : analysed(source)) {
-    const auto responses = sweep_responses(source.units, objective.score);
-    if (!responses) return tl::unexpected(responses.error());
-    for (const SweepResponse& response : *responses) {
-      if (response.estimator != estimator) continue;
-      objective.relative = objective.relative && !response.table.default_runs.empty();
-      const ResponseTable table =
-          source.tuned ? in_tuning_order(response.table, source) : response.table;
-      analyses.push_back(analysis_json(table, objective, page));
-      analyses.back()["incomplete"] = response.incomplete;
-    }
-  }
-  return analyses;
 }
 
 Json sequences_json(const std::vector<ResponseCase>& sequences) {
@@ -255,7 +208,7 @@ Result<Json> estimators_json(const TuningSource& source, const VariedParameters&
   for (const EstimatorRows& own : all.estimators) {
     const auto defaults = default_values(own.estimator, varied);
     if (!defaults) return tl::unexpected(defaults.error());
-    auto analyses = analyses_json(source, text_of(own.estimator), page);
+    auto analyses = analyses_json(source, text_of(own.estimator), own.points, page);
     if (!analyses) return analyses;
     json.push_back({{"name", text_of(own.estimator)},
                     {"parameters", parameters_json(varied, *defaults)},

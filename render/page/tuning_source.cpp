@@ -67,7 +67,6 @@ std::string as_sweep(const TunePlan& plan) {
   sweep.estimators = {plan.estimator};
   sweep.params = plan.params;
   sweep.set = plan.set;
-  sweep.include_defaults = true;
   return plan_text(sweep);
 }
 
@@ -102,7 +101,7 @@ Result<MergedJob> unit_of(const JobStore& folder, const std::string& id) {
   if (!whole) return failure(id);
   const std::string seed = fmt::format("{}", (*json)["seed"].get<std::uint64_t>());
   return MergedJob{{id, text_in(*json, "scenario"), seed, "", text_in(*json, "estimator")},
-                    std::move(*json)};
+                   std::move(*json)};
 }
 
 Result<TuningSource> read_tune(const fs::path& folder) {

@@ -34,8 +34,10 @@ Axis level_axis(const LevelPlot& plot) {
   Extent extent;
   for (const LevelPanel& panel : plot.panels) {
     for (const LevelCurve& curve : panel.curves) {
-      for (const LevelPoint& point : curve.points) {
-        include(extent, point.level, plot.logarithmic_levels);
+      for (const auto* points : {&curve.points, &curve.fit}) {
+        for (const LevelPoint& point : *points) {
+          include(extent, point.level, plot.logarithmic_levels);
+        }
       }
     }
   }
@@ -46,9 +48,11 @@ Axis value_axis(const LevelPanel& panel) {
   if (panel.rate) return {panel.label, -0.05, 1.05, false};
   Extent extent;
   for (const LevelCurve& curve : panel.curves) {
-    for (const LevelPoint& point : curve.points) {
-      for (const auto& value : {point.value, point.low, point.high}) {
-        include(extent, value, panel.logarithmic);
+    for (const auto* points : {&curve.points, &curve.fit}) {
+      for (const LevelPoint& point : *points) {
+        for (const auto& value : {point.value, point.low, point.high}) {
+          include(extent, value, panel.logarithmic);
+        }
       }
     }
   }
@@ -77,11 +81,27 @@ void add_curve(const LevelCurve& curve, const Stroke& stroke, double steps, Pane
   panel.series.push_back(std::move(line));
 }
 
+void add_fit(const LevelCurve& curve, const Color& color, Panel& panel) {
+  if (curve.fit.empty()) return;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Series line{.name = "", .points = {}, .stroke = {color, 1.0}};
+  Series low = line;
+  Series high = line;
+  low.stroke.style = high.stroke.style = LineStyle::kDashed;
+  for (const LevelPoint& point : curve.fit) {
+    line.points.emplace_back(point.level, point.value.value_or(none));
+    low.points.emplace_back(point.level, point.low.value_or(none));
+    high.points.emplace_back(point.level, point.high.value_or(none));
+  }
+  for (Series* each : {&line, &low, &high}) panel.series.push_back(std::move(*each));
+}
+
 Panel panel_of(const LevelPanel& source, const Axis& levels) {
   Panel panel{.title = source.title, .x = levels, .y = value_axis(source)};
   panel.height = kPanelHeight;
   const double middle = 0.5 * (static_cast<double>(source.curves.size()) - 1.0);
   for (std::size_t i = 0; i < source.curves.size(); ++i) {
+    add_fit(source.curves[i], series_color(i), panel);
     add_curve(source.curves[i], {series_color(i), 1.8}, static_cast<double>(i) - middle, panel);
   }
   return panel;

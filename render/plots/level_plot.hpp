@@ -20,7 +20,8 @@ struct LevelPoint {
 
 struct LevelCurve {
   std::string name;
-  std::vector<LevelPoint> points;
+  std::vector<LevelPoint> points;    ///< drawn with markers
+  std::vector<LevelPoint> fit = {};  ///< a thin line without markers, with its interval; or none
 };
 
 /// Curves that share a value axis.
@@ -42,7 +43,8 @@ struct LevelPlot {
 };
 
 /// Writes one panel below the other with a common level axis. Curve i of every panel has the same
-/// colour; intervals are vertical lines, a little apart where they would hide one another. Error
+/// colour; intervals are vertical lines, a little apart where they would hide one another, of fits
+/// two dashed lines. Error
 /// when the file (.png, .svg, .pdf) cannot be written.
 Result<void> write_level_plot(const std::filesystem::path& path, const LevelPlot& plot);
 

@@ -5,15 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "bench/tuning/analysis.hpp"
+#include "bench/tuning/objective.hpp"
 #include "core/error.hpp"
 
 namespace aims {
 
 /// Draws the objective into `folder`: KEY.png, a curve along each parameter, a line per family of
 /// scenarios, and KEY-KEY.png, the map over the two with the largest total indices (the first two
-/// without indices). What neither the design nor the surrogate covers is left out. points.png,
-/// every point over each parameter, where a curve is not measured. The files, by name.
+/// without indices). Markers are measured points, a thin line is a fit; what has neither is left
+/// out. points.png, every point over each parameter, unless they are a grid. The files, by
+/// name.
 Result<std::vector<std::string>> draw_response(const ResponseTable& table,
                                                const Objective& objective,
                                                const std::filesystem::path& folder);

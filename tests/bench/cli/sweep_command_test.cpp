@@ -49,23 +49,31 @@ class Sweeps : public testing::CommandLine {
 };
 
 TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
-  const Outcome first = sweep("--out out --shard 1/3");
+  const Outcome first = sweep("--out out --shard 1/4");
   ASSERT_EQ(first.exit_code, 0) << first.output;
   EXPECT_TRUE(
       holds(first, "1 jobs done, 0 of them failed; 0 found finished; 1 sequences simulated"));
   const Outcome early = aims("merge out");
   EXPECT_EQ(early.exit_code, 1) << "jobs are missing";
-  EXPECT_TRUE(holds(early, "1 of 3 jobs done")) << early.output;
+  EXPECT_TRUE(holds(early, "1 of 4 jobs done")) << early.output;
   EXPECT_TRUE(holds(early, "missing: ")) << early.output;
   const Outcome rest = sweep("--out out");
-  EXPECT_TRUE(holds(rest, "2 jobs done, 0 of them failed; 1 found finished; 0 sequences simulated"))
+  EXPECT_TRUE(holds(rest, "3 jobs done, 0 of them failed; 1 found finished; 0 sequences simulated"))
       << rest.output;
+  EXPECT_TRUE(holds(rest, "results: out/sweep.md, sweep.csv, sweep.sqlite")) << rest.output;
+  EXPECT_FALSE(holds(rest, "aims merge")) << rest.output;
+  for (const char* name : {"sweep.md", "sweep.csv", "sweep.sqlite", "queue.max_ahead.png"}) {
+    EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
+  }
   const Outcome merged = aims("merge out");
   EXPECT_EQ(merged.exit_code, 0) << merged.output;
-  EXPECT_TRUE(holds(merged, "3 of 3 jobs done: out/sweep.sqlite")) << merged.output;
+  EXPECT_TRUE(holds(merged, "4 of 4 jobs done: out/sweep.sqlite")) << merged.output;
   for (const Outcome& each : {rest, merged}) {
-    EXPECT_TRUE(holds(each, "estimator  queue.max_ahead  ate_m, median  largest  diverged"))
+    EXPECT_TRUE(std::regex_search(
+        each.output,
+        std::regex("estimator +queue.max_ahead +objective +score \\(ate_m\\), median")))
         << each.output;
+    EXPECT_TRUE(std::regex_search(each.output, std::regex("\nleg \\(default\\) +5 ")));
     for (const char* point : {"100", "150", "200"}) {
       EXPECT_TRUE(std::regex_search(each.output,
                                     std::regex(std::string("\nleg +") + point + " .* 0 of 1\n")))
@@ -80,7 +88,7 @@ TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
 TEST_F(Sweeps, ListTheIdsThatTheirFilesWillHave) {
   const Outcome list = sweep("--list");
   ASSERT_EQ(list.exit_code, 0) << list.output;
-  EXPECT_EQ(std::count(list.output.begin(), list.output.end(), '\n'), 3);
+  EXPECT_EQ(std::count(list.output.begin(), list.output.end(), '\n'), 4) << "the defaults are one";
   EXPECT_TRUE(holds(list, "my seed 1 leg+queue.max_ahead=150")) << list.output;
   EXPECT_EQ(sweep("--list --shard 1/2").output + sweep("--list --shard 2/2").output, list.output);
   EXPECT_FALSE(fs::exists(folder_.path() / "out"));
@@ -93,7 +101,7 @@ TEST_F(Sweeps, ListTheIdsThatTheirFilesWillHave) {
 TEST_F(Sweeps, RecordJobsThatTakeTooLongAndDoThemAgainWhenAsked) {
   const Outcome late = sweep("--estimators aims --timeout 0.001 --out out");
   EXPECT_EQ(late.exit_code, 1) << late.output;
-  EXPECT_TRUE(holds(late, "3 jobs done, 3 of them failed")) << late.output;
+  EXPECT_TRUE(holds(late, "4 jobs done, 4 of them failed")) << late.output;
   const Outcome why = aims("merge out");
   EXPECT_EQ(why.exit_code, 1);
   EXPECT_TRUE(holds(why, "timed_out: ")) << why.output;
@@ -102,7 +110,7 @@ TEST_F(Sweeps, RecordJobsThatTakeTooLongAndDoThemAgainWhenAsked) {
   EXPECT_TRUE(holds(kept, "0 jobs done")) << kept.output;
   const Outcome again = sweep("--estimators aims --timeout 0 --out out --retry");
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_TRUE(holds(again, "3 jobs done, 0 of them failed")) << again.output;
+  EXPECT_TRUE(holds(again, "4 jobs done, 0 of them failed")) << again.output;
 }
 
 TEST_F(Sweeps, RefuseBadPlansWithOneLine) {
@@ -148,7 +156,7 @@ TEST_F(Sweeps, OverTheSimulationMakeASequencePerValue) {
   const Outcome done =
       sweep("--out out --param links.leg_odometry.loss=0:0.9:3 --param queue.max_ahead=100:200:2");
   ASSERT_EQ(done.exit_code, 0) << done.output;
-  EXPECT_TRUE(holds(done, "6 jobs done, 0 of them failed; 0 found finished; 3 sequences simulated"))
+  EXPECT_TRUE(holds(done, "7 jobs done, 0 of them failed; 0 found finished; 4 sequences simulated"))
       << done.output;
   ASSERT_EQ(aims("merge out").exit_code, 0);
   const auto table = read_file(folder_.path() / "out" / "sweep.csv");
@@ -157,8 +165,8 @@ TEST_F(Sweeps, OverTheSimulationMakeASequencePerValue) {
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "links.leg_odometry.loss.png"));
   const Outcome other = sweep("--out other --param scoring.max_error_offset=0.5:2:3");
   EXPECT_TRUE(
-      holds(other, "3 jobs done, 0 of them failed; 0 found finished; 1 sequences simulated"))
-      << other.output;
+      holds(other, "4 jobs done, 0 of them failed; 0 found finished; 0 sequences simulated"))
+      << "the defaults have the sequence already" << other.output;
 }
 
 TEST_F(Sweeps, KeepWhatIsFinishedAtCtrlCAndContinue) {
@@ -177,10 +185,10 @@ TEST_F(Sweeps, KeepWhatIsFinishedAtCtrlCAndContinue) {
     if (entry.path().extension() == ".json") ++finished;
   }
   EXPECT_GE(finished, 1U);
-  ASSERT_LT(finished, 101U) << "Ctrl-C came too late to tell";
+  ASSERT_LT(finished, 102U) << "Ctrl-C came too late to tell";
   const Outcome rest = aims(command);
   EXPECT_EQ(rest.exit_code, 0) << rest.output;
-  EXPECT_TRUE(holds(rest, std::to_string(101 - finished) + " jobs done, 0 of them failed; " +
+  EXPECT_TRUE(holds(rest, std::to_string(102 - finished) + " jobs done, 0 of them failed; " +
                               std::to_string(finished) + " found finished; 0 sequences"))
       << rest.output;
 }
@@ -208,7 +216,7 @@ TEST_F(Sweeps, AreRefusedInAFolderOfAnotherCode) {
   expect_refused("--out out", {"out: holds jobs of code beef", "this is code", "--force"});
   const Outcome renewed = sweep("--out out --force");
   EXPECT_EQ(renewed.exit_code, 0) << renewed.output;
-  EXPECT_TRUE(holds(renewed, "3 found finished")) << "their ids say which code they are of";
+  EXPECT_TRUE(holds(renewed, "4 found finished")) << "their ids say which code they are of";
 }
 
 TEST_F(Sweeps, EndWithTheFileThatNoSpaceIsLeftFor) {

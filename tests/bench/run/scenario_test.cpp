@@ -72,6 +72,35 @@ TEST(ShippedScenarios, LoadAndAreCalledAsTheirFiles) {
   }
 }
 
+TEST(ShippedScenarios, HaveHeadsThatAreThoseOfTheWholeScenarios) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  const auto heads = scenario_heads(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files);
+  ASSERT_TRUE(heads);
+  ASSERT_EQ(files->size(), heads->size());
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    const Result<ScenarioHead>& head = (*heads)[i].head;
+    const Scenario& whole = *(*files)[i].scenario;
+    ASSERT_TRUE(head) << head.error().message;
+    EXPECT_EQ(head->name, whole.name);
+    EXPECT_EQ(head->description, whole.description);
+    EXPECT_EQ(head->tags, whole.tags);
+    EXPECT_EQ(head->family, whole.family);
+    EXPECT_EQ(head->level, whole.level);
+    EXPECT_EQ(head->level_unit, whole.level_unit);
+  }
+}
+
+TEST_F(ScenarioFolder, ATagFindsItsScenariosWhateverElseIsBroken) {
+  write("right.yaml", "tags: [mine]");
+  write("wrong.yaml", "tags: [other]\nsedd: 1");
+  const std::vector<std::string> tags = {"mine"};
+  const auto files = scenarios_in(folder_.path(), tags);
+  ASSERT_TRUE(files) << files.error().message;
+  ASSERT_EQ(files->size(), 1U);
+  EXPECT_TRUE(files->front().scenario);
+}
+
 TEST(ShippedScenarios, OfAFamilyShareItsUnitAndDifferInLevel) {
   const auto files = scenarios_in(AIMS_SCENARIOS, {});
   ASSERT_TRUE(files);

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/tuning/sensitivity.hpp"
+#include "bench/tuning/slice.hpp"
 #include "core/random.hpp"
 
 namespace aims {
@@ -169,7 +171,7 @@ TEST(Sensitivity, TellsWhichParameterDoesNotMatter) {
   const auto sensitivity = sensitivity_of(table, absolute());
   ASSERT_TRUE(sensitivity);
   EXPECT_TRUE(sensitivity->logarithmic);
-  EXPECT_TRUE(sensitivity->is_reliable());
+  EXPECT_TRUE(sensitivity->is_resolved());
   EXPECT_FALSE(sensitivity->is_negligible(0));
   EXPECT_FALSE(sensitivity->is_negligible(1));
   EXPECT_TRUE(sensitivity->is_negligible(2));
@@ -183,18 +185,79 @@ TEST(Sensitivity, OfNoiseTrustsNothing) {
       [&](const std::vector<double>&, const ResponseCase&) { return std::exp(random.normal()); });
   const auto sensitivity = sensitivity_of(table, absolute());
   ASSERT_TRUE(sensitivity);
-  EXPECT_FALSE(sensitivity->is_reliable());
+  EXPECT_FALSE(sensitivity->is_resolved());
   EXPECT_FALSE(sensitivity->is_negligible(0));
-  EXPECT_TRUE(curve_of(table, absolute(), 0).points.empty());
+  EXPECT_TRUE(curve_of(table, absolute(), 0).is_empty());
+}
+
+TEST(Sensitivity, OfAGridIsThatOfItsPointsHoweverFewTheyAre) {
+  // ln = 2 a + 3 b + 4 a b with a, b = -1 or 1, c without effect: 4, 9 and 16 parts of 29.
+  const auto ranges = ranges_of({"a=-1:1:2", "b=-1:1:2", "c=0:1:2"});
+  const auto table = table_of(ranges, {-1.0, 1.0, 0.0}, design(DesignKind::kGrid, ranges, 0, 1), 2,
+                              [](const std::vector<double>& point, const ResponseCase& on) {
+                                const double exponent =
+                                    2.0 * point[0] + 3.0 * point[1] + 4.0 * point[0] * point[1];
+                                return static_cast<double>(on.seed) * std::exp(exponent);
+                              });
+  const auto sensitivity = sensitivity_of(table, absolute());
+  ASSERT_TRUE(sensitivity) << sensitivity.error().message;
+  EXPECT_TRUE(sensitivity->of_grid);
+  EXPECT_TRUE(sensitivity->is_resolved());
+  const SobolIndices& indices = sensitivity->indices;
+  EXPECT_NEAR(indices.first[0], 4.0 / 29.0, 1e-9);
+  EXPECT_NEAR(indices.first[1], 9.0 / 29.0, 1e-9);
+  EXPECT_NEAR(indices.total[0], 20.0 / 29.0, 1e-9);
+  EXPECT_NEAR(indices.total[1], 25.0 / 29.0, 1e-9);
+  EXPECT_NEAR(indices.second(0, 1), 16.0 / 29.0, 1e-9);
+  EXPECT_NEAR(indices.total[2], 0.0, 1e-9);
+  EXPECT_TRUE(sensitivity->is_negligible(2));
+}
+
+TEST(Sensitivity, IsNotResolvedByAFitThatExplainsTwoThirds) {
+  const auto ranges = ranges_of({"a=0:1", "b=0:1"});
+  RandomStream random = rng(3, "test.noise");
+  const auto table = table_of(ranges, {0.5, 0.5}, design(DesignKind::kSobol, ranges, 128, 1), 1,
+                              [&](const std::vector<double>& point, const ResponseCase&) {
+                                return std::exp(point[0] + 0.28 * random.normal());
+                              });
+  const auto sensitivity = sensitivity_of(table, absolute());
+  ASSERT_TRUE(sensitivity);
+  ASSERT_GT(sensitivity->surrogate->explained(), 0.5);
+  ASSERT_LT(sensitivity->surrogate->explained(), 0.9);
+  EXPECT_FALSE(sensitivity->is_resolved());
+  EXPECT_TRUE(curve_of(table, absolute(), 0).fit.empty());
+}
+
+TEST(Slice, OfTwoValuesHasTwoPointsAndNoFit) {
+  const auto ranges = ranges_of({"a=0:6:3", "b=log(1,100,3)", "alpha=0.5:0.95:2"});
+  const auto table =
+      table_of(ranges, {4.0, 12.6, 0.9}, design(DesignKind::kGrid, ranges, 0, 1), 3, bowl);
+  const Slice curve = curve_of(table, absolute(), 2);
+  ASSERT_EQ(curve.measured.size(), 2U);
+  EXPECT_EQ(curve.measured[0].x, 0.5);
+  EXPECT_EQ(curve.measured[1].x, 0.95);
+  EXPECT_TRUE(curve.fit.empty());
+  EXPECT_EQ(held_text(table, curve), "a = 3 (default 4), b = 10 (default 12.6)");
+}
+
+TEST(Slice, OfOneParameterHasTheDefaultsAmongItsPoints) {
+  const auto ranges = ranges_of({"a=0:6:4"});
+  const auto table = table_of(
+      ranges, {4.1}, design(DesignKind::kGrid, ranges, 0, 1), 2,
+      [](const std::vector<double>& point, const ResponseCase&) { return 1.0 + point[0]; });
+  const Slice curve = curve_of(table, absolute(), 0);
+  ASSERT_EQ(curve.measured.size(), 5U);
+  EXPECT_EQ(curve.measured[3].x, 4.1);
+  EXPECT_NEAR(*curve.measured[3].objective, 5.1, 1e-12);
+  EXPECT_EQ(held_text(table, curve), "");
 }
 
 TEST(Slice, OfAGridIsMeasuredNextToTheDefaults) {
   const ResponseTable table = bowl_grid(4);
   const Slice curve = curve_of(table, absolute(), 0, "steep");
-  EXPECT_TRUE(curve.measured);
-  ASSERT_EQ(curve.points.size(), 13U);
+  ASSERT_EQ(curve.measured.size(), 13U);
   const auto cases = cases_of(table, "steep");
-  for (const SlicePoint& point : curve.points) {
+  for (const SlicePoint& point : curve.measured) {
     // 30 lies next to 31.6 of the grid's 1, 3.16, 10, 31.6, 100
     std::size_t row = 0;
     while (table.points[row][0] != point.x || std::abs(table.points[row][1] - 31.6) > 0.1) ++row;
@@ -206,10 +269,10 @@ TEST(Slice, OfAGridIsMeasuredNextToTheDefaults) {
 
 TEST(Slice, MapOfAGridHasEveryCell) {
   const Slice map = map_of(bowl_grid(2), absolute(), 0, 1);
-  EXPECT_TRUE(map.measured);
-  ASSERT_EQ(map.points.size(), 65U);
-  EXPECT_EQ(map.points[1].x, 0.5);
-  EXPECT_EQ(map.points[1].y, 1.0);
+  EXPECT_TRUE(map.fit.empty());
+  ASSERT_EQ(map.measured.size(), 65U);
+  EXPECT_EQ(map.measured[1].x, 0.5);
+  EXPECT_EQ(map.measured[1].y, 1.0);
 }
 
 TEST(Slice, OfScatteredPointsFollowsTheSurrogate) {
@@ -217,14 +280,14 @@ TEST(Slice, OfScatteredPointsFollowsTheSurrogate) {
   const auto table =
       table_of(ranges, {2.0, 10.0}, design(DesignKind::kSobol, ranges, 96, 1), 4, bowl);
   const Slice curve = curve_of(table, absolute(), 0);
-  EXPECT_FALSE(curve.measured);
-  ASSERT_FALSE(curve.points.empty());
-  EXPECT_EQ(curve.points.front().x, 0.0);
-  EXPECT_EQ(curve.points.back().x, 6.0);
-  const double least = *curve.points[8].objective;  // at a = 2
-  EXPECT_GT(*curve.points.front().objective, 1.3 * least);
-  EXPECT_GT(*curve.points.back().objective, 2.0 * least);
-  EXPECT_EQ(map_of(table, absolute(), 0, 1).points.size(), 24U * 24U);
+  ASSERT_EQ(curve.measured.size(), 1U) << "no point but the defaults lies on it";
+  ASSERT_FALSE(curve.fit.empty());
+  EXPECT_EQ(curve.fit.front().x, 0.0);
+  EXPECT_EQ(curve.fit.back().x, 6.0);
+  const double least = *curve.fit[8].objective;  // at a = 2
+  EXPECT_GT(*curve.fit.front().objective, 1.3 * least);
+  EXPECT_GT(*curve.fit.back().objective, 2.0 * least);
+  EXPECT_EQ(map_of(table, absolute(), 0, 1).fit.size(), 24U * 24U);
 }
 
 TEST(Slice, OfACrowdEndsWhereNothingWasRun) {
@@ -233,10 +296,10 @@ TEST(Slice, OfACrowdEndsWhereNothingWasRun) {
   for (auto& point : points) point[0] *= 0.3;
   const auto table = table_of(ranges, {1.0, 10.0}, points, 4, bowl);
   const Slice curve = curve_of(table, absolute(), 0);
-  ASSERT_FALSE(curve.points.empty());
-  EXPECT_TRUE(curve.points.front().objective.has_value());
-  EXPECT_EQ(curve.points.back().x, 6.0);
-  EXPECT_FALSE(curve.points.back().objective.has_value());
+  ASSERT_FALSE(curve.fit.empty());
+  EXPECT_TRUE(curve.fit.front().objective.has_value());
+  EXPECT_EQ(curve.fit.back().x, 6.0);
+  EXPECT_FALSE(curve.fit.back().objective.has_value());
 }
 
 }  // namespace

@@ -63,11 +63,12 @@ TEST(DrawnSweep, VariesAKeyInsteadOfDrawingItAndDrawsTheOthers) {
   plan.params = {"links.leg_odometry.loss=0:0.2:2"};
   const auto jobs = plan_jobs(plan, AIMS_SCENARIOS);
   ASSERT_TRUE(jobs) << jobs.error().message;
-  ASSERT_EQ(jobs->size(), 6U);
+  ASSERT_EQ(jobs->size(), 9U) << "the scenario as it is on each seed, and two losses";
   std::set<double> losses;
   std::set<double> lengths;
   for (const Job& job : *jobs) {
     EXPECT_TRUE(job.scenario->draw.empty());
+    if (job.scenario_settings.empty()) continue;
     losses.insert(job.scenario->simulation.links.leg_odometry.loss);
     lengths.insert(job.scenario->simulation.scene.corridor.length);
     EXPECT_EQ(job.id, make_job(job.scenario, job.seed, job.estimator).id);

@@ -113,11 +113,12 @@ std::vector<std::string> walks_of(const std::vector<Job>& units) {
 
 TEST(ScenarioRange, OfTheSimulationMakesAWalkPerValueThatItsUnitsShare) {
   const auto units = units_of(plan_over({"queue.lag=0:0.1:3", "links.leg_odometry.loss=0:0.5:3"}));
-  EXPECT_EQ(units.size(), 2U * 3U * 3U * 2U);
+  EXPECT_EQ(units.size(), 2U * (3U * 3U + 1U) * 2U) << "with the defaults";
   const auto walks = walks_of(units);
-  EXPECT_EQ(walks.size(), 3U * 2U) << "those on one walk stand together";
+  EXPECT_EQ(walks.size(), (3U + 1U) * 2U) << "those on one walk stand together";
   EXPECT_EQ(std::set(walks.begin(), walks.end()).size(), walks.size());
   for (const Job& unit : units) {
+    if (unit.scenario->simulation.links.leg_odometry.loss == 0.05) continue;  // the defaults
     ASSERT_EQ(unit.scenario_settings.size(), 1U);
     EXPECT_EQ(unit.scenario_settings[0].key, "links.leg_odometry.loss");
     EXPECT_EQ(unit.scenario_settings[0].default_value, "0.05");
@@ -137,7 +138,6 @@ TEST(ScenarioRange, RoundsWholeNumbersAndMakesNoUnitTwice) {
   SweepPlan plan = plan_over({"lidar.rings=15:17:9"});
   EXPECT_EQ(units_of(plan).size(), 3U * 2U * 2U);
   plan.params = {"links.leg_odometry.loss=0:0.1:3"};
-  plan.include_defaults = true;
   EXPECT_EQ(units_of(plan).size(), 3U * 2U * 2U) << "0.05 is what the scenario has";
 }
 

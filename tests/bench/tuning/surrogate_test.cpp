@@ -144,6 +144,22 @@ TEST(Surrogate, OfAConstantIsTheConstant) {
   EXPECT_EQ(surrogate.indices().total[0], 0.0);
 }
 
+TEST(Surrogate, BendsNothingBetweenTwoLevels) {
+  Eigen::MatrixXd x(18, 2);
+  Eigen::VectorXd values(18);
+  for (int row = 0; row < 18; ++row) {
+    x.row(row) << row % 2, (row / 2) / 8.0;
+    values(row) = 2.0 * x(row, 0) + x(row, 1) * x(row, 1);
+  }
+  const auto surrogate = Surrogate::fit(x, values);
+  ASSERT_TRUE(surrogate);
+  for (const double u : {0.1, 0.3, 0.5, 0.8}) {
+    const double line = (1.0 - u) * surrogate->at(Eigen::Vector2d(0.0, 0.25)) +
+                        u * surrogate->at(Eigen::Vector2d(1.0, 0.25));
+    EXPECT_NEAR(surrogate->at(Eigen::Vector2d(u, 0.25)), line, 1e-9);
+  }
+}
+
 TEST(Surrogate, FitsAGridOfFewLevels) {
   Eigen::MatrixXd x(15, 2);
   Eigen::VectorXd values(15);

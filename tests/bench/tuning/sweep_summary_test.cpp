@@ -86,8 +86,8 @@ TEST(SweepReport, SaysTheBestAndDrawsTheCurve) {
 TEST(SweepReport, WithoutUntunedRunsComparesPlainScores) {
   const TemporaryFolder folder;
   const std::string text = report_of(sweep_over_eta(false), folder.path());
-  EXPECT_TRUE(says(text, "median of ate_m, a diverged run counts")) << text;
-  EXPECT_TRUE(says(text, "the defaults have -")) << text;
+  EXPECT_TRUE(says(text, "median of ate_m; a diverged run counts")) << text;
+  EXPECT_TRUE(says(text, "the defaults have an objective of -")) << text;
 }
 
 TEST(SweepReport, LeavesOutPointsThatAreNotDoneOnAllWalks) {

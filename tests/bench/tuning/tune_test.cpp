@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "bench/tuning/analysis.hpp"
+#include "bench/tuning/batch_progress.hpp"
+#include "bench/tuning/held_out.hpp"
+#include "bench/tuning/tune_overlay.hpp"
 #include "bench/tuning/tune_summary.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
@@ -123,6 +126,12 @@ TEST(TunePlan, FindsWalksAndUntunedValues) {
   EXPECT_EQ(task.defaults, (std::vector<double>{config.eta, config.kappa, config.alpha}));
 }
 
+TEST(TunePlan, HoldsASequenceOutOnceHoweverOftenItIsNamed) {
+  TunePlan plan = small_plan();
+  plan.held_out = {{"corridor", "garage", "corridor_smooth"}, {}, "11-12"};
+  EXPECT_EQ(task_of(plan).held_out.size(), 6U);
+}
+
 TEST(TunePlan, TakesTheEstimatorsKeysInFullToo) {
   TunePlan plan = small_plan();
   plan.params = {"estimators.aims.degeneracy.eta=0:6"};
@@ -227,7 +236,7 @@ TEST(TuneReport, OverlayLoadsOnTopOfAScenario) {
   std::vector<std::string> warnings;
   ASSERT_TRUE(write_tuning(*result, folder.path(), draw_response, warnings));
   EXPECT_TRUE(warnings.empty()) << warnings.front();
-  for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "degeneracy.eta.png"}) {
+  for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "points.png"}) {
     EXPECT_TRUE(fs::exists(folder.path() / name)) << name;
   }
   const auto file = find_scenario("garage", kScenarios);
@@ -251,6 +260,72 @@ TEST(TuneReport, WholeNumbersStayWhole) {
                                                               {"lidar.max_iterations", "4"}}));
 }
 
+TEST(TuneReport, ConcludesNothingFromOneSequence) {
+  TunePlan plan = small_plan();
+  plan.scenarios = {"corridor"};
+  plan.held_out.seeds = "11";
+  for (const bool overfit : {false, true}) {
+    const auto result = tuned(plan, {.overfit = overfit});
+    ASSERT_TRUE(result);
+    EXPECT_EQ(verdict_of(held_out_gain(*result)), Verdict::kUndecided);
+    EXPECT_TRUE(says(held_out_verdict(*result), "nothing can be concluded from one held-out"));
+  }
+}
+
+TEST(TuneReport, WithFewSequencesALossIsALossAndAGainIsUndecided) {
+  TunePlan plan = small_plan();
+  plan.scenarios = {"corridor"};
+  plan.held_out.seeds = "11-13";
+  const auto worse = tuned(plan, {.overfit = true});
+  ASSERT_TRUE(worse);
+  EXPECT_TRUE(says(held_out_verdict(*worse), "do not use them: ")) << held_out_verdict(*worse);
+  EXPECT_TRUE(says(held_out_verdict(*worse), "3 held-out sequences, too few for an interval"));
+  const auto better = tuned(plan);
+  ASSERT_TRUE(better);
+  EXPECT_TRUE(says(held_out_verdict(*better), "undecided: ")) << held_out_verdict(*better);
+}
+
+TEST(TuneReport, AnInterruptedTuningIsNotValidated) {
+  const auto result = tuned(small_plan(), {.last_call = 4});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(says(held_out_verdict(*result), "interrupted before the held-out sequences"));
+}
+
+TEST(TuneReport, OutcomesNameHowManySequencesTheyAreOf) {
+  TunePlan plan = small_plan();
+  plan.held_out = {{"garage"}, {}, "11-13"};  // garage is tuned on, too
+  const auto result = tuned(plan);
+  ASSERT_TRUE(result);
+  const TextTable table = outcome_table(*result);
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(table.rows[0][0], "held out");
+  EXPECT_EQ(table.rows[0][1], "6");
+  EXPECT_EQ(table.rows[1][1], "8");
+}
+
+TEST(Tune, ProgressOfAllBatchesNeverFalls) {
+  BatchProgress whole(10);
+  double before = 0.0;
+  const auto step = [&](std::size_t jobs, std::size_t found, std::size_t done) {
+    JobProgress batch;
+    batch.total = jobs - found;
+    batch.done = done;
+    batch.fraction = batch.total == 0 ? 1.0 : double(done) / double(batch.total);
+    const JobProgress all = whole.overall(jobs, batch);
+    EXPECT_GE(all.fraction, before);
+    before = all.fraction;
+    return all;
+  };
+  EXPECT_DOUBLE_EQ(step(2, 0, 1).fraction, 0.1);
+  EXPECT_DOUBLE_EQ(step(2, 0, 2).fraction, 0.2);
+  whole.end(2, {.done = 2});
+  EXPECT_DOUBLE_EQ(step(4, 1, 0).fraction, 0.3) << "one was found finished";
+  EXPECT_EQ(step(4, 1, 3).done, 6U);
+  whole.end(4, {.done = 3});
+  EXPECT_EQ(step(4, 0, 0).total, 10U);
+  EXPECT_DOUBLE_EQ(step(4, 0, 4).fraction, 1.0);
+}
+
 TEST(TuneReport, SaysWhetherTheGainHolds) {
   const auto report = [](const Bowl& bowl) {
     const TemporaryFolder folder;
@@ -260,10 +335,12 @@ TEST(TuneReport, SaysWhetherTheGainHolds) {
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };
   const std::string holds = report({});
-  EXPECT_TRUE(says(holds, "The gain holds on the held-out sequences")) << holds;
+  EXPECT_TRUE(says(holds, "**Tuned values: use them: ")) << holds;
+  EXPECT_LT(holds.find("use them: "), holds.find("- objective")) << "the verdict leads";
   EXPECT_FALSE(says(holds, "`degeneracy.eta` does not matter")) << holds;
   const std::string overfit = report({.overfit = true});
-  EXPECT_TRUE(says(overfit, "the tuned values are worse than the defaults")) << overfit;
+  EXPECT_TRUE(says(overfit, "**Tuned values: do not use them: ")) << overfit;
+  EXPECT_TRUE(says(overfit, "worse on 8 held-out sequences (95 % interval")) << overfit;
 }
 
 }  // namespace

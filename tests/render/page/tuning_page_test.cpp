@@ -67,7 +67,9 @@ class Units {
                          unit["seed"].get<int>());
   }
 
-  void write_list() const { put(folder_ / "jobs.csv", "id,scenario,seed,label,estimator\n" + list_); }
+  void write_list() const {
+    put(folder_ / "jobs.csv", "id,scenario,seed,label,estimator\n" + list_);
+  }
   const fs::path& folder() const { return folder_; }
 
  private:
@@ -183,10 +185,11 @@ TEST(TuningPage, TheAnalysisIsThatOfTheMergedSweep) {
   const auto& sensitivity = analysis["sensitivity"];
   EXPECT_GT(sensitivity["total"][0].get<double>(), sensitivity["total"][1].get<double>());
   const auto& curve = analysis["curves"][0];
-  EXPECT_EQ(curve["measured"], true);
-  EXPECT_EQ(page.f32(curve["x"]), (std::vector<float>{0.0F, 2.0F, 4.0F, 6.0F}));
+  EXPECT_TRUE(curve["fit"].is_null());
+  EXPECT_EQ(curve["held"], "degeneracy.kappa = 10 (default 12.6)");
+  EXPECT_EQ(page.f32(curve["measured"]["x"]), (std::vector<float>{0.0F, 2.0F, 4.0F, 6.0F}));
   ASSERT_EQ(analysis["maps"].size(), 1U);
-  EXPECT_EQ(page.f32(analysis["maps"][0]["value"]).size(), 12U);
+  EXPECT_EQ(page.f32(analysis["maps"][0]["measured"]["value"]).size(), 12U);
 }
 
 TEST(TuningPage, WithoutUntunedRunsThereIsNoGain) {
@@ -218,6 +221,7 @@ TEST(TuningPage, ASweepUnderWayIsAPageOfWhatIsThere) {
   EXPECT_EQ(analysis["points"], 1);
   EXPECT_EQ(analysis["incomplete"], 1);
   EXPECT_TRUE(analysis["sensitivity"].is_null());
+  EXPECT_TRUE(analysis["held_out"].is_null());
   EXPECT_FALSE(analysis["why_no_sensitivity"].get<std::string>().empty());
 }
 
@@ -241,6 +245,23 @@ TEST(TuningPage, UnitsThatFailedAreLostRowsWithoutScores) {
   const std::size_t ate = column_of(page, "ate_m");
   EXPECT_TRUE(std::isnan(scores[ate]));
   EXPECT_NEAR(scores[page.json["scores"].size() + ate], 0.3, 1e-6);
+}
+
+TEST(TuningPage, TheBestPointIsTheOneOfTheLeastObjectiveOfAll) {
+  const TemporaryFolder folder;
+  Units units(folder.path());
+  write_grid(units, true);
+  const DecodedPage page = page_of(folder.path());
+  const auto& own = page.json["estimators"][0];
+  const auto& analysis = own["analyses"][0];
+  const auto objectives = page.f32(analysis["objectives"]);
+  ASSERT_EQ(objectives.size(), 13U);
+  const auto least = std::min_element(objectives.begin(), objectives.end());
+  EXPECT_NEAR(*least, analysis["best"]["objective"].get<double>(), 1e-6);
+  const auto values = page.f32(own["points"]["values"]);
+  const auto at = 2 * static_cast<std::size_t>(least - objectives.begin());
+  EXPECT_EQ(analysis["best"]["values"], (std::vector<double>{values[at], values[at + 1]}));
+  EXPECT_NEAR(objectives[0], 1.0, 1e-6) << "of the defaults over themselves";
 }
 
 void write_tune_plan(const fs::path& folder) {
@@ -273,6 +294,26 @@ TEST(TuningPage, ATuningKeepsWhatWasHeldOutApart) {
   int held = 0;
   for (const auto each : page.array<std::uint8_t>(own["rows"]["held_out"])) held += each;
   EXPECT_EQ(held, 2);
+}
+
+TEST(TuningPage, ATuningLeadsWithWhatHeldOutSequencesSay) {
+  const TemporaryFolder folder;
+  Units units(folder.path());
+  put(folder.path() / "tune.yaml",
+      "params: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
+      "scenarios: [walk]\nseeds: 1\nheld_out: {seeds: 11-18}\nobjectives:\n  - {score: ate_m}\n");
+  units.add(unit("walk", 1, {}, 0.3));
+  units.add(unit("walk", 1, {1.0, 10.0}, 0.2));
+  for (int seed = 11; seed <= 18; ++seed) {
+    units.add(unit("walk", seed, {}, 0.3));
+    units.add(unit("walk", seed, {1.0, 10.0}, 0.33 + 0.001 * seed));
+  }
+  const DecodedPage page = page_of(folder.path());
+  const auto& held = page.json["estimators"][0]["analyses"][0]["held_out"];
+  EXPECT_EQ(held["verdict"], "do not use");
+  EXPECT_EQ(held["sequences"], 8);
+  EXPECT_LT(held["gain"].get<double>(), -0.1);
+  EXPECT_TRUE(contains(held["text"], "worse on 8 held-out sequences"));
 }
 
 TEST(TuningPage, AFinishedTuningTellsEachPointsGeneration) {

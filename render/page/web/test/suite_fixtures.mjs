@@ -102,16 +102,19 @@ export function tuning({ parameter = "degeneracy.eta", scenarios = ["corridor", 
   const value = ([x, y]) => 1 - 0.1 * x + 0.05 * Math.log10(y);
   const rows = points.flatMap((each, k) => sequences.map((_, w) => ({ k, w, diverged: k === 1 && w === 0, score: k === 1 && w === 0 ? NaN : value(each) * (1 + w) })));
   const column = (pick) => rows.map(pick);
-  const slice = (first, rest, members) => ({ first, ...rest, family: "", measured: true, x: Float32Array.from(members, (each) => each[first]),
+  const measured = (first, members, y) => ({ x: Float32Array.from(members, (each) => each[first]), ...y,
     value: Float32Array.from(members, value), low: Float32Array.from(members, (each) => 0.9 * value(each)), high: Float32Array.from(members, (each) => 1.1 * value(each)) });
+  const slice = (first, held, members) => ({ first, family: "", held, held_at: [4, 10], measured: measured(first, members, {}), fit: null });
   const analysis = {
-    score: "ate_m", objective: "median of ate_m, a diverged run counts 10", relative: false, points: 12, seeds: 2, incomplete: 0,
+    score: "ate_m", objective: "median of ate_m; a diverged run counts 10", axis: "objective: ate_m [m]", objectives: Float32Array.from(points, value),
+    held_out: null, relative: false, points: 12, seeds: 2, incomplete: 0,
     best: { values: [6, 1], between: [[4, 6], [1, 10]], objective: 0.4, objective_interval: [0.38, 0.44], defaults: 0.755, gain: 0.47,
       gain_interval: [0.4, 0.5], distance: [0.5, -0.55] },
-    sensitivity: { points: 12, logarithmic: true, trustworthy: true, terms: 4, error: 0.05, explained: 0.97, first: [0.88, 0.02], total: [0.95, 0.04],
-      total_interval: [[0.9, 0.98], [0.01, 0.049]], second: [[0, 0.02], [0.02, 0]], does_not_matter: [false, true] },
-    curves: [slice(0, {}, grid.filter(([, y]) => y === 10)), slice(1, {}, grid.filter(([x]) => x === 4))],
-    maps: [slice(0, { second: 1, y: Float32Array.from(grid, ([, y]) => y) }, grid)],
+    sensitivity: { points: 12, logarithmic: true, of_grid: true, resolved: true, least_explained: 0.9, fit: { terms: 4, error: 0.05, explained: 0.97 }, first: [0.88, 0.02], total: [0.95, 0.04],
+      total_interval: [[0.9, 0.98], [0.01, 0.049]], second: [[0, 0.02], [0.02, 0]], negligible: [false, true] },
+    curves: [slice(0, "degeneracy.kappa = 10 (default 12.6)", grid.filter(([, y]) => y === 10)),
+      slice(1, `${parameter} = 4 (default 3)`, grid.filter(([x]) => x === 4))],
+    maps: [{ first: 0, second: 1, family: "", held: "", held_at: [4, 10], measured: measured(0, grid, { y: Float32Array.from(grid, ([, y]) => y) }), fit: null }],
   };
   return {
     schema: "aims.page/2", kind: "tuning", title: "Sweep made up", source: "sweep", plan: `over: ["${parameter}=0:6:4"]\n`,

@@ -24,6 +24,44 @@ test("best values and indices are those of the analysis", { skip }, async () => 
   assert.deepEqual(troubles, []);
 });
 
+test("the held-out verdict leads, and says when there is none", { skip }, async () => {
+  const data = { ...tuning(), source: "tune" };
+  data.estimators[0].analyses[0].held_out = { verdict: "do not use", text: "do not use them: 8.7 % worse on 8 held-out sequences",
+    sequences: 8, gain: -0.087, gain_interval: [-0.12, -0.05], p: 0.01 };
+  const { page, troubles } = await pages.show(data);
+  const first = page.locator("#best p").first();
+  assert.equal(await first.getAttribute("data-verdict"), "do not use");
+  assert.match(await first.innerText(), /do not use them: 8\.7 % worse/);
+  data.estimators[0].analyses[0].held_out = null;
+  const other = await pages.show(data);
+  assert.match(await other.page.locator("#best p").first().innerText(), /Not validated/);
+  const sweep = await pages.show(tuning());
+  assert.equal(await sweep.page.locator("#best [data-verdict]").count(), 0);
+  assert.deepEqual(troubles, []);
+});
+
+test("indices that a fit does not support are not resolved", { skip }, async () => {
+  const data = tuning();
+  Object.assign(data.estimators[0].analyses[0].sensitivity, { of_grid: false, resolved: false, fit: { terms: 4, error: 0.3, explained: 0.65 } });
+  const { page } = await pages.show(data);
+  assert.equal(await page.locator("#sensitivity .sobol-row").count(), 0);
+  assert.match(await page.locator("#sensitivity").innerText(), /Not resolved.*90\.0 %[^]*65\.0 %/);
+});
+
+test("markers are measurements alone, a fit is a thin line without markers", { skip }, async () => {
+  const data = tuning();
+  const x = Float32Array.from({ length: 25 }, (_, i) => i / 4);
+  const y = x.map(() => 0.5);
+  data.estimators[0].analyses[0].curves[0].fit = { x, value: y, low: y.map((each) => each - 0.1), high: y.map((each) => each + 0.1) };
+  const { page } = await pages.show(data);
+  const chart = page.locator("#curves figure.chart").first();
+  assert.equal(await chart.locator("g.series").count(), 2);
+  assert.equal(await chart.locator("g.series path.marks").count(), 1);
+  assert.equal(await chart.locator("g.series path.line.thin").count(), 1);
+  assert.equal(await chart.locator("g.series path.line").count(), 1, "the markers are not joined beside a fit");
+  assert.match(await page.locator("#curves .held").first().innerText(), /kappa = 10 \(default 12\.6\)/);
+});
+
 test("each parameter has a curve with intervals, or every point by scenario", { skip }, async () => {
   const { page, troubles } = await pages.show(tuning());
   const charts = page.locator("#curves figure.chart");
@@ -32,7 +70,7 @@ test("each parameter has a curve with intervals, or every point by scenario", { 
   await page.locator("#curves").getByLabel("Show").selectOption("cloud");
   assert.equal(await charts.nth(0).locator("g.series").count(), 2);
   assert.equal(await charts.nth(0).locator("path.cross").count(), 1);
-  await page.getByLabel("Score").selectOption("m_end_m");
+  await page.locator(".toolbar").first().getByLabel("Score").selectOption("m_end_m");
   assert.match(await page.locator("#best").innerText(), /for m_end_m only the points/);
   assert.equal(await charts.nth(0).locator("g.series").count(), 2);
   assert.deepEqual(troubles, []);
@@ -48,10 +86,10 @@ test("the map has a cell per pair of values and can be turned", { skip }, async 
   assert.match(await page.locator("#map .axis-label").first().textContent(), /kappa/);
   await page.locator("#map svg[role=img]").focus();
   await page.keyboard.press("ArrowRight");
-  assert.match(await page.locator("#map .readout").innerText(), /objective 1\.00 at degeneracy\.kappa 1\.00, degeneracy\.eta 0/);
+  assert.match(await page.locator("#map .readout").innerText(), /objective: ate_m \[m\] 1\.00 at degeneracy\.kappa 1\.00, degeneracy\.eta 0/);
 });
 
-test("the points sort, the least score first and in bold, diverged ones never best", { skip }, async () => {
+test("the points sort, the least objective first and in bold, which is the best point", { skip }, async () => {
   const { page } = await pages.show(tuning());
   const rows = page.locator("#points tbody tr");
   assert.equal(await rows.count(), 13);
@@ -59,8 +97,10 @@ test("the points sort, the least score first and in bold, diverged ones never be
     cells.map((each) => each.dataset.value))).map(Number);
   assert.deepEqual(scores, [...scores].sort((a, b) => a - b));
   assert.equal(await page.locator("#points td.best").count(), 1);
+  assert.equal(Number(await page.locator("#points td.best").getAttribute("data-value")).toFixed(3), "0.400");
+  assert.match(await rows.first().innerText(), /, best/);
   await page.locator("#points").getByRole("button", { name: /degeneracy.kappa/ }).click();
-  assert.equal(await rows.first().locator("td").nth(2).getAttribute("data-value"), "1");
+  assert.equal(await rows.first().locator("td").nth(3).getAttribute("data-value"), "1");
   await page.locator("#points").getByLabel("Scenario").selectOption("1");
   assert.match(await page.locator("#points .caption").innerText(), /over garage/);
 });

@@ -28,7 +28,9 @@ export interface Line {
   marks: Mark[];
   /** Marks alone, faint. */
   scatter?: boolean;
-  /** Line alone; its marks can still be read. */
+  /** Marks without a line between them. */
+  unjoined?: boolean;
+  /** Line alone, thin; its marks can still be read. */
   plain?: boolean;
   /** The interval as an area, not as bars. */
   band?: boolean;
@@ -186,7 +188,8 @@ function drawLine(frame: Frame, line: Line, aside: number, places: Place[]): SVG
   }
   if (line.band) group.append(svg("path", { class: "band", d: bandPath(frame, line) }));
   else group.append(svg("path", { class: "bars", d: bars(frame, line, aside) }));
-  if (!line.scatter) group.append(svg("path", { class: "line", d: path, "stroke-dasharray": dashOf(line.index) }));
+  if (!line.scatter && !line.unjoined) group.append(svg("path", {
+    class: line.plain ? "line thin" : "line", d: path, "stroke-dasharray": dashOf(line.index) }));
   if (!line.plain) group.append(svg("path", { class: "marks", d: marks }));
   if (crosses) group.append(svg("path", { class: "cross", d: crosses }));
   return group;
@@ -262,7 +265,7 @@ export function chart(lines: Line[], options: ChartOptions): HTMLElement {
 function legend(lines: Line[], off: Set<Line>, changed: () => void): HTMLElement {
   const keys = lines.map((line) => {
     const sample = svg("svg", { width: 30, height: 12, "aria-hidden": "true", style: `--paint: ${seriesPaint(line.index)}` });
-    if (!line.scatter) {
+    if (!line.scatter && !line.unjoined) {
       sample.append(svg("path", { class: "line", d: "M1,6H29", "stroke-dasharray": dashOf(line.index) }));
     }
     if (!line.plain) sample.append(svg("path", { class: "marks", d: markPath(line.index, 15, 6, kRadius) }));

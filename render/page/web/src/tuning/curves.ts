@@ -4,19 +4,26 @@ import { chart, type Line, type Mark } from "../charts/chart";
 import { h } from "../dom";
 import { formatNumber } from "../format";
 import {
-  axisLabel, pointsOf, scenariosOf, type Analysis, type Parameter, type Slice, type TunedEstimator, type TuningPayload,
+  axisLabel, pointsOf, scenariosOf, type Analysis, type Parameter, type Slice, type SlicePoints, type TunedEstimator, type TuningPayload,
 } from "./model";
 
-function sliceMarks(slice: Slice): Mark[] {
-  return Array.from(slice.x, (x, i) => ({ x, y: slice.value[i]!, low: slice.low[i]!, high: slice.high[i]! }));
+function marksOf(points: SlicePoints): Mark[] {
+  return Array.from(points.x, (x, i) => ({ x, y: points.value[i]!, low: points.low[i]!, high: points.high[i]! }));
 }
 
-/** The objective along a parameter with all others at their defaults: over all scenarios, and of each family. */
-function sliceLines(analysis: Analysis, parameter: number): Line[] {
-  return analysis.curves.filter((slice) => slice.first === parameter).map((slice, i) => ({
-    name: `${slice.family || "all scenarios"}${slice.measured ? "" : ", fitted"}`, index: i,
-    marks: sliceMarks(slice), plain: !slice.measured, band: !slice.measured,
-  }));
+/** The objective along a parameter: markers where it was measured, a thin line where a fit is supported. */
+function sliceLines(slices: Slice[]): Line[] {
+  return slices.flatMap((slice, index) => {
+    const name = slice.family || "all scenarios";
+    const lines: Line[] = [];
+    if (slice.fit) lines.push({ name: `${name}, fit`, index, marks: marksOf(slice.fit), plain: true, band: true });
+    if (slice.measured) lines.push({ name: `${name}, measured`, index, marks: marksOf(slice.measured), unjoined: slice.fit !== null });
+    return lines;
+  });
+}
+
+function slicesOf(analysis: Analysis | undefined, parameter: number): Slice[] {
+  return analysis?.curves.filter((slice) => slice.first === parameter) ?? [];
 }
 
 /** Every point's own score over that parameter, a series per scenario. */
@@ -34,13 +41,15 @@ function parameterHead(parameter: Parameter): HTMLElement {
   return h("h3", {}, parameter.name, parameter.meaning ? h("span", { class: "soft" }, `, ${parameter.meaning}`) : null);
 }
 
-/** A chart per parameter; `cloud` shows every point, else the curve with the others at their defaults. */
+/** A chart per parameter; `cloud` shows every point, else those that differ in this parameter alone. */
 export function curves(
   data: TuningPayload, own: TunedEstimator, analysis: Analysis | undefined, score: string, cloud: boolean
 ): HTMLElement {
   const figures = own.parameters.map((parameter, i) => {
-    const lines = cloud ? cloudLines(data, own, score, i) : analysis ? sliceLines(analysis, i) : [];
-    const yLabel = cloud || !analysis ? score : `${score}, objective`;
+    const slices = slicesOf(analysis, i);
+    const lines = cloud ? cloudLines(data, own, score, i) : sliceLines(slices);
+    const yLabel = cloud || !analysis ? `score: median ${score}` : analysis.axis;
+    const held = cloud ? "" : slices[0]?.held ?? "";
     const verticals = [{ x: parameter.default, label: `default ${formatNumber(parameter.default)}` }];
     const body = lines.some((line) => line.marks.some((mark) => Number.isFinite(mark.y)))
       ? chart(lines, {
@@ -48,8 +57,9 @@ export function curves(
           xLog: parameter.log, yLog: allPositive(lines), xEnds: parameterEnds(parameter), verticals,
         })
       : h("p", { class: "nothing" }, cloud ? "No point has this score."
-          : "No curve: too few points, and no polynomial fits them. Choose “every point” instead.");
-    return h("div", { "data-parameter": parameter.name }, parameterHead(parameter), body);
+          : "No curve: fewer than two points differ in this parameter alone, and no fit is supported. Choose “every point” instead.");
+    return h("div", { "data-parameter": parameter.name }, parameterHead(parameter), body,
+      held ? h("p", { class: "soft held" }, `At ${held}.`) : null);
   });
   return h("div", { class: "figures" }, ...figures);
 }

@@ -12,16 +12,19 @@ export interface Pair {
 
 /** The pair that the objective depends on most, where that is known and its map is there. */
 export function firstPair(analysis: Analysis): Pair | null {
-  const total = analysis.sensitivity?.trustworthy ? analysis.sensitivity.total : [];
+  const total = analysis.sensitivity?.resolved ? analysis.sensitivity.total : [];
   const weight = (slice: Slice) => (total[slice.first] ?? 0) + (total[slice.second ?? 0] ?? 0);
   const best = analysis.maps.reduce<Slice | null>((most, each) => !most || weight(each) > weight(most) ? each : most, null);
   return best && best.second !== undefined ? { first: best.first, second: best.second } : null;
 }
 
-function marksOf(own: TunedEstimator, analysis: Analysis, x: number, y: number): HeatMark[] {
+/** The best point, where the map shows it, and where the defaults lie. */
+function marksOf(own: TunedEstimator, analysis: Analysis, slice: Slice, x: number, y: number): HeatMark[] {
   const [px, py] = [own.parameters[x]!, own.parameters[y]!];
   const marks: HeatMark[] = [{ x: px.default, y: py.default, name: "default", ring: false }];
-  if (analysis.best) marks.push({ x: analysis.best.values[x]!, y: analysis.best.values[y]!, name: "best point", ring: true });
+  const best = analysis.best?.values;
+  const shown = best?.every((value, i) => i === x || i === y || value === slice.held_at[i]) ?? false;
+  if (best && shown) marks.push({ x: best[x]!, y: best[y]!, name: "best point", ring: true });
   return marks;
 }
 
@@ -37,16 +40,19 @@ export function map(own: TunedEstimator, analysis: Analysis, pair: Pair, changed
   const bar = h("div", { class: "toolbar" },
     choice("x axis", names, String(x), (value) => choose(Number(value), Number(value) === y ? x : y)),
     choice("y axis", names, String(y), (value) => choose(Number(value) === x ? y : x, Number(value))));
-  if (!slice || !slice.y || x === y) {
+  const points = slice?.measured ?? slice?.fit;
+  if (!slice || !points?.y || x === y) {
     return h("div", {}, bar, h("p", { class: "nothing" },
-      "No map: too few points, and no polynomial fits them."));
+      "No map: the points are no grid over both parameters, and no fit is supported."));
   }
-  const [xs, ys] = turned ? [slice.y, slice.x] : [slice.x, slice.y];
-  const cells = Array.from(slice.value, (value, i) => ({ x: xs[i]!, y: ys[i]!, value }));
+  const [xs, ys] = turned ? [points.y, points.x] : [points.x, points.y];
+  const cells = Array.from(points.value, (value, i) => ({ x: xs[i]!, y: ys[i]!, value }));
   const [px, py] = [own.parameters[x]!, own.parameters[y]!];
+  const marks = marksOf(own, analysis, slice, x, y);
   return h("div", {}, bar, heatMap(cells, {
     label: `Objective over ${px.name} and ${py.name}`, xLabel: axisLabel(px), yLabel: axisLabel(py),
-    valueLabel: "objective", xLog: px.log, yLog: py.log, marks: marksOf(own, analysis, x, y),
-  }), h("p", { class: "soft" }, slice.measured ? "Measured at each point of the grid." :
-    "By the polynomial through all points, other parameters at their defaults."));
+    valueLabel: analysis.axis, xLog: px.log, yLog: py.log, marks,
+  }), h("p", { class: "soft" }, (slice.measured ? "Measured at each point of the grid" : "By a fit through all points") +
+    (slice.held ? `, at ${slice.held}` : "") +
+    (marks.length > 1 ? "." : "; the best point lies elsewhere.")));
 }

@@ -30,25 +30,20 @@ export interface Best {
 export interface Sensitivity {
   points: number;
   logarithmic: boolean;
-  trustworthy: boolean;
-  terms: number;
-  error: number;
-  explained: number;
+  /** By an analysis of variance of a complete grid; else by a fit. */
+  of_grid: boolean;
+  resolved: boolean;
+  /** Cross-validated R² from which on a fit supports indices. */
+  least_explained: number;
+  fit: { terms: number; error: number; explained: number } | null;
   first: number[];
   total: number[];
   total_interval: Interval[];
   second: number[][];
-  does_not_matter: boolean[];
+  negligible: boolean[];
 }
 
-/** The objective along one parameter, or over two; others at their defaults. */
-export interface Slice {
-  first: number;
-  second?: number;
-  /** "": all scenarios. */
-  family: string;
-  /** By the design's own points; else by the polynomial. */
-  measured: boolean;
+export interface SlicePoints {
   x: Numbers;
   y?: Numbers;
   value: Numbers;
@@ -56,15 +51,43 @@ export interface Slice {
   high: Numbers;
 }
 
+/** The objective along one parameter, or over two; the others held where `held` says. */
+export interface Slice {
+  first: number;
+  second?: number;
+  /** "": all scenarios. */
+  family: string;
+  held: string;
+  /** A value per parameter; of those that vary, without meaning. */
+  held_at: number[];
+  measured: SlicePoints | null;
+  fit: SlicePoints | null;
+}
+
+/** What the held-out sequences say of the best point. */
+export interface HeldOut {
+  verdict: "use" | "do not use" | "undecided";
+  text: string;
+  sequences: number;
+  gain: Maybe;
+  gain_interval: Interval;
+  p: number;
+}
+
 export interface Analysis {
   score: string;
   objective: string;
+  /** Label of the objective's axis, with its unit. */
+  axis: string;
   relative: boolean;
   points: number;
   seeds: number;
   incomplete: number;
+  /** Of each of the estimator's points; NaN while sequences are missing. */
+  objectives: Numbers;
   best: Best | null;
   why_no_best?: string;
+  held_out: HeldOut | null;
   sensitivity: Sensitivity | null;
   why_no_sensitivity?: string;
   curves: Slice[];

@@ -4,7 +4,7 @@ import { h } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type Column } from "../table";
 import {
-  axisLabel, ends, pointsOf, type Analysis, type Point, type TunedEstimator, type TuningPayload, type SequenceChoice,
+  axisLabel, ends, pointsOf, type Analysis, type Point, type Sensitivity, type TunedEstimator, type TuningPayload, type SequenceChoice,
 } from "./model";
 
 export function percent(fraction: unknown): string {
@@ -15,18 +15,28 @@ function bracket(interval: [number, number] | null, scale = 1, unit = ""): strin
   return interval ? ` [${formatNumber(scale * interval[0])}, ${formatNumber(scale * interval[1])}]${unit}` : "";
 }
 
-/** What the best point gains, in words. */
-export function outcome(analysis: Analysis): HTMLElement {
+/** The held-out verdict, which leads; null for a sweep. */
+function verdict(analysis: Analysis): HTMLElement | null {
+  const held = analysis.held_out;
+  return held ? h("p", { class: `verdict ${held.verdict.replaceAll(" ", "-")}`, "data-verdict": held.verdict },
+    `Tuned values: ${held.text}.`) : null;
+}
+
+/** What the best point gains, in words. `tuned`: by an optimizer, with sequences held out. */
+export function outcome(analysis: Analysis, tuned: boolean): HTMLElement {
   const { best } = analysis;
   if (!best) return h("p", {}, `No best point: ${analysis.why_no_best ?? "no point is complete yet"}.`);
   const gain = isNumber(best.gain)
-    ? ` The defaults have ${formatNumber(best.defaults)}; the gain is ${percent(best.gain)}` +
-      `${bracket(ends(best.gain_interval), 100, " %")}.`
-    : " The defaults were not run on every sequence, so that no gain is given.";
+    ? ` The defaults have ${formatNumber(best.defaults)}: ${percent(best.gain)} less` +
+      `${bracket(ends(best.gain_interval), 100, " %")} on these sequences, among which the best was chosen.`
+    : " The defaults were not run on every sequence, so that nothing is compared with them.";
   const sure = analysis.seeds < 2 ? "One seed: no intervals."
     : `Intervals: 95 % bootstraps over ${analysis.seeds} seeds${analysis.seeds < 10 ? ", too narrow for so few seeds" : ""}.`;
-  return h("div", {},
-    h("p", {}, `Objective: ${analysis.objective}. The best of ${analysis.points} points has `,
+  const unproven = tuned && !analysis.held_out
+    ? h("p", { class: "verdict undecided", "data-verdict": "undecided" },
+      "Not validated: this point was not run on the held-out sequences.") : null;
+  return h("div", {}, verdict(analysis), unproven,
+    h("p", {}, `Objective: ${analysis.objective}. The best of ${analysis.points} points has an objective of `,
       h("b", { "data-best": best.objective }, formatNumber(best.objective)),
       `${bracket(ends(best.objective_interval))}.${gain}`),
     h("p", { class: "soft" }, sure +
@@ -50,6 +60,17 @@ export function bestTable(own: TunedEstimator, analysis: Analysis): HTMLElement 
   ], { caption: "Best values; interval: best values when seeds are resampled", rowName: ({ parameter }) => parameter.name });
 }
 
+/** Where the indices come from. */
+function sourceText(found: Sensitivity): string {
+  const of = found.logarithmic ? "the objective's logarithm" : "the objective";
+  if (found.of_grid || !found.fit) {
+    return `By an analysis of variance of ${of} at the ${found.points} points of the complete grid; intervals over seeds.`;
+  }
+  const error = found.logarithmic ? percent(Math.exp(found.fit.error) - 1) : formatNumber(found.fit.error);
+  return `A polynomial of ${found.fit.terms} terms through ${found.points} points has a cross-validated R² of ` +
+    `${percent(Math.max(0, found.fit.explained))} for ${of}; its error at points left out is ${error}.`;
+}
+
 /** Sobol indices of each parameter: bars with their interval, and the numbers. */
 export function sensitivity(own: TunedEstimator, analysis: Analysis): HTMLElement {
   const found = analysis.sensitivity;
@@ -57,11 +78,10 @@ export function sensitivity(own: TunedEstimator, analysis: Analysis): HTMLElemen
     return h("p", { class: "nothing" },
       `No sensitivity: ${analysis.why_no_sensitivity ?? "no point is complete yet"}.`);
   }
-  const error = found.logarithmic ? percent(Math.exp(found.error) - 1) : formatNumber(found.error);
-  const fit = `A polynomial of ${found.terms} terms through ${found.points} points explains ${percent(Math.max(0, found.explained))} of ` +
-    `the variance${found.logarithmic ? " of the objective's logarithm" : ""} at points that were left out; its error there is ${error}.`;
-  if (!found.trustworthy) {
-    return h("p", { class: "nothing" }, `${fit} Too inaccurate: no sensitivity is given.`);
+  const source = sourceText(found);
+  if (!found.resolved) {
+    return h("p", { class: "nothing" },
+      `Not resolved: indices take a cross-validated R² of at least ${percent(found.least_explained)}. ${source}`);
   }
   const order = own.parameters.map((_, i) => i).sort((a, b) => (found.total[b] ?? 0) - (found.total[a] ?? 0));
   const bars = order.map((i) => {
@@ -76,10 +96,10 @@ export function sensitivity(own: TunedEstimator, analysis: Analysis): HTMLElemen
         h("span", { class: "sobol-first", style: `width: ${place(first)}` }),
         interval ? h("span", { class: "sobol-interval", style: `left: ${place(interval[0])}; right: calc(100% - ${place(interval[1])})` }) : null),
       h("span", { class: "sobol-text" }, `${percent(total)}${bracket(interval, 100)}, first order ${percent(first)}` +
-        (found.does_not_matter[i] ? "; negligible" : "")));
+        (found.negligible[i] ? "; negligible" : "")));
   });
   return h("div", {}, h("div", { class: "sobol" }, ...bars), h("p", { class: "soft" },
-    `Wide bars: total Sobol index with its 95 % interval; narrow bars: first-order index. ${fit}`), interactions(own, found.second));
+    `Wide bars: total Sobol index with its 95 % interval; narrow bars: first-order index. ${source}`), interactions(own, found.second));
 }
 
 function interactions(own: TunedEstimator, second: number[][]): HTMLElement | null {
@@ -91,13 +111,25 @@ function interactions(own: TunedEstimator, second: number[][]): HTMLElement | nu
   return pairs.length > 0 ? h("p", {}, `${pairs.join("; ")}.`) : null;
 }
 
-/** Every point with its values and the median of the score. */
-export function pointTable(data: TuningPayload, own: TunedEstimator, score: string, choice: SequenceChoice): HTMLElement {
+/** Every point with its values, its objective over all sequences that are tuned on, and the median of the score. */
+export function pointTable(
+  data: TuningPayload, own: TunedEstimator, analysis: Analysis | undefined, score: string, choice: SequenceChoice
+): HTMLElement {
   const points = pointsOf(data, own, score, choice);
   if (points.length === 0) return h("p", { class: "nothing" }, "No job of this choice is done yet.");
+  const objectives = choice.scenario === null && !choice.heldOut ? analysis?.objectives : undefined;
+  const best = objectives ? analysis?.best : null;
+  const isBest = (point: Point) => best !== null && best !== undefined && objectives !== undefined &&
+    Math.fround(best.objective ?? NaN) === objectives[point.index] && point.values.every((value, i) => value === Math.fround(best.values[i]!));
   const columns: Column<Point>[] = [
-    { title: "point", value: (point) => point.index, show: (point) => (point.untuned ? `${point.index}, defaults` : String(point.index)) },
-    { title: score, hint: "median over the sequences", best: "low", eligible: (point) => point.diverged === 0, value: (point) => point.score },
+    { title: "point", value: (point) => point.index, show: (point) => `${point.index}${point.untuned ? ", defaults" : ""}${isBest(point) ? ", best" : ""}` },
+    ...(objectives ? [{
+      title: "objective", hint: analysis!.objective, best: "low", value: (point: Point) => objectives[point.index],
+    } as Column<Point>] : []),
+    {
+      title: `score: ${score}`, hint: "as measured, median over the sequences",
+      ...(objectives ? {} : { best: "low" as const, eligible: (point: Point) => point.diverged === 0 }), value: (point) => point.score,
+    },
     ...own.parameters.map((parameter, i): Column<Point> => ({
       title: parameter.name, ...(parameter.unit && parameter.unit !== "-" ? { unit: parameter.unit } : {}),
       value: (point) => point.values[i],

@@ -31,13 +31,13 @@ function scoreChoices(data: TuningPayload, view: View) {
   ];
 }
 
-function bestSection(view: View): HTMLElement {
+function bestSection(data: TuningPayload, view: View): HTMLElement {
   const analysis = analysisOf(view);
   if (!analysis) {
     return section("best", "Best values", h("p", { class: "nothing" },
       `Best values and sensitivity exist for ${view.estimator.analyses.map((each) => each.score).join(", ")}; for ${view.score} only the points are shown.`));
   }
-  return section("best", "Best values", outcome(analysis), bestTable(view.estimator, analysis));
+  return section("best", "Best values", outcome(analysis, data.source === "tune"), bestTable(view.estimator, analysis));
 }
 
 function sensitivitySection(view: View): HTMLElement | null {
@@ -48,15 +48,15 @@ function sensitivitySection(view: View): HTMLElement | null {
 function curveSection(data: TuningPayload, view: View, redraw: () => void): HTMLElement {
   const analysis = analysisOf(view);
   if (!analysis) view.cloud = true;
-  const kinds = [{ value: "cloud", label: "every point, by scenario" }];
-  if (analysis) kinds.unshift({ value: "slice", label: "one parameter, others at their defaults" });
+  const kinds = [{ value: "cloud", label: "score of every point, by scenario" }];
+  if (analysis) kinds.unshift({ value: "slice", label: "objective, one parameter at a time" });
   return section("curves", "By parameter",
     h("div", { class: "toolbar" }, choice("Show", kinds, view.cloud ? "cloud" : "slice", (value) => {
       view.cloud = value === "cloud";
       redraw();
     })), curves(data, view.estimator, analysis, view.score, view.cloud),
     h("p", { class: "soft" }, view.cloud ? "Median over the seeds of a scenario; ✕: a run diverged."
-      : "Bars and areas: 95 % intervals, over seeds where measured, else by the polynomial's error."));
+      : "Markers: measured, with 95 % intervals over seeds. Thin lines: fits with the interval of their error, where cross-validation supports them."));
 }
 
 function mapSection(view: View, redraw: () => void): HTMLElement | null {
@@ -84,7 +84,7 @@ function pointSection(data: TuningPayload, view: View, redraw: () => void): HTML
           view.heldOut = value === "held";
           redraw();
         }) : null),
-    h("div", { class: "tall" }, pointTable(data, view.estimator, view.score, view)));
+    h("div", { class: "tall" }, pointTable(data, view.estimator, analysisOf(view), view.score, view)));
 }
 
 /** Replaces a part by a new drawing of itself, whenever it is asked to. */
@@ -136,7 +136,7 @@ export function renderTuning(root: HTMLElement, data: TuningPayload): void {
       }),
     ]);
     body.replaceChildren(
-      h("div", { class: "pair" }, part(() => bestSection(view)), part(() => sensitivitySection(view))),
+      h("div", { class: "pair" }, part(() => bestSection(data, view)), part(() => sensitivitySection(view))),
       part((redraw) => curveSection(data, view, redraw)), part((redraw) => mapSection(view, redraw)),
       part((redraw) => pointSection(data, view, redraw)));
   };

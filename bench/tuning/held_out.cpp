@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/held_out.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "bench/metrics/paired_test.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kSignificant = 0.05;
+
+std::string changes_text(const Interval& interval) {
+  return fmt::format("{} to {}", change_text(*interval.low), change_text(*interval.high));
+}
+
+bool is_significant(const PairedGain& gain) {
+  const Interval& interval = gain.interval;
+  return gain.p <= kSignificant && interval.low && interval.high &&
+         (*interval.low > 0.0 || *interval.high < 0.0);
+}
+
+}  // namespace
+
+PairedGain paired_gain(const ResponseTable& table, const Objective& objective, std::size_t point) {
+  std::vector<std::size_t> cases;
+  std::vector<double> differences;  // of logarithms: less is better
+  for (std::size_t i = 0; i < table.cases.size(); ++i) {
+    const std::array one = {i};
+    const auto before = objective_at(table, objective, kDefaults, one);
+    const auto after = objective_at(table, objective, point, one);
+    if (!before || !after) continue;
+    cases.push_back(i);
+    const bool positive = *before > 0.0 && *after > 0.0;
+    differences.push_back(positive ? std::log(*after / *before) : *after - *before);
+  }
+  const auto gain = [&](std::span<const std::size_t> some) {
+    return gain_over(objective_at(table, objective, kDefaults, some),
+                     objective_at(table, objective, point, some));
+  };
+  PairedGain result;
+  result.sequences = cases.size();
+  result.gain = gain(cases);
+  if (cases.size() < kFewestPairs) return result;
+  result.p = paired_test(differences).p;
+  result.interval = bootstrap_interval(
+      cases.size(),
+      [&](std::span<const std::size_t> drawn) {
+        std::vector<std::size_t> some;
+        for (const std::size_t i : drawn) some.push_back(cases[i]);
+        return gain(some);
+      },
+      1);
+  return result;
+}
+
+Verdict verdict_of(const PairedGain& held_out) {
+  if (!held_out.gain || held_out.sequences < 2) return Verdict::kUndecided;
+  if (held_out.sequences < kFewestPairs) {
+    return *held_out.gain < 0.0 ? Verdict::kDoNotUse : Verdict::kUndecided;
+  }
+  return is_significant(held_out) && *held_out.gain > 0.0 ? Verdict::kUseThem : Verdict::kDoNotUse;
+}
+
+std::string verdict_text(const PairedGain& held_out) {
+  if (held_out.sequences == 0) {
+    return "not validated: no sequence was held out, and a gain on the sequences that were tuned "
+           "on may be overfitting";
+  }
+  if (!held_out.gain) return "not validated: the objective has no gain on the held-out sequences";
+  const std::string change = change_text(*held_out.gain);
+  if (held_out.sequences == 1) {
+    return fmt::format("nothing can be concluded from one held-out sequence ({} on it)", change);
+  }
+  const std::string on = fmt::format("{} on {} held-out sequences", change, held_out.sequences);
+  if (held_out.sequences < kFewestPairs) {
+    const char* what = verdict_of(held_out) == Verdict::kDoNotUse ? "do not use them" : "undecided";
+    return fmt::format("{}: {}, too few for an interval ({} are needed)", what, on, kFewestPairs);
+  }
+  const std::string figures =
+      fmt::format("95 % interval {}, p = {:.2g}", changes_text(held_out.interval), held_out.p);
+  if (is_significant(held_out)) {
+    const bool better = *held_out.gain > 0.0;
+    return fmt::format("{}: {} ({})", better ? "use them" : "do not use them", on, figures);
+  }
+  return fmt::format("do not use them: no significant difference from the defaults: {} ({})", on,
+                     figures);
+}
+
+std::string change_text(double gain) {
+  const double percent = 100.0 * std::abs(gain);
+  return fmt::format("{:.{}f} % {}", percent, percent < 9.95 ? 1 : 0,
+                     gain < 0.0 ? "worse" : "better");
+}
+
+}  // namespace aims

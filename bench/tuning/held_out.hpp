@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "bench/metrics/bootstrap.hpp"
+#include "bench/tuning/objective.hpp"
+
+namespace aims {
+
+/// By how much a point reduces the objective of the defaults on the sequences of a table.
+struct PairedGain {
+  std::size_t sequences = 0;   ///< on which both have an objective
+  std::optional<double> gain;  ///< reduction of the objective, as a fraction of the defaults'
+  /// 95 %, of the gain: bootstrap over sequences, each with both its runs; empty below
+  /// `kFewestPairs` sequences.
+  Interval interval;
+  double p = 1.0;  ///< of the sign-flip test over sequences (bench/metrics/paired_test.hpp)
+};
+
+PairedGain paired_gain(const ResponseTable& table, const Objective& objective, std::size_t point);
+
+/// What the held-out sequences say of tuned values.
+enum class Verdict {
+  kUseThem,    ///< better: the interval and the test exclude zero
+  kDoNotUse,   ///< worse, or no difference that is significant
+  kUndecided,  ///< no sequences, or too few to conclude
+};
+
+Verdict verdict_of(const PairedGain& held_out);
+
+/// The verdict with its figures, on one line: "do not use them: 8.7 % worse on 8 held-out sequences
+/// (95 % interval 3.1 to 14 % worse, p = 0.016)".
+std::string verdict_text(const PairedGain& held_out);
+
+/// "8.7 % worse", "12 % better".
+std::string change_text(double gain);
+
+}  // namespace aims
