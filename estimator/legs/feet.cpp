@@ -12,6 +12,12 @@ namespace {
 constexpr Duration kShortestInterval = 4 * kMillisecond;
 constexpr Duration kLongestInterval = 30 * kMillisecond;
 
+/// Error of the velocity from one standing foot, per axis [m/s].
+constexpr double kFootSigma = 0.15;
+
+/// Difference from the prediction that quarters the weight of a foot [m/s].
+constexpr double kAgreement = 0.3;
+
 /// Time over which a standing foot keeps the error of its velocity [s].
 constexpr double kCorrelationTime = 0.02;
 
@@ -44,12 +50,6 @@ void describe(Fields& f, FeetConfig& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "fuse each foot by leg kinematics where samples have joint angles",
           "docs/decisions.md#each-foot-is-a-measurement"});
-  f.number("velocity_sigma", c.velocity_sigma,
-           {"m/s", positive_up_to(1e3), "error of the velocity from one standing foot",
-            "docs/decisions.md#each-foot-is-a-measurement"});
-  f.number("agreement", c.agreement,
-           {"m/s", positive_up_to(1e3), "difference from the prediction that quarters a weight",
-            "docs/decisions.md#each-foot-is-a-measurement"});
 }
 
 std::optional<JointState> JointDifference::update(const JointReading& reading) {
@@ -81,9 +81,8 @@ FootVelocities velocities_from_feet(const JointState& joints, double compliance,
 }
 
 FootWeights weights_of_feet(const FootVelocities& feet, const std::array<bool, kLegCount>& contact,
-                            const Eigen::Vector3d& predicted, double variance,
-                            const FeetConfig& config) {
-  const double limit = config.agreement * config.agreement + 2.0 * variance;
+                            const Eigen::Vector3d& predicted, double variance) {
+  const double limit = kAgreement * kAgreement + 2.0 * variance;
   FootWeights weights{};
   for (std::size_t leg = 0; leg < feet.size(); ++leg) {
     const double root = 1.0 / (1.0 + misfit(predicted - feet[leg], predicted) / limit);
@@ -103,9 +102,9 @@ Eigen::Vector3d mean_of_feet(const FootVelocities& feet, const FootWeights& weig
   return sum / total_weight(weights);
 }
 
-double variance_of_feet(double weight, double rate_hz, const FeetConfig& config) {
+double variance_of_feet(double weight, double rate_hz) {
   const double shared = std::max(1.0, 2.0 * kCorrelationTime * rate_hz);
-  return shared * config.velocity_sigma * config.velocity_sigma / weight;
+  return shared * kFootSigma * kFootSigma / weight;
 }
 
 void JointDelay::update(const Eigen::Vector3d& innovation, const Eigen::Vector3d& acceleration,

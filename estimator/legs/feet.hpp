@@ -14,9 +14,7 @@ namespace aims {
 
 /// Leg odometry from the joints: each foot measures the velocity of the base on its own.
 struct FeetConfig {
-  bool enabled = false;          ///< where samples have joint angles; else the reported velocity
-  double velocity_sigma = 0.15;  ///< of the velocity from one standing foot, per axis [m/s]
-  double agreement = 0.3;        ///< difference from the prediction that quarters a weight [m/s]
+  bool enabled = false;  ///< where samples have joint angles; else the reported velocity is fused
 };
 
 void describe(Fields& fields, FeetConfig& config);
@@ -66,8 +64,7 @@ FootVelocities velocities_from_feet(const JointState& joints, double compliance,
 /// Feet swing forward; a foot that moves backward over the ground yields, and its y_i counts 2/3.
 /// The more uncertain the prediction, the less it decides.
 FootWeights weights_of_feet(const FootVelocities& feet, const std::array<bool, kLegCount>& contact,
-                            const Eigen::Vector3d& predicted, double variance,
-                            const FeetConfig& config);
+                            const Eigen::Vector3d& predicted, double variance);
 
 /// Sum of the weights; 0 when too little is left for a measurement.
 double total_weight(const FootWeights& weights);
@@ -77,9 +74,9 @@ double total_weight(const FootWeights& weights);
 Eigen::Vector3d mean_of_feet(const FootVelocities& feet, const FootWeights& weights);
 
 /// Variance of that mean per axis and sample [m^2/s^2] at `rate_hz` [Hz]: max(1, 2 tau f) sigma^2
-/// over the sum of the weights, since consecutive samples share the errors of a foot over
-/// tau = 20 ms.
-double variance_of_feet(double weight, double rate_hz, const FeetConfig& config);
+/// over the sum of the weights, with sigma = 0.15 m/s of one standing foot, whose errors
+/// consecutive samples share over tau = 20 ms.
+double variance_of_feet(double weight, double rate_hz);
 
 /// The time by which joint angles are late on the IMU's clock. A late velocity differs from the
 /// predicted one by acceleration times delay, so the delay shows in the innovations.

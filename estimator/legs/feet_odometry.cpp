@@ -81,11 +81,11 @@ std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& 
   const FootVelocities feet =
       velocities_from_feet(*joints, compliance_.value(), turning, up, rig_.leg_geometry);
   const FootWeights weights =
-      weights_of_feet(feet, contacts_of(sample), predicted, predicted_variance, config_);
+      weights_of_feet(feet, contacts_of(sample), predicted, predicted_variance);
   const double weight = total_weight(weights);
   if (weight == 0.0) return std::nullopt;
   velocity_.measured = mean_of_feet(feet, weights);
-  const double variance = variance_of_feet(weight, rig_.leg_rate_hz, config_);
+  const double variance = variance_of_feet(weight, rig_.leg_rate_hz);
   const LinearMeasurement measurement = model(velocity_, variance);
 
   delay_.update(measurement.residual, R_base_body * acceleration_in_body(state, motion, gravity_),

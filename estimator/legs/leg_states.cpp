@@ -21,15 +21,12 @@ void describe(Fields& f, LegStatesConfig& c) {
   f.number("scale_sigma", c.scale_sigma,
            {"-", positive_up_to(1e6), "initial deviation of the scale",
             "docs/decisions.md#leg-scale-with-a-prior-of-012"});
-  f.number("bias_sigma", c.bias_sigma,
-           {"m/s", positive_up_to(1e3), "initial deviation of the bias",
-            "docs/decisions.md#what-a-leg-sample-is-worth"});
 }
 
 Belief open_leg_states(Belief belief, const LegStatesConfig& config) {
   if (!config.enabled) return belief;
   add_variance(belief.covariance, ErrorState::kLegScale, config.scale_sigma, 1.0);
-  add_variance(belief.covariance, ErrorState::kLegBias, config.bias_sigma, 1.0);
+  add_variance(belief.covariance, ErrorState::kLegBias, kLegBiasSigma, 1.0);
   return belief;
 }
 

@@ -14,6 +14,9 @@ namespace aims {
 inline constexpr double kLegScaleWalk = 2e-3;
 inline constexpr double kLegBiasWalk = 1e-4;
 
+/// Initial deviation of the bias [m/s] (docs/decisions.md#what-a-leg-sample-is-worth).
+inline constexpr double kLegBiasSigma = 0.01;
+
 /// Deviation of the scale of legs that are measured foot by foot [-]
 /// (docs/decisions.md#each-foot-is-a-measurement).
 inline constexpr double kFeetScaleSigma = 0.04;
@@ -22,7 +25,6 @@ inline constexpr double kFeetScaleSigma = 0.04;
 struct LegStatesConfig {
   bool enabled = false;       ///< estimate a scale and a bias per axis
   double scale_sigma = 0.12;  ///< initial [-]
-  double bias_sigma = 0.01;   ///< initial [m/s]
 };
 
 void describe(Fields& fields, LegStatesConfig& config);

@@ -234,7 +234,11 @@ TEST(KalmanUpdate, GivenLegsThePositionIsTheIntegralOfWhatTheyReport) {
   constexpr int kWalks = 20;
   for (int seed = 1; seed <= kWalks; ++seed) {
     Walk walk(static_cast<std::uint64_t>(seed));
-    squared += std::pow(walk.run(fuse_given_legs), 2) / kWalks;
+    squared += std::pow(walk.run([](const Belief& b, const LinearMeasurement& m) {
+                 return fuse_given_legs(b, m);
+               }),
+                        2) /
+               kWalks;
     EXPECT_NEAR(walk.stated(), 10.0 * Walk::kSpeed * 0.05, 0.1) << "mostly the scale";
     Walk other(static_cast<std::uint64_t>(seed));
     const double error_velocity_only = other.run([](const Belief& belief, const auto& legs) {
@@ -342,6 +346,32 @@ TEST(IteratedUpdate, SaysWhetherItConvergedAndKeepsThePriorWhenRefused) {
   EXPECT_EQ(refused.iterations, 1) << "the second linearization was refused";
   EXPECT_EQ(refused.belief.state.position.x(), 1.5);
   EXPECT_EQ(refused.belief.covariance, prior_on_line().covariance);
+}
+
+TEST(GainMask, KeepsHeadingAndGyroBiasWithTheirUncertainty) {
+  Belief prior;
+  prior.covariance = 0.01 * ErrorMatrix::Identity();
+  block(prior.covariance, ErrorState::kRotation, ErrorState::kVelocity) =
+      0.005 * Eigen::Matrix3d::Identity();
+  block(prior.covariance, ErrorState::kVelocity, ErrorState::kRotation) =
+      0.005 * Eigen::Matrix3d::Identity();
+  block(prior.covariance, ErrorState::kGyroBias, ErrorState::kVelocity) =
+      0.004 * Eigen::Matrix3d::Identity();
+  block(prior.covariance, ErrorState::kVelocity, ErrorState::kGyroBias) =
+      0.004 * Eigen::Matrix3d::Identity();
+  LinearMeasurement velocity;
+  velocity.residual = Eigen::Vector3d(0.2, -0.1, 0.3);
+  columns(velocity.jacobian, ErrorState::kVelocity).setIdentity();
+  velocity.noise = 0.01 * Eigen::Matrix3d::Identity();
+  GainMask mask;
+  mask.gyro_bias = false;
+  mask.rotation = Eigen::Vector3d(1.0, 1.0, 0.0).asDiagonal();
+  const Belief after = fuse(prior, velocity, mask);
+  EXPECT_NEAR(yaw_of(after.state.rotation), 0.0, 1e-3);  // tilts about two axes turn a little
+  EXPECT_GT(after.state.rotation.angularDistance(prior.state.rotation), 0.01);
+  EXPECT_EQ(after.state.gyro_bias, prior.state.gyro_bias);
+  EXPECT_NEAR(after.covariance(9, 9), prior.covariance(9, 9), 1e-12);
+  EXPECT_LT(after.covariance(6, 6), prior.covariance(6, 6));
 }
 
 }  // namespace

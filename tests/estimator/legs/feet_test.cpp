@@ -89,7 +89,7 @@ TEST(FeetVelocities, AreTheVelocityOfABaseWhoseFeetRoll) {
 TEST(FeetWeights, ASwingingFootCountsNothingWithContactToo) {
   const Eigen::Vector3d walking(0.9, 0.0, 0.0);
   FootVelocities feet{walking, -1.4 * walking, -1.4 * walking, walking};
-  const FootWeights weights = weights_of_feet(feet, kAllStand, walking, 1e-3, {});
+  const FootWeights weights = weights_of_feet(feet, kAllStand, walking, 1e-3);
   EXPECT_NEAR(weights[0], 1.0, 1e-9);
   EXPECT_LT(weights[1], 1e-3);
   EXPECT_LT((mean_of_feet(feet, weights) - walking).norm(), 5e-3);
@@ -98,7 +98,7 @@ TEST(FeetWeights, ASwingingFootCountsNothingWithContactToo) {
 TEST(FeetWeights, APredictionThatKnowsNothingTakesEveryFoot) {
   const FootVelocities feet{Eigen::Vector3d(0.9, 0.0, 0.0), Eigen::Vector3d(0.8, 0.0, 0.0),
                             Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(0.9, 0.0, 0.0)};
-  const FootWeights weights = weights_of_feet(feet, kAllStand, Eigen::Vector3d::Zero(), 100.0, {});
+  const FootWeights weights = weights_of_feet(feet, kAllStand, Eigen::Vector3d::Zero(), 100.0);
   EXPECT_GT(total_weight(weights), 3.9);
   EXPECT_NEAR(mean_of_feet(feet, weights).x(), 0.9, 1e-3);
 }
@@ -106,7 +106,7 @@ TEST(FeetWeights, APredictionThatKnowsNothingTakesEveryFoot) {
 TEST(FeetWeights, WithoutAnyContactTheFeetThatFitStillCount) {
   const Eigen::Vector3d walking(0.9, 0.0, 0.0);
   const FootVelocities feet{walking, -walking, -walking, walking};
-  const FootWeights weights = weights_of_feet(feet, {}, walking, 1e-3, {});
+  const FootWeights weights = weights_of_feet(feet, {}, walking, 1e-3);
   EXPECT_GT(total_weight(weights), 0.1);
   EXPECT_NEAR(mean_of_feet(feet, weights).x(), 0.9, 0.01);
 }
@@ -115,14 +115,14 @@ TEST(FeetWeights, BackwardMotionOfAFootCountsLess) {
   const Eigen::Vector3d walking(0.9, 0.0, 0.0);
   const Eigen::Vector3d apart(0.4, 0.0, 0.0);
   const FootVelocities feet{walking + apart, walking - apart, walking, walking};
-  const FootWeights weights = weights_of_feet(feet, kAllStand, walking, 0.0, {});
+  const FootWeights weights = weights_of_feet(feet, kAllStand, walking, 0.0);
   EXPECT_GT(weights[0], 1.5 * weights[1]);
 }
 
 TEST(FeetWeights, ANonFiniteFootGivesNoMeasurement) {
   const FootVelocities feet{Eigen::Vector3d::Constant(NAN), Eigen::Vector3d::Zero(),
                             Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  EXPECT_EQ(total_weight(weights_of_feet(feet, kAllStand, Eigen::Vector3d::Zero(), 0.0, {})), 0.0);
+  EXPECT_EQ(total_weight(weights_of_feet(feet, kAllStand, Eigen::Vector3d::Zero(), 0.0)), 0.0);
 }
 
 // A velocity that is late by d differs by acceleration times d.

@@ -22,13 +22,13 @@ Belief fixed_legs() {
 TEST(LegStates, OnlyEnabledStatesGetVariance) {
   LegStatesConfig config;
   config.scale_sigma = 0.1;
-  config.bias_sigma = 0.02;
   const Belief fixed = open_leg_states(fixed_legs(), config);
   EXPECT_EQ(fixed.covariance, fixed_legs().covariance);
   config.enabled = true;
   const Belief open = open_leg_states(fixed_legs(), config);
   EXPECT_NEAR(block(open.covariance, E::kLegScale, E::kLegScale)(1, 1), 0.01, 1e-12);
-  EXPECT_NEAR(block(open.covariance, E::kLegBias, E::kLegBias)(1, 1), 0.0004, 1e-12);
+  EXPECT_NEAR(block(open.covariance, E::kLegBias, E::kLegBias)(1, 1), kLegBiasSigma * kLegBiasSigma,
+              1e-12);
 }
 
 TEST(LegStates, VarianceGrowsWithTime) {

@@ -31,7 +31,8 @@ TEST(LegVelocity, ResidualIsZeroForARigidBody) {
   const Eigen::Vector3d of_base =
       (state.rotation * kT_body_base.rotation).conjugate() * of_base_in_odom;
   const Eigen::Vector3d mean(0.5, 0.2, -0.3);
-  const LegVelocity measured{of_base + state.leg_scale.cwiseProduct(mean) + state.leg_bias, mean, mean};
+  const LegVelocity measured{of_base + state.leg_scale.cwiseProduct(mean) + state.leg_bias, mean,
+                             mean};
   const LinearMeasurement m =
       leg_velocity_model(state, kT_body_base, kRate, measured, Eigen::Matrix3d::Identity());
   EXPECT_LT(m.residual.norm(), 1e-12);
