@@ -40,6 +40,7 @@ Requirements requirements_of(const EskfConfig& config) {
 
 CalibrationConfig estimated_calibration(const EskfConfig& config) {
   CalibrationConfig calibration = config.calibration;
+  calibration.enabled = calibration.enabled && config.lidar.enabled;
   if (config.ground_constraint.enabled) calibration.mount_sigma = 0.0;
   return calibration;
 }

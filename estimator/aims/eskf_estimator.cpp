@@ -109,7 +109,7 @@ bool EskfEstimator::start() {
   belief_ = open_leg_states(initial->belief, leg_states_of(config_));
   belief_ = open_calibration(belief_, estimated_calibration(config_), rig_.imu_rate_hz);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
-  if (config_.cross_validation.enabled) mapping_ = belief_;
+  if (config_.lidar.enabled && config_.cross_validation.enabled) mapping_ = belief_;
   time_ = initial->stamp;
   first_belief_ = belief_;
   last_pose_ = time_;

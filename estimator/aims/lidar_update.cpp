@@ -79,7 +79,9 @@ LidarUpdate::LidarUpdate(const EskfConfig& config)
       cross_validation_(config.cross_validation),
       map_covariance_enabled_(config.map_covariance.enabled),
       matcher_(config.lidar.correlated_points, config.robust_kernel),
-      severity_(config.degeneracy.alpha) {}
+      severity_(config.degeneracy.alpha) {
+  cross_validation_.enabled = cross_validation_.enabled && config.lidar.enabled;
+}
 
 /// Part of the present scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies
 /// its information by gamma_lidar.

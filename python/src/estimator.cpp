@@ -118,7 +118,7 @@ void fill(std::array<Value, kSize>& values, const py::object& given, const char*
 py::object add_legs(Guarded& self, const py::object& stamp, const py::object& pose,
                     const py::object& linear, const py::object& angular, const py::object& contact,
                     const py::object& joint_position, const py::object& joint_velocity,
-                    const py::object& arrival) {
+                    const py::object& arrival, const py::object& contact_force) {
   LegOdometrySample sample;
   sample.stamp = stamp_from(stamp, "stamp");
   if (!pose.is_none()) sample.T_odom_base = pose_from(pose, "pose");
@@ -127,6 +127,8 @@ py::object add_legs(Guarded& self, const py::object& stamp, const py::object& po
   fill(sample.contact, contact, "contact");
   fill(sample.joint_position, joint_position, "joint_position");
   fill(sample.joint_velocity, joint_velocity, "joint_velocity");
+  if (!contact_force.is_none())
+    fill(sample.contact_force.emplace(), contact_force, "contact_force");
   return self.consume({arrival_of(arrival, sample.stamp), sample});
 }
 
@@ -198,8 +200,9 @@ void bind_adders(py::class_<Guarded>& estimator) {
       .def("add_legs", add_legs, py::arg("stamp"), py::arg("pose"), py::arg("linear_velocity"),
            py::arg("angular_velocity"), py::arg("contact") = none, py::arg("joint_position") = none,
            py::arg("joint_velocity") = none, py::arg("arrival") = none,
+           py::arg("contact_force") = none,
            "Processes leg odometry: T_odom_base (4, 4) or None, twist (3,) [m/s] and (3,) [rad/s] "
-           "in base axes, contacts (4,), joints (12,) [rad] and [rad/s].")
+           "in base axes, contacts (4,), joints (12,) [rad] and [rad/s], loads (4,) [N].")
       .def("finish", &Guarded::finish,
            "Processes what waits to be put in order, and re-optimizes where the estimator does.");
 }

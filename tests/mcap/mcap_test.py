@@ -236,7 +236,9 @@ class SimulatedRecording(ProgramTest):
                 self.assertEqual(poses, self.poses)
         without_odometry = ("--set", "recording.topics.leg_odometry=none",
                             "--set", "recording.topics.contacts=/foot_contacts",
-                            "--set", "recording.contacts_field=contact")
+                            "--set", "recording.contacts_field=contact",
+                            # The odd messages hold no forces, from which feet would learn.
+                            "--set", "estimators.*.feet.enabled=false")
         expected = poses_of(self.mcap, self.folder.name, *without_odometry)
         self.assertNotEqual(expected, self.poses)
         for form in ("idl", "idl_big_endian"):

@@ -37,7 +37,7 @@ def test_arrays_of_the_measurements_give_the_same_estimate(bag, estimated):
         else:
             estimator.add_legs(each.stamp, each.pose, each.linear_velocity, each.angular_velocity,
                                each.contact, each.joint_position, each.joint_velocity,
-                               arrival=each.arrival)
+                               arrival=each.arrival, contact_force=each.contact_force)
     estimator.finish()
     program_made = aims.read_trajectory(estimated / "aims_d.tum")
     np.testing.assert_array_equal(estimator.trajectory.stamps, program_made.stamps)

@@ -141,9 +141,20 @@ std::vector<std::string> other_values(const Parameter& parameter) {
   return values;
 }
 
+/// Legs that report a velocity and no joints.
+RecordedStream without_joints(RecordedStream stream) {
+  for (Delivery& each : stream.deliveries) {
+    if (auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
+      legs->joint_position = {};
+      legs->joint_velocity = {};
+    }
+  }
+  return stream;
+}
+
 std::vector<RecordedStream> streams_with(int columns) {
   const RecordedStream stream = testing::eventful_sequence(columns);
-  return {stream, testing::started_in_motion(stream)};
+  return {stream, testing::started_in_motion(stream), without_joints(stream)};
 }
 
 /// Returns per ring that an estimator needs: the curvature along a ring and a range image need them
