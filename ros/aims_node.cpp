@@ -88,6 +88,7 @@ Result<void> check_topics(const NodeConfig& config, const RecordingSetup& setup)
 Result<std::unique_ptr<Estimator>> make_live_estimator(const NodeConfig& config,
                                                        const RecordingSetup& setup) {
   for (const std::string& note : setup.notes) print_line("note: " + note);
+  for (const ReadingWarning& each : setup.warnings) print_line("warning: " + each.text);
   const auto spec = parse_estimator_spec(config.estimator);
   if (!spec) return tl::unexpected(spec.error());
   const auto own = config_with(*spec, config.estimators);

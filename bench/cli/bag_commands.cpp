@@ -40,7 +40,7 @@ Result<BagInfo> info_of(const BagArguments& arguments) {
 
 int info_command(const BagArguments& arguments) {
   const auto info = info_of(arguments);
-  if (!info) return bad_input("info", info.error());
+  if (!info) return refuse("info", info.error(), arguments.json);
   if (arguments.json) {
     print_json(info_json(*info));
   } else {
@@ -71,9 +71,9 @@ Result<std::vector<RequirementCheck>> checks_of(const std::vector<std::string>& 
 
 int check_command(const BagArguments& arguments) {
   const auto info = info_of(arguments);
-  if (!info) return bad_input("check", info.error());
+  if (!info) return refuse("check", info.error(), arguments.json);
   const auto checks = checks_of(arguments.systems, check_bag(*info));
-  if (!checks) return bad_input("check", checks.error());
+  if (!checks) return refuse("check", checks.error(), arguments.json);
   if (arguments.json) {
     print_json(check_json(info->file, *checks));
   } else {

@@ -16,12 +16,21 @@ CLI::Option* require(CLI::Option* option, Presence presence) {
   return option->required(presence == Presence::kRequired);
 }
 
+/// Refuses nan, which no range excludes.
+CLI::Validator is_number() {
+  return {[](std::string& value) {
+            return value.find("nan") != std::string::npos ? "expected a number, got nan" : "";
+          },
+          ""};
+}
+
 /// A number in the limits, which the help shows.
 template <class Number, class Value>
 void add_number(CLI::App& app, const std::string& names, Value& value, Limits limits,
                 const std::string& help) {
   app.add_option(names, value, help)
-      ->check(CLI::Range(static_cast<Number>(limits.low), static_cast<Number>(limits.high)));
+      ->check(CLI::Range(static_cast<Number>(limits.low), static_cast<Number>(limits.high)))
+      ->check(is_number());
 }
 
 /// Refuses a value that was given as ''.

@@ -55,6 +55,7 @@ void print_results(const EstimateResult& result, const fs::path& folder,
     const std::string health = text_of(each.totals.health);
     if (!health.empty()) print_out("health: {}: {}\n", each.name, health);
   }
+  for (const ReadingWarning& each : result.setup.warnings) print_out("warning: {}\n", each.text);
   for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
   if (!result.complete) print_out("interrupted: the results end where reading was stopped\n");
   print_out("results: {}\n", (folder / "").string());
@@ -70,8 +71,20 @@ int exit_code_of(const EstimateResult& result) {
   }
   if (!result.failures.empty()) return kBadInput;
   int code = kOk;
+  for (const std::string& name : result.without_rings) {
+    code = kInvalidRun;
+    print_error(
+        fmt::format("aims estimate: {}: needs the ring of each point, which the recording "
+                    "lacks: its estimate must not be used",
+                    name));
+  }
   for (const EstimatorOutcome& each : result.estimators) {
     const bool no_poses = each.totals.poses == 0;
+    if (each.totals.scans > 10 && each.totals.path_m == 0.0) {
+      code = kInvalidRun;
+      print_error(fmt::format("aims estimate: {}: never moved in {} scans: no scan was matched",
+                              each.name, each.totals.scans));
+    }
     if (!no_poses && each.totals.health.worst != HealthState::kInvalid) continue;
     code = kInvalidRun;
     print_error(fmt::format("aims estimate: {}: {}", each.name,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/score_record.hpp"
 
@@ -135,6 +136,11 @@ void add_json(Command& command, bool& json) {
 }
 
 void print_json(const Json& json) { print_out("{}\n", json_text(json, 2)); }
+
+int refuse(const char* command, const Error& error, bool json) {
+  if (json) print_json({{"error", error.message}});
+  return bad_input(command, error);
+}
 
 Json list_json(const std::filesystem::path& folder, std::span<const ListedScenario> files) {
   Json json = {{"schema", "aims.list/1"},    {"folder", folder.string()},

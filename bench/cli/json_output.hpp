@@ -22,6 +22,9 @@ void add_json(Command& command, bool& json);
 /// Prints the document.
 void print_json(const Json& json);
 
+/// Prints the error as that of the command; with `json` also as a document {"error": ...}.
+int refuse(const char* command, const Error& error, bool json);
+
 /// What `aims list` shows; schema aims.list/1.
 Json list_json(const std::filesystem::path& folder, std::span<const ListedScenario> files);
 

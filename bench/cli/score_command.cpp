@@ -71,21 +71,22 @@ int score_command(const ScoreArguments& arguments) {
   const SharedOptions& shared = arguments.shared;
   ScoringRequest request = arguments.request;
   const auto scoring = scoring_config(arguments.config, shared.settings);
-  if (!scoring) return bad_input("score", scoring.error());
+  if (!scoring) return refuse("score", scoring.error(), arguments.json);
   request.scoring = *scoring;
   request.is_configured = !arguments.config.empty();
   auto input = read_scoring_input(request);
-  if (!input) return bad_input("score", input.error());
+  if (!input) return refuse("score", input.error(), arguments.json);
   const auto scores = score_trajectories(std::move(*input));
-  if (!scores) return bad_input("score", scores.error());
-  if (auto ok = check_compared(*scores); !ok) return bad_input("score", ok.error());
+  if (!scores) return refuse("score", scores.error(), arguments.json);
+  if (auto ok = check_compared(*scores); !ok) return refuse("score", ok.error(), arguments.json);
   auto folder = OutputFolder::create(shared.out, shared.overwrite);
-  if (!folder) return bad_input("score", folder.error());
+  if (!folder) return refuse("score", folder.error(), arguments.json);
   auto written = write_trajectory_scores(*scores, folder->path());
   if (written) written = write_trajectories(*scores, folder->path());
-  if (!written) return bad_input("score", written.error());
+  if (!written) return refuse("score", written.error(), arguments.json);
   draw(*scores, folder->path(), arguments);
-  if (auto committed = folder->commit(); !committed) return bad_input("score", committed.error());
+  if (auto committed = folder->commit(); !committed)
+    return refuse("score", committed.error(), arguments.json);
   if (arguments.json) {
     print_json(record_of(*scores).scores);
   } else {
@@ -103,7 +104,7 @@ void add_inputs(Command& command, ScoreArguments& arguments) {
   command.repeatable("--estimate", request.estimates, "Estimated trajectory", Presence::kRequired);
   command.repeatable("--name", request.names, "Name of each estimate, in their order");
   command.option("--times", request.times, "Stamps of KITTI poses: a file with one per line [s]");
-  command.option("--time-offset", request.time_offset_s, {-1e12, 1e12},
+  command.option("--time-offset", request.time_offset_s, {-4e9, 4e9},
                  "Added to the stamps of the estimates [s] (0)");
   command.option("--extrinsic", request.extrinsic,
                  "'x y z qx qy qz qw': pose of the frame of the estimates in\n"

@@ -110,9 +110,35 @@ void note_missing(const EstimateConfig& config, RecordingSetup& setup) {
     };
     note(needs.point_times, setup.has_point_times, "the time of each point");
     const std::string rings = ring_note(label_of(text), needs, setup.rings, "recording");
-    if (!rings.empty()) setup.notes.push_back(rings);
+    if (!rings.empty()) setup.warnings.push_back({"rings do not fit " + label_of(text), rings});
     note(needs.joints, setup.has_joints, "joints and contacts");
     note(needs.orientation, setup.has_orientation, "the orientation of the IMU");
+  }
+}
+
+/// Adds what the counts of the whole recording say to the warnings, and all of them to the health.
+void warn_in_health(EstimateResult& result) {
+  const auto early = result.counts.find("recorded_before_their_stamp");
+  if (early != result.counts.end()) {
+    result.setup.warnings.push_back(
+        {"recorder's clock was set back or not set",
+         fmt::format(
+             "{} messages are recorded before their stamp: the recorder's clock was set back "
+             "or not set yet; they arrive at their stamp and the usual delay",
+             early->second)});
+  }
+  if (result.setup.warnings.empty()) return;
+  for (EstimatorOutcome& each : result.estimators) {
+    HealthSummary& health = each.totals.health;
+    if (health.worst == HealthState::kStarting && health.judged) continue;
+    health.worst =
+        health.judged ? std::max(health.worst, HealthState::kDegraded) : HealthState::kDegraded;
+    health.judged = true;
+    health.degraded_s += std::exchange(health.healthy_s, 0.0);
+    if (health.degraded_s + health.invalid_s == 0.0) health.degraded_s = result.recorded_s;
+    for (const ReadingWarning& warning : result.setup.warnings) {
+      health.reasons[warning.reason] = result.recorded_s;
+    }
   }
 }
 
@@ -209,6 +235,12 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)
     return tl::unexpected(ok.error());
   note_missing(config, result.setup);
+  for (const std::string& text : config.run) {
+    const bool none = result.setup.rings.count == 0 && !result.setup.topics.lidar.empty();
+    if (none && requirements_of(text, config.estimators).rings) {
+      result.without_rings.push_back(label_of(text));
+    }
+  }
   auto estimators = make_estimators(config.run, config.estimators, result.setup.rig);
   if (!estimators) return tl::unexpected(estimators.error());
 
@@ -225,6 +257,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.counts = reader->counts();
   result.recorded_s = to_seconds(reader->position());
   estimators->clear();
+  warn_in_health(result);
   set_failed_apart(result);
   auto shown = scans_to_show(result, scans);
   if (!shown) return tl::unexpected(shown.error());

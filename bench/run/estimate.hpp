@@ -61,10 +61,11 @@ struct EstimateResult {
   double recorded_s = 0.0;            ///< of the recording that was read
   double wall_s = 0.0;
   std::vector<EstimatorOutcome> estimators;  ///< their scores are in `scores`
-  std::vector<EstimatorFailure> failures;    ///< those with poses are in `estimators` too
-  std::filesystem::path folder;              ///< of the options: it has trajectories and truth
-  Trajectory truth;                          ///< of the body; empty: none, or in `folder`
-  std::vector<ShownScan> scans;              ///< to look at, by the truth or the first estimate
+  std::vector<std::string> without_rings;  ///< estimators that need rings, of which there are none
+  std::vector<EstimatorFailure> failures;  ///< those with poses are in `estimators` too
+  std::filesystem::path folder;            ///< of the options: it has trajectories and truth
+  Trajectory truth;                        ///< of the body; empty: none, or in `folder`
+  std::vector<ShownScan> scans;            ///< to look at, by the truth or the first estimate
   /// Of the online trajectories, then of the re-optimized ones; none without a truth.
   std::optional<TrajectoryScores> scores;
 };

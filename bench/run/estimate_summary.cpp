@@ -43,6 +43,12 @@ Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcom
   return json;
 }
 
+Json warnings_json(const RecordingSetup& setup) {
+  Json json = Json::array();
+  for (const ReadingWarning& each : setup.warnings) json.push_back(each.text);
+  return json;
+}
+
 Json pose_json(const Pose& pose) {
   const Eigen::Vector3d& p = pose.translation;
   const Eigen::Quaterniond& q = pose.rotation;
@@ -89,6 +95,7 @@ Json estimate_json(const EstimateResult& result) {
                {"imu_rate_hz", result.setup.rig.imu_rate_hz},
                {"leg_rate_hz", result.setup.rig.leg_rate_hz},
                {"notes", result.setup.notes},
+               {"warnings", warnings_json(result.setup)},
                {"counts", result.counts}};
   for (const EstimatorOutcome& each : result.estimators) {
     json["estimators"][each.name] = estimator_json(result, each);

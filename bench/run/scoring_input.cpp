@@ -86,6 +86,11 @@ void note_body(const SourcedTrajectory& truth, const SourcedTrajectory& estimate
                   estimate.name, body, truth.body_frame));
 }
 
+tl::unexpected<Error> refuse_offset(const ScoringRequest& request) {
+  return failure(fmt::format("--time-offset {}: moves stamps beyond what 64 bits of ns can hold",
+                             request.time_offset_s));
+}
+
 Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList> stamps,
                             ScoringInput& input) {
   const auto extrinsic = extrinsic_of(request.extrinsic);
@@ -94,7 +99,9 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
   const Duration offset = from_seconds(request.time_offset_s);
   stamps.push_back({"the truth", {}});
   for (const StampedPose& each : input.truth.trajectory) {
-    stamps.back().stamps.push_back(each.stamp - offset);
+    Time stamp = 0;
+    if (__builtin_sub_overflow(each.stamp, offset, &stamp)) return refuse_offset(request);
+    stamps.back().stamps.push_back(stamp);
   }
   for (std::size_t i = 0; i < request.estimates.size(); ++i) {
     const std::string& source = request.estimates[i];
@@ -103,7 +110,7 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
     input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
     const bool moved = !request.extrinsic.empty();
     for (StampedPose& each : file->trajectory) {
-      each.stamp += offset;
+      if (__builtin_add_overflow(each.stamp, offset, &each.stamp)) return refuse_offset(request);
       if (moved) each.pose = each.pose * T_estimate_body;
     }
     const std::string name = request.names.empty() ? name_of(*file) : request.names[i];

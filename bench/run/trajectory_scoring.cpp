@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/run/start_anchor.hpp"
+#include "recordings/trajectories/pose_cleaning.hpp"
 
 namespace aims {
 namespace {
@@ -98,10 +99,9 @@ void note_estimates(const TrajectoryScores& result, std::vector<std::string>& no
           100.0 * result.scoring.min_coverage));
     }
     if (scores.poses_invalid == 0) continue;
-    notes.push_back(
-        fmt::format("{}: {} of {} poses left out: not finite, not a pose, or stamped "
-                    "not after the one before",
-                    each.given.name, scores.poses_invalid, scores.poses));
+    notes.push_back(fmt::format("{}: {} of {} poses left out: {}", each.given.name,
+                                scores.poses_invalid, scores.poses,
+                                unusable_text(each.given.trajectory)));
   }
   if (straight.empty()) return;
   notes.push_back(

@@ -115,8 +115,15 @@ Result<std::string> read_file(const fs::path& file, std::size_t most) {
   const auto refuse = [&file](int code) {
     return failure(fmt::format("{}: cannot be read: {}", file.string(), reason(code)));
   };
-  Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  // Without O_NONBLOCK a pipe without a writer would hang here; a device may never end.
+  Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (descriptor.get() < 0) return refuse(errno);
+  struct stat status {};
+  if (::fstat(descriptor.get(), &status) != 0) return refuse(errno);
+  if (S_ISDIR(status.st_mode)) return refuse(EISDIR);
+  if (!S_ISREG(status.st_mode)) {
+    return failure(fmt::format("{}: cannot be read: expected a regular file", file.string()));
+  }
   std::string text;
   char buffer[1 << 16];
   while (true) {

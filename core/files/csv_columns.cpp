@@ -18,8 +18,12 @@ namespace {
 /// Reads rows of comma-separated values (RFC 4180).
 class RowReader {
  public:
-  explicit RowReader(std::string_view text) : text_(text) {}
+  RowReader(std::string_view text, char separator) : text_(text), separator_(separator) {}
 
+  void begin_at(std::size_t position) {
+    line_ += static_cast<int>(std::ranges::count(text_.substr(0, position), '\n'));
+    position_ = position;
+  }
   bool at_end() const { return position_ >= text_.size(); }
   int line() const { return line_; }
 
@@ -31,9 +35,19 @@ class RowReader {
       ends.push_back(cells.size());
       if (!complete) return false;
       const char end = text_[position_++];
-      if (end == ',') continue;
+      if (end == separator_) continue;
       ++line_;
       return true;
+    }
+  }
+
+  /// Passes over blank lines and comments.
+  void skip_comments() {
+    while (!at_end()) {
+      const std::size_t first = text_.find_first_not_of(" \t\r", position_);
+      if (first != std::string_view::npos && text_[first] != '#' && text_[first] != '\n') return;
+      position_ = std::min(text_.find('\n', position_), text_.size() - 1) + 1;
+      ++line_;
     }
   }
 
@@ -49,7 +63,7 @@ class RowReader {
         if (doubled) cell += text_[position_++];
         if (!doubled) quoted = !quoted;
         if (!quoted) kept = cell.size();
-      } else if (!quoted && (c == ',' || c == '\n')) {
+      } else if (!quoted && (c == separator_ || c == '\n')) {
         if (c == '\n' && cell.size() > kept && cell.ends_with('\r')) cell.pop_back();
         return true;
       } else {
@@ -61,9 +75,46 @@ class RowReader {
   }
 
   std::string_view text_;
+  char separator_;
   std::size_t position_ = 0;
   int line_ = 1;
 };
+
+/// The cell without blanks around it.
+std::string_view trimmed(std::string_view cell) {
+  const std::size_t first = cell.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return cell.substr(first, cell.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// The character that separates the cells of a header of another tool.
+char separator_of(std::string_view header) {
+  for (const char each : {',', ';', '\t'}) {
+    if (header.find(each) != std::string_view::npos) return each;
+  }
+  return ',';
+}
+
+/// Where the header of another tool's table begins: at its first line that is no comment, or a
+/// comment with as many cells as the line behind it.
+std::size_t header_begin(std::string_view text) {
+  std::size_t begin = 0;
+  const auto cells = [&](std::size_t from) {
+    const std::string_view line = text.substr(from, text.find('\n', from) - from);
+    return std::ranges::count(line, separator_of(line));
+  };
+  while (begin < text.size()) {
+    const std::size_t end = text.find('\n', begin);
+    const std::size_t first = text.find_first_not_of(" \t\r", begin);
+    if (end == std::string_view::npos || first == std::string_view::npos) return begin;
+    const bool blank = first == end;
+    const bool named = text[first] == '#' && end + 1 < text.size() && text[end + 1] != '#' &&
+                       cells(begin) > 0 && cells(begin) == cells(end + 1);
+    if (!blank && (text[first] != '#' || named)) return begin;
+    begin = end + 1;
+  }
+  return 0;
+}
 
 std::optional<double> number_of(std::string_view cell) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -75,10 +126,16 @@ std::optional<double> number_of(std::string_view cell) {
 }  // namespace
 
 Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& name,
-                                     std::span<const std::string> only) {
+                                     std::span<const std::string> only, CsvOrigin origin) {
+  const bool foreign = origin != CsvOrigin::kOwn;
   CsvColumns table;
   table.name_ = name;
-  RowReader reader(text);
+  table.foreign_ = foreign;
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  const std::size_t begin = foreign ? header_begin(text) : 0;
+  const std::string_view first_line = text.substr(begin, text.find('\n', begin) - begin);
+  RowReader reader(text, foreign ? separator_of(first_line) : ',');
+  reader.begin_at(begin);
   CsvColumns row;  // all cells of one
   if (!reader.take(row.cells_, row.ends_)) {
     return failure(fmt::format("{}:1: expected a header that ends in a line end", name));
@@ -87,18 +144,28 @@ Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& n
   row.header_.resize(columns);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < columns; ++i) {
-    const std::string title(row.cell(0, i));
+    std::string title(row.cell(0, i));
+    if (foreign) title = trimmed(title);
+    if (foreign && title.starts_with('#')) {
+      table.index_.emplace(title, table.header_.size());  // by either name
+      title = trimmed(std::string_view(title).substr(1));
+    }
     if (!only.empty() && std::ranges::find(only, title) == only.end()) continue;
     table.index_.emplace(title, table.header_.size());
     table.header_.push_back(title);
     kept.push_back(i);
   }
-  while (!reader.at_end()) {
+  while (true) {
+    if (foreign) reader.skip_comments();
+    if (reader.at_end()) break;
     const int line = reader.line();
     row.cells_.clear();
     row.ends_.clear();
-    const bool complete = reader.take(row.cells_, row.ends_);
+    bool complete = reader.take(row.cells_, row.ends_);
     const std::size_t found = row.ends_.size();
+    if (!complete && found == columns && foreign && !row.cell(0, columns - 1).empty())
+      complete = true;
+    if (!complete && origin == CsvOrigin::kDamaged) break;
     if (!complete || found != columns) {
       return failure(fmt::format("{}:{}: expected {} cells and a line end, found {} cells{}", name,
                                  line, columns, found, complete ? "" : ", truncated"));
@@ -126,7 +193,8 @@ Result<std::vector<double>> CsvColumns::numbers(std::string_view column) const {
   if (found == index_.end()) return numbers;
   numbers.reserve(rows_);
   for (std::size_t row = 0; row < rows_; ++row) {
-    const std::string_view text = cell(row, found->second);
+    const std::string_view text =
+        foreign_ ? trimmed(cell(row, found->second)) : cell(row, found->second);
     const auto number = number_of(text);
     if (!number) {
       return failure(line_text(fmt::format("{}:{}: {}: expected a number, found '{}'", name_,
@@ -141,7 +209,10 @@ std::vector<std::string> CsvColumns::texts(std::string_view column) const {
   std::vector<std::string> texts;
   const auto found = index_.find(column);
   if (found == index_.end()) return texts;
-  for (std::size_t row = 0; row < rows_; ++row) texts.emplace_back(cell(row, found->second));
+  for (std::size_t row = 0; row < rows_; ++row) {
+    const std::string_view text = cell(row, found->second);
+    texts.emplace_back(foreign_ ? trimmed(text) : text);
+  }
   return texts;
 }
 

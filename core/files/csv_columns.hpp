@@ -12,6 +12,14 @@
 
 namespace aims {
 
+/// Whose table it is.
+enum class CsvOrigin {
+  kOwn,      ///< written by CsvTable
+  kForeign,  ///< of any tool: blanks around cells, comments (#), blank lines, semicolons or tabs,
+             ///< no line end behind the last row
+  kDamaged,  ///< likewise, and its last row may be incomplete: it is left out
+};
+
 /// A table of comma-separated values, as written by CsvTable, by column name.
 class CsvColumns {
  public:
@@ -19,7 +27,8 @@ class CsvColumns {
   /// file is detected. Columns that are not in `only` are left out, unless that is empty. Errors:
   /// "name:line: ...".
   static Result<CsvColumns> parse(std::string_view text, const std::string& name,
-                                  std::span<const std::string> only = {});
+                                  std::span<const std::string> only = {},
+                                  CsvOrigin origin = CsvOrigin::kOwn);
   /// Reads a file with `parse`.
   static Result<CsvColumns> read(const std::filesystem::path& file,
                                  std::span<const std::string> only = {});
@@ -43,6 +52,7 @@ class CsvColumns {
   }
 
   std::string name_;
+  bool foreign_ = false;
   std::vector<std::string> header_;
   std::map<std::string, std::size_t, std::less<>> index_;  ///< column of each name
   std::string cells_;                                      ///< row by row, end to end

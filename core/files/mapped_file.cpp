@@ -18,12 +18,13 @@ Result<MappedFile> MappedFile::open(const std::filesystem::path& file) {
     return failure(fmt::format("{}: cannot be read: {}", file.string(),
                                std::generic_category().message(code)));
   };
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return refuse(errno);
   struct stat status {};
   void* start = nullptr;
   int error = ::fstat(descriptor, &status) == 0 ? 0 : errno;
   if (error == 0 && S_ISDIR(status.st_mode)) error = EISDIR;
+  if (error == 0 && !S_ISREG(status.st_mode)) error = EINVAL;
   const auto size = static_cast<std::size_t>(status.st_size);
   if (error == 0 && size > 0) {
     start = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, descriptor, 0);

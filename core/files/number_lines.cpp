@@ -21,7 +21,18 @@ std::optional<std::uint64_t> parse_digits(std::string_view word) {
   return value;
 }
 
+/// "+9.81" without its sign.
+std::string_view without_plus(std::string_view word) {
+  const bool plus =
+      word.size() > 1 && word[0] == '+' && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
+  return plus ? word.substr(1) : word;
+}
+
 }  // namespace
+
+LineReader::LineReader(std::string_view text, std::string_view name) : rest_(text), name_(name) {
+  if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
+}
 
 std::optional<std::string_view> LineReader::next() {
   while (!rest_.empty()) {
@@ -69,6 +80,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 std::optional<double> parse_number(std::string_view word, bool finite) {
+  word = without_plus(word);
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
@@ -77,6 +89,7 @@ std::optional<double> parse_number(std::string_view word, bool finite) {
 }
 
 std::optional<Time> parse_stamp(std::string_view word) {
+  word = without_plus(word);
   const bool negative = word.starts_with('-');
   const std::string_view unsigned_word = negative ? word.substr(1) : word;
   const std::size_t dot = std::min(unsigned_word.find('.'), unsigned_word.size());

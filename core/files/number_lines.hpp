@@ -15,8 +15,8 @@ namespace aims {
 /// Iterates over the lines of a text that are neither blank nor comments ('#').
 class LineReader {
  public:
-  /// Errors call the text `name`; both must outlive the reader.
-  LineReader(std::string_view text, std::string_view name) : rest_(text), name_(name) {}
+  /// Errors call the text `name`; both must outlive the reader. A byte order mark is passed over.
+  LineReader(std::string_view text, std::string_view name);
 
   /// The next such line, or nothing at the end.
   std::optional<std::string_view> next();

@@ -52,13 +52,13 @@ void describe(Fields& f, FeetConfig& c) {
           "docs/decisions.md#each-foot-is-a-measurement"});
 }
 
-std::optional<JointState> JointDifference::update(const JointReading& reading) {
-  const auto since = [&](const JointReading& each) { return reading.stamp - each.stamp; };
+std::optional<JointState> JointDifference::update(const JointPacket& reading) {
+  const auto since = [&](const JointPacket& each) { return reading.stamp - each.stamp; };
   while (!past_.empty() && since(past_.front()) > kLongestInterval) past_.pop_front();
   while (past_.size() > 1 && since(past_[1]) >= kShortestInterval) past_.pop_front();
   std::optional<JointState> state;
   if (!past_.empty() && since(past_.front()) >= kShortestInterval) {
-    const JointReading& before = past_.front();
+    const JointPacket& before = past_.front();
     const double step = to_seconds(since(before));
     state = {0.5 * (reading.angle + before.angle), (reading.angle - before.angle) / step,
              (reading.yield - before.yield) / step, 0.5 * step};

@@ -20,7 +20,7 @@ struct FeetConfig {
 void describe(Fields& fields, FeetConfig& config);
 
 /// Joints at an instant, and how they yield.
-struct JointReading {
+struct JointPacket {
   Time stamp = 0;
   JointVector angle = JointVector::Zero();  ///< at the encoders [rad]
   JointVector yield = JointVector::Zero();  ///< link beyond encoder, per unit of compliance [m]
@@ -39,10 +39,10 @@ struct JointState {
 class JointDifference {
  public:
   /// Empty at the start and after a gap.
-  std::optional<JointState> update(const JointReading& reading);
+  std::optional<JointState> update(const JointPacket& reading);
 
  private:
-  std::deque<JointReading> past_;  ///< of the last milliseconds
+  std::deque<JointPacket> past_;  ///< of the last milliseconds
 };
 
 using FootVelocities = std::array<Eigen::Vector3d, kLegCount>;

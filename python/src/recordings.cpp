@@ -75,7 +75,9 @@ py::dict setup_of(const RecordingReader& reader) {
   }
   py::dict dict;
   dict["topics"] = topics;
-  dict["notes"] = setup.notes;
+  std::vector<std::string> notes = setup.notes;
+  for (const ReadingWarning& each : setup.warnings) notes.push_back(each.text);
+  dict["notes"] = notes;
   dict["rig"] = setup.rig;
   dict["has_legs"] = setup.has_legs;
   dict["has_joints"] = setup.has_joints;

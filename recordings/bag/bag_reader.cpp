@@ -43,7 +43,7 @@ Result<BagReader> BagReader::open(const std::filesystem::path& path, BagOpenOpti
   auto index = options.recover ? recover_index(*file, options.memory_limit) : read_index(*file);
   if (!index) return tl::unexpected(index.error());
   BagSummary summary = summarize(*file, index->chunks);
-  summary.indexed = index->indexed;
+  summary.indexed = summary.closed = index->indexed;
   summary.lost_bytes = index->lost_bytes;
   std::vector<BagConnection> connections;
   for (const auto& [id, connection] : index->connections.all()) connections.push_back(connection);

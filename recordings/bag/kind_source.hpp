@@ -48,7 +48,7 @@ class KindSource : public MessageSource {
   Result<void> count();
 
   /// Marks the summary: the file was not read to its end.
-  void set_incomplete() { summary_.indexed = false; }
+  void set_incomplete() { summary_.indexed = summary_.closed = false; }
 
  private:
   std::vector<BagConnection> connections_;

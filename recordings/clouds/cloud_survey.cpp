@@ -14,6 +14,9 @@ namespace aims {
 namespace {
 
 constexpr std::size_t kMaxClouds = 60;
+constexpr std::size_t kMaxRanges = 100'000;
+/// Half of the points of no LiDAR on a robot are farther away [m].
+constexpr double kFarPoints = 400.0;
 /// Larger point times are not relative to the scan [ns].
 constexpr double kMaxRelativeTime = 5e9;
 
@@ -78,6 +81,7 @@ void CloudSurvey::read_points(const PointTable& table, Cloud& cloud) {
     const Eigen::Vector3d position(x.at(bytes), y.at(bytes), z.at(bytes));
     if (!position.allFinite() || position.isZero(0.0)) continue;
     rings_.add(table, i, position);
+    if (ranges_.size() < kMaxRanges) ranges_.push_back(position.norm());
     const double azimuth = std::atan2(position.y(), position.x());
     const double step = last_azimuth ? azimuth - *last_azimuth : 0.0;
     if (std::abs(step) < 0.2) (step > 0.0 ? rising_azimuths_ : falling_azimuths_) += step != 0.0;
@@ -116,6 +120,13 @@ std::optional<double> CloudSurvey::median_first(std::size_t field) const {
   return upper_median(all);
 }
 
+/// Whether the field runs from 0 to 1 during a scan that does not last a second.
+bool CloudSurvey::is_normalized(std::size_t field, double span, Duration about) const {
+  const double first = median_first(field).value_or(0.0);
+  const bool unit_range = span > 0.8 && span < 1.0001 && first > -1e-6 && first + span < 1.0001;
+  return unit_range && about < kLongestScan * 2 / 3;
+}
+
 /// Whether the field advances during a scan as a time does; if so, how to read it.
 bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
                                CloudReading& reading) const {
@@ -127,6 +138,9 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
   const std::optional<double> span = upper_median(spans);
   if (!span || !(*span > 0.0)) return false;
   std::optional<double> unit = time_unit(*span, about);
+  reading.normalized_times =
+      is_normalized(field, *span, about) && config.point_time_unit == PointTimeUnit::kAuto;
+  if (reading.normalized_times) unit = static_cast<double>(about);
   for (const Unit& each : kUnits) {
     if (each.unit == config.point_time_unit) unit = each.ns;
   }
@@ -171,7 +185,7 @@ std::optional<Duration> CloudSurvey::firing_span(std::size_t field, double unit_
 }
 
 void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& reading,
-                               std::vector<std::string>& notes) const {
+                               ReadingNotes& notes) const {
   const Duration fallback = from_seconds(1.0 / config.lidar_rate);
   const Duration about =
       std::min(upper_median(spacings(stamps())).value_or(fallback), kLongestScan);
@@ -195,24 +209,46 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
   static constexpr std::array<std::string_view, 4> kOrigins = {
       "", "relative to the cloud's stamp", "on the clock of the stamps",
       "on another clock, of which only differences are used"};
+  if (reading.normalized_times) {
+    return notes.warn(
+        "point times assumed to be fractions of the scan",
+        fmt::format(
+            "point field '{}' runs from 0 to 1 over scans of {:.4g} s: taken as fraction of "
+            "the scan (point_time_unit: s reads it as seconds)",
+            reading.time_field, to_seconds(reading.period)));
+  }
+  note_length(span, about, reading, notes);
   notes.push_back(fmt::format("point time: field '{}' in {}, {}", reading.time_field,
                               unit_name(reading.time_unit),
                               kOrigins[static_cast<std::size_t>(reading.clock)]));
 }
 
-void CloudSurvey::note_azimuth_times(const CloudReading& reading,
-                                     std::vector<std::string>& notes) const {
-  notes.push_back(fmt::format(
-      "points have no time: derived from azimuth, spinning {}, {:.4g} s per turn "
-      "(lidar_clockwise, lidar_rate)",
-      reading.clockwise ? "clockwise" : "counter-clockwise", to_seconds(reading.period)));
+/// Warns of point times that last longer than the scans.
+void CloudSurvey::note_length(std::optional<Duration> span, Duration about,
+                              const CloudReading& reading, ReadingNotes& notes) {
+  if (!span || *span < 2 * about) return;
+  notes.warn(
+      "point times longer than the scan",
+      fmt::format("point field '{}' spans {:.4g} s, but a cloud comes every {:.4g} s: is its "
+                  "unit not {} (point_time_unit)?",
+                  reading.time_field, to_seconds(*span), to_seconds(about),
+                  unit_name(reading.time_unit)));
+}
+
+void CloudSurvey::note_azimuth_times(const CloudReading& reading, ReadingNotes& notes) const {
+  notes.warn(
+      "point times derived from azimuth",
+      fmt::format("points have no time: derived from azimuth, spinning {}, {:.4g} s per turn "
+                  "(lidar_clockwise, lidar_rate)",
+                  reading.clockwise ? "clockwise" : "counter-clockwise",
+                  to_seconds(reading.period)));
   const int steps = rising_azimuths_ + falling_azimuths_;
   const int opposite = reading.clockwise ? rising_azimuths_ : falling_azimuths_;
   if (steps > 100 && opposite > 0.7 * steps) {
-    notes.push_back(
-        fmt::format("azimuths change in the opposite direction from point to point: set "
-                    "lidar_clockwise: {}",
-                    !reading.clockwise));
+    notes.warn("direction of spin",
+               fmt::format("azimuths change in the opposite direction from point to point: set "
+                           "lidar_clockwise: {}",
+                           !reading.clockwise));
   }
 }
 
@@ -234,7 +270,7 @@ double CloudSurvey::first_firing_ns(const CloudReading& reading) const {
 
 /// Whether the stamp marks the start or the end of the scan.
 void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& reading,
-                               std::vector<std::string>& notes) const {
+                               ReadingNotes& notes) const {
   const auto period = static_cast<double>(reading.period);
   std::vector<double> latencies;
   for (const Cloud& cloud : clouds_) {
@@ -258,19 +294,30 @@ void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& read
     notes.push_back("points fire before their cloud's stamp: it marks the end of the scan");
   } else if (!to_stamp && too_early) {
     reading.stamp = CloudStamp::kEnd;
-    notes.push_back(
+    notes.warn(
+        "stamps of clouds assumed to mark the end of the scan",
         fmt::format("clouds arrive {:.1f} ms after their stamp, before a scan that starts there "
                     "is complete: the stamp is taken as the end (cloud_stamp)",
                     1e-6 * latency));
+  } else if (reading.clock == PointClock::kStamp && too_early && latency > 0.0 &&
+             first > -0.2 * period) {
+    reading.stamp = CloudStamp::kEnd;
+    reading.counted_from_start = true;
+    notes.warn("stamps of clouds assumed to mark the end of the scan",
+               fmt::format("clouds arrive {:.1f} ms after their stamp, though their points count "
+                           "from it to {:.0f} ms: the stamp is taken as the end of the scan "
+                           "(cloud_stamp)",
+                           1e-6 * latency, 1e-6 * period));
   } else if (to_stamp && too_early) {
-    notes.push_back(
+    notes.warn(
+        "which end of the scan the stamps of clouds mark",
         fmt::format("clouds arrive {:.1f} ms after their stamp although their points fire later: "
                     "if the stamp marks the end, set cloud_stamp: end",
                     1e-6 * latency));
   }
 }
 
-void CloudSurvey::decide_intensity(CloudReading& reading, std::vector<std::string>& notes) const {
+void CloudSurvey::decide_intensity(CloudReading& reading, ReadingNotes& notes) const {
   reading.intensity_field = intensity_field_;
   if (intensity_field_.empty() || largest_intensity_ <= 1.0) return;
   const double full = largest_intensity_ <= 255.0 ? 255.0 : 65535.0;
@@ -279,14 +326,21 @@ void CloudSurvey::decide_intensity(CloudReading& reading, std::vector<std::strin
                               largest_intensity_, full));
 }
 
-CloudReading CloudSurvey::decide(const RecordingConfig& config,
-                                 std::vector<std::string>& notes) const {
+CloudReading CloudSurvey::decide(const RecordingConfig& config, ReadingNotes& notes) const {
   CloudReading reading;
   reading.clockwise = config.lidar_clockwise;
   decide_times(config, reading, notes);
   decide_stamp(config, reading, notes);
   rings_.decide(reading, notes);
   decide_intensity(reading, notes);
+  const double range = upper_median(ranges_).value_or(0.0);
+  if (range > kFarPoints) {
+    notes.warn(
+        "points not in metres",
+        fmt::format("half of the points are farther than {:.0f} m: points in mm? Coordinates "
+                    "are expected in metres: convert them in the driver",
+                    range));
+  }
   return reading;
 }
 

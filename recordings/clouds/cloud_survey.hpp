@@ -7,6 +7,7 @@
 
 #include "recordings/clouds/point_cloud.hpp"
 #include "recordings/clouds/ring_survey.hpp"
+#include "recordings/reading_notes.hpp"
 
 namespace aims {
 
@@ -20,7 +21,7 @@ class CloudSurvey {
   std::size_t size() const { return clouds_.size(); }
 
   /// How to read the clouds; appends each assumption to `notes`, with the setting that changes it.
-  CloudReading decide(const RecordingConfig& config, std::vector<std::string>& notes) const;
+  CloudReading decide(const RecordingConfig& config, ReadingNotes& notes) const;
 
  private:
   /// Smallest and largest time of the points of one cloud.
@@ -35,14 +36,17 @@ class CloudSurvey {
   void find_fields(const PointTable& table);
   static void extend(std::optional<TimeRange>& range, double time);
   void read_points(const PointTable& table, Cloud& cloud);
+  bool is_normalized(std::size_t field, double span, Duration about) const;
+  static void note_length(std::optional<Duration> span, Duration about, const CloudReading& reading,
+                          ReadingNotes& notes);
   bool decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
                     CloudReading& reading) const;
   void decide_times(const RecordingConfig& config, CloudReading& reading,
-                    std::vector<std::string>& notes) const;
-  void note_azimuth_times(const CloudReading& reading, std::vector<std::string>& notes) const;
+                    ReadingNotes& notes) const;
+  void note_azimuth_times(const CloudReading& reading, ReadingNotes& notes) const;
   void decide_stamp(const RecordingConfig& config, CloudReading& reading,
-                    std::vector<std::string>& notes) const;
-  void decide_intensity(CloudReading& reading, std::vector<std::string>& notes) const;
+                    ReadingNotes& notes) const;
+  void decide_intensity(CloudReading& reading, ReadingNotes& notes) const;
   std::vector<Time> stamps() const;
   std::optional<Duration> firing_span(std::size_t field, double unit_ns) const;
   double first_firing_ns(const CloudReading& reading) const;
@@ -52,6 +56,7 @@ class CloudSurvey {
   std::vector<std::string> time_fields_;
   std::string intensity_field_;
   double largest_intensity_ = 0.0;
+  std::vector<double> ranges_;  ///< of the first points [m]
   RingSurvey rings_;
   int rising_azimuths_ = 0, falling_azimuths_ = 0;
 };

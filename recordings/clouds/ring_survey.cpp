@@ -60,15 +60,16 @@ void RingSurvey::begin(const PointTable& table) {
 
 void RingSurvey::add(const PointTable& table, std::size_t index, const Eigen::Vector3d& position) {
   const double elevation = std::atan2(position.z(), std::hypot(position.x(), position.y()));
-  if (source_ == RingSource::kNone) {
-    if (elevations_.size() < kMaxElevations) elevations_.push_back(static_cast<float>(elevation));
-    return;
-  }
+  if (elevations_.size() < kMaxElevations) elevations_.push_back(static_cast<float>(elevation));
+  if (source_ == RingSource::kNone) return;
   double ring = -1.0;
   if (source_ == RingSource::kRow) ring = static_cast<double>(index / table.width);
   if (source_ == RingSource::kColumn) ring = static_cast<double>(index % table.width);
   if (field_) ring = field_->at(table.point(index));
-  if (!(ring >= 0.0) || ring >= static_cast<double>(kMaxRings)) return;
+  if (!(ring >= 0.0) || ring >= static_cast<double>(kMaxRings)) {
+    other_numbers_ = true;
+    return;
+  }
   const auto at = static_cast<std::size_t>(ring);
   if (at >= rings_.size()) rings_.resize(at + 1);
   rings_[at].elevation_sum += elevation;
@@ -113,19 +114,41 @@ LidarRings RingSurvey::rings() const {
   return {static_cast<int>(rings_.size()), (highest - lowest) / gaps / kRadiansPerDegree};
 }
 
-void RingSurvey::decide(CloudReading& reading, std::vector<std::string>& notes) const {
+/// Whether a field of rings holds one and the same number, though the points lie at many
+/// elevations.
+bool RingSurvey::is_constant() const {
+  if (source_ != RingSource::kField || other_numbers_ || elevations_.empty()) return false;
+  const auto used = std::ranges::count_if(rings_, [](const Mean& ring) { return ring.points > 0; });
+  const auto [lowest, highest] = std::ranges::minmax(elevations_);
+  return used <= 1 && highest - lowest > kRingDeviation;
+}
+
+/// Rings from the elevations of the points; `lack` says why.
+void RingSurvey::derive(const std::string& lack, CloudReading& reading, ReadingNotes& notes) const {
+  reading.ring_field.clear();
+  reading.ring_source = RingSource::kNone;
+  reading.ring_elevations = ring_elevations(elevations_);
+  const std::size_t count = reading.ring_elevations.size();
+  if (count == 0) {
+    const std::string text = lack + " and their elevations form no clusters: all are ring 0";
+    return elevations_.empty() ? notes.push_back(text) : notes.warn("rings unknown", text);
+  }
+  reading.ring_source = RingSource::kElevation;
+  const double span = reading.ring_elevations.back() - reading.ring_elevations.front();
+  reading.rings = {static_cast<int>(count),
+                   span / (static_cast<double>(count) - 1.0) / kRadiansPerDegree};
+  notes.push_back(fmt::format("{}: derived from elevation, {} rings", lack, count));
+}
+
+void RingSurvey::decide(CloudReading& reading, ReadingNotes& notes) const {
   reading.ring_source = source_;
   reading.ring_field = name_;
-  if (source_ == RingSource::kNone) {
-    reading.ring_elevations = ring_elevations(elevations_);
-    if (reading.ring_elevations.empty()) {
-      notes.push_back("points have no ring and their elevations form no clusters: all are ring 0");
-      return;
-    }
-    reading.ring_source = RingSource::kElevation;
-    notes.push_back(fmt::format("points have no ring: derived from elevation, {} rings",
-                                reading.ring_elevations.size()));
-    return;
+  if (source_ == RingSource::kNone) return derive("points have no ring", reading, notes);
+  if (is_constant()) {
+    const std::string lack = fmt::format("point field '{}' is the same for all points", name_);
+    notes.warn("rings derived from elevation",
+               lack + ": it is no ring; enable it in the LiDAR's driver");
+    return derive(lack, reading, notes);
   }
   if (source_ != RingSource::kField) {
     notes.push_back(fmt::format("points have no ring: derived from the {} of the organised cloud",

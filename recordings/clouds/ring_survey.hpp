@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "recordings/clouds/point_cloud.hpp"
+#include "recordings/reading_notes.hpp"
 
 namespace aims {
 
@@ -24,7 +25,7 @@ class RingSurvey {
   void add(const PointTable& table, std::size_t index, const Eigen::Vector3d& position);
 
   /// Fills in how rings are read; appends assumptions to `notes`.
-  void decide(CloudReading& reading, std::vector<std::string>& notes) const;
+  void decide(CloudReading& reading, ReadingNotes& notes) const;
 
  private:
   struct Mean {
@@ -38,6 +39,8 @@ class RingSurvey {
 
   bool highest_first() const;
   bool are_lines() const;
+  bool is_constant() const;
+  void derive(const std::string& lack, CloudReading& reading, ReadingNotes& notes) const;
   LidarRings rings() const;
 
   bool begun_ = false;
@@ -45,7 +48,8 @@ class RingSurvey {
   std::string name_;
   std::optional<PointField> field_;  ///< of the current cloud
   std::vector<Mean> rings_;
-  std::vector<float> elevations_;  ///< [rad]; without any other source of the ring
+  std::vector<float> elevations_;  ///< of the first points [rad]
+  bool other_numbers_ = false;     ///< the source has numbers that no ring has
 };
 
 }  // namespace aims

@@ -90,10 +90,11 @@ Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapp
   return times;
 }
 
-Result<Table> read_table(const CsvMapping& mapping, const fs::path& file) {
+Result<Table> read_table(const CsvMapping& mapping, const fs::path& file, bool recover) {
   const auto text = read_file(file, kMaxTableBytes);
   if (!text) return tl::unexpected(text.error());
-  const auto csv = CsvColumns::parse(*text, file.string());
+  const auto csv = CsvColumns::parse(*text, file.string(), {},
+                                     recover ? CsvOrigin::kDamaged : CsvOrigin::kForeign);
   if (!csv) return tl::unexpected(csv.error());
   Table table;
   auto times = times_of(*csv, mapping, file.string());
@@ -199,12 +200,8 @@ CsvReader::~CsvReader() = default;
 Result<CsvReader> CsvReader::open(const fs::path& file, BagOpenOptions options) {
   const auto mapping = read_csv_mapping(file);
   if (!mapping) return tl::unexpected(mapping.error());
-  if (options.recover) {
-    return failure(fmt::format("{}: a table cannot be recovered: expected one without --recover",
-                               file.string()));
-  }
   const fs::path csv = file.parent_path() / mapping->file;
-  auto table = read_table(*mapping, csv);
+  auto table = read_table(*mapping, csv, options.recover);
   if (!table) return tl::unexpected(table.error());
   std::error_code ignored;
   auto impl = std::unique_ptr<Impl>(new Impl{file, fs::file_size(csv, ignored), std::move(*table)});

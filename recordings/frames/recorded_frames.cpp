@@ -25,7 +25,7 @@ void RecordedFrames::add(const MessageView& message, bool fixed) {
 }
 
 std::optional<Pose> RecordedFrames::find(const std::string& from, const std::string& to,
-                                         std::vector<std::string>& notes) const {
+                                         ReadingNotes& notes) const {
   if (from.empty() || to.empty()) return std::nullopt;
   if (auto pose = fixed_.transform(from, to)) return pose;
   auto pose = all_.transform(from, to);
@@ -38,16 +38,17 @@ std::optional<Pose> RecordedFrames::find(const std::string& from, const std::str
 
 Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::string& from,
                                const std::string& to, std::string_view key,
-                               std::vector<std::string>& notes) const {
+                               ReadingNotes& notes) const {
   if (configured.override_tf) return pose_of(configured);
   if (!from.empty() && from == to) {
     notes.push_back(fmt::format("frame '{}' is both ends of {}: identity", from, key));
   }
   if (auto pose = find(from, to, notes)) return *pose;
-  notes.push_back(fmt::format(
-      "NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Set recording.{}.translation and "
-      "rotation_rpy_deg with recording.{}.override_tf=true, or name the frames",
-      from, to, key, key));
+  notes.warn(fmt::format("{} unknown", key),
+             fmt::format("NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Set "
+                         "recording.{}.translation and "
+                         "rotation_rpy_deg with recording.{}.override_tf=true, or name the frames",
+                         from, to, key, key));
   return {};
 }
 

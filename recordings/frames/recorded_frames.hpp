@@ -8,6 +8,7 @@
 
 #include "recordings/event_counts.hpp"
 #include "recordings/frames/frame_tree.hpp"
+#include "recordings/reading_notes.hpp"
 #include "recordings/recording_config.hpp"
 
 namespace aims {
@@ -22,11 +23,11 @@ class RecordedFrames {
 
   /// Frame `to` in frame `from`, from fixed transforms, else from /tf with a line in `notes`.
   std::optional<Pose> find(const std::string& from, const std::string& to,
-                           std::vector<std::string>& notes) const;
+                           ReadingNotes& notes) const;
 
   /// As configured, else from tf, else the identity; `key` is its setting.
   Pose extrinsic(const ExtrinsicConfig& configured, const std::string& from, const std::string& to,
-                 std::string_view key, std::vector<std::string>& notes) const;
+                 std::string_view key, ReadingNotes& notes) const;
 
   /// Counts of invalid transforms.
   const EventCounts& counts() const { return counts_; }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "recordings/inspection/topic_statistics.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_reader.hpp"
 #include "recordings/topics/connection_decoders.hpp"
 #include "recordings/topics/topic_choice.hpp"
@@ -30,8 +32,11 @@ class Survey {
     const BagConnection& connection = *message.connection;
     TopicStatistics& times = statistics_[connection.topic];
     const auto view = decode(message, info);
-    const std::optional<Time> stamp = view ? view->time("header.stamp") : std::nullopt;
+    std::optional<Time> stamp = view ? view->time("header.stamp") : std::nullopt;
     times.add(message.record_time, stamp);
+    if (message.record_time > kSetRecordTime)
+      first_set_ = std::min(first_set_, message.record_time);
+    if (stamp == 0) stamp = message.record_time;  // never set
     if (!view) return;
     if (!frames_.contains(connection.topic)) {
       frames_[connection.topic] = std::string(view->text("header.frame_id").value_or(""));
@@ -52,6 +57,8 @@ class Survey {
   }
 
   void finish(const std::vector<BagConnection>& connections, BagInfo& info) {
+    const bool unset = info.summary.start < kUnsetRecordTime;
+    if (unset && info.summary.end > kSetRecordTime) info.summary.start = first_set_;
     std::map<std::string, std::string> types;
     for (const BagConnection& each : connections) types[each.topic] = each.type;
     for (const auto& [topic, type] : types) {
@@ -90,6 +97,10 @@ class Survey {
   }
 
   std::optional<MessageView> decode(const BagMessage& message, BagInfo& info) {
+    const BagConnection& connection = *message.connection;
+    const bool cdr = connection.format.serialization == Serialization::kCdr;
+    if (cdr && connection.definition.empty())
+      return info.undefined.insert(connection.type), std::nullopt;
     auto view = decoders_.decode(message);
     if (view) return std::move(*view);
     if (info.undecodable++ == 0) {
@@ -112,6 +123,7 @@ class Survey {
     }
   }
 
+  Time first_set_ = std::numeric_limits<Time>::max();  ///< record time of a set clock
   ConnectionDecoders decoders_;
   std::map<std::string, TopicStatistics> statistics_;
   std::map<std::string, std::string> frames_;
@@ -164,9 +176,16 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
   if (recording) {
     info.used = recording->setup().topics;
     info.notes = recording->setup().notes;
+    for (const ReadingWarning& each : recording->setup().warnings) {
+      info.notes.push_back(each.text);
+    }
   } else {
     info.refusal = recording.error().message;
     info.used = unambiguous_topics(bag, reader->connections(), config.topics);
+  }
+  for (const std::string& type : info.undefined) {
+    info.notes.push_back(
+        fmt::format("{}: the recording has no definition of this type: not decoded", type));
   }
   info.extrinsics_configured = config.T_imu_lidar.override_tf;
   info.warnings = bag_warnings(info);

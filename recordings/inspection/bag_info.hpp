@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,7 +25,10 @@ struct TopicInfo {
   std::string type;
   std::string frame;  ///< of the first header; empty: no header
   std::uint64_t messages = 0;
-  bool stamped = false;                   ///< the type has a header
+  bool stamped = false;                   ///< the messages have stamps other than zero
+  bool zero_stamps = false;               ///< all stamps are zero: record times serve
+  std::uint64_t unset_record_times = 0;   ///< recorded at time 0
+  double recorder_step_s = 0.0;           ///< by which the recorder's clock was set back
   std::optional<double> rate_hz;          ///< of the median spacing of stamps
   std::optional<double> largest_gap_s;    ///< between stamps
   std::optional<double> loss;             ///< fraction of messages missing, from the spacings [-]
@@ -99,6 +103,7 @@ struct BagInfo {
   std::vector<CloudInfo> clouds;
   std::vector<ImuInfo> imus;
   std::vector<TransformInfo> transforms;
+  std::set<std::string> undefined;     ///< types without definition
   std::uint64_t undecodable = 0;       ///< messages that contradict their definition
   std::string first_undecodable;       ///< error of the first
   TopicsConfig used;                   ///< topics used by `aims estimate`; empty: none

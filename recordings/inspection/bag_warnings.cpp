@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recordings/source/recording_file.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
 namespace aims {
@@ -21,13 +22,46 @@ constexpr double kGravity = 9.81;              ///< [m/s^2]
 constexpr double kMaxForceError = 0.3;         ///< of a static accelerometer from gravity [m/s^2]
 constexpr double kMinImuRate = 100.0;          ///< [Hz]
 
+/// The sensor whose delay concerns the topic.
+std::string_view delay_of(const TopicInfo& topic) {
+  if (is_cloud_type(topic.type)) return "lidar";
+  return is_imu_type(topic.type) ? "imu" : "leg";
+}
+
 bool is_sensor(const TopicInfo& topic) {
   return topic.type.starts_with("sensor_msgs/") || is_cloud_type(topic.type) ||
          topic.type == "nav_msgs/Odometry" || topic.type == "geometry_msgs/TwistStamped";
 }
 
+void warn_of_recorder(const BagInfo& info, std::vector<std::string>& out) {
+  std::uint64_t unset = 0;
+  double step = 0.0;
+  for (const TopicInfo& each : info.topics) {
+    unset += each.unset_record_times;
+    step = std::max(step, each.recorder_step_s);
+  }
+  if (unset > 0) {
+    out.push_back(
+        fmt::format("{} messages are recorded at time 0, before the recorder's clock was "
+                    "set; they are taken at their stamps",
+                    unset));
+  }
+  if (step > 0.0) {
+    out.push_back(
+        fmt::format("the recorder's clock was set back by {:.3f} s while the sensors' "
+                    "stamps ran on; messages are taken in the order of their stamps",
+                    step));
+  }
+}
+
 void warn_of_times(const TopicInfo& topic, std::vector<std::string>& out) {
   if (!is_sensor(topic) || topic.messages < 2) return;
+  if (topic.zero_stamps) {
+    out.push_back(
+        fmt::format("{}: all stamps are zero; record times are used: set the stamps in the "
+                    "driver",
+                    topic.topic));
+  }
   if (topic.loss.value_or(0.0) > kMaxLoss) {
     out.push_back(
         fmt::format("{}: about {:.1f} % of the messages are missing: check the robot's network, "
@@ -46,10 +80,11 @@ void warn_of_times(const TopicInfo& topic, std::vector<std::string>& out) {
   }
   if (topic.stamped && std::abs(topic.median_offset_s.value_or(0.0)) > kMaxOffset) {
     out.push_back(
-        fmt::format("{}: stamps are {:.3f} s before the record times; if the clocks "
-                    "differ, set the sensor's delay (recording.imu_delay, lidar_delay, "
-                    "leg_delay)",
-                    topic.topic, *topic.median_offset_s));
+        fmt::format("{}: stamps are {:.3f} s {} the record times; if the clocks differ, set "
+                    "recording.{}_delay={:.3f}",
+                    topic.topic, std::abs(*topic.median_offset_s),
+                    *topic.median_offset_s > 0.0 ? "before" : "after", delay_of(topic),
+                    -*topic.median_offset_s));
   }
 }
 
@@ -118,8 +153,9 @@ void warn_of_imu(const BagInfo& info, const ImuInfo& imu, std::vector<std::strin
                     "and many systems require 100 Hz or more",
                     imu.topic, *topic->rate_hz));
   }
-  if (!imu.static_interval || imu.static_interval->begin_s > 1.0 ||
-      imu.static_interval->length_s < kMinStaticInterval) {
+  const bool disordered = topic && topic->recorder_step_s > 0.0;  // the interval is cut
+  if (!disordered && (!imu.static_interval || imu.static_interval->begin_s > 1.0 ||
+                      imu.static_interval->length_s < kMinStaticInterval)) {
     out.push_back(
         fmt::format("{}: the robot is not static for {:.0f} s at the start; tilt and gyro bias are "
                     "then uncertain: let it stand before it walks",
@@ -134,6 +170,30 @@ void warn_of_imu(const BagInfo& info, const ImuInfo& imu, std::vector<std::strin
   }
 }
 
+/// A recording that was never closed or is damaged, with what repairs it.
+void warn_of_damage(const BagInfo& info, std::vector<std::string>& out) {
+  const BagSummary& summary = info.summary;
+  if (summary.lost_messages > 0) {
+    out.push_back(
+        fmt::format("{} messages have impossible record times (2^63 ns or more) and are "
+                    "left out",
+                    summary.lost_messages));
+  }
+  if (summary.closed && summary.lost_bytes == 0) return;
+  const auto known = format_by_content(info.file);
+  const auto format = known ? known : format_by_name(info.file);
+  std::string_view repair;
+  if (format == RecordingFormat::kBag) repair = "; rosbag reindex makes it readable by other tools";
+  if (format == RecordingFormat::kMcap)
+    repair = "; `mcap recover` makes it readable by other tools";
+  if (format == RecordingFormat::kRosbag2)
+    repair = "; `ros2 bag reindex` makes it readable by others";
+  out.push_back(
+      fmt::format("the recording {}: {} bytes in damaged parts or behind the last intact "
+                  "one are lost{}",
+                  summary.closed ? "is damaged" : "was never closed", summary.lost_bytes, repair));
+}
+
 bool has_sensor_transform(const BagInfo& info) {
   return std::any_of(info.transforms.begin(), info.transforms.end(),
                      [](const TransformInfo& each) { return each.fixed; });
@@ -143,12 +203,8 @@ bool has_sensor_transform(const BagInfo& info) {
 
 std::vector<std::string> bag_warnings(const BagInfo& info) {
   std::vector<std::string> out;
-  if (!info.summary.indexed || info.summary.lost_bytes > 0) {
-    out.push_back(
-        fmt::format("the bag was never closed: {} bytes after the last intact chunk are lost; "
-                    "rosbag reindex makes it readable by other tools",
-                    info.summary.lost_bytes));
-  }
+  warn_of_damage(info, out);
+  warn_of_recorder(info, out);
   if (info.undecodable > 0) {
     out.push_back(fmt::format("{} messages contradict their definition; the first: {}",
                               info.undecodable, info.first_undecodable));

@@ -9,8 +9,8 @@
 
 namespace aims {
 
-/// Computes the timing of `TopicInfo`, message by message. Memory is bounded: medians use the first
-/// million messages.
+/// Computes the timing of `TopicInfo`, message by message. Memory is bounded: the first million
+/// messages count.
 class TopicStatistics {
  public:
   /// `stamp` is empty for a message without a header.
@@ -20,15 +20,19 @@ class TopicStatistics {
   void finish(TopicInfo& info);
 
  private:
+  struct Entry {
+    Time record = 0;
+    Time stamp = 0;  ///< of the header, or the record time
+  };
+  /// Whether record times step back while the stamps run on; then fills in by how much and sorts by
+  /// stamp.
+  bool recorder_was_set_back(TopicInfo& info);
+  void finish_spacings(TopicInfo& info) const;
+  void finish_offsets(TopicInfo& info) const;
+
   std::uint64_t messages_ = 0;
-  std::uint64_t repeated_ = 0;
-  std::uint64_t backwards_ = 0;
   bool stamped_ = false;
-  Time first_ = 0;
-  Time last_ = 0;
-  double largest_gap_s_ = 0.0;
-  std::vector<float> spacings_s_;
-  std::vector<float> offsets_s_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace aims

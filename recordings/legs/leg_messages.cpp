@@ -79,10 +79,11 @@ std::optional<LegOdometrySample> twist_at(const MessageView& message, Time recor
 }
 
 std::optional<JointReading> joints_at(const MessageView& message, Time record_time,
-                                      const std::vector<std::string>& joint_names) {
+                                      const JointRule& rule) {
   const auto position = message.numbers("position");
   if (!position) return unitree_joints_at(message, record_time);
-  const auto order = joint_order(names_at(message), joint_names, position->size());
+  auto order = joint_order(names_at(message), rule.names, position->size());
+  if (!order && position->size() == std::size_t{kJointCount}) order = rule.order;
   if (!order) return std::nullopt;
   JointReading reading;
   reading.stamp = header_stamp(message, record_time);
@@ -92,6 +93,20 @@ std::optional<JointReading> joints_at(const MessageView& message, Time record_ti
     reading.velocity = ordered(*velocity, *order);
   }
   return reading;
+}
+
+std::optional<UnnamedJoints> unnamed_joints_at(const MessageView& message) {
+  auto angles = message.numbers("position");
+  const auto names = names_at(message);
+  if (!angles || !joints_are_unnamed(names, angles->size())) return std::nullopt;
+  return UnnamedJoints{std::move(*angles),
+                       message.numbers("velocity").value_or(std::vector<double>()),
+                       {names.begin(), names.end()}};
+}
+
+bool feet_are_named(const MessageView& message, const ContactRule& rule) {
+  const auto numbers = numbers_at(message, rule.field);
+  return numbers && named_foot_order(names_at(message), rule.foot_names, numbers->size());
 }
 
 std::optional<FootLoads> loads_at(const MessageView& message, const ContactRule& rule) {

@@ -20,6 +20,7 @@ struct JointReading {
   Time stamp = 0;
   std::array<double, kJointCount> position{};               ///< [rad]
   std::optional<std::array<double, kJointCount>> velocity;  ///< [rad/s]
+  bool differenced = false;  ///< the rates are differences to the angles before
 };
 
 /// Which feet are in contact at an instant.
@@ -35,22 +36,38 @@ std::optional<LegOdometrySample> odometry_at(const MessageView& message, EventCo
 /// The sample of a geometry_msgs/TwistStamped or Twist, without a pose.
 std::optional<LegOdometrySample> twist_at(const MessageView& message, Time record_time);
 
+/// How contacts are read.
+struct ContactRule {
+  std::string field;
+  std::array<ContactThreshold, kLegCount> thresholds;
+  std::vector<std::string> foot_names;
+};
+
+/// How joints are read.
+struct JointRule {
+  std::vector<std::string> names;   ///< as configured; empty: by the recorded names
+  std::optional<JointOrder> order;  ///< where the recorded names do not tell
+};
+
 /// The joints of a sensor_msgs/JointState or a unitree_go/LowState; nothing when one is missing.
 std::optional<JointReading> joints_at(const MessageView& message, Time record_time,
-                                      const std::vector<std::string>& joint_names);
+                                      const JointRule& rule);
+
+/// Twelve angles whose names tell no joint, with their rates as far as recorded, and the names.
+struct UnnamedJoints {
+  std::vector<double> angles, rates;
+  std::vector<std::string> names;
+};
+std::optional<UnnamedJoints> unnamed_joints_at(const MessageView& message);
+
+/// Whether the names tell which foot each number of the contacts belongs to.
+bool feet_are_named(const MessageView& message, const ContactRule& rule);
 
 /// The feet at an instant, without the joints above them.
 struct FeetReading {
   Time stamp = 0;
   std::array<Eigen::Vector3d, kLegCount> position;  ///< in the base [m]
   std::array<Eigen::Vector3d, kLegCount> velocity;  ///< relative to the base, in its axes [m/s]
-};
-
-/// How contacts are read.
-struct ContactRule {
-  std::string field;
-  std::array<ContactThreshold, kLegCount> thresholds;
-  std::vector<std::string> foot_names;
 };
 
 /// The numbers of the contact field, one per foot in the order of the legs.

@@ -84,15 +84,18 @@ std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded
     found[*joint] = true;
   }
   if (std::all_of(found.begin(), found.end(), [](bool each) { return each; })) return order;
-  const bool any_found = std::any_of(found.begin(), found.end(), [](bool each) { return each; });
-  if (!configured.empty() || any_found || size != order.size()) return std::nullopt;
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  return order;
+  return std::nullopt;
 }
 
-std::optional<std::vector<int>> foot_order(std::span<const std::string_view> recorded,
-                                           std::span<const std::string> configured,
-                                           std::size_t size) {
+bool joints_are_unnamed(std::span<const std::string_view> recorded, std::size_t size) {
+  if (size != std::size_t{kJointCount}) return false;
+  return std::ranges::none_of(
+      recorded, [](std::string_view name) { return leg_of_name(name) && joint_of_name(name); });
+}
+
+std::optional<std::vector<int>> named_foot_order(std::span<const std::string_view> recorded,
+                                                 std::span<const std::string> configured,
+                                                 std::size_t size) {
   if (size > kMaxNameBytes) return std::nullopt;
   std::vector<int> order(size, -1);
   std::array<bool, kLegCount> found{};
@@ -115,6 +118,13 @@ std::optional<std::vector<int>> foot_order(std::span<const std::string_view> rec
     }
   }
   if (std::all_of(found.begin(), found.end(), [](bool each) { return each; })) return order;
+  return std::nullopt;
+}
+
+std::optional<std::vector<int>> foot_order(std::span<const std::string_view> recorded,
+                                           std::span<const std::string> configured,
+                                           std::size_t size) {
+  if (auto order = named_foot_order(recorded, configured, size)) return order;
   if (!configured.empty() || size != static_cast<std::size_t>(kLegCount)) return std::nullopt;
   return std::vector<int>{0, 1, 2, 3};
 }

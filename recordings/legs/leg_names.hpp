@@ -22,10 +22,17 @@ std::optional<int> joint_of_name(std::string_view name);
 /// Index of each of the twelve joints in a message's arrays.
 using JointOrder = std::array<std::size_t, kJointCount>;
 
-/// By the configured names if any, else by the recorded names, else in recorded order if there are
-/// exactly twelve. Nothing when a joint is not found.
+/// By the configured names if any, else by the recorded names. Nothing when a joint is not found.
 std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded,
                                       std::span<const std::string> configured, std::size_t size);
+
+/// Whether none of exactly twelve recorded names, or no name at all, tells a joint.
+bool joints_are_unnamed(std::span<const std::string_view> recorded, std::size_t size);
+
+/// As `foot_order`, but nothing where the names do not tell.
+std::optional<std::vector<int>> named_foot_order(std::span<const std::string_view> recorded,
+                                                 std::span<const std::string> configured,
+                                                 std::size_t size);
 
 /// The leg of each entry of an array of that size: by the configured names, else by the recorded
 /// ones, else FL, FR, RL, RR. -1: no leg. Nothing when a leg has no entry.

@@ -12,6 +12,7 @@ constexpr double kLevellingRate = 1.0;  ///< correction of an integrated attitud
 constexpr double kMaxStep = 0.5;        ///< longest step that is integrated [s]
 constexpr double kMaxTwist = 1000.0;    ///< [m/s], [rad/s]
 constexpr Duration kMaxContactAge = kSecond / 5;
+constexpr std::size_t kRecentContacts = 64;
 
 }  // namespace
 
@@ -46,7 +47,7 @@ void LegStream::attach(LegOdometrySample& sample) const {
     if (joints_->velocity) sample.joint_velocity = *joints_->velocity;
   }
   if (contacts_ && same_instant(contacts_->stamp, sample.stamp)) {
-    sample.contact = contacts_->contact;
+    sample.contact = joints_ ? usable_contacts(*joints_) : contacts_->contact;
     sample.contact_force = contacts_->force;
   }
 }
@@ -95,14 +96,29 @@ void LegStream::integrate(LegOdometrySample& sample) {
 }
 
 /// Rates from the angles of the last message, if none are recorded.
-void LegStream::differentiate(JointReading& reading) const {
+void LegStream::differentiate(JointReading& reading) {
+  if (joints_) stamp_before_ = joints_->stamp;
   if (reading.velocity || !joints_) return;
   const double step = to_seconds(reading.stamp - joints_->stamp);
   if (!(step > 0.0) || step > kMaxStep) return;
   reading.velocity.emplace();
+  reading.differenced = true;
   for (std::size_t i = 0; i < reading.position.size(); ++i) {
     (*reading.velocity)[i] = (reading.position[i] - joints_->position[i]) / step;
   }
+}
+
+/// The feet in contact whose rates are of that contact: a difference to an angle before touchdown
+/// is not.
+std::array<bool, kLegCount> LegStream::usable_contacts(const JointReading& joints) const {
+  std::array<bool, kLegCount> contact = contacts_->contact;
+  if (!joints.differenced) return contact;
+  std::array<bool, kLegCount> before{};
+  for (const ContactReading& each : recent_contacts_) {
+    if (each.stamp <= stamp_before_ + config_.half_period) before = each.contact;
+  }
+  for (std::size_t leg = 0; leg < contact.size(); ++leg) contact[leg] = contact[leg] && before[leg];
+  return contact;
 }
 
 /// Whether gyro and contacts are known; otherwise what is missing is counted.
@@ -123,7 +139,7 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReadin
   sample.stamp = joints.stamp;
   sample.joint_position = joints.position;
   sample.joint_velocity = *joints.velocity;
-  sample.contact = contacts_->contact;
+  sample.contact = usable_contacts(joints);
   sample.contact_force = contacts_->force;
   sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -194,6 +210,8 @@ std::optional<LegOdometrySample> LegStream::add_joints(JointReading reading, Eve
 std::optional<LegOdometrySample> LegStream::add_contacts(const ContactReading& reading,
                                                          EventCounts& counts) {
   contacts_ = reading;
+  recent_contacts_.push_back(reading);
+  if (recent_contacts_.size() > kRecentContacts) recent_contacts_.pop_front();
   if (config_.source != LegSource::kKinematics || !joints_wait_) return std::nullopt;
   if (!same_instant(reading.stamp, joints_->stamp)) return std::nullopt;
   return forward_kinematics(*joints_, counts);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <deque>
 #include <optional>
 
 #include "core/leg_kinematics.hpp"
@@ -53,7 +55,8 @@ class LegStream {
   bool same_instant(Time a, Time b) const;
   void attach(LegOdometrySample& sample) const;
   void integrate(LegOdometrySample& sample);
-  void differentiate(JointReading& reading) const;
+  void differentiate(JointReading& reading);
+  std::array<bool, kLegCount> usable_contacts(const JointReading& joints) const;
   std::optional<LegOdometrySample> forward_kinematics(const JointReading& joints,
                                                       EventCounts& counts);
   std::optional<LegOdometrySample> finish(LegOdometrySample sample, const Eigen::Vector3d& sum,
@@ -67,7 +70,9 @@ class LegStream {
   std::optional<ImuSample> imu_;
   std::optional<JointReading> joints_;
   std::optional<ContactReading> contacts_;
-  bool joints_wait_ = false;  ///< for contacts of the same instant
+  std::deque<ContactReading> recent_contacts_;  ///< in the order of the recording
+  Time stamp_before_ = 0;                       ///< of the joints before the last ones
+  bool joints_wait_ = false;                    ///< for contacts of the same instant
   std::optional<Time> integrated_;
   Pose T_odom_base_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< from the last feet in contact [m/s]

@@ -2,6 +2,7 @@
 #include "recordings/legs/leg_survey.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,11 @@
 #include "recordings/messages/message_types.hpp"
 
 namespace aims {
+namespace {
+
+constexpr std::size_t kMaxListed = 200;  ///< of names in messages [bytes]
+
+}  // namespace
 
 bool is_world_frame(const std::string& frame) {
   return frame.find("odom") != std::string::npos || frame.find("map") != std::string::npos ||
@@ -17,7 +23,15 @@ bool is_world_frame(const std::string& frame) {
 
 void LegSurvey::add_joints(const MessageView& message, Time record_time) {
   ++joint_messages_;
-  if (joints_at(message, record_time, config_.joint_names)) ++complete_joint_messages_;
+  if (joints_at(message, record_time, joint_rule_)) {
+    ++complete_joint_messages_;
+  } else if (config_.joint_names.empty() && unnamed_joints_at(message)) {
+    ++unnamed_joint_messages_;
+  }
+  if (joint_names_.empty()) {
+    const auto names = message.texts("name");
+    if (names) joint_names_ = fmt::format("{}", fmt::join(*names, ", ")).substr(0, kMaxListed);
+  }
   if (const auto effort = message.numbers("effort"); effort && !effort->empty()) ++effort_messages_;
 }
 
@@ -43,8 +57,63 @@ void LegSurvey::add_contacts(const MessageView& message, const std::string& type
   const auto loads = loads_at(message, rule_of(0.0));
   if (!loads) return;
   ++contact_messages_;
+  feet_unnamed_ = feet_unnamed_ || !feet_are_named(message, rule_of(0.0));
   for (const double load : *loads) {
     if (std::isfinite(load)) largest_load_ = std::max(largest_load_, std::abs(load));
+  }
+}
+
+void LegSurvey::add_joint_motion(const MessageView& message, Time record_time) {
+  const Time stamp = header_stamp(message, record_time);
+  const Time time = stamp == 0 ? record_time : stamp;
+  if (const auto unnamed = unnamed_joints_at(message)) {
+    return order_finder_.add_joints(time, unnamed->angles, unnamed->rates);
+  }
+  const auto joints = joints_at(message, record_time, joint_rule_);
+  if (!joints) return;
+  const auto& q = joints->position;
+  std::vector<double> rates;
+  if (joints->velocity) rates.assign(joints->velocity->begin(), joints->velocity->end());
+  order_finder_.add_joints(time, {q.begin(), q.end()}, rates);
+}
+
+void LegSurvey::add_load_motion(const MessageView& message) {
+  if (const auto loads = loads_at(message, rule_of(0.0))) order_finder_.add_loads(*loads);
+}
+
+void LegSurvey::decide_order(const Eigen::Quaterniond& R_body_base, ReadingNotes& notes) {
+  if (!needs_order()) return;
+  const bool unnamed = has_unnamed_joints();
+  JointOrder by_name;
+  for (std::size_t i = 0; i < by_name.size(); ++i) by_name[i] = i;
+  const auto found =
+      order_finder_.find(config_.leg_geometry, R_body_base,
+                         unnamed ? std::nullopt : std::optional(by_name), !feet_unnamed_);
+  const std::string names =
+      fmt::format("{}: the names '{}' tell no joints", topics_.joint_states, joint_names_);
+  if (!found && unnamed) {
+    lack_ = fmt::format("{}, and {}: set recording.joint_names", names, found.error().message);
+    return notes.warn("joints not identified", lack_);
+  }
+  const std::string feet = fmt::format("{}: no names tell the feet", topics_.contacts);
+  if (!found) {
+    return notes.warn("order of the feet assumed",
+                      fmt::format("{}: FL, FR, RL, RR is assumed (foot_names)", feet));
+  }
+  if (unnamed) joint_rule_.order = found->joints;
+  if (feet_unnamed_) {
+    for (const int leg : found->feet) {
+      config_.foot_names.emplace_back(kLegNames[static_cast<std::size_t>(leg)]);
+    }
+  }
+  const std::string decided = found->text + ", by the angles and the motion of the legs";
+  if (unnamed) {
+    notes.warn(
+        "order of the joints decided by the data",
+        fmt::format("{}: {} (joint_names{})", names, decided, feet_unnamed_ ? ", foot_names" : ""));
+  } else {
+    notes.warn("order of the feet decided by the data",
+               fmt::format("{}: {} (foot_names)", feet, decided));
   }
 }
 
@@ -72,7 +141,7 @@ ContactRule LegSurvey::rule_of(double threshold) const {
   return rule;
 }
 
-Result<ContactRule> LegSurvey::learned_rule(std::vector<std::string>& notes) const {
+Result<ContactRule> LegSurvey::learned_rule(ReadingNotes& notes) const {
   const auto thresholds = learn_contact_thresholds(loads_);
   if (!thresholds) {
     return failure(
@@ -92,7 +161,7 @@ Result<ContactRule> LegSurvey::learned_rule(std::vector<std::string>& notes) con
   return ContactRule{contact_field_, *thresholds, config_.foot_names};
 }
 
-Result<ContactRule> LegSurvey::decide_contacts(std::vector<std::string>& notes) const {
+Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
   ContactRule rule = rule_of(config_.contact_threshold);
   if (topics_.contacts.empty()) return rule;
   if (contact_messages_ == 0) {
@@ -112,7 +181,7 @@ Result<ContactRule> LegSurvey::decide_contacts(std::vector<std::string>& notes) 
 }
 
 void LegSurvey::note_twist(const std::string& type, const std::string& frame,
-                           std::vector<std::string>& notes) const {
+                           ReadingNotes& notes) const {
   notes.push_back(fmt::format("{}: a twist without a pose, which is integrated", type));
   if (is_world_frame(frame)) {
     notes.push_back(
@@ -125,7 +194,7 @@ void LegSurvey::note_twist(const std::string& type, const std::string& frame,
   }
 }
 
-LegSource LegSurvey::decide_feet(std::vector<std::string>& notes) const {
+LegSource LegSurvey::decide_feet(ReadingNotes& notes) const {
   if (farthest_foot_ > 0.0 && contact_messages_ > 0) {
     notes.push_back("leg odometry: from feet, contacts and gyro");
     return LegSource::kFeet;
@@ -137,11 +206,12 @@ LegSource LegSurvey::decide_feet(std::vector<std::string>& notes) const {
 }
 
 LegSource LegSurvey::decide_source(const std::string& type, const std::string& frame,
-                                   std::vector<std::string>& notes) const {
-  const bool has_joints = complete_joint_messages_ > 0;
-  if (!topics_.joint_states.empty() && joint_messages_ > 0 && !has_joints) {
-    notes.push_back(fmt::format("{}: the names do not identify the twelve joints (joint_names)",
-                                topics_.joint_states));
+                                   ReadingNotes& notes) {
+  const bool joints = has_joints();
+  if (!topics_.joint_states.empty() && joint_messages_ > 0 && !joints && lack_.empty()) {
+    lack_ = fmt::format("{}: the names do not identify the twelve joints (joint_names): {}",
+                        topics_.joint_states, joint_names_);
+    notes.warn("joints not identified", lack_);
   }
   if (!topics_.leg_odometry.empty()) {
     if (type == "nav_msgs/Odometry") return LegSource::kOdometry;
@@ -149,13 +219,13 @@ LegSource LegSurvey::decide_source(const std::string& type, const std::string& f
     note_twist(type, frame, notes);
     return LegSource::kTwist;
   }
-  if (has_joints && contact_messages_ > 0) {
+  if (joints && contact_messages_ > 0) {
     notes.push_back(
         "leg odometry: from joints, contacts and gyro by leg kinematics (leg_geometry)");
     return LegSource::kKinematics;
   }
   notes.push_back("no leg odometry, and no joints with contacts: estimators run without legs");
-  if (has_joints && effort_messages_ > 0 && topics_.contacts.empty()) {
+  if (joints && effort_messages_ > 0 && topics_.contacts.empty()) {
     notes.push_back(fmt::format("knee torques can indicate contacts: set topics.contacts: {}",
                                 topics_.joint_states));
   }

@@ -6,8 +6,10 @@
 
 #include "core/error.hpp"
 #include "recordings/legs/leg_messages.hpp"
+#include "recordings/legs/leg_order.hpp"
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/reading_notes.hpp"
 #include "recordings/recording_config.hpp"
 
 namespace aims {
@@ -19,15 +21,30 @@ bool is_world_frame(const std::string& frame);
 class LegSurvey {
  public:
   LegSurvey(const RecordingConfig& config, const TopicsConfig& topics)
-      : config_(config), topics_(topics) {}
+      : config_(config), topics_(topics), joint_rule_{config.joint_names, std::nullopt} {}
 
   void add_joints(const MessageView& message, Time record_time);
   void add_contacts(const MessageView& message, const std::string& type,
                     const MessageDecoder& decoder);
 
-  bool has_joints_and_contacts() const {
-    return complete_joint_messages_ > 0 && contact_messages_ > 0;
+  bool has_joints_and_contacts() const { return has_joints() && contact_messages_ > 0; }
+
+  /// Whether the data must tell which joint or foot is which, from the messages of `add_motion`.
+  bool needs_order() const {
+    return contact_messages_ > 0 && (has_unnamed_joints() || (has_joints() && feet_unnamed_));
   }
+  void add_imu_motion(const Eigen::Vector3d& angular_velocity) {
+    order_finder_.add_imu(angular_velocity);
+  }
+  void add_joint_motion(const MessageView& message, Time record_time);
+  void add_load_motion(const MessageView& message);
+  bool has_enough_motion() const { return order_finder_.full(); }
+  /// Decides the order of joints and feet where the names do not tell; before all other decisions.
+  void decide_order(const Eigen::Quaterniond& R_body_base, ReadingNotes& notes);
+
+  const JointRule& joint_rule() const { return joint_rule_; }
+  /// Why there is no leg odometry, as far as it is known.
+  const std::string& lack() const { return lack_; }
 
   /// Adds the feet of a topic of leg odometry that has them.
   void add_feet(const MessageView& message);
@@ -39,24 +56,32 @@ class LegSurvey {
 
   /// How contacts are read; appends assumptions to `notes`, as all below. Error for loads from
   /// which no thresholds can be learned.
-  Result<ContactRule> decide_contacts(std::vector<std::string>& notes) const;
+  Result<ContactRule> decide_contacts(ReadingNotes& notes) const;
 
   /// The source of leg odometry. `type` and `frame` are those of the leg odometry topic, if any.
-  LegSource decide_source(const std::string& type, const std::string& frame,
-                          std::vector<std::string>& notes) const;
+  LegSource decide_source(const std::string& type, const std::string& frame, ReadingNotes& notes);
 
  private:
+  bool has_joints() const { return complete_joint_messages_ > 0 || joint_rule_.order; }
+  bool has_unnamed_joints() const {
+    return complete_joint_messages_ == 0 && unnamed_joint_messages_ > 0;
+  }
   ContactRule rule_of(double threshold) const;
-  Result<ContactRule> learned_rule(std::vector<std::string>& notes) const;
+  Result<ContactRule> learned_rule(ReadingNotes& notes) const;
   void choose_contact_field(const std::string& type, const MessageDecoder& decoder);
-  LegSource decide_feet(std::vector<std::string>& notes) const;
-  void note_twist(const std::string& type, const std::string& frame,
-                  std::vector<std::string>& notes) const;
+  LegSource decide_feet(ReadingNotes& notes) const;
+  void note_twist(const std::string& type, const std::string& frame, ReadingNotes& notes) const;
 
   RecordingConfig config_;
   TopicsConfig topics_;
   int joint_messages_ = 0;
   int complete_joint_messages_ = 0;  ///< with all twelve joints
+  int unnamed_joint_messages_ = 0;
+  std::string joint_names_;  ///< recorded, of the first message
+  JointRule joint_rule_;
+  LegOrderFinder order_finder_;
+  bool feet_unnamed_ = false;
+  std::string lack_;
   int effort_messages_ = 0;
   int contact_messages_ = 0;
   std::string contact_field_;

@@ -118,7 +118,8 @@ bool is_complete(const Summary& summary) {
 }
 
 Result<void> add_message(const McapRecord& record, std::size_t offset,
-                         const McapDefinitions& definitions, ChunkContent& content) {
+                         const McapDefinitions& definitions, ChunkContent& content,
+                         std::uint64_t* lost_messages) {
   const auto message = parse_message(record.body);
   if (!message) return failure("expected a message with channel and times");
   if (!definitions.contains(message->channel)) {
@@ -126,6 +127,7 @@ Result<void> add_message(const McapRecord& record, std::size_t offset,
         fmt::format("a message of channel {}, which no record announces", message->channel));
   }
   if (message->log_time > static_cast<std::uint64_t>(std::numeric_limits<Time>::max())) {
+    if (lost_messages != nullptr) return ++*lost_messages, Result<void>();
     return failure(fmt::format("expected a log time below 2^63 ns, found {}", message->log_time));
   }
   const auto data_offset = static_cast<std::uint32_t>(message->data.data() - content.bytes.data());
@@ -135,8 +137,8 @@ Result<void> add_message(const McapRecord& record, std::size_t offset,
   return {};
 }
 
-Result<void> find_messages(McapDefinitions& definitions, ChunkContent& content,
-                           std::size_t& offset) {
+Result<void> find_messages(McapDefinitions& definitions, ChunkContent& content, std::size_t& offset,
+                           std::uint64_t* lost_messages) {
   content.messages.clear();
   ByteCursor cursor(content.bytes);
   while (cursor.left() > 0) {
@@ -144,8 +146,8 @@ Result<void> find_messages(McapDefinitions& definitions, ChunkContent& content,
     const auto record = read_mcap_record(cursor);
     if (!record) return tl::unexpected(record.error());
     const bool message = record->op == McapOp::kMessage;
-    const auto added =
-        message ? add_message(*record, offset, definitions, content) : definitions.add(*record);
+    const auto added = message ? add_message(*record, offset, definitions, content, lost_messages)
+                               : definitions.add(*record);
     if (!added) return added;
   }
   return {};
@@ -160,14 +162,17 @@ void add_counts(const ChunkPlace& place, McapIndex& index) {
 
 /// Reads a chunk to learn its times and counts. Definitions of a damaged chunk are discarded.
 Result<void> survey_chunk(const BagFile& file, std::size_t memory_limit, ChunkContent& content,
-                          ChunkPlace place, McapIndex& index) {
+                          ChunkPlace place, McapIndex& index, bool recover = false) {
   if (place.memory() > memory_limit) {
     return file.refuse(place.position,
                        fmt::format("this chunk needs {} bytes of memory, more than {}",
                                    place.memory(), memory_limit));
   }
   McapDefinitions definitions = index.definitions;
-  if (auto got = load_mcap_chunk(file, place, definitions, content); !got) return got;
+  std::uint64_t lost = 0;
+  auto got = load_mcap_chunk(file, place, definitions, content, recover ? &lost : nullptr);
+  if (!got) return got;
+  index.lost_messages += lost;
   index.definitions = std::move(definitions);
   count_messages(content, place);
   add_counts(place, index);
@@ -259,7 +264,8 @@ Result<Opened> open_mcap(const BagFile& file, std::size_t memory_limit) {
 }  // namespace
 
 Result<void> load_mcap_chunk(const BagFile& file, const ChunkPlace& place,
-                             McapDefinitions& definitions, ChunkContent& content) {
+                             McapDefinitions& definitions, ChunkContent& content,
+                             std::uint64_t* lost_messages) {
   if (auto got = unpack_chunk(file, place, content); !got) return got;
   if (place.crc != 0 && crc32_of(content.bytes) != place.crc) {
     return file.refuse(place.position,
@@ -267,7 +273,7 @@ Result<void> load_mcap_chunk(const BagFile& file, const ChunkPlace& place,
                                    crc32_of(content.bytes)));
   }
   std::size_t offset = 0;
-  const auto found = find_messages(definitions, content, offset);
+  const auto found = find_messages(definitions, content, offset, lost_messages);
   if (!found) return refuse_in_chunk(file, place, offset, found.error().message);
   return {};
 }
@@ -306,14 +312,16 @@ Result<McapIndex> recover_mcap_index(const BagFile& file, std::size_t memory_lim
     index.definitions = std::move(known->definitions);
     candidates = std::move(known->chunks);
   } else {
-    McapScan scan = scan_mcap(file, opened->data, file.size());
+    McapScan scan = scan_mcap(file, opened->data, file.size(), true);
     index.indexed = false;
+    index.closed = opened->summary.has_value();
     if (scan.broken) index.lost_bytes = file.size() - scan.end;
+    index.lost_bytes += scan.lost_bytes;
     candidates = std::move(scan.chunks);
   }
   ChunkContent content;
   for (const ChunkPlace& place : candidates) {
-    if (!survey_chunk(file, memory_limit, content, place, index)) {
+    if (!survey_chunk(file, memory_limit, content, place, index, true)) {
       index.lost_bytes += place.packed_size;
     }
   }

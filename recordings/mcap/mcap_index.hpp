@@ -20,7 +20,9 @@ struct McapIndex {
   std::map<std::uint32_t, std::uint64_t> counts;  ///< messages by channel
   std::uint64_t messages = 0;
   bool indexed = true;
+  bool closed = true;  ///< it has a footer
   std::uint64_t lost_bytes = 0;
+  std::uint64_t lost_messages = 0;  ///< with times that cannot be represented
 };
 
 /// Reads the summary at the end of the file or, where it has none or not all that is needed, every
@@ -33,7 +35,9 @@ Result<McapIndex> recover_mcap_index(const BagFile& file, std::size_t memory_lim
 
 /// Reads and unpacks a chunk, and finds its messages. Schemas and channels inside are added to
 /// `definitions`; a message of another channel or an incomplete record is an error.
+/// A message with a time of 2^63 ns or more is one too, unless `lost_messages` counts it.
 Result<void> load_mcap_chunk(const BagFile& file, const ChunkPlace& place,
-                             McapDefinitions& definitions, ChunkContent& content);
+                             McapDefinitions& definitions, ChunkContent& content,
+                             std::uint64_t* lost_messages = nullptr);
 
 }  // namespace aims

@@ -21,7 +21,9 @@ class McapContainer final : public ChunkContainer {
   const std::vector<ChunkPlace>& chunks() const override { return index_.chunks; }
 
   Result<void> load(const ChunkPlace& place, ChunkContent& content) override {
-    Result<void> got = load_mcap_chunk(file_, place, index_.definitions, content);
+    std::uint64_t lost = 0;
+    Result<void> got =
+        load_mcap_chunk(file_, place, index_.definitions, content, recover_ ? &lost : nullptr);
     if (got && !recover_) got = check_content(place, content);
     if (!got) return failure(got.error().message + "; --recover skips damaged chunks");
     return {};
@@ -67,6 +69,8 @@ Result<McapReader> McapReader::open(const std::filesystem::path& path, BagOpenOp
   summary.messages = index->messages;
   summary.indexed = index->indexed;
   summary.lost_bytes = index->lost_bytes;
+  summary.closed = index->closed;
+  summary.lost_messages = index->lost_messages;
   std::vector<BagConnection> connections = index->definitions.connections();
   for (BagConnection& each : connections) {
     const auto count = index->counts.find(each.id);

@@ -54,7 +54,7 @@ Result<McapPlace> mcap_place(const BagFile& file, std::uint64_t position) {
                                            place.size, name_of(place.op), file.size()));
 }
 
-Result<ChunkPlace> mcap_chunk_place(const BagFile& file, const McapPlace& record) {
+Result<ChunkPlace> mcap_chunk_place(const BagFile& file, const McapPlace& record, bool recover) {
   if (record.op != McapOp::kChunk) {
     return file.refuse(record.position,
                        fmt::format("expected a chunk, found {}", name_of(record.op)));
@@ -79,7 +79,7 @@ Result<ChunkPlace> mcap_chunk_place(const BagFile& file, const McapPlace& record
                                    chunk->size, chunk->packed_size, name_of(*compression)));
   }
   constexpr auto kLatest = static_cast<std::uint64_t>(std::numeric_limits<Time>::max());
-  if (chunk->start > kLatest || chunk->end > kLatest) {
+  if (!recover && (chunk->start > kLatest || chunk->end > kLatest)) {
     return file.refuse(record.position, "expected a chunk with times below 2^63 ns");
   }
   ChunkPlace place;
@@ -89,12 +89,12 @@ Result<ChunkPlace> mcap_chunk_place(const BagFile& file, const McapPlace& record
   place.size = chunk->size;
   place.compression = *compression;
   place.crc = chunk->crc;
-  place.start = static_cast<Time>(chunk->start);
-  place.end = static_cast<Time>(chunk->end);
+  place.start = static_cast<Time>(std::min(chunk->start, kLatest));
+  place.end = static_cast<Time>(std::min(chunk->end, kLatest));
   return place;
 }
 
-McapScan scan_mcap(const BagFile& file, std::uint64_t position, std::uint64_t end) {
+McapScan scan_mcap(const BagFile& file, std::uint64_t position, std::uint64_t end, bool recover) {
   McapScan scan;
   scan.end = position;
   bool in_run = false;
@@ -106,7 +106,13 @@ McapScan scan_mcap(const BagFile& file, std::uint64_t position, std::uint64_t en
     }
     if (record->op == McapOp::kDataEnd || record->op == McapOp::kFooter) return scan;
     if (record->op == McapOp::kChunk) {
-      auto chunk = mcap_chunk_place(file, *record);
+      auto chunk = mcap_chunk_place(file, *record, recover);
+      if (!chunk && recover) {
+        scan.lost_bytes += record->size;
+        scan.end = record->end();
+        in_run = false;
+        continue;
+      }
       if (!chunk) {
         scan.broken = chunk.error();
         return scan;

@@ -24,7 +24,9 @@ struct McapPlace {
 Result<McapPlace> mcap_place(const BagFile& file, std::uint64_t position);
 
 /// The chunk of a record, from its first fields: with times, without counts.
-Result<ChunkPlace> mcap_chunk_place(const BagFile& file, const McapPlace& record);
+/// Times that cannot be represented are an error, or with `recover` the latest possible.
+Result<ChunkPlace> mcap_chunk_place(const BagFile& file, const McapPlace& record,
+                                    bool recover = false);
 
 /// What lies between two positions.
 struct McapScan {
@@ -32,10 +34,12 @@ struct McapScan {
                                    ///< none, without times
   std::uint64_t end = 0;           ///< behind the last complete record
   std::optional<Error> broken;     ///< why the scan ended before its end
+  std::uint64_t lost_bytes = 0;    ///< of chunks that were passed over
 };
 
 /// Lists chunks and runs of schemas, channels and messages from `position` to `end`, or to the end
-/// of the data section.
-McapScan scan_mcap(const BagFile& file, std::uint64_t position, std::uint64_t end);
+/// of the data section. `recover` passes over chunks that state what cannot be.
+McapScan scan_mcap(const BagFile& file, std::uint64_t position, std::uint64_t end,
+                   bool recover = false);
 
 }  // namespace aims

@@ -134,6 +134,14 @@ Result<OusterMetadata> read_ouster_metadata(const std::filesystem::path& file) {
       mode != nullptr && metadata.columns_per_frame == 0) {
     std::from_chars(mode->data(), mode->data() + mode->size(), metadata.columns_per_frame);
   }
+  metadata.window_columns = metadata.columns_per_frame;
+  const std::vector<double> window = numbers_of(*scalars, "column_window");
+  if (window.size() == 2) {
+    const double columns = window[1] - window[0] + 1.0;
+    const double turn = columns > 0.0 ? 0.0 : metadata.columns_per_frame;
+    metadata.window_columns = static_cast<int>(
+        std::clamp(columns + turn, 1.0, static_cast<double>(metadata.columns_per_frame)));
+  }
   metadata.columns_per_packet = count_of(*scalars, "columns_per_packet", 16);
   if (metadata.columns_per_frame < 1 || metadata.columns_per_packet < 1) {
     return refuse("columns_per_frame, columns_per_packet", "numbers above 0");
@@ -170,14 +178,25 @@ std::optional<LidarScan> OusterScans::add(std::span<const std::byte> packet) {
     const std::size_t status = at.column_footer > 0 ? column_size - at.column_footer : at.status;
     if ((std::to_integer<int>(column[status]) & 1) == 0) continue;  // not measured
     if (frame != frame_) {
-      if (frames_ > 1 && !scan_.points.empty()) ended = std::move(scan_);
-      scan_ = LidarScan();
+      if (auto whole = finish(); whole) ended = std::move(whole);
+      received_.assign(static_cast<std::size_t>(metadata_.columns_per_frame), false);
       frame_ = frame;
       frames_ = std::min(frames_ + 1, 2);
     }
-    if (frames_ > 1) add_column(column);
+    const auto measurement = load_number<std::uint16_t>(column + 8);
+    if (measurement < received_.size()) received_[measurement] = true;
+    add_column(column);
   }
   return ended;
+}
+
+std::optional<LidarScan> OusterScans::finish(bool at_end) {
+  const auto columns = std::ranges::count(received_, true);
+  const bool complete = columns >= metadata_.window_columns;
+  LidarScan scan = std::exchange(scan_, {});
+  const bool inner = frames_ > 1 && !at_end;
+  if (scan.points.empty() || (!inner && !complete)) return std::nullopt;
+  return scan;
 }
 
 /// The return with the larger signal: their order depends on the configuration of the sensor.

@@ -20,6 +20,7 @@ struct OusterMetadata {
   std::vector<double> azimuth_deg;
   double origin_to_beam = 0.0;  ///< from the axis to the beams' origin [m]
   int columns_per_frame = 1024;
+  int window_columns = 1024;  ///< that are measured of a frame (column_window)
   int columns_per_packet = 16;
   Pose T_sensor_lidar;
   Pose T_sensor_imu;
@@ -40,9 +41,12 @@ class OusterScans {
   std::size_t lidar_packet_size() const;
   static constexpr std::size_t kImuPacketSize = 48;
 
-  /// Adds a packet of the LiDAR; returns the scan that it ends. The first frame, which may be
-  /// incomplete, is left out.
+  /// Adds a packet of the LiDAR; returns the scan that it ends. The first frame is left out where
+  /// it is incomplete.
   std::optional<LidarScan> add(std::span<const std::byte> packet);
+
+  /// The scan in progress; of the first and the last frame only if it is complete.
+  std::optional<LidarScan> finish(bool at_end = false);
 
   /// The sample in a packet of the IMU: specific force [m/s^2], angular velocity [rad/s].
   static ImuSample imu_of(std::span<const std::byte> packet);
@@ -55,6 +59,7 @@ class OusterScans {
 
   OusterMetadata metadata_;
   LidarScan scan_;
+  std::vector<bool> received_;  ///< columns of the frame
   std::optional<std::uint16_t> frame_;
   int frames_ = 0;  ///< that have begun
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -33,6 +34,8 @@ class PacketDecoder {
   virtual ~PacketDecoder() = default;
   /// Nothing for packets that complete no message. Error for those of another model.
   virtual Result<std::optional<PacketMessage>> add(const UdpPacket& packet) = 0;
+  /// The last scan, if it is complete.
+  virtual std::optional<PacketMessage> finish() = 0;
 };
 
 class VelodyneDecoder final : public PacketDecoder {
@@ -43,6 +46,12 @@ class VelodyneDecoder final : public PacketDecoder {
     if (!scan) return tl::unexpected(scan.error());
     if (!*scan) return std::nullopt;
     return PacketMessage{kScan, cloud_message({0, (*scan)->stamp, "velodyne"}, **scan)};
+  }
+
+  std::optional<PacketMessage> finish() override {
+    const auto scan = scans_.finish();
+    if (!scan) return std::nullopt;
+    return PacketMessage{kScan, cloud_message({0, scan->stamp, "velodyne"}, *scan)};
   }
 
  private:
@@ -56,12 +65,21 @@ class OusterDecoder final : public PacketDecoder {
   Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
     const bool imu = packet.payload.size() == OusterScans::kImuPacketSize;
     if (!imu && packet.payload.size() != scans_.lidar_packet_size()) return std::nullopt;
-    if (!std::exchange(framed_, true)) return PacketMessage{kFrames, frames(packet.time)};
+    if (!std::exchange(framed_, true)) {
+      if (!imu) static_cast<void>(scans_.add(packet.payload));  // the first ends no scan
+      return PacketMessage{kFrames, frames(packet.time)};
+    }
     if (imu) {
       const ImuSample sample = OusterScans::imu_of(packet.payload);
       return PacketMessage{kImu, imu_message({0, sample.stamp, "os_imu"}, sample)};
     }
     const auto scan = scans_.add(packet.payload);
+    if (!scan) return std::nullopt;
+    return PacketMessage{kScan, cloud_message({0, scan->stamp, "os_lidar"}, *scan)};
+  }
+
+  std::optional<PacketMessage> finish() override {
+    const auto scan = scans_.finish(true);
     if (!scan) return std::nullopt;
     return PacketMessage{kScan, cloud_message({0, scan->stamp, "os_lidar"}, *scan)};
   }
@@ -86,7 +104,41 @@ struct PcapReader::Impl {
   std::unique_ptr<PacketDecoder> decoder = {};
   Time time = 0;  ///< of the last packet; those of a capture may be out of order
   PacketMessage message = {};
+  std::map<std::size_t, std::size_t> sizes = {};  ///< number of payloads by size [bytes]
+  std::string_view maker = {};                    ///< whose packets they look like
+
+  void note_payload(std::span<const std::byte> payload);
+  std::size_t packets_seen() const {
+    std::size_t sum = 0;
+    for (const auto& [size, count] : sizes) sum += count;
+    return sum;
+  }
+  std::string found() const;
 };
+
+/// Recognizes packets that are not read, by their first bytes.
+void PcapReader::Impl::note_payload(std::span<const std::byte> payload) {
+  if (sizes.size() < 100) ++sizes[payload.size()];
+  if (payload.size() < 400) return;
+  const auto begins = [&](std::uint8_t a, std::uint8_t b) {
+    return payload[0] == std::byte{a} && payload[1] == std::byte{b};
+  };
+  if (begins(0xee, 0xff))
+    maker = "packets of a Hesai, which are not read: convert them by its driver";
+  if (begins(0x55, 0xaa))
+    maker = "packets of a RoboSense, which are not read: convert them by its driver";
+}
+
+/// What was found instead of scans.
+std::string PcapReader::Impl::found() const {
+  if (!maker.empty()) return std::string(maker);
+  std::string text;
+  for (const auto& [size, count] : sizes) {
+    if (count * 20 < packets_seen()) continue;
+    text += fmt::format("{}{} datagrams of {} bytes", text.empty() ? "" : ", ", count, size);
+  }
+  return text.empty() ? "no UDP datagrams" : text;
+}
 
 PcapReader::PcapReader(std::unique_ptr<Impl> impl)
     : KindSource(std::to_array<KindSource::Kind>({{"/lidar/points", point_cloud_type()},
@@ -116,11 +168,16 @@ Result<PcapReader> PcapReader::open(const fs::path& file, BagOpenOptions options
       reader.connections().end()) {
     return reader;
   }
+  const std::string found = reader.impl_->found();
   return reader.impl_->packets.file().refuse(
       0, ouster
-             ? "expected whole scans of an Ouster, as the metadata beside it describe, found none"
-             : "expected whole scans of a Velodyne VLP-16, found none; for an Ouster its "
-               "metadata is expected beside it, as NAME.json");
+             ? fmt::format("expected complete scans of an Ouster, as the metadata beside it "
+                           "describe ({} bytes a packet), found none: {}",
+                           OusterScans(*reader.impl_->ouster).lidar_packet_size(), found)
+             : fmt::format("expected complete scans of a Velodyne VLP-16 (1206 bytes a packet), "
+                           "found none: {}; for an Ouster its metadata is expected beside it, as "
+                           "NAME.json",
+                           found));
 }
 
 std::string PcapReader::name() const { return impl_->packets.file().path().string(); }
@@ -133,7 +190,13 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
       return failure(packet.error().message + "; --recover reads the part before");
     }
     if (!packet) set_incomplete();
-    if (!packet || !*packet) return std::optional<Made>();
+    if (!packet || !*packet) {
+      auto last = pcap.decoder->finish();
+      if (!last) return std::optional<Made>();
+      pcap.message = std::move(*last);
+      return Made{kScan, pcap.time, pcap.message.bytes.view(), pcap.packets.file().size()};
+    }
+    pcap.note_payload((*packet)->payload);
     const UdpPacket& each = **packet;
     auto completed = pcap.decoder->add(each);
     if (!completed) return pcap.packets.file().refuse(each.position, completed.error().message);

@@ -40,6 +40,22 @@ int azimuth_of(const std::byte* block) { return load_number<std::uint16_t>(block
 /// The turn from one azimuth to a later one [0.01 deg].
 int turn_between(int from, int to) { return (to - from + kFullTurn) % kFullTurn; }
 
+/// In parentheses; empty for an unknown one (factory byte of the manuals).
+std::string_view model_name(std::uint8_t model) {
+  switch (model) {
+    case 0x21:
+      return " (an HDL-32E)";
+    case 0x24:
+      return " (a Puck Hi-Res)";
+    case 0x28:
+      return " (a VLP-32C)";
+    case 0xa1:
+      return " (a VLS-128)";
+    default:
+      return "";
+  }
+}
+
 /// The time of a packet: its part of an hour, in the hour that lies nearest to the capture.
 Time packet_time(std::uint32_t microseconds, Time capture) {
   const Time part = Time{microseconds} * 1000;
@@ -82,7 +98,8 @@ Result<std::optional<LidarScan>> VelodyneScans::add(std::span<const std::byte> p
                                                     Time capture) {
   const auto model = std::to_integer<std::uint8_t>(packet[kModeOffset + 1]);
   if (model != kVlp16) {
-    return failure(fmt::format("expected packets of a VLP-16 (0x22), found model 0x{:02x}", model));
+    return failure(fmt::format("expected packets of a VLP-16 (0x22), found model 0x{:02x}{}", model,
+                               model_name(model)));
   }
   const bool dual = std::to_integer<std::uint8_t>(packet[kModeOffset]) == kDual;
   const int step = dual ? 2 : 1;  // both returns of a firing have a block each
@@ -99,13 +116,25 @@ Result<std::optional<LidarScan>> VelodyneScans::add(std::span<const std::byte> p
       scan_ = LidarScan();
       whole_ = true;
     }
+    if (!azimuth_ && i + step < kBlocks) {
+      // A capture that begins with a revolution has all of it.
+      whole_ = azimuth <= turn_between(azimuth, azimuth_of(block + kBlockSize * step));
+    }
     azimuth_ = azimuth;
     // The last block has none behind it in the packet: the head turns on as before.
     if (i + step < kBlocks) turn = turn_between(azimuth, azimuth_of(block + kBlockSize * step));
     const auto passed = static_cast<Duration>(i / step * kSequences * kSequenceTime);
+    turn_ = turn;
     if (whole_) add_block(block, turn * (2.0 * std::numbers::pi / kFullTurn), start + passed);
   }
   return ended;
+}
+
+std::optional<LidarScan> VelodyneScans::finish() {
+  const bool complete = whole_ && azimuth_ && *azimuth_ + 2 * turn_ >= kFullTurn;
+  LidarScan scan = std::exchange(scan_, {});
+  if (!complete || scan.points.empty()) return std::nullopt;
+  return scan;
 }
 
 }  // namespace aims

@@ -23,10 +23,14 @@ class VelodyneScans {
   /// that has begun before the first packet is left out. Error for other models.
   Result<std::optional<LidarScan>> add(std::span<const std::byte> packet, Time capture);
 
+  /// The last scan, if it is complete.
+  std::optional<LidarScan> finish();
+
  private:
   void add_block(const std::byte* block, double turn, Time stamp);
 
   LidarScan scan_;
+  int turn_ = 0;                ///< of the head over the last block [0.01 deg]
   bool whole_ = false;          ///< the present revolution began at its start
   std::optional<int> azimuth_;  ///< of the last block [0.01 deg]
 };

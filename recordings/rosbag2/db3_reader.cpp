@@ -236,8 +236,11 @@ Result<Db3Reader> Db3Reader::open(const fs::path& path, BagOpenOptions options) 
   const auto file = BagFile::open(path);
   if (!file) return tl::unexpected(file.error());
   if (auto whole = check_pages(*file); !whole) return refuse_damaged(path, whole.error());
-  const auto max_value =
-      static_cast<std::size_t>(std::min<std::uint64_t>(file->size(), options.memory_limit));
+  // Rows may lie in the log beside it.
+  std::error_code absent;
+  const std::uint64_t log = fs::file_size(fs::path(path) += "-wal", absent);
+  const auto max_value = static_cast<std::size_t>(
+      std::min<std::uint64_t>(file->size() + (absent ? 0 : log), options.memory_limit));
   auto database = SqliteDatabase::open(path, max_value);
   if (!database) return tl::unexpected(database.error());
   auto index = read_index(*database, options);

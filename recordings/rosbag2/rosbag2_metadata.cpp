@@ -9,6 +9,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -24,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxMetadataBytes = std::size_t{16} << 20;
+constexpr std::size_t kMaxFiles = 10'000;
 constexpr std::string_view kGroup = "rosbag2_bagfile_information.";
 
 using Scalars = std::map<std::string, std::string>;
@@ -55,8 +57,10 @@ Result<bool> is_compressed(const Scalars& scalars, const fs::path& metadata) {
 /// Where a listed file lies: ROS 2 Foxy lists it with the name of the folder.
 Result<fs::path> listed_file(const fs::path& folder, const std::string& listed) {
   std::error_code ignored;
-  for (const fs::path& file : {folder / listed, folder / fs::path(listed).filename()}) {
-    if (fs::exists(file, ignored)) return file;
+  const fs::path plain = fs::path(listed).lexically_normal();
+  const bool inside = !plain.is_absolute() && !plain.empty() && *plain.begin() != "..";
+  for (const fs::path& file : {inside ? folder / plain : fs::path(), folder / plain.filename()}) {
+    if (!file.empty() && fs::exists(file, ignored)) return file;
   }
   return failure(fmt::format("{}: expected the file '{}', which {} lists", folder.string(), listed,
                              kRosbag2Metadata));
@@ -105,12 +109,16 @@ Result<Rosbag2Metadata> read_rosbag2_metadata(const fs::path& folder) {
   if (!compressed) return tl::unexpected(compressed.error());
   Rosbag2Metadata metadata;
   metadata.compressed = *compressed;
+  std::set<std::string> listed_before;  // one that is listed twice is read once
   for (std::size_t i = 0;; ++i) {
     const std::string listed = scalar(*scalars, fmt::format("relative_file_paths.{}", i));
     if (listed.empty()) break;
     auto found = listed_file(folder, listed);
     if (!found) return tl::unexpected(found.error());
-    metadata.files.push_back(std::move(*found));
+    if (listed_before.insert(found->string()).second) metadata.files.push_back(std::move(*found));
+    if (i >= kMaxFiles) {
+      return failure(fmt::format("{}: expected at most {} files", file.string(), kMaxFiles));
+    }
   }
   if (metadata.files.empty()) {
     return failure(fmt::format("{}: {}relative_file_paths: expected files, found none",

@@ -59,7 +59,13 @@ Result<std::unique_ptr<MessageSource>> open_part(const fs::path& file, BagOpenOp
 Result<Rosbag2Metadata> files_of(const fs::path& recording, bool recover) {
   std::error_code ignored;
   if (!fs::is_directory(recording, ignored)) return Rosbag2Metadata{{recording}, false};
-  if (fs::exists(recording / kRosbag2Metadata, ignored)) return read_rosbag2_metadata(recording);
+  if (fs::exists(recording / kRosbag2Metadata, ignored)) {
+    auto metadata = read_rosbag2_metadata(recording);
+    // A power failure may leave it empty or in parts.
+    Rosbag2Metadata found{rosbag2_files(recording), false};
+    if (!metadata && recover && !found.files.empty()) return found;
+    return metadata;
+  }
   Rosbag2Metadata found{rosbag2_files(recording), false};
   if (found.files.empty()) {
     return failure(
@@ -104,6 +110,8 @@ void add_summary(const BagSummary& part, BagSummary& all, std::set<std::string>&
   all.file_size += part.file_size;
   all.lost_bytes += part.lost_bytes;
   all.indexed = all.indexed && part.indexed;
+  all.closed = all.closed && part.closed;
+  all.lost_messages += part.lost_messages;
   compressions.insert(part.compression);
   if (part.messages == 0) return;
   all.start = all.messages == 0 ? part.start : std::min(all.start, part.start);

@@ -59,6 +59,7 @@ Result<std::unique_ptr<MessageSink>> created(const fs::path& file, BagWriterOpti
 std::optional<RecordingFormat> format_by_content(const fs::path& file) {
   std::error_code ignored;
   if (fs::exists(file / kRosbag2Metadata, ignored)) return RecordingFormat::kRosbag2;
+  if (!fs::is_regular_file(file, ignored)) return std::nullopt;  // a pipe would hang
   std::string start(16, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));

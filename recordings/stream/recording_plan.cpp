@@ -12,14 +12,28 @@
 namespace aims {
 namespace {
 
-// The survey ends at the first of these limits.
+// The survey of a topic ends at the first of these limits.
 constexpr Duration kSurveySpan = 10 * kSecond;
-constexpr Duration kMaxSurveySpan = 60 * kSecond;  ///< while a topic has no message
+constexpr Duration kMaxSurveyStep = kSecond;  ///< a longer gap in the record times counts as this
 constexpr std::size_t kSurveyMessages = 50'000;
 constexpr std::size_t kSurveyBytes = std::size_t{512} << 20;
 constexpr std::size_t kTransformMessages = 2000;
 constexpr std::size_t kFixedTransformMessages = 100;
 constexpr std::size_t kLoadMessages = 500'000;  ///< 1000 s of a Unitree robot
+
+/// How far record times have gone; one that is far off, as of an unset clock, hardly counts.
+class Elapsed {
+ public:
+  Duration add(Time record_time) {
+    if (last_) passed_ += std::clamp<Duration>(record_time - *last_, 0, kMaxSurveyStep);
+    last_ = record_time;
+    return passed_;
+  }
+
+ private:
+  std::optional<Time> last_;
+  Duration passed_ = 0;
+};
 
 /// Reads the first messages of one tf topic.
 Result<void> survey_transforms(MessageSource& bag, const std::string& topic, bool fixed,
@@ -28,12 +42,13 @@ Result<void> survey_transforms(MessageSource& bag, const std::string& topic, boo
   ConnectionDecoders decoders;
   bag.select(std::vector<std::string>{topic});
   bag.rewind();
+  Elapsed elapsed;
   for (std::size_t i = 0; i < kTransformMessages; ++i) {
     const auto message = bag.next();
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     // Fixed transforms may be published late; of the others the first ones are used.
-    const Duration past = (*message)->record_time - bag.summary().start;
+    const Duration past = elapsed.add((*message)->record_time);
     if (fixed ? i >= kFixedTransformMessages : past > kSurveySpan) break;
     const auto view = decoders.decode(**message);
     if (view) survey.add_transforms(*view, fixed);
@@ -41,28 +56,39 @@ Result<void> survey_transforms(MessageSource& bag, const std::string& topic, boo
   return {};
 }
 
-Result<void> survey_sensors(MessageSource& bag, const RecordingChannels& channels,
-                            RecordingSurvey& survey) {
-  bag.select(channels.topics());
+/// Reads the first messages of one topic, whenever they come.
+Result<void> survey_topic(MessageSource& bag, const std::string& topic,
+                          const RecordingChannels& channels, RecordingSurvey& survey) {
+  bag.select(std::vector<std::string>{topic});
   bag.rewind();
-  std::optional<Time> start;
+  Elapsed elapsed;
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < kSurveyMessages && bytes < kSurveyBytes; ++i) {
     const auto message = bag.next();
     if (!message) {
       // The messages before it may suffice; the reader reports the error when it gets there.
-      if (start) return {};
+      if (i > 0) return {};
       return tl::unexpected(message.error());
     }
-    if (!*message) break;
-    if (!start) start = (*message)->record_time;
-    const Duration past = (*message)->record_time - *start;
-    if (survey.enough() || past > kMaxSurveySpan) break;
-    if (past > kSurveySpan && survey.has_all_topics()) break;
+    if (!*message || survey.enough(topic)) break;
+    if (elapsed.add((*message)->record_time) > kSurveySpan) break;
     bytes += (*message)->data.size();
     if (const Channel* channel = channels.find(**message)) survey.add(**message, *channel);
   }
   return {};
+}
+
+/// Reads how the legs move, over the whole recording: a robot may stand at its start.
+void survey_motion(MessageSource& bag, const TopicsConfig& topics,
+                   const RecordingChannels& channels, RecordingSurvey& survey) {
+  bag.select(std::vector<std::string>{topics.joint_states, topics.contacts, topics.imu});
+  bag.rewind();
+  for (std::size_t i = 0; i < 3 * kLoadMessages && survey.needs_motion(); ++i) {
+    const auto message = bag.next();
+    // The reader reports an error when it gets there.
+    if (!message || !*message) return;
+    if (const Channel* channel = channels.find(**message)) survey.add_motion(**message, *channel);
+  }
 }
 
 /// Reads the loads of the feet of the whole recording: a robot may stand at its start.
@@ -104,9 +130,15 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   if (auto ok = survey_transforms(bag, "/tf", false, survey); !ok) {
     return tl::unexpected(ok.error());
   }
-  if (auto ok = survey_sensors(bag, channels, survey); !ok) return tl::unexpected(ok.error());
+  for (const std::string& topic : channels.topics()) {
+    const auto ok = survey_topic(bag, topic, channels, survey);
+    if (!ok) return tl::unexpected(ok.error());
+  }
+  if (survey.needs_motion()) survey_motion(bag, topics, channels, survey);
   if (survey.learns_contacts()) survey_loads(bag, topics.contacts, survey);
-  return survey.decide(bag.name(), std::move(notes));
+  auto plan = survey.decide(bag.name(), std::move(notes));
+  if (plan) plan->start = survey.start(bag.summary());
+  return plan;
 }
 
 }  // namespace aims

@@ -8,6 +8,7 @@
 #include "recordings/bag/message_source.hpp"
 #include "recordings/clouds/point_cloud.hpp"
 #include "recordings/legs/leg_stream.hpp"
+#include "recordings/reading_notes.hpp"
 #include "recordings/stream/recording_reader.hpp"
 #include "recordings/topics/recording_channels.hpp"
 
@@ -19,10 +20,13 @@ struct RecordingPlan {
   CloudReading cloud;
   double force_scale = 1.0;  ///< scales specific force to m/s^2
   LegStreamConfig legs;
+  JointRule joints;
   ContactRule contacts;
-  Pose T_truth_body;                                 ///< body pose in the frame of the truth
-  bool truth_is_of_body = true;                      ///< then its poses are used unchanged
-  Duration arrival_shift = 0;                        ///< added to record times
+  Pose T_truth_body;                                        ///< body pose in the frame of the truth
+  bool truth_is_of_body = true;                             ///< then its poses are used unchanged
+  Duration arrival_shift = 0;                               ///< added to record times
+  Time start = 0;                                           ///< earliest record time that was set
+  std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
   std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used
 };
 

@@ -19,21 +19,38 @@ namespace {
 /// Limits of one call of `advance`, for many messages at one instant.
 constexpr std::size_t kMaxDeliveries = 100'000;
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
+/// A message that is recorded so much earlier than usual after its stamp is recorded by a wrong
+/// clock.
+constexpr Duration kMaxEarly = kSecond / 2;
+constexpr Duration kMaxHold = 60 * kSecond;  ///< of a message with a record time
+constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
 
 }  // namespace
 
 struct RecordingReader::Impl {
+  /// A message whose record time lies before its stamp.
+  struct Held {
+    const BagConnection* connection = nullptr;
+    std::vector<std::byte> data;
+  };
+
   Impl(std::unique_ptr<MessageSource> source, RecordingChannels chosen, RecordingPlan decided,
        const RecordingConfig& configured)
       : bag(std::move(source)),
+        summary(bag->summary()),
         channels(std::move(chosen)),
         plan(std::move(decided)),
         config(configured),
         legs(plan.legs),
-        contact_detector(plan.contacts.thresholds) {}
+        contact_detector(plan.contacts.thresholds) {
+    summary.start = plan.start;
+  }
 
   Result<void> fetch();
-  void take(const BagMessage& message, std::vector<Delivery>& out);
+  bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
+  void release(Time until, std::vector<Delivery>& out);
+  void receive(const BagMessage& message, std::vector<Delivery>& out);
+  void take(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
   void take_cloud(const MessageView& view, std::vector<Delivery>& out);
   void take_imu(const MessageView& view, std::vector<Delivery>& out);
   void take_legs(const MessageView& view, std::vector<Delivery>& out);
@@ -47,12 +64,15 @@ struct RecordingReader::Impl {
   Time stamp_of(Role role, Time stamp, double delay) const;
 
   std::unique_ptr<MessageSource> bag;
+  BagSummary summary;  ///< without record times that were never set
   RecordingChannels channels;
   RecordingPlan plan;
   RecordingConfig config;
   LegStream legs;
   ContactDetector contact_detector;
   std::optional<BagMessage> next;  ///< read, not yet delivered
+  std::multimap<Time, Held> held;  ///< by the time at which they are due
+  std::size_t held_bytes = 0;
   bool started = false;
   Time until = 0;        ///< record time up to which messages have been delivered
   Time record_time = 0;  ///< of the current message
@@ -136,7 +156,7 @@ void RecordingReader::Impl::take_feet(const MessageView& view, std::vector<Deliv
 }
 
 void RecordingReader::Impl::take_joints(const MessageView& view, std::vector<Delivery>& out) {
-  auto joints = joints_at(view, record_time, config.joint_names);
+  auto joints = joints_at(view, record_time, plan.joints);
   if (!joints) return malformed(Role::kJoints);
   joints->stamp = stamp_of(Role::kJoints, joints->stamp, config.leg_delay);
   deliver(legs.add_joints(std::move(*joints), counts), out);
@@ -166,9 +186,55 @@ void RecordingReader::Impl::take_truth(const MessageView& view) {
   }
 }
 
-void RecordingReader::Impl::take(const BagMessage& message, std::vector<Delivery>& out) {
+void RecordingReader::Impl::take(const Channel& channel, const MessageView& view,
+                                 std::vector<Delivery>& out) {
+  if (channel.is(Role::kTruth)) take_truth(view);
+  if (channel.is(Role::kLidar)) take_cloud(view, out);
+  if (channel.is(Role::kImu)) take_imu(view, out);
+  // Contacts first, where one message holds both: the joints then find those of their instant.
+  if (channel.is(Role::kContacts)) take_contacts(view, out);
+  if (channel.is(Role::kJoints)) take_joints(view, out);
+  if (channel.is(Role::kLegs)) take_legs(view, out);
+}
+
+/// Keeps a message that is recorded before its stamp, as after the recorder's clock was set back or
+/// before it was set: it is due at its stamp and the usual latency.
+bool RecordingReader::Impl::hold(const BagMessage& message, const Channel& channel,
+                                 const MessageView& view) {
+  const auto stamp = view.time("header.stamp");
+  if (!stamp) return false;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (!channel.serves[i] || !plan.latency[i]) continue;
+    const Time due = *stamp + *plan.latency[i];
+    const bool unset = message.record_time < kSecond;
+    const Duration early = due - message.record_time;
+    if (early < kMaxEarly || (early > kMaxHold && !unset)) return false;
+    ++counts["recorded_before_their_stamp"];
+    if (held_bytes + message.data.size() > kMaxHeldBytes) return false;
+    held_bytes += message.data.size();
+    held.emplace(due, Held{message.connection, {message.data.begin(), message.data.end()}});
+    return true;
+  }
+  return false;
+}
+
+/// Takes the messages that are due.
+void RecordingReader::Impl::release(Time until, std::vector<Delivery>& out) {
+  while (!held.empty() && held.begin()->first <= until) {
+    const auto first = held.extract(held.begin());
+    record_time = first.key();
+    const BagMessage message = {first.mapped().connection, first.key(), first.mapped().data, 0};
+    held_bytes -= message.data.size();
+    const Channel* channel = channels.find(message);
+    const auto view = channel->decoder.decode(message.data);
+    if (view) take(*channel, *view, out);
+  }
+}
+
+void RecordingReader::Impl::receive(const BagMessage& message, std::vector<Delivery>& out) {
+  release(message.record_time, out);
   record_time = message.record_time;
-  position = std::max(position, record_time - bag->summary().start);
+  position = std::max(position, record_time - plan.start);
   const Channel* channel = channels.find(message);
   if (channel == nullptr) return;
   const auto view = channel->decoder.decode(message.data);
@@ -178,13 +244,7 @@ void RecordingReader::Impl::take(const BagMessage& message, std::vector<Delivery
     }
     return;
   }
-  if (channel->is(Role::kTruth)) take_truth(*view);
-  if (channel->is(Role::kLidar)) take_cloud(*view, out);
-  if (channel->is(Role::kImu)) take_imu(*view, out);
-  // Contacts first, where one message holds both: the joints then find those of their instant.
-  if (channel->is(Role::kContacts)) take_contacts(*view, out);
-  if (channel->is(Role::kJoints)) take_joints(*view, out);
-  if (channel->is(Role::kLegs)) take_legs(*view, out);
+  if (!hold(message, *channel, *view)) take(*channel, *view, out);
 }
 
 Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
@@ -214,10 +274,10 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag
 Result<void> check_legs(const RecordingSetup& setup, const std::string& estimator,
                         const std::string& recording) {
   if (setup.has_legs) return {};
-  return failure(
-      fmt::format("{}: estimator {} needs leg odometry, which is not found; name its topic "
-                  "(--topics leg_odometry=/...), or use --estimator lio",
-                  recording, estimator));
+  return failure(fmt::format(
+      "{}: estimator {} needs leg odometry, which is not found{}; name its topic "
+      "(--topics leg_odometry=/...), or use --estimators lio",
+      recording, estimator, setup.leg_lack.empty() ? "" : fmt::format(" ({})", setup.leg_lack)));
 }
 
 Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deliveries) {
@@ -238,10 +298,11 @@ Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deli
   while (impl.next && impl.next->record_time < impl.until) {
     if (bytes > kMaxBytes || deliveries.size() - before > kMaxDeliveries) break;
     bytes += impl.next->data.size();
-    impl.take(*impl.next, deliveries);
+    impl.receive(*impl.next, deliveries);
     impl.next.reset();
     if (auto ok = impl.fetch(); !ok) return tl::unexpected(ok.error());
   }
+  if (!impl.next) impl.release(std::numeric_limits<Time>::max(), deliveries);
   return impl.next.has_value();
 }
 
@@ -251,7 +312,7 @@ RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = defaul
 RecordingReader::~RecordingReader() = default;
 
 const RecordingSetup& RecordingReader::setup() const { return impl_->plan.setup; }
-const BagSummary& RecordingReader::summary() const { return impl_->bag->summary(); }
+const BagSummary& RecordingReader::summary() const { return impl_->summary; }
 Duration RecordingReader::position() const { return impl_->position; }
 const Trajectory& RecordingReader::truth() const { return impl_->truth; }
 Trajectory RecordingReader::take_truth() { return std::exchange(impl_->truth, {}); }

@@ -13,6 +13,7 @@
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
 #include "recordings/bag/chunk_reader.hpp"
+#include "recordings/reading_notes.hpp"
 #include "recordings/recording_config.hpp"
 
 namespace aims {
@@ -24,13 +25,16 @@ struct RecordingSetup {
   bool has_legs = false;
   bool has_joints = false;       ///< of the legs, and contacts of the feet
   bool has_point_times = false;  ///< else they are derived from the azimuths
-  LidarRings rings;              ///< of the points, or as rows; none: derived, or lines
+  LidarRings rings;              ///< of the points, as rows or derived; none: lines
   bool has_orientation = false;  ///< of the IMU
   bool has_truth = false;
   std::optional<double> imu_rate_hz;  ///< from the first stamps
   std::optional<double> leg_rate_hz;  ///< as for the IMU
   /// Assumptions and conversions, one sentence each: "IMU in g: multiplied by 9.80665".
   std::vector<std::string> notes;
+  /// Assumptions that decide the result, and faults that spoil it.
+  std::vector<ReadingWarning> warnings;
+  std::string leg_lack;  ///< why there are no legs, as far as it is known
 };
 
 /// Error when the recording has no legs, which `estimator` needs; the error calls it `recording`.

@@ -10,6 +10,7 @@
 #include "recordings/median.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/stream/gravity_unit.hpp"
+#include "recordings/stream/record_clock.hpp"
 
 namespace aims {
 namespace {
@@ -18,15 +19,28 @@ constexpr std::size_t kMaxSamples = 2000;
 constexpr double kMaxTurnRate = 35.0;  ///< saturation of a gyro of 2000 deg/s [rad/s]
 /// Larger differences mean that recorder and sensors use different clocks.
 constexpr Duration kMaxClockDifference = 5 * kSecond;
+/// Between the latencies of sensors on one clock.
+constexpr Duration kMaxLatencyDifference = kSecond / 4;
+/// A step back of stamps that is no exchange of neighbours.
+constexpr Duration kMaxDisorder = kSecond / 5;
+/// Median turn rate of no walking robot [rad/s].
+constexpr double kFastTurning = 4.0;
 
 bool all_zero(const std::vector<Time>& stamps) {
   return stamps.size() >= 3 &&
          std::all_of(stamps.begin(), stamps.end(), [](Time stamp) { return stamp == 0; });
 }
 
+/// The latency that a tenth of the messages do not reach: others were delayed.
+Duration early_latency(std::vector<Duration> latencies) {
+  const auto at = latencies.begin() + static_cast<std::ptrdiff_t>(latencies.size() / 10);
+  std::ranges::nth_element(latencies, at);
+  return *at;
+}
+
 /// Replaces the nominal rate of a sensor by the measured one where they differ by more than 10 %.
 void adopt_rate(std::optional<double> measured_hz, const char* sensor, double& nominal_hz,
-                std::vector<std::string>& notes) {
+                ReadingNotes& notes) {
   constexpr double kTolerance = 0.1;
   if (!measured_hz || std::abs(*measured_hz - nominal_hz) <= kTolerance * nominal_hz) return;
   nominal_hz = *measured_hz;
@@ -38,8 +52,12 @@ void adopt_rate(std::optional<double> measured_hz, const char* sensor, double& n
 
 void RecordingSurvey::note_times(Role role, const MessageView& view, Time record_time) {
   Seen& each = seen(role);
+  if (record_time > kSetRecordTime) {
+    first_set_ = std::min(first_set_.value_or(record_time), record_time);
+  }
   if (each.stamps.size() >= kMaxSamples) return;
   const Time stamp = header_stamp(view, record_time);
+  if (record_time < kUnsetRecordTime && stamp > kSetRecordTime) return;  // never set
   each.stamps.push_back(stamp);
   each.latencies.push_back(record_time - stamp);
   if (each.frame.empty()) each.frame = view.text("header.frame_id").value_or("");
@@ -66,6 +84,20 @@ void RecordingSurvey::add(const BagMessage& message, const Channel& channel) {
   }
 }
 
+void RecordingSurvey::add_motion(const BagMessage& message, const Channel& channel) {
+  const auto view = channel.decoder.decode(message.data);
+  if (!view) return;
+  if (channel.is(Role::kImu)) {
+    EventCounts ignored;
+    const auto sample = imu_at(*view, 0, ignored);
+    if (sample && sample->angular_velocity.allFinite()) {
+      legs_.add_imu_motion(sample->angular_velocity);
+    }
+  }
+  if (channel.is(Role::kContacts)) legs_.add_load_motion(*view);
+  if (channel.is(Role::kJoints)) legs_.add_joint_motion(*view, message.record_time);
+}
+
 void RecordingSurvey::add_cloud(const MessageView& view, Time record_time) {
   const auto table = point_table(view);
   if (table) return clouds_.add(*table, record_time);
@@ -79,61 +111,88 @@ void RecordingSurvey::add_imu(const MessageView& view) {
   if (!sample->angular_velocity.allFinite()) return;
   if (forces_.size() < kMaxSamples) forces_.push_back(sample->specific_force.norm());
   largest_turn_rate_ = std::max(largest_turn_rate_, sample->angular_velocity.norm());
+  if (turn_rates_.size() < kMaxSamples) {
+    turn_rates_.push_back(sample->angular_velocity.norm());
+    force_sum_ += sample->specific_force;
+  }
   oriented_ = oriented_ || sample->orientation.has_value();
 }
 
-bool RecordingSurvey::has_all_topics() const {
+bool RecordingSurvey::enough(const std::string& topic) const {
+  if (topic == topics_.lidar) return clouds_.enough();
   for (std::size_t i = 0; i < kRoleCount; ++i) {
-    const Role role = static_cast<Role>(i);
-    if (role == Role::kTruth || topic_of(topics_, role).empty()) continue;
-    if (seen(role).stamps.empty()) return false;
+    if (topic_of(topics_, static_cast<Role>(i)) != topic) continue;
+    if (seen_[i].stamps.size() < kMaxSamples) return false;
   }
   return true;
 }
 
-bool RecordingSurvey::enough() const {
-  const bool lidar = topics_.lidar.empty() || clouds_.enough();
-  const bool imu = topics_.imu.empty() || seen(Role::kImu).stamps.size() >= 200;
-  return lidar && imu && has_all_topics();
+/// Record time minus stamp of messages without delay. Where stamps go backwards in the order of the
+/// recording, that of the earliest stamps: the recorder's clock was set back later.
+Duration RecordingSurvey::latency_of(const Seen& each) {
+  std::vector<std::pair<Time, Duration>> by_stamp;
+  int backwards = 0;
+  for (std::size_t i = 0; i < each.stamps.size(); ++i) {
+    by_stamp.emplace_back(each.stamps[i], each.latencies[i]);
+    if (i > 0 && each.stamps[i] < each.stamps[i - 1] - kMaxDisorder) ++backwards;
+  }
+  if (backwards < 2) return early_latency(each.latencies);
+  std::ranges::stable_sort(by_stamp, {}, &std::pair<Time, Duration>::first);
+  std::vector<Duration> first;
+  for (std::size_t i = 0; i < std::min<std::size_t>(by_stamp.size(), 20); ++i) {
+    first.push_back(by_stamp[i].second);
+  }
+  return early_latency(std::move(first));
 }
 
-/// Clocks: stamps that were never set, and a recorder clock that differs from the sensors'.
-void RecordingSurvey::decide_stamps(RecordingPlan& plan) const {
-  std::vector<std::string>& notes = plan.setup.notes;
-  std::optional<Duration> imu, lidar;
+/// Clocks: stamps that were never set, and sensors with different clocks.
+void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
     const std::string& topic = topic_of(topics_, role);
     if (topic.empty()) continue;
     if (seen_[i].stamps.empty()) {
-      if (role != Role::kTruth) notes.push_back(fmt::format("{}: no message at the start", topic));
-      continue;
-    }
-    if (all_zero(seen_[i].stamps)) {
+      if (role != Role::kTruth) notes_.push_back(fmt::format("{}: no message", topic));
+    } else if (all_zero(seen_[i].stamps)) {
       plan.stamped_by_record[i] = true;
-      notes.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
-      continue;
-    }
-    const Duration latency = *upper_median(seen_[i].latencies);
-    if (role == Role::kImu) imu = latency;
-    if (role == Role::kLidar) lidar = latency;
-    const std::optional<Duration> first = imu ? imu : lidar;
-    if (role != Role::kTruth && first && std::abs(latency - *first) > kSecond) {
-      notes.push_back(fmt::format(
-          "{}: stamps are {:.3f} s behind those of other topics: set recording.{}_delay", topic,
-          to_seconds(latency - *first), role == Role::kLidar ? "lidar" : "leg"));
+      notes_.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
+    } else {
+      plan.latency[i] = latency_of(seen_[i]);
     }
   }
+  const auto& imu = plan.latency[static_cast<std::size_t>(Role::kImu)];
+  const auto& lidar = plan.latency[static_cast<std::size_t>(Role::kLidar)];
   const std::optional<Duration> first = imu ? imu : lidar;
-  if (!first || std::abs(*first) < kMaxClockDifference) return;
+  if (!first) return;
+  warn_of_clocks(plan, imu ? topics_.imu : topics_.lidar, *first);
+  if (std::abs(*first) < kMaxClockDifference) return;
   plan.arrival_shift = -*first;
-  notes.push_back(fmt::format(
-      "the recorder's clock is {:.3f} s ahead of the sensors': arrivals are shifted by it",
-      to_seconds(*first)));
+  notes_.push_back(
+      fmt::format("the recorder's clock is {:.3f} s {} the sensors': arrivals are shifted by it",
+                  std::abs(to_seconds(*first)), *first > 0 ? "ahead of" : "behind"));
 }
 
-void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
-  std::vector<std::string>& notes = plan.setup.notes;
+/// Warns of topics whose clock is not that of the reference.
+void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::string& reference,
+                                     Duration latency) {
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const Role role = static_cast<Role>(i);
+    const std::string& topic = topic_of(topics_, role);
+    if (!plan.latency[i] || role == Role::kTruth || topic == reference) continue;
+    Duration behind = *plan.latency[i] - latency;
+    // A cloud with the stamp of its start is complete, and sent, a period later.
+    if (role == Role::kLidar && plan.cloud.stamp == CloudStamp::kStart) behind -= plan.cloud.period;
+    if (std::abs(behind) < kMaxLatencyDifference) continue;
+    notes_.warn(fmt::format("clocks of {} and {} differ", topic, reference),
+                fmt::format("{}: stamps are {:.3f} s {} those of other topics: set "
+                            "recording.{}_delay={:.3f} if their clocks differ",
+                            topic, std::abs(to_seconds(behind)), behind > 0 ? "behind" : "ahead of",
+                            role == Role::kLidar ? "lidar" : "leg", -to_seconds(behind)));
+  }
+}
+
+void RecordingSurvey::decide_imu(RecordingPlan& plan) {
+  ReadingNotes& notes = notes_;
   plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
   plan.setup.has_orientation = oriented_;
   adopt_rate(plan.setup.imu_rate_hz, "IMU", plan.setup.rig.imu_rate_hz, notes);
@@ -142,10 +201,10 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
   if (config_.imu_unit == ImuUnit::kAuto && !forces_.empty()) {
     gravities = is_in_gravities(force);
     if (!gravities && (force < 5.0 || force > 15.0)) {
-      notes.push_back(
-          fmt::format("specific force of {:.3g} at the start is neither gravity in m/s^2 "
-                      "nor in g: assumed to be m/s^2 (imu_unit)",
-                      force));
+      notes.warn("unit of the accelerometer unknown",
+                 fmt::format("specific force of {:.3g} at the start is neither gravity in m/s^2 "
+                             "nor in g: assumed to be m/s^2 (imu_unit)",
+                             force));
     }
   }
   if (gravities) {
@@ -156,27 +215,38 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) const {
   if (seen(Role::kImu).type == kUnitreeLowState) {
     notes.push_back(fmt::format("{} has no stamp: record times are used", kUnitreeLowState));
   }
-  if (largest_turn_rate_ > kMaxTurnRate) {
-    notes.push_back(fmt::format(
-        "angular velocity up to {:.3g}: rad/s are expected, are these deg/s?", largest_turn_rate_));
+  const double turning = upper_median(turn_rates_).value_or(0.0);
+  if (largest_turn_rate_ > kMaxTurnRate || turning > kFastTurning) {
+    notes.warn("gyroscope perhaps in deg/s",
+               fmt::format("angular velocity up to {:.3g}, {:.3g} in the median: rad/s are "
+                           "expected, are these deg/s? Convert them in the driver (of a table: "
+                           "gyro_unit)",
+                           largest_turn_rate_, turning));
   }
 }
 
-Result<void> RecordingSurvey::decide_legs(RecordingPlan& plan) const {
+Result<void> RecordingSurvey::decide_legs(RecordingPlan& plan) {
   const Seen& legs = seen(Role::kLegs);
-  auto contacts = legs_.decide_contacts(plan.setup.notes);
+  ReadingNotes ignored;  // the frames are decided, and noted, later
+  legs_.decide_order(
+      frames_.extrinsic(config_.T_imu_base, imu_frame(), base_frame(), "T_imu_base", ignored)
+          .rotation,
+      notes_);
+  auto contacts = legs_.decide_contacts(notes_);
   if (!contacts) return tl::unexpected(contacts.error());
   plan.contacts = std::move(*contacts);
   LegStreamConfig& stream = plan.legs;
   stream.geometry = config_.leg_geometry;
   stream.foot_model = config_.foot_model;
-  stream.source = legs_.decide_source(legs.type, legs.frame, plan.setup.notes);
+  stream.source = legs_.decide_source(legs.type, legs.frame, notes_);
   const bool kinematic = stream.source == LegSource::kKinematics;
   plan.setup.leg_rate_hz = sample_rate(kinematic ? seen(Role::kJoints).stamps : legs.stamps);
+  plan.joints = legs_.joint_rule();
+  plan.setup.leg_lack = legs_.lack();
   plan.setup.has_legs = stream.source != LegSource::kNone;
   plan.setup.has_joints = legs_.has_joints_and_contacts();
   plan.setup.rig.leg_geometry = config_.leg_geometry;
-  adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz, plan.setup.notes);
+  adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz, notes_);
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);
   stream.half_period = from_seconds(std::clamp(0.5 / rate, 1e-9, 0.5));
   return {};
@@ -200,29 +270,48 @@ std::string RecordingSurvey::base_frame() const {
   return {};
 }
 
-void RecordingSurvey::decide_frames(RecordingPlan& plan) const {
+void RecordingSurvey::decide_frames(RecordingPlan& plan) {
   RecordingSetup& setup = plan.setup;
   const std::string lidar =
       config_.lidar_frame.empty() ? seen(Role::kLidar).frame : config_.lidar_frame;
   if (!topics_.lidar.empty()) {
     setup.rig.T_body_lidar =
-        frames_.extrinsic(config_.T_imu_lidar, imu_frame(), lidar, "T_imu_lidar", setup.notes);
+        frames_.extrinsic(config_.T_imu_lidar, imu_frame(), lidar, "T_imu_lidar", notes_);
   }
   if (setup.has_legs) {
     setup.rig.T_body_base =
-        frames_.extrinsic(config_.T_imu_base, imu_frame(), base_frame(), "T_imu_base", setup.notes);
+        frames_.extrinsic(config_.T_imu_base, imu_frame(), base_frame(), "T_imu_base", notes_);
   }
   plan.legs.T_body_base = setup.rig.T_body_base;
+  warn_of_up(setup);
+}
+
+/// A robot starts upright: its IMU measures an upward force in the axes of the LiDAR and the base.
+void RecordingSurvey::warn_of_up(const RecordingSetup& setup) {
+  const double norm = force_sum_.norm();
+  if (!(norm > 0.0)) return;
+  const auto warn = [&](bool used, const Pose& T_body_sensor, std::string_view sensor,
+                        std::string_view key) {
+    const Eigen::Vector3d up = T_body_sensor.rotation.conjugate() * force_sum_ / norm;
+    if (!used || up.z() > -0.5) return;
+    notes_.warn(
+        "IMU upside down, or a sign of the accelerometer wrong",
+        fmt::format("the specific force points down in the axes of the {} at the start: the "
+                    "IMU is upside down (set recording.{}), or its z has the wrong sign",
+                    sensor, key));
+  };
+  warn(!topics_.lidar.empty(), setup.rig.T_body_lidar, "LiDAR", "T_imu_lidar");
+  warn(setup.has_legs, setup.rig.T_body_base, "base", "T_imu_base");
 }
 
 /// The frame of the truth, and the body pose in it.
-void RecordingSurvey::decide_truth(RecordingPlan& plan) const {
+void RecordingSurvey::decide_truth(RecordingPlan& plan) {
   plan.setup.has_truth = !topics_.truth.empty();
   const std::string& child = seen(Role::kTruth).child_frame;
   if (!plan.setup.has_truth || child == imu_frame()) return;
-  const auto pose = frames_.find(child, imu_frame(), plan.setup.notes);
+  const auto pose = frames_.find(child, imu_frame(), notes_);
   if (!pose) {
-    plan.setup.notes.push_back(
+    notes_.push_back(
         fmt::format("the truth's frame '{}' is not connected to the IMU's '{}': "
                     "assumed to be the IMU's",
                     child, imu_frame()));
@@ -232,16 +321,21 @@ void RecordingSurvey::decide_truth(RecordingPlan& plan) const {
   plan.truth_is_of_body = false;
 }
 
+Time RecordingSurvey::start(const BagSummary& summary) const {
+  const bool unset = summary.start < kUnsetRecordTime && first_set_;
+  return unset ? *first_set_ : summary.start;
+}
+
 Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
                                               std::vector<std::string> notes) {
   RecordingPlan plan;
   plan.setup.topics = topics_;
-  plan.setup.notes = std::move(notes);
+  notes_.notes = std::move(notes);
   if (!topics_.lidar.empty()) {
     if (clouds_.size() == 0 && !cloud_error_.empty()) {
       return failure(fmt::format("{}: topic '{}': {}", bag.string(), topics_.lidar, cloud_error_));
     }
-    plan.cloud = clouds_.decide(config_, plan.setup.notes);
+    plan.cloud = clouds_.decide(config_, notes_);
     plan.setup.has_point_times = plan.cloud.clock != PointClock::kNone;
     plan.setup.rings = plan.cloud.rings;
   }
@@ -253,8 +347,10 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   decide_frames(plan);
   decide_truth(plan);
   for (const auto& [what, times] : frames_.counts()) {
-    plan.setup.notes.push_back(fmt::format("{} {} times: ignored", what, times));
+    notes_.push_back(fmt::format("{} {} times: ignored", what, times));
   }
+  plan.setup.notes = std::move(notes_.notes);
+  plan.setup.warnings = std::move(notes_.warnings);
   return plan;
 }
 

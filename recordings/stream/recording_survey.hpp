@@ -10,6 +10,7 @@
 #include "recordings/clouds/cloud_survey.hpp"
 #include "recordings/frames/recorded_frames.hpp"
 #include "recordings/legs/leg_survey.hpp"
+#include "recordings/reading_notes.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/topics/recording_channels.hpp"
 
@@ -30,10 +31,15 @@ class RecordingSurvey {
   bool learns_contacts() const { return legs_.learns_contacts(); }
   void add_loads(const MessageView& contacts) { legs_.add_loads(contacts); }
 
-  /// Whether there are enough messages of every chosen topic.
-  bool enough() const;
-  /// Whether there is a message of every chosen topic.
-  bool has_all_topics() const;
+  /// Whether the motion is to be added, of joints, contacts and IMU, and such a message.
+  bool needs_motion() const { return legs_.needs_order() && !legs_.has_enough_motion(); }
+  void add_motion(const BagMessage& message, const Channel& channel);
+
+  /// Whether there are enough messages of that topic.
+  bool enough(const std::string& topic) const;
+
+  /// The earliest record time, without those that were never set.
+  Time start(const BagSummary& summary) const;
 
   /// Decides; appends to `notes`, which become those of the setup. Error when no cloud is
   /// readable, or no contact can be learned.
@@ -55,11 +61,14 @@ class RecordingSurvey {
   void add_cloud(const MessageView& view, Time record_time);
   void add_imu(const MessageView& view);
 
-  void decide_stamps(RecordingPlan& plan) const;
-  void decide_imu(RecordingPlan& plan) const;
-  Result<void> decide_legs(RecordingPlan& plan) const;
-  void decide_frames(RecordingPlan& plan) const;
-  void decide_truth(RecordingPlan& plan) const;
+  static Duration latency_of(const Seen& each);
+  void decide_stamps(RecordingPlan& plan);
+  void warn_of_clocks(const RecordingPlan& plan, const std::string& reference, Duration latency);
+  void warn_of_up(const RecordingSetup& setup);
+  void decide_imu(RecordingPlan& plan);
+  Result<void> decide_legs(RecordingPlan& plan);
+  void decide_frames(RecordingPlan& plan);
+  void decide_truth(RecordingPlan& plan);
   std::string imu_frame() const;
   std::string base_frame() const;
 
@@ -67,10 +76,14 @@ class RecordingSurvey {
   TopicsConfig topics_;
   std::array<Seen, kRoleCount> seen_;
   CloudSurvey clouds_;
-  std::string cloud_error_;         ///< of the first that could not be read
-  std::vector<double> forces_;      ///< norms, in the recorded unit
-  bool oriented_ = false;           ///< an IMU message has an orientation
-  double largest_turn_rate_ = 0.0;  ///< [rad/s]
+  std::string cloud_error_;                              ///< of the first that could not be read
+  std::vector<double> forces_;                           ///< norms, in the recorded unit
+  bool oriented_ = false;                                ///< an IMU message has an orientation
+  double largest_turn_rate_ = 0.0;                       ///< [rad/s]
+  std::vector<double> turn_rates_;                       ///< norms [rad/s]
+  Eigen::Vector3d force_sum_ = Eigen::Vector3d::Zero();  ///< in the recorded unit
+  ReadingNotes notes_;
+  std::optional<Time> first_set_;  ///< earliest record time of a set clock
   LegSurvey legs_;
   RecordedFrames frames_;
 };

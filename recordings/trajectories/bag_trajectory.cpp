@@ -13,6 +13,7 @@
 #include "recordings/messages/message_values.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/topics/connection_decoders.hpp"
+#include "recordings/trajectories/pose_cleaning.hpp"
 
 namespace aims {
 namespace {
@@ -181,25 +182,6 @@ class TopicReader {
   ConnectionDecoders decoders_;
 };
 
-bool is_pose(const Pose& pose) {
-  return pose.translation.allFinite() && std::abs(pose.rotation.norm() - 1.0) < 1e-3;
-}
-
-/// Removes invalid poses and appends their number to `notes`.
-void drop_invalid(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
-  Trajectory valid;
-  for (const StampedPose& each : poses) {
-    const bool later = valid.empty() || each.stamp > valid.back().stamp;
-    if (later && is_pose(each.pose)) valid.push_back(each);
-  }
-  if (valid.size() < poses.size()) {
-    notes.push_back(fmt::format(
-        "{}: {} of {} poses dropped: not finite, not a pose, or stamps that do not increase", name,
-        poses.size() - valid.size(), poses.size()));
-  }
-  poses = std::move(valid);
-}
-
 /// Uses record times as stamps if all header stamps are zero.
 void stamp_by_record_time(Trajectory& poses, const std::vector<Time>& record_times,
                           const std::string& name, std::vector<std::string>& notes) {
@@ -233,7 +215,8 @@ Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::stri
   const std::string name = fmt::format("{}:{}", file.string(), *chosen);
   if (result.trajectory.empty()) return failure(name + ": expected poses, found none");
   stamp_by_record_time(result.trajectory, record_times, name, result.notes);
-  if (options.rules == PoseRules::kStrict) drop_invalid(result.trajectory, name, result.notes);
+  normalize_rounded(result.trajectory, name, result.notes);
+  if (options.rules == PoseRules::kStrict) drop_unusable(result.trajectory, name, result.notes);
   return result;
 }
 

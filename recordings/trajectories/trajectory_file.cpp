@@ -10,6 +10,8 @@
 #include "core/files/number_lines.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
+#include "recordings/trajectories/pose_cleaning.hpp"
+#include "recordings/trajectories/pose_table.hpp"
 
 namespace aims {
 namespace {
@@ -55,21 +57,27 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
   const std::string name = file.string();
-  LineReader lines(*text, name);
+  if (text->starts_with("\xff\xfe") || text->starts_with("\xfe\xff")) {
+    return failure(name + ":1: expected text in UTF-8, found UTF-16: save the file as UTF-8");
+  }
+  TrajectoryFile result;
+  result.file = file;
+  const bool table = is_pose_table(*text);
+  const auto lines_text = table ? tum_of_pose_table(*text, name) : Result<std::string>(*text);
+  if (!lines_text) return tl::unexpected(lines_text.error());
+  LineReader lines(*lines_text, name);
   const auto first = lines.next();
   if (!first) {
     return failure(fmt::format("{}:1: expected poses as TUM or KITTI lines, found none", name));
   }
-  TrajectoryFile result;
-  result.file = file;
   const std::size_t columns = words_of(*first).size();
   Result<Trajectory> trajectory = Trajectory();
   if (columns == kTumColumns) {
-    result.kind = "TUM";
-    trajectory = parse_tum(*text, name, options.rules);
+    result.kind = table ? "CSV" : "TUM";
+    trajectory = parse_tum(*lines_text, name, PoseRules::kAsGiven);
   } else if (columns == kKittiColumns) {
     result.kind = "KITTI poses";
-    const auto poses = parse_kitti(*text, name, options.rules);
+    const auto poses = parse_kitti(*lines_text, name, PoseRules::kAsGiven);
     if (!poses) return tl::unexpected(poses.error());
     trajectory = stamped(*poses, name, options.stamps, result.notes);
   } else {
@@ -80,6 +88,8 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   }
   if (!trajectory) return tl::unexpected(trajectory.error());
   result.trajectory = std::move(*trajectory);
+  normalize_rounded(result.trajectory, name, result.notes);
+  if (options.rules == PoseRules::kStrict) drop_unusable(result.trajectory, name, result.notes);
   return result;
 }
 

@@ -99,5 +99,62 @@ TEST_F(CloudTimes, TimesFromTheStartOfAScanMayHaveTheStampAtItsEnd) {
   EXPECT_NEAR(scans[2]->points.back().time_offset_ns, 90e6, 5.0);  // float32 seconds
 }
 
+/// Clouds of eight points at 10 Hz whose times run to `last`, recorded `latency` after their stamp.
+Recording read_timed(const std::filesystem::path& bag, float last, Duration latency) {
+  RobotRecording robot(bag);
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 60);
+  for (int k = 0; k < 10; ++k) {
+    std::vector<std::array<float, 4>> points;
+    for (int i = 0; i < 8; ++i) {
+      const auto turn = static_cast<float>(i);
+      points.push_back({4.0F - turn, 2.0F, 0.1F * turn, last / 7.0F * turn});
+    }
+    const Time stamp = kStart + k * 100 * kMillisecond;
+    robot.add_cloud(RawCloud::of(stamp, points), stamp + latency);
+  }
+  robot.close();
+  return test::read_recording(bag);
+}
+
+TEST_F(CloudTimes, TimesFromZeroToOneAreFractionsOfTheScan) {
+  const Recording read = read_timed(bag(), 1.0F, 105 * kMillisecond);
+  EXPECT_TRUE(read.noted("runs from 0 to 1 over scans of 0.1 s"));
+  ASSERT_EQ(read.setup.warnings.size(), 1U);
+  const auto scans = test::scans_of(read.deliveries);
+  EXPECT_EQ(scans[2]->stamp, kStart + 200 * kMillisecond);
+  EXPECT_NEAR(scans[2]->points[7].time_offset_ns, 100e6, 20.0);
+}
+
+TEST_F(CloudTimes, ACloudThatArrivesBeforeItsPointsFireIsStampedAtItsEnd) {
+  const Recording read = read_timed(bag(), 0.1F, kMillisecond);
+  EXPECT_TRUE(read.noted("the stamp is taken as the end of the scan"));
+  ASSERT_EQ(read.setup.warnings.size(), 1U);
+  EXPECT_EQ(test::scans_of(read.deliveries)[2]->stamp, kStart + 100 * kMillisecond);
+}
+
+TEST_F(CloudTimes, ARingThatIsTheSameForAllPointsIsDerivedFromElevation) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 60);
+  for (int k = 0; k < 10; ++k) {
+    RawCloud cloud = RawCloud::of(kStart + k * 100 * kMillisecond,
+                                  {{4, 0, 0, 0}, {4, 0, 1, 0.05F}, {4, 0, 2, 0.09F}});
+    cloud.fields.push_back({"ring", 16, 4});
+    cloud.point_step = 18;
+    cloud.row_step = 54;
+    std::vector<std::byte> wider(54);
+    for (std::size_t i = 0; i < 3; ++i) std::copy_n(&cloud.data[16 * i], 16, &wider[18 * i]);
+    cloud.data = wider;
+    robot.add_cloud(cloud, cloud.stamp + 105 * kMillisecond);
+  }
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_TRUE(read.noted("'ring' is the same for all points: it is no ring"));
+  EXPECT_EQ(read.setup.rings.count, 3);
+  const auto scans = test::scans_of(read.deliveries);
+  for (std::uint16_t i = 0; i < 3; ++i) EXPECT_EQ(scans[0]->points[i].ring, i);
+}
+
 }  // namespace
 }  // namespace aims

@@ -205,7 +205,7 @@ TEST(BagWarnings, EachNamesItsRemedy) {
       {"stand before it walks", [](BagInfo& bag) { bag.imus[0].static_interval.reset(); }},
       {"calibrate", [](BagInfo& bag) { bag.imus[0].static_interval->force.z() = 9.2; }},
       {"recording.T_imu_lidar", [](BagInfo& bag) { bag.transforms.clear(); }},
-      {"rosbag reindex", [](BagInfo& bag) { bag.summary.indexed = false; }},
+      {"rosbag reindex", [](BagInfo& bag) { bag.file = "walk.bag", bag.summary.closed = false; }},
       {"enable it", [](BagInfo& bag) { remove_field(bag, "time"); }},
   };
   for (const Case& each : cases) {

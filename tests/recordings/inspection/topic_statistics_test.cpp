@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 namespace aims {
 namespace {
 
@@ -61,6 +65,50 @@ TEST(TopicStatistics, UsesRecordTimesWithoutHeaders) {
   EXPECT_FALSE(info.stamped);
   EXPECT_NEAR(info.rate_hz.value(), 200.0, 1e-3);
   EXPECT_FALSE(info.median_offset_s.has_value());
+}
+
+TEST(TopicStatistics, DelaysOfAClockSinceBootKeepTheirMilliseconds) {
+  TopicStatistics statistics;
+  constexpr Duration kDelay = 1'699'992'596'765 * kMillisecond;
+  for (int i = 0; i < 20; ++i) statistics.add(i * kPeriod + kDelay, i * kPeriod + 0);
+  EXPECT_NEAR(info_of(statistics).median_offset_s.value(), 1'699'992'596.765, 1e-6);
+}
+
+TEST(TopicStatistics, StampsThatAreAllZeroAreReplacedByRecordTimes) {
+  TopicStatistics statistics;
+  for (int i = 0; i < 50; ++i) statistics.add(1'700'000'000 * kSecond + i * kPeriod, 0);
+  const TopicInfo info = info_of(statistics);
+  EXPECT_TRUE(info.zero_stamps);
+  EXPECT_FALSE(info.stamped);
+  EXPECT_EQ(info.repeated, 0U);
+  EXPECT_NEAR(info.rate_hz.value(), 200.0, 1e-3);
+  EXPECT_FALSE(info.median_offset_s);
+}
+
+TEST(TopicStatistics, ARecorderClockThatIsSetBackLosesNothing) {
+  TopicStatistics statistics;
+  std::vector<std::pair<Time, Time>> messages;
+  for (int i = 0; i < 2000; ++i) {
+    const Time stamp = 1'700'000'000 * kSecond + i * kPeriod;
+    messages.emplace_back(stamp + kMillisecond - (i >= 1200 ? 2 * kSecond : 0), stamp);
+  }
+  std::ranges::stable_sort(messages);
+  for (const auto& [record, stamp] : messages) statistics.add(record, stamp);
+  const TopicInfo info = info_of(statistics);
+  EXPECT_NEAR(info.recorder_step_s, 2.0, 1e-9);
+  EXPECT_EQ(info.backwards, 0U);
+  EXPECT_EQ(info.loss.value(), 0.0);
+}
+
+TEST(TopicStatistics, JitterIsNoLoss) {
+  TopicStatistics statistics;
+  for (int i = 0; i < 2000; ++i) {
+    const Time stamp = i * kPeriod + (i % 2 == 0 ? 0 : 7 * kPeriod / 10) + kPeriod;
+    statistics.add(stamp, stamp);
+  }
+  const TopicInfo info = info_of(statistics);
+  EXPECT_NEAR(info.rate_hz.value(), 200.0, 1.0);
+  EXPECT_EQ(info.loss.value(), 0.0);
 }
 
 TEST(TopicStatistics, OneMessageHasNoRate) {

@@ -93,6 +93,29 @@ TEST(LegStream, MissingRatesAreDifferencesOfAngles) {
   EXPECT_NEAR(sample->joint_velocity[1], 1.0, 1e-9);
 }
 
+TEST(LegStream, NoRateIsADifferenceAcrossTouchdown) {
+  LegStream legs(kinematic());
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  std::vector<LegOdometrySample> samples;
+  // The legs swing forwards, touch down at the fourth sample and then move back at 1 rad/s.
+  constexpr std::array<double, 6> kAngles = {0.6, 0.7, 0.8, 0.9, 0.91, 0.92};
+  for (std::size_t k = 0; k < kAngles.size(); ++k) {
+    const Time stamp = static_cast<Time>(k) * 10 * kMillisecond;
+    const bool stands = k >= 3;
+    JointReading reading = striding(stamp, kAngles[k]);
+    reading.velocity.reset();
+    legs.add_contacts({stamp, {stands, stands, stands, stands}}, counts);
+    if (const auto sample = legs.add_joints(reading, counts)) samples.push_back(*sample);
+  }
+  ASSERT_EQ(samples.size(), 5U);
+  EXPECT_FALSE(samples[2].contact[0]) << "the rate is still that of the swing";
+  EXPECT_TRUE(samples[3].contact[0]);
+  const double speed = samples[4].linear_velocity.norm();
+  EXPECT_LT(samples[2].linear_velocity.norm(), 1e-12);
+  EXPECT_NEAR(samples[3].linear_velocity.norm(), speed, 0.02 * speed);
+}
+
 TEST(LegStream, UpIsPropagatedByTheGyroAndCorrectedByTheSpecificForce) {
   UpDirection up;
   for (int k = 0; k <= 2000; ++k) {

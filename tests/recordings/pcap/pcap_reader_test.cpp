@@ -98,7 +98,8 @@ TEST(VelodyneScans, RefusesOtherModels) {
   VelodyneScans scans;
   const auto added = scans.add(velodyne_packet(blocks_from(0, 20), 0, 0x28).bytes, 0);
   ASSERT_FALSE(added);
-  EXPECT_EQ(added.error().message, "expected packets of a VLP-16 (0x22), found model 0x28");
+  EXPECT_EQ(added.error().message,
+            "expected packets of a VLP-16 (0x22), found model 0x28 (a VLP-32C)");
 }
 
 OusterMetadata ouster(const std::string& profile) {
@@ -132,6 +133,35 @@ Packet dual_packet(std::uint16_t frame, std::uint16_t column, const Return& firs
     packet.put(first.signal).put(second.signal).put<std::uint16_t>(7).zeros(2);
   }
   return packet.zeros(32);
+}
+
+TEST(VelodyneScans, CompleteRevolutionsAtBothEndsAreScans) {
+  VelodyneScans scans;
+  for (int packet = 0; packet < 10; ++packet) {
+    const auto added = scans.add(velodyne_packet(blocks_from(packet * 12 * 300, 300),
+                                                 static_cast<std::uint32_t>(1'328 * packet))
+                                     .bytes,
+                                 0);
+    ASSERT_TRUE(added && !*added);
+  }
+  const auto whole = scans.finish();
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->points.size(), 2U * 120);
+  ASSERT_TRUE(scans.add(velodyne_packet(blocks_from(0, 300), 13'280).bytes, 0));
+  EXPECT_FALSE(scans.finish()) << "a tenth of a revolution";
+}
+
+TEST(OusterScans, OneFrameWithAllItsColumnsIsAScan) {
+  OusterMetadata metadata = ouster("RNG19_RFL8_SIG16_NIR16_DUAL");
+  metadata.columns_per_frame = metadata.window_columns = 8;
+  const Return hit{4000, 51, 100};
+  for (const int columns : {7, 8}) {
+    OusterScans scans(metadata);
+    for (int i = 0; i < columns; ++i) {
+      EXPECT_FALSE(scans.add(dual_packet(5, static_cast<std::uint16_t>(i), hit, hit).bytes));
+    }
+    EXPECT_EQ(scans.finish(true).has_value(), columns == 8);
+  }
 }
 
 TEST(OusterScans, TakesTheStrongerOfTwoReturns) {
@@ -225,7 +255,7 @@ TEST_F(Capture, RefusesWhatIsMalformed) {
   EXPECT_NE(refusal(header() + packet + frame(velodyne_packet(blocks_from(0, 20), 0, 0x28)))
                 .find(at_byte(24 + packet.size()) + "expected packets of a VLP-16"),
             std::string::npos);
-  EXPECT_NE(refusal(header() + packet).find("expected whole scans of a Velodyne VLP-16"),
+  EXPECT_NE(refusal(header() + packet).find("expected complete scans of a Velodyne VLP-16"),
             std::string::npos);
 }
 

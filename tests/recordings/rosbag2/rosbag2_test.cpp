@@ -199,6 +199,28 @@ TEST_F(Rosbag2, DamagedPagesEndInAnErrorOrInMessages) {
   EXPECT_GT(refused, 0);
 }
 
+TEST_F(Rosbag2, AFileThatIsListedTwiceIsReadOnceAndNoneOutsideTheFolder) {
+  write_bag<Rosbag2Writer>(path("walk"), few_messages());
+  const auto once = read(path("walk"));
+  const auto list = [&](const std::string& files) {
+    EXPECT_TRUE(write_file_atomically(
+        path("walk/metadata.yaml"),
+        "rosbag2_bagfile_information:\n  relative_file_paths: [" + files + "]\n"));
+    return read(path("walk"));
+  };
+  EXPECT_EQ(list("walk_0.db3, ./walk_0.db3, walk_0.db3").messages.size(), once.messages.size());
+  fs::copy(path("walk/walk_0.db3"), path("other.db3"));
+  EXPECT_NE(list("../other.db3").error.find("expected the file '../other.db3'"), std::string::npos);
+}
+
+TEST_F(Rosbag2, RecoveryDoesWithoutMetadataThatAreEmpty) {
+  write_bag<Rosbag2Writer>(path("walk"), few_messages());
+  const auto whole = read(path("walk"));
+  EXPECT_TRUE(write_file_atomically(path("walk/metadata.yaml"), std::string_view()));
+  EXPECT_NE(read(path("walk")).error, "");
+  EXPECT_EQ(read(path("walk"), {.recover = true}).messages.size(), whole.messages.size());
+}
+
 TEST_F(Rosbag2, AFolderIsARecordingByItsMetadata) {
   EXPECT_EQ(format_by_content(folder_.path()), std::nullopt);
   const auto empty = open_recording(folder_.path());

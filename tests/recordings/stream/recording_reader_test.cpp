@@ -45,6 +45,79 @@ TEST_F(RecordingReaderTest, SeveralSuitableTopicsAreAnErrorThatNamesThem) {
   EXPECT_EQ(test::read_recording(bag(), config).error, "");
 }
 
+TEST_F(RecordingReaderTest, ALidarThatStartsAMinuteLaterIsReadLikeAnyOther) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 3600);
+  robot.add_clouds(kStart + 65 * kSecond, 10);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_TRUE(read.setup.has_point_times);
+  EXPECT_FALSE(read.noted("NO TRANSFORM"));
+  EXPECT_TRUE(read.setup.warnings.empty());
+}
+
+constexpr Time kEpochStart = 1'700'000'000 * kSecond;
+
+TEST_F(RecordingReaderTest, AMessageRecordedBeforeTheClockWasSetTakesThePlaceOfItsStamp) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  ImuSample sample;
+  sample.stamp = kEpochStart + 990 * kMillisecond;
+  robot.add("/imu", imu_type(), 1, imu_message({0, sample.stamp, "imu"}, sample));
+  robot.add_imu(kEpochStart, 100);
+  robot.add_clouds(kEpochStart, 10);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_TRUE(read.setup.has_point_times);
+  EXPECT_EQ(read.counts, (std::map<std::string, int>{{"recorded_before_their_stamp", 1}}));
+  Time last = 0;
+  for (const Delivery& each : read.deliveries) {
+    EXPECT_GE(each.arrival, last);
+    last = each.arrival;
+  }
+}
+
+TEST_F(RecordingReaderTest, ARecorderClockThatIsSetBackChangesNoOrder) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  for (int k = 0; k < 300; ++k) {
+    ImuSample sample;
+    sample.stamp = kEpochStart + k * 20 * kMillisecond;
+    sample.specific_force.z() = 9.81;
+    const Time recorded = sample.stamp + kMillisecond - (k >= 150 ? 2 * kSecond : 0);
+    robot.add("/imu", imu_type(), recorded, imu_message({0, sample.stamp, "imu"}, sample));
+  }
+  robot.add_clouds(kEpochStart, 5);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_EQ(read.counts, (std::map<std::string, int>{{"recorded_before_their_stamp", 150}}));
+  int samples = 0;
+  Time last = 0;
+  for (const Delivery& each : read.deliveries) {
+    const auto* sample = std::get_if<ImuSample>(&each.measurement);
+    if (sample == nullptr) continue;
+    EXPECT_GT(sample->stamp, last);
+    EXPECT_EQ(each.arrival, sample->stamp + kMillisecond);
+    last = sample->stamp;
+    ++samples;
+  }
+  EXPECT_EQ(samples, 300);
+}
+
+TEST_F(RecordingReaderTest, ALidarClockSinceBootIsAWarningWithTheDelayThatCorrectsIt) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kEpochStart, 100);
+  for (int k = 0; k < 10; ++k) {
+    const Time fired = kEpochStart + k * 100 * kMillisecond;
+    robot.add_cloud(RawCloud::of(fired - kEpochStart + kSecond, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}}),
+                    fired + 101 * kMillisecond);
+  }
+  robot.close();
+  EXPECT_TRUE(test::read_recording(bag()).noted("set recording.lidar_delay=-1699999999.000"));
+}
+
 TEST_F(RecordingReaderTest, StatesWhichPartsOfCloudsAndImuTheRecordingHolds) {
   RobotRecording robot(bag());
   robot.add_imu(kStart, 50);
@@ -52,7 +125,7 @@ TEST_F(RecordingReaderTest, StatesWhichPartsOfCloudsAndImuTheRecordingHolds) {
   robot.close();
   const RecordingSetup timed = test::read_recording(bag()).setup;
   EXPECT_TRUE(timed.has_point_times);
-  EXPECT_EQ(timed.rings.count, 0);
+  EXPECT_EQ(timed.rings.count, 8) << "derived from the elevations";
   EXPECT_FALSE(timed.has_orientation);
 }
 

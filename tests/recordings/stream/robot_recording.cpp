@@ -105,8 +105,12 @@ void RobotRecording::close() {
 }
 
 bool Recording::noted(const std::string& part) const {
-  return std::any_of(setup.notes.begin(), setup.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
+  return std::any_of(
+             setup.notes.begin(), setup.notes.end(),
+             [&](const std::string& note) { return note.find(part) != std::string::npos; }) ||
+         std::ranges::any_of(setup.warnings, [&](const ReadingWarning& each) {
+           return each.text.find(part) != std::string::npos;
+         });
 }
 
 Recording read_recording(const std::filesystem::path& file, const RecordingConfig& config) {

@@ -2,6 +2,7 @@
 #include "recordings/trajectories/trajectory_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <limits>
@@ -132,6 +133,50 @@ TEST_F(TrajectoryFiles, TextErrorsNameFileAndLine) {
   EXPECT_NE(message_of("/nonexistent.tum").find("/nonexistent.tum: cannot be read"),
             std::string::npos);
   EXPECT_NE(message_of("/nonexistent.tum:/odom").find("/nonexistent.tum"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, UnusablePosesOfATruthAreLeftOutWithTheirCauses) {
+  const std::string text =
+      "\xef\xbb\xbf+1 0 0 0 0 0 0 1\n1 5 0 0 0 0 0 1\n2 nan 0 0 0 0 0 1\n3 1 0 0 0 0 0.6 0.79\n"
+      "4 1 0 0 0 0 0 2\n";
+  const auto read = read_trajectory(file("truth.txt", text), {});
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->trajectory.size(), 2U);
+  EXPECT_EQ(read->trajectory[1].stamp, 3 * kSecond);
+  EXPECT_NEAR(read->trajectory[1].pose.rotation.norm(), 1.0, 1e-15);
+  ASSERT_EQ(read->notes.size(), 2U);
+  EXPECT_NE(read->notes[0].find("1 of 5 quaternions have norms of 0.992"), std::string::npos);
+  EXPECT_NE(read->notes[1].find("3 of 5 poses dropped: 1 not finite, 1 without a unit quaternion, "
+                                "1 with the stamp of the one before"),
+            std::string::npos)
+      << read->notes[1];
+}
+
+TEST_F(TrajectoryFiles, TablesHaveWWhereTheirHeaderOrTheirStampsTell) {
+  const std::vector<std::string> texts = {
+      "#timestamp, p_x, p_y, p_z, q_RS_w [], q_x, q_y, q_z, v_x\n1500000000,1,2,3,0.8,0,0,0.6,9\n",
+      "1403636580838555648,1,2,3,0.8,0,0,0.6\n", "t;x;y;z;qx;qy;qz;qw\n1.5;1;2;3;0;0;0.6;0.8\n",
+      "1.5, 1, 2, 3, 0, 0, 0.6, 0.8\n"};
+  for (const std::string& text : texts) {
+    const auto read = read_trajectory(file("table.csv", text), {});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->kind, "CSV");
+    ASSERT_EQ(read->trajectory.size(), 1U) << text;
+    EXPECT_NEAR(read->trajectory[0].pose.rotation.w(), 0.8, 1e-15) << text;
+    EXPECT_EQ(read->trajectory[0].pose.translation, Eigen::Vector3d(1, 2, 3));
+  }
+  const auto euroc = read_trajectory(file("table.csv", texts[1]), {});
+  EXPECT_EQ(euroc->trajectory[0].stamp, 1403636580838555648);
+  EXPECT_NE(message_of(file("table.csv", "1,2\n")).find("table.csv:1: expected at least 8 columns"),
+            std::string::npos);
+  EXPECT_NE(message_of(file("wide.txt", "\xff\xfe\n")).find("UTF-16"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, APipeIsRefusedAtOnce) {
+  const auto pipe = folder_.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(message_of(pipe.string()).find("expected a regular file"), std::string::npos);
+  EXPECT_NE(message_of("/dev/zero").find("expected a regular file"), std::string::npos);
 }
 
 TEST_F(TrajectoryFiles, KittiPosesNeedAsManyStamps) {

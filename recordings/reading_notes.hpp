@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace aims {
+
+/// An assumption that decides the result of an estimate, or a fault of the recording that spoils
+/// it.
+struct ReadingWarning {
+  std::string reason;  ///< in a few words, for the health: "clocks of LiDAR and IMU differ"
+  std::string text;    ///< one sentence with the key that changes it
+};
+
+/// What reading a recording assumes: conversions as notes, the rest as warnings.
+struct ReadingNotes {
+  std::vector<std::string> notes;
+  std::vector<ReadingWarning> warnings;
+
+  void push_back(std::string note) { notes.push_back(std::move(note)); }
+  void warn(std::string reason, std::string text) {
+    warnings.push_back({std::move(reason), std::move(text)});
+  }
+};
+
+}  // namespace aims

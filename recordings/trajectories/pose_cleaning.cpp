@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/trajectories/pose_cleaning.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace aims {
+namespace {
+
+constexpr double kUnitTolerance = 1e-3;      ///< of a norm that is 1
+constexpr double kRoundingTolerance = 0.06;  ///< of a norm from decimals that are rounded
+
+enum Fault : std::size_t { kNone, kNotFinite, kNoRotation, kRepeated, kBackwards, kFaults };
+
+Fault fault_of(const StampedPose& pose, const std::optional<Time>& last) {
+  const Pose& each = pose.pose;
+  if (!each.translation.allFinite() || !each.rotation.coeffs().allFinite()) return kNotFinite;
+  if (!(std::abs(each.rotation.norm() - 1.0) < kUnitTolerance)) return kNoRotation;
+  if (last && pose.stamp == *last) return kRepeated;
+  return last && pose.stamp < *last ? kBackwards : kNone;
+}
+
+std::string text_of(const std::array<std::size_t, kFaults>& counts) {
+  constexpr std::array<const char*, kFaults> kTexts = {
+      "", "not finite", "without a unit quaternion", "with the stamp of the one before",
+      "stamped before the one before"};
+  std::vector<std::string> parts;
+  for (std::size_t i = kNotFinite; i < kFaults; ++i) {
+    if (counts[i] > 0) parts.push_back(fmt::format("{} {}", counts[i], kTexts[i]));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+void normalize_rounded(Trajectory& poses, const std::string& name,
+                       std::vector<std::string>& notes) {
+  std::size_t rounded = 0;
+  double smallest = 1.0, largest = 1.0;
+  for (StampedPose& each : poses) {
+    const double norm = each.pose.rotation.norm();
+    const double off = std::abs(norm - 1.0);
+    if (!(off > kUnitTolerance && off <= kRoundingTolerance)) continue;
+    each.pose.rotation.normalize();
+    ++rounded;
+    smallest = std::min(smallest, norm);
+    largest = std::max(largest, norm);
+  }
+  if (rounded == 0) return;
+  notes.push_back(
+      fmt::format("{}: {} of {} quaternions have norms of {:.4g} to {:.4g}, as rounded "
+                  "decimals do: normalized",
+                  name, rounded, poses.size(), smallest, largest));
+}
+
+void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
+  Trajectory usable;
+  std::array<std::size_t, kFaults> counts{};
+  std::optional<Time> last;
+  for (const StampedPose& each : poses) {
+    const Fault fault = fault_of(each, last);
+    ++counts[fault];
+    if (fault != kNone) continue;
+    last = each.stamp;
+    usable.push_back(each);
+  }
+  if (usable.size() < poses.size()) {
+    notes.push_back(fmt::format("{}: {} of {} poses dropped: {}", name,
+                                poses.size() - usable.size(), poses.size(), text_of(counts)));
+  }
+  poses = std::move(usable);
+}
+
+std::string unusable_text(const Trajectory& poses) {
+  std::array<std::size_t, kFaults> counts{};
+  std::optional<Time> last;
+  for (const StampedPose& each : poses) {
+    const Fault fault = fault_of(each, last);
+    ++counts[fault];
+    if (fault == kNone) last = each.stamp;
+  }
+  return text_of(counts);
+}
+
+}  // namespace aims

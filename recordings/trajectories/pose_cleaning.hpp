@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// Normalizes quaternions that are off unit norm as rounded decimals are, and notes it.
+void normalize_rounded(Trajectory& poses, const std::string& name, std::vector<std::string>& notes);
+
+/// Removes poses that are not finite, no rotations, or stamped not after the one before; notes how
+/// many of each.
+void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::string>& notes);
+
+/// "2 not finite, 1 stamped not after the one before"; empty where all poses are usable.
+std::string unusable_text(const Trajectory& poses);
+
+}  // namespace aims
