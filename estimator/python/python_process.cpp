@@ -75,6 +75,19 @@ bool readable_within(int socket, int milliseconds) {
 }
 
 constexpr int kNotStarted = 127;
+constexpr std::size_t kMaxSummary = 1'000, kMaxTrace = 20'000;  ///< of an exception [bytes]
+
+/// At most so many bytes of a text, without control characters but line ends and tabs.
+std::string bounded(const std::string& text, std::size_t most) {
+  std::string out;
+  for (const char c : text) {
+    if (out.size() >= most) return out + " ...";
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (byte >= 0x20 && byte != 0x7f) || c == '\n' || c == '\t';
+    out += plain ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+  }
+  return out;
+}
 
 /// The life of the new process up to its program: nothing here takes memory or locks, as other
 /// threads of the calling process may hold some.
@@ -157,7 +170,9 @@ SharedMemory::~SharedMemory() {
 }
 
 Result<void> SharedMemory::create() {
-  file_ = ::memfd_create("aims_points", MFD_CLOEXEC);
+  file_ = ::memfd_create("aims_points", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  // Memory behind the end of a file that Python shortens would end this process.
+  if (file_ >= 0) ::fcntl(file_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_SEAL);
   const auto page = add(kPage);
   if (!page) return tl::unexpected(page.error());
   call_ = static_cast<const std::byte*>(*page);
@@ -285,24 +300,38 @@ Result<PythonProcess::Answer> PythonProcess::receive() {
 Result<std::vector<std::byte>> PythonProcess::content_of(Answer answer) {
   if (answer.kind != PythonReply::kError) return std::move(answer.content);
   MessageCursor cursor(answer.content);
-  const std::string step = cursor.take_text();
-  const std::string summary = cursor.take_text();
-  const std::string trace = cursor.take_text();
+  const std::string step = bounded(cursor.take_text(), kMaxSummary);
+  const std::string summary = bounded(cursor.take_text(), kMaxSummary);
+  const std::string trace = bounded(cursor.take_text(), kMaxTrace);
   yielded_.assign(answer.content.end() - static_cast<std::ptrdiff_t>(cursor.left()),
                   answer.content.end());
-  return failure(fmt::format("{}: {}\n{}", step, summary, trace));
+  const bool repeated = trace.starts_with(summary) && trace.size() <= summary.size() + 1;
+  return failure(repeated ? fmt::format("{}: {}", step, summary)
+                          : fmt::format("{}: {}\n{}", step, summary, trace));
+}
+
+/// Whether the process is dead; its status stays to be read.
+bool PythonProcess::has_ended() const {
+  siginfo_t info{};
+  const int options = WEXITED | WNOHANG | WNOWAIT;
+  return ::waitid(P_PID, static_cast<id_t>(pid_), &info, options) == 0 && info.si_pid == pid_;
 }
 
 /// Counted in slices, so that time in which both processes are stopped does not count.
 bool PythonProcess::answers_within(double limit_s) const {
-  if (limit_s <= 0.0) return readable_within(socket_, -1);
-  const auto limit_ms = std::max(1, static_cast<int>(1e3 * limit_s));
+  const bool limited = limit_s > 0.0;
+  const auto limit_ms = limited ? std::max(1, static_cast<int>(1e3 * limit_s)) : 10'000;
   const int slice_ms = std::clamp(limit_ms / 10, 1, 1'000);
   std::uint64_t count = memory_.call().count;
   for (int waited_ms = 0; waited_ms < limit_ms; waited_ms += slice_ms) {
     if (readable_within(socket_, slice_ms)) return true;
+    if (has_ended()) {
+      // Its children may hold the other end: nothing more is to come.
+      ::shutdown(socket_, SHUT_RD);
+      return true;
+    }
     const std::uint64_t begun = memory_.call().count;
-    if (begun != count) waited_ms = -slice_ms;
+    if (begun != count || !limited) waited_ms = -slice_ms;
     count = begun;
   }
   return false;

@@ -147,6 +147,7 @@ class PythonProcess {
   Result<Answer> receive();
   Result<std::vector<std::byte>> content_of(Answer answer);
   Result<std::vector<std::byte>> interrupt(double limit_s);
+  bool has_ended() const;
   bool answers_within(double limit_s) const;
   Error ended();
   void stop();

@@ -122,9 +122,12 @@ class RobotBags : public ::testing::Test {
   }
 
   bool noted(const std::string& part) const {
-    return std::any_of(setup_.notes.begin(), setup_.notes.end(), [&](const std::string& note) {
-      return note.find(part) != std::string::npos;
-    });
+    return std::any_of(
+               setup_.notes.begin(), setup_.notes.end(),
+               [&](const std::string& note) { return note.find(part) != std::string::npos; }) ||
+           std::ranges::any_of(setup_.warnings, [&](const ReadingWarning& each) {
+             return each.text.find(part) != std::string::npos;
+           });
   }
 
   static std::unique_ptr<TemporaryFolder> folder_;
