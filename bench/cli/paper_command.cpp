@@ -43,7 +43,7 @@ Result<void> write_results(const Suite& suite, const std::vector<PaperExperiment
 Result<int> study_paper(const SharedOptions& given) {
   const SharedOptions shared = with_defaults(given);
   const auto suite =
-      run_study(shared, {.seeds = first_seeds(5), .outputs = {.trajectories = true}, .adapt = {}});
+      run_study(shared, {.seeds = first_seeds(20), .outputs = {.trajectories = true}, .adapt = {}});
   if (!suite) return tl::unexpected(suite.error());
   const auto experiments = paper_study(*suite);
   if (!experiments) return tl::unexpected(experiments.error());
@@ -65,7 +65,7 @@ Result<int> study_paper(const SharedOptions& given) {
 void declare_paper(Command command, const fs::path& scenarios) {
   auto shared = std::make_shared<SharedOptions>();
   shared->folder = scenarios.string();
-  add_suite_options(command, *shared, "out/paper", "1-5");
+  add_suite_options(command, *shared, "out/paper", "1-20");
   add_estimators(command, *shared, "the systems of the paper, leg_kilo, tfs_plus, aims_d");
   command.footer(
       "Without scenarios corridor and garage, with sensors=field unless --set has another "

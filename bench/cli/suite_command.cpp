@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <memory>
 #include <string>
 
@@ -24,15 +26,23 @@ struct SuiteArguments {
   bool no_page = false;
 };
 
-void print_matrix(const char* title, const TextTable& table) {
+void print_matrix(const std::string& title, const TextTable& table) {
   print_out("{}\n{}\n", title, to_text(table));
 }
 
 void print_suite(const Suite& suite, const SharedOptions& shared) {
   print_out("Median [95 % bootstrap interval] worst, over seeds\n\n");
-  print_matrix("M_list over all segments [%]", headline_table(suite, kHeadlineScores[0]));
-  print_matrix("M_end [m]", headline_table(suite, kHeadlineScores[1]));
-  print_matrix("Success", success_table(suite));
+  for (const HeadlineScore& score : kHeadlineScores) {
+    const std::string key = score.key;
+    if (key == "max_error_z_m" || key == "m_end_m") continue;  // in suite.md
+    print_matrix(fmt::format("{} [{}]", score.title, score.unit), headline_table(suite, score));
+  }
+  for (const SuccessScore& score : kSuccessScores) {
+    print_matrix(fmt::format("Success {} of the distance, with 95 % interval", score.title),
+                 success_table(suite, score));
+  }
+  const TextTable pairs = success_pairs_table(suite, false);
+  if (!pairs.rows.empty()) print_matrix("Pairs of estimators (McNemar's exact test)", pairs);
   const auto families = family_results(suite);
   if (!families.empty()) print_matrix("Level of failure", breaks_table(families));
   print_ring_notes(suite);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/metrics/statistics.hpp"
+
 namespace aims {
 namespace {
 
@@ -17,6 +19,37 @@ std::optional<double> ate_rmse(std::span<const PosePair> pairs) {
   if (pairs.empty()) return std::nullopt;
   double sum = 0.0;
   for (const PosePair& each : pairs) sum += error_of(each).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(pairs.size()));
+}
+
+std::vector<double> position_errors(std::span<const PosePair> pairs) {
+  std::vector<double> errors;
+  for (const PosePair& each : pairs) errors.push_back(error_of(each).norm());
+  return errors;
+}
+
+std::optional<AbsoluteErrorStatistics> absolute_error_statistics(std::span<const PosePair> pairs) {
+  if (pairs.empty()) return std::nullopt;
+  const std::vector<double> errors = position_errors(pairs);
+  AbsoluteErrorStatistics statistics;
+  statistics.mean_m = *mean(errors);
+  statistics.median_m = *median(errors);
+  double squares = 0.0;
+  for (const double each : errors) squares += std::pow(each - statistics.mean_m, 2);
+  statistics.std_m = std::sqrt(squares / static_cast<double>(errors.size()));
+  const auto [least, most] = std::ranges::minmax(errors);
+  statistics.min_m = least;
+  statistics.max_m = most;
+  return statistics;
+}
+
+std::optional<double> heading_rmse(std::span<const PosePair> pairs) {
+  if (pairs.empty()) return std::nullopt;
+  double sum = 0.0;
+  for (const PosePair& each : pairs) {
+    const double heading = yaw_of(each.estimate.rotation * each.truth.rotation.conjugate());
+    sum += heading * heading;
+  }
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "bench/metrics/association.hpp"
 
@@ -14,6 +15,25 @@ struct EndError {
   double xy_m = 0.0;    ///< its horizontal part
   double z_m = 0.0;     ///< its vertical part, absolute
 };
+
+/// Position errors of aligned pairs (evo: APE, translation part) [m].
+struct AbsoluteErrorStatistics {
+  double mean_m = 0.0;
+  double median_m = 0.0;
+  double std_m = 0.0;  ///< about the mean, over their number (numpy.std)
+  double min_m = 0.0;
+  double max_m = 0.0;
+};
+
+/// None without pairs.
+std::optional<AbsoluteErrorStatistics> absolute_error_statistics(std::span<const PosePair> pairs);
+
+/// Position error of each of aligned pairs [m].
+std::vector<double> position_errors(std::span<const PosePair> pairs);
+
+/// Root mean square of the heading errors [rad] of aligned pairs; the rotation error is taken in
+/// the frame of the truth, whose z is along gravity.
+std::optional<double> heading_rmse(std::span<const PosePair> pairs);
 
 /// Root mean square of the position errors [m] of aligned pairs (evo: APE, translation part).
 std::optional<double> ate_rmse(std::span<const PosePair> pairs);

@@ -119,6 +119,26 @@ Alignment align_se3(std::span<const PosePair> pairs) {
   return alignment;
 }
 
+Alignment align_sim3(std::span<const PosePair> pairs) {
+  Alignment alignment = align_se3(pairs);
+  alignment.kind = AlignmentKind::kSim3;
+  if (pairs.empty()) return alignment;
+  const Moments m = moments_of(pairs);
+  double variance = 0.0;
+  for (const PosePair& each : pairs) {
+    variance += (each.estimate.translation - m.mean_estimate).squaredNorm() /
+                static_cast<double>(pairs.size());
+  }
+  const Eigen::Quaterniond& rotation = alignment.T_truth_estimate.rotation;
+  // The trace of D S in Umeyama's terms: of the covariance along the aligned estimate.
+  const double along = (rotation.toRotationMatrix().transpose() * m.covariance).trace();
+  if (!(variance > 0.0) || !(along > 0.0)) return alignment;
+  alignment.scale = along / variance;
+  alignment.T_truth_estimate.translation =
+      m.mean_truth - rotation * (alignment.scale * m.mean_estimate);
+  return alignment;
+}
+
 Alignment align_yaw(std::span<const PosePair> pairs) {
   Alignment alignment{Pose(), AlignmentKind::kYaw, PositionSpread::kPoint};
   if (pairs.empty()) return alignment;
@@ -135,7 +155,10 @@ Alignment align_yaw(std::span<const PosePair> pairs) {
 
 std::vector<PosePair> aligned(std::span<const PosePair> pairs, const Alignment& alignment) {
   std::vector<PosePair> moved(pairs.begin(), pairs.end());
-  for (PosePair& each : moved) each.estimate = alignment.T_truth_estimate * each.estimate;
+  for (PosePair& each : moved) {
+    if (alignment.scale != 1.0) each.estimate.translation *= alignment.scale;
+    each.estimate = alignment.T_truth_estimate * each.estimate;
+  }
   return moved;
 }
 

@@ -13,6 +13,7 @@ enum class AlignmentKind {
   kStartPose,     ///< start equal in position and rotation
   kStartHeading,  ///< first pair equal in position and heading; both frames have z up
   kSe3,           ///< least squares over all positions, rotation and translation (Umeyama)
+  kSim3,          ///< the same with a scale
   kYaw,           ///< least squares over all positions, heading and translation (4 DoF)
 };
 
@@ -28,6 +29,7 @@ struct Alignment {
   Pose T_truth_estimate;
   AlignmentKind kind = AlignmentKind::kStartPose;
   PositionSpread spread = PositionSpread::kFull;  ///< of least squares; kPoint without pairs
+  double scale = 1.0;                             ///< of the positions of the estimate [-]
 };
 
 /// Aligns the start; identity without pairs. By heading, the first pair becomes equal. By pose, the
@@ -47,10 +49,14 @@ std::span<const PosePair> standing_start(std::span<const PosePair> pairs);
 /// the first pair; of positions on a point, all of it is.
 Alignment align_se3(std::span<const PosePair> pairs);
 
+/// The same with a scale, Umeyama's (1991, eq. 42); 1 when the positions do not spread. The
+/// transform applies to positions that are scaled already.
+Alignment align_sim3(std::span<const PosePair> pairs);
+
 /// Least squares over heading and translation; heading zero when the positions do not spread.
 Alignment align_yaw(std::span<const PosePair> pairs);
 
-/// The pairs with their estimates moved into the truth's frame.
+/// The pairs with their estimates scaled and moved into the truth's frame.
 std::vector<PosePair> aligned(std::span<const PosePair> pairs, const Alignment& alignment);
 
 }  // namespace aims

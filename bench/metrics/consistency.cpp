@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "bench/metrics/chi_square.hpp"
+#include "bench/metrics/proportion.hpp"
 #include "bench/metrics/statistics.hpp"
 
 namespace aims {
 namespace {
 
-constexpr double kTail = 0.025;           ///< outside either end of the 95 % bounds
-constexpr double kNormalQuantile = 1.96;  ///< of 97.5 %
-constexpr double kSigmas = 2.0;           ///< of the coverage
+constexpr double kTail = 0.025;  ///< outside either end of the 95 % bounds
+constexpr double kSigmas = 2.0;  ///< of the coverage
 constexpr std::uint64_t kBootstrapSeed = 1;
 
 bool is_stated(const ConsistencySample& sample) { return sample.sigma_m && *sample.sigma_m > 0.0; }
@@ -126,15 +126,10 @@ Interval mean_nees_bounds(int runs) {
 Coverage coverage_of(int inside, int runs, bool independent) {
   Coverage coverage{inside, runs, std::nullopt, {}};
   if (runs == 0) return coverage;
-  const double n = runs;
-  const double fraction = inside / n;
-  coverage.fraction = fraction;
+  coverage.fraction = static_cast<double>(inside) / runs;
   if (!independent) return coverage;
-  const double z2 = kNormalQuantile * kNormalQuantile;
-  const double middle = (fraction + z2 / (2.0 * n)) / (1.0 + z2 / n);
-  const double half = kNormalQuantile / (1.0 + z2 / n) *
-                      std::sqrt(fraction * (1.0 - fraction) / n + z2 / (4.0 * n * n));
-  coverage.interval = {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+  coverage.interval =
+      wilson_interval(static_cast<std::size_t>(inside), static_cast<std::size_t>(runs));
   return coverage;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/metrics/scores.hpp"
 
+#include <algorithm>
+
 namespace aims {
 namespace {
 
@@ -50,17 +52,17 @@ void describe_metrics(Fields& f, ScoreConfig& c) {
   f.flag("rpe_pairs_from_truth", c.rpe_pairs_from_truth,
          {.meaning = "Measure the path length of the relative pose error along the truth, the same "
                      "for every estimator; the default of evo is the estimate."});
+  f.flag("sim3", c.sim3,
+         {.meaning = "Also align with a scale, for systems that do not observe it: ate_sim3_m."});
   f.number("max_error_offset", c.max_error_offset,
            {.unit = "m",
             .range = up_to(1e4),
-            .meaning = "Largest position error of a success at the start; half the width of a "
-                       "narrow corridor."});
+            .meaning = "Largest position error of a success before the robot walks; covers the "
+                       "noise of a pose."});
   f.number("max_error_per_path", c.max_error_per_path,
            {.unit = "-",
             .range = up_to(1e6),
-            .meaning = "Growth of the largest position error of a success per metre of path; "
-                       "about the drift of leg odometry alone.",
-            .source = "table I, legged odometry"});
+            .meaning = "Growth of the largest position error of a success per metre of path."});
 }
 
 /// M_end, unless the estimate stops before the truth does: then its end is another place.
@@ -70,17 +72,50 @@ std::optional<EndError> end_error_if_reached(std::span<const PosePair> anchored,
   return end_error(anchored);
 }
 
-void score_pairs(Scores& scores, std::span<const PosePair> pairs, const ScoreConfig& config) {
+/// The scores after alignment by heading and translation. Frames that are not level are levelled at
+/// the start, as `anchored` is.
+void score_headline(Scores& scores, std::span<const PosePair> pairs,
+                    std::span<const PosePair> anchored, const ScoreConfig& config) {
+  const bool is_level = config.anchor == AlignmentKind::kStartHeading;
+  const std::span<const PosePair> level = is_level ? pairs : anchored;
+  const std::vector<PosePair> best = aligned(level, align_yaw(level));
+  scores.ate_yaw_m = ate_rmse(best);
+  scores.ape_yaw = absolute_error_statistics(best);
+  scores.heading_error_rad = heading_rmse(best);
+  scores.heading_offset_rad = yaw_of(align_yaw(anchored).T_truth_estimate.rotation);
+}
+
+void score_pairs(Scores& scores, std::span<const PosePair> pairs,
+                 std::span<const PosePair> anchored, const ScoreConfig& config) {
   // After alignment a single pose always equals its truth.
   if (pairs.size() < 2) return;
-  const std::vector<PosePair> anchored = aligned(pairs, align_start(pairs, config.anchor));
+  score_headline(scores, pairs, anchored, config);
   scores.ate_m = ate_rmse(anchored);
   scores.max_error_m = max_error(anchored);
   scores.max_abs_z_error_m = max_abs_z_error(anchored);
-  scores.ate_yaw_m = ate_rmse(aligned(pairs, align_yaw(pairs)));
   const Alignment se3 = align_se3(pairs);
   scores.se3_spread = se3.spread;
   scores.ate_se3_m = ate_rmse(aligned(pairs, se3));
+  if (!config.sim3) return;
+  const Alignment sim3 = align_sim3(pairs);
+  scores.ate_sim3_m = ate_rmse(aligned(pairs, sim3));
+  scores.sim3_scale = sim3.scale;
+}
+
+void score_success(Scores& scores, const Trajectory& estimate, const Trajectory& truth,
+                   std::span<const PosePair> anchored, const ScoreConfig& config) {
+  SuccessLimits limits{.error_offset = config.max_error_offset,
+                       .error_per_path = config.max_error_per_path,
+                       .edge = from_seconds(config.edge_tolerance),
+                       .gap = from_seconds(config.max_gap),
+                       .coverage = config.min_coverage};
+  const SuccessVerdict verdict = judge(estimate, truth, anchored, limits);
+  scores.success = verdict.reason == FailureReason::kNone;
+  scores.failure_reason = verdict.reason;
+  scores.diverged_at = verdict.diverged_at;
+  limits.error_per_path = std::min(limits.error_per_path, kStrictErrorPerPath);
+  scores.success_1_percent =
+      judge(estimate, truth, anchored, limits).reason == FailureReason::kNone;
 }
 
 std::vector<RpeScore> relative_errors(std::span<const PosePair> pairs, const ScoreConfig& config) {
@@ -109,6 +144,7 @@ Scores score(const Trajectory& estimate, const Trajectory& truth,
 
 void withdraw_success(Scores& scores, FailureReason reason) {
   scores.success = false;
+  scores.success_1_percent = false;
   const FailureReason own = scores.failure_reason;
   if (own == FailureReason::kInvalid || own == FailureReason::kGap ||
       own == FailureReason::kErrorLimit) {
@@ -128,15 +164,7 @@ Scores score_over(const Trajectory& estimate, const Trajectory& truth,
   const Duration edge = from_seconds(config.edge_tolerance);
 
   Scores scores;
-  const SuccessVerdict verdict = judge(estimate, valid_truth, anchored,
-                                       {.error_offset = config.max_error_offset,
-                                        .error_per_path = config.max_error_per_path,
-                                        .edge = edge,
-                                        .gap = from_seconds(config.max_gap),
-                                        .coverage = config.min_coverage});
-  scores.success = verdict.reason == FailureReason::kNone;
-  scores.failure_reason = verdict.reason;
-  scores.diverged_at = verdict.diverged_at;
+  score_success(scores, estimate, valid_truth, anchored, config);
   scores.poses = static_cast<int>(estimate.size());
   scores.poses_invalid = static_cast<int>(estimate.size() - valid.size());
   scores.poses_compared = static_cast<int>(pairs.size());
@@ -146,8 +174,9 @@ Scores score_over(const Trajectory& estimate, const Trajectory& truth,
       segment_distances(valid, valid_truth, segments, config.min_segment_length, edge);
   scores.m_list_percent = m_list_percent(scores.segments);
   scores.m_end = end_error_if_reached(anchored, valid_truth, edge);
-  score_pairs(scores, pairs, config);
+  score_pairs(scores, pairs, anchored, config);
   scores.rpe = relative_errors(pairs, config);
+  scores.path_errors = path_errors(pairs);
   if (anchored.size() >= 2) scores.drift = drift_summary(anchored, valid_truth, segments);
   return scores;
 }

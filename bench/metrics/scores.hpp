@@ -10,6 +10,7 @@
 #include "bench/metrics/alignment.hpp"
 #include "bench/metrics/association.hpp"
 #include "bench/metrics/drift.hpp"
+#include "bench/metrics/path_error.hpp"
 #include "bench/metrics/relative_error.hpp"
 #include "bench/metrics/segments.hpp"
 #include "bench/metrics/success.hpp"
@@ -30,15 +31,17 @@ struct ScoreConfig {
   std::vector<std::string> segments;  ///< "a-d"; empty: from each named point to the next
   bool rpe_all_pairs = false;
   bool rpe_pairs_from_truth = true;
-  double max_error_offset = 1.0;     ///< [m]
-  double max_error_per_path = 0.05;  ///< [-]
+  bool sim3 = false;                                 ///< also align with a scale
+  double max_error_offset = 0.1;                     ///< [m]
+  double max_error_per_path = kSuccessErrorPerPath;  ///< [-]
 };
 
 void describe(Fields& fields, ScoreConfig& config);
 
 /// All scores of one estimate. An undefined quantity has no value; none is ever NaN.
 struct Scores {
-  bool success = false;
+  bool success = false;            ///< within 5 % of the distance
+  bool success_1_percent = false;  ///< within 1 %
   FailureReason failure_reason = FailureReason::kNoOverlap;
   std::optional<Time> diverged_at;  ///< none on success, or when the reason is not the estimate's
 
@@ -52,14 +55,20 @@ struct Scores {
   std::optional<double> m_list_percent;   ///< over all segments
   std::optional<EndError> m_end;          ///< none when the estimate does not reach the end
 
-  std::optional<double> ate_m;                         ///< aligned at the start
-  std::optional<double> ate_se3_m;                     ///< after the best SE(3) alignment
-  std::optional<double> ate_yaw_m;                     ///< after the best heading and translation
+  std::optional<double> ate_yaw_m;           ///< after the best heading and translation: headline
+  std::optional<double> heading_error_rad;   ///< rms, after the same alignment
+  std::optional<double> heading_offset_rad;  ///< of that alignment from the one at the start
+  std::optional<AbsoluteErrorStatistics> ape_yaw;  ///< after the same alignment
+  std::optional<double> ate_m;                     ///< aligned at the start
+  std::optional<double> ate_se3_m;                 ///< after the best SE(3) alignment
+  std::optional<double> ate_sim3_m;                ///< with a scale; on request
+  std::optional<double> sim3_scale;                ///< of the estimate's positions; on request [-]
   PositionSpread se3_spread = PositionSpread::kPoint;  ///< less than kFull: evo gives no number
   std::optional<double> max_error_m;                   ///< aligned at the start
   std::optional<double> max_abs_z_error_m;             ///< aligned at the start
 
   std::vector<RpeScore> rpe;          ///< over 1 m and over 10 m
+  PathErrors path_errors;             ///< over 5 m to 100 m
   std::optional<DriftSummary> drift;  ///< aligned at the start
 };
 

@@ -2,6 +2,7 @@
 #include "bench/metrics/success.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace aims {
 namespace {
@@ -32,8 +33,30 @@ void note_missing_poses(SuccessVerdict& verdict, const Trajectory& truth,
   }
 }
 
+/// Largest heading by which a fit turns the path against the attitude of the first pose. A mount
+/// is off by less; a path that leads elsewhere is an error [rad].
+constexpr double kMaxHeading = 0.1;
+
+/// The heading that turns displacements from the start onto the true ones, by least squares.
+class HeadingFit {
+ public:
+  void add(const Eigen::Vector3d& estimate, const Eigen::Vector3d& truth) {
+    sine_ += estimate.x() * truth.y() - estimate.y() * truth.x();
+    cosine_ += estimate.x() * truth.x() + estimate.y() * truth.y();
+  }
+  Eigen::Quaterniond rotation() const {
+    return yaw_rotation(std::clamp(std::atan2(sine_, cosine_), -kMaxHeading, kMaxHeading));
+  }
+
+ private:
+  double sine_ = 0.0;
+  double cosine_ = 0.0;
+};
+
 void note_large_errors(SuccessVerdict& verdict, const Trajectory& truth,
                        std::span<const PosePair> pairs, const SuccessLimits& limits) {
+  const Eigen::Vector3d start = pairs.front().truth.translation;
+  HeadingFit heading;
   double path = 0.0;
   std::size_t last = 0;  // index into the truth up to which `path` is summed
   for (const PosePair& pair : pairs) {
@@ -41,7 +64,10 @@ void note_large_errors(SuccessVerdict& verdict, const Trajectory& truth,
       path += (truth[last + 1].pose.translation - truth[last].pose.translation).norm();
       ++last;
     }
-    const double error = (pair.estimate.translation - pair.truth.translation).norm();
+    const Eigen::Vector3d estimated = pair.estimate.translation - start;
+    const Eigen::Vector3d truly = pair.truth.translation - start;
+    heading.add(estimated, truly);
+    const double error = (heading.rotation() * estimated - truly).norm();
     if (error <= limits.error_offset + limits.error_per_path * path) continue;
     note(verdict, FailureReason::kErrorLimit, pair.stamp);
     return;

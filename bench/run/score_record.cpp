@@ -46,7 +46,41 @@ void add_segments(Json& json, const Scores& scores) {
   json["m_list_signed_percent"] = std::move(signed_percent);
 }
 
+/// Milliradians of an angle [rad].
+Json mrad_json(const std::optional<double>& angle) {
+  return angle ? json_of(1e3 * *angle) : Json();
+}
+
+void add_absolute_errors(Json& json, const Scores& scores) {
+  json["ate_yaw_m"] = json_of(scores.ate_yaw_m);
+  json["heading_error_mrad"] = mrad_json(scores.heading_error_rad);
+  json["heading_offset_mrad"] = mrad_json(scores.heading_offset_rad);
+  json["ape_yaw_m"] = {{"mean", json_of(scores.ape_yaw, &AbsoluteErrorStatistics::mean_m)},
+                       {"median", json_of(scores.ape_yaw, &AbsoluteErrorStatistics::median_m)},
+                       {"std", json_of(scores.ape_yaw, &AbsoluteErrorStatistics::std_m)},
+                       {"max", json_of(scores.ape_yaw, &AbsoluteErrorStatistics::max_m)}};
+  json["ate_m"] = json_of(scores.ate_m);
+  json["ate_se3_m"] = json_of(scores.ate_se3_m);
+  json["ate_se3_degenerate"] = scores.se3_spread != PositionSpread::kFull;
+  if (scores.sim3_scale) {
+    json["ate_sim3_m"] = json_of(scores.ate_sim3_m);
+    json["sim3_scale"] = json_of(scores.sim3_scale);
+  }
+  json["max_error_m"] = json_of(scores.max_error_m);
+  json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
+}
+
+void add_path_error(Json& json, const std::string& name, const PathError& error) {
+  json["path_error_percent"][name] = json_of(error.translation_percent);
+  json["path_error_deg_per_m"][name] = json_of(error.rotation_deg_per_m);
+}
+
 void add_relative_errors(Json& json, const Scores& scores) {
+  for (const PathError& each : scores.path_errors.lengths) {
+    add_path_error(json, std::to_string(std::lround(each.length_m)) + "m", each);
+  }
+  add_path_error(json, "all", scores.path_errors.all);
+
   for (const RpeScore& rpe : scores.rpe) {
     json["rpe_" + std::to_string(std::lround(rpe.delta)) + "m"] = {
         {"translation_m", json_of(rpe.translation_rmse_m)},
@@ -102,6 +136,7 @@ Json time_json(const std::vector<double>& times_ms) {
 Json scores_json(const Scores& scores) {
   Json json;
   json["success"] = scores.success;
+  json["success_1_percent"] = scores.success_1_percent;
   json["diverged_reason"] = name_of(scores.failure_reason);
   json["diverged_at_s"] = scores.diverged_at ? Json(to_seconds(*scores.diverged_at)) : Json();
   json["coverage"] = scores.coverage;
@@ -109,12 +144,7 @@ Json scores_json(const Scores& scores) {
   json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
   json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);
   json["m_end_z_m"] = json_of(scores.m_end, &EndError::z_m);
-  json["ate_m"] = json_of(scores.ate_m);
-  json["ate_se3_m"] = json_of(scores.ate_se3_m);
-  json["ate_se3_degenerate"] = scores.se3_spread != PositionSpread::kFull;
-  json["ate_yaw_m"] = json_of(scores.ate_yaw_m);
-  json["max_error_m"] = json_of(scores.max_error_m);
-  json["max_error_z_m"] = json_of(scores.max_abs_z_error_m);
+  add_absolute_errors(json, scores);
   add_relative_errors(json, scores);
   json["drift_m"] = drift_json(scores.drift);
   return json;

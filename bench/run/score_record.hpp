@@ -16,6 +16,10 @@ namespace aims {
 /// Version of the layout of scores.json; see docs/results.md.
 inline constexpr std::string_view kScoresSchema = "aims.scores/2";
 
+/// Keys of an estimator's success: within 5 % of the distance, and within 1 %.
+inline constexpr const char* kSuccessKey = "success";
+inline constexpr const char* kStrictSuccessKey = "success_1_percent";
+
 /// The number, or null for none and for what is not finite.
 Json json_of(const std::optional<double>& value);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/score_statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -59,11 +61,52 @@ std::size_t finished(std::span<const RunRecord> runs, const std::string& estimat
 }
 
 std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator,
-                      const std::string& prefix) {
-  return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) {
-        return is_valid_run(run) && find_score(run, estimator, prefix + "success") == 1.0;
-      }));
+                      const std::string& key) {
+  return static_cast<std::size_t>(std::count_if(
+      runs.begin(), runs.end(),
+      [&](const RunRecord& run) { return succeeds(run, estimator, key).value_or(false); }));
+}
+
+std::string SuccessRate::text() const {
+  if (runs == 0) return "-";
+  const Interval bounds = interval();
+  return fmt::format("{}/{} ({:.0f}-{:.0f} %)", count, runs, 100.0 * *bounds.low,
+                     100.0 * *bounds.high);
+}
+
+SuccessRate success_rate(std::span<const RunRecord> runs, const std::string& estimator,
+                         const std::string& key) {
+  SuccessRate rate;
+  for (const RunRecord& run : runs) {
+    const auto success = succeeds(run, estimator, key);
+    rate.runs += success.has_value();
+    rate.count += success.value_or(false);
+  }
+  return rate;
+}
+
+std::optional<bool> succeeds(const RunRecord& run, const std::string& estimator,
+                             const std::string& key) {
+  if (!is_valid_run(run)) return std::nullopt;
+  const auto value = find_score(run, estimator, key);
+  return value ? std::optional(*value == 1.0) : std::nullopt;
+}
+
+McNemarTest success_test(const EstimatorRuns& first, const EstimatorRuns& second,
+                         const std::string& key) {
+  std::size_t only_first = 0;
+  std::size_t only_second = 0;
+  for (const RunRecord& a : first.runs) {
+    for (const RunRecord& b : second.runs) {
+      if (a.seed != b.seed) continue;
+      const auto one = succeeds(a, first.estimator, key);
+      const auto other = succeeds(b, second.estimator, key);
+      if (!one || !other) continue;
+      only_first += *one && !*other;
+      only_second += !*one && *other;
+    }
+  }
+  return mcnemar_test(only_first, only_second);
 }
 
 std::vector<double> ScorePairs::differences() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/proportion.hpp"
 #include "bench/run/score_record.hpp"
 
 namespace aims {
@@ -22,12 +23,25 @@ struct HeadlineScore {
   double floor;  ///< a change below this [unit] is of no interest
 };
 
-/// M_list over all segments, M_end, ATE and largest height error.
-inline constexpr std::array<HeadlineScore, 4> kHeadlineScores = {{
+/// The headline, ATE after alignment by heading and translation; the ATE aligned at the start; the
+/// heading error; M_list over all segments; M_end; the largest height error.
+inline constexpr std::array<HeadlineScore, 6> kHeadlineScores = {{
+    {"ate_yaw_m", "ATE yaw", "m", 3, 0.01},
+    {"ate_m", "ATE start", "m", 3, 0.01},
+    {"heading_error_mrad", "heading", "mrad", 1, 1.0},
     {"m_list_percent.all", "M_list", "%", 3, 0.02},
     {"m_end_m", "M_end", "m", 3, 0.01},
-    {"ate_m", "ATE", "m", 3, 0.01},
     {"max_error_z_m", "max |z|", "m", 3, 0.01},
+}};
+
+/// A limit of the position error, and whether an estimate stayed within it.
+struct SuccessScore {
+  const char* key;
+  const char* title;  ///< of columns
+};
+inline constexpr std::array<SuccessScore, 2> kSuccessScores = {{
+    {kSuccessKey, "within 5 %"},
+    {kStrictSuccessKey, "within 1 %"},
 }};
 
 /// One score of one estimator over runs of the same scenario. As everywhere below, invalid runs
@@ -46,11 +60,30 @@ ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string
 Interval median_interval(std::span<const RunRecord> runs, const std::string& estimator,
                          const std::string& key);
 
-/// Runs in which the estimator finished, and those in which it did not diverge; with the prefix
-/// `kOptimizedPrefix`, in which its re-optimized trajectory did not.
+/// Runs in which the estimator finished, and those in which it was a success; by the key
+/// `kStrictSuccessKey` within 1 %, with `kOptimizedPrefix` before it its re-optimized trajectory.
 std::size_t finished(std::span<const RunRecord> runs, const std::string& estimator);
 std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator,
-                      const std::string& prefix = "");
+                      const std::string& key = kSuccessKey);
+
+/// Successes of so many runs.
+struct SuccessRate {
+  std::size_t count = 0;
+  std::size_t runs = 0;
+
+  Interval interval() const { return wilson_interval(count, runs); }
+  /// "18/20 (70-97 %)": count, runs and 95 % Wilson interval; "-" without runs.
+  std::string text() const;
+};
+
+/// Over the valid runs that have the key: older results have none of 1 %.
+SuccessRate success_rate(std::span<const RunRecord> runs, const std::string& estimator,
+                         const std::string& key = kSuccessKey);
+
+/// Whether the estimator has a success by that key in that run; none when it has no such key, or
+/// when the run is invalid.
+std::optional<bool> succeeds(const RunRecord& run, const std::string& estimator,
+                             const std::string& key = kSuccessKey);
 
 /// Values of one score in pairs of runs on the same seed.
 struct ScorePairs {
@@ -68,6 +101,10 @@ struct EstimatorRuns {
 
 ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
                   const std::string& key);
+
+/// McNemar's test of the successes of two on the same seeds.
+McNemarTest success_test(const EstimatorRuns& first, const EstimatorRuns& second,
+                         const std::string& key = kSuccessKey);
 
 /// What pairs of runs say about a change of a score.
 struct PairedStatistics {

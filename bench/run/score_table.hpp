@@ -9,9 +9,10 @@
 
 namespace aims {
 
-/// The paper's Table I over one or more runs: a row per estimator; over several runs each cell is
-/// "median (worst)", and success the fraction of runs. A re-optimized trajectory has a row of its
-/// own, "NAME (optimized)". Invalid runs are left out; without a valid one there are no scores.
+/// The headline scores and the paper's Table I over one or more runs: a row per estimator; over
+/// several runs each cell is "median (worst)", and success the fraction of runs with its interval.
+/// A re-optimized trajectory has a row of its own, "NAME (optimized)". Invalid runs are left out;
+/// without a valid one there are no scores.
 TextTable score_table(std::span<const RunRecord> runs);
 
 }  // namespace aims

@@ -36,18 +36,20 @@ struct ScoreColumn {
   int digits = 3;
 };
 
-std::vector<ScoreColumn> score_columns(const RunRecord& record) {
-  std::vector<ScoreColumn> columns;
+std::vector<ScoreColumn> score_columns(const RunRecord& record, bool scored_with_scale) {
+  std::vector<ScoreColumn> columns = {{"ATE yaw m", "ate_yaw_m"},
+                                      {"ATE start m", "ate_m"},
+                                      {"heading mrad", "heading_error_mrad", 1}};
   for (const Json& segment : record.scores["segments"]) {
     const auto name = segment["name"].get<std::string>();
     columns.push_back({fmt::format("M_list({}) %", name), "m_list_percent." + name});
   }
   if (columns.size() != 1) columns.push_back({"M_list %", "m_list_percent.all"});
   columns.push_back({"M_end m", "m_end_m"});
-  columns.push_back({"ATE m", "ate_m"});
-  columns.push_back({"ATE yaw m", "ate_yaw_m"});
   columns.push_back({"ATE SE(3) m", "ate_se3_m"});
-  columns.push_back({"RPE(10 m) m", "rpe_10m.translation_m"});
+  if (scored_with_scale) columns.push_back({"ATE Sim(3) m", "ate_sim3_m"});
+  columns.push_back({"RPE %", "path_error_percent.all"});
+  columns.push_back({"RPE deg/m", "path_error_deg_per_m.all"});
   columns.push_back({"max |z| m", "max_error_z_m"});
   return columns;
 }
@@ -111,12 +113,13 @@ std::string markdown(const TrajectoryScores& scores) {
 
 TextTable trajectory_score_table(const TrajectoryScores& scores) {
   const RunRecord record = record_of(scores);
-  const std::vector<ScoreColumn> columns = score_columns(record);
+  const std::vector<ScoreColumn> columns = score_columns(record, scores.scoring.sim3);
   TextTable table;
   table.header = {"estimate"};
   for (const ScoreColumn& column : columns) table.header.push_back(column.title);
-  table.header.emplace_back("covers");
-  table.header.emplace_back("success");
+  table.header.emplace_back("tracked");
+  table.header.emplace_back("within 5 %");
+  table.header.emplace_back("within 1 %");
   for (const ScoredEstimate& each : scores.estimates) {
     std::vector<std::string> row = {each.given.name};
     for (const ScoreColumn& column : columns) {
@@ -124,6 +127,7 @@ TextTable trajectory_score_table(const TrajectoryScores& scores) {
     }
     row.push_back(fmt::format("{:.0f} %", 100.0 * each.scores.coverage));
     row.push_back(success_cell(each.scores, scores.truth.trajectory));
+    row.emplace_back(each.scores.success_1_percent ? "yes" : "no");
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -147,11 +151,12 @@ TextTable trajectory_source_table(const TrajectoryScores& scores) {
 std::string score_legend(const TrajectoryScores& scores) {
   const bool pose = scores.scoring.anchor == AlignmentKind::kStartPose;
   std::string text = fmt::format(
-      "M_end, ATE, max |z|: aligned to the truth at {}. ATE yaw,\n"
-      "ATE SE(3): least squares over all positions, by translation and heading, and by "
-      "translation\n"
-      "and rotation (Umeyama, as evo). covers: of the truth's time, with poses at most {:g} s "
-      "apart.\n",
+      "ATE yaw, heading: after least squares over all positions, by translation and heading.\n"
+      "ATE start, M_end, max |z|: aligned to the truth at {}.\n"
+      "ATE SE(3): least squares by translation and rotation (Umeyama, as evo). RPE: mean over "
+      "pieces\n"
+      "of 5 to 100 m (KITTI). within 5 %, 1 %: position error of the distance travelled so far.\n"
+      "tracked: of the truth's time, with poses at most {:g} s apart.\n",
       pose ? "the standing start, by position and rotation"
            : "the first pose, by position and heading",
       scores.scoring.max_gap);

@@ -49,6 +49,11 @@ WalkOutcome walk_in(const Json& robot) {
   return walk;
 }
 
+void withdraw_success(Json& scores) {
+  scores[kSuccessKey] = false;
+  if (scores.contains(kStrictSuccessKey)) scores[kStrictSuccessKey] = false;
+}
+
 bool has_robot(const Json& scores) {
   return scores.is_object() && scores.contains("robot") && scores["robot"].is_object();
 }
@@ -78,8 +83,8 @@ void mark_validity(Json& scores) {
   if (!reason || !scores.contains("estimators")) return;
   for (auto& [name, estimator] : scores["estimators"].items()) {
     if (!estimator.is_object()) continue;
-    estimator["success"] = false;
-    if (estimator.contains("optimized")) estimator["optimized"]["success"] = false;
+    withdraw_success(estimator);
+    if (estimator.contains("optimized")) withdraw_success(estimator["optimized"]);
   }
 }
 

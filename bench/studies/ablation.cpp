@@ -48,9 +48,11 @@ AblationRow row_of(const SuiteCase& each, const std::string& complete, const std
   row.label = label;
   row.runs = finished(each.runs, label);
   row.successes = successes(each.runs, label);
+  row.strict = success_rate(each.runs, label, kStrictSuccessKey);
+  row.success_test = success_test({each.runs, complete}, {each.runs, label});
   for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
-    row.cells[i] = statistics_of(
-        paired({each.runs, complete}, {each.runs, label}, kAblationScores[i].key));
+    row.cells[i] =
+        statistics_of(paired({each.runs, complete}, {each.runs, label}, kAblationScores[i].key));
   }
   return row;
 }
@@ -78,8 +80,8 @@ std::string changes_of(const Suite& suite, const std::string& label) {
 
 AblationEffect effect_of(const Ablation& ablation, const Suite& suite, const std::string& label) {
   AblationEffect effect{label, changes_of(suite, label), {}, std::nullopt, ""};
-  constexpr std::size_t kAte = 2;
-  static_assert(std::string_view(kAblationScores[kAte].key) == "ate_m");
+  constexpr std::size_t kAte = 0;
+  static_assert(std::string_view(kAblationScores[kAte].key) == "ate_yaw_m");
   for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
     double logarithms = 0.0;
     int count = 0;

@@ -26,10 +26,12 @@ struct AblationScore {
   const char* title;  ///< with its unit
   int digits;
 };
-inline constexpr std::array<AblationScore, 5> kAblationScores = {{
+inline constexpr std::array<AblationScore, 7> kAblationScores = {{
+    {"ate_yaw_m", "ATE yaw [m]", 3},
+    {"ate_m", "ATE start [m]", 3},
+    {"heading_error_mrad", "heading [mrad]", 1},
     {"m_list_percent.all", "M_list [%]", 3},
     {"m_end_m", "M_end [m]", 3},
-    {"ate_m", "ATE [m]", 3},
     {"max_error_z_m", "max |z| [m]", 3},
     {"weak_axis.all.nees", "NEES weak axis [-]", 2},
 }};
@@ -45,6 +47,8 @@ struct AblationRow {
   std::string label;
   std::size_t runs = 0;
   std::size_t successes = 0;
+  SuccessRate strict;                                          ///< within 1 %
+  McNemarTest success_test;                                    ///< complete estimator first
   std::array<PairedStatistics, kAblationScores.size()> cells;  ///< against the complete estimator
 };
 
@@ -80,8 +84,8 @@ Result<std::vector<std::string>> ablation_specs(const std::string& spec,
 /// Sums up a suite that ran variants of the estimator with the label `complete`.
 Ablation ablation_of(const Suite& suite, const std::string& complete);
 
-/// Gives every scenario the estimator, its variants and the baselines. Error as of `ablation_specs`,
-/// and for two specs of one label.
+/// Gives every scenario the estimator, its variants and the baselines. Error as of
+/// `ablation_specs`, and for two specs of one label.
 Result<void> set_variants(const AblationOptions& options, std::vector<ScenarioFile>& scenarios);
 
 /// A row per variant: geometric means of the ratios over scenarios.

@@ -16,7 +16,9 @@ constexpr const char* kAblationIntroduction =
     "\n"
     "`no_PART` is `{0}` with that part turned off, on the same measurements (`with_PART`: turned\n"
     "on where it is off). Figures are medians over seeds; in brackets the ratio to `{0}`: above 1\n"
-    "the part helps. NEES is 1 when the stated covariance is right.\n";
+    "the part helps. NEES is 1 when the stated covariance is right. Success: within 5 and 1 % of\n"
+    "the distance, with 95 % Wilson intervals; p of McNemar's exact test against `{0}`, within 5 "
+    "%.\n";
 
 std::string ratio_text(const std::optional<double>& ratio) {
   return ratio ? fmt::format("{:.3g}", *ratio) : "-";
@@ -34,7 +36,7 @@ std::string markdown_of(const Ablation& ablation, const Suite& suite) {
   if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
   text +=
       "\n## Over all scenarios\n\nGeometric means of the ratios; last, the largest of the "
-      "ATE.\n\n" +
+      "ATE yaw.\n\n" +
       to_markdown(effect_table(ablation));
   for (const AblationCase& each : ablation.cases) {
     const std::size_t runs = each.rows.empty() ? 0 : each.rows.front().runs;
@@ -84,8 +86,14 @@ Json case_json(const AblationCase& each) {
                                         {"change_high", json_of(cell.interval.high)},
                                         {"count", cell.count}};
     }
-    variants[row.label] = {
-        {"runs", row.runs}, {"successes", row.successes}, {"scores", std::move(scores)}};
+    const Interval interval = wilson_interval(row.successes, row.runs);
+    variants[row.label] = {{"runs", row.runs},
+                           {"successes", row.successes},
+                           {"success_low", json_of(interval.low)},
+                           {"success_high", json_of(interval.high)},
+                           {"successes_1_percent", row.strict.count},
+                           {"mcnemar_p", row.success_test.p},
+                           {"scores", std::move(scores)}};
   }
   return {{"scenario", each.scenario}, {"variants", std::move(variants)}};
 }
@@ -116,7 +124,7 @@ TextTable effect_table(const Ablation& ablation) {
   TextTable table;
   table.header = {"variant"};
   for (const AblationScore& score : kAblationScores) table.header.emplace_back(score.title);
-  table.header.insert(table.header.end(), {"largest of ATE", "in"});
+  table.header.insert(table.header.end(), {"largest of ATE yaw", "in"});
   for (const AblationEffect& each : ablation.effects) {
     std::vector<std::string> row = {each.label};
     for (const auto& ratio : each.ratios) row.push_back(ratio_text(ratio));
@@ -130,13 +138,16 @@ TextTable case_table(const AblationCase& each) {
   TextTable table;
   table.header = {"variant"};
   for (const AblationScore& score : kAblationScores) table.header.emplace_back(score.title);
-  table.header.emplace_back("success");
+  for (const SuccessScore& score : kSuccessScores) table.header.emplace_back(score.title);
+  table.header.emplace_back("McNemar's p");
   for (const AblationRow& row : each.rows) {
     std::vector<std::string> cells = {row.label};
     for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
       cells.push_back(cell_text(row.cells[i], kAblationScores[i].digits));
     }
-    cells.push_back(fmt::format("{}/{}", row.successes, row.runs));
+    cells.push_back(SuccessRate{row.successes, row.runs}.text());
+    cells.push_back(row.strict.text());
+    cells.push_back(fmt::format("{:.3g}", row.success_test.p));
     table.rows.push_back(std::move(cells));
   }
   return table;

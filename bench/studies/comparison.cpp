@@ -18,32 +18,60 @@ namespace {
 
 constexpr double kMinChange = 0.05;  ///< fraction of the value before
 
-const HeadlineScore kSuccess = {"success", "success", "-", 2, 0.0};
+constexpr double kSuccessLevel = 0.05;  ///< of McNemar's test
 
 ChangeVerdict verdict_of(const std::vector<double>& differences, const PairedTest& test,
-                         double floor, bool more_is_better) {
+                         double floor) {
   if (std::ranges::all_of(differences, [](double each) { return each == 0.0; })) {
     return ChangeVerdict::kSame;
   }
   if (differences.size() < kFewestPairs) return ChangeVerdict::kTooFew;
   if (!test.found()) return ChangeVerdict::kNone;
   if (std::abs(test.change) <= floor) return ChangeVerdict::kSmall;
-  return (test.change > 0.0) == more_is_better ? ChangeVerdict::kBetter : ChangeVerdict::kWorse;
+  return test.change < 0.0 ? ChangeVerdict::kBetter : ChangeVerdict::kWorse;
+}
+
+/// What pairs have whatever the score.
+ScoreChange means_of(const ScorePairs& pairs, const char* key) {
+  ScoreChange change;
+  change.score = key;
+  change.pairs = pairs.value.size();
+  change.before = *mean(pairs.reference);
+  change.after = *mean(pairs.value);
+  return change;
 }
 
 ScoreChange change_of(const ScorePairs& pairs, const HeadlineScore& score) {
-  const bool success = score.key == kSuccess.key;
   const std::vector<double> differences = pairs.differences();
-  ScoreChange change;
-  change.score = score.key;
-  change.pairs = differences.size();
-  change.before = *mean(pairs.reference);
-  change.after = *mean(pairs.value);
+  ScoreChange change = means_of(pairs, score.key);
   change.worst_after = *std::ranges::max_element(pairs.value);
-  change.floor = success ? 0.0 : std::max(score.floor, kMinChange * std::abs(change.before));
+  change.floor = std::max(score.floor, kMinChange * std::abs(change.before));
   change.test = paired_test(differences);
-  change.verdict = verdict_of(differences, change.test, change.floor, success);
+  change.verdict = verdict_of(differences, change.test, change.floor);
   change.false_alarm = false_alarm_rate(differences, change.floor);
+  return change;
+}
+
+ScoreChange success_change_of(const ScorePairs& pairs, const SuccessScore& score) {
+  ScoreChange change = means_of(pairs, score.key);
+  change.worst_after = *std::ranges::min_element(pairs.value);
+  std::size_t lost = 0;
+  std::size_t won = 0;
+  for (const double difference : pairs.differences()) {
+    lost += difference < 0.0;
+    won += difference > 0.0;
+  }
+  change.success = mcnemar_test(lost, won);
+  change.test.change = change.after - change.before;
+  change.test.p = change.success->p;
+  change.false_alarm = mcnemar_false_alarm(lost + won);
+  if (lost + won == 0) {
+    change.verdict = ChangeVerdict::kSame;
+  } else if (change.pairs < kFewestPairs) {
+    change.verdict = ChangeVerdict::kTooFew;
+  } else if (change.test.p <= kSuccessLevel) {
+    change.verdict = won > lost ? ChangeVerdict::kBetter : ChangeVerdict::kWorse;
+  }
   return change;
 }
 
@@ -84,18 +112,18 @@ void compare_runs(const std::string& scenario, const std::vector<RunRecord>& bef
   for (const RunRecord& run : before) {
     for (const auto& [name, unused] : run.scores["estimators"].items()) estimators.insert(name);
   }
-  std::vector<HeadlineScore> scores(kHeadlineScores.begin(), kHeadlineScores.end());
-  scores.push_back(kSuccess);
   for (const std::string& estimator : estimators) {
-    for (const HeadlineScore& score : scores) {
+    const auto add = [&](const auto& score, const auto& changed) {
       const ScorePairs pairs = paired({before, estimator}, {after, estimator}, score.key);
-      if (pairs.value.empty()) continue;
-      ScoreChange change = change_of(pairs, score);
+      if (pairs.value.empty()) return;
+      ScoreChange change = changed(pairs, score);
       change.scenario = scenario;
       change.estimator = estimator;
       comparison.expected_false_alarms += change.false_alarm;
       comparison.changes.push_back(std::move(change));
-    }
+    };
+    for (const HeadlineScore& score : kHeadlineScores) add(score, change_of);
+    for (const SuccessScore& score : kSuccessScores) add(score, success_change_of);
   }
 }
 

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bench/jobs/results.hpp"
 #include "bench/metrics/paired_test.hpp"
+#include "bench/metrics/proportion.hpp"
 #include "bench/run/score_record.hpp"
 #include "core/files/table.hpp"
 
@@ -32,9 +34,10 @@ struct ScoreChange {
   std::size_t pairs = 0;
   double before = 0.0;  ///< mean over them; test.change is after - before
   double after = 0.0;
-  double worst_after = 0.0;  ///< largest
-  double floor = 0.0;        ///< a change of at most this is too small to matter
-  PairedTest test;
+  double worst_after = 0.0;            ///< largest; of a success the smallest
+  double floor = 0.0;                  ///< a change of at most this is too small to matter
+  PairedTest test;                     ///< of a success: McNemar's p and no interval
+  std::optional<McNemarTest> success;  ///< of a success alone: before first
   ChangeVerdict verdict = ChangeVerdict::kNone;
   double false_alarm = 0.0;  ///< probability of better or worse with random signs
 };
@@ -49,7 +52,8 @@ struct Comparison {
 
 /// Pairs the valid runs of the same scenario, seed and estimator. A change is better or worse when
 /// the interval of `paired_test` excludes zero and the change exceeds both the score's own floor
-/// (kHeadlineScores) and 5 % of the value before.
+/// (kHeadlineScores) and 5 % of the value before; one of the successes, when McNemar's exact p is
+/// at most 0.05.
 Comparison compare(const StoredResults& before, const StoredResults& after);
 
 /// "better", "worse", "too few", "small", "none", "same".

@@ -36,6 +36,8 @@ Json change_json(const ScoreChange& change) {
           {"change_low", json_of(change.test.interval.low)},
           {"change_high", json_of(change.test.interval.high)},
           {"p", change.test.p},
+          {"lost", change.success ? Json(change.success->only_first) : Json()},
+          {"won", change.success ? Json(change.success->only_second) : Json()},
           {"detectable", json_of(detectable(change))},
           {"floor", change.floor},
           {"verdict", name_of(change.verdict)},
@@ -46,6 +48,9 @@ std::vector<std::string> change_row(const ScoreChange& change) {
   std::string size = fmt::format("{:+.4f}", change.test.change);
   if (const Interval& range = change.test.interval; range.low) {
     size += fmt::format(" [{:+.4f}, {:+.4f}]", *range.low, *range.high);
+  }
+  if (change.success) {
+    size += fmt::format(" (-{} +{})", change.success->only_first, change.success->only_second);
   }
   const auto smallest = detectable(change);
   return {change.scenario,
@@ -132,9 +137,12 @@ std::string rule_text(const Comparison& comparison) {
   std::string text =
       "before, after: means over the seeds. change: mean of the paired differences, with the 95 %\n"
       "interval of the sign-flip test; it excludes zero exactly when p <= 0.05. better, worse: it\n"
-      "excludes zero, and the change exceeds 5 % of before and 0.01 m (M_list: 0.02 %); small: "
-      "the\n"
-      "change does not. detectable: the smallest change that this scatter would have shown.\n";
+      "excludes zero, and the change exceeds 5 % of before and 0.01 m (M_list: 0.02 %, heading:\n"
+      "1 mrad); small: the change does not. detectable: the smallest change that this scatter "
+      "would\n"
+      "have shown. success (within 5 % of the distance), success_1_percent: fraction of the runs, "
+      "how\n"
+      "many are lost (-) and won (+), and p of McNemar's exact test.\n";
   std::set<std::size_t> few;
   for (const ScoreChange& each : comparison.changes) {
     if (each.verdict == ChangeVerdict::kTooFew) few.insert(each.pairs);

@@ -38,6 +38,7 @@ GroupScores scores_of(std::span<const RunRecord> runs, const std::string& estima
   scores.estimator = estimator;
   scores.runs = finished(runs, estimator);
   scores.successes = successes(runs, estimator);
+  scores.strict = success_rate(runs, estimator, kStrictSuccessKey);
   for (const HeadlineScore& score : kHeadlineScores) {
     scores.medians.push_back(statistics_of(runs, estimator, score.key).median);
   }
@@ -146,19 +147,19 @@ Result<std::vector<DrawnGroup>> group_by_drawn(const StoredResults& results, con
 
 TextTable groups_table(const std::vector<DrawnGroup>& groups) {
   TextTable table;
-  table.header = {"scenario", "group", "estimator", "runs", "success"};
+  table.header = {"scenario", "group", "estimator"};
+  for (const SuccessScore& score : kSuccessScores) table.header.emplace_back(score.title);
   for (const HeadlineScore& score : kHeadlineScores) {
     table.header.push_back(fmt::format("{} [{}]", score.title, score.unit));
   }
   for (const DrawnGroup& group : groups) {
     for (const GroupScores& each : group.estimators) {
-      std::vector<std::string> row = {
-          group.scenario, group.label, each.estimator, std::to_string(each.runs),
-          each.runs == 0 ? "-"
-                         : fmt::format("{:.0f} %", 100.0 * static_cast<double>(each.successes) /
-                                                       static_cast<double>(each.runs))};
-      for (const auto& median : each.medians) {
-        row.push_back(median ? fmt::format("{:.3f}", *median) : "-");
+      std::vector<std::string> row = {group.scenario, group.label, each.estimator,
+                                      SuccessRate{each.successes, each.runs}.text(),
+                                      each.strict.text()};
+      for (std::size_t i = 0; i < kHeadlineScores.size(); ++i) {
+        const auto& median = each.medians[i];
+        row.push_back(median ? fmt::format("{:.{}f}", *median, kHeadlineScores[i].digits) : "-");
       }
       table.rows.push_back(std::move(row));
     }
@@ -168,7 +169,8 @@ TextTable groups_table(const std::vector<DrawnGroup>& groups) {
 
 CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
   std::vector<std::string> header = {"scenario",  "group", "low",       "high",
-                                     "estimator", "runs",  "successes", "invalid"};
+                                     "estimator", "runs",  "successes", "successes_1_percent",
+                                     "invalid"};
   for (const HeadlineScore& score : kHeadlineScores) {
     header.push_back(std::string(score.key) + ".median");
   }
@@ -182,6 +184,7 @@ CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
           .add(each.estimator)
           .add(static_cast<std::int64_t>(each.runs))
           .add(static_cast<std::int64_t>(each.successes))
+          .add(static_cast<std::int64_t>(each.strict.count))
           .add(static_cast<std::int64_t>(group.invalid));
       for (const auto& median : each.medians) table.add(median);
       table.end_row();
@@ -198,7 +201,13 @@ Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
     Json estimators = Json::object();
     for (const GroupScores& each : group.estimators) {
       Json& entry = estimators[each.estimator];
-      entry = {{"runs", each.runs}, {"successes", each.successes}, {"median", Json::object()}};
+      const Interval interval = wilson_interval(each.successes, each.runs);
+      entry = {{"runs", each.runs},
+               {"successes", each.successes},
+               {"success_low", json_of(interval.low)},
+               {"success_high", json_of(interval.high)},
+               {"successes_1_percent", each.strict.count},
+               {"median", Json::object()}};
       for (std::size_t i = 0; i < kHeadlineScores.size(); ++i) {
         entry["median"][std::string(kHeadlineScores[i].key)] = json_of(each.medians[i]);
       }

@@ -23,6 +23,7 @@ struct GroupScores {
   std::string estimator;
   std::size_t runs = 0;  ///< valid ones in which it finished
   std::size_t successes = 0;
+  SuccessRate strict;                          ///< within 1 %
   std::vector<std::optional<double>> medians;  ///< in the order of `kHeadlineScores`
 };
 

@@ -37,14 +37,15 @@ FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
   point.distance_m = route_length(each.scenario);
   const auto own = labels_of(each.scenario.run);
   if (std::find(own.begin(), own.end(), estimator) == own.end()) return point;
-  point.ate_m = statistics_of(each.runs, estimator, "ate_m").median;
-  point.ate_interval = median_interval(each.runs, estimator, "ate_m");
+  point.ate_m = statistics_of(each.runs, estimator, "ate_yaw_m").median;
+  point.ate_interval = median_interval(each.runs, estimator, "ate_yaw_m");
   point.m_list = statistics_of(each.runs, estimator, "m_list_percent.all").median;
   point.m_list_interval = median_interval(each.runs, estimator, "m_list_percent.all");
   point.runs = finished(each.runs, estimator);
   if (point.runs == 0) return point;
-  point.success_rate =
-      static_cast<double>(successes(each.runs, estimator)) / static_cast<double>(point.runs);
+  const SuccessRate rate = success_rate(each.runs, estimator);
+  point.success_rate = static_cast<double>(rate.count) / static_cast<double>(rate.runs);
+  point.success_interval = rate.interval();
   return point;
 }
 
@@ -126,13 +127,15 @@ FamilyResult family_of(const std::string& name, const Members& members,
 
 Json point_json(const FamilyPoint& point) {
   return {{"level", point.level},
-          {"ate_m", json_of(point.ate_m)},
-          {"ate_low_m", json_of(point.ate_interval.low)},
-          {"ate_high_m", json_of(point.ate_interval.high)},
+          {"ate_yaw_m", json_of(point.ate_m)},
+          {"ate_yaw_low_m", json_of(point.ate_interval.low)},
+          {"ate_yaw_high_m", json_of(point.ate_interval.high)},
           {"m_list_percent", json_of(point.m_list)},
           {"m_list_low_percent", json_of(point.m_list_interval.low)},
           {"m_list_high_percent", json_of(point.m_list_interval.high)},
           {"success_rate", point.success_rate},
+          {"success_low", json_of(point.success_interval.low)},
+          {"success_high", json_of(point.success_interval.high)},
           {"runs", point.runs},
           {"invalid", point.invalid}};
 }

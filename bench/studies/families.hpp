@@ -10,18 +10,20 @@
 
 namespace aims {
 
-/// Smallest ATE at which an estimator can break, as a fraction of the length of the route [-].
+/// Smallest headline ATE at which an estimator can break, as a fraction of the length of the route
+/// [-].
 inline constexpr double kMinBreakError = 0.005;
 
 /// One estimator at one level of a family, over seeds.
 struct FamilyPoint {
   double level = 0.0;
-  std::optional<double> ate_m;   ///< median
+  std::optional<double> ate_m;   ///< median of the ATE aligned by heading and translation
   Interval ate_interval;         ///< of the median, 95 %
   std::optional<double> m_list;  ///< median over all segments [%]
   Interval m_list_interval;      ///< of the median, 95 %
   double distance_m = 0.0;       ///< length of the route
   double success_rate = 0.0;     ///< in [0, 1]
+  Interval success_interval;     ///< 95 %
   std::size_t runs = 0;          ///< valid ones
   std::size_t invalid = 0;       ///< left out
 };

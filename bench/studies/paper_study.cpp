@@ -59,7 +59,13 @@ PaperSystem system_of(std::span<const RunRecord> runs, const PaperTable& table,
                      method.name,
                      {},
                      finished(runs, method.estimator),
-                     successes(runs, method.estimator)};
+                     successes(runs, method.estimator),
+                     success_rate(runs, method.estimator, kStrictSuccessKey),
+                     {}};
+  for (std::size_t i = 0; i < kPaperHeadline; ++i) {
+    const std::vector<double> values = values_of(runs, method.estimator, kHeadlineScores[i].key);
+    system.headline.push_back(values.empty() ? std::nullopt : finite(middle(values)));
+  }
   for (std::size_t i = 0; i < table.scores.size(); ++i) {
     system.cells.push_back(cell_of(runs, method, table.scores[i].key, i));
   }

@@ -12,6 +12,7 @@
 
 #include "bench/metrics/bootstrap.hpp"
 #include "bench/run/score_record.hpp"
+#include "bench/run/score_statistics.hpp"
 #include "bench/studies/paper_tables.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
@@ -30,12 +31,18 @@ struct PaperCell {
   std::optional<double> worst;   ///< likewise
 };
 
+/// How many of `kHeadlineScores` stand beside those of the paper: the ATE in both alignments and
+/// the heading error, which its tables do not have.
+inline constexpr std::size_t kPaperHeadline = 3;
+
 struct PaperSystem {
   std::string estimator;
   std::string method;            ///< its name in the paper; empty: it is not there
   std::vector<PaperCell> cells;  ///< by column
   std::size_t runs = 0;          ///< valid ones in which it finished
   std::size_t successes = 0;
+  SuccessRate strict;                           ///< within 1 %
+  std::vector<std::optional<double>> headline;  ///< medians, `kPaperHeadline` of them
 };
 
 /// How far the paper's order of its systems and ours agree in one score.

@@ -13,7 +13,7 @@
 namespace aims {
 namespace {
 
-constexpr const char* kAte = "ate_m";
+constexpr const char* kAte = "ate_yaw_m";  ///< the headline
 
 /// The numbers of the text times `factor`: "[0.1, 0.2]" times 2 is "[0.2,0.4]".
 std::string scaled_text(const Parameter& parameter, double factor) {
@@ -48,12 +48,6 @@ ScorePairs pooled_pairs(const Suite& suite, const std::string& reference,
     all.value.insert(all.value.end(), pairs.value.begin(), pairs.value.end());
   }
   return all;
-}
-
-std::optional<bool> succeeds(const RunRecord& run, const std::string& label) {
-  const Json& estimators = run.scores["estimators"];
-  if (!estimators.contains(label)) return std::nullopt;
-  return estimators[label].value("success", false);
 }
 
 void count_successes(const Suite& suite, const std::string& reference, const std::string& other,

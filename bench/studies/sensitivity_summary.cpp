@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include "bench/metrics/proportion.hpp"
 #include "bench/run/code_version.hpp"
 #include "bench/run/json_text.hpp"
 #include "bench/run/score_record.hpp"
@@ -15,15 +16,21 @@ constexpr const char* kSensitivityIntroduction =
     "# Sensitivity of `{0}` to its settings\n"
     "\n"
     "One setting at a time, its number times a factor, on the same {1} sequences; all else as\n"
-    "before. Ratios are of the median ATE ({2}), above 1 where the change makes it worse; in\n"
+    "before. Ratios are of the median ATE yaw ({2}), above 1 where the change makes it worse; in\n"
     "brackets the sequences on which `{0}` alone succeeds (-) and the variant alone (+). A dash\n"
-    "stands where the setting does not allow the value.\n";
+    "stands where the setting does not allow the value. p: McNemar's exact test of the "
+    "successes.\n";
+
+double success_p(const SensitivityCell& cell) {
+  return mcnemar_test(static_cast<std::size_t>(cell.lost), static_cast<std::size_t>(cell.won)).p;
+}
 
 std::string sensitivity_cell_text(const SensitivityCell& cell) {
   if (!cell.ratio) return "-";
   std::string text = fmt::format("{:.3f}", *cell.ratio);
   if (cell.lost > 0) text += fmt::format(" (-{})", cell.lost);
   if (cell.won > 0) text += fmt::format(" (+{})", cell.won);
+  if (cell.lost + cell.won > 0) text += fmt::format(" p {:.2g}", success_p(cell));
   return text;
 }
 
@@ -42,12 +49,12 @@ std::string sensitivity_markdown(const SettingSensitivity& sensitivity, const Su
 }
 
 CsvTable sensitivity_csv(const SettingSensitivity& sensitivity) {
-  CsvTable table({"setting", "value", "factor", "ate_ratio", "pairs", "lost", "won"});
+  CsvTable table({"setting", "value", "factor", "ate_ratio", "pairs", "lost", "won", "mcnemar_p"});
   for (const SensitivityRow& row : sensitivity.rows) {
     for (const SensitivityCell& cell : row.cells) {
       table.add(row.key).add(row.value).add(cell.factor).add(cell.ratio);
       table.add(static_cast<std::int64_t>(cell.pairs)).add(static_cast<std::int64_t>(cell.lost));
-      table.add(static_cast<std::int64_t>(cell.won)).end_row();
+      table.add(static_cast<std::int64_t>(cell.won)).add(success_p(cell)).end_row();
     }
   }
   return table;
@@ -60,7 +67,7 @@ Json sensitivity_json(const SettingSensitivity& sensitivity, const Suite& suite)
                {"complete", suite.complete},
                {"estimator", sensitivity.estimator},
                {"sequences", sensitivity.sequences},
-               {"median_ate_m", json_of(sensitivity.median_ate)},
+               {"median_ate_yaw_m", json_of(sensitivity.median_ate)},
                {"settings", Json::object()}};
   for (const SensitivityRow& row : sensitivity.rows) {
     Json cells = Json::array();
@@ -69,7 +76,8 @@ Json sensitivity_json(const SettingSensitivity& sensitivity, const Suite& suite)
                        {"ate_ratio", json_of(cell.ratio)},
                        {"pairs", cell.pairs},
                        {"lost", cell.lost},
-                       {"won", cell.won}});
+                       {"won", cell.won},
+                       {"mcnemar_p", success_p(cell)}});
     }
     json["settings"][row.key] = {{"value", row.value}, {"changes", std::move(cells)}};
   }

@@ -7,6 +7,7 @@
 #include "bench/run/json_text.hpp"
 #include "bench/run/json_values.hpp"
 #include "bench/studies/families.hpp"
+#include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_tables.hpp"
 #include "core/files/atomic_file.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -57,13 +58,16 @@ Json case_json(const SuiteCase& each) {
   }
   if (each.runs.empty()) return json;
   for (const std::string& estimator : labels_of(each.scenario.run)) {
-    const std::size_t runs = finished(each.runs, estimator);
-    const std::size_t count = successes(each.runs, estimator);
-    if (runs == 0) continue;
+    const SuccessRate rate = success_rate(each.runs, estimator);
+    if (rate.runs == 0) continue;
+    const Interval interval = rate.interval();
     json["estimators"][estimator] = {
-        {"runs", runs},
-        {"successes", count},
-        {"success_rate", static_cast<double>(count) / static_cast<double>(runs)},
+        {"runs", rate.runs},
+        {"successes", rate.count},
+        {"success_rate", static_cast<double>(rate.count) / static_cast<double>(rate.runs)},
+        {"success_low", json_of(interval.low)},
+        {"success_high", json_of(interval.high)},
+        {"successes_1_percent", success_rate(each.runs, estimator, kStrictSuccessKey).count},
         {"scores", scores_json(each.runs, estimator)}};
   }
   return json;
@@ -117,6 +121,7 @@ Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder
   const std::vector<FamilyResult> families = family_results(suite);
   Json json = suite_json(suite);
   json["families"] = families_json(families);
+  json["success_pairs"] = success_pairs_json(success_pairs(suite));
   auto written = write_csv(folder / "suite.csv", suite_csv(suite));
   if (written) written = write_csv(folder / "timings.csv", timings_csv(suite));
   if (written) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bench/run/json_values.hpp"
+#include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
 
@@ -79,6 +80,22 @@ std::string expectations_markdown(const Suite& suite) {
   return text.empty() ? fmt::format("All {} hold.\n", count) : text;
 }
 
+std::string success_markdown(const Suite& suite) {
+  std::string text =
+      "\n## Success\n\nRuns whose position error stayed within a percentage of the distance "
+      "travelled, of all valid\nones, with the 95 % Wilson interval.\n";
+  for (const SuccessScore& score : kSuccessScores) {
+    text += fmt::format("\n### Success {}\n\n{}", score.title,
+                        to_markdown(success_table(suite, score)));
+  }
+  const TextTable pairs = success_pairs_table(suite, true);
+  if (pairs.rows.empty()) return text;
+  return text +
+         "\n### Pairs of estimators\n\nSequences on which one alone is a success; p: McNemar's "
+         "exact test, not corrected for the\nnumber of pairs.\n\n" +
+         to_markdown(pairs);
+}
+
 std::string failures_markdown(const Suite& suite) {
   std::string text;
   for (const SuiteFailure& each : suite.failures) text += fmt::format("- {}\n", text_of(each));
@@ -94,11 +111,34 @@ TextTable headline_table(const Suite& suite, const HeadlineScore& score) {
   });
 }
 
-TextTable success_table(const Suite& suite) {
-  return matrix(suite, [](const SuiteCase& each, const std::string& estimator) {
+TextTable success_table(const Suite& suite, const SuccessScore& score) {
+  return matrix(suite, [&](const SuiteCase& each, const std::string& estimator) {
     if (!ran(each, estimator)) return invalid_cell(each, estimator);
-    return fmt::format("{}/{}", successes(each.runs, estimator), finished(each.runs, estimator));
+    return success_rate(each.runs, estimator, score.key).text();
   });
+}
+
+TextTable success_pairs_table(const Suite& suite, bool all) {
+  TextTable table;
+  table.header = {"estimators", "sequences"};
+  for (const SuccessScore& score : kSuccessScores) {
+    table.header.push_back(fmt::format("{}: first alone", score.title));
+    table.header.emplace_back("second alone");
+    table.header.emplace_back("p");
+  }
+  for (const SuccessPair& pair : success_pairs(suite)) {
+    std::vector<std::string> row = {fmt::format("{}, {}", pair.first, pair.second),
+                                    std::to_string(pair.sequences)};
+    std::size_t different = 0;
+    for (const McNemarTest& test : pair.tests) {
+      row.push_back(std::to_string(test.only_first));
+      row.push_back(std::to_string(test.only_second));
+      row.push_back(fmt::format("{:.3g}", test.p));
+      different += test.only_first + test.only_second;
+    }
+    if (all || different > 0) table.rows.push_back(std::move(row));
+  }
+  return table;
 }
 
 TextTable breaks_table(const std::vector<FamilyResult>& families) {
@@ -128,12 +168,12 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
     text += fmt::format("\n## {} [{}]\n\n{}", score.title, score.unit,
                         to_markdown(headline_table(suite, score)));
   }
-  text += fmt::format("\n## Success\n\nRuns that did not diverge, of all valid ones.\n\n{}",
-                      to_markdown(success_table(suite)));
+  text += success_markdown(suite);
   if (!families.empty()) {
     text += fmt::format(
         "\n## Breaks at\n\nThe first level, going away from the mildest, where less than half of "
-        "the runs succeed or the median ATE exceeds both twice that at the mildest and {:g} % of "
+        "the runs succeed or the median ATE yaw exceeds both twice that at the mildest and {:g} % "
+        "of "
         "the route's length.\n\n{}",
         100.0 * kMinBreakError, to_markdown(breaks_table(families)));
   }

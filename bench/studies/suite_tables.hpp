@@ -15,8 +15,12 @@ namespace aims {
 /// Scenario x estimator of one score: "median [low, high] worst" over seeds.
 TextTable headline_table(const Suite& suite, const HeadlineScore& score);
 
-/// Scenario x estimator: runs that did not diverge, of all.
-TextTable success_table(const Suite& suite);
+/// Scenario x estimator: successes of all runs, with their interval.
+TextTable success_table(const Suite& suite, const SuccessScore& score);
+
+/// Pairs of estimators over all their common sequences: on how many each alone is a success, and
+/// McNemar's p. Only pairs that differ; `all` has the others, too.
+TextTable success_pairs_table(const Suite& suite, bool all);
 
 /// Family x estimator: the levels at which each breaks.
 TextTable breaks_table(const std::vector<FamilyResult>& families);

@@ -85,12 +85,14 @@ std::string axis_label(const Objective& objective) {
 }
 
 std::string unit_of_score(const std::string& score) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kSuffixes = {{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kSuffixes = {{
       {"_percent", "%"},
+      {"_deg_per_m", "deg/m"},
       {"_m_per_s", "m/s"},
       {"_ms", "ms"},
       {"_m", "m"},
       {"_s", "s"},
+      {"_mrad", "mrad"},
       {"_rad", "rad"},
       {"_deg", "deg"},
       {"_hz", "Hz"},

@@ -35,8 +35,8 @@ constexpr int kWeakScans = 50;
 // Limits on the estimate.
 constexpr double kMaxSpeed = 5.0;       ///< no walking robot is faster [m/s]
 constexpr double kMinSpeed = 0.1;       ///< standing scans repeat one noise sample [m/s]
-constexpr double kSigmaOffset = 1.0;    ///< of a success, SuccessLimits::error_offset [m]
-constexpr double kSigmaPerPath = 0.05;  ///< SuccessLimits::error_per_path [-]
+constexpr double kSigmaOffset = 1.0;    ///< stated deviation at the start [m]
+constexpr double kSigmaPerPath = 0.05;  ///< and its growth per metre of path [-]
 
 // Moving averages.
 constexpr double kLegSamples = 200.0;

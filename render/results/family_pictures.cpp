@@ -20,8 +20,9 @@ constexpr const char* kPictureEndings[] = {".png", ".svg"};
 LevelPlot plot_of(const FamilyResult& family, const std::vector<std::optional<double>>& levels) {
   LevelPlot plot;
   plot.title = family.name;
-  plot.subtitle = "median over seeds with its 95 % bootstrap interval; lines join neighbours";
-  plot.panels = {{"ATE", "ATE [m]", {}, true, false},
+  plot.subtitle =
+      "median over seeds with its 95 % bootstrap interval, success with its Wilson interval";
+  plot.panels = {{"ATE yaw", "ATE yaw [m]", {}, true, false},
                  {"M_list over all segments", "M_list [%]", {}, true, false},
                  {"success", "fraction of runs [-]", {}, false, true}};
   for (const FamilyCurve& curve : family.curves) {
@@ -33,7 +34,8 @@ LevelPlot plot_of(const FamilyResult& family, const std::vector<std::optional<do
           {*levels[i], p.ate_m, p.ate_interval.low, p.ate_interval.high});
       plot.panels[1].curves.back().points.push_back(
           {*levels[i], p.m_list, p.m_list_interval.low, p.m_list_interval.high});
-      plot.panels[2].curves.back().points.push_back({*levels[i], p.success_rate, {}, {}});
+      plot.panels[2].curves.back().points.push_back(
+          {*levels[i], p.success_rate, p.success_interval.low, p.success_interval.high});
     }
   }
   return plot;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "bench/metrics/absolute_error.hpp"
 #include "core/random.hpp"
 #include "tests/bench/metrics/trajectories.hpp"
@@ -194,6 +196,32 @@ TEST(AlignStart, ByHeadingKeepsTheTilt) {
   EXPECT_LT(moved[0].estimate.translation.norm(), 1e-12);
   EXPECT_NEAR(yaw_of(moved[0].estimate.rotation), 0.0, 1e-12);
   EXPECT_NEAR(so3_log(moved[0].estimate.rotation).norm(), 0.1, 1e-12);
+}
+
+TEST(AlignSim3, IsEigensOfPointsInSpace) {
+  RandomStream random = rng(11, "test.sim3");
+  std::vector<PosePair> pairs;
+  Eigen::Matrix3Xd from(3, 40);
+  Eigen::Matrix3Xd to(3, 40);
+  for (int i = 0; i < 40; ++i) {
+    from.col(i) = 10.0 * random.normal3();
+    to.col(i) = 1.7 * (so3_exp({0.3, -0.2, 2.0}) * from.col(i)) + Eigen::Vector3d(4, 5, 6) +
+                0.3 * random.normal3();
+    pairs.push_back({i * kSecond,
+                     {Eigen::Quaterniond::Identity(), from.col(i)},
+                     {Eigen::Quaterniond::Identity(), to.col(i)}});
+  }
+  const Eigen::Matrix4d expected = Eigen::umeyama(from, to, true);
+  const Alignment alignment = align_sim3(pairs);
+  const Eigen::Matrix3d scaled =
+      alignment.scale * alignment.T_truth_estimate.rotation.toRotationMatrix();
+  EXPECT_LT((scaled - expected.topLeftCorner<3, 3>()).norm(), 1e-9);
+  EXPECT_LT((alignment.T_truth_estimate.translation - expected.topRightCorner<3, 1>()).norm(),
+            1e-9);
+  const std::vector<PosePair> moved = aligned(pairs, alignment);
+  EXPECT_LT(
+      (moved[3].estimate.translation - (expected * from.col(3).homogeneous()).head<3>()).norm(),
+      1e-9);
 }
 
 }  // namespace

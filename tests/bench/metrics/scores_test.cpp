@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tests/bench/metrics/trajectories.hpp"
@@ -29,7 +30,9 @@ std::vector<double> numbers_of(const Scores& s) {
   }
   if (s.m_end) numbers.insert(numbers.end(), {s.m_end->norm_m, s.m_end->xy_m, s.m_end->z_m});
   for (const auto& each :
-       {s.m_list_percent, s.ate_m, s.ate_se3_m, s.ate_yaw_m, s.max_error_m, s.max_abs_z_error_m}) {
+       {s.m_list_percent, s.ate_m, s.ate_se3_m, s.ate_yaw_m, s.max_error_m, s.max_abs_z_error_m,
+        s.heading_error_rad, s.heading_offset_rad, s.path_errors.all.translation_percent,
+        s.path_errors.all.rotation_deg_per_m}) {
     take(each);
   }
   for (const RpeScore& each : s.rpe) {
@@ -94,9 +97,84 @@ TEST(Scores, AnInitialHeadingErrorSwingsTheFarEndAside) {
     return t == 0.0 ? pose : Pose{yaw_rotation(psi), Eigen::Vector3d::Zero()} * pose;
   }));
   EXPECT_NEAR(s.max_error_m.value(), 2.0 * test::kLength * std::sin(0.5 * psi), 1e-9);
+  EXPECT_NEAR(s.ate_yaw_m.value(), 0.0, 1e-9);
+  EXPECT_NEAR(s.heading_offset_rad.value(), -psi, 1e-6);
+  EXPECT_LT(s.heading_error_rad.value(), psi / 20.0) << "of the first pose alone";
+  EXPECT_TRUE(s.success_1_percent) << "the heading is a gauge freedom";
   EXPECT_NEAR(s.m_list_percent.value(), 0.0, 1e-6);
   EXPECT_NEAR(s.drift.value().max.lateral_m, test::kLength * std::sin(psi), 1e-9);
   EXPECT_NEAR(s.drift->end.heading_rad, psi, 1e-9);
+}
+
+TEST(Scores, HeadingErrorIsThatOfTheAttitudeWhereThePathIsRight) {
+  const double psi = 0.007;
+  const Scores s = scores_of(test::estimated_walk([psi](double, Pose pose) {
+    pose.rotation = pose.rotation * yaw_rotation(psi);
+    return pose;
+  }));
+  EXPECT_NEAR(s.ate_yaw_m.value(), 0.0, 1e-9);
+  EXPECT_NEAR(s.heading_error_rad.value(), psi, 1e-9);
+  EXPECT_NEAR(s.heading_offset_rad.value(), psi, 1e-9) << "the first pose turned the path";
+  EXPECT_GT(s.ate_m.value(), 0.1);
+}
+
+TEST(Scores, TellOneAndFivePercentOfTheDistanceApart) {
+  const auto with_scale = [](double scale) {
+    return scores_of(test::estimated_walk([scale](double, Pose pose) {
+      pose.translation.x() *= scale;
+      return pose;
+    }));
+  };
+  // 0.1 m and a percentage of 40 m: 0.5 m and 2.1 m at the far end.
+  EXPECT_TRUE(with_scale(1.0 - 0.49 / 40.0).success_1_percent);
+  EXPECT_FALSE(with_scale(1.0 - 0.51 / 40.0).success_1_percent);
+  EXPECT_TRUE(with_scale(1.0 + 2.09 / 40.0).success);
+  EXPECT_FALSE(with_scale(1.0 + 2.11 / 40.0).success);
+  EXPECT_FALSE(with_scale(1.0 + 2.11 / 40.0).success_1_percent);
+}
+
+TEST(Scores, StatisticsOfTheAbsoluteErrorAreThoseOfItsDefinitions) {
+  // After alignment the errors of 0.99 x are 0.01 |x - mean x| along one line.
+  const Scores s = scores_of(test::estimated_walk([](double, Pose pose) {
+    pose.translation.x() *= 0.99;
+    return pose;
+  }));
+  std::vector<double> errors;
+  double mean_x = 0.0;
+  const Trajectory walk = test::sampled(0.0, test::kEnd, 0.1, test::there_and_back);
+  for (const StampedPose& each : walk) mean_x += each.pose.translation.x() / double(walk.size());
+  for (const StampedPose& each : walk) {
+    errors.push_back(0.01 * std::abs(each.pose.translation.x() - mean_x));
+  }
+  std::ranges::sort(errors);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double each : errors) {
+    sum += each;
+    squares += each * each;
+  }
+  const double count = static_cast<double>(errors.size());
+  EXPECT_NEAR(s.ape_yaw.value().mean_m, sum / count, 1e-9);
+  EXPECT_NEAR(s.ape_yaw->median_m, errors[errors.size() / 2], 1e-9) << "of an odd number";
+  EXPECT_NEAR(s.ape_yaw->std_m, std::sqrt(squares / count - std::pow(sum / count, 2)), 1e-9);
+  EXPECT_NEAR(s.ape_yaw->min_m, errors.front(), 1e-9);
+  EXPECT_NEAR(s.ape_yaw->max_m, errors.back(), 1e-9);
+  EXPECT_NEAR(*s.ate_yaw_m, std::sqrt(squares / count), 1e-9);
+}
+
+TEST(Scores, WithAScaleOnRequestAreFreeOfAScaleError) {
+  ScoreConfig config;
+  const Trajectory estimate = test::estimated_walk([](double, Pose pose) {
+    pose.translation *= 0.8;
+    return pose;
+  });
+  const auto scored = [&] {
+    return score(estimate, test::true_walk(), test::walk_waypoint_times(), config);
+  };
+  EXPECT_FALSE(scored().ate_sim3_m);
+  config.sim3 = true;
+  EXPECT_NEAR(scored().sim3_scale.value(), 1.25, 1e-9);
+  EXPECT_NEAR(scored().ate_sim3_m.value(), 0.0, 1e-9);
 }
 
 // The estimate takes the body for tilted; its path is right.

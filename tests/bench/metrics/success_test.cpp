@@ -23,13 +23,13 @@ TEST(Success, OfAPerfectWalk) {
 }
 
 TEST(Success, FailsWhenTheErrorExceedsTheLimit) {
-  // A robot thought to stand still: the error x reaches 1 + 0.05 x at x = 1.0526.
+  // A robot thought to stand still: the error x reaches 0.1 + 0.05 x at x = 0.1053.
   const auto verdict = verdict_of(test::estimated_walk([](double, Pose pose) {
     pose.translation.x() = 0.0;
     return pose;
   }));
   EXPECT_EQ(verdict.reason, FailureReason::kErrorLimit);
-  EXPECT_EQ(verdict.diverged_at, from_seconds(1.1));
+  EXPECT_EQ(verdict.diverged_at, from_seconds(0.2));
 }
 
 TEST(Success, AllowsErrorsWithinTheLimit) {
@@ -38,6 +38,46 @@ TEST(Success, AllowsErrorsWithinTheLimit) {
     return pose;
   }));
   EXPECT_EQ(verdict.reason, FailureReason::kNone);
+}
+
+TEST(Success, IsLostByAScaleErrorThoughTheLoopCloses) {
+  // The error 0.06 x exceeds 0.1 + 0.05 x from x = 10 on; at the end it is zero again.
+  const auto verdict = verdict_of(test::estimated_walk([](double, Pose pose) {
+    pose.translation.x() *= 0.94;
+    return pose;
+  }));
+  EXPECT_EQ(verdict.reason, FailureReason::kErrorLimit);
+  EXPECT_NEAR(to_seconds(*verdict.diverged_at), 10.0, 0.11);
+}
+
+/// The walk but for the first pose, turned by `angle` about the start: the mount is off, or the
+/// first attitude.
+Trajectory turned_walk(double angle) {
+  return test::estimated_walk([angle](double t, Pose pose) {
+    return t == 0.0 ? pose : Pose{yaw_rotation(angle), Eigen::Vector3d::Zero()} * pose;
+  });
+}
+
+TEST(Success, DoesNotDependOnASmallHeadingOfTheWholePath) {
+  EXPECT_EQ(verdict_of(turned_walk(0.08)).reason, FailureReason::kNone) << "3.2 m aside at the end";
+  EXPECT_EQ(verdict_of(turned_walk(-0.08)).reason, FailureReason::kNone);
+}
+
+TEST(Success, IsLostByAPathThatLeadsElsewhere) {
+  EXPECT_EQ(verdict_of(turned_walk(0.2)).reason, FailureReason::kErrorLimit);
+  EXPECT_EQ(verdict_of(turned_walk(3.14)).reason, FailureReason::kErrorLimit) << "backwards";
+}
+
+TEST(Success, FailedWhereItFailedWhateverCameLater) {
+  const auto with_jump = [](double size) {
+    return verdict_of(test::estimated_walk([size](double t, Pose pose) {
+      if (t > 20.0) pose.translation.y() += 3.0;
+      if (t > 60.0) pose.translation += size * Eigen::Vector3d(1.0, -2.0, 0.5);
+      return pose;
+    }));
+  };
+  EXPECT_EQ(with_jump(0.0).diverged_at, from_seconds(20.1));
+  EXPECT_EQ(with_jump(1000.0).diverged_at, from_seconds(20.1));
 }
 
 TEST(Success, FailsAtThePoseThatIsNotFinite) {

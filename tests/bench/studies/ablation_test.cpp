@@ -73,7 +73,7 @@ TEST(AblationSpecs, AGroupWithoutFlagsThatHaveAnEffectIsRefused) {
 RunRecord record_with(std::uint64_t seed, const std::map<std::string, double>& ate) {
   RunRecord record{seed, {{"seed", seed}, {"robot", {{"fell", false}}}}};
   for (const auto& [label, value] : ate) {
-    record.scores["estimators"][label] = {{"success", true}, {"ate_m", value}};
+    record.scores["estimators"][label] = {{"success", true}, {"ate_yaw_m", value}};
   }
   return record;
 }
@@ -93,14 +93,14 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
   }
   const Ablation ablation = ablation_of(suite, "aims_d");
   ASSERT_EQ(ablation.effects.size(), 2U);
-  EXPECT_NEAR(*ablation.effects[0].ratios[2], 1.0, 1e-12);
-  EXPECT_NEAR(*ablation.effects[1].ratios[2], 4.0, 1e-12);
+  EXPECT_NEAR(*ablation.effects[0].ratios[0], 1.0, 1e-12);
+  EXPECT_NEAR(*ablation.effects[1].ratios[0], 4.0, 1e-12);
   EXPECT_NEAR(*ablation.effects[1].worst_ratio, 8.0, 1e-12);
   EXPECT_EQ(ablation.effects[1].worst_scenario, "b");
   EXPECT_EQ(ablation.effects[1].changes, "aims_d+ground_constraint.enabled=false");
-  EXPECT_NEAR(*ablation.cases[0].rows[1].cells[2].median, 0.4, 1e-12);
-  EXPECT_NEAR(*ablation.cases[0].rows[1].cells[2].ratio, 2.0, 1e-12);
-  EXPECT_FALSE(ablation.effects[1].ratios[0]) << "no run has M_list";
+  EXPECT_NEAR(*ablation.cases[0].rows[1].cells[0].median, 0.4, 1e-12);
+  EXPECT_NEAR(*ablation.cases[0].rows[1].cells[0].ratio, 2.0, 1e-12);
+  EXPECT_FALSE(ablation.effects[1].ratios[3]) << "no run has M_list";
 }
 
 TEST(Ablation, DoesAllVariantsOnOneSequenceAndContinues) {

@@ -164,6 +164,33 @@ TEST(Compare, MoreSuccessIsBetter) {
   }
 }
 
+TEST(Compare, SuccessesAreComparedByMcNemarsTest) {
+  // Fagerland, Lydersen and Laake 2013: 7 against 1 discordant pairs have p 0.0703.
+  std::vector<double> before(9, 0.1);
+  std::vector<double> after(9, 9.0);
+  before[0] = 9.0;
+  after[0] = 0.1;
+  after[8] = 0.1;
+  const auto change_in = [](const Comparison& comparison) {
+    for (const ScoreChange& each : comparison.changes) {
+      if (each.score == "success") return each;
+    }
+    throw std::runtime_error("no success was compared");
+  };
+  const ScoreChange change = change_in(compare(results(before), results(after)));
+  EXPECT_EQ(change.success->only_first, 7U);
+  EXPECT_EQ(change.success->only_second, 1U);
+  EXPECT_NEAR(change.test.p, 0.0703, 5e-5);
+  EXPECT_EQ(change.verdict, ChangeVerdict::kNone);
+  EXPECT_EQ(change.test.interval, Interval{}) << "the sign-flip interval is of continuous scores";
+  before[0] = 0.1;
+  after[0] = 9.0;
+  const ScoreChange lost = change_in(compare(results(before), results(after)));
+  EXPECT_NEAR(lost.test.p, 2.0 / 256.0, 1e-12);
+  EXPECT_EQ(lost.verdict, ChangeVerdict::kWorse);
+  EXPECT_NEAR(lost.test.change, -8.0 / 9.0, 1e-12);
+}
+
 TEST(StoredResults, OfAnEmptyFolderAreAnError) {
   const TemporaryFolder folder;
   const auto none = read_results(folder.path());

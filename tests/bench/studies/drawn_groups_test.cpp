@@ -42,7 +42,7 @@ TEST(DrawnGroups, NumbersFallIntoBinsOfEqualNumbersOfRuns) {
   const GroupScores& third = (*groups)[2].estimators.front();
   EXPECT_EQ(third.runs, 2U);
   EXPECT_EQ(third.successes, 2U);
-  EXPECT_NEAR(*third.medians[2], 0.85, 1e-12) << "of 0.8 and 0.9 m";
+  EXPECT_NEAR(*third.medians[1], 0.85, 1e-12) << "of 0.8 and 0.9 m";
   EXPECT_EQ((*groups)[3].estimators.front().successes, 0U) << "1.0 m and more is no success";
 }
 
@@ -89,6 +89,8 @@ TEST(DrawnGroups, FilesHoldWhatTheTableShows) {
   const Json json = Json::parse(*read_file(folder.path() / "by" / "groups.json"));
   EXPECT_EQ(json["schema"], "aims.groups/1");
   EXPECT_EQ(json["groups"].size(), 4U);
+  EXPECT_EQ(groups_table(*groups).rows[2][3], "2/2 (34-100 %)");
+  EXPECT_EQ(groups_table(*groups).rows[2][4], "-") << "older results know nothing of 1 %";
   EXPECT_EQ(json["groups"][0]["estimators"]["aims"]["median"]["ate_m"], 0.2);
   const std::string csv = *read_file(folder.path() / "by" / "groups.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);

@@ -46,7 +46,7 @@ RunRecord record_of(std::uint64_t seed, const std::map<std::string, std::optiona
   RunRecord record{seed, {{"seed", seed}, {"robot", {{"fell", false}}}}};
   for (const auto& [label, value] : ate) {
     Json scores = {{"success", value.has_value()}};
-    scores["ate_m"] = value.value_or(100.0);
+    scores["ate_yaw_m"] = value.value_or(100.0);
     record.scores["estimators"][label] = std::move(scores);
   }
   return record;
@@ -88,7 +88,7 @@ TEST(Sensitivity, IsTheRatioOfMediansOverAllScenariosAndSortedByIt) {
   EXPECT_EQ(voxel.cells.at(1).won, 0);
   EXPECT_NEAR(*sensitivity.rows.at(1).largest_change(), 0.1, 1e-12);
   const TextTable table = sensitivity_table(sensitivity);
-  EXPECT_EQ(table.rows.at(0).at(3), "0.500 (-1)");
+  EXPECT_EQ(table.rows.at(0).at(3), "0.500 (-1) p 1");
 }
 
 }  // namespace

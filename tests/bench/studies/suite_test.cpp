@@ -8,7 +8,9 @@
 #include <map>
 
 #include "bench/studies/families.hpp"
+#include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_summary.hpp"
+#include "bench/studies/suite_tables.hpp"
 #include "core/files/atomic_file.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -172,7 +174,7 @@ SuiteCase family_case(double level, const std::vector<double>& ates, bool succes
   for (const double ate : ates) {
     RunRecord run;
     run.seed = each.runs.size() + 1;
-    run.scores["estimators"]["aims"] = {{"ate_m", ate}, {"success", success}};
+    run.scores["estimators"]["aims"] = {{"ate_yaw_m", ate}, {"success", success}};
     each.runs.push_back(std::move(run));
   }
   return each;
@@ -198,6 +200,43 @@ TEST(Families, DoNotBreakAtTwiceAFewCentimetres) {
       << "0.5 % of 20 m are 0.1 m";
   for (SuiteCase& each : suite.cases) each.scenario.simulation.route.points[1].x = 5.0;
   EXPECT_EQ(family_results(suite)[0].curves[0].breaks_at, std::vector<double>{1.0});
+}
+
+TEST(Families, StateTheIntervalOfTheSuccessRate) {
+  Suite suite;
+  suite.cases = {family_case(0.0, std::vector<double>(20, 0.1), false),
+                 family_case(1.0, {0.1}, true)};
+  const FamilyPoint& none = family_results(suite)[0].curves[0].points[0];
+  EXPECT_NEAR(none.success_interval.low.value(), 0.0, 1e-12);
+  EXPECT_NEAR(none.success_interval.high.value(), 0.1611, 5e-5) << "Newcombe 1998: 0 of 20";
+}
+
+TEST(SuccessPairs, CountWhereOneAloneIsASuccessOverAllScenarios) {
+  Suite suite;
+  for (const char* name : {"first", "second"}) {
+    SuiteCase each;
+    each.scenario.name = name;
+    each.scenario.run = {"aims", "lio"};
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      RunRecord run;
+      run.seed = seed;
+      // Of 8 sequences lio loses 7 that aims keeps, and keeps one that aims loses.
+      const bool odd = each.scenario.name == "first" && seed == 1;
+      run.scores["estimators"]["aims"] = {{"success", !odd}};
+      run.scores["estimators"]["lio"] = {{"success", odd}};
+      each.runs.push_back(std::move(run));
+    }
+    suite.cases.push_back(std::move(each));
+  }
+  const auto pairs = success_pairs(suite);
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_EQ(pairs[0].sequences, 8U);
+  EXPECT_EQ(pairs[0].tests[0].only_first, 7U);
+  EXPECT_EQ(pairs[0].tests[0].only_second, 1U);
+  EXPECT_NEAR(pairs[0].tests[0].p, 0.0703, 5e-5) << "Fagerland et al. 2013";
+  EXPECT_EQ(success_pairs_table(suite, false).rows.at(0).at(4), "0.0703");
+  const SuccessRate rate = success_rate(suite.cases[0].runs, "aims");
+  EXPECT_EQ(rate.text(), "3/4 (30-95 %)");
 }
 
 TEST(Families, OfOneLevelAreNone) {

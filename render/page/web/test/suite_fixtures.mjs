@@ -24,7 +24,7 @@ function estimator(ate, successes = 3, runs = 3) {
 
 function point(level, each) {
   const { median: ate, median_low: low, median_high: high } = each.scores.ate_m;
-  return { level, ate_m: ate, ate_low_m: low, ate_high_m: high, m_list_percent: null, m_list_low_percent: null,
+  return { level, ate_yaw_m: ate, ate_yaw_low_m: low, ate_yaw_high_m: high, m_list_percent: null, m_list_low_percent: null,
     m_list_high_percent: null, success_rate: each.success_rate, runs: each.runs };
 }
 

@@ -8,16 +8,16 @@ import { sortableTable, type Column } from "../table";
 import { estimatorsOf, type Family, type FamilyPoint, type SuitePayload } from "./model";
 
 interface Quantity {
-  value: "ate_m" | "m_list_percent" | "success_rate";
-  low: "ate_low_m" | "m_list_low_percent" | null;
-  high: "ate_high_m" | "m_list_high_percent" | null;
+  value: "ate_yaw_m" | "m_list_percent" | "success_rate";
+  low: "ate_yaw_low_m" | "m_list_low_percent" | "success_low";
+  high: "ate_yaw_high_m" | "m_list_high_percent" | "success_high";
   label: string;
 }
 
 const kQuantities: Quantity[] = [
-  { value: "ate_m", low: "ate_low_m", high: "ate_high_m", label: "ATE [m]" },
+  { value: "ate_yaw_m", low: "ate_yaw_low_m", high: "ate_yaw_high_m", label: "ATE yaw [m]" },
   { value: "m_list_percent", low: "m_list_low_percent", high: "m_list_high_percent", label: "M_list [%]" },
-  { value: "success_rate", low: null, high: null, label: "success rate" },
+  { value: "success_rate", low: "success_low", high: "success_high", label: "success rate" },
 ];
 
 /** Place of each point: its level, or the equivalent returns of its truth. */
@@ -39,9 +39,9 @@ function lineOf(family: Family, name: string, index: number, quantity: Quantity,
     const rate = point.success_rate ?? 0;
     return [{
       x, y: isNumber(y) ? y : NaN,
-      low: quantity.low ? point[quantity.low] ?? NaN : NaN,
-      high: quantity.high ? point[quantity.high] ?? NaN : NaN,
-      cross: quantity.low !== null && rate < 0.5,
+      low: point[quantity.low] ?? NaN,
+      high: point[quantity.high] ?? NaN,
+      cross: quantity.value !== "success_rate" && rate < 0.5,
       note: `${Math.round(rate * point.runs)} of ${point.runs} runs succeeded` +
         `${overTruth ? `, level ${point.level}` : ""}`,
     }];
@@ -70,8 +70,8 @@ function table(family: Family, names: string[], quantity: Quantity): HTMLElement
       title: name, value: (row) => row.of.get(name)?.[quantity.value],
       interval: (row) => {
         const point = row.of.get(name);
-        const low = point && quantity.low ? point[quantity.low] : null;
-        const high = point && quantity.high ? point[quantity.high] : null;
+        const low = point?.[quantity.low];
+        const high = point?.[quantity.high];
         return isNumber(low) && isNumber(high) ? [low, high] : null;
       },
     })),
@@ -86,7 +86,7 @@ function breaksText(family: Family, names: string[]): string {
     return `${name} ${breaks.length > 0 ? breaks.join(" and ") : "none"}`;
   }).filter((each) => each !== null);
   return `Breakdown levels: ${levels.join(", ")}. The breakdown level is the first one, counted from the mildest ` +
-    `(${family.mildest_level}), at which more than half of the runs diverge or the median ATE is over both twice that of the mildest and 0.5 % of the route's length.`;
+    `(${family.mildest_level}), at which more than half of the runs diverge or the median ATE yaw is over both twice that of the mildest and 0.5 % of the route's length.`;
 }
 
 /** The section; none without a family. */
@@ -122,9 +122,9 @@ export function familySection(data: SuitePayload): HTMLElement | null {
           }) : null),
       chart(lines, {
         label: `${quantity.label} of each estimator over ${xLabel}; the table below has the numbers`,
-        xLabel, yLabel: quantity.label, xLog: overTruth, yLog: quantity.low !== null, height: 340,
+        xLabel, yLabel: quantity.label, xLog: overTruth, yLog: quantity.value !== "success_rate", height: 340,
         dodge: overTruth ? 0 : 5,
-        ...(quantity.low === null ? { yEnds: [-0.03, 1.05] as [number, number] } : {}),
+        ...(quantity.value === "success_rate" ? { yEnds: [-0.03, 1.05] as [number, number] } : {}),
         verticals: overTruth ? [] : [{ x: family.mildest_level, label: "mildest" }],
       }),
       h("p", { class: "soft" }, `Median over seeds with its 95 % interval; ✕: more than half of the runs diverged. ${breaksText(family, names)}`),

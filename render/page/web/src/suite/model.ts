@@ -50,9 +50,9 @@ export interface SuiteScenario {
 
 export interface FamilyPoint {
   level: number;
-  ate_m: Maybe;
-  ate_low_m: Maybe;
-  ate_high_m: Maybe;
+  ate_yaw_m?: Maybe;
+  ate_yaw_low_m?: Maybe;
+  ate_yaw_high_m?: Maybe;
   m_list_percent: Maybe;
   m_list_low_percent: Maybe;
   m_list_high_percent: Maybe;

@@ -95,7 +95,7 @@ export function multiplesSection(data: SuitePayload): HTMLElement | null {
   const charts = h("div", { class: "smalls" });
   const words = h("p", { class: "soft" });
   const more = h("button", { type: "button" }, `Show all ${data.runs.length} runs`);
-  let score = data.headline.find((each) => each.key === "ate_m")?.key ?? data.headline[0]!.key;
+  let score = data.headline.find((each) => each.key === "ate_yaw_m")?.key ?? data.headline[0]!.key;
   let all = data.runs.length <= kShown;
   const draw = () => {
     const ordered = worstFirst(data.runs, estimators, score);
