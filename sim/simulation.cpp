@@ -147,9 +147,9 @@ Simulation::Impl::Impl(const SimulationConfig& c, std::uint64_t seed, int thread
       fast_imu(second_output(config, walker.world().timestep(), run_seeds(config, seed))),
       legs(config.leg_odometry, config.robot.legs, walker.world().timestep(),
            run_seeds(config, seed)),
-      imu_link(config.links.imu, seed, "imu"),
-      leg_link(config.links.leg_odometry, seed, "leg_odometry"),
-      lidar_link(config.links.lidar, seed, "lidar"),
+      imu_link(config.links.imu, run_seeds(config, seed).run, "imu"),
+      leg_link(config.links.leg_odometry, run_seeds(config, seed).run, "leg_odometry"),
+      lidar_link(config.links.lidar, run_seeds(config, seed).run, "lidar"),
       rig(nominal_rig(config)),
       casts(threads) {
   truth.mounts = true_mounts(nominal_mounts(config.robot.mounts), config.calibration,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/random.hpp"
 #include "sim/sensors/sampling.hpp"
 
 namespace aims {
@@ -54,6 +55,10 @@ void describe(Fields& f, SimulationConfig& c) {
              .range = in_range(0, 2147483647),
              .meaning = "Seed of what belongs to the robot: dimensions, mounts, constant errors of "
                         "its sensors, and their draws; 0 for the seed of the run."});
+  f.text(
+      "sensor_draw", c.sensor_draw,
+      {.meaning = "Name of a draw of the sensors' errors and noise of its own, of the same seed; "
+                  "'scenario' for the name of the scenario, empty for that of the seed."});
   f.number(
       "max_duration", c.max_duration,
       {.unit = "s",
@@ -62,7 +67,13 @@ void describe(Fields& f, SimulationConfig& c) {
 }
 
 RunSeeds run_seeds(const SimulationConfig& config, std::uint64_t seed) {
-  return {seed, config.robot_seed > 0 ? static_cast<std::uint64_t>(config.robot_seed) : seed};
+  const std::uint64_t robot =
+      config.robot_seed > 0 ? static_cast<std::uint64_t>(config.robot_seed) : seed;
+  if (config.sensor_draw.empty()) return {seed, robot};
+  const auto own = [&](std::uint64_t of) {
+    return static_cast<std::uint64_t>(0x1p53 * rng(of, "sensors." + config.sensor_draw).uniform());
+  };
+  return {own(seed), own(robot)};
 }
 
 Result<void> validate(const SimulationConfig& config) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "core/config.hpp"
 #include "sim/environment/scene_config.hpp"
 #include "sim/links/link.hpp"
@@ -44,11 +46,14 @@ struct SimulationConfig {
   double fast_imu_rate = 0.0;    ///< of the IMU's second output, for recordings; 0: none [Hz]
   double recording_start = 0.0;  ///< the robot walks unrecorded until then [s]
   int robot_seed = 0;            ///< of what belongs to the robot; 0: the run's seed
-  double max_duration = 900.0;   ///< simulated time after which the run ends [s]
+  /// Names a draw of the sensors' errors of its own, of the same seed; empty: that of the seed.
+  std::string sensor_draw;
+  double max_duration = 900.0;  ///< simulated time after which the run ends [s]
 };
 void describe(Fields& f, SimulationConfig& c);
 
-/// The seeds of a run with that seed.
+/// The seeds of robot and sensors in a run with that seed; scene, start and pushes have the seed
+/// itself.
 RunSeeds run_seeds(const SimulationConfig& config, std::uint64_t seed);
 
 /// Error for values that do not fit together, naming the key.

@@ -8,6 +8,7 @@
 #include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/run/evo_export.hpp"
 #include "bench/run/scoring_config.hpp"
 #include "bench/run/scoring_input.hpp"
 #include "bench/run/trajectory_summary.hpp"
@@ -30,6 +31,7 @@ struct ScoreArguments {
   bool no_pictures = false;
   bool no_page = false;
   bool json = false;
+  bool evo = false;
 };
 
 void print_scores(const TrajectoryScores& scores, const fs::path& folder) {
@@ -83,6 +85,7 @@ int score_command(const ScoreArguments& arguments) {
   if (!folder) return refuse("score", folder.error(), arguments.json);
   auto written = write_trajectory_scores(*scores, folder->path());
   if (written) written = write_trajectories(*scores, folder->path());
+  if (written && arguments.evo) written = write_evo_archives(*scores, folder->path());
   if (!written) return refuse("score", written.error(), arguments.json);
   draw(*scores, folder->path(), arguments);
   if (auto committed = folder->commit(); !committed)
@@ -127,6 +130,7 @@ void declare_score(Command command, const fs::path& /*scenarios*/) {
   add_settings(command, shared, "the configuration: keys of scoring");
   add_out(command, shared, "out/score");
   add_overwrite(command, shared);
+  command.flag("--evo", arguments->evo, "Write NAME.evo.zip, which evo_res reads");
   command.flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
   command.flag("--no-page", arguments->no_page, "Write no HTML page");
   add_json(command, arguments->json);

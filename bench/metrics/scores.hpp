@@ -32,7 +32,7 @@ struct ScoreConfig {
   bool rpe_all_pairs = false;
   bool rpe_pairs_from_truth = true;
   bool sim3 = false;                                 ///< also align with a scale
-  double max_error_offset = 0.1;                     ///< [m]
+  double max_error_offset = 0.5;                     ///< [m]
   double max_error_per_path = kSuccessErrorPerPath;  ///< [-]
 };
 
@@ -77,6 +77,10 @@ struct Scores {
 /// quantities, never an error.
 Scores score(const Trajectory& estimate, const Trajectory& truth,
              std::span<const WaypointTime> waypoint_times, const ScoreConfig& config);
+
+/// Estimated and true poses after the alignment of the headline: by heading and translation.
+std::vector<PosePair> headline_pairs(const Trajectory& estimate, const Trajectory& truth,
+                                     const ScoreConfig& config);
 
 /// Takes the success of an estimate for a reason that is not its own; one that it has itself stays,
 /// unless it is one of what was cut off: that the estimate ends early, or hardly begins.

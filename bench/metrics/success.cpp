@@ -68,7 +68,7 @@ void note_large_errors(SuccessVerdict& verdict, const Trajectory& truth,
     const Eigen::Vector3d truly = pair.truth.translation - start;
     heading.add(estimated, truly);
     const double error = (heading.rotation() * estimated - truly).norm();
-    if (error <= limits.error_offset + limits.error_per_path * path) continue;
+    if (error <= std::max(limits.error_offset, limits.error_per_path * path)) continue;
     note(verdict, FailureReason::kErrorLimit, pair.stamp);
     return;
   }

@@ -32,7 +32,7 @@ inline constexpr double kStrictErrorPerPath = 0.01;
 
 /// Limits of a success.
 struct SuccessLimits {
-  double error_offset = 0.1;                     ///< allowed position error at the start [m]
+  double error_offset = 0.5;                     ///< allowed position error in any case [m]
   double error_per_path = kSuccessErrorPerPath;  ///< per metre of path [-]
   Duration edge = 3 * kSecond;                   ///< allowed time without estimates at either end
   Duration gap = 2 * kSecond;                    ///< allowed time without estimates in between
@@ -47,8 +47,8 @@ struct SuccessVerdict {
 };
 
 /// The earliest failure of an estimate. `estimate` is the output of the estimator, `pairs` are its
-/// valid poses aligned at the start. An estimate fails when its position error exceeds
-/// error_offset + error_per_path * (true path so far), when it is missing at either end or for
+/// valid poses aligned at the start. An estimate fails when its position error exceeds both
+/// error_offset and error_per_path * (true path so far), when it is missing at either end or for
 /// longer than `gap`, when it contains an invalid pose, or when it covers too little of the truth.
 /// The error is that of the displacement from the start, after the rotation about the vertical, of
 /// at most 0.1 rad, that fits the displacements so far best: the heading is a gauge freedom, and

@@ -160,8 +160,8 @@ MapViews map_views(const SimulationConfig& config, const SensorRig& rig, std::ui
   const Trajectory poses = body_trajectory(truth);
   if (poses.empty()) return views;
   views.centres = part_centres(poses, spacing, max_parts);
-  const Mounts mounts =
-      true_mounts({rig.T_body_base.inverse(), rig.T_body_lidar}, config.calibration, seed);
+  const Mounts mounts = true_mounts({rig.T_body_base.inverse(), rig.T_body_lidar},
+                                    config.calibration, run_seeds(config, seed).robot);
   Recast recast(config, seed, mounts.T_body_lidar, poses);
   std::optional<Pose> last;
   std::vector<PartInformation> cast;

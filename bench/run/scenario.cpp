@@ -249,6 +249,7 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
                            });
   if (!loaded) return loaded;
   drop_set_draws(std::span(assigned).subspan(of_file), loaded->draw);
+  if (loaded->simulation.sensor_draw == "scenario") loaded->simulation.sensor_draw = loaded->name;
   follow_scene(*loaded);
   if (auto valid = check(*loaded); !valid) {
     return tl::unexpected(located(*loaded, valid.error()));

@@ -225,7 +225,7 @@ Scenario scenario_of_seed(const Scenario& scenario, std::uint64_t seed) {
     const auto met = [&](const std::string& condition) { return holds(condition, fields); };
     if (settled.contains(draw.key) || !std::ranges::all_of(draw.when, met)) continue;
     settled.insert(draw.key);
-    const std::uint64_t of_draw = is_of_robot(draw.key) ? seeds.robot : seeds.run;
+    const std::uint64_t of_draw = is_of_robot(draw.key) ? seeds.robot : seed;
     if (const auto value = drawn_value(draw, of_draw)) (void)assign(fields, draw.key, *value);
   }
   std::set<std::string> open;

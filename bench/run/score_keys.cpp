@@ -13,38 +13,32 @@ namespace {
 
 constexpr std::string_view kCounters = "counts.";
 
-/// A walk along a line past the route's named points, so far apart that each segment counts.
-struct ExampleWalk {
-  Trajectory trajectory;
-  std::vector<WaypointTime> waypoint_times;
-};
-
-ExampleWalk example_walk(const Scenario& scenario) {
-  constexpr Duration kStep = 10 * kSecond;
-  const double distance = 100.0 + scenario.scoring.min_segment_length;
-  ExampleWalk walk;
-  const auto add_pose = [&] {
-    const auto count = static_cast<std::int64_t>(walk.trajectory.size());
-    StampedPose& pose = walk.trajectory.emplace_back();
-    pose.stamp = count * kStep;
-    pose.pose.translation.x() = static_cast<double>(count) * distance;
-  };
-  add_pose();
+/// The segments of the scenario's route, as one that passes its points in order has them.
+std::vector<SegmentDistance> route_segments(const Scenario& scenario) {
+  std::vector<WaypointTime> passed;
   for (const RoutePoint& point : scenario.simulation.route.points) {
-    add_pose();
-    if (!point.name.empty()) {
-      walk.waypoint_times.push_back({point.name, walk.trajectory.back().stamp});
-    }
+    const auto count = static_cast<Time>(passed.size());
+    if (!point.name.empty()) passed.push_back({point.name, count * kSecond});
   }
-  add_pose();
-  return walk;
+  std::vector<SegmentDistance> segments;
+  for (const Segment& each : segments_wanted(passed, scenario.scoring.segments)) {
+    segments.emplace_back().segment = each;
+  }
+  return segments;
 }
 
-/// What an estimator without any error comes to: an outcome that has every score.
-EstimatorOutcome example_outcome(const Scenario& scenario) {
-  const ExampleWalk walk = example_walk(scenario);
+/// Scores that have no values but every key.
+Scores undefined_scores(const Scenario& scenario) {
+  Scores scores = score_over({}, {}, {}, scenario.scoring);
+  scores.segments = route_segments(scenario);
+  scores.drift = DriftSummary();
+  if (scenario.scoring.sim3) scores.sim3_scale = 1.0;
+  return scores;
+}
+
+EstimatorOutcome undefined_outcome(const Scenario& scenario) {
   EstimatorOutcome outcome;
-  outcome.scores = score(walk.trajectory, walk.trajectory, walk.waypoint_times, scenario.scoring);
+  outcome.scores = undefined_scores(scenario);
   outcome.optimized = outcome.scores;
   outcome.weak_axis = weak_axis_scores({});
   return outcome;
@@ -63,7 +57,7 @@ Result<void> check_known(std::string_view key, const std::string& score,
 
 std::vector<std::string> possible_score_keys(const Scenario& scenario) {
   RunRecord record;
-  record.scores["estimators"]["it"] = estimator_json(example_outcome(scenario));
+  record.scores["estimators"]["it"] = estimator_json(undefined_outcome(scenario));
   return score_keys(record, "it");
 }
 
@@ -72,8 +66,7 @@ std::vector<std::string> possible_run_score_keys(const Scenario& scenario) {
   localizability.scans.emplace_back();
   localizability.bounds.emplace_back();
   RunRecord record;
-  record.scores =
-      sequence_json(0.0, WalkOutcome(), example_outcome(scenario).scores, localizability);
+  record.scores = sequence_json(0.0, WalkOutcome(), undefined_scores(scenario), localizability);
   return run_score_keys(record);
 }
 

@@ -51,6 +51,9 @@ Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> 
     written = write_file_atomically(folder / "summary.md", markdown_of(runs));
   }
   if (written) {
+    written = write_file_atomically(folder / "summary.tex", to_latex(score_table(runs)));
+  }
+  if (written) {
     written = write_file_atomically(folder / "summary.json",
                                     json_text(summary_json(scenario, runs), 2) + "\n");
   }

@@ -197,6 +197,10 @@ Result<void> write_trajectory_scores(const TrajectoryScores& scores, const fs::p
   auto written = write_file_atomically(folder / "scores.json", json_text(record.scores, 2) + "\n");
   if (written) written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
   if (written) written = write_file_atomically(folder / "scores.md", markdown(scores));
+  if (written) {
+    written =
+        write_file_atomically(folder / "scores.tex", to_latex(trajectory_score_table(scores)));
+  }
   return written;
 }
 

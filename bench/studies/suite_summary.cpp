@@ -127,6 +127,7 @@ Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder
   if (written) {
     written = write_file_atomically(folder / "suite.md", suite_markdown(suite, families));
   }
+  if (written) written = write_file_atomically(folder / "suite.tex", suite_latex(suite));
   if (written) written = write_file_atomically(folder / "suite.json", json_text(json, 2) + "\n");
   return written;
 }

@@ -182,6 +182,19 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
   return text;
 }
 
+std::string suite_latex(const Suite& suite) {
+  std::string text;
+  for (const HeadlineScore& score : kHeadlineScores) {
+    text += fmt::format("% {} [{}]: median [95 % bootstrap interval] worst\n{}\n", score.title,
+                        score.unit, to_latex(headline_table(suite, score)));
+  }
+  for (const SuccessScore& score : kSuccessScores) {
+    text += fmt::format("% success {} of the distance, 95 % Wilson interval\n{}\n", score.title,
+                        to_latex(success_table(suite, score)));
+  }
+  return text;
+}
+
 CsvTable suite_csv(const Suite& suite) {
   CsvTable table({"scenario", "family", "level", "seed", "estimator", "score", "value"});
   for (const SuiteCase& each : suite.cases) {

@@ -28,6 +28,9 @@ TextTable breaks_table(const std::vector<FamilyResult>& families);
 /// All tables, expectations that fail, and failures, as Markdown.
 std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& families);
 
+/// The tables of scores and success, as LaTeX.
+std::string suite_latex(const Suite& suite);
+
 /// One row per scenario, seed, estimator and score, but for times.
 CsvTable suite_csv(const Suite& suite);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "core/text.hpp"
 
@@ -41,6 +42,31 @@ std::string escaped(const std::string& cell) {
   return text;
 }
 
+/// A cell of a LaTeX table, in which no character commands anything.
+std::string latex_cell(const std::string& cell) {
+  std::string text;
+  for (const char c : name_text(cell)) {
+    if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) {
+      text += std::string("\\") + c;
+    } else if (c == '\\') {
+      text += "\\textbackslash{}";
+    } else if (c == '~' || c == '^') {
+      text += std::string("\\") + c + "{}";
+    } else if (c == '<' || c == '>' || c == '|') {
+      text += fmt::format("${}$", c);
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string latex_row(const std::vector<std::string>& cells) {
+  std::string text;
+  for (const std::string& cell : cells) text += (text.empty() ? "" : " & ") + latex_cell(cell);
+  return text + " \\\\\n";
+}
+
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string text = "|";
   for (const std::string& cell : cells) text += fmt::format(" {} |", escaped(cell));
@@ -59,6 +85,15 @@ std::string to_text(const TextTable& given) {
   std::string text = line(table.header, widths) + std::string(total, '-') + "\n";
   for (const auto& row : table.rows) text += line(row, widths);
   return text;
+}
+
+std::string to_latex(const TextTable& table) {
+  if (table.header.empty()) return "";
+  std::string text =
+      fmt::format("\\begin{{tabular}}{{l{}}}\n\\toprule\n{}\\midrule\n",
+                  std::string(table.header.size() - 1, 'r'), latex_row(table.header));
+  for (const auto& row : table.rows) text += latex_row(row);
+  return text + "\\bottomrule\n\\end{tabular}\n";
 }
 
 std::string to_markdown(const TextTable& table) {

@@ -16,6 +16,9 @@ struct TextTable {
 /// The table with aligned columns and a rule under the header, a line per row.
 std::string to_text(const TextTable& table);
 
+/// The table as a tabular of LaTeX with the rules of booktabs; every character stands for itself.
+std::string to_latex(const TextTable& table);
+
 /// The table as Markdown.
 std::string to_markdown(const TextTable& table);
 

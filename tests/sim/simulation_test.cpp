@@ -172,6 +172,26 @@ TEST(Simulation, ARobotKeepsItsErrorsOverItsRuns) {
             own.truth.mounts.T_body_lidar.translation);
 }
 
+TEST(Simulation, ADrawOfSensorsLeavesWalkAndSceneUntouched) {
+  SimulationConfig config = short_walk();
+  config.calibration = {.rotation_sigma_deg = 0.5, .translation_sigma = 0.01};
+  config.links.lidar.clock_offset_sigma = 0.01;
+  const Recording shared = record(config, 5);
+  config.sensor_draw = "one";
+  const Recording one = record(config, 5);
+  EXPECT_EQ(bytes_of<ImuSample>(one), bytes_of<ImuSample>(record(config, 5)));
+  config.sensor_draw = "other";
+  const Recording other = record(config, 5);
+  const auto mount = [](const Recording& r) { return r.truth.mounts.T_body_lidar.translation; };
+  EXPECT_NE(mount(one), mount(shared));
+  EXPECT_NE(mount(one), mount(other));
+  EXPECT_NE(bytes_of<ImuSample>(one), bytes_of<ImuSample>(other));
+  EXPECT_NE(bytes_of<LidarScanPtr>(one), bytes_of<LidarScanPtr>(other));
+  ASSERT_EQ(one.truth.snapshots.size(), other.truth.snapshots.size());
+  EXPECT_EQ(one.truth.snapshots.back().qpos, shared.truth.snapshots.back().qpos);
+  EXPECT_EQ(one.truth.snapshots.back().qpos, other.truth.snapshots.back().qpos);
+}
+
 TEST(Simulation, OneSensorsNoiseLeavesTheOthersUntouched) {
   const Recording base = record(short_walk(), 5);
   SimulationConfig changed = short_walk();

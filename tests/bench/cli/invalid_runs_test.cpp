@@ -58,10 +58,7 @@ TEST_F(InvalidRuns, AreNoDefectWhereTheFallIsTheTest) {
 }
 
 TEST_F(InvalidRuns, AreLeftOutOfASuite) {
-  // Legs alone are 0.17 m off after a metre.
-  const Outcome suite = aims(
-      "suite push.yaml fine.yaml --estimators leg --set scoring.max_error_offset=1 --no-page "
-      "--out out");
+  const Outcome suite = aims("suite push.yaml fine.yaml --estimators leg --no-page --out out");
   EXPECT_EQ(suite.exit_code, 4) << suite.output;
   EXPECT_TRUE(holds(suite, "INVALID RUN: push seed 1: the robot fell")) << suite.output;
   const Json scenarios = json("out/suite.json")["scenarios"];

@@ -125,12 +125,24 @@ TEST(Scores, TellOneAndFivePercentOfTheDistanceApart) {
       return pose;
     }));
   };
-  // 0.1 m and a percentage of 40 m: 0.5 m and 2.1 m at the far end.
-  EXPECT_TRUE(with_scale(1.0 - 0.49 / 40.0).success_1_percent);
-  EXPECT_FALSE(with_scale(1.0 - 0.51 / 40.0).success_1_percent);
-  EXPECT_TRUE(with_scale(1.0 + 2.09 / 40.0).success);
-  EXPECT_FALSE(with_scale(1.0 + 2.11 / 40.0).success);
-  EXPECT_FALSE(with_scale(1.0 + 2.11 / 40.0).success_1_percent);
+  EXPECT_TRUE(with_scale(0.991).success_1_percent);
+  EXPECT_FALSE(with_scale(0.989).success_1_percent);
+  EXPECT_TRUE(with_scale(1.049).success);
+  EXPECT_FALSE(with_scale(1.051).success);
+  EXPECT_FALSE(with_scale(1.051).success_1_percent);
+}
+
+TEST(Scores, TakeLessThanTenMetresAsTenMetres) {
+  const auto with_step = [](double size) {
+    return scores_of(test::estimated_walk([size](double t, Pose pose) {
+      if (t > 2.0 && t < 4.0) pose.translation.x() += size;
+      return pose;
+    }));
+  };
+  EXPECT_TRUE(with_step(0.09).success_1_percent);
+  EXPECT_FALSE(with_step(0.12).success_1_percent);
+  EXPECT_TRUE(with_step(0.45).success);
+  EXPECT_FALSE(with_step(0.7).success);
 }
 
 TEST(Scores, StatisticsOfTheAbsoluteErrorAreThoseOfItsDefinitions) {

@@ -62,6 +62,19 @@ TEST(ShippedScenarios, ExpectNoEstimatorToFail) {
   }
 }
 
+TEST(ShippedScenarios, OfStressDrawTheirOwnSensors) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files) << files.error().message;
+  std::size_t stress = 0;
+  for (const auto& [file, scenario] : *files) {
+    const bool of_stress = std::ranges::count(scenario->tags, "stress") > 0;
+    const std::string& draw = scenario->simulation.sensor_draw;
+    EXPECT_TRUE(draw == scenario->name || (draw.empty() && !of_stress)) << file << ": " << draw;
+    stress += of_stress;
+  }
+  EXPECT_GT(stress, 80U);
+}
+
 TEST(ShippedScenarios, LoadAndAreCalledAsTheirFiles) {
   const auto files = scenarios_in(AIMS_SCENARIOS, {});
   ASSERT_TRUE(files) << files.error().message;

@@ -47,7 +47,7 @@ Suite run_or_die(std::vector<ScenarioFile> scenarios, const SuiteOptions& option
 /// The views of a suite, by file, but for the times.
 std::map<std::string, std::string> views(const fs::path& folder) {
   std::map<std::string, std::string> texts;
-  for (const char* name : {"suite.json", "suite.csv", "suite.md"}) {
+  for (const char* name : {"suite.json", "suite.csv", "suite.md", "suite.tex"}) {
     const auto text = read_file(folder / name);
     EXPECT_TRUE(text) << name;
     texts[name] = text.value_or("");
