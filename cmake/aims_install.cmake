@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What is installed, in components. `runtime`: the program with its scenarios and scripts. `ros`: the live
+# What was built is installed, in components; what was not is named. `runtime`: the program with its scenarios and scripts. `ros`: the live
 # node (ros/CMakeLists.txt). `python` and `python_sim`: the Python package without and with the
 # simulation (python/CMakeLists.txt). `dev`: the libraries that another program needs to estimate, read
 # recordings and score. Simulation and rendering stay inside the program: neither `ros`, `python` nor
@@ -9,17 +9,18 @@ include(CMakePackageConfigHelpers)
 set(exported_libraries core files estimator metrics recordings)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/aims)
 
-install(TARGETS aims RUNTIME COMPONENT runtime)
+install(TARGETS aims RUNTIME COMPONENT runtime OPTIONAL)
+aims_say_left_out(aims runtime "the program aims")
 install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPONENT runtime
   FILES_MATCHING PATTERN "*.yaml")
 install(DIRECTORY scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPONENT runtime
   USE_SOURCE_PERMISSIONS)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/aims RENAME copyright
   COMPONENT runtime)
-install(FILES ${PROJECT_BINARY_DIR}/completions/aims
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
-install(FILES ${PROJECT_BINARY_DIR}/completions/_aims
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT runtime)
+aims_install_with(aims runtime ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  FILES ${PROJECT_BINARY_DIR}/completions/aims)
+aims_install_with(aims runtime ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+  FILES ${PROJECT_BINARY_DIR}/completions/_aims)
 
 # Includes are written from the root of the sources, "core/lie.hpp"; include/aims is that root.
 foreach(library ${exported_libraries})
@@ -44,13 +45,13 @@ install(FILES ${PROJECT_BINARY_DIR}/aimsConfig.cmake ${PROJECT_BINARY_DIR}/aimsC
   DESTINATION ${cmake_folder} COMPONENT dev)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libaims-dev RENAME copyright
   COMPONENT dev)
-if(TARGET aims_python_core)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-aims RENAME copyright
-    COMPONENT python)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-aims-sim RENAME copyright
-    COMPONENT python_sim)
+if(TARGET aims_python_core AND NOT SKBUILD)
+  aims_install_with(aims_python_core python ${CMAKE_INSTALL_DATADIR}/doc/python3-aims
+    FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
+  aims_install_with(aims_python_sim python_sim ${CMAKE_INSTALL_DATADIR}/doc/python3-aims-sim
+    FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
 endif()
 if(TARGET aims_node)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/aims-node RENAME copyright
-    COMPONENT ros)
+  aims_install_with(aims_node ros ${CMAKE_INSTALL_DATADIR}/doc/aims-node
+    FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
 endif()

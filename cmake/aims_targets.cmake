@@ -123,3 +123,25 @@ function(aims_bench name)
   add_test(NAME bench_${name} COMMAND bench_${name} --benchmark_min_time=0.01)
   set_tests_properties(bench_${name} PROPERTIES LABELS bench TIMEOUT 300)
 endfunction()
+
+# aims_install_with(TARGET COMPONENT DESTINATION FILES file... [RENAME name]): installs the files below
+# the prefix if the target was built, which is seen at installation.
+function(aims_install_with target component destination)
+  cmake_parse_arguments(arg "" "RENAME" "FILES" ${ARGN})
+  list(TRANSFORM arg_FILES PREPEND "\"" )
+  list(TRANSFORM arg_FILES APPEND "\"")
+  list(JOIN arg_FILES " " files)
+  if(arg_RENAME)
+    set(rename "RENAME \"${arg_RENAME}\"")
+  endif()
+  install(CODE "if(EXISTS \"$<TARGET_FILE:${target}>\")
+  file(INSTALL DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${destination}\" TYPE FILE ${rename} FILES ${files})
+endif()" COMPONENT ${component})
+endfunction()
+
+# aims_say_left_out(TARGET COMPONENT WHAT): says at installation that the target was not built.
+function(aims_say_left_out target component what)
+  install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
+  message(STATUS \"Left out, since it was not built: ${what}. To build it: cmake --build ${PROJECT_BINARY_DIR} --target ${target}\")
+endif()" COMPONENT ${component})
+endfunction()

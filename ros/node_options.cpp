@@ -35,7 +35,7 @@ Fields fields_of_options(NodeOptions& options) {
 }
 
 void add_options(CLI::App& app, NodeOptions& options) {
-  app.add_option("--estimator", options.estimator, "Estimator to run (aims)");
+  app.add_option("--estimator,--estimators", options.estimator, "Estimator to run (aims_d)");
   app.add_option("--config", options.config, "YAML file with recording, estimator");
   app.add_option("--set", options.overrides, "key=value, applied after the file; repeatable")
       ->expected(1)

@@ -12,7 +12,7 @@ namespace aims {
 /// Options of the node. Each is an option of the command line or a private parameter of that name;
 /// the command line takes precedence.
 struct NodeOptions {
-  std::string estimator = "aims";
+  std::string estimator = "aims_d";
   std::string config;                  ///< YAML file with `recording` and `estimator`
   std::vector<std::string> overrides;  ///< key=value, applied after the file
   std::string out;                     ///< TUM file written at the end; empty: none

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/cli/exit_code.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/terminal.hpp"
 #include "core/config.hpp"
 
@@ -111,7 +112,8 @@ std::string unknown_argument(const CLI::App& command, const std::vector<std::str
                       : fmt::format("unknown option '{}'; did you mean '{}'?", name, near);
 }
 
-int usage_error(const std::string& path, const std::string& message) {
+int usage_error(const std::string& path, const std::string& message, bool json) {
+  if (json) print_json({{"error", message}});
   print_error(fmt::format("{}: {} (see {} --help)", path, message, path));
   return kBadInput;
 }
@@ -121,10 +123,12 @@ int parse(CLI::App& app, int argc, char** argv) try {
   return kOk;
 } catch (const CLI::ExtrasError&) {
   const CLI::App& command = given_command(app);
-  return usage_error(path_of(command), unknown_argument(command, app.remaining(true)));
+  const bool json = wants_json({argv, static_cast<std::size_t>(argc)});
+  return usage_error(path_of(command), unknown_argument(command, app.remaining(true)), json);
 } catch (const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-  return usage_error(path_of(given_command(app)), error.what());
+  const bool json = wants_json({argv, static_cast<std::size_t>(argc)});
+  return usage_error(path_of(given_command(app)), error.what(), json);
 }
 
 }  // namespace

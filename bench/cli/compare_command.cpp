@@ -43,9 +43,9 @@ void print_comparison(const Comparison& comparison) {
 
 int compare_command(const CompareArguments& arguments) {
   const auto before = read_results(arguments.before);
-  if (!before) return bad_input(kCompareName, before.error());
+  if (!before) return refuse(kCompareName, before.error(), arguments.json);
   const auto after = read_results(arguments.after);
-  if (!after) return bad_input(kCompareName, after.error());
+  if (!after) return refuse(kCompareName, after.error(), arguments.json);
   const Comparison comparison = compare(*before, *after);
   if (arguments.json) {
     print_json(comparison_json(comparison, arguments.before, arguments.after));

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/run/catalogue.hpp"
 #include "bench/run/scenario.hpp"
 #include "core/files/config_dump.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -39,16 +42,25 @@ Result<void> print_estimator(const Scenario& scenario, const ConfigArguments& ar
   return {};
 }
 
+/// Names the option for an estimator that was given as a scenario.
+Error with_hint(Error error, const SharedOptions& shared) {
+  for (const CatalogueEntry& each : estimator_catalogue()) {
+    if (each.name != shared.scenario) continue;
+    error.message += fmt::format("; for the estimator: aims config --estimators {}", each.name);
+  }
+  return error;
+}
+
 int config_command(const ConfigArguments& arguments) {
   SharedOptions shared = arguments.shared;
   const bool one = !arguments.estimator.empty();
   if (one) shared.settings.push_back(run_setting(std::vector<std::string>{arguments.estimator}));
   auto scenario = shared.scenario.empty() ? default_scenario(shared.settings) : scenario_of(shared);
-  if (!scenario) return bad_input("config", scenario.error());
+  if (!scenario) return refuse("config", with_hint(scenario.error(), shared), arguments.json);
   if (!one) {
     print_config(scenario->name, fields_of(*scenario), arguments);
   } else if (auto printed = print_estimator(*scenario, arguments); !printed) {
-    return bad_input("config", printed.error());
+    return refuse("config", printed.error(), arguments.json);
   }
   return kOk;
 }
@@ -61,8 +73,8 @@ void declare_config(Command command, const std::filesystem::path& scenarios) {
   add_scenario(command, arguments->shared, Presence::kOptional);
   add_folder(command, arguments->shared);
   add_settings(command, arguments->shared);
-  command.option("--estimator", arguments->estimator,
-                 "Only its settings that have an effect; NAME or\nNAME+key=value (all)");
+  command.option("--estimators,--estimator", arguments->estimator,
+                 "Only the settings of this one that have an effect; NAME or\nNAME+key=value (all)");
   command.flag("--plain", arguments->plain, "Values without comments");
   add_json(command, arguments->json);
   command.exclude("--plain", "--json");
@@ -70,7 +82,7 @@ void declare_config(Command command, const std::filesystem::path& scenarios) {
       "Without a scenario, the defaults. The output is a scenario file.\n"
       "Examples:\n"
       "  aims config corridor --set lidar.range_max=30\n"
-      "  aims config --estimator aims_d");
+      "  aims config --estimators aims_d");
   command.action([arguments] { return config_command(*arguments); });
 }
 

@@ -3,10 +3,12 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/draw_display.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
@@ -31,6 +33,7 @@ struct EstimateArguments {
   bool recover = false;
   bool no_pictures = false;
   bool no_page = false;
+  bool json = false;
 };
 
 Result<EstimateConfig> config_of(const EstimateArguments& arguments) {
@@ -94,23 +97,23 @@ int exit_code_of(const EstimateResult& result) {
   return code;
 }
 
-int estimate_command(const EstimateArguments& arguments) {
+Result<Answer> estimate_command(const EstimateArguments& arguments) {
   const SharedOptions& shared = arguments.shared;
   const auto config = config_of(arguments);
-  if (!config) return bad_input("estimate", config.error());
+  if (!config) return tl::unexpected(config.error());
   watch_interrupt();
   auto folder = OutputFolder::create(folder_of(arguments), shared.overwrite);
-  if (!folder) return bad_input("estimate", folder.error());
+  if (!folder) return tl::unexpected(folder.error());
   ProgressDisplay display(arguments.bag, shared.quiet, "read");
   const EstimateOptions options = {arguments.bag, arguments.recover, shared.jobs, folder->path()};
   const auto result = estimate(*config, options, [&](const Progress& progress) {
     return display.show(std::nullopt, progress);
   });
   display.close();
-  if (!result) return bad_input("estimate", result.error());
+  if (!result) return tl::unexpected(result.error());
 
   if (auto ok = write_estimate(*config, *result, folder->path()); !ok) {
-    return bad_input("estimate", ok.error());
+    return tl::unexpected(ok.error());
   }
   std::vector<std::string> warnings;
   if (!arguments.no_pictures) {
@@ -122,10 +125,15 @@ int estimate_command(const EstimateArguments& arguments) {
     const auto page = write_page_of(folder->path(), shared.quiet);
     if (!page) warnings.push_back(page.error().message);
   }
-  if (auto ok = folder->commit(); !ok) return bad_input("estimate", ok.error());
+  if (auto ok = folder->commit(); !ok) return tl::unexpected(ok.error());
   print_results(*result, folder->final_path(), warnings);
-  if (result->broken) return bad_input("estimate", *result->broken);
-  return result->complete ? exit_code_of(*result) : interrupted_code();
+  Json document = estimate_json(*result);
+  document["out"] = folder->final_path().string();
+  document["scores"] = result->scores ? estimate_record(*result).scores : Json();
+  const int code = result->broken     ? bad_input("estimate", *result->broken)
+                   : result->complete ? exit_code_of(*result)
+                                      : interrupted_code();
+  return Answer{code, std::move(document)};
 }
 
 }  // namespace
@@ -139,7 +147,7 @@ void declare_estimate(Command command, const fs::path& /*scenarios*/) {
   command.list("--topics", arguments->topics,
                "SENSOR=TOPIC, e.g. lidar=/points,imu=/imu/data; sensors:\n"
                "lidar, imu, leg_odometry, joint_states, contacts, truth");
-  add_estimators(command, shared, "aims");
+  add_estimators(command, shared, "aims_d");
   add_settings(command, shared, "the configuration");
   add_out(command, shared, "out/NAME-estimate");
   add_overwrite(command, shared);
@@ -148,13 +156,16 @@ void declare_estimate(Command command, const fs::path& /*scenarios*/) {
   command.flag("--recover", arguments->recover, "Read the intact part of a damaged bag");
   command.flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
   command.flag("--no-page", arguments->no_page, "Write no HTML page");
+  add_json(command, arguments->json);
   command.footer(
       "Examples:\n"
       "  aims estimate corridor.bag\n"
-      "  aims estimate robot.bag --estimators aims,lio --topics lidar=/velodyne_points,imu=/imu\n"
+      "  aims estimate robot.bag --estimators aims_d,lio --topics lidar=/velodyne_points,imu=/imu\n"
       "  aims estimate robot.bag --set recording.T_imu_lidar.override_tf=true \\\n"
       "      --set recording.T_imu_lidar.translation=[0.2,0,0.1]");
-  command.action([arguments] { return estimate_command(*arguments); });
+  command.action([arguments] {
+    return answer("estimate", arguments->json, [&] { return estimate_command(*arguments); });
+  });
 }
 
 }  // namespace aims

@@ -23,10 +23,10 @@ struct GroupsArguments {
 
 int groups_command(const GroupsArguments& arguments) {
   const auto results = read_results(arguments.folder);
-  if (!results) return bad_input(kGroupsName, results.error());
+  if (!results) return refuse(kGroupsName, results.error(), arguments.json);
   const auto groups =
       group_by_drawn(*results, arguments.by, static_cast<std::size_t>(arguments.bins));
-  if (!groups) return bad_input(kGroupsName, {"--by " + groups.error().message});
+  if (!groups) return refuse(kGroupsName, {"--by " + groups.error().message}, arguments.json);
   if (arguments.json) {
     print_json(groups_json(*groups, arguments.by, arguments.folder));
   } else {

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/cli/json_output.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string_view>
 
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
@@ -129,6 +135,27 @@ Json scenario_json(const ListedScenario& file) {
   return json;
 }
 
+/// While it lives, what is written to standard output goes to standard error.
+class TextToStandardError {
+ public:
+  TextToStandardError() {
+    std::fflush(stdout);
+    saved_ = ::dup(STDOUT_FILENO);
+    if (saved_ >= 0) ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+  ~TextToStandardError() {
+    std::fflush(stdout);
+    if (saved_ < 0) return;
+    ::dup2(saved_, STDOUT_FILENO);
+    ::close(saved_);
+  }
+  TextToStandardError(const TextToStandardError&) = delete;
+  TextToStandardError& operator=(const TextToStandardError&) = delete;
+
+ private:
+  int saved_ = -1;
+};
+
 }  // namespace
 
 void add_json(Command& command, bool& json) {
@@ -140,6 +167,23 @@ void print_json(const Json& json) { print_out("{}\n", json_text(json, 2)); }
 int refuse(const char* command, const Error& error, bool json) {
   if (json) print_json({{"error", error.message}});
   return bad_input(command, error);
+}
+
+int answer(const char* command, bool json, const std::function<Result<Answer>()>& run) {
+  Result<Answer> result;
+  {
+    std::optional<TextToStandardError> text;
+    if (json) text.emplace();
+    result = run();
+  }
+  if (!result) return refuse(command, result.error(), json);
+  if (json) print_json(result->document);
+  return result->exit_code;
+}
+
+bool wants_json(std::span<char* const> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [](const char* word) { return std::string_view(word) == "--json"; });
 }
 
 Json list_json(const std::filesystem::path& folder, std::span<const ListedScenario> files) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,19 @@ void print_json(const Json& json);
 
 /// Prints the error as that of the command; with `json` also as a document {"error": ...}.
 int refuse(const char* command, const Error& error, bool json);
+
+/// What a command came to: its exit code and what --json prints.
+struct Answer {
+  int exit_code = 0;
+  Json document;
+};
+
+/// Runs a command that prints text as it goes and returns its document. With `json` the text goes
+/// to standard error, and the document, or {"error": ...}, alone to standard output.
+int answer(const char* command, bool json, const std::function<Result<Answer>()>& run);
+
+/// True when --json is among the words of a command line, whatever else is wrong with them.
+bool wants_json(std::span<char* const> words);
 
 /// What `aims list` shows; schema aims.list/1.
 Json list_json(const std::filesystem::path& folder, std::span<const ListedScenario> files);

@@ -22,7 +22,7 @@ void print_entry(const CatalogueEntry& entry) {
 
 int list_command(const SharedOptions& shared, bool json) {
   const auto files = scenario_heads(shared.folder, shared.tags);
-  if (!files) return bad_input("list", files.error());
+  if (!files) return refuse("list", files.error(), json);
   if (json) {
     print_json(list_json(shared.folder, *files));
     return kOk;

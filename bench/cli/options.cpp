@@ -148,7 +148,7 @@ Result<void> check_settings(const std::vector<std::string>& settings,
 }
 
 Result<Scenario> scenario_of(const SharedOptions& options) {
-  const auto file = find_scenario(options.scenario, options.folder);
+  const auto file = named_scenario(options.scenario, options.folder);
   if (!file) return tl::unexpected(file.error());
   return load_scenario(*file, overrides_of(options), options.folder);
 }

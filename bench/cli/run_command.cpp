@@ -7,6 +7,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/draw_display.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
@@ -24,6 +25,7 @@ struct RunArguments {
   SharedOptions shared;
   bool no_pictures = false;
   bool no_page = false;
+  bool json = false;
 };
 
 Result<SuiteOptions> options_of(const SharedOptions& given, const Scenario& scenario) {
@@ -62,36 +64,41 @@ void draw(const std::vector<fs::path>& folders, const SharedOptions& shared) {
   }
 }
 
-int run_command(const RunArguments& arguments) {
-  const SharedOptions& shared = arguments.shared;
-  const auto scenario = scenario_of(shared);
-  if (!scenario) return bad_input("run", scenario.error());
-  const auto options = options_of(shared, *scenario);
-  if (!options) return bad_input("run", options.error());
-  const auto first_seed =
-      options->seeds.empty() ? static_cast<std::uint64_t>(scenario->seed) : options->seeds.front();
-  if (auto ok = check_simulation(*scenario, first_seed); !ok) return bad_input("run", ok.error());
-  const auto suite = run_with_display({{scenario->file, *scenario}}, *options, shared.quiet);
-  if (!suite) return bad_input("run", suite.error());
-  const SuiteCase& each = suite->cases.front();
-  if (each.runs.empty() && !suite->failures.empty()) {
-    return bad_input("run", {suite->failures.front().message});
-  }
-  const fs::path& out = options->jobs.out;
-  if (auto written = write_runs(*suite, out); !written) return bad_input("run", written.error());
-  if (!arguments.no_pictures) draw(run_folders(*suite, out), shared);
+void print_run(const Suite& suite, const fs::path& out, const SharedOptions& shared) {
+  const SuiteCase& each = suite.cases.front();
   if (!each.runs.empty()) {
     print_out("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
               to_text(score_table(each.runs)));
     print_health(each);
   }
-  print_ring_notes(*suite);
-  print_expectations(*suite);
-  print_outcome(*suite, shared);
+  print_ring_notes(suite);
+  print_expectations(suite);
+  print_outcome(suite, shared);
   print_out("results: {}\n", (out / "").string());
   for (const fs::path& picture : pictures_in(out)) print_out("  {}\n", picture.string());
+}
+
+Result<Answer> run_command(const RunArguments& arguments) {
+  const SharedOptions& shared = arguments.shared;
+  const auto scenario = scenario_of(shared);
+  if (!scenario) return tl::unexpected(scenario.error());
+  const auto options = options_of(shared, *scenario);
+  if (!options) return tl::unexpected(options.error());
+  const auto first_seed =
+      options->seeds.empty() ? static_cast<std::uint64_t>(scenario->seed) : options->seeds.front();
+  if (auto ok = check_simulation(*scenario, first_seed); !ok) return tl::unexpected(ok.error());
+  const auto suite = run_with_display({{scenario->file, *scenario}}, *options, shared.quiet);
+  if (!suite) return tl::unexpected(suite.error());
+  const SuiteCase& each = suite->cases.front();
+  if (each.runs.empty() && !suite->failures.empty()) {
+    return failure(suite->failures.front().message);
+  }
+  const fs::path& out = options->jobs.out;
+  if (auto written = write_runs(*suite, out); !written) return tl::unexpected(written.error());
+  if (!arguments.no_pictures) draw(run_folders(*suite, out), shared);
+  print_run(*suite, out, shared);
   if (!arguments.no_page && !each.runs.empty()) write_pages_of(out, shared.quiet);
-  return exit_code_with_expectations(*suite);
+  return Answer{exit_code_with_expectations(*suite), run_json(*suite, out)};
 }
 
 }  // namespace
@@ -112,12 +119,15 @@ void declare_run(Command command, const fs::path& scenarios) {
   add_quiet(command, shared);
   command.flag("--no-pictures", arguments->no_pictures, "Draw no pictures");
   command.flag("--no-page", arguments->no_page, "Write no HTML page");
+  add_json(command, arguments->json);
   command.footer(
       "The same command again continues, and runs only what is missing or has changed.\n"
       "Examples:\n"
       "  aims run scenarios/paper/corridor.yaml\n"
       "  aims run corridor --seeds 1-5 --set lidar.range_max=30 --out out/short-range");
-  command.action([arguments] { return run_command(*arguments); });
+  command.action([arguments] {
+    return answer("run", arguments->json, [&] { return run_command(*arguments); });
+  });
 }
 
 }  // namespace aims

@@ -6,6 +6,7 @@
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/draw_display.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
@@ -24,6 +25,7 @@ struct SuiteArguments {
   SharedOptions shared;
   bool trajectories = false;
   bool no_page = false;
+  bool json = false;
 };
 
 void print_matrix(const std::string& title, const TextTable& table) {
@@ -60,21 +62,21 @@ Result<void> write_results(const Suite& suite, const SuiteArguments& arguments) 
   return draw_families(family_results(suite), out / "families", display.observer());
 }
 
-int suite_command(const SuiteArguments& arguments) {
+Result<Answer> suite_command(const SuiteArguments& arguments) {
   const SharedOptions& shared = arguments.shared;
   auto options = suite_options(shared, {});
-  if (!options) return bad_input("suite", options.error());
+  if (!options) return tl::unexpected(options.error());
   options->jobs.outputs.trajectories = arguments.trajectories;
   auto scenarios = scenarios_of(shared);
-  if (!scenarios) return bad_input("suite", scenarios.error());
+  if (!scenarios) return tl::unexpected(scenarios.error());
   const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
-  if (!suite) return bad_input("suite", suite.error());
+  if (!suite) return tl::unexpected(suite.error());
   if (auto written = write_results(*suite, arguments); !written) {
-    return bad_input("suite", written.error());
+    return tl::unexpected(written.error());
   }
   print_suite(*suite, shared);
   if (!arguments.no_page) write_pages_of(shared.out, shared.quiet);
-  return exit_code_with_expectations(*suite);
+  return Answer{exit_code_with_expectations(*suite), suite_document(*suite)};
 }
 
 }  // namespace
@@ -88,6 +90,7 @@ void declare_suite(Command command, const fs::path& scenarios) {
   command.flag("--trajectories", arguments->trajectories,
                "Keep trajectories and diagnostics of each run");
   command.flag("--no-page", arguments->no_page, "Write no HTML pages");
+  add_json(command, arguments->json);
   command.footer(
       "Without scenarios and tags, every scenario of the folder runs. The same command\n"
       "again continues, and runs only what is missing or has changed.\n"
@@ -97,7 +100,9 @@ void declare_suite(Command command, const fs::path& scenarios) {
       "  aims suite --tags stress --seeds 1-3 --set estimators.aims.degeneracy.eta=5 --out "
       "out/eta5\n"
       "Exit codes: as of aims; 2 also when a job failed.");
-  command.action([arguments] { return suite_command(*arguments); });
+  command.action([arguments] {
+    return answer("suite", arguments->json, [&] { return suite_command(*arguments); });
+  });
 }
 
 }  // namespace aims

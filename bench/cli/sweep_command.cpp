@@ -2,9 +2,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
 #include "bench/cli/sweep_results.hpp"
@@ -31,6 +33,7 @@ struct SweepArguments {
   bool list = false;
   bool simulate_only = false;
   bool force = false;
+  bool json = false;
 };
 
 /// Error for options of the design that this design does not read.
@@ -90,27 +93,52 @@ void print_counts(const JobRun& run, const SharedOptions& shared, bool merged) {
 }
 
 /// Prints the points that are done in the folder; of a complete sweep also writes its results.
-Result<void> collect(const SharedOptions& shared, bool complete) {
+/// The points as of --json.
+Result<Json> collect(const SharedOptions& shared, bool complete) {
   const std::vector<fs::path> folders = {shared.out};
   const auto sweep = merge_sweeps(folders);
   if (!sweep) return tl::unexpected(sweep.error());
   const std::string score = Objective{}.score;
   print_points(*sweep, score);
-  return complete ? write_results(*sweep, score, shared.out) : Result<void>();
+  if (complete) {
+    if (auto written = write_results(*sweep, score, shared.out); !written) {
+      return tl::unexpected(written.error());
+    }
+  }
+  return points_json(*sweep, score);
 }
 
-int sweep_command(const SweepArguments& arguments) {
+int exit_code_of(const JobRun& run) {
+  if (!run.complete) return interrupted_code();
+  if (run.failed > 0) return kExpectationFailed;
+  return run.invalid == 0 ? kOk : kInvalidRun;
+}
+
+/// Schema aims.sweep/1; `points` is null of a part of a sweep.
+Json sweep_json(const JobRun& run, const SharedOptions& shared, Json points) {
+  return {{"schema", "aims.sweep/1"},
+          {"out", shared.out},
+          {"complete", run.complete},
+          {"jobs",
+           {{"done", run.done},
+            {"failed", run.failed},
+            {"invalid", run.invalid},
+            {"reused", run.reused}}},
+          {"estimators", std::move(points)}};
+}
+
+Result<Answer> sweep_command(const SweepArguments& arguments) {
   const auto plan = plan_of(arguments);
-  if (!plan) return bad_input("sweep", plan.error());
+  if (!plan) return tl::unexpected(plan.error());
   const auto shard = parse_shard(arguments.shard);
-  if (!shard) return bad_input("sweep", shard.error());
+  if (!shard) return tl::unexpected(shard.error());
   const auto jobs = plan_jobs(*plan, arguments.shared.folder);
-  if (!jobs) return bad_input("sweep", jobs.error());
+  if (!jobs) return tl::unexpected(jobs.error());
   if (arguments.list) {
     for (const Job& job : part_of(*jobs, *shard)) {
       print_out("{}\t{}\n", job.id, text_of(job));
     }
-    return kOk;
+    return Answer{kOk, {}};
   }
   JobOptions options = job_options(arguments.shared);
   options.timeout_s = plan->timeout;
@@ -120,17 +148,16 @@ int sweep_command(const SweepArguments& arguments) {
   const auto run =
       run_jobs({*jobs, *shard, plan_text(*plan), arguments.force}, options, display.observer());
   display.close();
-  if (!run) return bad_input("sweep", run.error());
+  if (!run) return tl::unexpected(run.error());
   const bool whole = shard->count == 1 && !options.simulate_only;
+  Json points;
   if (whole) {
-    if (auto collected = collect(arguments.shared, run->complete); !collected) {
-      return bad_input("sweep", collected.error());
-    }
+    auto collected = collect(arguments.shared, run->complete);
+    if (!collected) return tl::unexpected(collected.error());
+    points = std::move(*collected);
   }
   print_counts(*run, arguments.shared, whole && run->complete && !plan->params.empty());
-  if (!run->complete) return interrupted_code();
-  if (run->failed > 0) return kExpectationFailed;
-  return run->invalid == 0 ? kOk : kInvalidRun;
+  return Answer{exit_code_of(*run), sweep_json(*run, arguments.shared, std::move(points))};
 }
 
 void add_design(Command& command, SweepArguments& arguments) {
@@ -162,6 +189,8 @@ void declare_sweep(Command command, const fs::path& scenarios) {
       "--force", arguments->force,
       "Continue in a folder of another plan, code or scenario\nversion; valid results stay");
   command.exclude("--retry", "--simulate-only");
+  add_json(command, arguments->json);
+  command.exclude("--list", "--json");
   command.exclude("--list", "--force");
   command.exclude("--list", "--simulate-only");
   command.footer(
@@ -173,7 +202,9 @@ void declare_sweep(Command command, const fs::path& scenarios) {
       "      --scenarios corridor\n"
       "  aims sweep plan.yaml --shard 2/8    # one of eight parts, e.g. on another machine\n"
       "Exit codes: as of aims; 1 when jobs failed.");
-  command.action([arguments] { return sweep_command(*arguments); });
+  command.action([arguments] {
+    return answer("sweep", arguments->json, [&] { return sweep_command(*arguments); });
+  });
 }
 
 }  // namespace aims

@@ -40,6 +40,15 @@ Result<void> write_results(const MergedSweep& sweep, const std::string& score,
   return {};
 }
 
+Json points_json(const MergedSweep& sweep, const std::string& score) {
+  const auto responses = sweep_responses(sweep, score);
+  if (!responses || responses->empty()) return {};
+  const Objective objective = objective_of(score);
+  Json json = Json::array();
+  for (const SweepResponse& each : *responses) json.push_back(response_json(each, objective));
+  return json;
+}
+
 void print_points(const MergedSweep& sweep, const std::string& score) {
   const auto responses = sweep_responses(sweep, score);
   if (!responses || responses->empty()) return;

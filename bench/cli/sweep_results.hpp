@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "bench/run/json_text.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "core/error.hpp"
 
@@ -17,5 +18,8 @@ Result<void> write_results(const MergedSweep& sweep, const std::string& score,
 /// Prints every point that is complete with its objective and score, up to a number, and what the
 /// objective is; nothing without ranges.
 void print_points(const MergedSweep& sweep, const std::string& score);
+
+/// Every complete point per estimator, as `response_json`; null without ranges.
+Json points_json(const MergedSweep& sweep, const std::string& score);
 
 }  // namespace aims

@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/cli/commands.hpp"
+#include "bench/cli/json_output.hpp"
 #include "bench/cli/plan_options.hpp"
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
@@ -24,6 +26,7 @@ struct TuneArguments {
   SharedOptions shared;
   std::string plan;
   std::string apply;
+  bool json = false;
 };
 
 /// Claims the folder and writes the plan. Error when it is something else or in use.
@@ -67,45 +70,52 @@ Result<TuneResult> work(const SharedOptions& shared, const TuneTask& task) {
   return result;
 }
 
-int finish(const TuneArguments& arguments, const TuneResult& result) {
+/// Prints where the values of --apply are and whether to use them.
+void print_applied(const TuneResult& result, const std::string& file) {
+  if (verdict_of(held_out_gain(result)) == Verdict::kUseThem) {
+    print_out("tuned values: {0}; to use them: --set @{0}\n", file);
+  } else {
+    print_out("tuned values: {} ({})\n", file, held_out_verdict(result));
+  }
+}
+
+Result<Answer> finish(const TuneArguments& arguments, const TuneResult& result) {
   const fs::path out = arguments.shared.out;
   std::vector<std::string> warnings;
   if (auto written = write_tuning(result, out, draw_response, warnings); !written) {
-    return bad_input("tune", written.error());
+    return tl::unexpected(written.error());
   }
   for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
   if (!result.complete) print_out("interrupted: the same command continues\n");
   const bool front = result.tables.size() > 1;
   if (!result.chosen.empty()) {
-    if (!front) print_out("tuned values: {}\n", held_out_verdict(result));
+    print_out("tuned values: {}\n", held_out_verdict(result));
     print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
   }
   const auto left_out = left_out_lines(result);
   for (const std::string& line : left_out) print_out("INVALID RUNS: {}\n", line);
   print_out("results: {}\n", (out / "tune.md").string());
-  if (!result.complete) return interrupted_code();
-  const int code = left_out.empty() ? kOk : kInvalidRun;
-  if (arguments.apply.empty()) return code;
-  if (auto written = write_overlay(result, arguments.apply); !written) {
-    return bad_input("tune", written.error());
+  Json document = tune_json(result);
+  document["out"] = out.string();
+  if (!result.complete) return Answer{interrupted_code(), std::move(document)};
+  if (!arguments.apply.empty()) {
+    if (auto written = write_overlay(result, arguments.apply); !written) {
+      return tl::unexpected(written.error());
+    }
+    print_applied(result, arguments.apply);
   }
-  if (verdict_of(held_out_gain(result)) == Verdict::kUseThem) {
-    print_out("tuned values: {0}; to use them: --set @{0}\n", arguments.apply);
-  } else {
-    print_out("tuned values: {} ({})\n", arguments.apply, held_out_verdict(result));
-  }
-  return code;
+  return Answer{left_out.empty() ? kOk : kInvalidRun, std::move(document)};
 }
 
-int tune_command(const TuneArguments& arguments) {
+Result<Answer> tune_command(const TuneArguments& arguments) {
   const auto plan = plan_of(arguments);
-  if (!plan) return bad_input("tune", plan.error());
+  if (!plan) return tl::unexpected(plan.error());
   const auto task = tune_task(*plan, arguments.shared.folder);
-  if (!task) return bad_input("tune", Error{arguments.plan + ": " + task.error().message});
+  if (!task) return failure(arguments.plan + ": " + task.error().message);
   const auto lock = claim(arguments.shared.out, *plan);
-  if (!lock) return bad_input("tune", lock.error());
+  if (!lock) return tl::unexpected(lock.error());
   const auto result = work(arguments.shared, *task);
-  if (!result) return bad_input("tune", result.error());
+  if (!result) return tl::unexpected(result.error());
   return finish(arguments, *result);
 }
 
@@ -120,13 +130,16 @@ void declare_tune(Command command, const fs::path& scenarios) {
   add_continued_out(command, arguments->shared, "out/tune");
   command.option("--apply", arguments->apply,
                  "Also write the tuned values to this file, for --set @FILE");
+  add_json(command, arguments->json);
   command.footer(
       "The same command again continues.\n"
       "Examples:\n"
       "  aims tune bench/tuning/plans/aims.yaml --out out/tune --jobs 2\n"
       "  aims tune plan.yaml --apply tuned.yaml\n"
       "  aims run corridor --set @tuned.yaml");
-  command.action([arguments] { return tune_command(*arguments); });
+  command.action([arguments] {
+    return answer("tune", arguments->json, [&] { return tune_command(*arguments); });
+  });
 }
 
 }  // namespace aims

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -32,8 +33,12 @@ Result<void> check_tags(std::span<const ListedScenario> files, std::span<const s
   }
   for (const std::string& tag : tags) {
     if (!known.contains(tag)) {
-      return failure(fmt::format("--tags: no scenario has the tag '{}'; there are {}", tag,
-                                 fmt::join(known, ", ")));
+      const std::string near = near_match(tag, {known.begin(), known.end()});
+      return failure(
+          near.empty()
+              ? fmt::format("--tags: no scenario has the tag '{}'; there are {}", tag,
+                            fmt::join(known, ", "))
+              : fmt::format("--tags: no scenario has the tag '{}'; did you mean '{}'?", tag, near));
     }
   }
   return {};
@@ -66,6 +71,16 @@ Result<std::vector<ScenarioFile>> scenarios_in(const fs::path& folder,
   return files;
 }
 
+Result<fs::path> named_scenario(const std::string& name, const fs::path& folder) {
+  auto file = find_scenario(name, folder);
+  if (file) return file;
+  const auto members = scenario_heads(folder, std::array{name});
+  if (!members) return file;  // no tag either
+  return failure(fmt::format("{}: no scenario, but the tag of {} scenarios in {}; those are "
+                             "aims suite --tags {}",
+                             name, members->size(), folder.string(), name));
+}
+
 Result<std::vector<ScenarioFile>> select_scenarios(std::span<const std::string> names,
                                                    std::span<const std::string> tags,
                                                    const fs::path& folder,
@@ -78,7 +93,7 @@ Result<std::vector<ScenarioFile>> select_scenarios(std::span<const std::string> 
     if (!known) selected.push_back(std::move(file));
   };
   for (const std::string& name : names) {
-    const auto file = find_scenario(name, folder);
+    const auto file = named_scenario(name, folder);
     if (!file) return tl::unexpected(file.error());
     add({*file, load_scenario(*file, overrides, folder)});
   }

@@ -49,6 +49,10 @@ Result<std::vector<ScenarioFile>> scenarios_in(const std::filesystem::path& fold
                                                std::span<const std::string> tags,
                                                std::span<const std::string> overrides = {});
 
+/// `find_scenario`, whose error names `--tags` where `name` is a tag.
+Result<std::filesystem::path> named_scenario(const std::string& name,
+                                             const std::filesystem::path& folder);
+
 /// The scenarios of these files or names, then all others in `folder` that have any of the tags;
 /// without either every scenario there. Each comes once. Errors as of `scenarios_in` and
 /// `find_scenario`, and a folder without any scenario.

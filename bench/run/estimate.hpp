@@ -23,7 +23,7 @@ namespace aims {
 /// How a recording is estimated: its topics, who estimates, and how the result is scored when the
 /// recording holds the truth. Scenarios have the same `run`, `estimators` and `scoring`.
 struct EstimateConfig {
-  std::vector<std::string> run = {"aims"};  ///< specs of who estimates
+  std::vector<std::string> run = {"aims_d"};  ///< specs of who estimates
   RecordingConfig recording;
   EstimatorConfigs estimators;
   ScoreConfig scoring;

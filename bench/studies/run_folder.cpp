@@ -13,6 +13,7 @@
 #include "bench/run/sequence.hpp"
 #include "bench/run/summary.hpp"
 #include "bench/run/tables.hpp"
+#include "bench/studies/suite_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/manifest.hpp"
 
@@ -81,17 +82,34 @@ Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCas
   auto files = link_outputs(store, suite, each.scenario.name, record.seed, folder);
   if (!files) return tl::unexpected(files.error());
   files->insert({"config.yaml", "scores.csv", "scores.json"});
-  RunRecord own = record;
-  own.scores["expectations"] = Json::array();
-  for (const ExpectationCheck& check : check_expectations(each.scenario, {&own, 1})) {
-    own.scores["expectations"].push_back(check_json(check));
-  }
+  const RunRecord own{record.seed, run_scores(each.scenario, record)};
   auto written =
       write_file_atomically(folder / "config.yaml", effective_config(each.scenario, record.seed));
   if (written) written = write_csv(folder / "scores.csv", scores_csv({&own, 1}));
   if (written)
     written = write_file_atomically(folder / "scores.json", json_text(own.scores, 2) + "\n");
   return written ? write_manifest(folder, *files) : written;
+}
+
+Json run_scores(const Scenario& scenario, const RunRecord& record) {
+  Json scores = record.scores;
+  scores["expectations"] = Json::array();
+  for (const ExpectationCheck& check : check_expectations(scenario, {&record, 1})) {
+    scores["expectations"].push_back(check_json(check));
+  }
+  return scores;
+}
+
+Json run_json(const Suite& suite, const fs::path& out) {
+  const SuiteCase& only = suite.cases.front();
+  Json json = {{"schema", "aims.run/1"},
+               {"scenario", only.scenario.name},
+               {"out", out.string()},
+               {"complete", suite.complete},
+               {"runs", Json::array()},
+               {"failures", failures_json(suite)}};
+  for (const RunRecord& run : only.runs) json["runs"].push_back(run_scores(only.scenario, run));
+  return json;
 }
 
 std::vector<fs::path> run_folders(const Suite& suite, const fs::path& out) {

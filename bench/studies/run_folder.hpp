@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "bench/run/json_text.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 
@@ -14,6 +15,12 @@ namespace aims {
 /// (bench/run/results.hpp). Those that jobs made are linked, not copied, where the disk can.
 Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCase& each,
                        const RunRecord& record, const std::filesystem::path& folder);
+
+/// What scores.json of a run holds: the record with the scenario's expectations.
+Json run_scores(const Scenario& scenario, const RunRecord& record);
+
+/// Schema aims.run/1: `run_scores` of every run of the suite's only scenario, and its failures.
+Json run_json(const Suite& suite, const std::filesystem::path& out);
 
 /// The folders that `write_runs` fills: `out` itself for one run, `out/seed-N` for several.
 std::vector<std::filesystem::path> run_folders(const Suite& suite,

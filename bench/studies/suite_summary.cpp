@@ -99,15 +99,27 @@ Json suite_json(const Suite& suite) {
                {"complete", suite.complete},
                {"interval", "95 % percentile bootstrap of the median over seeds, 1000 replicates"},
                {"scenarios", Json::array()},
-               {"failures", Json::array()}};
+               {"failures", failures_json(suite)}};
   for (const SuiteCase& each : suite.cases) json["scenarios"].push_back(case_json(each));
-  for (const SuiteFailure& each : suite.failures) {
-    json["failures"].push_back({{"scenario", each.scenario},
-                                {"seed", each.seed ? Json(*each.seed) : Json()},
-                                {"estimator", each.estimator},
-                                {"message", each.message}});
-  }
   return json;
+}
+
+Json suite_document(const Suite& suite) {
+  Json json = suite_json(suite);
+  json["families"] = families_json(family_results(suite));
+  json["success_pairs"] = success_pairs_json(success_pairs(suite));
+  return json;
+}
+
+Json failures_json(const Suite& suite) {
+  Json failures = Json::array();
+  for (const SuiteFailure& each : suite.failures) {
+    failures.push_back({{"scenario", each.scenario},
+                        {"seed", each.seed ? Json(*each.seed) : Json()},
+                        {"estimator", each.estimator},
+                        {"message", each.message}});
+  }
+  return failures;
 }
 
 bool holds_suite(const std::filesystem::path& folder) {
@@ -119,16 +131,16 @@ bool holds_suite(const std::filesystem::path& folder) {
 
 Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder) {
   const std::vector<FamilyResult> families = family_results(suite);
-  Json json = suite_json(suite);
-  json["families"] = families_json(families);
-  json["success_pairs"] = success_pairs_json(success_pairs(suite));
   auto written = write_csv(folder / "suite.csv", suite_csv(suite));
   if (written) written = write_csv(folder / "timings.csv", timings_csv(suite));
   if (written) {
     written = write_file_atomically(folder / "suite.md", suite_markdown(suite, families));
   }
   if (written) written = write_file_atomically(folder / "suite.tex", suite_latex(suite));
-  if (written) written = write_file_atomically(folder / "suite.json", json_text(json, 2) + "\n");
+  if (written) {
+    written =
+        write_file_atomically(folder / "suite.json", json_text(suite_document(suite), 2) + "\n");
+  }
   return written;
 }
 

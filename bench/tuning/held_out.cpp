@@ -18,13 +18,42 @@ std::string changes_text(const Interval& interval) {
   return fmt::format("{} to {}", change_text(*interval.low), change_text(*interval.high));
 }
 
+}  // namespace
+
 bool is_significant(const PairedGain& gain) {
   const Interval& interval = gain.interval;
   return gain.p <= kSignificant && interval.low && interval.high &&
          (*interval.low > 0.0 || *interval.high < 0.0);
 }
 
-}  // namespace
+FrontVerdict front_verdict_of(std::span<const PairedGain> gains) {
+  bool better = false;
+  bool worse = false;
+  for (const PairedGain& each : gains) {
+    if (!each.gain || each.sequences < kFewestPairs) return FrontVerdict::kTooFew;
+    if (!is_significant(each)) continue;
+    (*each.gain > 0.0 ? better : worse) = true;
+  }
+  if (better && worse) return FrontVerdict::kMixed;
+  if (better) return FrontVerdict::kBetter;
+  return worse ? FrontVerdict::kWorse : FrontVerdict::kNoDifference;
+}
+
+const char* name_of(FrontVerdict verdict) {
+  switch (verdict) {
+    case FrontVerdict::kBetter:
+      return "better";
+    case FrontVerdict::kWorse:
+      return "worse";
+    case FrontVerdict::kMixed:
+      return "better and worse";
+    case FrontVerdict::kNoDifference:
+      return "no significant difference";
+    case FrontVerdict::kTooFew:
+      break;
+  }
+  return "too few sequences";
+}
 
 PairedGain paired_gain(const ResponseTable& table, const Objective& objective, std::size_t point) {
   std::vector<std::size_t> cases;

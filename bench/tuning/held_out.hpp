@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "bench/metrics/bootstrap.hpp"
@@ -30,6 +31,15 @@ enum class Verdict {
 };
 
 Verdict verdict_of(const PairedGain& held_out);
+
+/// True when interval and test exclude zero.
+bool is_significant(const PairedGain& gain);
+
+/// Of a point in several objectives: better than the defaults significantly in one and in none
+/// worse; "worse" likewise.
+enum class FrontVerdict { kBetter, kWorse, kMixed, kNoDifference, kTooFew };
+FrontVerdict front_verdict_of(std::span<const PairedGain> gains);
+const char* name_of(FrontVerdict verdict);
 
 /// The verdict with its figures, on one line: "do not use them: 8.7 % worse on 8 held-out sequences
 /// (95 % interval 3.1 to 14 % worse, p = 0.016)".

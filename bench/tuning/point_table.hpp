@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "bench/run/json_text.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "core/files/table.hpp"
 
@@ -13,5 +14,9 @@ namespace aims {
 /// missing), median and largest score over its runs that have it, diverged runs. The default
 /// setting comes first; the least objective of an estimator is marked "best".
 TextTable point_table(std::span<const SweepResponse> responses, const Objective& objective);
+
+/// The same of one estimator: `estimator`, `objective` (what it is), `incomplete` and `points`, each
+/// with `values`, `objective`, `score_median`, `score_worst`, `diverged`, `runs`, `default`, `best`.
+Json response_json(const SweepResponse& response, const Objective& objective);
 
 }  // namespace aims

@@ -66,6 +66,13 @@ std::string source_text(const Sensitivity& sensitivity) {
         "\nIndices by an analysis of variance of {} at the {} points of the complete grid.\n", of,
         sensitivity.points);
   }
+  if (sensitivity.of_part) {
+    return fmt::format(
+        "\nIndices by an analysis of variance of {} at {} points of a grid that is not complete: "
+        "effects of the\nlevels{} with a cross-validated R² of {}.\n",
+        of, sensitivity.points, sensitivity.of_part->with_pairs ? " and their pairs" : "",
+        percent_text(sensitivity.of_part->explained));
+  }
   const Surrogate& surrogate = *sensitivity.surrogate;
   const std::string error =
       sensitivity.logarithmic ? fmt::format("{:.0f} %", 100.0 * (std::exp(surrogate.error()) - 1.0))

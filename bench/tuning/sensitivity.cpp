@@ -82,12 +82,17 @@ Result<Sensitivity> sensitivity_of(const ResponseTable& table, const Objective& 
   sensitivity.logarithmic = response.logarithmic;
   auto surrogate = Surrogate::fit(response.points, response.values);
   auto of_grid = grid_indices(response.points, response.values);
-  if (!surrogate && !of_grid) return tl::unexpected(surrogate.error());
+  auto of_part = of_grid ? std::nullopt : fractional_indices(response.points, response.values);
+  if (of_part && of_part->explained < kLeastExplained) of_part.reset();
+  if (!surrogate && !of_grid && !of_part) return tl::unexpected(surrogate.error());
   if (surrogate) sensitivity.surrogate = std::move(*surrogate);
   sensitivity.of_grid = of_grid.has_value();
   if (of_grid) {
     sensitivity.indices = std::move(*of_grid);
     sensitivity.indices.total_interval = intervals_over_seeds(table, objective, family);
+  } else if (of_part) {
+    sensitivity.indices = of_part->indices;
+    sensitivity.of_part = std::move(of_part);
   } else {
     sensitivity.indices = sensitivity.surrogate->indices();
   }

@@ -14,22 +14,25 @@
 
 namespace aims {
 
-/// The cross-validated R^2 from which on a surrogate supports indices and curves.
+/// The cross-validated R^2 from which on a surrogate, or the effects of a part of a grid, support
+/// indices, and a surrogate curves.
 inline constexpr double kLeastExplained = 0.9;
 
 /// Global sensitivity of the logarithm of the objective (of itself where it can be zero): from the
-/// points themselves where they form a complete grid, else from a surrogate.
+/// points themselves where they form a grid or a part of one, else from a surrogate.
 struct Sensitivity {
   std::size_t points = 0;   ///< that have an objective
   bool logarithmic = true;  ///< the indices are of the logarithm
   bool of_grid = false;     ///< an analysis of variance of the grid, with intervals over seeds
+  /// Of a part of a grid, whose effects support the indices; without intervals.
+  std::optional<FractionalIndices> of_part;
   SobolIndices indices;
   std::optional<Surrogate> surrogate;  ///< none through too few points
 
   /// True when the surrogate's cross-validated R^2 is at least `kLeastExplained`.
   bool is_fitted() const { return surrogate && surrogate->explained() >= kLeastExplained; }
-  /// True when the indices mean something: of a grid, or of a surrogate that fits.
-  bool is_resolved() const { return of_grid || is_fitted(); }
+  /// True when the indices mean something: of a grid, a part of one, or a surrogate that fits.
+  bool is_resolved() const { return of_grid || of_part || is_fitted(); }
   /// True of a parameter whose total index is below 5 % with its entire interval; never where the
   /// indices are not resolved.
   bool is_negligible(std::size_t parameter) const;

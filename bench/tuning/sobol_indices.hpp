@@ -25,4 +25,17 @@ struct SobolIndices {
 std::optional<SobolIndices> grid_indices(const Eigen::MatrixXd& points,
                                          const Eigen::VectorXd& values);
 
+/// Indices of a part of a grid, e.g. one whose jobs are not all done or a fractional factorial.
+struct FractionalIndices {
+  SobolIndices indices;    ///< every level with the same weight
+  double explained = 0.0;  ///< R^2 of each point from the others (leave one out)
+  bool with_pairs = false;
+};
+
+/// An analysis of variance by least squares: an effect of each level of each input, and of each pair
+/// of levels where the points determine them and predict better with them. None for inputs with
+/// fewer than two points per level (those are no grid), or too few points for the effects.
+std::optional<FractionalIndices> fractional_indices(const Eigen::MatrixXd& points,
+                                                    const Eigen::VectorXd& values);
+
 }  // namespace aims

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "bench/metrics/paired_test.hpp"
 #include "bench/run/code_version.hpp"
+#include "bench/run/score_record.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune_overlay.hpp"
 #include "core/files/atomic_file.hpp"
@@ -60,7 +62,7 @@ std::string markdown_of(const TuneResult& result, const std::vector<std::string>
   const TuneTask& task = result.task;
   std::string text = fmt::format("# Tuning `{}`\n\n", text_of(task.estimator));
   if (!result.complete) text += "**Interrupted: only finished points are included.**\n\n";
-  if (!result.chosen.empty() && task.plan.objectives.size() == 1) {
+  if (!result.chosen.empty()) {
     text += fmt::format("**Tuned values: {}.**\n\n", held_out_verdict(result));
   }
   for (const Objective& objective : task.plan.objectives) {
@@ -118,7 +120,62 @@ std::vector<std::string> outcome_row(const std::string& name, const ResponseTabl
                   : "-"};
 }
 
+/// What the held-out sequences say of that point of the front, per objective.
+std::vector<PairedGain> front_gains(const TuneResult& result, std::size_t chosen) {
+  std::vector<PairedGain> gains;
+  for (std::size_t i = 0; i < result.held_out.size(); ++i) {
+    gains.push_back(
+        paired_gain(result.held_out[i], result.task.plan.objectives[i], chosen));
+  }
+  return gains;
+}
+
+/// Values and, per objective, what it is on the sequences tuned on and held out.
+Json outcome_json(const TuneResult& result, const std::vector<double>& values, std::size_t point,
+                  std::size_t held) {
+  Json json = {{"values", Json::object()}, {"objectives", Json::array()}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    json["values"][result.task.ranges[i].key] = values[i];
+  }
+  const auto at = [&](const std::vector<ResponseTable>& tables, std::size_t i, std::size_t k) {
+    if (i >= tables.size()) return Json();
+    return json_of(
+        objective_at(tables[i], result.task.plan.objectives[i], k, cases_of(tables[i], "")));
+  };
+  for (std::size_t i = 0; i < result.tables.size(); ++i) {
+    json["objectives"].push_back(
+        {{"tuned_on", at(result.tables, i, point)}, {"held_out", at(result.held_out, i, held)}});
+  }
+  return json;
+}
+
 }  // namespace
+
+Json tune_json(const TuneResult& result) {
+  Json json = {{"schema", "aims.tune/1"},
+               {"estimator", text_of(result.task.estimator)},
+               {"complete", result.complete},
+               {"converged", result.converged},
+               {"points", result.generation.size()},
+               {"tuned_on", result.task.sequences.size()},
+               {"held_out", result.task.held_out.size()},
+               {"verdict", nullptr},
+               {"objectives", Json::array()},
+               {"defaults", nullptr},
+               {"chosen", Json::array()}};
+  for (const Objective& each : result.task.plan.objectives) {
+    json["objectives"].push_back(text_of(each));
+  }
+  if (result.chosen.empty()) return json;
+  json["verdict"] = held_out_verdict(result);
+  json["defaults"] = outcome_json(result, result.task.defaults, kDefaults, kDefaults);
+  for (std::size_t k = 0; k < result.chosen.size(); ++k) {
+    const std::size_t point = result.chosen[k];
+    json["chosen"].push_back(
+        outcome_json(result, result.tables.front().points[point], point, k));
+  }
+  return json;
+}
 
 std::string sequences_text(std::span<const ScenarioSeed> sequences) {
   std::vector<std::string> scenarios;
@@ -150,7 +207,36 @@ std::string held_out_verdict(const TuneResult& result) {
   if (result.held_out.empty() && !result.task.held_out.empty()) {
     return "not validated: interrupted before the held-out sequences were run";
   }
+  if (result.task.plan.objectives.size() > 1) return front_verdict(result);
   return verdict_text(held_out_gain(result));
+}
+
+std::string front_verdict(const TuneResult& result) {
+  if (result.held_out.empty()) {
+    return "not validated: no sequence was held out, and a gain on the sequences that were tuned on "
+           "may be overfitting";
+  }
+  std::size_t better = 0;
+  for (std::size_t k = 0; k < result.chosen.size(); ++k) {
+    const auto verdict = front_verdict_of(front_gains(result, k));
+    if (verdict == FrontVerdict::kTooFew) {
+      return fmt::format("undecided: too few held-out sequences for an interval ({} are needed)",
+                         kFewestPairs);
+    }
+    if (verdict == FrontVerdict::kBetter) ++better;
+  }
+  const std::size_t points = result.chosen.size();
+  const std::string on =
+      fmt::format("on {} held-out sequences", result.held_out.front().cases.size());
+  if (better == 0) {
+    return fmt::format(
+        "do not use them: none of the {} points of the front is better than the defaults {}",
+        points, on);
+  }
+  return fmt::format(
+      "use one of those marked better: {} of the {} points of the front, significantly in one "
+      "objective and in none worse than the defaults {}",
+      better, points, on);
 }
 
 TextTable outcome_table(const TuneResult& result) {
@@ -173,6 +259,7 @@ TextTable front_table(const TuneResult& result) {
     text.header.push_back(objective.score);
     if (!result.held_out.empty()) text.header.push_back(objective.score + ", held out");
   }
+  if (!result.held_out.empty()) text.header.emplace_back("against the defaults, held out");
   const auto row = [&](const std::vector<double>& values, std::size_t point, std::size_t held) {
     std::vector<std::string> cells;
     for (const double value : values) cells.push_back(figure_text(value));
@@ -188,9 +275,12 @@ TextTable front_table(const TuneResult& result) {
   };
   for (std::size_t k = 0; k < result.chosen.size(); ++k) {
     row(result.tables.front().points[result.chosen[k]], result.chosen[k], k);
+    if (result.held_out.empty()) continue;
+    text.rows.back().emplace_back(name_of(front_verdict_of(front_gains(result, k))));
   }
   row(task.defaults, kDefaults, kDefaults);
   text.rows.back().front() += " (defaults)";
+  if (!result.held_out.empty()) text.rows.back().emplace_back("-");
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/json_text.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune.hpp"
@@ -24,14 +25,24 @@ std::string search_text(const TuneResult& result);
 /// What the held-out sequences say of the chosen point, in the first objective.
 PairedGain held_out_gain(const TuneResult& result);
 
-/// What they say in words, as `verdict_text`; of a tuning that was interrupted before them, so.
+/// What they say in words, as `verdict_text`, or as `front_verdict` of several objectives; of a
+/// tuning that was interrupted before them, so.
 std::string held_out_verdict(const TuneResult& result);
+
+/// What the held-out sequences say of a Pareto front, on one line: how many of its points are better
+/// than the defaults, significantly in one objective and in none worse.
+std::string front_verdict(const TuneResult& result);
+
+/// Schema aims.tune/1: objectives, verdict, and values and objectives of the defaults and of the
+/// chosen points.
+Json tune_json(const TuneResult& result);
 
 /// A row per part of the sequences, held out first: objective of the defaults and of the chosen
 /// point, and the change. Expects a chosen point.
 TextTable outcome_table(const TuneResult& result);
 
-/// A row per point of the front: its values and objectives, tuned and held out.
+/// A row per point of the front: its values and objectives, tuned and held out, and what the
+/// held-out sequences say of it.
 TextTable front_table(const TuneResult& result);
 
 /// Writes tune.md, tune.csv (every point), tuned.yaml (of one objective) and pictures of the first

@@ -75,6 +75,7 @@ bool readable_within(int socket, int milliseconds) {
 }
 
 constexpr int kNotStarted = 127;
+constexpr int kNoNumpy = 126;
 constexpr std::size_t kMaxSummary = 1'000, kMaxTrace = 20'000;  ///< of an exception [bytes]
 
 /// At most so many bytes of a text, without control characters but line ends and tabs.
@@ -127,6 +128,11 @@ std::string text_of_status(int status) {
   }
   if (WEXITSTATUS(status) == kNotStarted) {
     return fmt::format("no Python interpreter '{}'; AIMS_PYTHON names another", interpreter());
+  }
+  if (WEXITSTATUS(status) == kNoNumpy) {
+    return fmt::format("'{}' has no NumPy; AIMS_PYTHON names an interpreter that has it, e.g. "
+                       "AIMS_PYTHON=/usr/bin/python3 after apt install python3-numpy",
+                       interpreter());
   }
   return fmt::format("ended by itself with status {}", WEXITSTATUS(status));
 }

@@ -23,7 +23,10 @@ import time
 import traceback
 import weakref
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:
+    sys.exit(126)  # kNoNumpy of python_process.cpp, which says so
 
 VERSION = 2
 HELLO, CREATE, MEASURE, FINISH = 1, 2, 3, 4
@@ -283,8 +286,11 @@ class Server:
         frames = traceback.TracebackException.from_exception(error)
         while frames.stack and frames.stack[0].filename == main.__code__.co_filename:
             del frames.stack[0]  # of this file
-        summary = "".join(traceback.format_exception_only(type(error), error)).strip()
-        trace = frames.format()
+        lines = traceback.format_exception_only(type(error), error)
+        if isinstance(error, SyntaxError):  # the lines before show the place, as the traceback does
+            lines = lines[-1:] + [f"({error.filename}, line {error.lineno})"]
+        summary = " ".join("".join(lines).split())
+        trace = frames.format() if frames.stack else [summary]
         if isinstance(error, Overdue):  # where the call was, without what ended it
             trace = ["Traceback (most recent call last):\n", *frames.stack.format()[:-1]]
         texts = Texts.pack([self.call.method, summary, "".join(trace).rstrip()])

@@ -2,6 +2,7 @@
 """Recordings, what estimators make of them, and scores."""
 
 from . import _core
+from .errors import Error
 from .estimator import frame_of
 from .settings import assignments, specs
 
@@ -66,12 +67,25 @@ class Recording:
         return self._stream.counts
 
     def truth(self):
-        """True poses of the body, for scoring: `aims.Trajectory`; reads the whole file once."""
+        """True poses of the body, for scoring: `aims.Trajectory`; reads the whole file once.
+
+        `aims.Error` where the recording has none (`has["truth"]`).
+        """
+        if not self._setup["has_truth"]:
+            raise Error(
+                f"{self.path}: holds no ground truth that is recognized; a topic of poses is named by "
+                'settings={"topics": {"truth": "/topic"}}'
+            )
         if self._truth is None:
             stream = _core.RecordingStream(self.path, self._settings, self._recover)
             stream.drain()
             self._truth = stream.truth
         return self._truth
+
+
+    def __repr__(self):
+        topics = ", ".join(f"{sensor} {topic}" for sensor, topic in self.topics.items() if topic)
+        return f"Recording {self.path}: {self.duration:.1f} s; {topics}"
 
 
 class Outcome:
@@ -96,13 +110,19 @@ class Outcome:
         """A pandas frame with a row per scan."""
         return frame_of(self.diagnostics, "Outcome.frame()")
 
+    def __repr__(self):
+        return (
+            f"Outcome: {len(self.trajectory)} poses, {len(self.map)} points of the map, "
+            f"{self.wall_s:.1f} s of work"
+        )
+
 
 class Scores:
     """Scores of trajectories against a truth, the same as those of `aims score`.
 
     record   what scores.json holds (schema aims.scores/2)
     truth    aims.Trajectory
-    aligned  {name: aims.Trajectory}: the estimates, laid onto the truth at the start
+    aligned  {name: aims.Trajectory}: the estimates, laid onto the truth at the start; `plot` draws them
     """
 
     def __init__(self, record, truth=None, aligned=None):
@@ -141,6 +161,35 @@ class Scores:
 
         return plot_trajectories({"truth": self.truth, **self.aligned}, axes)
 
+    def __repr__(self):
+        if not self.names:
+            return "Scores: of no estimate"
+        width = max(len(name) for name in self.names)
+        return "\n".join(["Scores:", *(f"  {name:{width}}  {line_of(self[name])}" for name in self.names)])
+
+
+def line_of(scores):
+    """The main scores of one estimate in words; what is not known is left out."""
+    parts = []
+    if scores.get("ate_yaw_m") is not None:
+        parts.append(f"ATE {scores['ate_yaw_m']:.3f} m")
+    m_list = scores.get("m_list_percent", {}).get("all")
+    if m_list is not None:
+        parts.append(f"M_list {m_list:.2f} %")
+    parts.append("success" if scores.get("success") else "no success")
+    return ", ".join(parts)
+
+
+def aligned_estimates(outcomes, truth):
+    """{name: its trajectory, laid onto the truth at the start} of those with poses in its time."""
+    aligned = {}
+    for name, outcome in outcomes.items():
+        try:
+            aligned[name] = outcome.trajectory.aligned_to(truth)
+        except Error:
+            continue  # no poses: nothing to draw
+    return aligned
+
 
 def flat(scores, prefix=""):
     """Nested dicts as one, with dotted keys."""
@@ -166,12 +215,29 @@ class EstimateResult:
     def __init__(self, values):
         self.estimators = {name: Outcome(each) for name, each in values["estimators"].items()}
         self.truth = values["truth"]
-        self.scores = Scores(values["scores"], self.truth) if values["scores"] else None
+        self.scores = None
+        if values["scores"]:
+            aligned = aligned_estimates(self.estimators, self.truth)
+            self.scores = Scores(values["scores"], self.truth, aligned)
         self.summary = values["summary"]
         self.failures = self.summary["failures"]
 
     def __getitem__(self, name):
         return self.estimators[name]
+
+    def __repr__(self):
+        return repr_of_result("EstimateResult", self.estimators, self.scores, self.failures)
+
+
+def repr_of_result(name, estimators, scores, failures=()):
+    """Scores, or without them each estimator's outcome, and what failed."""
+    lines = [f"{name}: {', '.join(estimators) or 'no estimator'}"]
+    if scores is not None:
+        lines += repr(scores).splitlines()[1:]
+    else:
+        lines += [f"  {label}  {outcome!r}" for label, outcome in estimators.items()]
+    lines += [f"  {label}  FAILED" for label in failures]
+    return "\n".join(lines)
 
 
 def estimate(path, estimators="aims_d", settings=None, recover=False, jobs=1):

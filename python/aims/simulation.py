@@ -5,7 +5,7 @@ import time
 
 from .errors import MissingPackage
 from .interface import drive
-from .recording import Outcome, Scores
+from .recording import Outcome, Scores, aligned_estimates, repr_of_result
 from .settings import assignments, specs
 
 
@@ -64,6 +64,9 @@ class Scenario:
         """Every parameter that has an effect, as YAML that loads again."""
         return self._loaded.config
 
+    def __repr__(self):
+        return f"Scenario {self.name}, seed {self.seed}: {self.description}"
+
 
 def _scenario(given, seed, overrides):
     if not isinstance(given, Scenario):
@@ -88,6 +91,9 @@ class Truth:
 
     def __init__(self, values):
         self.__dict__.update(values)
+
+    def __repr__(self):
+        return f"Truth: {self.end} after {len(self.waypoint_times)} waypoints; {self.trajectory}"
 
 
 class Simulation:
@@ -127,10 +133,14 @@ class RunResult:
     def __init__(self, estimators, record, truth):
         self.estimators = estimators
         self.truth = truth
-        self.scores = Scores(record, truth.trajectory)
+        aligned = aligned_estimates(estimators, truth.trajectory)
+        self.scores = Scores(record, truth.trajectory, aligned)
 
     def __getitem__(self, name):
         return self.estimators[name]
+
+    def __repr__(self):
+        return repr_of_result("RunResult", self.estimators, self.scores)
 
 
 def run(scenario, estimators=None, seed=None, overrides=None, cache=""):

@@ -64,6 +64,23 @@ class Trajectory:
         poses[:, 2, 2] = 1 - 2 * (x * x + y * y)
         return poses
 
+    def aligned_to(self, truth):
+        """The same poses laid onto `truth`: both agree at the first stamp that both cover.
+
+        Between two poses of the truth the nearer one counts.
+        """
+        inside = np.flatnonzero((self.stamps >= truth.stamps[0]) & (self.stamps <= truth.stamps[-1]))
+        if not len(inside):
+            raise Error("aligned_to(): no pose lies within the time of the truth")
+        first = inside[0]
+        nearest = np.abs(truth.stamps - self.stamps[first]).argmin()
+        own, true = self._rows(first).matrices[0], truth._rows(nearest).matrices[0]
+        return Trajectory.from_matrices(self.stamps, true @ np.linalg.inv(own) @ self.matrices)
+
+    def _rows(self, index):
+        at = slice(index, index + 1)
+        return Trajectory(self.stamps[at], self.positions[at], self.quaternions[at])
+
     def write(self, path):
         """Writes lines of the TUM format, which read back to the same numbers."""
         from . import _core

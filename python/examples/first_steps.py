@@ -66,16 +66,16 @@ scores = aims.score(
 )
 for name in scores.names:
     found = scores[name]
-    print(f"{name:8} ATE {found['ate_m']:.3f} m, M_list {found['m_list_percent']['all']:.2f} %")
+    print(f"{name:8} ATE {found['ate_yaw_m']:.3f} m, M_list {found['m_list_percent']['all']:.2f} %")
 
 # %% Simulated, estimated and scored in one call.
 result = aims.run(scenario, {"lio": "lio", "own": LegOdometry})
 for name, outcome in result.estimators.items():
-    print(f"{name:8} {len(outcome.trajectory)} poses, ATE {result.scores[name]['ate_m']:.3f} m")
+    print(f"{name:8} {len(outcome.trajectory)} poses, ATE {result.scores[name]['ate_yaw_m']:.3f} m")
 
 # %% A frame of pandas and a picture of matplotlib, where these are installed.
 try:
-    print(scores.frame()[["ate_m", "m_end_m", "coverage", "success"]])
+    print(scores.frame()[["ate_yaw_m", "m_end_m", "coverage", "success"]])
     import matplotlib
 
     matplotlib.use("Agg")

@@ -96,14 +96,15 @@ std::vector<std::string> systems_in(const std::vector<RequirementCheck>& checks)
 std::vector<RequirementCheck> check_bag(const BagInfo& info) {
   const Inventory bag = inventory_of(info);
   std::vector<RequirementCheck> checks;
+  check_own({"aims_d", bag, checks}, true);
+  check_own({"aims", bag, checks}, true);
+  check_own({"lio", bag, checks}, false);
   check_fast_lio2({"FAST-LIO2", bag, checks});
   check_lio_sam({"LIO-SAM", bag, checks});
   check_lego_loam({"LeGO-LOAM", bag, checks});
   check_lins({"LINS", bag, checks});
   check_loam({"LOAM", bag, checks});
   check_leg_kilo({"Leg-KILO", bag, checks});
-  check_own({"aims", bag, checks}, true);
-  check_own({"aims lio", bag, checks}, false);
   return checks;
 }
 

@@ -60,6 +60,10 @@ Json sensitivity_json(const Sensitivity& sensitivity, std::size_t parameters) {
                {"total_interval", intervals_json(indices.total_interval)},
                {"second", std::move(second)},
                {"negligible", std::move(negligible)}};
+  if (sensitivity.of_part) {
+    json["of_part"] = {{"explained", sensitivity.of_part->explained},
+                       {"with_pairs", sensitivity.of_part->with_pairs}};
+  }
   if (sensitivity.surrogate) {
     json["fit"] = {{"terms", sensitivity.surrogate->terms()},
                    {"error", sensitivity.surrogate->error()},

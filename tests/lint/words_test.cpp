@@ -97,12 +97,12 @@ TEST(Documents, LinksAndPicturesExist) {
 
 TEST(Documents, EveryPictureIsShown) {
   std::set<std::string> shown;
-  for (const Line& link : matches_in_documents(std::regex(R"(\]\(([^)\s]+\.(?:png|svg))\))"))) {
+  for (const Line& link : matches_in_documents(std::regex(R"(\]\(([^)\s]+\.(?:png|svg|webp))\))"))) {
     shown.insert(fs::path(link.text).filename().string());
   }
   for (const auto& entry : fs::directory_iterator(fs::path(AIMS_SOURCE_DIR) / "docs")) {
     const std::string extension = entry.path().extension().string();
-    if (extension != ".png" && extension != ".svg") continue;
+    if (extension != ".png" && extension != ".svg" && extension != ".webp") continue;
     EXPECT_TRUE(shown.contains(entry.path().filename().string())) << entry.path() << " is unused";
   }
 }

@@ -104,3 +104,15 @@ def test_errors_are_those_of_the_program(tmp_path, bag):
     with pytest.raises(aims.Error, match="broken.bag"):
         aims.Recording(broken)
     assert len([each for each in aims.Recording(broken, recover=True)]) > 10
+
+
+def test_a_recording_without_truth_says_so(bag, tmp_path):
+    content = bag.read_bytes()
+    topic = aims.Recording(bag).topics["truth"].encode()
+    other = tmp_path / "other.bag"
+    other.write_bytes(content.replace(topic, b"/" + b"x" * (len(topic) - 1)))
+    recording = aims.Recording(other)
+    assert not recording.has["truth"] and repr(recording).startswith("Recording ")
+    with pytest.raises(aims.Error, match="other.bag: holds no ground truth .* settings="):
+        recording.truth()
+    assert aims.estimate(other, "leg").scores is None

@@ -73,6 +73,25 @@ def test_run_gives_the_scores_of_the_program(folder):
         np.testing.assert_array_equal(result[name].trajectory.positions, written.positions)
 
 
+def test_results_show_their_scores_and_draw_every_estimate(folder):
+    result = aims.run(folder / "walk.yaml", ["aims_d", "leg"], cache=folder / "cache")
+    shown = repr(result)
+    assert shown.startswith("RunResult: aims_d, leg") and "ATE" in shown and "success" in shown
+    assert repr(result["leg"]).startswith("Outcome: ") and "route_done" in repr(result.truth)
+    assert set(result.scores.aligned) == {"aims_d", "leg"}
+    for name, aligned in result.scores.aligned.items():
+        own = result[name].trajectory
+        # Laid on at the start, so that both begin where the robot stands, and of the same shape.
+        start = result.truth.trajectory.positions[0]
+        np.testing.assert_allclose(aligned.positions[0], start, atol=0.01)
+        lengths = [np.linalg.norm(np.diff(each.positions, axis=0), axis=1) for each in (own, aligned)]
+        np.testing.assert_allclose(*lengths, atol=1e-9)
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    pyplot.switch_backend("Agg")
+    axes = result.scores.plot()
+    assert [line.get_label() for line in axes.lines] == ["truth", "aims_d", "leg"]
+
+
 def test_the_scenarios_of_a_folder_are_listed_by_tag(tmp_path):
     (tmp_path / "one.yaml").write_text("description: first\ntags: [short]\n")
     (tmp_path / "two.yaml").write_text("base: one\ntags: [long]\n")

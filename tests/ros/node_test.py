@@ -53,7 +53,7 @@ class LiveEstimate(unittest.TestCase):
                         "--overwrite"], check=True, stdout=subprocess.DEVNULL)
         subprocess.run([AIMS, "estimate", "walk.bag", "--out", "offline", "--overwrite", "--quiet",
                         "--no-pictures"], check=True, stdout=subprocess.DEVNULL)
-        cls.offline = poses_of("offline/aims.tum")
+        cls.offline = poses_of("offline/aims_d.tum")
         with Network(os.path.abspath("log")) as network:
             cls.run_live(network)
         cls.live = poses_of("live.tum")

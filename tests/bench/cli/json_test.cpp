@@ -88,5 +88,63 @@ TEST_F(JsonOutput, OfScoreAndCompareIsWhatTheirFilesHold) {
   EXPECT_EQ(shell("cat c/compare.json").output, compared.output);
 }
 
+TEST_F(JsonOutput, OfRunsAndSuitesIsWhatTheirFilesHold) {
+  scenario(testing::kMetreWalk);
+  const std::string options = " --estimators leg --seeds 1-2 --cache walks --no-page ";
+  const Json run = json_of("run my.yaml --no-pictures --out r" + options, "aims.run/1");
+  ASSERT_EQ(run["runs"].size(), 2);
+  EXPECT_EQ(run["runs"][1], Json::parse(shell("cat r/seed-2/scores.json").output));
+  const Json suite = json_of("suite my.yaml --out s" + options, "aims.suite/2");
+  EXPECT_EQ(suite, Json::parse(shell("cat s/suite.json").output));
+}
+
+TEST_F(JsonOutput, OfAnEstimateHoldsItsScores) {
+  scenario(testing::kMetreWalk);
+  ASSERT_EQ(aims("simulate my.yaml --out my.bag --quiet").exit_code, 0);
+  const Json json = json_of("estimate my.bag --estimators leg --out e", "aims.estimate/1");
+  EXPECT_EQ(json["scores"], Json::parse(shell("cat e/scores.json").output));
+  EXPECT_EQ(json["estimators"]["leg"]["poses"],
+            Json::parse(shell("cat e/estimate.json").output)["estimators"]["leg"]["poses"]);
+}
+
+TEST_F(JsonOutput, OfSweepAndTuneHoldsEveryPointAndTheVerdict) {
+  scenario(testing::kMetreWalk);
+  const Json sweep = json_of(
+      "sweep --param max_speed=1:2:3 --scenarios my.yaml --estimators leg --cache walks --out s",
+      "aims.sweep/1");
+  EXPECT_EQ(sweep["jobs"]["done"], 4) << "three points and the default";
+  ASSERT_EQ(sweep["estimators"][0]["points"].size(), 4);
+  EXPECT_EQ(sweep["estimators"][0]["points"][0]["default"], true);
+  EXPECT_EQ(sweep["estimators"][0]["points"][2]["values"]["max_speed"], 1.5);
+  write("plan.yaml",
+        "estimator: leg\nparams: [\"queue.max_ahead=60:150\", \"max_speed=log(1,4)\"]\n"
+        "scenarios: [my.yaml]\nseeds: 1\nheld_out: {seeds: 2}\n"
+        "objectives: [{score: ate_m}, {score: m_end_m}]\n"
+        "optimizer: {generations: 1, population: 8}\n");
+  const Json tune = json_of("tune plan.yaml --cache walks --out t", "aims.tune/1");
+  ASSERT_FALSE(tune["chosen"].empty());
+  EXPECT_EQ(tune["chosen"][0]["objectives"].size(), 2);
+  EXPECT_TRUE(tune["defaults"]["values"].contains("max_speed"));
+  EXPECT_NE(tune["verdict"].get<std::string>().find("too few held-out sequences"),
+            std::string::npos)
+      << tune["verdict"];
+}
+
+TEST_F(JsonOutput, OfARefusedInputIsTheError) {
+  scenario(testing::kMetreWalk);
+  for (const char* arguments :
+       {"run nowhere", "suite nowhere", "estimate nowhere.bag", "sweep --scenarios my.yaml --bad",
+        "tune nowhere.yaml", "list --tags nowhere", "config nowhere", "study compare no where",
+        "score --truth no --estimate where", "run my.yaml --set lidar.range=3"}) {
+    const Outcome outcome =
+        shell(std::string("('" AIMS_COMMAND "' ") + arguments + " --json 2>/dev/null)");
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    const Json json = Json::parse(outcome.output, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << arguments << "\n" << outcome.output;
+    EXPECT_EQ(json.size(), 1) << arguments;
+    EXPECT_FALSE(json.value("error", "").empty()) << arguments;
+  }
+}
+
 }  // namespace
 }  // namespace aims

@@ -95,7 +95,7 @@ TEST_F(Recordings, EveryFormatGivesTheSameTrajectories) {
 
 TEST_F(Recordings, ABagThatHoldsTheTruthIsScoredAsTheRunIs) {
   const Outcome run =
-      aims("run " + scenario(kShortWalk) + " --estimators aims --no-pictures --quiet --out direct");
+      aims("run " + scenario(kShortWalk) + " --estimators aims_d --no-pictures --quiet --out direct");
   ASSERT_EQ(run.exit_code, 0) << run.output;
   ASSERT_EQ(simulate().exit_code, 0);
   const Outcome estimate = aims("estimate walk.bag --quiet --out replayed");
@@ -108,7 +108,7 @@ TEST_F(Recordings, ABagThatHoldsTheTruthIsScoredAsTheRunIs) {
     const std::string line = direct.substr(at, direct.find('\n', at) - at);
     EXPECT_NE(scores.find(line.substr(0, 24)), std::string::npos) << line;
   }
-  for (const char* picture : {"aims-map-top.png", "degeneracy.png", "trajectories.png"}) {
+  for (const char* picture : {"aims_d-map-top.png", "degeneracy.png", "trajectories.png"}) {
     EXPECT_TRUE(fs::exists(folder_.path() / "replayed" / picture)) << picture;
   }
 }
@@ -216,7 +216,7 @@ TEST_F(Recordings, WhatIsWholeOfACutBagIsEstimatedWhenAskedFor) {
   fs::resize_file(folder_.path() / "walk.bag", fs::file_size(folder_.path() / "walk.bag") * 2 / 3);
   const Outcome outcome = aims("estimate walk.bag --recover --no-pictures --quiet --out replayed");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_GT(text_of("replayed/aims.tum").size(), 1000U);
+  EXPECT_GT(text_of("replayed/aims_d.tum").size(), 1000U);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/tuning/analysis.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -188,6 +189,58 @@ TEST(Sensitivity, OfNoiseTrustsNothing) {
   EXPECT_FALSE(sensitivity->is_resolved());
   EXPECT_FALSE(sensitivity->is_negligible(0));
   EXPECT_TRUE(curve_of(table, absolute(), 0).is_empty());
+}
+
+TEST(Sensitivity, OfAPartOfAGridIsThatOfTheWhole) {
+  // ln = 2 a + 3 b with a, b = -1, 0, 1 and c without effect: 4 and 9 parts of 13, on the nine points
+  // of a Latin square.
+  const auto ranges = ranges_of({"a=-1:1:3", "b=-1:1:3", "c=0:2:3"});
+  std::vector<std::vector<double>> square;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) square.push_back({a - 1.0, b - 1.0, (a + b) % 3 * 1.0});
+  }
+  const auto of = [&](double noise) {
+    return sensitivity_of(
+        table_of(ranges, {-1.0, 1.0, 0.0}, square, 2,
+                 [&](const std::vector<double>& point, const ResponseCase& on) {
+                   RandomStream random = rng(on.seed, fmt::format("{}", fmt::join(point, " ")));
+                   return std::exp(2.0 * point[0] + 3.0 * point[1] + noise * random.normal());
+                 }),
+        absolute());
+  };
+  const auto sensitivity = of(0.0);
+  ASSERT_TRUE(sensitivity) << sensitivity.error().message;
+  ASSERT_TRUE(sensitivity->of_part.has_value());
+  EXPECT_FALSE(sensitivity->of_grid);
+  EXPECT_NEAR(sensitivity->of_part->explained, 1.0, 1e-9);
+  EXPECT_NEAR(sensitivity->indices.first[0], 4.0 / 13.0, 1e-9);
+  EXPECT_NEAR(sensitivity->indices.total[1], 9.0 / 13.0, 1e-9);
+  EXPECT_NEAR(sensitivity->indices.total[2], 0.0, 1e-9);
+  const auto noisy = of(20.0);
+  EXPECT_FALSE(noisy && noisy->is_resolved()) << "cross-validation does not support it";
+}
+
+TEST(Sensitivity, OfAGridWithHolesSeesPairs) {
+  // ln = 2 a + 3 b + 4 a b with -1, 0, 1, and c without effect; two of 27 points are missing.
+  const auto ranges = ranges_of({"a=-1:1:3", "b=-1:1:3", "c=0:2:3"});
+  auto points = design(DesignKind::kGrid, ranges, 0, 1);
+  points.erase(points.begin() + 5);
+  points.erase(points.begin() + 9);
+  const auto sensitivity = sensitivity_of(
+      table_of(ranges, {-1.0, 1.0, 0.0}, points, 1,
+               [](const std::vector<double>& point, const ResponseCase&) {
+                 return std::exp(2.0 * point[0] + 3.0 * point[1] + 4.0 * point[0] * point[1]);
+               }),
+      absolute());
+  ASSERT_TRUE(sensitivity) << sensitivity.error().message;
+  ASSERT_TRUE(sensitivity->of_part && sensitivity->of_part->with_pairs);
+  // The mean square of -1, 0, 1 is 2/3.
+  const double first = 4.0 * 2.0 / 3.0;
+  const double second = 9.0 * 2.0 / 3.0;
+  const double pair = 16.0 * 4.0 / 9.0;
+  EXPECT_NEAR(sensitivity->indices.first[0], first / (first + second + pair), 1e-9);
+  EXPECT_NEAR(sensitivity->indices.second(0, 1), pair / (first + second + pair), 1e-9);
+  EXPECT_NEAR(sensitivity->indices.total[0], (first + pair) / (first + second + pair), 1e-9);
 }
 
 TEST(Sensitivity, OfAGridIsThatOfItsPointsHoweverFewTheyAre) {

@@ -226,7 +226,28 @@ TEST(Tune, TwoObjectivesGiveAFront) {
   EXPECT_LT(points[result->chosen.front()][0], points[result->chosen.back()][0]);
   const TextTable front = front_table(*result);
   EXPECT_EQ(front.rows.size(), result->chosen.size() + 1);
-  EXPECT_EQ(front.header.size(), 3U + 4U);
+  EXPECT_EQ(front.header.size(), 3U + 4U + 1U);
+  EXPECT_NE(held_out_verdict(*result).find("front"), std::string::npos) << held_out_verdict(*result);
+}
+
+TEST(FrontVerdict, IsBetterOnlyIfNoObjectiveIsWorse) {
+  const auto gain = [](double value, bool sure) {
+    PairedGain of;
+    of.sequences = 8;
+    of.gain = value;
+    of.interval = sure ? Interval{value - 0.01, value + 0.01} : Interval{value - 1.0, value + 1.0};
+    of.p = sure ? 0.01 : 0.5;
+    return of;
+  };
+  using Gains = std::vector<PairedGain>;
+  EXPECT_EQ(front_verdict_of(Gains{gain(0.2, true), gain(-0.1, false)}), FrontVerdict::kBetter);
+  EXPECT_EQ(front_verdict_of(Gains{gain(0.2, true), gain(-0.1, true)}), FrontVerdict::kMixed);
+  EXPECT_EQ(front_verdict_of(Gains{gain(0.2, false), gain(-0.1, true)}), FrontVerdict::kWorse);
+  EXPECT_EQ(front_verdict_of(Gains{gain(0.2, false), gain(0.1, false)}),
+            FrontVerdict::kNoDifference);
+  Gains few{gain(0.2, true), gain(0.1, true)};
+  few.back().sequences = 3;
+  EXPECT_EQ(front_verdict_of(few), FrontVerdict::kTooFew);
 }
 
 TEST(TuneReport, OverlayLoadsOnTopOfAScenario) {

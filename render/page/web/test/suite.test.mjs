@@ -21,12 +21,12 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
   for (const scenario of data.suite.scenarios) {
     for (const [name, each] of Object.entries(scenario.estimators)) {
       const shown = await cell(page, scenario.name, name).getAttribute("data-value");
-      const median = each.scores.ate_yaw_m.median;
+      const median = each.scores.ate_m.median;
       assert.equal(shown === null ? null : Number(shown), median);
     }
   }
   await page.locator("#matrix").getByLabel("Statistic").selectOption("worst");
-  assert.equal(Number(await cell(page, "severity_2", "a").getAttribute("data-value")), data.suite.scenarios[1].estimators.a.scores.ate_yaw_m.worst);
+  assert.equal(Number(await cell(page, "severity_2", "a").getAttribute("data-value")), data.suite.scenarios[1].estimators.a.scores.ate_m.worst);
   await page.locator("#matrix").getByLabel("Score").selectOption("m_list_percent.all");
   assert.equal(Number(await cell(page, "alone", "a").getAttribute("data-value")), data.suite.scenarios[3].estimators.a.scores["m_list_percent.all"].worst);
   assert.deepEqual(troubles, []);
@@ -64,7 +64,7 @@ test("each run has a small chart, the worst first, that links to its page", { sk
 test("of many runs the worst are shown until all are asked for", { skip }, async () => {
   const data = suite();
   data.runs = Array.from({ length: 60 }, (_, i) => ({ ...data.runs[0], seed: i, href: null,
-    estimators: { a: { success: true, diverged_at_s: null, diverged_reason: "", ate_yaw_m: 0.01 * ((7 * i) % 60), m_end_m: 0 } } }));
+    estimators: { a: { success: true, diverged_at_s: null, diverged_reason: "", ate_m: 0.01 * ((7 * i) % 60), m_end_m: 0 } } }));
   const { page } = await pages.show(data);
   const charts = page.locator("#runs .small");
   assert.equal(await charts.count(), 24);
@@ -131,7 +131,7 @@ test("the severity has a line per estimator, with intervals, over level and trut
   assert.equal(await chart.locator("path.cross").count(), 1);
   await chart.locator("svg[role=img]").focus();
   await page.keyboard.press("ArrowRight");
-  assert.match(await chart.locator(".readout").innerText(), /^a: ATE yaw \[m\] 0\.0123 \[0\.00984, 0\.0160\] at severity \[step\] 1/);
+  assert.match(await chart.locator(".readout").innerText(), /^a: ATE \[m\] 0\.0123 \[0\.00984, 0\.0160\] at severity \[step\] 1/);
   await page.locator("#families select").nth(2).selectOption("truth");
   assert.equal((await page.locator('#families g[data-series="a"] .bars').getAttribute("d")).match(/V/g).length, 2);
   await chart.getByRole("button", { name: "b", exact: true }).click();

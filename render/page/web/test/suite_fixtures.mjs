@@ -5,7 +5,7 @@ export const kHostile = `</script><script>window.broken=1</script><img src=x one
 
 const kHeadline = [
   { key: "m_list_percent.all", title: "M_list", unit: "%" }, { key: "m_end_m", title: "M_end", unit: "m" },
-  { key: "ate_yaw_m", title: "ATE yaw", unit: "m" }, { key: "max_error_z_m", title: "max |z|", unit: "m" },
+  { key: "ate_m", title: "ATE", unit: "m" }, { key: "max_error_z_m", title: "max |z|", unit: "m" },
 ];
 
 function score(median, count = 3) {
@@ -17,13 +17,13 @@ function estimator(ate, successes = 3, runs = 3) {
     runs, successes, success_rate: successes / runs,
     scores: {
       success: { median: successes === runs ? 1 : 0, worst: 1, count: runs }, "m_list_percent.all": score(ate === null ? null : 2 * ate),
-      m_end_m: score(ate), ate_yaw_m: score(ate), max_error_z_m: score(null, 0),
+      m_end_m: score(ate), ate_m: score(ate), max_error_z_m: score(null, 0),
     },
   };
 }
 
 function point(level, each) {
-  const { median: ate, median_low: low, median_high: high } = each.scores.ate_yaw_m;
+  const { median: ate, median_low: low, median_high: high } = each.scores.ate_m;
   return { level, ate_yaw_m: ate, ate_yaw_low_m: low, ate_yaw_high_m: high, m_list_percent: null, m_list_low_percent: null,
     m_list_high_percent: null, success_rate: each.success_rate, runs: each.runs };
 }
@@ -40,8 +40,8 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
   const runs = scenarios.flatMap((each) => each.seeds.map((seed) => ({
     scenario: each.name, seed, href: seed === 1 ? `runs/${encodeURIComponent(each.name)}/seed-1/page.html` : null,
     estimators: {
-      [first]: { success: true, diverged_at_s: null, diverged_reason: "", ate_yaw_m: 0.01 * seed, m_end_m: 0.02 },
-      b: { success: each !== scenarios[2], diverged_at_s: each === scenarios[2] ? 12.5 : null, diverged_reason: "error_limit", ate_yaw_m: 0.5 },
+      [first]: { success: true, diverged_at_s: null, diverged_reason: "", ate_m: 0.01 * seed, m_end_m: 0.02 },
+      b: { success: each !== scenarios[2], diverged_at_s: each === scenarios[2] ? 12.5 : null, diverged_reason: "error_limit", ate_m: 0.5 },
     },
   })));
   return {
@@ -74,7 +74,7 @@ export function comparison(scenario = "severity_1") {
     change_low: low, change_high: high, verdict, false_alarm: 0.125 });
   return {
     schema: "aims.compare/3", before: "old", after: "new", summary: "3 scores compared.", only_before: [], only_after: ["alone, b, seed 4"],
-    changes: [change("ate_yaw_m", "better", -0.11, -0.13, -0.09), change("m_end_m", "none", 0.001, -0.02, 0.03), change("success", "worse", -0.5, -0.9, -0.1)],
+    changes: [change("ate_m", "better", -0.11, -0.13, -0.09), change("m_end_m", "none", 0.001, -0.02, 0.03), change("success", "worse", -0.5, -0.9, -0.1)],
   };
 }
 

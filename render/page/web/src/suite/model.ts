@@ -53,8 +53,6 @@ export interface FamilyPoint {
   ate_yaw_m?: Maybe;
   ate_yaw_low_m?: Maybe;
   ate_yaw_high_m?: Maybe;
-  success_low?: Maybe;
-  success_high?: Maybe;
   m_list_percent: Maybe;
   m_list_low_percent: Maybe;
   m_list_high_percent: Maybe;

@@ -32,6 +32,8 @@ export interface Sensitivity {
   logarithmic: boolean;
   /** By an analysis of variance of a complete grid; else by a fit. */
   of_grid: boolean;
+  /** By an analysis of variance of a part of a grid. */
+  of_part?: { explained: number; with_pairs: boolean };
   resolved: boolean;
   /** Cross-validated R² from which on a fit supports indices. */
   least_explained: number;

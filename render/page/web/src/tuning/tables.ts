@@ -63,6 +63,10 @@ export function bestTable(own: TunedEstimator, analysis: Analysis): HTMLElement 
 /** Where the indices come from. */
 function sourceText(found: Sensitivity): string {
   const of = found.logarithmic ? "the objective's logarithm" : "the objective";
+  if (found.of_part) {
+    return `By an analysis of variance of ${of} at ${found.points} points of a grid that is not complete: effects of the ` +
+      `levels${found.of_part.with_pairs ? " and their pairs" : ""} with a cross-validated R² of ${percent(found.of_part.explained)}.`;
+  }
   if (found.of_grid || !found.fit) {
     return `By an analysis of variance of ${of} at the ${found.points} points of the complete grid; intervals over seeds.`;
   }
