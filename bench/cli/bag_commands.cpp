@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct BagArguments {
   SharedOptions shared;
-  std::string bag;
+  std::vector<std::string> files;
   std::string config;
   std::vector<std::string> systems;
   bool recover = false;
@@ -35,7 +35,8 @@ Result<BagInfo> info_of(const BagArguments& arguments) {
   }
   const auto config = load_estimate_config(arguments.config, settings);
   if (!config) return tl::unexpected(config.error());
-  return bag_info(arguments.bag, config->recording, {arguments.recover});
+  return bag_info(arguments.files.front(), config->recording,
+                  {.recover = arguments.recover, .with = further(arguments.files)});
 }
 
 int info_command(const BagArguments& arguments) {
@@ -88,7 +89,8 @@ int check_command(const BagArguments& arguments) {
 
 std::shared_ptr<BagArguments> add_bag_options(Command& command) {
   auto arguments = std::make_shared<BagArguments>();
-  command.argument("bag", arguments->bag, "Bag");
+  command.arguments("bag", arguments->files, "Recording: files or folders, merged by record time",
+                    Presence::kRequired);
   command.option("--config", arguments->config, "YAML file; its group recording is used");
   add_settings(command, arguments->shared, "the configuration, e.g. recording.topics.imu=/imu");
   command.flag("--recover", arguments->recover, "Read the intact part of a damaged bag");

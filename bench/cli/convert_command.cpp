@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/options.hpp"
@@ -15,17 +16,21 @@ namespace fs = std::filesystem;
 
 struct ConvertArguments {
   SharedOptions shared;
-  std::string bag;
+  std::vector<std::string> files;
   std::string compression = "none";
   bool recover = false;
 };
 
 int convert_command(const ConvertArguments& arguments) {
   const SharedOptions& shared = arguments.shared;
-  const ConvertOptions options = {arguments.bag, shared.out, shared.overwrite, arguments.recover,
-                                  *compression_named(arguments.compression)};
+  const ConvertOptions options = {arguments.files.front(),
+                                  shared.out,
+                                  shared.overwrite,
+                                  arguments.recover,
+                                  *compression_named(arguments.compression),
+                                  further(arguments.files)};
   watch_interrupt();
-  ProgressDisplay display(arguments.bag, shared.quiet, "converted");
+  ProgressDisplay display(arguments.files.front(), shared.quiet, "converted");
   const auto outcome =
       convert(options, [&display](const Progress& progress) { return display.show({}, progress); });
   display.close();
@@ -46,7 +51,9 @@ int convert_command(const ConvertArguments& arguments) {
 void declare_convert(Command command, const fs::path& /*scenarios*/) {
   auto arguments = std::make_shared<ConvertArguments>();
   SharedOptions& shared = arguments->shared;
-  command.argument("bag", arguments->bag, "Recording of any format");
+  command.arguments("bag", arguments->files,
+                    "Recording of any format: files or folders, merged by record time",
+                    Presence::kRequired);
   command.option("-o,--out", shared.out,
                  "Recording to write: NAME.bag, NAME.mcap, or NAME/ for rosbag2",
                  Presence::kRequired);

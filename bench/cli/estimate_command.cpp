@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 struct EstimateArguments {
   SharedOptions shared;
-  std::string bag;
+  std::vector<std::string> files;
   std::string config;
   std::vector<std::string> topics;
   bool recover = false;
@@ -45,7 +45,7 @@ Result<EstimateConfig> config_of(const EstimateArguments& arguments) {
 /// out/NAME-estimate, which no other command writes.
 fs::path folder_of(const EstimateArguments& arguments) {
   if (!arguments.shared.out.empty()) return arguments.shared.out;
-  return fs::path("out") / (fs::path(arguments.bag).stem().string() + "-estimate");
+  return fs::path("out") / (fs::path(arguments.files.front()).stem().string() + "-estimate");
 }
 
 void print_results(const EstimateResult& result, const fs::path& folder,
@@ -104,8 +104,9 @@ Result<Answer> estimate_command(const EstimateArguments& arguments) {
   watch_interrupt();
   auto folder = OutputFolder::create(folder_of(arguments), shared.overwrite);
   if (!folder) return tl::unexpected(folder.error());
-  ProgressDisplay display(arguments.bag, shared.quiet, "read");
-  const EstimateOptions options = {arguments.bag, arguments.recover, shared.jobs, folder->path()};
+  ProgressDisplay display(arguments.files.front(), shared.quiet, "read");
+  const EstimateOptions options = {arguments.files.front(), arguments.recover, shared.jobs,
+                                   folder->path(), further(arguments.files)};
   const auto result = estimate(*config, options, [&](const Progress& progress) {
     return display.show(std::nullopt, progress);
   });
@@ -141,7 +142,9 @@ Result<Answer> estimate_command(const EstimateArguments& arguments) {
 void declare_estimate(Command command, const fs::path& /*scenarios*/) {
   auto arguments = std::make_shared<EstimateArguments>();
   SharedOptions& shared = arguments->shared;
-  command.argument("bag", arguments->bag, "Bag, simulated or recorded on a robot");
+  command.arguments("bag", arguments->files,
+                    "Recording, simulated or of a robot: files or folders, merged by record time",
+                    Presence::kRequired);
   command.option("--config", arguments->config,
                  "YAML file with the groups recording, estimator, scoring");
   command.list("--topics", arguments->topics,

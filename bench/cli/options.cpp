@@ -199,6 +199,10 @@ void print_pruned(const CachePruned& pruned, const SharedOptions& options) {
             left_gb, limit_gb);
 }
 
+std::vector<std::filesystem::path> further(const std::vector<std::string>& files) {
+  return {files.begin() + 1, files.end()};
+}
+
 int bad_input(const char* command, const Error& error) {
   print_failure(fmt::format("aims {}: {}", command, error.message));
   return kBadInput;

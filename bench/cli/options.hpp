@@ -103,6 +103,9 @@ JobOptions job_options(const SharedOptions& options);
 /// Prints what was removed from the cache, and when more is in use than it may hold; else nothing.
 void print_pruned(const CachePruned& pruned, const SharedOptions& options);
 
+/// All files but the first, which names the recording.
+std::vector<std::filesystem::path> further(const std::vector<std::string>& files);
+
 /// Prints on standard error what was wrong with what `command` was given; the exit code for it.
 int bad_input(const char* command, const Error& error);
 

@@ -30,16 +30,18 @@ std::vector<std::string> segments_of_scenario(const std::string& yaml) {
 }
 
 /// The scenario's choice as a bag holds it.
-std::vector<std::string> segments_in_bag(const std::filesystem::path& bag) {
-  const auto scenario = read_bag_text(bag, std::string(kScenarioTopic));
+std::vector<std::string> segments_in_bag(const std::filesystem::path& bag,
+                                         const std::vector<std::filesystem::path>& with = {}) {
+  const auto scenario = read_bag_text(bag, std::string(kScenarioTopic), {.with = with});
   return scenario && *scenario ? segments_of_scenario(**scenario) : std::vector<std::string>();
 }
 
 }  // namespace
 
-Result<BagOrigin> bag_origin(const std::filesystem::path& bag) {
+Result<BagOrigin> bag_origin(const std::filesystem::path& bag,
+                             const std::vector<std::filesystem::path>& with) {
   BagOrigin origin;
-  const auto waypoint_times = read_bag_text(bag, std::string(kWaypointTimesTopic));
+  const auto waypoint_times = read_bag_text(bag, std::string(kWaypointTimesTopic), {.with = with});
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
   if (*waypoint_times) {
     auto parsed = parse_waypoint_times(**waypoint_times,
@@ -47,7 +49,7 @@ Result<BagOrigin> bag_origin(const std::filesystem::path& bag) {
     if (!parsed) return tl::unexpected(parsed.error());
     origin.waypoint_times = std::move(*parsed);
   }
-  origin.segments = segments_in_bag(bag);
+  origin.segments = segments_in_bag(bag, with);
   return origin;
 }
 

@@ -16,8 +16,10 @@ struct BagOrigin {
   std::vector<std::string> segments;         ///< over which its scenario takes M_list; empty: all
 };
 
-/// Empty for a bag that was not simulated here. Error for waypoint times that cannot be read.
-Result<BagOrigin> bag_origin(const std::filesystem::path& bag);
+/// Empty for a bag that was not simulated here; `with`: further files of the same recording. Error
+/// for waypoint times that cannot be read.
+Result<BagOrigin> bag_origin(const std::filesystem::path& bag,
+                             const std::vector<std::filesystem::path>& with = {});
 
 /// Over which segments the scenario takes M_list whose run wrote this file of waypoint times, and
 /// the file that says so; neither when nothing beside it does.

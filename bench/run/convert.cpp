@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
 
 #include "bench/run/new_recording.hpp"
@@ -31,10 +32,13 @@ Result<ConversionOutcome> write_recording(MessageSource& source, const fs::path&
 Result<ConvertOutcome> convert(const ConvertOptions& options, const Observer& observer) {
   const auto format = format_of_new(options.to);
   if (!format) return tl::unexpected(format.error());
-  auto source = open_recording(options.from, {.recover = options.recover});
+  auto source = open_recording(options.from, {.recover = options.recover, .with = options.with});
   if (!source) return tl::unexpected(source.error());
   std::error_code ignored;
-  if (fs::equivalent(options.from, path_of_new(options.to), ignored)) {
+  const auto is_output = [&](const fs::path& file) {
+    return fs::equivalent(file, path_of_new(options.to), ignored);
+  };
+  if (is_output(options.from) || std::ranges::any_of(options.with, is_output)) {
     return failure(
         fmt::format("{}: is the recording itself; choose another --out", options.to.string()));
   }

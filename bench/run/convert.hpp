@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "bench/run/progress.hpp"
 #include "core/error.hpp"
@@ -17,6 +18,7 @@ struct ConvertOptions {
   bool overwrite = false;      ///< unless this is set
   bool recover = false;        ///< read the intact part of a damaged recording
   BagCompression compression = BagCompression::kNone;
+  std::vector<std::filesystem::path> with = {};  ///< further files of the same recording
 };
 
 /// What a conversion has become.

@@ -70,7 +70,7 @@ Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& r
     const std::string label = optimized_label(each.name);
     input.estimates.push_back({label, label, "estimated here", *each.result.optimized});
   }
-  if (auto origin = bag_origin(result.bag)) {
+  if (auto origin = bag_origin(result.bag, result.with)) {
     if (input.scoring.segments.empty()) input.scoring.segments = origin->segments;
     input.segments = segments_wanted(origin->waypoint_times, input.scoring.segments);
     input.waypoint_times = std::move(origin->waypoint_times);
@@ -226,10 +226,12 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
 Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOptions& options,
                                 const Observer& observer) {
   const Stopwatch stopwatch;
-  auto reader = RecordingReader::open(options.bag, config.recording, {options.recover});
+  auto reader = RecordingReader::open(options.bag, config.recording,
+                                      {.recover = options.recover, .with = options.with});
   if (!reader) return tl::unexpected(reader.error());
   EstimateResult result;
   result.bag = options.bag;
+  result.with = options.with;
   result.setup = reader->setup();
   result.summary = reader->summary();
   if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)

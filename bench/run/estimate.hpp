@@ -42,6 +42,7 @@ struct EstimateOptions {
   /// Where the truth and what the estimators report by scan are written while the recording is
   /// read; memory then does not grow with them. Empty: the result holds them.
   std::filesystem::path folder = {};
+  std::vector<std::filesystem::path> with = {};  ///< further files of the same recording
 };
 
 /// An estimator that broke before the end of its stream.
@@ -53,6 +54,7 @@ struct EstimatorFailure {
 /// What estimating a recording yields, before it is written.
 struct EstimateResult {
   std::filesystem::path bag;
+  std::vector<std::filesystem::path> with;  ///< its further files
   RecordingSetup setup;
   BagSummary summary;
   std::map<std::string, int> counts;  ///< of what was odd in the messages

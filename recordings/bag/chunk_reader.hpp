@@ -22,6 +22,8 @@ struct BagOpenOptions {
   bool recover = false;
   /// Chunks in memory at a time; a recording that needs more is an error [bytes].
   std::size_t memory_limit = std::size_t{1} << 30;
+  /// Further files or folders of the same recording, merged in order of record time.
+  std::vector<std::filesystem::path> with = {};
 };
 
 /// A file whose messages lie in chunks.

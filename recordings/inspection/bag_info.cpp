@@ -162,7 +162,7 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
   if (!opened) return tl::unexpected(opened.error());
   const std::unique_ptr<MessageSource>& reader = *opened;
   BagInfo info;
-  info.file = bag;
+  info.file = options.with.empty() ? bag : std::filesystem::path(reader->name());
   info.summary = reader->summary();
   Survey survey;
   while (true) {
@@ -181,7 +181,7 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
     }
   } else {
     info.refusal = recording.error().message;
-    info.used = unambiguous_topics(bag, reader->connections(), config.topics);
+    info.used = unambiguous_topics(info.file, reader->connections(), config.topics);
   }
   for (const std::string& type : info.undefined) {
     info.notes.push_back(

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/source/recording_file.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "recordings/bag/bag_reader.hpp"
+#include "recordings/bag/merged_source.hpp"
 #include "recordings/csv/csv_reader.hpp"
 #include "recordings/mcap/mcap_reader.hpp"
 #include "recordings/mcap/mcap_writer.hpp"
@@ -40,11 +45,51 @@ constexpr auto kSigns = std::to_array<FormatSign>({
     {RecordingFormat::kCsv, ".yaml", ""},
 });
 
+bool is_same(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
+}
+
 template <class Reader>
 Result<std::unique_ptr<MessageSource>> opened(const fs::path& file, BagOpenOptions options) {
   auto reader = Reader::open(file, options);
   if (!reader) return tl::unexpected(reader.error());
   return std::make_unique<Reader>(std::move(*reader));
+}
+
+/// The recordings in a folder, by name; none if it is one recording of rosbag2, whole or not.
+std::vector<fs::path> recordings_in(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / kRosbag2Metadata, ignored)) return {};
+  const auto files_of_one = rosbag2_files(folder);
+  std::vector<fs::path> found;
+  bool others = false;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (!format_by_content(entry.path())) continue;
+    found.push_back(entry.path());
+    others = others || std::ranges::find(files_of_one, entry.path()) == files_of_one.end();
+  }
+  if (!others) return {};
+  std::ranges::sort(found);
+  return found;
+}
+
+Result<std::unique_ptr<MessageSource>> merged(const std::string& name,
+                                              const std::vector<fs::path>& files,
+                                              const BagOpenOptions& options) {
+  auto all = std::make_unique<MergedSource>(name);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const bool again = std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i),
+                                   [&](const fs::path& each) { return is_same(each, files[i]); });
+    if (again) {
+      return failure(fmt::format("{}: named twice, expected each file of a recording once",
+                                 files[i].string()));
+    }
+    auto source = open_recording(files[i], options);
+    if (!source) return tl::unexpected(source.error());
+    all->add(std::move(*source));
+  }
+  return all;
 }
 
 template <class Writer>
@@ -78,9 +123,19 @@ std::optional<RecordingFormat> format_by_name(const fs::path& file) {
 
 Result<std::unique_ptr<MessageSource>> open_recording(const fs::path& file,
                                                       BagOpenOptions options) {
+  const std::vector<fs::path> with = std::exchange(options.with, {});
+  if (!with.empty()) {
+    std::vector<fs::path> files = {file};
+    files.insert(files.end(), with.begin(), with.end());
+    return merged(fmt::format("{} (+{})", file.string(), with.size()), files, options);
+  }
   // What has no known beginning is refused by the reader for its name, or by that of bags.
   std::error_code ignored;
-  if (fs::is_directory(file, ignored)) return opened<Rosbag2Reader>(file, options);
+  if (fs::is_directory(file, ignored)) {
+    const auto parts = recordings_in(file);
+    if (!parts.empty()) return merged(file.string(), parts, options);
+    return opened<Rosbag2Reader>(file, options);
+  }
   const auto known = format_by_content(file);
   const auto format = known ? known : format_by_name(file);
   if (format == RecordingFormat::kMcap) return opened<McapReader>(file, options);

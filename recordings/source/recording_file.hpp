@@ -29,8 +29,10 @@ std::optional<RecordingFormat> format_by_content(const std::filesystem::path& fi
 /// ".yaml"; else nothing.
 std::optional<RecordingFormat> format_by_name(const std::filesystem::path& file);
 
-/// Opens a recording of any format, by its content. Error for a file of no format, or that its
-/// reader refuses.
+/// Opens a recording of any format, by its content, merged with the files of `options.with`. A
+/// folder without metadata.yaml whose files are not those of one rosbag2 recording is all
+/// recordings in it, merged. Error for a file of no format, that its reader refuses, or that is
+/// named twice.
 Result<std::unique_ptr<MessageSource>> open_recording(const std::filesystem::path& file,
                                                       BagOpenOptions options = {});
 

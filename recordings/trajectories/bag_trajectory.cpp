@@ -220,8 +220,9 @@ Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::stri
   return result;
 }
 
-Result<std::optional<std::string>> read_bag_text(const fs::path& file, const std::string& topic) {
-  auto bag = open_recording(file);
+Result<std::optional<std::string>> read_bag_text(const fs::path& file, const std::string& topic,
+                                                 const BagOpenOptions& options) {
+  auto bag = open_recording(file, options);
   if (!bag) return tl::unexpected(bag.error());
   (*bag)->select({&topic, 1});
   ConnectionDecoders decoders;

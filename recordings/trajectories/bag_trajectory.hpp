@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "recordings/bag/chunk_reader.hpp"
 #include "recordings/trajectories/trajectory_file.hpp"
 
 namespace aims {
@@ -21,6 +22,7 @@ Result<TrajectoryFile> read_bag_trajectory(const std::filesystem::path& file,
 
 /// The text of the last std_msgs/String on `topic`; nothing when the bag has no such topic.
 Result<std::optional<std::string>> read_bag_text(const std::filesystem::path& file,
-                                                 const std::string& topic);
+                                                 const std::string& topic,
+                                                 const BagOpenOptions& options = {});
 
 }  // namespace aims

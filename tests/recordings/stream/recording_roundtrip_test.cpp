@@ -11,6 +11,7 @@
 #include "recordings/stream/recording_reader.hpp"
 #include "recordings/stream/recording_writer.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
+#include "tests/recordings/stream/split_recording.hpp"
 #include "tests/support/kinematic_world.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -121,6 +122,58 @@ TEST_F(RecordingRoundTrip, ASequenceIsReadBackBitForBit) {
   EXPECT_NEAR(setup_.imu_rate_hz.value_or(0.0), 50.0, 1e-9);
   EXPECT_NEAR(setup_.leg_rate_hz.value_or(0.0), 200.0, 1e-9);
   EXPECT_TRUE(counts_.empty()) << counts_.begin()->first;
+}
+
+/// The walk in one bag, and in three formats by topic.
+class SplitRecording : public RecordingRoundTrip {
+ protected:
+  void SetUp() override {
+    test::KinematicWorld world(small_world());
+    record(whole_, world.rig(), walk(world));
+    test::split_recording(whole_, {{lidar_, RecordingFormat::kBag, {"/lidar/points"}},
+                                   {imu_, RecordingFormat::kMcap, {"/imu/data"}},
+                                   {rest_, RecordingFormat::kRosbag2, {}}});
+  }
+  void expect_the_whole(const std::filesystem::path& first, const BagOpenOptions& options) const {
+    auto expected = RecordingReader::open(whole_, {});
+    auto actual = RecordingReader::open(first, {}, options);
+    ASSERT_TRUE(expected) << expected.error().message;
+    ASSERT_TRUE(actual) << actual.error().message;
+    auto wanted = test::read_all(*expected);
+    auto read = test::read_all(*actual);
+    ASSERT_TRUE(wanted && read);
+    // Of equal record times the order is that of the file, or of the files.
+    const auto order = [](const Delivery& each) {
+      return std::pair(each.arrival, each.measurement.index());
+    };
+    std::ranges::stable_sort(*wanted, {}, order);
+    std::ranges::stable_sort(*read, {}, order);
+    test::expect_same_deliveries(*wanted, *read);
+    EXPECT_EQ(actual->setup().notes, expected->setup().notes);
+    EXPECT_EQ(actual->truth().size(), expected->truth().size());
+    EXPECT_EQ(actual->summary().messages, expected->summary().messages);
+    EXPECT_EQ(actual->summary().start, expected->summary().start);
+    EXPECT_EQ(actual->summary().end, expected->summary().end);
+  }
+
+  std::filesystem::path whole_ = folder_.path() / "whole.bag";
+  TemporaryFolder parts_;
+  std::filesystem::path lidar_ = parts_.path() / "a_lidar.bag";
+  std::filesystem::path imu_ = parts_.path() / "b_imu.mcap";
+  std::filesystem::path rest_ = parts_.path() / "c_rest";
+};
+
+TEST_F(SplitRecording, FilesOfThreeFormatsAreOneRecording) {
+  expect_the_whole(lidar_, {.with = {imu_, rest_}});
+  expect_the_whole(rest_, {.with = {lidar_, imu_}});
+}
+
+TEST_F(SplitRecording, AFolderOfRecordingsIsOneRecording) { expect_the_whole(parts_.path(), {}); }
+
+TEST_F(SplitRecording, AFileNamedTwiceIsRefused) {
+  const auto again = open_recording(lidar_, {.with = {imu_, lidar_}});
+  ASSERT_FALSE(again);
+  EXPECT_NE(again.error().message.find("a_lidar.bag: named twice"), std::string::npos);
 }
 
 TEST_F(RecordingRoundTrip, TruthIsReadAndNotDelivered) {
