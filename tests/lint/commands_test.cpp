@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the help of the `aims` program against private_words.txt, and the command lines of
-// documents against the help.
+// Holds the command lines of documents against the help of the `aims` program.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/lint/word_list.hpp"
+#include "tests/lint/documents.hpp"
 
 namespace aims::lint {
 namespace {
@@ -173,26 +172,6 @@ std::set<std::string> configuration_keys() {
 TEST(ProgramHelp, ListsItsCommands) {
   for (const char* command : {"run", "suite", "sweep", "tune", "estimate", "score", "config"}) {
     EXPECT_TRUE(help_by_command().contains(command)) << command;
-  }
-}
-
-TEST(ProgramHelp, UsesTheFieldsTerms) {
-  const auto words = read_word_list("tests/lint/private_words.txt");
-  for (const auto& [command, help] : help_by_command()) {
-    const std::string source = command.empty() ? "aims --help" : "aims " + command + " --help";
-    for (const auto& message : private_words_in(split_lines(source, help), words)) {
-      ADD_FAILURE() << message;
-    }
-  }
-}
-
-TEST(ProgramHelp, ListsAndConfigurationUseTheFieldsTerms) {
-  const auto words = read_word_list("tests/lint/private_words.txt");
-  for (const char* command : {"list", "config corridor"}) {
-    for (const auto& message :
-         private_words_in(split_lines(std::string("aims ") + command, output_of(command)), words)) {
-      ADD_FAILURE() << message;
-    }
   }
 }
 

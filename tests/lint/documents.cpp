@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 namespace aims::lint {
@@ -34,19 +33,6 @@ std::vector<fs::path> documents() {
   }
   std::sort(files.begin(), files.end());
   return files;
-}
-
-std::vector<Line> newest_changes() {
-  const std::regex code("`[^`]*`");
-  std::vector<Line> newest;
-  int sections = 0;
-  for (Line& line : read_lines("CHANGELOG.md")) {
-    sections += line.text.starts_with("## ") ? 1 : 0;
-    if (sections > 1) break;
-    line.text = std::regex_replace(line.text, code, "`...`");
-    newest.push_back(line);
-  }
-  return newest;
 }
 
 std::string place(const Line& line) { return line.source + ":" + std::to_string(line.number); }

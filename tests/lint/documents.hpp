@@ -23,9 +23,6 @@ std::vector<Line> read_lines(const std::filesystem::path& file);
 /// README.md, docs/*.md, paths below the source folder.
 std::vector<std::filesystem::path> documents();
 
-/// The newest section of CHANGELOG.md, without code spans: tables of renamed things name old words.
-std::vector<Line> newest_changes();
-
 /// "file:line" for messages.
 std::string place(const Line& line);
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "tests/bench/cli/command_line.hpp"
-#include "tests/lint/word_list.hpp"
 
 namespace aims {
 namespace {
@@ -88,18 +87,6 @@ TEST_F(Help, ListsEveryCommandAndItsSharedOptions) {
     EXPECT_TRUE(holds(aims((below ? parent + " " : "") + "--help"),
                       "\n  " + command.substr(below ? parent.size() + 1 : 0) + " "))
         << command;
-  }
-}
-
-TEST_F(Help, UsesStandardTerms) {
-  const auto words = lint::read_word_list("tests/lint/private_words.txt");
-  ASSERT_FALSE(words.empty());
-  for (const auto& [command, unused] : kCommands) {
-    const std::string help = aims(command + " --help").output;
-    for (const std::string& message :
-         lint::private_words_in(lint::split_lines("aims " + command + " --help", help), words)) {
-      ADD_FAILURE() << message;
-    }
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds documents against private_words.txt, and their links against the source tree.
+// Holds the links, pictures, paths and scenario names of documents against the source tree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,20 +8,12 @@
 #include <regex>
 #include <set>
 
-#include "tests/lint/word_list.hpp"
+#include "tests/lint/documents.hpp"
 
 namespace aims::lint {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kWords = "tests/lint/private_words.txt";
-
-void expect_no_private_words(const std::vector<Line>& lines) {
-  for (const std::string& message : private_words_in(lines, read_word_list(kWords))) {
-    ADD_FAILURE() << message;
-  }
-}
 
 /// The fragment that GitHub gives a heading: lower case, blanks as hyphens, no punctuation.
 std::string fragment_of(const std::string& heading) {
@@ -61,25 +53,6 @@ std::vector<Line> matches_in_documents(const std::regex& pattern) {
   }
   return found;
 }
-
-TEST(Words, AnEntryNamesLineWordAndReplacement) {
-  const auto found = private_words_in(split_lines("page.md", "fine\nthe share of scans\n"),
-                                      read_word_list(kWords));
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found.front(), "page.md:2: \"share\": write fraction");
-}
-
-TEST(Words, AnAllowedPhraseIsNoFinding) {
-  EXPECT_TRUE(private_words_in(split_lines("page.md", "all processes share the pages; each way"),
-                               read_word_list(kWords))
-                  .empty());
-}
-
-TEST(Words, DocumentsUseTheFieldsTerms) {
-  for (const fs::path& document : documents()) expect_no_private_words(read_lines(document));
-}
-
-TEST(Words, TheNewestChangesUseTheFieldsTerms) { expect_no_private_words(newest_changes()); }
 
 TEST(Documents, LinksAndPicturesExist) {
   for (const Line& link : matches_in_documents(std::regex(R"(\]\(([^)\s]+)\))"))) {
