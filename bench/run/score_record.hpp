@@ -13,7 +13,7 @@
 
 namespace aims {
 
-/// Version of the layout of scores.json; see docs/results.md.
+/// Version of the layout of scores.json; see docs/result-files.md.
 inline constexpr std::string_view kScoresSchema = "aims.scores/2";
 
 /// Keys of an estimator's success: within 5 % of the distance, and within 1 %.

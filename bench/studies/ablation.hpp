@@ -17,7 +17,7 @@
 
 namespace aims {
 
-/// Version of the layout of ablation.json; see docs/results.md.
+/// Version of the layout of ablation.json; see docs/result-files.md.
 inline constexpr std::string_view kAblationSchema = "aims.ablation/2";
 
 /// The scores that an ablation compares.

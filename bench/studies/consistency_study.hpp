@@ -13,7 +13,7 @@
 
 namespace aims {
 
-/// Version of the layout of consistency.json; see docs/results.md.
+/// Version of the layout of consistency.json; see docs/result-files.md.
 inline constexpr std::string_view kConsistencySchema = "aims.consistency/2";
 
 /// One estimator on one scenario.

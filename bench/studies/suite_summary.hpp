@@ -11,7 +11,7 @@
 
 namespace aims {
 
-/// Version of the layout of suite.json; see docs/results.md.
+/// Version of the layout of suite.json; see docs/result-files.md.
 inline constexpr std::string_view kSuiteSchema = "aims.suite/2";
 
 /// Labels of the estimators that any case ran: names in the registry's order, then the others.
@@ -29,8 +29,8 @@ Json failures_json(const Suite& suite);
 /// True when `folder` holds the suite.json of a suite.
 bool holds_suite(const std::filesystem::path& folder);
 
-/// Writes suite.json, suite.csv, suite.md and timings.csv; see docs/results.md. Only timings.csv has
-/// times in it.
+/// Writes suite.json, suite.csv, suite.md and timings.csv; see docs/result-files.md. Only timings.csv
+/// has times in it.
 Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder);
 
 }  // namespace aims
