@@ -55,6 +55,8 @@ class EskfEstimator : public Estimator {
   void fuse_standing(const Eigen::Vector3d& rate);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void fuse_scan(ScanDiagnostics& diagnostics);
+  ScanDiagnostics diagnostics_of_prediction();
+  void record_scan(ScanDiagnostics& diagnostics);
   void apply_calibration();
   bool legs_are_known() const;
   void fuse_ground_constraint();

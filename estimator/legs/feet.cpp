@@ -32,11 +32,6 @@ constexpr double kBackward = 2.0 / 3.0;
 /// Below this speed a robot has no direction of walking [m/s].
 constexpr double kWalking = 0.2;
 
-/// Bounds of the delay of joint angles [s], and its least variance [s^2], by which it follows a
-/// drift of the clocks.
-constexpr double kLargestDelay = 0.03;
-constexpr double kLeastDelayVariance = 1e-6;
-
 /// |y|^2 with the part of y counted less by which the foot moves backward.
 double misfit(const Eigen::Vector3d& innovation, const Eigen::Vector3d& predicted) {
   const Eigen::Vector3d ahead = predicted / std::max(predicted.norm(), kWalking);
@@ -105,15 +100,6 @@ Eigen::Vector3d mean_of_feet(const FootVelocities& feet, const FootWeights& weig
 double variance_of_feet(double weight, double rate_hz) {
   const double shared = std::max(1.0, 2.0 * kCorrelationTime * rate_hz);
   return shared * kFootSigma * kFootSigma / weight;
-}
-
-void JointDelay::update(const Eigen::Vector3d& innovation, const Eigen::Vector3d& acceleration,
-                        double variance) {
-  const double information = acceleration.squaredNorm() / variance;
-  const double posterior = variance_ / (1.0 + variance_ * information);
-  value_ += posterior * acceleration.dot(innovation) / variance;
-  value_ = std::clamp(value_, -kLargestDelay, kLargestDelay);
-  variance_ = std::max(posterior, kLeastDelayVariance);
 }
 
 }  // namespace aims

@@ -78,21 +78,8 @@ Eigen::Vector3d mean_of_feet(const FootVelocities& feet, const FootWeights& weig
 /// consecutive samples share over tau = 20 ms.
 double variance_of_feet(double weight, double rate_hz);
 
-/// The time by which joint angles are late on the IMU's clock. A late velocity differs from the
-/// predicted one by acceleration times delay, so the delay shows in the innovations.
-class JointDelay {
- public:
-  double value() const { return value_; }        ///< [s]
-  double variance() const { return variance_; }  ///< [s^2]
-
-  /// `innovation`: predicted minus measured velocity, with `variance` per axis; `acceleration`: the
-  /// derivative of the predicted velocity, same axes [m/s^2].
-  void update(const Eigen::Vector3d& innovation, const Eigen::Vector3d& acceleration,
-              double variance);
-
- private:
-  double value_ = 0.0;
-  double variance_ = 1e-4;
-};
+/// Joint angles are late by this on the IMU's clock, by encoders, their driver and the bus [s]
+/// (docs/decisions.md#each-foot-is-a-measurement).
+inline constexpr double kJointDelay = 6e-3;
 
 }  // namespace aims

@@ -12,16 +12,6 @@ Eigen::Vector3d up_in_base(const NominalState& state, const Pose& T_body_base) {
   return T_body_base.rotation.conjugate() * (state.rotation.conjugate() * Eigen::Vector3d::UnitZ());
 }
 
-/// The derivative of R^T v, body axes [m/s^2].
-Eigen::Vector3d acceleration_in_body(const NominalState& state, const InertialSegment& motion,
-                                     double gravity) {
-  const Eigen::Quaterniond R_body_odom = state.rotation.conjugate();
-  const Eigen::Vector3d rate = motion.angular_velocity - state.gyro_bias;
-  return motion.specific_force - state.accelerometer_bias -
-         R_body_odom * Eigen::Vector3d(0.0, 0.0, gravity) -
-         rate.cross(R_body_odom * state.velocity);
-}
-
 }  // namespace
 
 bool FeetOdometry::applies(const LegOdometrySample& sample) const {
@@ -58,13 +48,28 @@ std::array<bool, kLegCount> FeetOdometry::contacts_of(const LegOdometrySample& s
   return contacts_reported_ ? sample.contact : all;
 }
 
+/// Feet are weighted as rigid legs have them: with the present compliance the vertical drift would
+/// depend on itself, and the estimate would run away.
+void FeetOdometry::learn_compliance(const JointState& joints, const Eigen::Vector3d& turning,
+                                    const Eigen::Vector3d& up, const FootSelection& select) {
+  const FootVelocities rigid = velocities_from_feet(joints, 0.0, turning, up, rig_.leg_geometry);
+  const FootWeights weights = select.weights(rigid);
+  if (total_weight(weights) == 0.0) return;
+  const JointState yielding{joints.angle, joints.yield_rate, JointVector::Zero(), 0.0};
+  const FootVelocities change =
+      velocities_from_feet(yielding, 0.0, Eigen::Vector3d::Zero(), up, rig_.leg_geometry);
+  const double climb = vertical_ == VerticalReference::kFilter ? up.dot(select.predicted) : 0.0;
+  compliance_.update(up.dot(mean_of_feet(rigid, weights)) - climb,
+                     up.dot(mean_of_feet(change, weights)), rig_.leg_rate_hz);
+}
+
 std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& sample,
                                                        const Belief& belief,
                                                        const ImuHistory& imu) {
   const std::optional<JointState> joints = joints_of_packet(sample, belief.state);
   if (!joints) return std::nullopt;
   const auto [state, motion] =
-      instant_before(sample.stamp, joints->age + delay_.value(), belief.state, imu);
+      instant_before(sample.stamp, joints->age + kJointDelay, belief.state, imu);
   const auto model = [&](const LegVelocity& legs, double variance) {
     return leg_velocity_model(state, rig_.T_body_base, motion.angular_velocity, legs,
                               variance * Eigen::Matrix3d::Identity());
@@ -80,22 +85,15 @@ std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& 
   const Eigen::Vector3d up = up_in_base(state, rig_.T_body_base);
   const FootVelocities feet =
       velocities_from_feet(*joints, compliance_.value(), turning, up, rig_.leg_geometry);
-  const FootWeights weights =
-      weights_of_feet(feet, contacts_of(sample), predicted, predicted_variance);
+  const FootSelection select{contacts_of(sample), predicted, predicted_variance};
+  const FootWeights weights = select.weights(feet);
   const double weight = total_weight(weights);
   if (weight == 0.0) return std::nullopt;
   velocity_.measured = mean_of_feet(feet, weights);
   const double variance = variance_of_feet(weight, rig_.leg_rate_hz);
   const LinearMeasurement measurement = model(velocity_, variance);
 
-  delay_.update(measurement.residual, R_base_body * acceleration_in_body(state, motion, gravity_),
-                predicted_variance + variance);
-  const JointState yielding{joints->angle, joints->yield_rate, JointVector::Zero(), 0.0};
-  const FootVelocities change =
-      velocities_from_feet(yielding, 0.0, Eigen::Vector3d::Zero(), up, rig_.leg_geometry);
-  const double climb = vertical_ == VerticalReference::kFilter ? up.dot(predicted) : 0.0;
-  compliance_.update(up.dot(velocity_.measured) - climb, up.dot(mean_of_feet(change, weights)),
-                     rig_.leg_rate_hz);
+  learn_compliance(*joints, turning, up, select);
   return measurement;
 }
 

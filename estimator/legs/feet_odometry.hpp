@@ -45,9 +45,20 @@ class FeetOdometry {
     NominalState state;
     InertialSegment motion;
   };
+  /// What the weights of feet depend on besides their velocities.
+  struct FootSelection {
+    std::array<bool, kLegCount> contact;
+    Eigen::Vector3d predicted;  ///< velocity of the base, base axes [m/s]
+    double variance;            ///< of it, per axis [m^2/s^2]
+    FootWeights weights(const FootVelocities& feet) const {
+      return weights_of_feet(feet, contact, predicted, variance);
+    }
+  };
   Instant instant_before(Time stamp, double age, const NominalState& state, const ImuHistory& imu);
   std::optional<JointState> joints_of_packet(const LegOdometrySample& sample,
                                              const NominalState& state);
+  void learn_compliance(const JointState& joints, const Eigen::Vector3d& turning,
+                        const Eigen::Vector3d& up, const FootSelection& select);
   std::array<bool, kLegCount> contacts_of(const LegOdometrySample& sample);
 
   FeetConfig config_;
@@ -55,7 +66,6 @@ class FeetOdometry {
   double gravity_;
   VerticalReference vertical_;
   JointDifference difference_;
-  JointDelay delay_;
   JointCompliance compliance_;
   StrideMeans stride_means_;  ///< of the predicted velocity: that of a foot is too noisy
   LegVelocity velocity_;

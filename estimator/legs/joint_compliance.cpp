@@ -7,17 +7,19 @@
 namespace aims {
 namespace {
 
-/// Times over which load and vertical velocity are averaged [s]: several strides.
+/// Time over which the load is averaged [s]: several strides.
 constexpr double kLoadTime = 2.0;
-constexpr double kClimbTime = 1.0;
+/// Time of walking over which the compliance is learned [s]. It is a property of the robot; later,
+/// without LiDAR, drift of pitch and speed would pass for it.
+constexpr double kLearningTime = 20.0;
 
-/// Error of the mean vertical velocity by rigid feet over kClimbTime: lengths of links, rolling,
-/// rubber that yields [m/s].
-constexpr double kClimbSigma = 0.08;
+/// Deviation of the compliance about its prior [rad/m].
+constexpr double kSigma = 0.4;
+/// Deviation of the mean vertical velocity by rigid legs [m/s].
+constexpr double kClimbSigma = 0.01;
 
 /// Softer joints do not carry a robot [rad/m].
 constexpr double kLargestCompliance = 3.0;
-constexpr double kLeastVariance = 1e-4;
 
 double gain_of(double time, double rate_hz) { return 1.0 - std::exp(-1.0 / (time * rate_hz)); }
 
@@ -46,13 +48,16 @@ JointVector JointCompliance::yield(const LegOdometrySample& sample, const Eigen:
 }
 
 void JointCompliance::update(double climb, double change, double rate_hz) {
-  const double gain = gain_of(kClimbTime, rate_hz);
+  if (walked_ >= kLearningTime) return;
+  walked_ = std::min(walked_ + 1.0 / rate_hz, kLearningTime);
+  const double gain = 1.0 / (walked_ * rate_hz);
   climb_ += gain * (climb - climb_);
   change_ += gain * (change - change_);
-  const double noise = kClimbSigma * kClimbSigma * std::max(1.0, 2.0 * kClimbTime * rate_hz);
-  const double posterior = variance_ / (1.0 + variance_ * change_ * change_ / noise);
-  value_ = std::clamp(value_ - posterior * change_ * climb_ / noise, 0.0, kLargestCompliance);
-  variance_ = std::max(posterior, kLeastVariance);
+  const double response = kSigma * kSigma * change_;
+  const double noise = kClimbSigma * kClimbSigma * kLearningTime / walked_;
+  const double beyond_prior = climb_ + change_ * kPrior;
+  value_ = std::clamp(kPrior - response * beyond_prior / (response * change_ + noise), 0.0,
+                      kLargestCompliance);
 }
 
 }  // namespace aims

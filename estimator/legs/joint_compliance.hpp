@@ -14,27 +14,31 @@ namespace aims {
 /// A leg that yields gives way at touchdown and springs back after the foot has left the ground,
 /// where it no longer counts: by its encoders the robot sinks, or climbs, with every step. So the
 /// mean vertical velocity by the feet, against the true one, shows W / K; what happens within a
-/// stance does not, since other errors of a foot look alike there.
+/// stance does not, since other errors of a foot look alike there. Lengths of links, rolling and
+/// rubber let rigid legs drift too, by a constant that no time averages out: W / K is the most
+/// probable value under its prior and that of this constant.
 class JointCompliance {
  public:
-  double value() const { return value_; }        ///< W / K [rad/m]
-  double variance() const { return variance_; }  ///< [rad^2/m^2]
+  double value() const { return value_; }  ///< W / K [rad/m]
 
   /// Angles of the links beyond their encoders for W / K = 1 rad/m [m], by the loads of `sample`;
   /// `up` in base axes. Zero without loads. Call once per sample: it follows the mean load.
   JointVector yield(const LegOdometrySample& sample, const Eigen::Vector3d& up,
                     const LegGeometry& geometry, double rate_hz);
 
-  /// `climb`: vertical velocity by the feet minus the true one [m/s]; `change`: its derivative by
-  /// W / K [m^2/(rad s)]; at `rate_hz` [Hz].
+  /// `climb`: vertical velocity by the feet of a rigid leg minus the true one [m/s]; `change`: its
+  /// derivative by W / K [m^2/(rad s)]; at `rate_hz` [Hz]. Learns for 20 s, then stays.
   void update(double climb, double change, double rate_hz);
 
  private:
-  double value_ = 0.0;
-  double variance_ = 0.7 * 0.7;  ///< legs of 100 N m/rad under 125 N have 1.2 rad/m
-  double mean_load_ = 0.0;       ///< of all feet together
-  double climb_ = 0.0;           ///< mean over a second [m/s]
-  double change_ = 0.0;          ///< likewise
+  double value_ = kPrior;
+  double mean_load_ = 0.0;  ///< of all feet together
+  double walked_ = 0.0;     ///< time of the means [s]
+  double climb_ = 0.0;      ///< mean
+  double change_ = 0.0;     ///< mean
+
+  /// Legs of a Unitree Go1 yield less than encoders and rubber show; soft ones have 1.5 rad/m.
+  static constexpr double kPrior = 0.05;
 };
 
 }  // namespace aims

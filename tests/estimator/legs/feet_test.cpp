@@ -125,21 +125,5 @@ TEST(FeetWeights, ANonFiniteFootGivesNoMeasurement) {
   EXPECT_EQ(total_weight(weights_of_feet(feet, kAllStand, Eigen::Vector3d::Zero(), 0.0)), 0.0);
 }
 
-// A velocity that is late by d differs by acceleration times d.
-TEST(JointDelay, IsLearnedFromLateVelocities) {
-  RandomStream random(3, "noise");
-  for (double late : {-0.004, 0.0, 0.008}) {
-    JointDelay delay;
-    for (int i = 0; i < 20000; ++i) {
-      const double phase = 2.0 * M_PI * 4.0 * i / kRate;
-      const Eigen::Vector3d acceleration(3.0 * std::sin(phase), 0.0, 6.0 * std::cos(2.0 * phase));
-      const Eigen::Vector3d innovation =
-          (late - delay.value()) * acceleration + 0.1 * random.normal3();
-      delay.update(innovation, acceleration, 0.1);
-    }
-    EXPECT_NEAR(delay.value(), late, 6e-4);
-  }
-}
-
 }  // namespace
 }  // namespace aims

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of EskfEstimator that fuses leg packets.
+#include <algorithm>
+
+#include "estimator/aims/eskf_estimator.hpp"
+#include "estimator/legs/leg_velocity_model.hpp"
+
+namespace aims {
+namespace {
+
+/// Before their scale is known legs weigh as in `tfs_plus`, by its defaults: so little that scans
+/// fit each other (docs/decisions.md).
+const LegConfig kLegsOfUnknownScale;
+
+/// What feet do not correct. Feet that creep and roll by more than their model says would turn the
+/// robot; and scans alone measure the scale, which feet would draw from their changes of speed.
+GainMask gain_of_feet(const NominalState& state) {
+  const Eigen::Vector3d up = state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  GainMask mask;
+  mask.legs = false;
+  mask.gyro_bias = false;
+  mask.rotation -= up * up.transpose();
+  return mask;
+}
+
+}  // namespace
+
+void EskfEstimator::correct(const LegOdometrySample& sample) {
+  if (!config_.legs.enabled) return report_pose_without_scan(sample.stamp);
+  if (sample.stamp < time_) {
+    ++result_.counts["leg.before_start"];
+    return;
+  }
+  const Duration period = from_seconds(1.0 / rig_.leg_rate_hz);
+  if (!last_leg_ && feet_.applies(sample)) expect_feet();
+  if (last_leg_) {
+    const auto lost = static_cast<int>((sample.stamp - last_leg_->stamp - period / 2) / period);
+    if (lost > 0) result_.counts["leg.lost"] += lost;
+  }
+  repeat_lost_legs(sample.stamp);
+  fuse_leg_velocity(sample);
+  last_leg_ = sample;
+  report_pose_without_scan(sample.stamp);
+}
+
+/// The scale of legs that are measured foot by foot is known better than that of reported ones.
+void EskfEstimator::expect_feet() {
+  if (!config_.leg_states.enabled) return;
+  const double sigma = std::min(kFeetScaleSigma, config_.leg_states.scale_sigma);
+  block(belief_.covariance, ErrorState::kLegScale, ErrorState::kLegScale) =
+      sigma * sigma * Eigen::Matrix3d::Identity();
+}
+
+/// Zero-order hold of lost leg packets, for the variant that does not notice the loss.
+void EskfEstimator::repeat_lost_legs(Time until) {
+  if (!config_.legs.repeat_lost || !last_leg_) return;
+  const Duration period = from_seconds(1.0 / rig_.leg_rate_hz);
+  while (last_leg_->stamp + period + period / 2 < until) {
+    last_leg_->stamp += period;
+    fuse_leg_velocity(*last_leg_);
+    ++result_.counts["leg.held"];
+  }
+}
+
+/// The velocity that the robot reports, with the covariance of eq. (11). Before their scale is
+/// known legs weigh little.
+LinearMeasurement EskfEstimator::reported_velocity(const LegOdometrySample& sample) {
+  const LegConfig& legs = mapping_ ? kLegsOfUnknownScale : config_.legs;
+  const Eigen::Matrix3d noise =
+      leg_velocity_noise(legs, rig_.leg_rate_hz, belief_.state.velocity.norm()) /
+      lidar_update_.gamma_leg();
+  const Eigen::Vector3d rate =
+      queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
+  velocity_ = stride_means_.update(sample.stamp, sample.linear_velocity);
+  return leg_velocity_model(belief_.state, rig_.T_body_base, rate, velocity_, noise);
+}
+
+/// While the robot stands, zero velocity and zero rate replace the leg velocity; true then. The leg
+/// states are not corrected, since they describe walking.
+bool EskfEstimator::fuse_zero_velocity(const LegOdometrySample& sample) {
+  if (!config_.zero_velocity.enabled) return false;
+  const bool standing = zero_velocity_.update(
+      sample, queue_.imu().samples(), belief_.state.gyro_bias, queue_.imu().noise().white());
+  if (!standing) return false;
+  const std::optional<ImuStatistics> statistics = zero_velocity_.due_measurement();
+  if (!statistics) return true;
+  ++result_.counts["zero_velocity.used"];
+  fuse_standing(statistics->rate);
+  return true;
+}
+
+/// Zero velocity and zero rate; `rate` is the mean reading of the gyro, body axes [rad/s].
+void EskfEstimator::fuse_standing(const Eigen::Vector3d& rate) {
+  const GainMask without_legs{.legs = false};
+  const auto still = [](const Belief& belief) {
+    return zero_velocity_model(belief.state, kSigmaZeroVelocity);
+  };
+  const auto not_turning = [&](const Belief& belief) {
+    return zero_rate_model(belief.state, rate, kSigmaZeroRate);
+  };
+  accept(belief_, lidar_update_.fuse_velocity(belief_, still(belief_), without_legs));
+  accept(belief_, lidar_update_.fuse_velocity(belief_, not_turning(belief_), without_legs));
+  if (!mapping_) return;
+  accept(*mapping_, fuse(*mapping_, still(*mapping_), without_legs));
+  accept(*mapping_, fuse(*mapping_, not_turning(*mapping_), without_legs));
+}
+
+void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
+  predict_to(sample.stamp);
+  const bool by_feet = feet_.applies(sample);
+  const std::optional<LinearMeasurement> feet =
+      by_feet ? feet_.measure(sample, belief_, queue_.imu()) : std::nullopt;
+  if (fuse_zero_velocity(sample) || (by_feet && !feet)) return;
+  const LinearMeasurement measurement = by_feet ? *feet : reported_velocity(sample);
+  const LegVelocity& legs = by_feet ? feet_.velocity() : velocity_;
+  health_.leg_residual(uncorrected_residual(measurement, belief_.state, legs));
+  leg_innovation_ = measurement.residual.norm();
+  ++leg_updates_;
+  const GainMask mask = by_feet ? gain_of_feet(belief_.state) : GainMask();
+  accept(belief_, lidar_update_.fuse_velocity(belief_, measurement, mask));
+  if (!mapping_) return;
+  accept(*mapping_, fuse(*mapping_, moved_to(measurement, belief_.state, mapping_->state), mask));
+}
+
+}  // namespace aims
