@@ -146,6 +146,7 @@ void EskfEstimator::correct(const LidarScanPtr& scan) {
   if (!map_.empty()) fuse_scan(diagnostics);
   if (config_.ground_constraint.enabled) fuse_ground_constraint();
   extend_map();
+  points_.keep(matched_pose());
   report_pose(scan->end);
   record_scan(diagnostics);
 }
@@ -160,6 +161,7 @@ ScanDiagnostics EskfEstimator::diagnostics_of_prediction() {
 }
 
 void EskfEstimator::record_scan(ScanDiagnostics& diagnostics) {
+  if (mapping_) ++result_.counts["map.before_legs_known"];
   health_.scan(diagnostics, points_.to_match().size());
   last_scan_ = time_;
   leg_free_.restart(matching(), time_);
@@ -293,7 +295,6 @@ void EskfEstimator::forget_map() {
 }
 
 void EskfEstimator::extend_map() {
-  if (mapping_) ++result_.counts["map.before_legs_known"];
   const Pose pose = matched_pose();
   const Eigen::Matrix3f R = pose.R().cast<float>();
   const Eigen::Vector3f t = pose.translation.cast<float>();
@@ -308,7 +309,6 @@ void EskfEstimator::extend_map() {
   const bool both_halves = map_.empty() && !stood_still_;
   map_.insert(mapped_, t, covariance);
   if (both_halves) map_.insert(mapped_, t, covariance);
-  points_.keep(pose);
 }
 
 void EskfEstimator::accept(Belief& belief, const Belief& updated) {
