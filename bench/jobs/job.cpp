@@ -52,9 +52,7 @@ std::string_view name_of(JobOutcome outcome) {
 
 std::optional<double> score_in(const JobResult& result, const std::string& key) {
   if (result.outcome != JobOutcome::kDone || !result.scores.is_object()) return std::nullopt;
-  RunRecord record;
-  record.scores["estimators"]["it"] = result.scores;
-  return find_score(record, "it", key);
+  return number_at(result.scores, key);
 }
 
 Json job_json(const Job& job, const JobResult& result) {

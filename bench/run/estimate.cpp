@@ -158,7 +158,9 @@ Result<StreamEnd> stream_into_log(RecordingReader& reader, std::vector<TimedEsti
                                   const EstimateOptions& options,
                                   const std::function<bool()>& observed, ScanKeeper& scans,
                                   EstimateResult& result) {
-  auto log = EstimateLog::create(options.folder, estimators);
+  std::vector<std::string> reasons;
+  for (const ReadingWarning& each : result.setup.warnings) reasons.push_back(each.reason);
+  auto log = EstimateLog::create(options.folder, estimators, std::move(reasons));
   if (!log) return tl::unexpected(log.error());
   const bool in_memory = options.folder.empty();
   Result<void> taken;

@@ -100,17 +100,6 @@ Json weak_axis_json(const std::vector<WeakAxisScore>& scores) {
   return json;
 }
 
-/// The number at a dotted key; a flag is 1 or 0.
-std::optional<double> number_at(const Json& json, const std::string& key) {
-  std::optional<double> found;
-  visit_leaves(json, "", [&](const std::string& name, const Json& value) {
-    if (name != key) return;
-    if (value.is_number()) found = value.get<double>();
-    if (value.is_boolean()) found = value.get<bool>() ? 1.0 : 0.0;
-  });
-  return found;
-}
-
 /// What of a record holds whoever estimates.
 Json run_part(const RunRecord& record) {
   Json part = Json::object();
@@ -190,6 +179,16 @@ void visit_leaves(const Json& json, const std::string& prefix,
       visit(full, value);
     }
   }
+}
+
+std::optional<double> number_at(const Json& json, const std::string& key) {
+  std::optional<double> found;
+  visit_leaves(json, "", [&](const std::string& name, const Json& value) {
+    if (name != key) return;
+    if (value.is_number()) found = value.get<double>();
+    if (value.is_boolean()) found = value.get<bool>() ? 1.0 : 0.0;
+  });
+  return found;
 }
 
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,

@@ -20,6 +20,9 @@ inline constexpr std::string_view kScoresSchema = "aims.scores/2";
 inline constexpr const char* kSuccessKey = "success";
 inline constexpr const char* kStrictSuccessKey = "success_1_percent";
 
+/// The number, or the truth value as 0 or 1, at a dotted key of scores; none without one.
+std::optional<double> number_at(const Json& json, const std::string& key);
+
 /// The number, or null for none and for what is not finite.
 Json json_of(const std::optional<double>& value);
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures by matplotlib, where it is installed."""
 
+from . import _core
 from .errors import optional
 
 
@@ -9,8 +10,12 @@ def plot_trajectories(trajectories, axes=None):
     if axes is None:
         pyplot = optional("matplotlib.pyplot", "python3-matplotlib", "plot_trajectories()")
         axes = pyplot.figure(layout="constrained").add_subplot()
+    styles = dict(zip(trajectories, _core.line_styles([str(name) for name in trajectories])))
     for name, trajectory in trajectories.items():
-        style = {"color": "0.6", "linewidth": 4} if name == "truth" else {"linewidth": 1.5}
+        color, dashes = styles[name]
+        style = {"color": color, "linewidth": 1.5, "dashes": dashes} if dashes else {"color": color}
+        if name == "truth":
+            style = {"color": "0.6", "linewidth": 4}
         axes.plot(trajectory.positions[:, 0], trajectory.positions[:, 1], label=name, **style)
     axes.set(xlabel="x [m]", ylabel="y [m]")
     axes.set_aspect("equal", adjustable="datalim")

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/files/config_dump.hpp"
+#include "core/series_style.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "estimator/registry.hpp"
 #include "python/src/measurements.hpp"
@@ -18,6 +19,19 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 std::unique_ptr<EstimatorConfig> config_of(const std::string& name, const Settings& settings) {
   if (auto known = check_estimator_name(name); !known) raise(known.error().message);
   return value_or_raise(config_with({name, name, settings}, EstimatorConfigs()));
+}
+
+/// Colour "#rrggbb" and dash lengths [px] of a line for each label, as in all pictures.
+std::vector<std::pair<std::string, std::vector<double>>> line_styles(
+    const std::vector<std::string>& labels) {
+  std::vector<std::pair<std::string, std::vector<double>>> styles;
+  for (const std::size_t index : series_styles(labels)) {
+    const SeriesStyle style = series_style(index);
+    const auto dashes = dash_lengths(style.pattern);
+    styles.emplace_back(fmt::format("#{:06x}", style.light),
+                        std::vector<double>(dashes.begin(), dashes.end()));
+  }
+  return styles;
 }
 
 /// An estimator that threads may use one after the other.
@@ -211,6 +225,7 @@ void bind_adders(py::class_<Guarded>& estimator) {
 
 void bind_estimator(py::module_& module) {
   module.def("estimators", estimators, "Names and descriptions of all estimators, as a dict.");
+  module.def("line_styles", line_styles, py::arg("labels"));
   module.def("parameters", parameters_of, py::arg("name"), py::arg("settings"));
   py::class_<Guarded> estimator(module, "Estimator",
                                 "An estimator of the registry, fed by the caller's own loop.");

@@ -11,6 +11,7 @@
 #include "render/page/page_template.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_page.hpp"
+#include "render/page/seeds_page.hpp"
 #include "render/page/suite_page.hpp"
 #include "render/page/tuning_page.hpp"
 #include "render/page/tuning_source.hpp"
@@ -20,25 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders inside `folder` that hold a run's trajectories, by name.
-std::vector<fs::path> runs_in(const fs::path& folder) {
-  std::vector<fs::path> runs;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const bool is_seed = entry.path().filename().string().starts_with("seed-");
-    if (is_seed && holds_run(entry.path()) && fs::exists(entry.path() / "truth.tum")) {
-      runs.push_back(entry.path());
-    }
-  }
-  std::sort(runs.begin(), runs.end());
-  return runs;
-}
-
 std::vector<fs::path> runs_of_suite(const fs::path& suite) {
   std::vector<fs::path> runs;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(suite / "runs", ignored)) {
-    for (fs::path& run : runs_in(entry.path())) runs.push_back(std::move(run));
+    for (fs::path& run : seed_folders(entry.path())) runs.push_back(std::move(run));
   }
   std::sort(runs.begin(), runs.end());
   return runs;
@@ -57,6 +44,7 @@ Result<PageData> page_of(const fs::path& folder, const PageOptions& options) {
   if (holds_suite(folder)) return suite_page(folder, options);
   if (holds_tuning(folder)) return tuning_page(folder, options);
   if (holds_run(folder)) return run_page(folder);
+  if (!seed_folders(folder).empty()) return seeds_page(folder, options);
   return failure(
       fmt::format("{}: holds no results: expected scores.json (aims run, score), estimate.json "
                   "(aims estimate), "
@@ -83,7 +71,7 @@ Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& opti
                                  const DrawObserver& observer) {
   WrittenPages written_pages;
   const bool suite = holds_suite(folder);
-  const std::vector<fs::path> runs = suite ? runs_of_suite(folder) : runs_in(folder);
+  const std::vector<fs::path> runs = suite ? runs_of_suite(folder) : seed_folders(folder);
   for (const fs::path& run : runs) {
     if (suite && is_up_to_date(run)) continue;
     announce(observer, run / kPageFile);
@@ -95,9 +83,7 @@ Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& opti
       return tl::unexpected(written.error());
     }
   }
-  const bool only_seeds = !suite && !runs.empty() && !holds_run(folder);
-  if (only_seeds) return written_pages;
-  const bool results = suite || holds_tuning(folder) || holds_run(folder);
+  const bool results = suite || holds_tuning(folder) || holds_run(folder) || !runs.empty();
   if (results) announce(observer, folder / kPageFile);
   auto written = write_page(folder, folder / kPageFile, options);
   if (!written) return tl::unexpected(written.error());

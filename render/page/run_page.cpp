@@ -11,6 +11,7 @@
 
 #include "bench/run/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/series_style.hpp"
 #include "render/page/json_access.hpp"
 #include "render/page/map_cloud.hpp"
 #include "render/page/page_pictures.hpp"
@@ -18,6 +19,7 @@
 #include "render/page/run_series.hpp"
 #include "render/page/scan_series.hpp"
 #include "render/page/scene_geometry.hpp"
+#include "render/page/series_styles.hpp"
 #include "render/page/surface_distance.hpp"
 #include "sim/environment/scene_config.hpp"
 
@@ -31,9 +33,10 @@ const std::vector<PagePicture> kPictures = {
     {"robot_start", "The robot near the start"},
     {"robot_middle", "The robot half-way to its farthest point"},
     {"robot_turn", "The robot at its farthest point from the start"},
-    {"trajectories", "Trajectories over the plan; height and error over the distance travelled"}};
+    {"trajectories", "Trajectories over the plan; height and error over the distance travelled"},
+    {"errors", "Position, height and heading error over time"}};
 /// Pictures beyond this size are left out [bytes].
-constexpr std::uintmax_t kLargestPicture = 256 * 1024;
+constexpr std::uintmax_t kLargestPicture = 512 * 1024;
 
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word) {
@@ -74,6 +77,10 @@ Json body_json(const RobotConfig& robot) {
           {"height", robot.gait.body_height}};
 }
 
+bool is_corridor(const RunFolder& run) {
+  return run.scenario && run.scenario->simulation.scene.kind == SceneKind::kCorridor;
+}
+
 Json scenario_json(const RunFolder& run) {
   const bool recorded = run.estimate.is_object();
   const Json& record = recorded ? run.estimate : run.scores;
@@ -83,6 +90,7 @@ Json scenario_json(const RunFolder& run) {
           {"simulated_s", member(record, recorded ? "recorded_s" : "simulated_s")},
           {"complete", member(record, "complete")},
           {"robot", member(run.scores, "robot")},
+          {"corridor", is_corridor(run)},
           {"body", run.scenario ? body_json(run.scenario->simulation.robot) : Json()}};
 }
 
@@ -122,6 +130,9 @@ Result<Json> estimators_json(const RunFolder& run, const Scene* scene, double st
       scene != nullptr ? std::optional<SurfaceDistance>(std::in_place, *scene) : std::nullopt;
   const auto maps = static_cast<std::size_t>(
       std::ranges::count_if(run.estimators, [](const auto& each) { return !each.map.empty(); }));
+  std::vector<std::string> names;
+  for (const EstimatorFiles& each : run.estimators) names.push_back(each.name);
+  const std::vector<std::size_t> styles = series_styles(names);
   Json list = Json::array();
   for (const EstimatorFiles& each : run.estimators) {
     auto series = series_json(each, run, start, page);
@@ -130,7 +141,7 @@ Result<Json> estimators_json(const RunFolder& run, const Scene* scene, double st
         {{"name", each.name},
          {"diverged_at", diverged_at_json(run, each.name, start)},
          {"health", health_json(run, each.name)},
-         {"colour_index", list.size()},
+         {"colour_index", styles[list.size()]},
          {"series", std::move(*series)},
          {"map",
           map_json(each.map, start_anchor(each.trajectory, run.truth, run.scoring),
@@ -173,6 +184,8 @@ Result<PageData> run_page(const fs::path& folder) {
       {"title", page.title},
       {"version", member(run->scores.is_object() ? run->scores : run->estimate, "version")},
       {"t0_s", start},
+      {"palette", palette_json()},
+      {"warnings", member(run->estimate, "warnings")},
       {"scenario", scenario_json(*run)},
       {"command", command_json(*run)},
       {"config_yaml", run->config_yaml.empty() ? Json() : Json(run->config_yaml)},

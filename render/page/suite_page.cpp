@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "bench/jobs/results.hpp"
-#include "bench/run/validity.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/paper_study.hpp"
 #include "bench/studies/run_folder.hpp"
@@ -21,13 +19,14 @@
 #include "render/page/json_access.hpp"
 #include "render/page/links.hpp"
 #include "render/page/page_pictures.hpp"
+#include "render/page/series_styles.hpp"
+#include "render/page/suite_runs.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRunPage = "page.html";
 /// Pictures of the paper's experiments beyond this size are left out [bytes].
 constexpr std::uintmax_t kLargestPicture = 2 * 1024 * 1024;
 
@@ -51,26 +50,6 @@ Result<void> check_scenarios(const Json& suite, const fs::path& file) {
   return {};
 }
 
-/// What the page shows of one estimator on one seed.
-Json outcome_of(const RunRecord& run, const std::string& estimator) {
-  const Json& scores = estimator_in(run, estimator);
-  Json outcome = {{"success", member(scores, "success")},
-                  {"diverged_at_s", json_of(find_score(run, estimator, "diverged_at_s"))},
-                  {"diverged_reason", text_in(scores, "diverged_reason")}};
-  for (const HeadlineScore& score : kHeadlineScores) {
-    outcome[score.key] = json_of(find_score(run, estimator, score.key));
-  }
-  return outcome;
-}
-
-/// The link to a run's own page; null when none lies there.
-Json run_link(const fs::path& run_folder, const fs::path& page_folder) {
-  std::error_code ignored;
-  if (!fs::exists(run_folder / kRunPage, ignored)) return {};
-  const fs::path target = fs::weakly_canonical(run_folder, ignored) / kRunPage;
-  return link_to(target.lexically_relative(fs::weakly_canonical(page_folder, ignored)));
-}
-
 /// The record of that seed; null when there is none.
 const RunRecord* record_in(const StoredResults& results, const std::string& scenario,
                            std::uint64_t seed) {
@@ -89,32 +68,24 @@ Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_fol
     const std::string name = text_in(scenario, "name");
     for (const Json& json : scenario["seeds"]) {
       const auto seed = json.get<std::uint64_t>();
-      Json run = {{"scenario", name},
-                  {"seed", seed},
-                  {"href", run_link(suite_run_folder(folder, name, seed), page_folder)},
-                  {"invalid", Json()},
-                  {"estimators", Json::object()}};
       const RunRecord* record = record_in(results, name, seed);
       if (record == nullptr) {
         notes.push_back(fmt::format("{}, seed {}: no results of its jobs", name, seed));
-      } else {
-        if (const auto reason = invalid_reason(record->scores)) run["invalid"] = *reason;
-        for (const auto& [estimator, unused] : record->scores["estimators"].items()) {
-          run["estimators"][estimator] = outcome_of(*record, estimator);
-        }
       }
-      runs.push_back(std::move(run));
+      runs.push_back(suite_run_json(name, seed, record, suite_run_folder(folder, name, seed),
+                                    page_folder));
     }
   }
   return runs;
 }
 
-Json headline_scores() {
-  Json scores = Json::array();
-  for (const HeadlineScore& score : kHeadlineScores) {
-    scores.push_back({{"key", score.key}, {"title", score.title}, {"unit", score.unit}});
-  }
-  return scores;
+/// The name that the folder was given; of the one that `aims suite` takes by itself, the content.
+std::string title_of(const Json& suite, const fs::path& folder) {
+  const std::string name = folder_name(folder);
+  if (name != "suite") return name;
+  const std::size_t scenarios = suite["scenarios"].size();
+  return fmt::format("{} scenario{}, {} estimators", scenarios, scenarios == 1 ? "" : "s",
+                     suite_estimators(suite).size());
 }
 
 /// The ROC part: what is asked for, else what the folder has, else null.
@@ -168,17 +139,6 @@ Result<Json> comparison_of(const fs::path& folder, const fs::path& against) {
 
 }  // namespace
 
-std::string link_to(const fs::path& relative) {
-  std::string link;
-  for (const char c : relative.generic_string()) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = byte < 128 && (std::isalnum(byte) != 0 ||
-                                      std::string("-._~/").find(c) != std::string::npos);
-    link += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-  }
-  return link;
-}
-
 Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) {
   if (auto ok = check_links(folder); !ok) return tl::unexpected(ok.error());
   const fs::path file = folder / "suite.json";
@@ -188,7 +148,7 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
     return tl::unexpected(checked.error());
   }
   PageData page;
-  page.title = "Suite " + folder_name(folder);
+  page.title = title_of(*suite, folder);
   Json notes = Json::array();
   auto detectors = detectors_of(folder, options.detectors, page, notes);
   if (!detectors) return tl::unexpected(detectors.error());
@@ -200,9 +160,11 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
   Json runs = runs_of(*suite, folder, page_folder, notes);
   page.json = {{"schema", kPageSchema},         {"kind", "suite"},
                {"title", page.title},           {"version", text_in(*suite, "version")},
-               {"headline", headline_scores()}, {"runs", std::move(runs)},
+               {"headline", headline_scores_json()}, {"runs", std::move(runs)},
                {"roc", std::move(*detectors)},  {"compare", std::move(*comparison)},
                {"paper", std::move(*paper)},    {"notes", std::move(notes)}};
+  page.json["palette"] = palette_json();
+  page.json["styles"] = styles_json(suite_estimators(*suite));
   page.json["suite"] = std::move(*suite);
   return page;
 }

@@ -18,6 +18,7 @@
 #include "bench/tuning/sweep_summary.hpp"
 #include "render/page/json_access.hpp"
 #include "render/page/links.hpp"
+#include "render/page/series_styles.hpp"
 #include "render/page/tuning_analyses.hpp"
 
 namespace aims {
@@ -185,6 +186,13 @@ Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores,
           {"held_out", page.u8(held_out)}, {"scores", page.f32(values)}};
 }
 
+/// What was varied: "Sweep of degeneracy.eta and degeneracy.kappa".
+std::string title_of(const TuningSource& source, const VariedParameters& varied) {
+  std::vector<std::string> keys;
+  for (const ParameterRange& each : varied.ranges) keys.push_back(each.key);
+  return fmt::format("{} of {}", source.tuned ? "Tuning" : "Sweep", fmt::join(keys, ", "));
+}
+
 Json sequences_json(const std::vector<ResponseCase>& sequences) {
   Json json = Json::array();
   for (const ResponseCase& each : sequences) {
@@ -232,12 +240,13 @@ Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*option
   collect(source->held_out, *varied, true, all);
   const auto scores = scores_of(*source, all);
   PageData page;
-  page.title = (source->tuned ? "Tuning " : "Sweep ") + folder_name(folder);
+  page.title = title_of(*source, *varied);
   auto estimators = estimators_json(*source, *varied, all, scores, page);
   if (!estimators) return tl::unexpected(estimators.error());
   page.json = {{"schema", kPageSchema},
                {"kind", "tuning"},
                {"title", page.title},
+               {"palette", palette_json()},
                {"source", source->tuned ? "tune" : "sweep"},
                {"plan", source->plan},
                {"jobs", counts_json(source->units)},

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -32,10 +33,7 @@ void set_stroke(cairo_t* cr, const Stroke& stroke) {
   set_color(cr, stroke.color);
   cairo_set_line_width(cr, stroke.width);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  std::vector<double> dashes;
-  if (stroke.style == LineStyle::kDashed) dashes = {7.0, 4.0};
-  if (stroke.style == LineStyle::kDotted) dashes = {2.0, 3.0};
-  if (stroke.style == LineStyle::kDashDotted) dashes = {8.0, 3.0, 2.0, 3.0};
+  const std::span<const double> dashes = dash_lengths(stroke.style);
   cairo_set_dash(cr, dashes.data(), static_cast<int>(dashes.size()), 0.0);
 }
 

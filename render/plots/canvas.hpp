@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/series_style.hpp"
 #include "render/plots/image.hpp"
 #include "render/plots/palette.hpp"
 
@@ -24,7 +25,7 @@ struct Rect {
   double bottom() const { return y + height; }
 };
 
-enum class LineStyle { kSolid, kDashed, kDotted, kDashDotted };
+using LineStyle = LinePattern;
 
 struct Stroke {
   Color color;

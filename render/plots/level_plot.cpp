@@ -96,13 +96,25 @@ void add_fit(const LevelCurve& curve, const Color& color, Panel& panel) {
   for (Series* each : {&line, &low, &high}) panel.series.push_back(std::move(*each));
 }
 
-Panel panel_of(const LevelPanel& source, const Axis& levels) {
+/// Strokes of the curves.
+std::vector<Stroke> strokes_of(const LevelPlot& plot, const LevelPanel& panel) {
+  std::vector<std::string> names;
+  for (const LevelCurve& curve : panel.curves) names.push_back(curve.name);
+  std::vector<Stroke> strokes = series_strokes(names, 1.8);
+  for (std::size_t i = 0; i < strokes.size() && !plot.of_estimators; ++i) {
+    strokes[i] = {series_color(i), 1.8};
+  }
+  return strokes;
+}
+
+Panel panel_of(const LevelPlot& plot, const LevelPanel& source, const Axis& levels) {
   Panel panel{.title = source.title, .x = levels, .y = value_axis(source)};
   panel.height = kPanelHeight;
   const double middle = 0.5 * (static_cast<double>(source.curves.size()) - 1.0);
+  const std::vector<Stroke> strokes = strokes_of(plot, source);
   for (std::size_t i = 0; i < source.curves.size(); ++i) {
-    add_fit(source.curves[i], series_color(i), panel);
-    add_curve(source.curves[i], {series_color(i), 1.8}, static_cast<double>(i) - middle, panel);
+    add_fit(source.curves[i], strokes[i].color, panel);
+    add_curve(source.curves[i], strokes[i], static_cast<double>(i) - middle, panel);
   }
   return panel;
 }
@@ -113,11 +125,12 @@ Result<void> write_level_plot(const std::filesystem::path& path, const LevelPlot
   Figure figure{.title = plot.title, .subtitle = plot.subtitle};
   figure.width = 1100;
   const Axis levels = level_axis(plot);
-  for (const LevelPanel& panel : plot.panels) figure.panels.push_back(panel_of(panel, levels));
+  for (const LevelPanel& panel : plot.panels) figure.panels.push_back(panel_of(plot, panel, levels));
   if (!plot.panels.empty()) {
     const auto& curves = plot.panels.front().curves;
+    const std::vector<Stroke> strokes = strokes_of(plot, plot.panels.front());
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      figure.legend.push_back({curves[i].name, {series_color(i), 1.8}});
+      figure.legend.push_back({curves[i].name, strokes[i]});
     }
   }
   return write_figure(path, figure);

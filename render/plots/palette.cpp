@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/series_style.hpp"
+
 namespace aims {
 namespace {
 
@@ -59,10 +61,8 @@ std::array<std::array<std::uint8_t, 3>, 256> height_table() {
 }
 
 Color series_color(std::size_t index) {
-  static constexpr std::array<std::array<int, 3>, 6> kOkabeIto = {
-      {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
-  const auto& color = kOkabeIto[index % kOkabeIto.size()];
-  return {color[0] / 255.0, color[1] / 255.0, color[2] / 255.0};
+  const std::uint32_t rgb = series_style(index).light;
+  return {(rgb >> 16U & 0xFFU) / 255.0, (rgb >> 8U & 0xFFU) / 255.0, (rgb & 0xFFU) / 255.0};
 }
 
 }  // namespace aims

@@ -27,8 +27,7 @@ Color height_color(double fraction);
 /// `height_color` as 256 pixels' values, lowest first.
 std::array<std::array<std::uint8_t, 3>, 256> height_table();
 
-/// Colour i (cyclic) of the palette of Okabe and Ito, made for colour-blind readers; without the
-/// black, which is the truth's, and the yellow, which is too faint on white.
+/// Colour of style i on white (core/series_style.hpp).
 Color series_color(std::size_t index);
 
 }  // namespace aims

@@ -103,6 +103,18 @@ std::string without_separator(std::string line) {
 
 }  // namespace
 
+Stroke series_stroke(std::size_t style, double width) {
+  return {series_color(style), width, series_style(style).pattern};
+}
+
+std::vector<Stroke> series_strokes(const std::vector<std::string>& names, double width) {
+  std::vector<Stroke> strokes;
+  for (const std::size_t style : series_styles(names)) {
+    strokes.push_back(series_stroke(style, width));
+  }
+  return strokes;
+}
+
 bool is_shown(double value, bool logarithmic) {
   return std::isfinite(value) && (!logarithmic || value > 0.0);
 }

@@ -48,6 +48,12 @@ struct Series {
   double dot = 0.0;  ///< radius of a disc at each point [px]; 0: none
 };
 
+/// Stroke of style i (core/series_style.hpp).
+Stroke series_stroke(std::size_t style, double width = 2.0);
+
+/// Strokes of lines with those names: of estimators their own.
+std::vector<Stroke> series_strokes(const std::vector<std::string>& names, double width = 2.0);
+
 /// A labelled dot at a data point.
 struct Mark {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();

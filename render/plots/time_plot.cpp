@@ -2,7 +2,6 @@
 #include "render/plots/time_plot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -60,14 +59,15 @@ Axis time_axis(const TimePlot& plot) {
 }
 
 Panel panel_of(const TimePlot& plot, const TimePanel& source, const Axis& time) {
-  constexpr std::array<LineStyle, 3> kStyles = {LineStyle::kSolid, LineStyle::kDashed,
-                                                LineStyle::kDashDotted};
   Panel panel{.title = source.title, .x = time, .y = value_axis(source)};
   panel.height = 170.0;
   panel.own_legend = true;
+  std::vector<std::string> names;
+  for (const TimeSeries& each : source.series) names.push_back(each.name);
+  std::vector<Stroke> strokes = series_strokes(names);
   for (std::size_t i = 0; i < source.series.size(); ++i) {
-    const Stroke stroke{series_color(i), i == 0 ? 1.4 : 2.0, kStyles[i % kStyles.size()]};
-    panel.series.push_back({source.series[i].name, source.series[i].points, stroke});
+    if (!plot.of_estimators) strokes[i] = series_stroke(i, i == 0 ? 1.4 : 2.0);
+    panel.series.push_back({source.series[i].name, source.series[i].points, strokes[i]});
   }
   for (const auto& [at, label] : plot.events) panel.events.push_back({at, label});
   return panel;

@@ -30,6 +30,7 @@ struct TimePlot {
   std::string title;
   std::string subtitle;
   std::vector<TimePanel> panels;
+  bool of_estimators = false;  ///< the series are named after estimators and have their styles
   std::vector<std::pair<double, std::string>> events;  ///< time [s] and label of vertical lines
 };
 

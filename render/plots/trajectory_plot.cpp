@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "render/plots/plot.hpp"
@@ -66,17 +65,12 @@ Comparison compare(const Trajectory& truth, const std::vector<double>& distance,
   return result;
 }
 
-Stroke stroke_of(std::size_t index) {
-  constexpr std::array<LineStyle, 4> kStyles = {LineStyle::kSolid, LineStyle::kDashed,
-                                                LineStyle::kDashDotted, LineStyle::kDotted};
-  return {series_color(index), 2.0, kStyles[index % kStyles.size()]};
-}
-
 const Stroke kTruthStroke{{0.0, 0.0, 0.0}, 3.5};
 
 struct Study {
   std::vector<double> truth_distance;
   std::vector<Comparison> estimates;
+  std::vector<Stroke> strokes;  ///< of the estimates
   Extent x, y, z;  ///< of the axes [m]
   Extent error;    ///< [m]
 };
@@ -91,6 +85,9 @@ Study study(const TrajectoryPlot& plot) {
     result.z.include(position.z());
   };
   for (const StampedPose& sample : plot.truth) include(sample.pose.translation);
+  std::vector<std::string> names;
+  for (const NamedTrajectory& estimate : plot.estimates) names.push_back(estimate.name);
+  result.strokes = series_strokes(names);
   for (const NamedTrajectory& estimate : plot.estimates) {
     result.estimates.push_back(compare(plot.truth, result.truth_distance, estimate.trajectory));
     const Comparison& comparison = result.estimates.back();
@@ -141,7 +138,7 @@ Panel plan_panel(const TrajectoryPlot& plot, const Study& study) {
   };
   add(plot.truth, kTruthStroke);
   for (std::size_t i = plot.estimates.size(); i-- > 0;)  // the first lies on top
-    add(plot.estimates[i].trajectory, stroke_of(i));
+    add(plot.estimates[i].trajectory, study.strokes[i]);
   for (const WaypointTime& waypoint_time : plot.waypoint_times) {
     const auto pose = pose_at(plot.truth, waypoint_time.stamp);
     const auto same = [&](const Mark& mark) { return mark.label == waypoint_time.point; };
@@ -176,7 +173,7 @@ Panel distance_panel(const TrajectoryPlot& plot, const Study& study, std::string
     std::vector<Eigen::Vector2d> line;
     for (std::size_t i = 0; i < comparison.error.size(); ++i)
       line.emplace_back(comparison.distance[i], value(comparison, i));
-    panel.series.push_back({"", std::move(line), stroke_of(k)});
+    panel.series.push_back({"", std::move(line), study.strokes[k]});
   }
   return panel;
 }
@@ -217,7 +214,7 @@ Result<void> write_trajectory_plot(const std::filesystem::path& path, const Traj
       name += " (no poses)";
     else if (leaves(result, comparison))
       name += " (leaves the axes)";
-    figure.legend.push_back({name, stroke_of(i)});
+    figure.legend.push_back({name, result.strokes[i]});
   }
   figure.panels = {plan_panel(plot, result), height_panel(plot, result), error_panel(plot, result)};
   return write_figure(path, figure);

@@ -19,6 +19,7 @@ constexpr const char* kPictureEndings[] = {".png", ".svg"};
 /// The family's curves at `levels`, which may be another quantity than the scenarios' level.
 LevelPlot plot_of(const FamilyResult& family, const std::vector<std::optional<double>>& levels) {
   LevelPlot plot;
+  plot.of_estimators = true;
   plot.title = family.name;
   plot.subtitle =
       "median over seeds with its 95 % bootstrap interval, success with its Wilson interval";

@@ -85,6 +85,7 @@ Result<void> draw_errors(const TrajectoryScores& scores, const std::filesystem::
     return std::abs(pair.estimate.translation.z() - pair.truth.translation.z());
   };
   TimePlot plot;
+  plot.of_estimators = true;
   plot.title = scores.truth.name + ": errors over time";
   plot.subtitle = subtitle_of(scores);
   plot.panels = {

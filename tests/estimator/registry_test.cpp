@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/series_style.hpp"
 
 namespace aims {
 namespace {
@@ -14,6 +18,15 @@ TEST(Registry, CreatesEveryListedEstimator) {
     ASSERT_TRUE(made.has_value()) << entry.name;
     EXPECT_TRUE((*made)->result().trajectory.empty());
     EXPECT_FALSE(entry.description.empty());
+  }
+}
+
+TEST(Registry, EveryEstimatorHasAStyleOfItsOwnInPictures) {
+  const std::vector<std::string> names = estimator_names();
+  const auto together = series_styles(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(series_styles({&names[i], 1}).front(), together[i]) << names[i];
+    EXPECT_EQ(std::ranges::count(together, together[i]), 1) << names[i];
   }
 }
 

@@ -11,6 +11,7 @@
 #include "core/files/atomic_file.hpp"
 #include "recordings/stream/recording_reader.hpp"
 #include "recordings/stream/recording_writer.hpp"
+#include "render/page/run_page.hpp"
 #include "tests/bench/cli/command_line.hpp"
 
 namespace aims {
@@ -63,6 +64,22 @@ TEST_F(EstimateHealth, WithoutALidarThereArePosesAndItIsSaid) {
   EXPECT_GT(poses("leg"), 5U);
   EXPECT_TRUE(holds(outcome, "health: aims_d: degraded")) << outcome.output;
   EXPECT_TRUE(holds(outcome, "no LiDAR scans")) << outcome.output;
+}
+
+TEST_F(EstimateHealth, AnAssumedTransformIsAWarningAtTheEndOnThePageAndInTheHealth) {
+  const Outcome outcome = aims(
+      "estimate walk.bag --estimators leg --set recording.lidar_frame=nowhere --no-pictures "
+      "--quiet --out out");
+  const auto warned = outcome.output.find("warning: NO TRANSFORM from");
+  ASSERT_NE(warned, std::string::npos) << outcome.output;
+  EXPECT_GT(warned, outcome.output.find("estimate  ")) << "after the table";
+  const std::string rows = read_file(folder_.path() / "out" / "leg.health.csv").value();
+  EXPECT_EQ(rows.find(",healthy,"), std::string::npos) << rows;
+  EXPECT_NE(rows.find(",degraded,T_imu_lidar unknown"), std::string::npos) << rows;
+  const auto page = run_page(folder_.path() / "out");
+  ASSERT_TRUE(page) << page.error().message;
+  ASSERT_EQ(page->json["warnings"].size(), 1U);
+  EXPECT_NE(page->json["warnings"][0].get<std::string>().find("NO TRANSFORM"), std::string::npos);
 }
 
 TEST_F(EstimateHealth, AnEstimateWithoutPosesIsNoSuccess) {

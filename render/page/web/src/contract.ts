@@ -6,11 +6,20 @@ export type Maybe = number | null;
 export type Numbers = Float32Array;
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 
+/** How a series looks, on a light and on a dark ground. */
+export interface SeriesStyle {
+  light: string;
+  dark: string;
+  /** Lengths of line and gap in turn [px]. */
+  dash: number[];
+}
+
 export interface PagePayload {
   schema: string;
   kind: string;
   title: string;
   version?: string;
+  palette?: SeriesStyle[];
 }
 
 export interface ConfigChange {
@@ -127,6 +136,7 @@ export interface Estimator {
   name: string;
   diverged_at: Maybe;
   health?: Health | null;
+  /** Index of its style in the palette. */
   colour_index: number;
   series: EstimatorSeries | null;
   map: CloudMap | null;
@@ -179,6 +189,8 @@ export interface RunPayload extends PagePayload {
   kind: "run";
   /** What could not be read. */
   notes?: string[] | null;
+  /** Assumptions about a recording that may decide its result. */
+  warnings?: string[] | null;
   /** Every stamp is in seconds after this one [s]. */
   t0_s?: Maybe;
   scenario: {
@@ -187,6 +199,8 @@ export interface RunPayload extends PagePayload {
     seed: Maybe;
     simulated_s: Maybe;
     complete: boolean | null;
+    /** Does the route follow a corridor? */
+    corridor?: boolean;
     robot?: Robot | null;
     body?: Body | null;
   };

@@ -3,6 +3,7 @@
 import "./style.css";
 import type { PagePayload } from "./contract";
 import { h } from "./dom";
+import { usePalette } from "./palette";
 import { decodePayload } from "./payload";
 import { renderRun } from "./run/page";
 import { renderSuite } from "./suite/suite";
@@ -31,6 +32,7 @@ async function start(): Promise<void> {
     const render = kPages.get(data.kind);
     if (!render)
       throw new Error(`data: a page of kind ${String(data.kind)}, expected run, suite or tuning`);
+    usePalette(data.palette);
     if (data.title) document.title = data.title;
     root.classList.add(`${data.kind}-page`);
     await render(root, data as never);

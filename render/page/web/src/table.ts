@@ -100,6 +100,7 @@ function cell<Row>(
       class: [typeof value === "string" ? "text" : "number", isBest ? "best" : ""].join(" ").trim(),
       scope: first ? "row" : null,
       "data-value": isNumber(value) ? value : null,
+      "data-label": first ? null : `${column.title}${column.unit ? ` ${column.unit}` : ""}`,
     },
     content,
     interval &&
@@ -161,7 +162,7 @@ export function sortableTable<Row>(
   if (options.sortBy !== undefined) sortBy(options.sortBy, "ascending");
   const table = h(
     "table",
-    { "aria-label": options.caption },
+    { class: columns.length > 3 ? "stacks" : null, "aria-label": options.caption },
     h("thead", {}, h("tr", {}, ...heads)),
     body,
   );

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** Light and dark. Colours live in style.css; what draws on a canvas reads them here. */
 import { h } from "./dom";
+import { styleIndex } from "./palette";
 
 export type Theme = "light" | "dark";
 const listeners: (() => void)[] = [];
@@ -36,11 +37,9 @@ export function color(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
-/** Colour of series `index`: the palette of Okabe and Ito, as in the pictures; cyclic. */
+/** Colour of style `index` of the palette; cyclic. */
 export function seriesColor(index: number): string {
-  const count = 6;
-  const whole = Number.isFinite(index) ? Math.trunc(index) : 0;
-  return color(`--series-${((whole % count) + count) % count}`);
+  return color(`--series-${styleIndex(index)}`);
 }
 
 export function startTheme(): void {

@@ -42,7 +42,7 @@ export function launch({ webgl = true } = {}) {
 export async function open(
   browser,
   file,
-  { width = 1280, height = 800, dark = false, touch = false } = {},
+  { width = 1280, height = 800, dark = false, touch = false, hash = "" } = {},
 ) {
   const context = await browser.newContext({
     viewport: { width, height },
@@ -64,7 +64,7 @@ export async function open(
     if (to.split("#")[0] !== url && !/^(data|blob):/.test(to)) troubles.push(`request: ${to}`);
   });
   const start = Date.now();
-  await page.goto(url);
+  await page.goto(url + hash);
   await page.waitForFunction(() => document.documentElement.dataset.ready !== undefined);
   return {
     page,

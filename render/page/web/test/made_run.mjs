@@ -175,6 +175,7 @@ function scoresOf(item, random) {
     m_list_percent: { "a-b": value(), "b-a": item.diverged_at === null ? value() : null, all: value() },
     m_end_m: value(),
     ate_m: value(),
+    ate_yaw_m: value(),
     ate_se3_m: value(),
     max_error_m: value(),
     max_error_z_m: value(),

@@ -8,8 +8,16 @@ const kKinds = new Map([
   [Uint8Array, "u8"],
 ]);
 
+/** Stands for the table of core/series_style.cpp. */
+const kPalette = Array.from({ length: 24 }, (_, i) => ({
+  light: `#${((0x2a24de + i * 0x0b1d37) & 0xffffff).toString(16).padStart(6, "0")}`,
+  dark: `#${((0x8f9fff - i * 0x050913) & 0xffffff).toString(16).padStart(6, "0")}`,
+  dash: i % 2 ? [8, 4] : [],
+}));
+
 /** base64 of the payload of `aims.page/2`; typed arrays go into the blob. */
-export function pack(payload) {
+export function pack(given) {
+  const payload = { palette: kPalette, ...given };
   const parts = [];
   let size = 0;
   const json = JSON.stringify(payload, (_key, value) => {

@@ -91,14 +91,14 @@ function tableCells(page, selector) {
 /** The page leads with the verdict and the table, then come the time series, then the rest. */
 async function assertLeadsWithResult(page, height) {
   const tops = await page.evaluate(() =>
-    [".verdict", '[data-table="paper"] table', ".timeline", ".view", "#details"].map(
+    [".verdict", '[data-table="paper"] table', ".plan", ".timeline", ".view", "#details"].map(
       (selector) => document.querySelector(selector).getBoundingClientRect().top + scrollY,
     ),
   );
   assert.deepEqual(
     tops,
     [...tops].sort((a, b) => a - b),
-    "verdict, table, time series, 3D view, details",
+    "verdict, table, plan, time series, 3D view, details",
   );
   assert.ok(tops[1] < height, `the table begins at ${tops[1]} px of a window of ${height}`);
 }
@@ -171,26 +171,26 @@ async function assertTablesEqual(page, scores) {
   const paper = await tableCells(page, '[data-table="paper"]');
   assert.deepEqual(new Set(paper.map((row) => row.name)), new Set(Object.keys(scores.estimators)));
   for (const { name, cells } of paper) {
-    for (const { name: segment } of scores.segments ?? []) {
-      near(
-        cells[`M_list(${segment}) %`],
-        scores.estimators[name].m_list_percent?.[segment],
-        `${name} M_list(${segment})`,
-      );
-    }
+    near(cells["M_list %"], scores.estimators[name].m_list_percent?.all, `${name} M_list`);
     near(cells["M_end m"], scores.estimators[name].m_end_m, `${name} M_end`);
-    near(cells["ATE m"], scores.estimators[name].ate_m, `${name} ATE`);
+    near(cells["ATE yaw m"], scores.estimators[name].ate_yaw_m, `${name} ATE by heading`);
+    near(cells["ATE start m"], scores.estimators[name].ate_m, `${name} ATE`);
     if (scores.robot?.valid !== false)
       assert.equal(cells["Success"].text === "yes", scores.estimators[name].success === true, `${name} success`);
   }
   for (const { name, cells } of await tableCells(page, '[data-table="errors"]')) {
     const own = scores.estimators[name];
-    near(cells["ATE m"], own.ate_m, `${name} ATE`);
+    for (const { name: segment } of scores.segments ?? [])
+      near(cells[`M_list(${segment}) %`], own.m_list_percent?.[segment], `${name} M_list(${segment})`);
+    near(cells["ATE SE(3) m"], own.ate_se3_m, `${name} ATE SE(3)`);
     near(cells["max m"], own.max_error_m, `${name} max`);
     near(cells["max z m"], own.max_error_z_m, `${name} max z`);
     near(cells["RPE 10 m m"], own.rpe_10m?.translation_m, `${name} RPE`);
     near(cells["longitudinal m"], own.drift_m?.rmse?.longitudinal, `${name} longitudinal drift`);
-    near(cells["heading rad"], own.drift_m?.rmse?.heading_rad, `${name} drift heading`);
+    near(cells["heading, start rad"], own.drift_m?.rmse?.heading_rad, `${name} drift heading`);
+  }
+  for (const { name, cells } of (await tableCells(page, '[data-table="times"]')) ?? []) {
+    const own = scores.estimators[name];
     near(cells["CPU p99 ms"], own.cpu_per_scan_ms?.p99, `${name} processor time`);
     near(cells["wall p99 ms"], own.time_per_scan_ms?.p99, `${name} wall time`);
   }
@@ -211,10 +211,10 @@ async function assertBestIsBold(page, scores) {
 }
 
 async function assertSorts(page) {
-  const head = page.locator('[data-table="errors"] thead th').nth(1);
+  const head = page.locator('[data-table="errors"] thead th', { hasText: "ATE SE(3)" });
   const values = async () =>
     (await tableCells(page, '[data-table="errors"]'))
-      .map((row) => row.cells["ATE m"].value)
+      .map((row) => row.cells["ATE SE(3) m"].value)
       .filter((value) => value !== null);
   await head.locator("button").click();
   assert.equal(await head.getAttribute("aria-sort"), "ascending");
@@ -245,6 +245,7 @@ async function assertCursorAgrees(page, payload, chosen) {
     ["error_longitudinal", payload.estimators[chosen].name, "error_longitudinal"],
   ]) {
     if (!series[key] || !series[key].some(Number.isFinite)) continue;
+    if ((await page.locator(`[data-panel="${panel}"]`).count()) === 0) continue; // of the other tab
     const value = Number(await shown(page, panel, name));
     assert.equal(value, near ? series[key][index] : NaN, `${panel} ${name} at ${cursor} s`);
   }
@@ -354,6 +355,37 @@ async function assertNoWebGl(file, name, pictures) {
   }
 }
 
+/** Charts of all estimators on the first screen; what is hidden leaves them, and the address says so. */
+async function assertOverview(page, payload) {
+  const names = payload.estimators.filter((item) => item.series).map((item) => item.name);
+  const lines = (where) => page.locator(`${where} [data-series]`).evaluateAll((list) => list.map((each) => each.dataset.series));
+  assert.deepEqual(new Set(await lines(".overview-errors")), new Set(names));
+  assert.deepEqual(new Set(await lines(".overview-plan")), new Set(names));
+  assert.equal(await page.locator(".overview-errors .shade").count() > 0, (payload.localizability?.degenerate?.n100 ?? []).length > 0);
+  assert.equal(await page.locator('[data-control="level"]').inputValue(), "n100", "below 100 returns is degenerate");
+  await page.locator(`[data-shown="${names[0]}"]`).uncheck();
+  await page.waitForFunction(() => location.hash.includes("hide="));
+  assert.deepEqual(new Set(await lines(".overview-errors")), new Set(names.slice(1)));
+  await page.locator(`[data-shown="${names[0]}"]`).check();
+  await page.waitForFunction(() => !location.hash.includes("hide="));
+}
+
+/** A link with the view's state shows that view. */
+async function assertAddress(browser, file, payload) {
+  const name = payload.estimators[payload.estimators.length - 1].name;
+  const hash = `#estimator=${encodeURIComponent(name)}&tab=internals&preset=top&level=n1000`;
+  const { page, context, troubles } = await open(browser, file, { hash });
+  assert.equal(await page.locator("input[name=estimator]:checked").getAttribute("data-estimator"), name);
+  assert.equal(await page.locator('[data-tab="internals"]').getAttribute("aria-selected"), "true");
+  assert.equal(await page.locator('[data-preset="top"]').getAttribute("aria-pressed"), "true");
+  assert.equal(await page.locator('[data-control="level"]').inputValue(), "n1000");
+  const [wide, high] = await canvasSpan(page);
+  assert.ok(wide > 0.6 && high > 0.35, `from the top the scene spans ${wide} by ${high} of the view`);
+  assert.ok((await page.locator(".axes-3d text").count()) > 3, "the view has axes");
+  assert.deepEqual(troubles, []);
+  await context.close();
+}
+
 /** Everything that a page of a run with results must do. */
 export async function assertRunPage(browser, file, name, scores) {
   const payload = payloadOf(await readFile(file, "utf8"));
@@ -362,7 +394,8 @@ export async function assertRunPage(browser, file, name, scores) {
   console.log(`# ${name}: ready after ${readyMs} ms`);
   await shoot(page, `${name}-light`);
   assert.ok((await canvasColors(page)) > 20, "the 3D view drew");
-  assert.ok((await stripInk(page, "index")) > 0.01, "the strips drew");
+  assert.equal(await page.locator('[data-panel="index"]').count(), 0, "internals are behind a tab");
+  await assertOverview(page, payload);
   const [wide, high] = await canvasSpan(page);
   assert.ok(wide > 0.6 && high > 0.5, `the scene spans ${wide} by ${high} of the view`);
   await assertLeadsWithResult(page, 800);
@@ -372,6 +405,9 @@ export async function assertRunPage(browser, file, name, scores) {
   await assertTablesEqual(page, scores);
   await assertBestIsBold(page, scores);
   await assertCursorMoves(page, payload);
+  await page.locator('[data-tab="internals"]').click();
+  await settle(page);
+  assert.ok((await stripInk(page, "index")) > 0.01, "the strips drew");
   await assertZoomLinks(page);
   await assertSwitches(page, payload);
   await assertSorts(page);
@@ -388,6 +424,7 @@ export async function assertRunPage(browser, file, name, scores) {
   await shoot(dark.page, `${name}-dark`, true);
   assert.deepEqual(dark.troubles, []);
   await dark.context.close();
+  await assertAddress(browser, file, payload);
   await assertNarrow(browser, file, name);
   await assertNoWebGl(file, name, (payload.pictures ?? []).length > 0);
 }

@@ -171,6 +171,21 @@ test("before and after shows significant changes first", { skip }, async () => {
   assert.match(await page.locator("#compare").innerText(), /Only in new: 1/);
 });
 
+test("one scenario over its seeds leads with a sentence, its table and box plots", { skip }, async () => {
+  const data = suite();
+  const only = data.suite.scenarios.find((each) => each.name === "severity_3");
+  Object.assign(data.suite, { scenarios: [only], families: [] });
+  data.runs = data.runs.filter((run) => run.scenario === "severity_3");
+  const { page, troubles } = await pages.show({ ...data, title: "severity_3, seeds 1–3" });
+  assert.match(await page.locator("[data-verdict]").innerText(), /^a keeps .*; b fails\. Medians over 3 seeds\./);
+  assert.equal(await page.locator("#seeds .box").count(), 2);
+  assert.equal(await page.locator('#seeds .box[data-series="a"] .dot').count(), 3);
+  assert.equal(await page.locator('#seeds .box[data-series="b"] .failed').count(), 3, "seeds without success are crosses");
+  assert.match(await page.locator('#seeds tr[data-row="b"]').innerText(), /✕/, "a median over no success is marked");
+  assert.doesNotMatch(await page.locator('#seeds tr[data-row="a"]').innerText(), /✕/);
+  assert.deepEqual(troubles, []);
+});
+
 test("hostile names stay names", { skip }, async () => {
   const names = [kHostile, "__proto__", "constructor", "x".repeat(300)];
   const data = { ...suite({ first: kHostile, names }), roc: detectors(kHostile), paper: paper(kHostile, []), compare: comparison(kHostile), title: kHostile, notes: [kHostile] };

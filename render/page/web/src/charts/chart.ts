@@ -32,6 +32,8 @@ export interface Line {
   unjoined?: boolean;
   /** Line alone, thin; its marks can still be read. */
   plain?: boolean;
+  /** Line alone, as thick as others. */
+  bare?: boolean;
   /** The interval as an area, not as bars. */
   band?: boolean;
 }
@@ -52,6 +54,10 @@ export interface ChartOptions {
   dodge?: number;
   /** Upright lines. */
   verticals?: { x: number; label: string }[];
+  /** Shaded from one x to another, behind everything. */
+  areas?: [number, number][];
+  /** Without a legend: the page has one elsewhere. */
+  quiet?: boolean;
 }
 
 /** How far a line stands aside of its x [px]. */
@@ -124,6 +130,10 @@ function drawAxes(frame: Frame, options: ChartOptions): SVGElement {
 
 function drawGuides(frame: Frame, options: ChartOptions): SVGElement {
   const group = svg("g", { class: "guides" });
+  for (const [from, to] of options.areas ?? []) {
+    const [left, right] = [px(frame, from), px(frame, to)];
+    group.append(svg("rect", { class: "shade", x: left, y: frame.top, width: Math.max(right - left, 1), height: frame.height }));
+  }
   if (options.diagonal) {
     group.append(svg("line", { x1: px(frame, 0), y1: py(frame, 0), x2: px(frame, 1), y2: py(frame, 1) }));
   }
@@ -190,7 +200,7 @@ function drawLine(frame: Frame, line: Line, aside: number, places: Place[]): SVG
   else group.append(svg("path", { class: "bars", d: bars(frame, line, aside) }));
   if (!line.scatter && !line.unjoined) group.append(svg("path", {
     class: line.plain ? "line thin" : "line", d: path, "stroke-dasharray": dashOf(line.index) }));
-  if (!line.plain) group.append(svg("path", { class: "marks", d: marks }));
+  if (!line.plain && !line.bare) group.append(svg("path", { class: "marks", d: marks }));
   if (crosses) group.append(svg("path", { class: "cross", d: crosses }));
   return group;
 }
@@ -240,7 +250,7 @@ export function chart(lines: Line[], options: ChartOptions): HTMLElement {
     ring = svg("path", { class: "ring" });
     const drawing = svg("svg", {
       width, height, viewBox: `0 0 ${width} ${height}`, role: "img", tabindex: 0, "aria-label": options.label,
-    }, drawAxes(frame, options), drawGuides(frame, options),
+    }, drawGuides(frame, options), drawAxes(frame, options),
       ...shown.map((line) => drawLine(frame, line, shift(shown, line, dodge), places)), ring);
     drawing.addEventListener("pointermove", (event) => {
       const box = drawing.getBoundingClientRect();
@@ -259,7 +269,7 @@ export function chart(lines: Line[], options: ChartOptions): HTMLElement {
     read(null);
   };
   drawToFit(stage, draw);
-  return h("figure", { class: "chart" }, stage, says, legend(lines, off, draw));
+  return h("figure", { class: "chart" }, stage, says, options.quiet ? "" : legend(lines, off, draw));
 }
 
 function legend(lines: Line[], off: Set<Line>, changed: () => void): HTMLElement {
@@ -268,7 +278,7 @@ function legend(lines: Line[], off: Set<Line>, changed: () => void): HTMLElement
     if (!line.scatter && !line.unjoined) {
       sample.append(svg("path", { class: "line", d: "M1,6H29", "stroke-dasharray": dashOf(line.index) }));
     }
-    if (!line.plain) sample.append(svg("path", { class: "marks", d: markPath(line.index, 15, 6, kRadius) }));
+    if (!line.plain && !line.bare) sample.append(svg("path", { class: "marks", d: markPath(line.index, 15, 6, kRadius) }));
     const key = h("button", { type: "button", class: "key", "aria-pressed": "true" }, sample, line.name);
     key.addEventListener("click", () => {
       if (!off.delete(line)) off.add(line);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** SVG elements, and what marks of different series look like without colour. */
 
+import { seriesDash, styleIndex } from "../palette";
+
 const kNamespace = "http://www.w3.org/2000/svg";
 
 /** An SVG element; text enters as text nodes only. */
@@ -16,23 +18,20 @@ export function svg<Tag extends keyof SVGElementTagNameMap>(
   return element;
 }
 
-const kDashes = ["", "7 3", "2 3", "9 3 2 3", "5 2", "1 2"];
-const kColors = 6;
-
 /** Colour of a series as a CSS value that follows the theme. */
 export function seriesPaint(index: number): string {
-  return `var(--series-${((index % kColors) + kColors) % kColors})`;
+  return `var(--series-${styleIndex(index)})`;
 }
 
 /** Dash pattern of a series; with the mark it distinguishes series without colour. */
 export function dashOf(index: number): string {
-  return kDashes[(index + Math.floor(index / kColors)) % kDashes.length] ?? "";
+  return seriesDash(index).join(" ");
 }
 
 /** Outline of the mark of a series around (x, y) with radius r. */
 export function markPath(index: number, x: number, y: number, r: number): string {
   const p = (dx: number, dy: number) => `${(x + dx * r).toFixed(1)},${(y + dy * r).toFixed(1)}`;
-  switch ((index + Math.floor(index / kColors)) % 6) {
+  switch ((styleIndex(index) + Math.floor(styleIndex(index) / 12)) % 6) {
     case 0:
       return `M${p(-1, 0)}a${r},${r} 0 1,0 ${2 * r},0a${r},${r} 0 1,0 ${-2 * r},0Z`;
     case 1:
@@ -46,6 +45,12 @@ export function markPath(index: number, x: number, y: number, r: number): string
     default:
       return `M${p(-1.1, -0.4)}L${p(1.1, -0.4)}L${p(1.1, 0.4)}L${p(-1.1, 0.4)}Z`;
   }
+}
+
+/** A short line in the style of a series. */
+export function lineSample(index: number): SVGElement {
+  return svg("svg", { class: "line-sample", width: 30, height: 10, "aria-hidden": "true", style: `--paint: ${seriesPaint(index)}` },
+    svg("path", { d: "M1,5H29", "stroke-dasharray": dashOf(index) }));
 }
 
 /** Draws now, and again whenever the width of `stage` changes. */

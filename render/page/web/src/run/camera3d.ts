@@ -4,11 +4,24 @@ import { Box3, OrthographicCamera, PerspectiveCamera, Vector3, type Camera } fro
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { bestShot } from "./framing";
 import type { Bounds } from "./parts3d";
-
-export type Preset = "orbit" | "top" | "side";
+import type { Preset } from "./store";
 
 /** How far from the robot the camera follows [m]. */
 const kNear = 6;
+/** By how much more a flat view draws what lies across, at most. */
+const kMostStretch = 12;
+
+/**
+ * Half the sides of a flat view [m] that shows `width` by `height` in a window of that aspect, and by
+ * how much what lies across is drawn larger, so that a long corridor fills its window.
+ */
+export function flatSides(width: number, height: number, aspect: number, stretches: boolean): {
+  x: number; y: number; stretch: number;
+} {
+  const x = Math.max(width, height * aspect) / 2;
+  const y = stretches ? Math.max(height / 2, x / aspect / kMostStretch) : x / aspect;
+  return { x, y, stretch: x / aspect / y };
+}
 
 export class CameraRig {
   private readonly perspective = new PerspectiveCamera(45, 1, 0.05, 5000);
@@ -18,6 +31,10 @@ export class CameraRig {
   private follows = false;
   /** Heights are drawn so many times larger. */
   heightScale = 1;
+  /** May flat views stretch what lies across? */
+  stretches = true;
+  /** By how much the view shown stretches it. */
+  stretch = 1;
 
   /** Calls `changed` when the reader moves the camera; `bounds` is what the presets show [m]. */
   constructor(
@@ -57,7 +74,7 @@ export class CameraRig {
   follow(follows: boolean, target: Vector3 | null): void {
     this.follows = follows;
     this.controls.zoomToCursor = !follows;
-    if (!follows) this.show(this.preset, null);
+    if (!follows || this.stretch !== 1) this.show(this.preset, follows ? target : null);
     else if (target) this.approach(target);
   }
 
@@ -91,6 +108,7 @@ export class CameraRig {
     box.max.z *= this.heightScale;
     const center = box.getCenter(new Vector3());
     this.controls.target.copy(center);
+    this.stretch = 1;
     if (preset === "orbit") this.showOrbit(box);
     else this.showFlat(preset, box, center);
     this.controls.enableRotate = preset === "orbit";
@@ -124,14 +142,14 @@ export class CameraRig {
         : longX
           ? new Vector3(0, -1, 0)
           : new Vector3(1, 0, 0);
-    const width = Math.max(longX ? size.x : size.y, 1) * 1.06;
-    const height = Math.max(preset === "side" ? size.z : longX ? size.y : size.x, 0.5) * 1.15;
-    const aspect = this.perspective.aspect;
-    const half = Math.max(height, width / aspect) / 2;
-    this.flat.top = half;
-    this.flat.bottom = -half;
-    this.flat.left = -half * aspect;
-    this.flat.right = half * aspect;
+    const width = Math.max(longX ? size.x : size.y, 1) * 1.12;
+    const height = Math.max(preset === "side" ? size.z : longX ? size.y : size.x, 0.5) * 1.5;
+    const half = flatSides(width, height, this.perspective.aspect, this.stretches && !this.follows);
+    this.stretch = half.stretch;
+    this.flat.top = half.y;
+    this.flat.bottom = -half.y;
+    this.flat.left = -half.x;
+    this.flat.right = half.x;
     this.flat.zoom = 1;
     this.flat.up.copy(up);
     this.flat.position.copy(center).addScaledVector(away, reach);

@@ -2,16 +2,19 @@
 /** The page of one run. */
 import "./run.css";
 import type { RunPayload } from "../contract";
+import { lineSample } from "../charts/svg";
 import { h, section } from "../dom";
 import { formatFixed, isNumber } from "../format";
 import { pictureGrid } from "../pictures";
-import { onTheme, seriesColor, themeButton } from "../theme";
+import { onTheme, themeButton } from "../theme";
 import { configSection } from "./config";
+import { overviewCharts, visibility } from "./overview";
 import { detailSection, leadSection } from "./results";
 import { cursorTimes, timeSpan } from "./series";
-import { Store, type Level } from "./store";
+import { keepInAddress, stateIn } from "./state_url";
+import { Store, type State } from "./store";
 import { timeline } from "./timeline";
-import { verdictBox } from "./verdict";
+import { verdictBox, warningBox } from "./verdict";
 import { viewCard } from "./view";
 
 function badge(text: string, kind: "good" | "bad" | "plain"): HTMLElement {
@@ -45,10 +48,7 @@ function header(data: RunPayload): HTMLElement {
 /** Radio buttons, so that arrow keys switch between estimators as the platform does. */
 function chooser(data: RunPayload, store: Store): HTMLElement | null {
   if (data.estimators.length === 0) return null;
-  const swatches: [HTMLElement, number][] = [];
   const items = data.estimators.map((item, index) => {
-    const swatch = h("i", { class: "swatch" });
-    swatches.push([swatch, item.colour_index]);
     return h(
       "label",
       { class: "chip" },
@@ -60,19 +60,14 @@ function chooser(data: RunPayload, store: Store): HTMLElement | null {
         "data-estimator": item.name,
         onchange: () => store.set({ chosen: index }),
       }),
-      swatch,
+      lineSample(item.colour_index),
       h("bdi", {}, item.name),
       isNumber(item.diverged_at)
         ? h("span", { class: "diverged" }, ` diverged at ${formatFixed(item.diverged_at, 0)} s`)
         : null,
     );
   });
-  const paint = () => {
-    for (const [swatch, index] of swatches) swatch.style.background = seriesColor(index);
-  };
-  paint();
-  onTheme(paint);
-  return h("fieldset", { class: "chooser" }, h("legend", {}, "Estimator"), ...items);
+  return h("fieldset", { class: "chooser" }, h("legend", {}, "Details of"), ...items);
 }
 
 const kKeys: Record<string, (store: Store, large: boolean) => void> = {
@@ -113,15 +108,6 @@ function firstChoice(data: RunPayload): number {
   return intact >= 0 ? intact : data.estimators.length - 1 < 0 ? -1 : 0;
 }
 
-/** Level shaded at first: below 100 returns, or whichever level the run reaches. */
-function firstLevel(data: RunPayload): Level {
-  const degenerate = data.localizability?.degenerate;
-  return (
-    (["n100", "n1000", "n10"] as const).find((level) => (degenerate?.[level]?.length ?? 0) > 0) ??
-    "n100"
-  );
-}
-
 /** What is drawn again in the colours of each theme. */
 function themed(make: () => HTMLElement | null): HTMLElement {
   const frame = h("div", {}, make() ?? "");
@@ -133,37 +119,45 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
   data.estimators ??= [];
   const times = cursorTimes(data);
   const span = timeSpan(data);
-  const store = new Store(
-    {
+  const first: State = {
       cursor: times[Math.floor(times.length / 2)] ?? span[0],
       from: span[0],
       to: span[1],
       chosen: firstChoice(data),
-      level: firstLevel(data),
+      level: "n100",
       coloring: "height",
       ceiling: false,
       scanColoring: "intensity",
       errorScale: "chosen",
-    },
-    times,
-    span,
-  );
+      hidden: new Set(),
+      alignment: "heading",
+      tab: "errors",
+      preset: "orbit",
+      follow: false,
+  };
+  const store = new Store({ ...first, ...stateIn(location.hash, data) }, times, span);
   const view = viewCard(data, store);
   const strips = timeline(data, store);
   const lead = themed(() => leadSection(data));
+  const charts = overviewCharts(data, store);
+  const overview = h("div", { class: charts ? "overview" : "" }, lead, charts?.errors ?? "");
   const rest = themed(() => detailSection(data));
   const grid = pictureGrid(data.pictures);
   const pictures = grid ? section("pictures", "Pictures", grid) : null;
   root.append(
     header(data),
     verdictBox(data),
-    lead,
+    warningBox(data) ?? "",
+    (charts && visibility(data, store)) ?? "",
+    overview,
+    charts?.plan ?? "",
     h("div", { class: "explore" }, strips.controls, chooser(data, store) ?? "", strips.element, view.element),
     rest,
     configSection(data) ?? "",
     ...(pictures ? [pictures] : []),
   );
   keyboard(store);
+  keepInAddress(store, first, data);
   view.start();
   strips.start();
 }

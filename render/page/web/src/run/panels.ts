@@ -2,6 +2,7 @@
 /** Which strips the timeline has, for the chosen estimator. */
 import type { Estimator, RunPayload, TimeInterval } from "../contract";
 import { isNumber } from "../format";
+import { seriesDash } from "../palette";
 import { color, seriesColor } from "../theme";
 import type { Curve, PanelSpec } from "./panel";
 import type { Backdrop, Mark } from "./panel_paint";
@@ -25,10 +26,18 @@ function parts(
   });
 }
 
+/** Dash of a style; none for a solid line. */
+function dashed(index: number): number[] | undefined {
+  const dash = seriesDash(index);
+  return dash.length > 0 ? dash : undefined;
+}
+
 /** The same column of every estimator, the chosen one last, so that it lies on top. */
-function everyone(data: RunPayload, chosen: number, name: string, all: boolean): Curve[] {
+function everyone(data: RunPayload, state: Readonly<State>, name: string, all: boolean): Curve[] {
+  const { chosen, hidden } = state;
   const order = data.estimators
     .map((_, index) => index)
+    .filter((index) => index === chosen || !hidden.has(index))
     .sort((a, b) => Number(a === chosen) - Number(b === chosen));
   const curves = order.flatMap((index): Curve[] => {
     const estimator = data.estimators[index]!;
@@ -39,6 +48,7 @@ function everyone(data: RunPayload, chosen: number, name: string, all: boolean):
         label: estimator.name,
         track: found,
         color: seriesColor(estimator.colour_index),
+        dash: dashed(estimator.colour_index),
         width: index === chosen ? 1.75 : 1,
         counts: all || index === chosen,
       },
@@ -153,39 +163,40 @@ function errorPanels(data: RunPayload, state: Readonly<State>): PanelSpec[] {
       title: `${axis[0]!.toUpperCase()}${axis.slice(1)} error`,
       unit: "m",
       hint: "Estimate minus truth, anchored at the start; band: three stated standard deviations",
-      curves: everyone(data, state.chosen, `error_${axis}`, state.errorScale === "all"),
+      curves: everyone(data, state, `error_${axis}`, state.errorScale === "all"),
       ...(sigma && chosen ? { band: { sigma, color: seriesColor(chosen.colour_index) } } : {}),
     };
   });
 }
 
-/** Strips from the truth down to the time per scan; those without data are left out. */
+/**
+ * Strips of a tab; those without data are left out. Errors: what is measured against the truth, and time.
+ * Internals: what the chosen estimator computes by itself.
+ */
 export function panelSpecs(data: RunPayload, state: Readonly<State>): PanelSpec[] {
   const chosen = data.estimators[state.chosen];
   const innovations = parts(chosen, [
     ["innovation", "position m", seriesColor(0)],
     ["innovation_rotation", "rotation rad", seriesColor(1)],
   ]);
-  const panels: PanelSpec[] = [
-    ...truthPanels(data, state.level),
-    ...indexPanels(chosen),
-    legPanel(data),
-    {
-      id: "innovation",
-      title: "Innovation",
-      hint: "LiDAR-updated minus predicted, eq. (5)",
-      curves: innovations,
-    },
-    ...errorPanels(data, state),
-    {
-      id: "time",
-      title: "Time per scan",
-      unit: "ms",
-      log: true,
-      hint: "From one scan to the next",
-      curves: everyone(data, state.chosen, "time_ms", true),
-    },
-  ];
+  const innovation: PanelSpec = {
+    id: "innovation",
+    title: "Innovation",
+    hint: "LiDAR-updated minus predicted, eq. (5)",
+    curves: innovations,
+  };
+  const time: PanelSpec = {
+    id: "time",
+    title: "Time per scan",
+    unit: "ms",
+    log: true,
+    hint: "From one scan to the next",
+    curves: everyone(data, state, "time_ms", true),
+  };
+  const localizability = truthPanels(data, state.level);
+  const panels = state.tab === "internals"
+    ? [...localizability, ...indexPanels(chosen), innovation]
+    : [...errorPanels(data, state), ...localizability, legPanel(data), time];
   return panels.filter((panel) => panel.curves.length > 0);
 }
 

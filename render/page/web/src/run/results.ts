@@ -4,7 +4,7 @@ import type { Estimator, RunPayload } from "../contract";
 import { at, h, own, section, type Child } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type CellValue, type Column } from "../table";
-import { seriesColor } from "../theme";
+import { lineSample } from "../charts/svg";
 import { expectationsOf, limitsOf } from "./verdict";
 
 interface Row {
@@ -35,12 +35,11 @@ function rows(data: RunPayload): Row[] {
 }
 
 function nameCell(row: Row): Child {
-  const swatch = h("i", { class: "swatch" });
-  if (row.colour !== null) swatch.style.background = seriesColor(row.colour);
-  return h("span", { class: "estimator-name", title: row.name }, swatch, h("bdi", {}, row.name));
+  return h("span", { class: "estimator-name", title: row.name },
+    row.colour === null ? null : lineSample(row.colour), h("bdi", {}, row.name));
 }
 
-const nameColumn: Column<Row> = { title: "Method", value: (row) => row.name, show: nameCell };
+const nameColumn: Column<Row> = { title: "Estimator", value: (row) => row.name, show: nameCell };
 const success = (row: Row) => at(row.scores, "success") === true;
 
 /** Column of a score that is better the smaller it is; an estimator that diverged is never best. */
@@ -55,7 +54,10 @@ function score(title: string, unit: string, path: string[], hint?: string): Colu
   };
 }
 
-const ateColumn = score("ATE", "m", ["ate_m"], "RMSE of position, anchored at the start");
+const yawColumn = score(
+  "ATE yaw", "m", ["ate_yaw_m"],
+  "RMSE of position after alignment by heading and translation, which LiDAR-inertial odometry cannot observe");
+const startColumn = score("ATE start", "m", ["ate_m"], "RMSE of position, aligned by the first pose alone");
 
 function segmentNames(data: RunPayload): string[] {
   const segments = own<unknown>(data.scores, "segments");
@@ -65,6 +67,44 @@ function segmentNames(data: RunPayload): string[] {
 function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   const columns: Column<Row>[] = [
     nameColumn,
+    yawColumn,
+    startColumn,
+    score("M_list", "%", ["m_list_percent", "all"], "Error of the distances between reference points, eq. (13)"),
+    score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
+    { title: "Success", value: (row) => outcome(data, row) },
+    ...(list.some((row) => at(row.scores, "health", "worst") !== undefined) ? [healthColumn] : []),
+  ];
+  return sortableTable(list, columns.filter((column) => column.show || column === nameColumn || list.some((row) => column.value(row) !== null)), {
+    caption:
+      "ATE yaw: aligned by heading and translation; ATE start: by the first pose alone. Bold: best of those that " +
+      "succeeded. –: no value.",
+    rowName: (row) => row.name,
+  });
+}
+
+/** What the estimator says of itself beside what the truth says of it. */
+const healthColumn: Column<Row> = {
+  title: "Reports itself",
+  hint: "Worst state that the estimator reported, without the truth",
+  value: (row) => String(at(row.scores, "health", "worst") ?? ""),
+  show: (row) => {
+    const worst = String(at(row.scores, "health", "worst") ?? kNone);
+    if (success(row) || worst !== "healthy" || row.scores === undefined) return worst;
+    return h("span", { class: "unnoticed", title: "Its error exceeds the limit of a success" }, `${worst}, but wrong`);
+  },
+};
+
+function outcome(data: RunPayload, row: Row): string {
+  if (row.scores === undefined) return kNone;
+  if (data.scenario.robot?.valid === false) return "invalid run";
+  const divergedAt = at(row.scores, "diverged_at_s");
+  if (isNumber(divergedAt)) return `✕ at ${formatFixed(divergedAt, 0)} s`;
+  return success(row) ? "yes" : "no";
+}
+
+/** Columns in which at least one estimator has a value. */
+function errorTable(data: RunPayload, list: Row[]): HTMLElement {
+  const scores: Column<Row>[] = [
     ...segmentNames(data).map((name) =>
       score(
         `M_list(${name})`,
@@ -73,30 +113,6 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
         "Error of the straight distance between reference points, eq. (13)",
       ),
     ),
-    score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
-    ateColumn,
-    { title: "Success", value: (row) => outcome(data, row) },
-  ];
-  return sortableTable(list, columns, {
-    caption:
-      "M_list and M_end as tables I and II of the paper. –: no value. Bold: best of the estimators that did not " +
-      "diverge. One sequence has no intervals; a suite over several seeds has them.",
-    rowName: (row) => row.name,
-  });
-}
-
-function outcome(data: RunPayload, row: Row): string {
-  if (row.scores === undefined) return kNone;
-  if (data.scenario.robot?.valid === false) return "invalid run";
-  const divergedAt = at(row.scores, "diverged_at_s");
-  if (isNumber(divergedAt)) return `diverged at ${formatFixed(divergedAt, 1)} s`;
-  return success(row) ? "yes" : "no";
-}
-
-/** Columns in which at least one estimator has a value. */
-function errorTable(list: Row[]): HTMLElement {
-  const scores: Column<Row>[] = [
-    ateColumn,
     score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
     score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
     score("max z", "m", ["max_error_z_m"], "Largest height error"),
@@ -107,11 +123,22 @@ function errorTable(list: Row[]): HTMLElement {
       ["rpe_10m", "translation_m"],
       "Relative pose error over 10 m travelled",
     ),
+    score("heading", "mrad", ["heading_error_mrad"], "RMSE of the heading after the alignment by heading"),
     score("longitudinal", "m", ["drift_m", "rmse", "longitudinal"], "RMSE along the true heading"),
     score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE across the true heading"),
     score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE of the height"),
-    score("heading", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
+    score("heading, start", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
     score("tilt", "rad", ["drift_m", "rmse", "tilt_rad"], "RMSE of roll and pitch together"),
+  ];
+  const known = scores.filter((column) => list.some((row) => column.value(row) !== null));
+  return sortableTable(list, [nameColumn, ...known], {
+    caption: "Errors against the truth",
+    rowName: (row) => row.name,
+  });
+}
+
+function timeTable(list: Row[]): HTMLElement | null {
+  const scores: Column<Row>[] = [
     score("CPU", "ms", ["cpu_per_scan_ms", "mean"], "Processor time from one scan to the next"),
     score("CPU p99", "ms", ["cpu_per_scan_ms", "p99"], "99th percentile of the processor time"),
     score(
@@ -122,8 +149,9 @@ function errorTable(list: Row[]): HTMLElement {
     ),
   ];
   const known = scores.filter((column) => list.some((row) => column.value(row) !== null));
+  if (known.length === 0) return null;
   return sortableTable(list, [nameColumn, ...known], {
-    caption: "Errors against the truth and time per scan",
+    caption: "Time from one scan to the next",
     rowName: (row) => row.name,
   });
 }
@@ -147,7 +175,7 @@ function weakTable(list: Row[]): HTMLElement | null {
     .filter((row) => at(row.scores, "weak_axis", row.level) !== undefined);
   const get = (name: string) => (row: Cell) => numberAt(row.scores, "weak_axis", row.level, name);
   const columns: Column<Cell>[] = [
-    { title: "Method", value: (row) => row.name, show: nameCell },
+    { title: "Estimator", value: (row) => row.name, show: nameCell },
     { title: "Scans", value: (row) => `${words[row.level] ?? row.level}` },
     { title: "count", value: get("scans"), show: (row) => formatFixed(get("scans")(row), 0) },
     { title: "error rms", unit: "m", value: get("error_rms_m") },
@@ -188,7 +216,7 @@ function healthTable(data: RunPayload): HTMLElement | null {
   return sortableTable(
     list,
     [
-      { title: "Method", value: (item) => item.name },
+      { title: "Estimator", value: (item) => item.name },
       { title: "worst", value: (item) => String(at(item.health, "worst") ?? "") },
       seconds("healthy", "healthy_s", "Every source arrives and agrees with the others"),
       seconds("degraded", "degraded_s", "A source is missing or contradicts another"),
@@ -246,8 +274,9 @@ export function leadSection(data: RunPayload): HTMLElement | null {
       "div",
       { class: "tables" },
       h("div", { "data-table": "paper" }, paperTable(data, list)),
-      expectationTable(data) ?? health,
+      expectationTable(data),
     ),
+    truthLine(data),
   );
 }
 
@@ -258,13 +287,13 @@ export function detailSection(data: RunPayload): HTMLElement | null {
   return section(
     "details",
     "Details",
-    truthLine(data),
     h(
       "div",
       { class: "tables" },
-      h("div", { "data-table": "errors" }, errorTable(list)),
+      h("div", { "data-table": "errors" }, errorTable(data, list)),
       weakTable(list),
-      expectationsOf(data).length > 0 ? healthTable(data) : null,
+      h("div", { "data-table": "times" }, timeTable(list)),
+      healthTable(data),
     ),
   );
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** What the parts of the run page share: cursor, zoom, chosen estimator. */
 
+import type { Alignment } from "./errors";
+
 export type Level = "n10" | "n100" | "n1000";
 export type Coloring = "height" | "error";
 export type ScanColoring = "intensity" | "range" | "residual" | "none";
 export type ErrorScale = "chosen" | "all";
+export type Tab = "errors" | "internals";
+export type Preset = "orbit" | "top" | "side";
 
 export interface State {
   /** Cursor [s], always at a sample of the run. */
@@ -22,6 +26,15 @@ export interface State {
   /** Is the ceiling drawn? */
   ceiling: boolean;
   errorScale: ErrorScale;
+  /** Indices of the estimators that are not drawn. */
+  hidden: ReadonlySet<number>;
+  /** How estimates are laid onto the truth in the overview. */
+  alignment: Alignment;
+  /** Which strips the timeline shows. */
+  tab: Tab;
+  /** From where the 3D view looks, and whether it goes with the robot. */
+  preset: Preset;
+  follow: boolean;
 }
 
 type Listener = (state: Readonly<State>) => void;
@@ -65,6 +78,14 @@ export class Store {
     for (const listener of this.listeners) {
       if (listener.keys.some((key) => keys.has(key))) listener.call(this.current);
     }
+  }
+
+  /** Draws an estimator, or leaves it out. */
+  show(index: number, shown: boolean): void {
+    const hidden = new Set(this.current.hidden);
+    if (shown) hidden.delete(index);
+    else hidden.add(index);
+    this.set({ hidden });
   }
 
   /** Puts the cursor on the sample nearest to an instant, and moves the window after it. */

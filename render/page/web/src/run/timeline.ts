@@ -8,7 +8,7 @@ import { onTheme } from "../theme";
 import { Panel } from "./panel";
 import type { Backdrop } from "./panel_paint";
 import { backdrop, kLevels, panelSpecs } from "./panels";
-import type { ErrorScale, Level, Store } from "./store";
+import type { ErrorScale, Level, Store, Tab } from "./store";
 
 const kPlaySpeed = 8;
 const kHint =
@@ -91,6 +91,25 @@ function player(store: Store, button: HTMLElement): void {
     button.setAttribute("aria-pressed", "true");
     requestAnimationFrame(frame);
   });
+}
+
+/** Errors, or what the chosen estimator computes by itself. */
+function tabs(store: Store): HTMLElement {
+  const names: [Tab, string][] = [
+    ["errors", "Errors over time"],
+    ["internals", "Internals of the estimator"],
+  ];
+  const buttons = names.map(([tab, text]) =>
+    h(
+      "button",
+      { type: "button", role: "tab", "data-tab": tab, "aria-selected": String(tab === store.state.tab), onclick: () => store.set({ tab }) },
+      text,
+    ),
+  );
+  store.on(["tab"], (state) => {
+    for (const button of buttons) button.setAttribute("aria-selected", String(button.dataset["tab"] === state.tab));
+  });
+  return h("div", { class: "tabs", role: "tablist", "aria-label": "Strips" }, ...buttons);
 }
 
 function choices(data: RunPayload, store: Store): HTMLElement {
@@ -230,6 +249,7 @@ export function timeline(
   const element = h(
     "section",
     { class: "card timeline", "aria-label": "Timeline" },
+    tabs(store),
     choices(data, store),
     stack,
     h("p", { class: "soft hint" }, matchMedia("(pointer: coarse)").matches ? kTouchHint : kHint),
@@ -273,7 +293,7 @@ export function timeline(
     },
     (clientX) => (held ?? panels[0])?.timeAt(clientX) ?? store.state.cursor,
   );
-  store.on(["chosen", "errorScale", "level"], build);
+  store.on(["chosen", "errorScale", "level", "hidden", "tab"], build);
   store.on(["from", "to"], () => {
     redraw();
     requestAnimationFrame(cursor);

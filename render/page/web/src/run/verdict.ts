@@ -2,7 +2,9 @@
 /** What came of the run, in sentences: validity, expectations, successes. */
 import type { RunPayload } from "../contract";
 import { at, h, own } from "../dom";
+import { finding } from "../findings";
 import { formatFixed, formatNumber, isNumber } from "../format";
+import { findingsOf } from "./findings_of";
 
 export type Mood = "good" | "bad" | "plain";
 
@@ -78,19 +80,26 @@ function successSentence(data: RunPayload): Sentence | null {
     return isNumber(divergedAt) ? `${name} diverged at ${formatFixed(divergedAt, 0)} s` : `${name} failed`;
   });
   return {
-    mood: failed.length === 0 ? "good" : "plain",
-    lead: `${scores.length - failed.length} of ${scores.length} estimators succeeded.`,
-    rest: failed.length > 0 ? `${reasons.join(", ")}.` : "",
+    mood: "plain",
+    lead: "",
+    rest: `${scores.length - failed.length} of ${scores.length} estimators succeeded. ` +
+       (failed.length > 0 ? `${reasons.join(", ")}.` : ""),
   };
+}
+
+/** Who keeps the length and where others lose it; null of an invalid run and without scores. */
+function findingSentence(data: RunPayload): Sentence | null {
+  if (data.scenario.robot?.valid === false) return null;
+  const { list, route } = findingsOf(data);
+  const text = finding(list, route);
+  return text ? { mood: "plain", lead: text, rest: "" } : null;
 }
 
 /** What is said of a run, the gravest first. */
 export function verdict(data: RunPayload): Sentence[] {
   const robot = robotSentence(data);
   const successes = data.scenario.robot?.valid === false ? null : successSentence(data);
-  const found = [robot, expectationSentence(data), successes].filter((each) => each !== null);
-  if (successes && expectationsOf(data).length === 0)
-    found.push({ mood: "plain", lead: "", rest: "The scenario states no expectations of these estimators." });
+  const found = [robot, findingSentence(data), expectationSentence(data), successes].filter((each) => each !== null);
   if (found.length > 0) return found;
   return [
     {
@@ -99,6 +108,18 @@ export function verdict(data: RunPayload): Sentence[] {
       rest: data.truth ? "" : "errors are unknown; the health is what each estimator reports of itself.",
     },
   ];
+}
+
+/** Assumptions about the recording that may decide the result; null without any. */
+export function warningBox(data: RunPayload): HTMLElement | null {
+  const warnings = (data.warnings ?? []).filter((each) => typeof each === "string");
+  if (warnings.length === 0) return null;
+  return h(
+    "div",
+    { class: "banner", role: "alert", "data-warnings": warnings.length },
+    h("strong", {}, "Assumed about this recording, and decisive for the result:"),
+    h("ul", {}, ...warnings.map((each) => h("li", {}, each))),
+  );
 }
 
 /** The sentences in a box that is red for what failed. */
@@ -111,7 +132,7 @@ export function verdictBox(data: RunPayload): HTMLElement {
     "div",
     { class: `verdict ${mood}`, "data-verdict": mood, role: mood === "bad" ? "alert" : "status" },
     ...sentences.map(({ mood: own, lead, rest }) =>
-      h("p", {}, lead ? h("strong", { class: own }, `${lead} `) : null, rest),
+      h("p", {}, lead ? h("strong", { class: own }, `${lead} `) : null, rest.trim()),
     ),
   );
 }

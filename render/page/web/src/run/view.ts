@@ -4,14 +4,13 @@ import type { CloudMap, RunPayload } from "../contract";
 import { h } from "../dom";
 import { formatFixed, formatNumber } from "../format";
 import { color, onTheme, seriesColor, theme } from "../theme";
-import type { Preset } from "./camera3d";
 import { heightRange } from "./parts3d";
 import { pictureImage } from "../pictures";
 import { ramp, rampGradient } from "./ramps";
 import { ScanPlacer } from "./scan";
 import { Surface } from "./surface";
 import { indexAt, valueAt, vectorAt, track } from "./series";
-import type { Coloring, ScanColoring, State, Store } from "./store";
+import type { Coloring, Preset, ScanColoring, State, Store } from "./store";
 import { View3D, webGlKind } from "./view3d";
 
 function fallback(data: RunPayload): HTMLElement {
@@ -32,7 +31,7 @@ function fallback(data: RunPayload): HTMLElement {
 }
 
 /** Group of buttons of which one is pressed. */
-function presets(view: View3D): HTMLElement {
+function presets(store: Store): HTMLElement {
   const names: [Preset, string][] = [
     ["orbit", "Orbit"],
     ["top", "Top"],
@@ -44,16 +43,16 @@ function presets(view: View3D): HTMLElement {
       {
         type: "button",
         "data-preset": preset,
-        "aria-pressed": String(preset === "orbit"),
-        onclick: () => {
-          view.show(preset);
-          for (const button of buttons)
-            button.setAttribute("aria-pressed", String(button.dataset["preset"] === preset));
-        },
+        "aria-pressed": String(preset === store.state.preset),
+        onclick: () => store.set({ preset }),
       },
       text,
     ),
   );
+  store.on(["preset"], ({ preset }) => {
+    for (const button of buttons)
+      button.setAttribute("aria-pressed", String(button.dataset["preset"] === preset));
+  });
   return h("span", { class: "segmented", role: "group", "aria-label": "View from" }, ...buttons);
 }
 
@@ -67,23 +66,36 @@ function controls(
     "button",
     {
       type: "button",
-      "aria-pressed": "false",
-      onclick: () => {
-        const next = follow.getAttribute("aria-pressed") !== "true";
-        follow.setAttribute("aria-pressed", String(next));
-        view.follow(next);
-      },
+      "aria-pressed": String(store.state.follow),
+      onclick: () => store.set({ follow: !store.state.follow }),
     },
     "Follow",
   );
+  store.on(["follow"], (state) => follow.setAttribute("aria-pressed", String(state.follow)));
+  const stretch = h("input", {
+    type: "checkbox",
+    checked: true,
+    "data-control": "stretch",
+    onchange: () => view.setStretches(stretch.checked),
+  });
+  const stretched = h("span", {});
+  const sayStretch = () => {
+    stretched.textContent = view.stretch > 1.05 ? ` ${formatNumber(view.stretch, 2)}×` : "";
+    stretchLabel.hidden = store.state.preset === "orbit";
+  };
+  const stretchLabel = h("label", { title: "Flat views draw what lies across the longer side larger, so that it fills the window" },
+    stretch, " stretch across", stretched);
+  stretch.addEventListener("change", sayStretch);
+  store.on(["preset", "follow"], () => requestAnimationFrame(sayStretch));
+  requestAnimationFrame(sayStretch);
   const coloring = h(
     "select",
     {
       "data-control": "coloring",
       onchange: () => store.set({ coloring: coloring.value as Coloring }),
     },
-    h("option", { value: "height" }, "height"),
-    h("option", { value: "error" }, "error"),
+    ...(["height", "error"] as const).map((name) =>
+      h("option", { value: name, selected: name === store.state.coloring }, name)),
   );
   const heightScale = h(
     "select",
@@ -98,10 +110,11 @@ function controls(
     },
     ...placer
       .colorings()
-      .map((name) => h("option", { value: name }, name === "none" ? "not shown" : name)),
+      .map((name) => h("option", { value: name, selected: name === store.state.scanColoring }, name === "none" ? "not shown" : name)),
   );
   const ceiling = h("input", {
     type: "checkbox",
+    checked: store.state.ceiling,
     "data-control": "ceiling",
     onchange: () => store.set({ ceiling: ceiling.checked }),
   });
@@ -112,8 +125,9 @@ function controls(
   return h(
     "div",
     { class: "view-controls" },
-    presets(view),
+    presets(store),
     follow,
+    stretchLabel,
     maps ? h("label", {}, "map colour ", coloring) : null,
     data.scans ? h("label", {}, "scan colour ", scanColoring) : null,
     h("label", {}, "height scale ", heightScale),
@@ -246,7 +260,7 @@ export function viewCard(
     element.append(fallback(data), words);
     return { element, start: () => {} };
   }
-  const frame = h("div", { class: "view-frame", "data-view": "webgl" }, view.canvas);
+  const frame = h("div", { class: "view-frame", "data-view": "webgl" }, view.canvas, view.axes.element);
   view.canvas.setAttribute("role", "img");
   view.canvas.setAttribute("aria-label", "Scene, map, trajectories and the robot at the cursor");
   const key = h("div");
@@ -257,7 +271,9 @@ export function viewCard(
     view.update(store.state, false);
     showKey();
   });
-  store.on(["chosen", "coloring", "ceiling"], () => {
+  store.on(["preset"], ({ preset }) => view.show(preset));
+  store.on(["follow"], ({ follow }) => view.follow(follow));
+  store.on(["chosen", "coloring", "ceiling", "hidden"], () => {
     view.update(store.state, true);
     showKey();
   });
@@ -270,6 +286,7 @@ export function viewCard(
     element,
     start: () => {
       fit();
+      if (store.state.follow) view.follow(true);
       new ResizeObserver(fit).observe(frame);
     },
   };

@@ -15,7 +15,8 @@ import {
 } from "three";
 import type { RunPayload } from "../contract";
 import { color, seriesColor, theme } from "../theme";
-import { CameraRig, type Preset } from "./camera3d";
+import { Axes3D } from "./axes3d";
+import { CameraRig } from "./camera3d";
 import {
   axisArrow,
   coloredPoints,
@@ -34,7 +35,7 @@ import {
 import { ramp, rampTable } from "./ramps";
 import type { ScanPlacer } from "./scan";
 import { indexAt, quaternionAt, vectorAt } from "./series";
-import type { State } from "./store";
+import type { Preset, State } from "./store";
 
 /** How this browser draws with WebGL 2: on a graphics card, in software, or not at all. */
 export function webGlKind(): "card" | "software" | null {
@@ -109,6 +110,9 @@ export class View3D {
   private readonly stage = new Stage();
   private readonly world = new Group();
   private readonly rig: CameraRig;
+  private readonly bounds: Bounds;
+  /** Axes over the canvas. */
+  readonly axes = new Axes3D();
   private moving: {
     truth: ReturnType<typeof robot>;
     estimate: ReturnType<typeof robot>;
@@ -138,7 +142,10 @@ export class View3D {
     this.canvas = this.renderer.domElement;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.stage.add(this.world);
-    this.rig = new CameraRig(this.canvas, extent(data), () => this.draw());
+    this.bounds = extent(data);
+    this.rig = new CameraRig(this.canvas, this.bounds, () => this.draw());
+    this.preset = state.preset;
+    this.rig.show(state.preset, null);
     this.canvas.addEventListener("webglcontextrestored", () => this.draw());
     this.ellipsoidScale = chooseEllipsoidScale(data);
     this.build();
@@ -194,7 +201,7 @@ export class View3D {
       this.tubes.push({ tube: made, pixels, radius });
     };
     estimators.forEach((item, index) => {
-      if (index !== this.state.chosen)
+      if (index !== this.state.chosen && !this.state.hidden.has(index))
         add(item.series?.p, seriesColor(item.colour_index), 1.5, 0.01, 0.6);
     });
     const chosen = estimators[this.state.chosen];
@@ -276,6 +283,18 @@ export class View3D {
     return robots.find((group) => group?.visible)?.position ?? null;
   }
 
+  /** By how much more than along it the view draws what lies across. */
+  get stretch(): number {
+    return this.rig.stretch;
+  }
+
+  /** Lets flat views stretch what lies across, or shows all at one scale. */
+  setStretches(stretches: boolean): void {
+    this.rig.stretches = stretches;
+    this.rig.show(this.preset, this.target());
+    this.draw();
+  }
+
   follow(follows: boolean): void {
     this.rig.follow(follows, this.target());
     this.draw();
@@ -311,6 +330,8 @@ export class View3D {
       this.pending = false;
       this.sizeMarks();
       this.renderer.render(this.stage, this.rig.camera);
+      this.axes.draw(this.rig.camera, this.bounds, this.preset, this.rig.heightScale,
+        this.canvas.clientWidth, this.canvas.clientHeight);
     });
   }
 
@@ -322,7 +343,7 @@ export class View3D {
     const metres = pixel * this.rig.heightAt(here);
     const ring = 22 * pixel * this.rig.spriteHeight();
     for (const { ring: sprite } of [this.moving.truth, this.moving.estimate]) {
-      sprite.scale.set(ring, ring, 1);
+      sprite.scale.set(ring * this.rig.stretch, ring, 1);
       sprite.visible = 30 * metres > 0.6;
     }
     this.moving.axis.scale.setScalar(Math.max(1, 34 * metres));

@@ -5,7 +5,7 @@ import { choice } from "../charts/controls";
 import { h, own, section } from "../dom";
 import { isNumber } from "../format";
 import { sortableTable, type Column } from "../table";
-import { estimatorsOf, type Family, type FamilyPoint, type SuitePayload } from "./model";
+import { estimatorsOf, styleOf, type Family, type FamilyPoint, type SuitePayload } from "./model";
 
 interface Quantity {
   value: "ate_yaw_m" | "m_list_percent" | "success_rate";
@@ -100,7 +100,7 @@ export function familySection(data: SuitePayload): HTMLElement | null {
   const place = h("div", {});
   const draw = () => {
     const names = order.filter((name) => Object.hasOwn(family.estimators, name));
-    const lines = names.map((name) => lineOf(family, name, order.indexOf(name), quantity, overTruth));
+    const lines = names.map((name) => lineOf(family, name, styleOf(data, name), quantity, overTruth));
     const known = (family.median_equivalent_returns ?? []).some(isNumber);
     const xLabel = overTruth ? "equivalent returns along the weak axis, at least 1"
       : `${family.name}${family.level_unit ? ` [${family.level_unit}]` : ""}`;

@@ -6,7 +6,7 @@ import { h, section } from "../dom";
 import { formatNumber, isNumber, kNone } from "../format";
 import { details } from "./details";
 import {
-  estimatorsOf, kSuccessRate, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
+  estimatorsOf, firstScore, kSuccessRate, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
   type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -218,7 +218,7 @@ export function matrixSection(data: SuitePayload): HTMLElement {
       h("p", { class: "nothing" }, "No scenario of this suite has a finished run yet."));
   }
   const scores = scoreChoices(data);
-  const first = scores.find((each) => each.value === "ate_yaw_m") ?? scores[0]!;
+  const first = scores.find((each) => each.value === firstScore(data)) ?? scores[0]!;
   const view: View = {
     score: first.value, statistic: "median", shade: "matrix", group: "", text: "", divergedOnly: false,
     sortBy: null, descending: false,

@@ -176,6 +176,11 @@ export interface Headline {
 
 export interface SuitePayload extends PagePayload {
   kind: "suite";
+  description?: string | null;
+  /** Does the one scenario follow a corridor? */
+  corridor?: boolean;
+  /** Index in the palette of each estimator's style. */
+  styles?: Record<string, number>;
   suite: {
     code?: string;
     complete?: boolean;
@@ -202,6 +207,17 @@ export function estimatorsOf(data: SuitePayload): string[] {
     for (const name of Object.keys(scenario.estimators)) names.add(name);
   }
   return [...names];
+}
+
+/** Index in the palette of an estimator's style. */
+export function styleOf(data: SuitePayload, name: string): number {
+  return own<number>(data.styles, name) ?? estimatorsOf(data).indexOf(name);
+}
+
+/** The score that is shown first: the heading-aligned ATE where there is one. */
+export function firstScore(data: SuitePayload): string {
+  const keys = data.headline.map((each) => each.key);
+  return ["ate_yaw_m", "ate_m"].find((key) => keys.includes(key)) ?? keys[0] ?? "";
 }
 
 /** Every score of the suite. */

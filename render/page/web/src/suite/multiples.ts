@@ -5,7 +5,7 @@ import { choice } from "../charts/controls";
 import { seriesPaint } from "../charts/svg";
 import { h, section } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
-import { estimatorsOf, titleOf, type Run, type SuitePayload } from "./model";
+import { estimatorsOf, firstScore, styleOf, titleOf, type Run, type SuitePayload } from "./model";
 
 /** Charts shown before the reader asks for all. */
 const kShown = 24;
@@ -18,8 +18,8 @@ interface Bar {
   at: number | null;
 }
 
-function barsOf(run: Run, estimators: string[], score: string): Bar[] {
-  return estimators.flatMap((estimator, index): Bar[] => {
+function barsOf(run: Run, estimators: string[], score: string, styles?: (name: string) => number): Bar[] {
+  return estimators.flatMap((estimator): Bar[] => {
     if (!Object.hasOwn(run.estimators, estimator)) return [];
     const found = run.estimators[estimator]!;
     const value = Object.hasOwn(found, score) ? found[score] : null;
@@ -27,7 +27,7 @@ function barsOf(run: Run, estimators: string[], score: string): Bar[] {
     return [
       {
         estimator,
-        index,
+        index: styles?.(estimator) ?? 0,
         value: isNumber(value) ? value : null,
         diverged: found["success"] === false,
         at: isNumber(at) ? at : null,
@@ -95,7 +95,7 @@ export function multiplesSection(data: SuitePayload): HTMLElement | null {
   const charts = h("div", { class: "smalls" });
   const words = h("p", { class: "soft" });
   const more = h("button", { type: "button" }, `Show all ${data.runs.length} runs`);
-  let score = data.headline.find((each) => each.key === "ate_yaw_m")?.key ?? data.headline[0]!.key;
+  let score = firstScore(data);
   let all = data.runs.length <= kShown;
   const draw = () => {
     const ordered = worstFirst(data.runs, estimators, score);
@@ -110,7 +110,7 @@ export function multiplesSection(data: SuitePayload): HTMLElement | null {
       `${formatNumber(scale.high)}${scale.law}; worst first: most diverged estimators, then the largest value.`;
     charts.replaceChildren(
       ...(all ? ordered : ordered.slice(0, kShown)).map((run) =>
-        chart(run, barsOf(run, estimators, score), scale.at)),
+        chart(run, barsOf(run, estimators, score, (name) => styleOf(data, name)), scale.at)),
     );
     more.hidden = all;
   };

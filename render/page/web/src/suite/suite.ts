@@ -11,6 +11,7 @@ import { matrixSection } from "./matrix";
 import { estimatorsOf, type Expectation, type SuitePayload } from "./model";
 import { multiplesSection } from "./multiples";
 import { paperSection } from "./paper";
+import { seedsSection, seedsVerdict } from "./seeds";
 import { rocSection } from "./roc";
 
 type ExpectationRow = Expectation & { scenario: string };
@@ -61,7 +62,8 @@ function invalidBanner(data: SuitePayload): HTMLElement | null {
 export function renderSuite(root: HTMLElement, data: SuitePayload): void {
   const runs = data.runs.length;
   const banner = invalidBanner(data);
-  const sections = [paperSection(data), matrixSection(data), multiplesSection(data), familySection(data), rocSection(data), compareSection(data),
+  const one = data.suite.scenarios.length === 1;
+  const sections = [paperSection(data), one ? seedsSection(data) : matrixSection(data), one ? matrixSection(data) : seedsSection(data), multiplesSection(data), familySection(data), rocSection(data), compareSection(data),
     expectationSection(data), failureSection(data)].filter((each) => each !== null);
   root.append(
     h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()),
@@ -70,7 +72,9 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
       ["", data.suite.complete === false ? "unfinished: runs are missing" : null],
       ["aims", data.version], ["code", data.suite.code],
     ]),
+    data.description ? h("p", { class: "soft" }, data.description) : "",
     ...(banner ? [banner] : []),
+    seedsVerdict(data) ?? "",
     h("nav", { class: "contents", "aria-label": "Contents" }, ...sections.map((each) =>
       h("a", { href: `#${each.id}` }, each.querySelector("h2")?.textContent ?? each.id))),
     ...sections);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/seeds_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "bench/jobs/results.hpp"
+#include "bench/run/expectations.hpp"
+#include "bench/studies/suite_summary.hpp"
+#include "render/page/json_access.hpp"
+#include "render/page/links.hpp"
+#include "render/page/run_folder.hpp"
+#include "render/page/series_styles.hpp"
+#include "render/page/suite_runs.hpp"
+#include "sim/environment/scene_config.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The scenario of a run; one that has no more than a name and the estimators of its scores where
+/// its configuration cannot be read.
+Scenario scenario_of(const fs::path& run_folder, const RunRecord& record, Json& notes) {
+  const fs::path file = run_folder / "config.yaml";
+  if (fs::exists(file)) {
+    auto scenario = load_scenario(file, {});
+    if (scenario) return std::move(*scenario);
+    notes.push_back("Without settings and expectations: " + scenario.error().message);
+  }
+  Scenario scenario;
+  scenario.name = text_in(record.scores, "scenario");
+  scenario.run.clear();
+  for (const auto& [name, unused] : record.scores["estimators"].items()) {
+    scenario.run.push_back(name);
+  }
+  return scenario;
+}
+
+/// "1-3", "1, 3" or "4".
+std::string seeds_text(const std::vector<RunRecord>& runs) {
+  std::vector<std::uint64_t> seeds;
+  for (const RunRecord& each : runs) seeds.push_back(each.seed);
+  const bool range = seeds.size() > 1 && seeds.back() - seeds.front() + 1 == seeds.size();
+  if (range) return fmt::format("{}–{}", seeds.front(), seeds.back());
+  return fmt::format("{}", fmt::join(seeds, ", "));
+}
+
+}  // namespace
+
+std::vector<fs::path> seed_folders(const fs::path& folder) {
+  std::vector<fs::path> runs;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const bool is_seed = entry.path().filename().string().starts_with("seed-");
+    if (is_seed && holds_run(entry.path()) && fs::exists(entry.path() / "truth.tum")) {
+      runs.push_back(entry.path());
+    }
+  }
+  const auto shorter_first = [](const fs::path& path) {
+    const std::string name = path.filename().string();
+    return std::pair(name.size(), name);
+  };
+  std::ranges::sort(runs, {}, shorter_first);
+  return runs;
+}
+
+Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) {
+  if (auto ok = check_links(folder); !ok) return tl::unexpected(ok.error());
+  Json notes = Json::array();
+  Json rows = Json::array();
+  SuiteCase only;
+  const fs::path page_folder = options.out_folder.empty() ? folder : options.out_folder;
+  for (const fs::path& run_folder : seed_folders(folder)) {
+    if (!fs::exists(run_folder / "scores.json")) continue;
+    auto record = read_record(run_folder / "scores.json");
+    if (!record) return tl::unexpected(record.error());
+    if (only.runs.empty()) only.scenario = scenario_of(run_folder, *record, notes);
+    rows.push_back(
+        suite_run_json(only.scenario.name, record->seed, &*record, run_folder, page_folder));
+    only.runs.push_back(std::move(*record));
+  }
+  if (only.runs.empty()) return failure(folder.string() + ": expected seed-N/scores.json");
+  only.expectations = check_expectations(only.scenario, only.runs);
+  PageData page;
+  page.title = fmt::format("{}, seeds {}", only.scenario.name, seeds_text(only.runs));
+  const std::string version = text_in(only.runs.front().scores, "version");
+  const bool corridor = only.scenario.simulation.scene.kind == SceneKind::kCorridor;
+  const std::string description = only.scenario.description;
+  Suite suite;
+  suite.cases.push_back(std::move(only));
+  Json summary = suite_json(suite);
+  page.json = {{"schema", kPageSchema},
+               {"kind", "suite"},
+               {"title", page.title},
+               {"description", description},
+               {"corridor", corridor},
+               {"version", version},
+               {"palette", palette_json()},
+               {"styles", styles_json(suite_estimators(summary))},
+               {"headline", headline_scores_json()},
+               {"runs", std::move(rows)},
+               {"roc", nullptr},
+               {"compare", nullptr},
+               {"paper", nullptr},
+               {"notes", std::move(notes)},
+               {"suite", std::move(summary)}};
+  return page;
+}
+
+}  // namespace aims

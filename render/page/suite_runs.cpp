@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/page/suite_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "bench/run/score_statistics.hpp"
+#include "bench/run/validity.hpp"
+#include "render/page/json_access.hpp"
+#include "render/page/suite_page.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRunPage = "page.html";
+
+/// What the page shows of one estimator on one seed.
+Json outcome_of(const RunRecord& run, const std::string& estimator) {
+  const Json& scores = estimator_in(run, estimator);
+  Json outcome = {{"success", member(scores, "success")},
+                  {"diverged_at_s", json_of(find_score(run, estimator, "diverged_at_s"))},
+                  {"diverged_reason", text_in(scores, "diverged_reason")}};
+  for (const HeadlineScore& score : kHeadlineScores) {
+    outcome[score.key] = json_of(find_score(run, estimator, score.key));
+  }
+  return outcome;
+}
+
+/// The link to a run's own page; null when none lies there.
+Json run_link(const fs::path& run_folder, const fs::path& page_folder) {
+  std::error_code ignored;
+  if (!fs::exists(run_folder / kRunPage, ignored)) return {};
+  const fs::path target = fs::weakly_canonical(run_folder, ignored) / kRunPage;
+  return link_to(target.lexically_relative(fs::weakly_canonical(page_folder, ignored)));
+}
+
+}  // namespace
+
+std::string link_to(const fs::path& relative) {
+  std::string link;
+  for (const char c : relative.generic_string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = byte < 128 && (std::isalnum(byte) != 0 ||
+                                      std::string("-._~/").find(c) != std::string::npos);
+    link += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return link;
+}
+
+Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRecord* record,
+                    const fs::path& run_folder, const fs::path& page_folder) {
+  Json run = {{"scenario", scenario},
+              {"seed", seed},
+              {"href", run_link(run_folder, page_folder)},
+              {"invalid", Json()},
+              {"estimators", Json::object()}};
+  if (record == nullptr) return run;
+  if (const auto reason = invalid_reason(record->scores)) run["invalid"] = *reason;
+  for (const auto& [estimator, unused] : record->scores["estimators"].items()) {
+    run["estimators"][estimator] = outcome_of(*record, estimator);
+  }
+  return run;
+}
+
+Json headline_scores_json() {
+  Json scores = Json::array();
+  for (const HeadlineScore& score : kHeadlineScores) {
+    scores.push_back({{"key", score.key}, {"title", score.title}, {"unit", score.unit}});
+  }
+  return scores;
+}
+
+std::vector<std::string> suite_estimators(const Json& suite) {
+  std::vector<std::string> names;
+  for (const Json& scenario : member(suite, "scenarios")) {
+    for (const auto& [name, unused] : member(scenario, "estimators").items()) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+}  // namespace aims

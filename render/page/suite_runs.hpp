@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bench/run/score_record.hpp"
+
+namespace aims {
+
+/// A run of a suite as its page shows it, with a link to its own page where one lies there.
+/// `record`: its scores; null when its jobs have none.
+Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRecord* record,
+                    const std::filesystem::path& run_folder,
+                    const std::filesystem::path& page_folder);
+
+/// Keys, titles and units of the scores that lead.
+Json headline_scores_json();
+
+/// Names of all estimators of a suite.json, in the order in which its scenarios have them.
+std::vector<std::string> suite_estimators(const Json& suite);
+
+}  // namespace aims

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** The result in one sentence: who keeps the length, who loses it, and where. */
+import { formatNumber, isNumber } from "./format";
+
+/** What is known of an estimator. */
+export interface Finding {
+  name: string;
+  success: boolean;
+  /** Error of the length between reference points, M_list [%]; null: none. */
+  percent: number | null;
+  /** With its sign: negative is too short. */
+  signed: number | null;
+  /** Heading-aligned ATE [m]. */
+  ate: number | null;
+  /** Where it is lost for good; null if it is not. */
+  loss: { from: number; most: number; early: boolean } | null;
+  /** What constrained the weak axis there: median of the equivalent returns; null: not known. */
+  returns: number | null;
+  /** Healthy all along, as it says itself. */
+  healthy: boolean;
+}
+
+/** What the lengths belong to, and how far the robot walked [m]. */
+export interface Route {
+  corridor: boolean;
+  length: number;
+}
+
+/** As good as the best: within this factor of it, or below this [%]. */
+const kFactor = 2;
+const kAlike = 0.1;
+/** More than this is a loss of the length [%]. */
+const kWrong = 1;
+
+const percentText = (value: number) => `${formatNumber(value, 2)} %`;
+
+function listed(names: string[]): string {
+  if (names.length < 2) return names.join("");
+  return `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}`;
+}
+
+/** What constrains the axis where an estimate is lost. */
+function place(returns: number | null): string {
+  if (returns === null) return "";
+  if (returns < 10) return ", where the walls constrain nothing along the way";
+  if (returns < 100) return ", where fewer than 100 equivalent returns constrain the way";
+  return "";
+}
+
+function lossText(each: Finding, route: Route): string {
+  const unnoticed = each.healthy ? ", and calls itself healthy" : "";
+  const { loss, percent, signed } = each;
+  if (loss && loss.most > 2 * route.length)
+    return `${each.name} is lost from ${loss.from.toFixed(0)} s on${place(each.returns)}`;
+  if (percent !== null && (!loss || loss.early)) {
+    const side = signed === null ? "off" : signed < 0 ? "short" : "too long";
+    return `${each.name} is ${percentText(percent)} ${side} throughout${unnoticed}`;
+  }
+  if (!loss) return `${each.name} fails`;
+  const verb = signed !== null && signed < 0 ? "loses" : "strays by";
+  return `${each.name} ${verb} ${formatNumber(loss.most, 2)} m from ${loss.from.toFixed(0)} s on${place(each.returns)}${unnoticed}`;
+}
+
+/** Those that lose the length, the most telling first: lost at a place before wrong throughout. */
+function losers(list: Finding[]): Finding[] {
+  const wrong = list.filter((each) => !each.success || (each.percent ?? 0) > kWrong);
+  const rank = (each: Finding) => (each.loss && !each.loss.early ? 0 : 1);
+  return wrong.sort((a, b) => rank(a) - rank(b) || (b.percent ?? 0) - (a.percent ?? 0));
+}
+
+/** Empty without scores. */
+export function finding(list: Finding[], route: Route): string {
+  const known = list.filter((each) => each.percent !== null);
+  if (known.length === 0) return withoutLengths(list);
+  const what = route.corridor ? "the corridor's length" : "the distances between its reference points";
+  const good = known.filter((each) => each.success && each.percent! <= kWrong)
+    .sort((a, b) => a.percent! - b.percent!);
+  const bad = losers(list);
+  const shown = bad.slice(0, 2).map((each) => lossText(each, route));
+  if (bad.length > 2) shown.push(`${bad.length - 2} more fail`);
+  const loss = shown.length > 0 ? `; ${shown.join("; ")}` : "";
+  if (good.length === 0) return `No estimator keeps ${what}${loss}.`;
+  const limit = Math.max(kAlike, kFactor * good[0]!.percent!);
+  const best = good.filter((each) => each.percent! <= limit);
+  const worst = percentText(best[best.length - 1]!.percent!);
+  const rest = good.length > best.length
+    ? `, ${listed(good.slice(best.length, best.length + 3).map((each) => `${each.name} within ${percentText(each.percent!)}`))}` : "";
+  if (bad.length === 0 && best.length === list.length && list.length > 1)
+    return `${listed(best.map((each) => each.name))} all keep ${what} within ${worst}: this run does not separate them.`;
+  return `${listed(best.map((each) => each.name))} keep${best.length === 1 ? "s" : ""} ${what} within ${worst}${rest}${loss}.`;
+}
+
+/** By the ATE, where no lengths were scored. */
+function withoutLengths(list: Finding[]): string {
+  const good = list.filter((each) => each.success && isNumber(each.ate)).sort((a, b) => a.ate! - b.ate!);
+  const failed = list.filter((each) => !each.success).map((each) => each.name);
+  const loss = failed.length > 0 ? `; ${listed(failed)} fail${failed.length === 1 ? "s" : ""}` : "";
+  if (good.length === 0) return failed.length > 0 ? "No estimator stays near the truth." : "";
+  return `${good[0]!.name} stays nearest to the truth, ATE ${formatNumber(good[0]!.ate, 2)} m${loss}.`;
+}

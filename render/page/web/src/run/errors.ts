@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** Position errors over the distance travelled, and where an estimate is lost. */
+import type { Estimator, Numbers, RunPayload } from "../contract";
+import { isNumber } from "../format";
+import { nearestIndex } from "./store";
+
+/** How an estimate is laid onto the truth; either way its first pose is kept. */
+export type Alignment = "heading" | "start";
+
+/** The true path. */
+export interface Path {
+  t: Numbers;
+  p: Numbers;
+  /** Travelled at each stamp [m]; swaying on the spot does not count. */
+  travelled: Float64Array;
+}
+
+/** Steps below this do not count as travel [m]. */
+const kStep = 0.1;
+
+export function truePath(data: RunPayload): Path | null {
+  const { t, p } = data.truth ?? {};
+  if (!t || !p || t.length < 2 || p.length < 3 * t.length) return null;
+  const travelled = new Float64Array(t.length);
+  let [x, y, sum] = [NaN, NaN, 0];
+  for (let i = 0; i < t.length; ++i) {
+    const [nx, ny] = [p[3 * i]!, p[3 * i + 1]!];
+    if (!Number.isFinite(x + y)) [x, y] = [nx, ny];
+    const step = Math.hypot(nx - x, ny - y);
+    if (step > kStep) {
+      sum += step;
+      [x, y] = [nx, ny];
+    }
+    travelled[i] = sum;
+  }
+  return { t, p, travelled };
+}
+
+/** Position of the truth at an instant, between its samples; null outside of them. */
+function truthAt(path: Path, seconds: number): [number, number, number] | null {
+  const { t, p } = path;
+  const near = nearestIndex(t, seconds);
+  if (near < 0) return null;
+  const i = Math.min(t[near]! <= seconds ? near : near - 1, t.length - 2);
+  if (i < 0) return null;
+  const part = (seconds - t[i]!) / (t[i + 1]! - t[i]!);
+  if (!(part >= -1e-6 && part <= 1 + 1e-6)) return null;
+  const at = (k: number) => p[3 * i + k]! + part * (p[3 * i + 3 + k]! - p[3 * i + k]!);
+  return [at(0), at(1), at(2)];
+}
+
+/** An estimate compared with the truth, a sample per pose. */
+export interface ErrorTrack {
+  t: number[];
+  /** Distance that the truth has travelled [m]. */
+  distance: number[];
+  /** Distance from the truth [m]. */
+  error: number[];
+  /** Laid onto the truth, xyz each [m]. */
+  p: number[];
+  /** By how much the heading was turned [rad]. */
+  turn: number;
+}
+
+/** Turn about the first pose that brings the part before `until` [s] nearest to the truth [rad]. */
+function fittedTurn(pairs: { t: number; e: number[]; q: number[] }[], until: number): number {
+  const first = pairs[0]!;
+  let [cross, dot] = [0, 0];
+  for (const { t, e, q } of pairs) {
+    if (t > until) break;
+    const [ex, ey] = [e[0]! - first.e[0]!, e[1]! - first.e[1]!];
+    const [qx, qy] = [q[0]! - first.q[0]!, q[1]! - first.q[1]!];
+    cross += ex * qy - ey * qx;
+    dot += ex * qx + ey * qy;
+  }
+  return Math.atan2(cross, dot);
+}
+
+/** Null without poses in the time of the truth. */
+export function errorTrack(path: Path, estimator: Estimator, alignment: Alignment): ErrorTrack | null {
+  const { t, p } = estimator.series ?? {};
+  if (!t || !p) return null;
+  const pairs: { t: number; e: number[]; q: number[] }[] = [];
+  for (let i = 0; i < t.length; ++i) {
+    const q = truthAt(path, t[i]!);
+    const e = [p[3 * i]!, p[3 * i + 1]!, p[3 * i + 2]!];
+    if (q && e.every(Number.isFinite) && q.every(Number.isFinite)) pairs.push({ t: t[i]!, e, q });
+  }
+  if (pairs.length === 0) return null;
+  const until = isNumber(estimator.diverged_at) ? estimator.diverged_at : Infinity;
+  const turn = alignment === "heading" ? fittedTurn(pairs, until) : 0;
+  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+  const start = pairs[0]!.e;
+  const track: ErrorTrack = { t: [], distance: [], error: [], p: [], turn };
+  for (const { t: at, e, q } of pairs) {
+    const [dx, dy] = [e[0]! - start[0]!, e[1]! - start[1]!];
+    const laid = [start[0]! + cos * dx - sin * dy, start[1]! + sin * dx + cos * dy, e[2]!];
+    track.t.push(at);
+    track.distance.push(path.travelled[nearestIndex(path.t, at)]!);
+    track.error.push(Math.hypot(laid[0]! - q[0]!, laid[1]! - q[1]!, laid[2]! - q[2]!));
+    track.p.push(...laid);
+  }
+  return track;
+}
+
+/** Where an estimate leaves the truth for good. */
+export interface Loss {
+  /** From then on the error stays above the limit [s]. */
+  from: number;
+  /** Distance travelled there [m]. */
+  distance: number;
+  /** Largest error after it [m]. */
+  most: number;
+}
+
+/** An error that stays above this [m], and above this fraction of the distance travelled, is a loss. */
+const kLost = 0.5;
+const kLostPart = 0.01;
+
+/** The last instant at which the estimate was still near the truth; null if it is near at the end. */
+export function lossOf(track: ErrorTrack): Loss | null {
+  const n = track.t.length;
+  const near = (i: number) => track.error[i]! <= Math.max(kLost, kLostPart * track.distance[i]!);
+  let last = n - 1;
+  while (last >= 0 && !near(last)) --last;
+  if (last === n - 1) return null;
+  const from = Math.max(last, 0);
+  let most = 0;
+  for (let i = from; i < n; ++i) most = Math.max(most, track.error[i]!);
+  return { from: track.t[from]!, distance: track.distance[from]!, most };
+}
+
+/** At most `count` samples of a track, evenly, with the last one. */
+export function thin(track: ErrorTrack, count: number): number[] {
+  const n = track.t.length;
+  const step = Math.max(1, Math.ceil(n / count));
+  const kept: number[] = [];
+  for (let i = 0; i < n; i += step) kept.push(i);
+  if (kept[kept.length - 1] !== n - 1) kept.push(n - 1);
+  return kept;
+}

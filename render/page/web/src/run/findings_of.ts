@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** What a run's scores and time series say of each estimator. */
+import type { RunPayload } from "../contract";
+import { at, own } from "../dom";
+import type { Finding, Route } from "../findings";
+import { isNumber } from "../format";
+import { errorTrack, lossOf, truePath, type Path } from "./errors";
+
+/** A loss that begins within this part of the route is there throughout. */
+const kEarly = 0.15;
+
+/** Mean of the signed errors of the segments [%]. */
+function signedPercent(scores: unknown): number | null {
+  const list = Object.values(own<object>(scores, "m_list_signed_percent") ?? {}).filter(isNumber);
+  return list.length > 0 ? list.reduce((a, b) => a + b, 0) / list.length : null;
+}
+
+/** Median of the equivalent returns over the ten seconds after an instant; null: not known. */
+export function returnsAfter(data: RunPayload, seconds: number): number | null {
+  const local = data.localizability;
+  const values: number[] = [];
+  local?.t.forEach((t, i) => {
+    const value = local.equivalent_returns?.[i];
+    if (t >= seconds && t <= seconds + 10 && isNumber(value)) values.push(value);
+  });
+  if (values.length === 0) return null;
+  values.sort((a, b) => a - b);
+  return values[Math.floor(values.length / 2)]!;
+}
+
+function findingOf(data: RunPayload, path: Path | null, name: string, scores: unknown): Finding {
+  const estimator = data.estimators.find((item) => item.name === name);
+  const track = path && estimator ? errorTrack(path, estimator, "heading") : null;
+  const loss = track ? lossOf(track) : null;
+  const length = path?.travelled[path.travelled.length - 1] ?? 0;
+  const numberAt = (...keys: string[]) => {
+    const value = at(scores, ...keys);
+    return isNumber(value) ? value : null;
+  };
+  return {
+    name,
+    success: at(scores, "success") === true,
+    percent: numberAt("m_list_percent", "all"),
+    signed: signedPercent(scores),
+    ate: numberAt("ate_yaw_m"),
+    loss: loss ? { from: loss.from, most: loss.most, early: loss.distance < kEarly * length } : null,
+    returns: loss ? returnsAfter(data, loss.from) : null,
+    healthy: at(scores, "health", "worst") === "healthy",
+  };
+}
+
+/** Empty without scores. */
+export function findingsOf(data: RunPayload): { list: Finding[]; route: Route } {
+  const path = truePath(data);
+  const scores = Object.entries(own<object>(data.scores, "estimators") ?? {});
+  return {
+    list: scores.map(([name, each]) => findingOf(data, path, name, each)),
+    route: {
+      corridor: data.scenario.corridor === true,
+      length: path?.travelled[path.travelled.length - 1] ?? Infinity,
+    },
+  };
+}

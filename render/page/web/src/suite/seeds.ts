@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** Over the seeds of a scenario: the table of its scores, and how they scatter. */
+import { boxPlot, type BoxGroup } from "../charts/box_plot";
+import { choice } from "../charts/controls";
+import { lineSample } from "../charts/svg";
+import { at, h, own, section } from "../dom";
+import { finding, type Finding } from "../findings";
+import { formatNumber, isNumber } from "../format";
+import { sortableTable, type Column } from "../table";
+import {
+  estimatorsOf, firstScore, runsOf, styleOf, summaryOf, titleOf,
+  type EstimatorSummary, type Headline, type SuitePayload, type SuiteScenario,
+} from "./model";
+
+interface Row {
+  name: string;
+  summary: EstimatorSummary;
+}
+
+/** Median and worst; marked where no run succeeded, since such a median says nothing. */
+function scoreColumn(score: Headline): Column<Row> {
+  const of = (row: Row) => own<{ median: unknown; worst: unknown }>(row.summary.scores, score.key);
+  return {
+    title: score.title, unit: score.unit, best: "low", eligible: (row) => row.summary.successes > 0,
+    hint: "median over seeds (worst)",
+    value: (row) => {
+      const median = of(row)?.median;
+      return isNumber(median) ? median : null;
+    },
+    show: (row) => {
+      const { median, worst } = of(row) ?? {};
+      const text = formatNumber(median) + (row.summary.runs > 1 && isNumber(worst) ? ` (${formatNumber(worst)})` : "");
+      return row.summary.successes > 0 || !isNumber(median) ? text : `${text} ✕`;
+    },
+  };
+}
+
+function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
+  const rows = Object.keys(scenario.estimators).map((name): Row => ({ name, summary: summaryOf(scenario, name)! }));
+  const columns: Column<Row>[] = [
+    {
+      title: "estimator", value: (row) => row.name,
+      show: (row) => h("span", { class: "estimator-name", title: row.name }, lineSample(styleOf(data, row.name)), h("bdi", {}, row.name)),
+    },
+    ...data.headline.map(scoreColumn),
+    {
+      title: "success", value: (row) => row.summary.successes,
+      show: (row) => `${row.summary.successes} of ${row.summary.runs}`,
+    },
+  ];
+  return sortableTable(rows, columns.filter((column, i) => i === 0 || rows.some((row) => column.value(row) !== null)), {
+    caption: "Median over seeds (worst). ✕: no run succeeded. Bold: best of those with a success.", rowName: (row) => row.name,
+  });
+}
+
+function boxes(data: SuitePayload, scenario: SuiteScenario, score: string): HTMLElement {
+  const runs = runsOf(data, scenario.name).filter((run) => !run.invalid);
+  const groups = estimatorsOf(data).filter((name) => Object.hasOwn(scenario.estimators, name)).map((name): BoxGroup => ({
+    name, index: styleOf(data, name),
+    values: runs.flatMap((run) => {
+      const value = at(run.estimators, name, score);
+      return isNumber(value) ? [{ value: Math.abs(value), failed: at(run.estimators, name, "success") === false, note: `seed ${run.seed}` }] : [];
+    }),
+  }));
+  const { title, unit } = titleOf(data.headline, score);
+  return boxPlot(groups, { label: `${title} of each estimator over the seeds of ${scenario.name}`, xLabel: `${title}${unit ? ` [${unit}]` : ""}` });
+}
+
+function findingOf(scenario: SuiteScenario, name: string): Finding {
+  const summary = summaryOf(scenario, name)!;
+  const median = (key: string) => {
+    const value = own<{ median: unknown }>(summary.scores, key)?.median;
+    return isNumber(value) ? value : null;
+  };
+  return {
+    name, success: summary.successes > summary.runs / 2, percent: median("m_list_percent.all"), signed: null,
+    ate: median("ate_yaw_m"), loss: null, returns: null, healthy: false,
+  };
+}
+
+/** What a page of one scenario leads with: one sentence, over the medians; null for none. */
+export function seedsVerdict(data: SuitePayload): HTMLElement | null {
+  const only = data.suite.scenarios[0];
+  if (data.suite.scenarios.length !== 1 || !only) return null;
+  const text = finding(Object.keys(only.estimators).map((name) => findingOf(only, name)), { corridor: data.corridor === true, length: Infinity });
+  if (!text) return null;
+  const runs = only.seeds.length - (only.invalid?.length ?? 0);
+  return h("div", { class: "verdict", "data-verdict": "plain", role: "status" },
+    h("p", {}, h("strong", {}, text), runs > 1 ? ` Medians over ${runs} seeds.` : ""));
+}
+
+/** Table and box plots of the chosen scenario; null without runs. */
+export function seedsSection(data: SuitePayload): HTMLElement | null {
+  const scenarios = data.suite.scenarios.filter((each) => Object.keys(each.estimators).length > 0);
+  if (scenarios.length === 0 || data.headline.length === 0) return null;
+  let scenario = scenarios[0]!;
+  let score = firstScore(data);
+  const place = h("div", {});
+  const draw = () => place.replaceChildren(
+    h("div", { class: "seeds-parts" }, table(data, scenario),
+      runsOf(data, scenario.name).length > 1 ? boxes(data, scenario, score) : ""));
+  draw();
+  return section("seeds", scenarios.length === 1 ? "Over seeds" : "One scenario over its seeds",
+    h("div", { class: "toolbar" },
+      scenarios.length > 1 ? choice("Scenario", scenarios.map((each) => ({ value: each.name, label: each.name })), scenario.name, (name) => {
+        scenario = scenarios.find((each) => each.name === name) ?? scenario;
+        draw();
+      }) : null,
+      choice("Box plot of", data.headline.map((each) => ({ value: each.key, label: `${each.title} [${each.unit}]` })), score, (key) => {
+        score = key;
+        draw();
+      })),
+    place);
+}

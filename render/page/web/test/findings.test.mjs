@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sentence of the result, errors over distance, the plan and the address, without a browser.
+import assert from "node:assert/strict";
+import { mkdtemp, rm } from "node:fs/promises";
+import { createRequire } from "node:module";
+import os from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const modules = path.resolve(process.env.AIMS_PAGE_MODULES ?? path.join(here, "../node_modules"));
+let folder;
+let page;
+
+before(async () => {
+  folder = await mkdtemp(path.join(os.tmpdir(), "aims-findings-"));
+  const outfile = path.join(folder, "page.mjs");
+  const { build } = createRequire(path.join(modules, "any.js"))("esbuild");
+  const sources = ["findings", "run/errors", "run/findings_of", "run/plan", "run/state_url", "run/camera3d", "charts/box_plot"];
+  await build({
+    stdin: {
+      contents: sources.map((name) => `export * from "./src/${name}";`).join("\n"),
+      resolveDir: path.join(here, ".."),
+    },
+    nodePaths: [modules],
+    bundle: true,
+    format: "esm",
+    logLevel: "error",
+    loader: { ".css": "empty" },
+    outfile,
+  });
+  page = await import(pathToFileURL(outfile).href);
+});
+after(() => rm(folder, { recursive: true }));
+
+/** 100 m along x at 1 m/s; estimates are given by x, y at each second. */
+function walk(estimates, returns = () => 500) {
+  const t = Float32Array.from({ length: 101 }, (_, i) => i);
+  return {
+    scenario: { corridor: true },
+    truth: { t, p: Float32Array.from([...t].flatMap((x) => [x, 0, 0])), q: null },
+    localizability: { t, equivalent_returns: t.map(returns), degenerate: {} },
+    estimators: Object.entries(estimates).map(([name, at], colour_index) => ({
+      name, colour_index, diverged_at: null, series: { t, p: Float32Array.from([...t].flatMap((x) => [...at(x), 0])), q: null },
+    })),
+    scores: {
+      estimators: Object.fromEntries(Object.entries(estimates).map(([name, at]) => {
+        const percent = Math.hypot(...at(100)) - 100;
+        return [name, {
+          success: Math.abs(percent) < 5, m_list_percent: { all: Math.abs(percent) }, m_list_signed_percent: { "a-b": percent },
+          health: { worst: "healthy" },
+        }];
+      })),
+    },
+  };
+}
+
+test("a turned estimate has no error once its heading is fitted", () => {
+  const turned = walk({ a: (x) => [x * Math.cos(0.1), x * Math.sin(0.1)] });
+  const path = page.truePath(turned);
+  assert.equal(path.travelled[100], 100);
+  const fitted = page.errorTrack(path, turned.estimators[0], "heading");
+  assert.ok(Math.abs(fitted.turn + 0.1) < 1e-6, `${fitted.turn}`);
+  assert.ok(Math.max(...fitted.error) < 1e-4);
+  const raw = page.errorTrack(path, turned.estimators[0], "start");
+  assert.ok(Math.abs(raw.error[100] - 2 * 100 * Math.sin(0.05)) < 1e-4, `${raw.error[100]}`);
+});
+
+test("a loss begins where the error stays", () => {
+  const data = walk({ a: (x) => [x < 60 ? x : 60 + 0.4 * (x - 60), 0] });
+  const loss = page.lossOf(page.errorTrack(page.truePath(data), data.estimators[0], "start"));
+  assert.ok(Math.abs(loss.from - 61) <= 1, `${loss.from}`);
+  assert.ok(Math.abs(loss.most - 24) < 1e-3);
+  const back = walk({ a: (x) => [x, x > 40 && x < 50 ? 3 : 0] });
+  assert.equal(page.lossOf(page.errorTrack(page.truePath(back), back.estimators[0], "start")), null);
+});
+
+test("the sentence names who keeps the length, who loses it where, and who does not notice", () => {
+  const data = walk({
+    good: (x) => [1.0002 * x, 0],
+    lost: (x) => [x < 60 ? x : 60 + 0.4 * (x - 60), 0],
+    short: (x) => [0.87 * x, 0],
+  }, (x) => (x > 55 ? 3 : 500));
+  const { list, route } = page.findingsOf(data);
+  assert.match(
+    page.finding(list, route),
+    /^good keeps the corridor's length within 0\.02\d* %; lost loses 24 m from 6[01] s on, where the walls constrain nothing along the way, and calls itself healthy; short is 13 % short throughout, and calls itself healthy\.$/,
+  );
+});
+
+test("where nothing differs the sentence says so", () => {
+  const data = walk({ a: (x) => [1.0002 * x, 0], b: (x) => [1.0003 * x, 0] });
+  const { list, route } = page.findingsOf(data);
+  assert.match(page.finding(list, route), /^a and b all keep the corridor's length within 0\.030 %: this run does not separate them\.$/);
+  assert.equal(page.finding([], route), "");
+});
+
+test("the plan of a corridor fills its height, that of a square keeps its scale", () => {
+  const corridor = page.planFrame({ min: [0, -1.5], max: [80, 1.5] }, 1300);
+  assert.ok(corridor.height >= 150 && corridor.stretch > 2, `${corridor.height} ${corridor.stretch}`);
+  const square = page.planFrame({ min: [0, 0], max: [30, 30] }, 1300);
+  assert.equal(square.stretch, 1);
+  const metre = (axis, size) => (axis.at(1) - axis.at(0)) * size;
+  assert.ok(Math.abs(metre(square.long, 1300) - metre(square.across, square.height)) < 1e-9);
+});
+
+test("a flat view of a corridor stretches across, up to a limit, and not when told so", () => {
+  const sides = page.flatSides(80, 4, 2.5, true);
+  assert.ok(Math.abs(sides.y - 2) < 1e-12 && Math.abs(sides.x - 40) < 1e-12);
+  assert.ok(Math.abs(sides.stretch - 8) < 1e-12, `${sides.stretch}`);
+  assert.equal(page.flatSides(80, 4, 2.5, false).stretch, 1);
+  assert.equal(page.flatSides(80, 0.1, 2.5, true).stretch, 12);
+  assert.equal(page.flatSides(10, 40, 2.5, true).stretch, 1);
+});
+
+test("the state survives its address, and what is unknown is left out", () => {
+  const data = walk({ a: (x) => [x, 0], "b&c=d": (x) => [x, 0] });
+  const first = { cursor: 1, from: 0, to: 9, chosen: 0, level: "n100", coloring: "height", scanColoring: "intensity",
+    ceiling: false, errorScale: "chosen", hidden: new Set(), alignment: "heading", tab: "errors", preset: "orbit", follow: false };
+  assert.equal(page.hashOf(first, first, data), "");
+  const state = { ...first, cursor: 2.5, from: 1, to: 4, chosen: 1, hidden: new Set([1]), tab: "internals", preset: "top", ceiling: true };
+  assert.deepEqual({ ...first, ...page.stateIn(`#${page.hashOf(state, first, data)}`, data) }, state);
+  assert.deepEqual(page.stateIn("#preset=nowhere&estimator=x&from=5&to=1&cursor=abc&hide=", data), {});
+});
+
+test("quantiles lie between neighbours", () => {
+  assert.equal(page.quantile([1, 2, 3, 4], 0.5), 2.5);
+  assert.equal(page.quantile([1, 2, 3, 4], 0.25), 1.75);
+  assert.ok(Number.isNaN(page.quantile([], 0.5)));
+});
