@@ -45,7 +45,7 @@ Result<SuiteOptions> options_of(const SharedOptions& given, const Scenario& scen
 std::string seeds_text(const SuiteCase& each) {
   std::vector<std::uint64_t> seeds;
   for (const RunRecord& run : each.runs) seeds.push_back(run.seed);
-  return fmt::format("{}{}", fmt::join(seeds, ", "), seeds.size() > 1 ? ": median (worst)" : "");
+  return fmt::format("{}", fmt::join(seeds, ", "));
 }
 
 /// A line per seed and estimator that was not healthy all along.
@@ -67,8 +67,9 @@ void draw(const std::vector<fs::path>& folders, const SharedOptions& shared) {
 void print_run(const Suite& suite, const fs::path& out, const SharedOptions& shared) {
   const SuiteCase& each = suite.cases.front();
   if (!each.runs.empty()) {
-    print_out("{}, seed {}\n{}\n", each.scenario.name, seeds_text(each),
-              to_text(score_table(each.runs)));
+    print_out("{}, seed {}\n{}{}\n", each.scenario.name, seeds_text(each),
+              to_text(score_table(each.runs)),
+              score_legend(each.runs, each.scenario.scoring));
     print_health(each);
   }
   print_ring_notes(suite);

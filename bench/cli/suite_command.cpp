@@ -10,6 +10,7 @@
 #include "bench/cli/options.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
+#include "bench/run/score_table.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
@@ -32,7 +33,21 @@ void print_matrix(const std::string& title, const TextTable& table) {
   print_out("{}\n{}\n", title, to_text(table));
 }
 
-void print_suite(const Suite& suite, const SharedOptions& shared) {
+/// More scenarios than this are one table per score, not one per scenario.
+constexpr std::size_t kMostTables = 6;
+
+/// The table of scores of each scenario, as `aims run` prints it.
+void print_scenarios(const Suite& suite) {
+  const SuiteCase* last = nullptr;
+  for (const SuiteCase& each : suite.cases) {
+    if (each.runs.empty()) continue;
+    print_matrix(each.scenario.name, score_table(each.runs));
+    last = &each;
+  }
+  if (last != nullptr) print_out("{}\n", score_legend(last->runs, last->scenario.scoring));
+}
+
+void print_matrices(const Suite& suite) {
   print_out("Median [95 % bootstrap interval] worst, over seeds\n\n");
   for (const HeadlineScore& score : kHeadlineScores) {
     const std::string key = score.key;
@@ -42,6 +57,14 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
   for (const SuccessScore& score : kSuccessScores) {
     print_matrix(fmt::format("Success {} of the distance, with 95 % interval", score.title),
                  success_table(suite, score));
+  }
+}
+
+void print_suite(const Suite& suite, const SharedOptions& shared) {
+  if (suite.cases.size() <= kMostTables) {
+    print_scenarios(suite);
+  } else {
+    print_matrices(suite);
   }
   const TextTable pairs = success_pairs_table(suite, false);
   if (!pairs.rows.empty()) print_matrix("Pairs of estimators (McNemar's exact test)", pairs);

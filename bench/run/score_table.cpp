@@ -4,59 +4,144 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
+#include "bench/run/json_values.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/run/validity.hpp"
 
 namespace aims {
 namespace {
 
+constexpr const char* kSe3Key = "ate_se3_m";
+
 struct Column {
   std::string title;
-  std::string key;
-  int digits;
+  std::string key;  ///< of the record; the smaller its value the better
+  int digits = 3;
+  bool optional = false;  ///< left out where no row has a value
 };
 
-std::vector<Column> columns_of(const RunRecord& run) {
-  std::vector<Column> columns = {{"ATE yaw m", "ate_yaw_m", 3},
-                                 {"ATE start m", "ate_m", 3},
+/// An estimator's trajectory, whose scores have keys that begin with `prefix`.
+struct Row {
+  std::string estimator;
+  std::string prefix;
+};
+
+/// More segments have a column for all of them alone.
+constexpr std::size_t kMostSegments = 2;
+
+/// Of several runs, whose cells are wide, those that a reader compares by.
+std::vector<Column> columns_of(const RunRecord& run, bool several) {
+  std::vector<Column> columns = {{"ATE yaw m", "ate_yaw_m"},
+                                 {"ATE start m", "ate_m"},
                                  {"heading mrad", "heading_error_mrad", 1}};
-  for (const Json& segment : run.scores.at("segments")) {
+  const Json& segments = run.scores.at("segments");
+  const bool shown = !several && segments.size() <= kMostSegments;
+  for (const Json& segment : segments) {
     const auto name = segment["name"].get<std::string>();
-    columns.push_back({fmt::format("M_list({}) %", name), "m_list_percent." + name, 3});
+    if (shown) columns.push_back({fmt::format("M_list({}) %", name), "m_list_percent." + name});
   }
-  columns.push_back({"M_end m", "m_end_m", 3});
-  columns.push_back({"max |z| m", "max_error_z_m", 3});
-  columns.push_back({"CPU ms/scan", "cpu_per_scan_ms.mean", 2});
+  if (!shown || segments.size() != 1) columns.push_back({"M_list %", "m_list_percent.all"});
+  columns.push_back({"M_end m", "m_end_m"});
+  if (!several) {
+    columns.push_back({"ATE SE(3) m", kSe3Key});
+    columns.push_back({"ATE Sim(3) m", "ate_sim3_m", 3, true});
+  }
+  columns.push_back({"RPE %", "path_error_percent.all", 3, true});
+  if (!several) columns.push_back({"RPE deg/m", "path_error_deg_per_m.all", 3, true});
+  columns.push_back({"max |z| m", "max_error_z_m"});
+  columns.push_back({"CPU ms/scan", "cpu_per_scan_ms.mean", 2, true});
   return columns;
 }
 
-std::string cell(const ScoreStatistics& summary, int digits, bool several) {
-  if (!summary.median) return "-";
-  const std::string median = fmt::format("{:.{}f}", *summary.median, digits);
-  return several ? fmt::format("{} ({:.{}f})", median, *summary.worst, digits) : median;
+std::vector<Row> rows_of(std::span<const RunRecord> runs) {
+  std::vector<Row> rows;
+  for (const auto& [name, unused] : runs.front().scores.at("estimators").items()) {
+    rows.push_back({name, ""});
+    const bool optimized = std::ranges::any_of(
+        runs, [&, &own = name](const RunRecord& run) { return has_optimized(run, own); });
+    if (optimized) rows.push_back({name, kOptimizedPrefix});
+  }
+  return rows;
 }
 
-std::string success_cell(std::span<const RunRecord> runs, const std::string& estimator,
-                         const std::string& key) {
+ScoreStatistics statistics_in(std::span<const RunRecord> runs, const Row& row,
+                              const std::string& key) {
+  return statistics_of(runs, row.estimator, row.prefix + key);
+}
+
+bool has_success(std::span<const RunRecord> runs, const Row& row) {
+  return successes(runs, row.estimator, row.prefix + kSuccessKey) > 0;
+}
+
+/// The smallest median of the column among rows with a success; none of a single row.
+std::optional<double> best_in(std::span<const RunRecord> runs, const std::vector<Row>& rows,
+                              const Column& column) {
+  if (rows.size() < 2 || column.key.starts_with("cpu")) return std::nullopt;
+  std::optional<double> smallest;
+  for (const Row& row : rows) {
+    const auto median = statistics_in(runs, row, column.key).median;
+    if (median && has_success(runs, row)) smallest = std::min(*median, smallest.value_or(*median));
+  }
+  return smallest;
+}
+
+/// " line" or " point" where least squares left an angle open.
+std::string spread_mark(const RunRecord& run, const Row& row) {
+  const Json& scores = estimator_in(run, row.estimator);
+  const std::string spread = value_in(value_in(scores, "alignment", Json()), "se3", "se3");
+  if (spread != "se3") return " " + spread;
+  return value_in(scores, "ate_se3_degenerate", false) ? " line" : "";
+}
+
+std::string cell(std::span<const RunRecord> runs, const Row& row, const Column& column,
+                 const std::optional<double>& best) {
+  const ScoreStatistics summary = statistics_in(runs, row, column.key);
+  if (!summary.median) return "-";
+  const bool success = has_success(runs, row);
+  std::string text = fmt::format("{:.{}f}", *summary.median, column.digits);
+  if (runs.size() > 1) text += fmt::format(" ({:.{}f})", *summary.worst, column.digits);
+  if (success && best && *summary.median == *best) text += "*";
+  const bool timing = column.key.starts_with("cpu");
+  if (runs.size() > 1 && !success && !timing) text += " x";
+  if (runs.size() == 1 && column.key == kSe3Key) text += spread_mark(runs.front(), row);
+  return text;
+}
+
+/// "yes", or why and when it diverged [s after the truth's start].
+std::string outcome_of(const RunRecord& run, const Row& row) {
+  const Json& scores = estimator_in(run, row.estimator);
+  const Json own = row.prefix.empty() ? scores : value_in(scores, "optimized", Json());
+  if (value_in(own, "success", false)) return "yes";
+  const std::string reason = value_in(own, "diverged_reason", "no");
+  const auto at = number_at(own, "diverged_at_s");
+  if (!at) return reason.empty() ? "no" : reason;
+  const double start = value_in(value_in(run.scores, "truth", Json()), "start_s", 0.0);
+  return fmt::format("{} at {:.1f} s", reason.empty() ? "diverged" : reason, *at - start);
+}
+
+std::string success_cell(std::span<const RunRecord> runs, const Row& row,
+                         const SuccessScore& score) {
   if (std::ranges::none_of(runs, is_valid_run)) return "invalid run";
-  const SuccessRate rate = success_rate(runs, estimator, key);
-  if (runs.size() > 1) return rate.text();
+  if (runs.size() == 1 && std::string(score.key) == kSuccessKey) {
+    return outcome_of(runs.front(), row);
+  }
+  const SuccessRate rate = success_rate(runs, row.estimator, row.prefix + score.key);
+  if (runs.size() > 1 || rate.runs == 0) return rate.text();
   return rate.count == 1 ? "yes" : "no";
 }
 
-/// The row of a trajectory, whose scores have keys that begin with `prefix`.
-std::vector<std::string> row_of(std::span<const RunRecord> runs, std::span<const Column> columns,
-                                const std::string& estimator, const std::string& prefix) {
-  std::vector<std::string> row = {prefix.empty() ? estimator : optimized_label(estimator)};
-  for (const Column& column : columns) {
-    const ScoreStatistics statistics = statistics_of(runs, estimator, prefix + column.key);
-    row.push_back(cell(statistics, column.digits, runs.size() > 1));
+/// Least fraction of the truth's time that was tracked.
+std::string tracked_cell(std::span<const RunRecord> runs, const Row& row) {
+  std::optional<double> least;
+  for (const RunRecord& run : runs) {
+    if (!is_valid_run(run)) continue;
+    const auto value = find_score(run, row.estimator, row.prefix + "coverage");
+    if (value) least = std::min(*value, least.value_or(*value));
   }
-  for (const SuccessScore& score : kSuccessScores) {
-    row.push_back(success_cell(runs, estimator, prefix + score.key));
-  }
-  return row;
+  return least ? fmt::format("{:.0f} %", 100.0 * *least) : "-";
 }
 
 }  // namespace
@@ -66,17 +151,52 @@ TextTable score_table(std::span<const RunRecord> runs) {
   if (runs.empty()) return table;
   // A route that was not finished may lack segments.
   const auto valid = std::ranges::find_if(runs, is_valid_run);
-  const std::vector<Column> columns = columns_of(valid == runs.end() ? runs.front() : *valid);
+  const std::vector<Row> rows = rows_of(runs);
+  std::vector<Column> columns =
+      columns_of(valid == runs.end() ? runs.front() : *valid, runs.size() > 1);
+  std::erase_if(columns, [&](const Column& column) {
+    return column.optional && std::ranges::none_of(rows, [&](const Row& row) {
+             return statistics_in(runs, row, column.key).median.has_value();
+           });
+  });
   table.header = {"estimator"};
   for (const Column& column : columns) table.header.push_back(column.title);
+  table.header.emplace_back("tracked");
   for (const SuccessScore& score : kSuccessScores) table.header.emplace_back(score.title);
-  for (const auto& [estimator, unused] : runs.front().scores.at("estimators").items()) {
-    table.rows.push_back(row_of(runs, columns, estimator, ""));
-    const bool optimized = std::ranges::any_of(
-        runs, [&, &name = estimator](const RunRecord& run) { return has_optimized(run, name); });
-    if (optimized) table.rows.push_back(row_of(runs, columns, estimator, kOptimizedPrefix));
+  for (const Row& row : rows) {
+    table.rows.push_back({row.prefix.empty() ? row.estimator : optimized_label(row.estimator)});
+    for (const Column& column : columns) {
+      table.rows.back().push_back(cell(runs, row, column, best_in(runs, rows, column)));
+    }
+    table.rows.back().push_back(tracked_cell(runs, row));
+    for (const SuccessScore& score : kSuccessScores) {
+      table.rows.back().push_back(success_cell(runs, row, score));
+    }
   }
   return table;
+}
+
+std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& scoring) {
+  const bool pose = scoring.anchor == AlignmentKind::kStartPose;
+  const bool several = runs.size() > 1;
+  std::string text = fmt::format(
+      "ATE yaw, heading: after least squares over all positions, by translation and heading.\n"
+      "ATE start, M_end, max |z|: aligned to the truth at {}.\n"
+      "{}RPE: mean over pieces of 5 to 100 m (KITTI). within 5 %, 1 %: position error of the\n"
+      "distance travelled so far. tracked: of the truth's time, with poses at most {:g} s apart.\n",
+      pose ? "the standing start, by position and rotation"
+           : "the first pose, by position and heading",
+      several ? "" : "ATE SE(3): least squares by translation and rotation (Umeyama, as evo).\n",
+      scoring.max_gap);
+  if (several) {
+    text +=
+        "Cells: median over seeds (worst); x: a median over runs of which none succeeded. Success:\n"
+        "runs, with the 95 % interval of the rate.\n";
+  }
+  if (!runs.empty() && runs.front().scores.at("estimators").size() > 1) {
+    text += "A star: best of those that succeeded.\n";
+  }
+  return text;
 }
 
 }  // namespace aims

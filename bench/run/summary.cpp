@@ -36,9 +36,10 @@ Json summary_json(const Scenario& scenario, std::span<const RunRecord> runs) {
   return summary;
 }
 
-std::string markdown_of(std::span<const RunRecord> runs) {
+std::string markdown_of(const Scenario& scenario, std::span<const RunRecord> runs) {
   const std::string left_out = left_out_text(runs);
-  return to_markdown(score_table(runs)) + (left_out.empty() ? "" : "\n" + left_out + ".\n");
+  return to_markdown(score_table(runs)) + "\n" + score_legend(runs, scenario.scoring) +
+         (left_out.empty() ? "" : "\n" + left_out + ".\n");
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> 
   if (runs.empty()) return {};
   auto written = write_csv(folder / "summary.csv", scores_csv(runs));
   if (written) {
-    written = write_file_atomically(folder / "summary.md", markdown_of(runs));
+    written = write_file_atomically(folder / "summary.md", markdown_of(scenario, runs));
   }
   if (written) {
     written = write_file_atomically(folder / "summary.tex", to_latex(score_table(runs)));

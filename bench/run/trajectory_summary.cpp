@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "bench/run/json_text.hpp"
+#include "bench/run/score_table.hpp"
 #include "bench/run/tables.hpp"
 #include "core/files/atomic_file.hpp"
 
@@ -28,62 +27,6 @@ std::string_view name_of(PositionSpread spread) {
       return "point";
   }
   return "se3";
-}
-
-struct ScoreColumn {
-  std::string title;
-  std::string key;  ///< of the record; the smaller its value the better
-  int digits = 3;
-};
-
-std::vector<ScoreColumn> score_columns(const RunRecord& record, bool scored_with_scale) {
-  std::vector<ScoreColumn> columns = {{"ATE yaw m", "ate_yaw_m"},
-                                      {"ATE start m", "ate_m"},
-                                      {"heading mrad", "heading_error_mrad", 1}};
-  for (const Json& segment : record.scores["segments"]) {
-    const auto name = segment["name"].get<std::string>();
-    columns.push_back({fmt::format("M_list({}) %", name), "m_list_percent." + name});
-  }
-  if (columns.size() != 1) columns.push_back({"M_list %", "m_list_percent.all"});
-  columns.push_back({"M_end m", "m_end_m"});
-  columns.push_back({"ATE SE(3) m", "ate_se3_m"});
-  if (scored_with_scale) columns.push_back({"ATE Sim(3) m", "ate_sim3_m"});
-  columns.push_back({"RPE %", "path_error_percent.all"});
-  columns.push_back({"RPE deg/m", "path_error_deg_per_m.all"});
-  columns.push_back({"max |z| m", "max_error_z_m"});
-  return columns;
-}
-
-/// The smallest value of the column among estimates that did not diverge; none of a single
-/// estimate.
-std::optional<double> best(const TrajectoryScores& scores, const RunRecord& record,
-                           const ScoreColumn& column) {
-  if (scores.estimates.size() < 2) return std::nullopt;
-  std::optional<double> smallest;
-  for (const ScoredEstimate& each : scores.estimates) {
-    const auto value = find_score(record, each.given.name, column.key);
-    if (each.scores.success && value) smallest = std::min(*value, smallest.value_or(*value));
-  }
-  return smallest;
-}
-
-std::string cell(const ScoredEstimate& estimate, const RunRecord& record, const ScoreColumn& column,
-                 const std::optional<double>& smallest) {
-  const auto value = find_score(record, estimate.given.name, column.key);
-  if (!value) return "-";
-  const bool is_best = estimate.scores.success && smallest && *value == *smallest;
-  const bool marked =
-      column.key == "ate_se3_m" && estimate.scores.se3_spread != PositionSpread::kFull;
-  return fmt::format("{:.{}f}{}{}", *value, column.digits, is_best ? "*" : "",
-                     marked ? fmt::format(" {}", name_of(estimate.scores.se3_spread)) : "");
-}
-
-/// "yes", or why and when it diverged [s after the truth's start].
-std::string success_cell(const Scores& scores, const Trajectory& truth) {
-  if (scores.success) return "yes";
-  if (!scores.diverged_at) return std::string(name_of(scores.failure_reason));
-  return fmt::format("{} at {:.1f} s", name_of(scores.failure_reason),
-                     to_seconds(*scores.diverged_at - truth.front().stamp));
 }
 
 Json estimate_json(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
@@ -113,24 +56,7 @@ std::string markdown(const TrajectoryScores& scores) {
 
 TextTable trajectory_score_table(const TrajectoryScores& scores) {
   const RunRecord record = record_of(scores);
-  const std::vector<ScoreColumn> columns = score_columns(record, scores.scoring.sim3);
-  TextTable table;
-  table.header = {"estimate"};
-  for (const ScoreColumn& column : columns) table.header.push_back(column.title);
-  table.header.emplace_back("tracked");
-  table.header.emplace_back("within 5 %");
-  table.header.emplace_back("within 1 %");
-  for (const ScoredEstimate& each : scores.estimates) {
-    std::vector<std::string> row = {each.given.name};
-    for (const ScoreColumn& column : columns) {
-      row.push_back(cell(each, record, column, best(scores, record, column)));
-    }
-    row.push_back(fmt::format("{:.0f} %", 100.0 * each.scores.coverage));
-    row.push_back(success_cell(each.scores, scores.truth.trajectory));
-    row.emplace_back(each.scores.success_1_percent ? "yes" : "no");
-    table.rows.push_back(std::move(row));
-  }
-  return table;
+  return score_table({&record, 1});
 }
 
 TextTable trajectory_source_table(const TrajectoryScores& scores) {
@@ -149,19 +75,8 @@ TextTable trajectory_source_table(const TrajectoryScores& scores) {
 }
 
 std::string score_legend(const TrajectoryScores& scores) {
-  const bool pose = scores.scoring.anchor == AlignmentKind::kStartPose;
-  std::string text = fmt::format(
-      "ATE yaw, heading: after least squares over all positions, by translation and heading.\n"
-      "ATE start, M_end, max |z|: aligned to the truth at {}.\n"
-      "ATE SE(3): least squares by translation and rotation (Umeyama, as evo). RPE: mean over "
-      "pieces\n"
-      "of 5 to 100 m (KITTI). within 5 %, 1 %: position error of the distance travelled so far.\n"
-      "tracked: of the truth's time, with poses at most {:g} s apart.\n",
-      pose ? "the standing start, by position and rotation"
-           : "the first pose, by position and heading",
-      scores.scoring.max_gap);
-  if (scores.estimates.size() > 1) text += "A star: smallest of those that did not diverge.\n";
-  return text;
+  const RunRecord record = record_of(scores);
+  return score_legend({&record, 1}, scores.scoring);
 }
 
 RunRecord record_of(const TrajectoryScores& scores) {

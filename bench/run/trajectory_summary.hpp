@@ -12,8 +12,7 @@
 
 namespace aims {
 
-/// A row per estimate. Of several estimates, the smallest figure of each column among those that
-/// did not diverge carries a star; an ATE SE(3) where evo gives none is marked "line" or "point".
+/// The table of scores (bench/run/score_table.hpp), a row per estimate.
 TextTable trajectory_score_table(const TrajectoryScores& scores);
 
 /// Where the truth and each estimate come from, and how they met.

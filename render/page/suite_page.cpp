@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -79,12 +81,23 @@ Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_fol
   return runs;
 }
 
+/// More scenarios than these are counted in a title, not named.
+constexpr std::size_t kMostNames = 3;
+
 /// The name that the folder was given; of the one that `aims suite` takes by itself, the content.
 std::string title_of(const Json& suite, const fs::path& folder) {
   const std::string name = folder_name(folder);
   if (name != "suite") return name;
-  const std::size_t scenarios = suite["scenarios"].size();
-  return fmt::format("{} scenario{}, {} estimators", scenarios, scenarios == 1 ? "" : "s",
+  std::vector<std::string> scenarios;
+  std::set<std::string> families;
+  for (const Json& each : suite["scenarios"]) {
+    scenarios.push_back(text_in(each, "name"));
+    families.insert(text_in(each, "family"));
+  }
+  if (scenarios.size() <= kMostNames) return fmt::format("{}", fmt::join(scenarios, ", "));
+  const bool one_family = families.size() == 1 && !families.begin()->empty();
+  if (one_family) return fmt::format("{}, {} levels", *families.begin(), scenarios.size());
+  return fmt::format("{} scenarios, {} estimators", scenarios.size(),
                      suite_estimators(suite).size());
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/run/expectations.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/run/score_table.hpp"
@@ -92,6 +94,25 @@ TEST(Validity, NoStatisticHoldsAnInvalidRun) {
             "1 of 3 runs are invalid and left out: seed 2 (the robot fell at 1.2 s)");
   EXPECT_EQ(invalid_json(runs),
             Json::parse(R"([{"seed": 2, "reason": "the robot fell at 1.2 s"}])"));
+}
+
+TEST(Validity, AMedianOverRunsWithoutSuccessIsMarked) {
+  std::vector<RunRecord> runs = {record(1, 0.2, kFine), record(3, 0.4, kFine)};
+  const auto cells_of = [](const TextTable& table, std::size_t row, const std::string& title) {
+    const auto at = std::ranges::find(table.header, title) - table.header.begin();
+    return table.rows.at(row).at(static_cast<std::size_t>(at));
+  };
+  EXPECT_EQ(cells_of(score_table(runs), 0, "ATE start m"), "0.300 (0.400)");
+  for (RunRecord& run : runs) {
+    run.scores["estimators"]["lio"] = run.scores["estimators"]["aims"];
+    run.scores["estimators"]["lio"]["ate_m"] = 0.1;
+    run.scores["estimators"]["lio"]["success"] = false;
+  }
+  const TextTable table = score_table(runs);
+  EXPECT_EQ(cells_of(table, 0, "ATE start m"), "0.300 (0.400)*") << "best of those with a success";
+  EXPECT_EQ(cells_of(table, 1, "ATE start m"), "0.100 (0.100) x");
+  EXPECT_NE(score_legend(runs, {}).find("x: a median over runs of which none succeeded"),
+            std::string::npos);
 }
 
 TEST(Validity, ASingleInvalidRunHasNoScoresInItsTable) {

@@ -41,7 +41,8 @@ TEST(Estimate, ThatIsInterruptedIsLabelledSoAndEntersNoAverage) {
     ASSERT_TRUE(result.scores);
     EXPECT_FALSE(result.scores->estimates.at(0).scores.success);
     EXPECT_EQ(result.scores->estimates.at(0).scores.failure_reason, FailureReason::kInterrupted);
-    EXPECT_EQ(trajectory_score_table(*result.scores).rows.at(0).back(), "interrupted");
+    const auto row = trajectory_score_table(*result.scores).rows.at(0);
+    EXPECT_EQ(row.at(row.size() - 2), "interrupted");
     ASSERT_TRUE(write_estimate({}, result, folder.path()));
     const auto record = read_record(folder.path() / "scores.json");
     ASSERT_TRUE(record);

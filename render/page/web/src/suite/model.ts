@@ -57,6 +57,8 @@ export interface FamilyPoint {
   m_list_low_percent: Maybe;
   m_list_high_percent: Maybe;
   success_rate: Maybe;
+  success_low?: Maybe;
+  success_high?: Maybe;
   runs: number;
 }
 
