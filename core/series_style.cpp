@@ -55,8 +55,8 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 21> kOfEstimators
 }};
 
 std::optional<std::size_t> fixed_style(std::string_view name) {
-  const auto* found = std::ranges::find(kOfEstimators, name,
-                                        &std::pair<std::string_view, std::size_t>::first);
+  const auto* found =
+      std::ranges::find(kOfEstimators, name, &std::pair<std::string_view, std::size_t>::first);
   return found == kOfEstimators.end() ? std::nullopt : std::optional(found->second);
 }
 

@@ -68,8 +68,7 @@ void print_run(const Suite& suite, const fs::path& out, const SharedOptions& sha
   const SuiteCase& each = suite.cases.front();
   if (!each.runs.empty()) {
     print_out("{}, seed {}\n{}{}\n", each.scenario.name, seeds_text(each),
-              to_text(score_table(each.runs)),
-              score_legend(each.runs, each.scenario.scoring));
+              to_text(score_table(each.runs)), score_legend(each.runs, each.scenario.scoring));
     print_health(each);
   }
   print_ring_notes(suite);

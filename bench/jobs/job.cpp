@@ -18,7 +18,7 @@ constexpr std::array kOutcomes = {JobOutcome::kDone, JobOutcome::kFailed, JobOut
 }  // namespace
 
 Job make_job(std::shared_ptr<const Scenario> scenario, std::uint64_t seed,
-                    EstimatorSpec estimator) {
+             EstimatorSpec estimator) {
   scenario = scenario_of_seed(std::move(scenario), seed);
   std::string id = job_id(*scenario, seed, text_of(estimator));
   return {std::move(scenario), seed, std::move(estimator), std::move(id)};

@@ -190,7 +190,8 @@ std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& sco
       scoring.max_gap);
   if (several) {
     text +=
-        "Cells: median over seeds (worst); x: a median over runs of which none succeeded. Success:\n"
+        "Cells: median over seeds (worst); x: a median over runs of which none succeeded. "
+        "Success:\n"
         "runs, with the 95 % interval of the rate.\n";
   }
   if (!runs.empty() && runs.front().scores.at("estimators").size() > 1) {

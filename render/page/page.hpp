@@ -20,14 +20,16 @@ struct WrittenPages {
   std::vector<std::string> warnings;  ///< runs of a suite whose page could not be written, and why
 };
 
-/// Writes the page of a folder to `file`: of one run, of its seeds, of a suite, or of a sweep. Error, with the
-/// file and what was expected, when the folder holds nothing of these or something broken.
+/// Writes the page of a folder to `file`: of one run, of its seeds, of a suite, or of a sweep.
+/// Error, with the file and what was expected, when the folder holds nothing of these or something
+/// broken.
 Result<void> write_page(const std::filesystem::path& folder, const std::filesystem::path& file,
                         PageOptions options = {});
 
 /// Writes every page of a folder of results, each as `kPageFile` into the folder that it shows: one
-/// run; each seed of `aims run`, then all of them; a suite and, before it, those of its runs that kept trajectories,
-/// unless their page is newer than their scores; a sweep. Runs of a suite stop nothing else.
+/// run; each seed of `aims run`, then all of them; a suite and, before it, those of its runs that
+/// kept trajectories, unless their page is newer than their scores; a sweep. Runs of a suite stop
+/// nothing else.
 Result<WrittenPages> write_pages(const std::filesystem::path& folder,
                                  const PageOptions& options = {},
                                  const DrawObserver& observer = {});

@@ -74,8 +74,8 @@ Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_fol
       if (record == nullptr) {
         notes.push_back(fmt::format("{}, seed {}: no results of its jobs", name, seed));
       }
-      runs.push_back(suite_run_json(name, seed, record, suite_run_folder(folder, name, seed),
-                                    page_folder));
+      runs.push_back(
+          suite_run_json(name, seed, record, suite_run_folder(folder, name, seed), page_folder));
     }
   }
   return runs;
@@ -171,11 +171,16 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
   if (!paper) return tl::unexpected(paper.error());
   const fs::path page_folder = options.out_folder.empty() ? folder : options.out_folder;
   Json runs = runs_of(*suite, folder, page_folder, notes);
-  page.json = {{"schema", kPageSchema},         {"kind", "suite"},
-               {"title", page.title},           {"version", text_in(*suite, "version")},
-               {"headline", headline_scores_json()}, {"runs", std::move(runs)},
-               {"roc", std::move(*detectors)},  {"compare", std::move(*comparison)},
-               {"paper", std::move(*paper)},    {"notes", std::move(notes)}};
+  page.json = {{"schema", kPageSchema},
+               {"kind", "suite"},
+               {"title", page.title},
+               {"version", text_in(*suite, "version")},
+               {"headline", headline_scores_json()},
+               {"runs", std::move(runs)},
+               {"roc", std::move(*detectors)},
+               {"compare", std::move(*comparison)},
+               {"paper", std::move(*paper)},
+               {"notes", std::move(notes)}};
   page.json["palette"] = palette_json();
   page.json["styles"] = styles_json(suite_estimators(*suite));
   page.json["suite"] = std::move(*suite);

@@ -125,7 +125,8 @@ Result<void> write_level_plot(const std::filesystem::path& path, const LevelPlot
   Figure figure{.title = plot.title, .subtitle = plot.subtitle};
   figure.width = 1100;
   const Axis levels = level_axis(plot);
-  for (const LevelPanel& panel : plot.panels) figure.panels.push_back(panel_of(plot, panel, levels));
+  for (const LevelPanel& panel : plot.panels)
+    figure.panels.push_back(panel_of(plot, panel, levels));
   if (!plot.panels.empty()) {
     const auto& curves = plot.panels.front().curves;
     const std::vector<Stroke> strokes = strokes_of(plot, plot.panels.front());

@@ -71,8 +71,8 @@ struct Study {
   std::vector<double> truth_distance;
   std::vector<Comparison> estimates;
   std::vector<Stroke> strokes;  ///< of the estimates
-  Extent x, y, z;  ///< of the axes [m]
-  Extent error;    ///< [m]
+  Extent x, y, z;               ///< of the axes [m]
+  Extent error;                 ///< [m]
 };
 
 /// Ranges of the axes: those of the truth and of estimates while they are near it.

@@ -53,7 +53,9 @@ std::array<Eigen::Matrix3d, 4> eyes() {
 
 double contrast(double a, double b) { return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05); }
 
-double luminance(const Eigen::Vector3d& rgb) { return rgb.dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722)); }
+double luminance(const Eigen::Vector3d& rgb) {
+  return rgb.dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722));
+}
 
 TEST(SeriesStyle, TwelveColorsDifferForEveryKindOfEye) {
   for (const bool dark : {false, true}) {
@@ -97,7 +99,8 @@ TEST(SeriesStyle, AnEstimatorLooksTheSameInAnyCompany) {
 }
 
 TEST(SeriesStyle, LabelsOfAPictureDiffer) {
-  std::vector<std::string> labels = {"aims_d", "aims_d+degeneracy.eta=5", "aims_d (optimized)", "mine", "yours"};
+  std::vector<std::string> labels = {"aims_d", "aims_d+degeneracy.eta=5", "aims_d (optimized)",
+                                     "mine", "yours"};
   const auto styles = series_styles(labels);
   EXPECT_EQ(std::set<std::size_t>(styles.begin(), styles.end()).size(), labels.size());
   EXPECT_EQ(series_style(styles[0]).light, series_style(styles[1]).light)
