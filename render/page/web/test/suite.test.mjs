@@ -131,7 +131,7 @@ test("the severity has a line per estimator, with intervals, over level and trut
   assert.equal(await chart.locator("path.cross").count(), 1);
   await chart.locator("svg[role=img]").focus();
   await page.keyboard.press("ArrowRight");
-  assert.match(await chart.locator(".readout").innerText(), /^a: ATE \[m\] 0\.0123 \[0\.00984, 0\.0160\] at severity \[step\] 1/);
+  assert.match(await chart.locator(".readout").innerText(), /^a: ATE yaw \[m\] 0\.0123 \[0\.00984, 0\.0160\] at severity \[step\] 1/);
   await page.locator("#families select").nth(2).selectOption("truth");
   assert.equal((await page.locator('#families g[data-series="a"] .bars').getAttribute("d")).match(/V/g).length, 2);
   await chart.getByRole("button", { name: "b", exact: true }).click();
@@ -175,6 +175,7 @@ test("one scenario over its seeds leads with a sentence, its table and box plots
   const data = suite();
   const only = data.suite.scenarios.find((each) => each.name === "severity_3");
   Object.assign(data.suite, { scenarios: [only], families: [] });
+  only.estimators.b.scores.m_end_m = { median: 30, worst: 40, count: 3 };
   data.runs = data.runs.filter((run) => run.scenario === "severity_3");
   const { page, troubles } = await pages.show({ ...data, title: "severity_3, seeds 1–3" });
   assert.match(await page.locator("[data-verdict]").innerText(), /^a keeps .*; b fails\. Medians over 3 seeds\./);
