@@ -22,19 +22,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The scenario of a run; one that has no more than a name and the estimators of its scores where
-/// its configuration cannot be read.
+/// The scenario of a run with the estimators of its scores; without more than a name where its
+/// configuration cannot be read.
 Scenario scenario_of(const fs::path& run_folder, const RunRecord& record, Json& notes) {
-  const fs::path file = run_folder / "config.yaml";
-  if (fs::exists(file)) {
-    auto scenario = load_scenario(file, {});
-    if (scenario) return std::move(*scenario);
-    notes.push_back("Without settings and expectations: " + scenario.error().message);
-  }
   Scenario scenario;
   scenario.name = text_in(record.scores, "scenario");
+  const fs::path file = run_folder / "config.yaml";
+  if (fs::exists(file)) {
+    auto read = load_scenario(file, {});
+    if (!read) notes.push_back("Without settings and expectations: " + read.error().message);
+    if (read) scenario = std::move(*read);
+  }
   scenario.run.clear();
-  for (const auto& [name, unused] : record.scores["estimators"].items()) {
+  for (const auto& [name, unused] : member(record.scores, "estimators").items()) {
     scenario.run.push_back(name);
   }
   return scenario;

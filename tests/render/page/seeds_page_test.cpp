@@ -32,12 +32,12 @@ TEST(SeedsPage, IsOneScenarioOverItsSeedsWithLinksToTheirPages) {
   const TemporaryFolder folder;
   write_seeds(folder.path(), {2, 3, 10});
   testing::put(folder.path() / "seed-3/page.html", "");
-  const auto page = seeds_page(folder.path(), {});
+  auto page = seeds_page(folder.path(), {});
   ASSERT_TRUE(page) << page.error().message;
   EXPECT_EQ(page->title, "made_up, seeds 2, 3, 10");
   EXPECT_EQ(page->json["kind"], "suite");
   ASSERT_EQ(page->json["suite"]["scenarios"].size(), 1U);
-  const Json scenario = page->json["suite"]["scenarios"][0];
+  Json scenario = page->json["suite"]["scenarios"][0];
   EXPECT_EQ(scenario["seeds"], Json::parse("[2, 3, 10]"));
   EXPECT_EQ(scenario["estimators"]["exact"]["runs"], 3);
   ASSERT_EQ(page->json["runs"].size(), 3U);
@@ -61,7 +61,7 @@ TEST(SeedsPage, IsWrittenAfterThePagesOfItsSeeds) {
 TEST(SeedsPage, CarriesTheStylesOfAllPages) {
   const TemporaryFolder folder;
   write_seeds(folder.path(), {1, 2});
-  const auto page = seeds_page(folder.path(), {});
+  auto page = seeds_page(folder.path(), {});
   ASSERT_TRUE(page) << page.error().message;
   ASSERT_EQ(page->json["palette"].size(), kSeriesStyles);
   const std::vector<std::string> names = {"exact", "ahead"};
