@@ -71,7 +71,7 @@ TEST_F(EstimateHealth, AnAssumedTransformIsAWarningAtTheEndAndInTheHealth) {
       "--quiet --out out");
   const auto warned = outcome.output.find("warning: NO TRANSFORM from");
   ASSERT_NE(warned, std::string::npos) << outcome.output;
-  EXPECT_GT(warned, outcome.output.find("estimate  ")) << "after the table";
+  EXPECT_GT(warned, outcome.output.find("estimator  ")) << "after the table";
   const std::string rows = read_file(folder_.path() / "out" / "leg.health.csv").value();
   EXPECT_EQ(rows.find(",healthy,"), std::string::npos) << rows;
   EXPECT_NE(rows.find(",degraded,T_imu_lidar unknown"), std::string::npos) << rows;
