@@ -122,7 +122,7 @@ Result<Json> analyses_json(const TuningSource& source, const std::string& estima
       const auto values = analysis["best"]["values"].get<std::vector<double>>();
       const auto held = held_out_of(source, estimator, objective, values);
       if (!held) return tl::unexpected(held.error());
-      if (*held || source.held_out.jobs.empty()) {
+      if (*held || (source.held_out.jobs.empty() && !source.holds_out)) {
         analysis["held_out"] = held_out_json(held->value_or(PairedGain{}));
       }
     }

@@ -167,7 +167,9 @@ Json analysis_json(const ResponseTable& table, const Objective& objective, PageD
   }
   json["best"] = best_json(*best);
   const auto sensitivity = sensitivity_of(table, objective);
-  if (sensitivity) {
+  if (table.ranges.size() == 1) {
+    json["why_no_sensitivity"] = kOneParameter;
+  } else if (sensitivity) {
     json["sensitivity"] = sensitivity_json(*sensitivity, table.ranges.size());
   } else {
     json["why_no_sensitivity"] = sensitivity.error().message;

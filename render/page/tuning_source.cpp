@@ -112,6 +112,8 @@ Result<TuningSource> read_tune(const fs::path& folder) {
   const auto sequences = TunedSequences::of(*plan);
   if (!sequences) return failure((folder / kTunePlan).string() + ": " + sequences.error().message);
   source.plan = plan_text(*plan);
+  const HeldOut& others = plan->held_out;
+  source.holds_out = !(others.scenarios.empty() && others.tags.empty() && others.seeds.empty());
   source.objectives = plan->objectives;
   source.units.plans = {as_sweep(*plan)};
   source.held_out.plans = source.units.plans;
