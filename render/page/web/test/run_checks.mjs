@@ -265,7 +265,8 @@ async function assertCursorMoves(page, payload) {
   );
   await assertCursorAgrees(page, payload, chosen);
   const strip = page.locator("[data-plot]").first();
-  await strip.scrollIntoViewIfNeeded();
+  // Not to the upper edge: there the controls lie over it.
+  await strip.evaluate((each) => each.scrollIntoView({ block: "center" }));
   const box = await strip.boundingBox();
   const before = {
     cursor: await cursorOf(page),
@@ -299,6 +300,7 @@ async function assertZoomLinks(page) {
     );
   const full = await shot();
   const strip = page.locator("[data-plot]").first();
+  await strip.evaluate((each) => each.scrollIntoView({ block: "center" }));
   const box = await strip.boundingBox();
   await page.keyboard.down("Shift");
   await page.mouse.move(box.x + 0.4 * box.width, box.y + 20);
