@@ -272,7 +272,8 @@ class BadInput(Sample):
     def test_files_that_cannot_be_read_or_written_are_named(self):
         self.fails(self.path("gone.bag") + ": cannot be read: No such file", self.path("gone.bag"),
                    self.path("x.mcap"))
-        self.fails("it is a directory", self.folder.name, self.path("x.mcap"))
+        os.mkdir(self.path("empty"))
+        self.fails("it is a directory", self.path("empty"), self.path("x.mcap"))
         self.fails("/proc/nowhere/x.mcap.partial: cannot be created", self.bag,
                    "/proc/nowhere/x.mcap")
         self.fails("is the recording itself", self.bag, self.bag, "--overwrite")

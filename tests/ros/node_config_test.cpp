@@ -10,11 +10,11 @@ namespace {
 
 TEST(NodeConfig, TakesSettingsOfTheRecordingAndTheEstimator) {
   NodeOptions options;
-  options.overrides = {"recording.topics.imu=/imu", "estimators.aims.imu.gravity=9.8"};
+  options.overrides = {"recording.topics.imu=/imu", "estimators.aims_d.imu.gravity=9.8"};
   const auto config = load_node_config(options);
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->recording.topics.imu, "/imu");
-  EXPECT_EQ(test::setting(config->estimators, "aims.imu.gravity"), "9.8");
+  EXPECT_EQ(test::setting(config->estimators, "aims_d.imu.gravity"), "9.8");
   EXPECT_EQ(config->recording.topics.truth, "none");
 }
 

@@ -163,7 +163,7 @@ TEST_F(Sweeps, OverTheSimulationMakeASequencePerValue) {
   ASSERT_TRUE(table);
   EXPECT_NE(table->find("links.leg_odometry.loss"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "links.leg_odometry.loss.png"));
-  const Outcome other = sweep("--out other --param scoring.max_error_offset=0.5:2:3");
+  const Outcome other = sweep("--out other --param scoring.max_error_offset=1:2:3");
   EXPECT_TRUE(
       holds(other, "4 jobs done, 0 of them failed; 0 found finished; 0 sequences simulated"))
       << "the defaults have the sequence already" << other.output;

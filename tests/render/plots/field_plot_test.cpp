@@ -51,7 +51,8 @@ TEST(FieldPlot, LongSubtitlesAreNotCut) {
   const test::PictureFolder folder;
   FieldPlot plot = plot_of({{0, 1, 1.0}, {1, 1, 2.0}, {0, 10, 1.5}, {1, 10, 1.2}});
   plot.subtitle =
-      "mean of m_list_percent.all over that of the defaults, a diverged run counts 10; by a polynomial "
+      "mean of m_list_percent.all over that of the defaults, a diverged run counts 10; by a "
+      "polynomial "
       "through the points";
   ASSERT_TRUE(write_field_plot(folder / "field.png", plot));
   const Image image = test::read_png(folder / "field.png");

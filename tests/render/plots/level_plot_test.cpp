@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/plots/level_plot.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
 
+#include "tests/render/plots/picture_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -30,9 +33,16 @@ LevelPlot plot_of(const std::vector<LevelPoint>& points) {
   return plot;
 }
 
+/// As Cairo writes the stroke of series `index` into an SVG file.
+std::string stroke_of(std::size_t index) {
+  const std::array<int, 3> rgb = test::colour_of(index);
+  const auto percent = [&](std::size_t i) { return fmt::format("{:.8g}%", rgb[i] / 2.55); };
+  return fmt::format("stroke:rgb({},{},{})", percent(0), percent(1), percent(2));
+}
+
 TEST(LevelPlot, DrawsALineThroughTheValuesAndALinePerInterval) {
   const TemporaryFolder folder;
-  const std::string colour = "stroke:rgb(0%,44.705882%,69.803922%)";
+  const std::string colour = stroke_of(0);
   ASSERT_TRUE(write_level_plot(folder.path() / "plain.svg",
                                plot_of({{0.0, 0.1, {}, {}}, {10.0, 0.3, {}, {}}})));
   ASSERT_TRUE(write_level_plot(folder.path() / "intervals.svg",

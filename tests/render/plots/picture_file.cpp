@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <string>
+#include <vector>
+
+#include "core/series_style.hpp"
 
 namespace aims::test {
 
@@ -39,6 +43,15 @@ int ink_right_of(const Image& image, int column) {
     }
   }
   return count;
+}
+
+std::array<int, 3> colour_of(std::size_t index) {
+  const auto rgb = static_cast<int>(series_style(index).light);
+  return {rgb >> 16 & 0xFF, rgb >> 8 & 0xFF, rgb & 0xFF};
+}
+
+std::array<int, 3> colour_of(std::string_view label) {
+  return colour_of(series_styles(std::vector<std::string>{std::string(label)}).front());
 }
 
 int count_pixels(const Image& image, const std::array<int, 3>& color, int tolerance) {

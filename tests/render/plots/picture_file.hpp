@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "render/plots/image.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -25,8 +26,9 @@ class PictureFolder {
 /// Pixels of a PNG file; an empty image when it is none.
 Image read_png(const std::filesystem::path& path);
 
-/// Of the first curve of a plot.
-inline constexpr std::array<int, 3> kBlue = {0, 114, 178};
+/// The colour of style `index` of series on white, or of the series `label` alone.
+std::array<int, 3> colour_of(std::size_t index);
+std::array<int, 3> colour_of(std::string_view label);
 
 /// How many pixels from that column on are not white: of what is cut at the right edge.
 int ink_right_of(const Image& image, int column);

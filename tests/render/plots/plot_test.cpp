@@ -13,8 +13,8 @@
 namespace aims {
 namespace {
 
+using test::colour_of;
 using test::count_pixels;
-using test::kBlue;
 using test::PictureFolder;
 using test::read_png;
 
@@ -144,7 +144,7 @@ TEST(Plot, CutsALineThatLeavesItsAxes) {
   Figure figure{.title = "", .panels = {panel}, .width = 400};
   ASSERT_TRUE(write_figure(folder / "a.png", figure));
   const Image image = read_png(folder / "a.png");
-  EXPECT_NEAR(count_pixels(image, kBlue), 3 * 100, 110);
+  EXPECT_NEAR(count_pixels(image, colour_of(0)), 3 * 100, 110);
 }
 
 TEST(ScenePlan, SeesThroughLintelsAndRoofs) {
@@ -191,8 +191,8 @@ TEST(TrajectoryPlot, DrawsTheTruthWhereItIsWhateverDiverges) {
   plot.estimates.back().trajectory[150].pose.translation.z() = std::nan("");
   plot.estimates.push_back({"silent", {}});
   ASSERT_TRUE(write_trajectory_plot(folder / "far.png", plot));
-  const int near = count_pixels(read_png(folder / "near.png"), kBlue);
-  const int far = count_pixels(read_png(folder / "far.png"), kBlue);
+  const int near = count_pixels(read_png(folder / "near.png"), colour_of("near"));
+  const int far = count_pixels(read_png(folder / "far.png"), colour_of("near"));
   EXPECT_GT(near, 1000);
   EXPECT_GT(far, near / 2) << "the axes no longer show the good estimate";
 }
@@ -215,7 +215,7 @@ TEST(TimePlot, ShowsFiniteValuesAmongOthers) {
                  {"Log", "D [-]", {series}, true},
                  {"Nothing", "[-]", {{"none", {}}}}};
   ASSERT_TRUE(write_time_plot(folder / "a.png", plot));
-  EXPECT_GT(count_pixels(read_png(folder / "a.png"), kBlue), 1000);
+  EXPECT_GT(count_pixels(read_png(folder / "a.png"), colour_of(0)), 1000);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 namespace aims {
 namespace {
 
+using test::colour_of;
 using test::count_pixels;
-using test::kBlue;
 using test::PictureFolder;
 using test::read_png;
 
@@ -25,14 +25,14 @@ TEST(RocPlot, DrawsACurveWhereItsPointsAre) {
   ASSERT_TRUE(write_roc_plot(path, one_detector({{0, 0}, {1, 1}})));
   const Image chance = read_png(path);
   EXPECT_EQ(perfect.width, chance.width);
-  EXPECT_GT(count_pixels(perfect, kBlue), count_pixels(chance, kBlue));
-  EXPECT_GT(count_pixels(chance, kBlue), 300);
+  EXPECT_GT(count_pixels(perfect, colour_of(0)), count_pixels(chance, colour_of(0)));
+  EXPECT_GT(count_pixels(chance, colour_of(0)), 300);
 }
 
 TEST(RocPlot, WithoutAnythingToDetectIsStillAPicture) {
   const PictureFolder folder;
   ASSERT_TRUE(write_roc_plot(folder / "roc.png", {"title", "", {{"only", {}}}}));
-  EXPECT_EQ(count_pixels(read_png(folder / "roc.png"), kBlue), 0);
+  EXPECT_EQ(count_pixels(read_png(folder / "roc.png"), colour_of(0)), 0);
   ASSERT_TRUE(write_roc_plot(folder / "roc.svg", one_detector({{0, 0}, {1, 1}})));
   EXPECT_EQ(folder.files(), 2U);
 }
