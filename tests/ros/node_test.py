@@ -92,7 +92,7 @@ class LiveEstimate(unittest.TestCase):
 
     def test_the_node_ends_well(self):
         self.assertEqual((self.play_code, self.node_code), (0, 0), self.log)
-        self.assertIn("aims publishes /aims_node/odometry", self.log)
+        self.assertIn("aims_d publishes /aims_node/odometry", self.log)
 
     def test_live_poses_are_those_of_the_bag(self):
         common = sorted(self.offline.keys() & self.live.keys())
