@@ -5,13 +5,10 @@
 
 #include <cmath>
 
-#include "core/random.hpp"
-
 namespace aims {
 namespace {
 
 constexpr LegGeometry kLegs{0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
-constexpr double kRate = 200.0;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 const std::array<bool, kLegCount> kAllStand{true, true, true, true};
 
