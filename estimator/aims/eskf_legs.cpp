@@ -12,12 +12,16 @@ namespace {
 /// fit each other (docs/decisions.md).
 const LegConfig kLegsOfUnknownScale;
 
+/// Without a scan for longer, nothing but the legs may measure the velocity.
+constexpr Duration kScanIsRecent = kSecond / 2;
+
 /// What feet do not correct. Feet that creep and roll by more than their model says would turn the
-/// robot; and scans alone measure the scale, which feet would draw from their changes of speed.
-GainMask gain_of_feet(const NominalState& state) {
+/// robot. Their scale is corrected where scans measure the velocity; elsewhere feet would draw it
+/// from their changes of speed.
+GainMask gain_of_feet(const NominalState& state, bool velocity_is_measured) {
   const Eigen::Vector3d up = state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   GainMask mask;
-  mask.legs = false;
+  mask.legs = velocity_is_measured;
   mask.gyro_bias = false;
   mask.rotation -= up * up.transpose();
   return mask;
@@ -105,6 +109,14 @@ void EskfEstimator::fuse_standing(const Eigen::Vector3d& rate) {
   accept(*mapping_, fuse(*mapping_, not_turning(*mapping_), without_legs));
 }
 
+/// While the compliance of the joints is being learned, a scale would be that of other legs.
+bool EskfEstimator::feet_have_constant_scale() const { return feet_.compliance_is_learned(); }
+
+bool EskfEstimator::scans_measure_velocity() const {
+  return lidar_update_.constrains_all_directions() && last_scan_ &&
+         time_ - *last_scan_ < kScanIsRecent;
+}
+
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   predict_to(sample.stamp);
   const bool by_feet = feet_.applies(sample);
@@ -116,7 +128,9 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   health_.leg_residual(uncorrected_residual(measurement, belief_.state, legs));
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
-  const GainMask mask = by_feet ? gain_of_feet(belief_.state) : GainMask();
+  const GainMask mask =
+      by_feet ? gain_of_feet(belief_.state, feet_have_constant_scale() && scans_measure_velocity())
+              : GainMask();
   accept(belief_, lidar_update_.fuse_velocity(belief_, measurement, mask));
   if (!mapping_) return;
   accept(*mapping_, fuse(*mapping_, moved_to(measurement, belief_.state, mapping_->state), mask));

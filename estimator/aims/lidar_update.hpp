@@ -55,6 +55,11 @@ class LidarUpdate {
     return cross_validation_.enabled && fraction_.leaves_direction_free();
   }
 
+  /// Whether cross-validation has shown that the last scan leaves no direction free.
+  bool constrains_all_directions() const {
+    return cross_validation_.enabled && !fraction_.leaves_direction_free();
+  }
+
   /// The belief after fusing a velocity, with `mask` where scans constrain all directions. While
   /// scans leave a direction free, position and velocity along it both carry the error of the leg
   /// scale, which is common to the whole route. It cancels in the gain only as far as the models of

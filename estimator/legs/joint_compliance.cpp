@@ -47,8 +47,10 @@ JointVector JointCompliance::yield(const LegOdometrySample& sample, const Eigen:
   return yield;
 }
 
+bool JointCompliance::is_learned() const { return walked_ >= kLearningTime; }
+
 void JointCompliance::update(double climb, double change, double rate_hz) {
-  if (walked_ >= kLearningTime) return;
+  if (is_learned()) return;
   walked_ = std::min(walked_ + 1.0 / rate_hz, kLearningTime);
   const double gain = 1.0 / (walked_ * rate_hz);
   climb_ += gain * (climb - climb_);

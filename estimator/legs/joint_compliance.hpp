@@ -21,6 +21,9 @@ class JointCompliance {
  public:
   double value() const { return value_; }  ///< W / K [rad/m]
 
+  /// Whether it has walked long enough: the value then stays.
+  bool is_learned() const;
+
   /// Angles of the links beyond their encoders for W / K = 1 rad/m [m], by the loads of `sample`;
   /// `up` in base axes. Zero without loads. Call once per sample: it follows the mean load.
   JointVector yield(const LegOdometrySample& sample, const Eigen::Vector3d& up,

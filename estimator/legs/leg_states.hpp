@@ -11,7 +11,7 @@
 namespace aims {
 
 /// Random walks of the scale [1/sqrt(s)] and the bias [m/s/sqrt(s)].
-inline constexpr double kLegScaleWalk = 2e-3;
+inline constexpr double kLegScaleWalk = 1e-3;
 inline constexpr double kLegBiasWalk = 1e-4;
 
 /// Initial deviation of the bias [m/s] (docs/decisions.md#what-a-leg-sample-is-worth).

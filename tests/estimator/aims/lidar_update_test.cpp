@@ -41,6 +41,12 @@ TEST(LidarUpdate, ConsidersTheLegStatesBetweenPlainWallsOnly) {
       << "pillars constrain the longitudinal direction";
 }
 
+TEST(LidarUpdate, KnowsThatAllDirectionsAreConstrainedByCrossValidationOnly) {
+  EXPECT_TRUE(CorridorWalk(true).update.constrains_all_directions());
+  EXPECT_FALSE(CorridorWalk(false).update.constrains_all_directions());
+  EXPECT_FALSE(CorridorWalk(true, "tfs_plus").update.constrains_all_directions());
+}
+
 TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
   CorridorWalk walk(false);
   const Belief predicted = correlated_prediction(walk.truth);

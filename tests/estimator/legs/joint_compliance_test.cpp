@@ -59,6 +59,17 @@ TEST(JointCompliance, IsLearnedFromTheVerticalDrift) {
   }
 }
 
+TEST(JointCompliance, StaysAfterTwentySecondsOfWalking) {
+  JointCompliance compliance;
+  for (int i = 0; i < 19 * 200; ++i) compliance.update(-0.03, 0.1, kRate);
+  EXPECT_FALSE(compliance.is_learned());
+  for (int i = 0; i < 2 * 200; ++i) compliance.update(-0.03, 0.1, kRate);
+  EXPECT_TRUE(compliance.is_learned());
+  const double learned = compliance.value();
+  for (int i = 0; i < 60 * 200; ++i) compliance.update(0.1, 0.1, kRate);
+  EXPECT_EQ(compliance.value(), learned);
+}
+
 // A drift within that of rigid legs says little, however long the robot walks.
 TEST(JointCompliance, ADriftThatRigidLegsHaveIsNotCompliance) {
   JointCompliance compliance;
