@@ -103,7 +103,7 @@ int score_command(const ScoreArguments& arguments) {
 
 void add_inputs(Command& command, ScoreArguments& arguments) {
   ScoringRequest& request = arguments.request;
-  command.option("--truth", request.truth, "Ground-truth trajectory", Presence::kRequired);
+  command.option("--truth", request.truth, "Ground-truth trajectory, or positions of a point");
   command.repeatable("--estimate", request.estimates, "Estimated trajectory", Presence::kRequired);
   command.repeatable("--name", request.names, "Name of each estimate, in their order");
   command.option("--times", request.times, "Stamps of KITTI poses: a file with one per line [s]");
@@ -112,6 +112,12 @@ void add_inputs(Command& command, ScoreArguments& arguments) {
   command.option("--extrinsic", request.extrinsic,
                  "'x y z qx qy qz qw': pose of the frame of the estimates in\n"
                  "the body frame of the truth, e.g. of the LiDAR in the IMU");
+  command.option("--lever-arm", request.lever_arm,
+                 "'x y z': the point that the truth measures, e.g. a prism, in the\n"
+                 "frame of the estimates [m]; estimate: the one that fits best");
+  command.option("--end-pose", request.end_pose,
+                 "In place of --truth: pose of the end in the frame of the start,\n"
+                 "'x y z qx qy qz qw', or 'x y z', e.g. '0 0 0' of a closed route");
   command.option("--waypoint-times", request.waypoint_times,
                  "waypoint_times.csv of a run: the reference points of M_list");
   command.option("--segments", request.segments,
@@ -136,8 +142,9 @@ void declare_score(Command command, const fs::path& /*scenarios*/) {
   add_json(command, arguments->json);
   add_quiet(command, shared);
   command.footer(
-      "A trajectory is a file of TUM lines, of KITTI poses, or BAG:/TOPIC (nav_msgs/Odometry,\n"
-      "nav_msgs/Path, geometry_msgs/PoseStamped and others with poses).\n"
+      "A trajectory is a file of TUM lines, of KITTI poses, CSV, BAG:/TOPIC (nav_msgs/Odometry,\n"
+      "nav_msgs/Path, geometry_msgs/PoseStamped and others with poses), or BAG:/tf:PARENT,CHILD; a\n"
+      "truth may also be positions: lines 'stamp x y z' or geometry_msgs/PointStamped.\n"
       "Exit code 4: an estimate covers less of the truth than scoring.min_coverage (0.5).\n"
       "Examples:\n"
       "  aims score --truth truth.tum --estimate mine.tum --waypoint-times waypoint_times.csv\n"

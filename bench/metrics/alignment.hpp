@@ -15,6 +15,8 @@ enum class AlignmentKind {
   kSe3,           ///< least squares over all positions, rotation and translation (Umeyama)
   kSim3,          ///< the same with a scale
   kYaw,           ///< least squares over all positions, heading and translation (4 DoF)
+  kStartYaw,      ///< first pair equal in position, heading of kYaw: for a truth without attitude
+  kStartSe3,      ///< the same with the rotation of kSe3
 };
 
 /// What the positions tell of the rotation between both frames.
@@ -35,7 +37,7 @@ struct Alignment {
 /// Aligns the start; identity without pairs. By heading, the first pair becomes equal. By pose, the
 /// mean over the second half of `standing_start` does, so that an estimator that levels itself
 /// while standing is not held to its first attitude; a truth that walks off at once has the first
-/// pair only, as evo's align_origin.
+/// pair only, as evo's align_origin. The kinds kStartYaw and kStartSe3 need no attitude of the truth.
 Alignment align_start(std::span<const PosePair> pairs,
                       AlignmentKind kind = AlignmentKind::kStartPose);
 

@@ -46,13 +46,55 @@ std::vector<PosePair> associate_interpolated(const Trajectory& estimate, const T
   return pairs;
 }
 
+std::vector<PosePair> associate_at_truth(const Trajectory& estimate, const Trajectory& truth,
+                                         Duration longest) {
+  std::vector<PosePair> pairs;
+  for (const StampedPose& each : truth) {
+    const auto after =
+        std::lower_bound(estimate.begin(), estimate.end(), each.stamp,
+                         [](const StampedPose& pose, Time time) { return pose.stamp < time; });
+    if (after == estimate.end()) continue;
+    const bool exact = after->stamp == each.stamp;
+    if (!exact && after == estimate.begin()) continue;
+    if (!exact && after->stamp - std::prev(after)->stamp > longest) continue;
+    pairs.push_back({each.stamp, *pose_at(estimate, each.stamp), each.pose});
+  }
+  return pairs;
+}
+
 }  // namespace
 
 std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& truth,
                                 Association association, Duration tolerance) {
   if (estimate.empty() || truth.empty()) return {};
   if (association == Association::kNearest) return associate_nearest(estimate, truth, tolerance);
+  if (association == Association::kAtTruth) return associate_at_truth(estimate, truth, tolerance);
   return associate_interpolated(estimate, truth);
+}
+
+std::vector<TruthGap> gaps_in(const Trajectory& truth, Duration longest) {
+  std::vector<TruthGap> gaps;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    const TruthGap gap{truth[i - 1].stamp, truth[i].stamp};
+    if (gap.end - gap.begin > longest) gaps.push_back(gap);
+  }
+  return gaps;
+}
+
+Duration time_in(std::span<const TruthGap> gaps, Time begin, Time end) {
+  Duration total = 0;
+  for (const TruthGap& gap : gaps) {
+    total += std::max<Duration>(0, std::min(gap.end, end) - std::max(gap.begin, begin));
+  }
+  return total;
+}
+
+std::vector<PosePair> outside(std::span<const TruthGap> gaps, std::vector<PosePair> pairs) {
+  std::erase_if(pairs, [gaps](const PosePair& pair) {
+    const auto gap = std::ranges::upper_bound(gaps, pair.stamp, {}, &TruthGap::end);
+    return gap != gaps.end() && gap->begin < pair.stamp && pair.stamp < gap->end;
+  });
+  return pairs;
 }
 
 std::optional<Duration> median_stamp_difference(const Trajectory& estimate,

@@ -27,6 +27,7 @@ struct DriftSummary {
   AxisError rmse;
   AxisError max;  ///< largest absolute values
   AxisError end;  ///< signed, of the last pair
+  bool has_attitude = true;  ///< false: the truth has none; heading and tilt are no errors then
 };
 
 /// Errors of aligned pairs; none without pairs or without a segment that has a direction.

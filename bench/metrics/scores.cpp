@@ -8,10 +8,26 @@ namespace {
 
 constexpr double kRpeDeltas[] = {1.0, 10.0};  ///< [m]
 
+void describe_truth(Fields& f, ScoreConfig& c) {
+  f.choice("truth", c.truth,
+           {{"auto", TruthContent::kAuto},
+            {"pose", TruthContent::kPose},
+            {"position", TruthContent::kPosition}},
+           {.meaning = "What of the truth is measured; auto: as its format says."});
+  f.number("max_truth_gap", c.max_truth_gap,
+           {.unit = "s",
+            .range = positive_up_to(1e6),
+            .meaning = "Longest time between true poses over which they are interpolated; in longer "
+                       "gaps nothing is scored."});
+}
+
 void describe_association(Fields& f, ScoreConfig& c) {
   f.choice("association", c.association,
-           {{"interpolated", Association::kInterpolated}, {"nearest", Association::kNearest}},
-           {.meaning = "Association of estimated and true poses; nearest is the rule of evo.",
+           {{"interpolated", Association::kInterpolated},
+            {"nearest", Association::kNearest},
+            {"at_truth", Association::kAtTruth}},
+           {.meaning = "Association of estimated and true poses; nearest is the rule of evo, "
+                       "at_truth interpolates the estimate at the stamps of control points.",
             .source = "evo, core/sync"});
   f.number("association_tolerance", c.association_tolerance,
            {.unit = "s",
@@ -72,6 +88,8 @@ std::optional<EndError> end_error_if_reached(std::span<const PosePair> anchored,
   return end_error(anchored);
 }
 
+bool has_attitude(const ScoreConfig& config) { return config.truth != TruthContent::kPosition; }
+
 /// The pairs aligned by heading and translation. Frames that are not level are levelled at the
 /// start, as `anchored` is.
 std::vector<PosePair> headline_aligned(std::span<const PosePair> pairs,
@@ -87,8 +105,10 @@ void score_headline(Scores& scores, std::span<const PosePair> pairs,
   const std::vector<PosePair> best = headline_aligned(pairs, anchored, config);
   scores.ate_yaw_m = ate_rmse(best);
   scores.ape_yaw = absolute_error_statistics(best);
+  if (!has_attitude(config)) return;
   scores.heading_error_rad = heading_rmse(best);
   scores.heading_offset_rad = yaw_of(align_yaw(anchored).T_truth_estimate.rotation);
+  scores.ate_m = ate_rmse(anchored);
 }
 
 void score_pairs(Scores& scores, std::span<const PosePair> pairs,
@@ -96,25 +116,34 @@ void score_pairs(Scores& scores, std::span<const PosePair> pairs,
   // After alignment a single pose always equals its truth.
   if (pairs.size() < 2) return;
   score_headline(scores, pairs, anchored, config);
-  scores.ate_m = ate_rmse(anchored);
   scores.max_error_m = max_error(anchored);
   scores.max_abs_z_error_m = max_abs_z_error(anchored);
   const Alignment se3 = align_se3(pairs);
+  const std::vector<PosePair> best = aligned(pairs, se3);
   scores.se3_spread = se3.spread;
-  scores.ate_se3_m = ate_rmse(aligned(pairs, se3));
+  scores.ate_se3_m = ate_rmse(best);
+  if (scores.control_points) {
+    scores.control_points->score = control_point_score(best, scores.control_points->points);
+  }
   if (!config.sim3) return;
   const Alignment sim3 = align_sim3(pairs);
   scores.ate_sim3_m = ate_rmse(aligned(pairs, sim3));
   scores.sim3_scale = sim3.scale;
 }
 
-void score_success(Scores& scores, const Trajectory& estimate, const Trajectory& truth,
-                   std::span<const PosePair> anchored, const ScoreConfig& config) {
+SuccessLimits limits_of(const Trajectory& truth, const ScoreConfig& config) {
   SuccessLimits limits{.error_offset = config.max_error_offset,
                        .error_per_path = config.max_error_per_path,
                        .edge = from_seconds(config.edge_tolerance),
                        .gap = from_seconds(config.max_gap),
                        .coverage = config.min_coverage};
+  limits.at_points = config.association == Association::kAtTruth;
+  if (!limits.at_points) limits.truth_gaps = gaps_in(truth, from_seconds(config.max_truth_gap));
+  return limits;
+}
+
+void score_success(Scores& scores, const Trajectory& estimate, const Trajectory& truth,
+                   std::span<const PosePair> anchored, SuccessLimits limits) {
   const SuccessVerdict verdict = judge(estimate, truth, anchored, limits);
   scores.success = verdict.reason == FailureReason::kNone;
   scores.failure_reason = verdict.reason;
@@ -137,9 +166,17 @@ std::vector<RpeScore> relative_errors(std::span<const PosePair> pairs, const Sco
   return scores;
 }
 
+/// Relative errors are taken in the axes of the true body, so that they need its attitude.
+void score_relative(Scores& scores, std::span<const PosePair> pairs, const ScoreConfig& config) {
+  const std::span<const PosePair> known = has_attitude(config) ? pairs : pairs.first(0);
+  scores.rpe = relative_errors(known, config);
+  scores.path_errors = path_errors(known);
+}
+
 }  // namespace
 
 void describe(Fields& fields, ScoreConfig& config) {
+  describe_truth(fields, config);
   describe_association(fields, config);
   describe_metrics(fields, config);
 }
@@ -149,12 +186,27 @@ Scores score(const Trajectory& estimate, const Trajectory& truth,
   return score_over(estimate, truth, segments_wanted(waypoint_times, config.segments), config);
 }
 
+std::vector<PosePair> compared_pairs(const Trajectory& estimate, const Trajectory& truth,
+                                     const ScoreConfig& config) {
+  const bool at_points = config.association == Association::kAtTruth;
+  auto pairs = associate(estimate, truth, config.association,
+                         from_seconds(at_points ? config.max_gap : config.association_tolerance));
+  if (config.association != Association::kInterpolated) return pairs;
+  return outside(gaps_in(truth, from_seconds(config.max_truth_gap)), std::move(pairs));
+}
+
+AlignmentKind start_alignment(const ScoreConfig& config) {
+  if (has_attitude(config)) return config.anchor;
+  return config.anchor == AlignmentKind::kStartPose ? AlignmentKind::kStartSe3
+                                                    : AlignmentKind::kStartYaw;
+}
+
 std::vector<PosePair> headline_pairs(const Trajectory& estimate, const Trajectory& truth,
                                      const ScoreConfig& config) {
   const std::vector<PosePair> pairs =
-      associate(valid_part(estimate), valid_part(truth), config.association,
-                from_seconds(config.association_tolerance));
-  return headline_aligned(pairs, aligned(pairs, align_start(pairs, config.anchor)), config);
+      compared_pairs(valid_part(estimate), valid_part(truth), config);
+  return headline_aligned(pairs, aligned(pairs, align_start(pairs, start_alignment(config))),
+                          config);
 }
 
 void withdraw_success(Scores& scores, FailureReason reason) {
@@ -173,26 +225,34 @@ Scores score_over(const Trajectory& estimate, const Trajectory& truth,
                   std::span<const Segment> segments, const ScoreConfig& config) {
   const Trajectory valid = valid_part(estimate);
   const Trajectory valid_truth = valid_part(truth);
-  const std::vector<PosePair> pairs =
-      associate(valid, valid_truth, config.association, from_seconds(config.association_tolerance));
-  const std::vector<PosePair> anchored = aligned(pairs, align_start(pairs, config.anchor));
+  const std::vector<PosePair> pairs = compared_pairs(valid, valid_truth, config);
+  const std::vector<PosePair> anchored =
+      aligned(pairs, align_start(pairs, start_alignment(config)));
   const Duration edge = from_seconds(config.edge_tolerance);
+  const SuccessLimits limits = limits_of(valid_truth, config);
 
   Scores scores;
-  score_success(scores, estimate, valid_truth, anchored, config);
+  score_success(scores, estimate, valid_truth, anchored, limits);
   scores.poses = static_cast<int>(estimate.size());
   scores.poses_invalid = static_cast<int>(estimate.size() - valid.size());
   scores.poses_compared = static_cast<int>(pairs.size());
-  scores.coverage = coverage_of(pairs, valid_truth, from_seconds(config.max_gap));
+  scores.coverage = coverage_of(pairs, valid_truth, limits);
   scores.true_path_m = path_length(valid_truth);
   scores.segments =
       segment_distances(valid, valid_truth, segments, config.min_segment_length, edge);
   scores.m_list_percent = m_list_percent(scores.segments);
   scores.m_end = end_error_if_reached(anchored, valid_truth, edge);
+  if (valid.size() >= 2) {
+    scores.start_to_end_m =
+        (valid.back().pose.translation - valid.front().pose.translation).norm();
+  }
+  if (limits.at_points) {
+    scores.control_points = {static_cast<int>(valid_truth.size()), static_cast<int>(pairs.size())};
+  }
   score_pairs(scores, pairs, anchored, config);
-  scores.rpe = relative_errors(pairs, config);
-  scores.path_errors = path_errors(pairs);
+  score_relative(scores, pairs, config);
   if (anchored.size() >= 2) scores.drift = drift_summary(anchored, valid_truth, segments);
+  if (scores.drift) scores.drift->has_attitude = has_attitude(config);
   return scores;
 }
 

@@ -9,6 +9,7 @@
 #include "bench/metrics/absolute_error.hpp"
 #include "bench/metrics/alignment.hpp"
 #include "bench/metrics/association.hpp"
+#include "bench/metrics/control_points.hpp"
 #include "bench/metrics/drift.hpp"
 #include "bench/metrics/path_error.hpp"
 #include "bench/metrics/relative_error.hpp"
@@ -19,8 +20,17 @@
 
 namespace aims {
 
+/// What of the truth is measured.
+enum class TruthContent {
+  kAuto,      ///< as its file says; a pose where nothing says otherwise
+  kPose,      ///< position and attitude
+  kPosition,  ///< position alone, as of a total station: scores of attitude are absent
+};
+
 /// Parameters of the scores.
 struct ScoreConfig {
+  TruthContent truth = TruthContent::kAuto;
+  double max_truth_gap = 2.0;  ///< [s]
   Association association = Association::kInterpolated;
   double association_tolerance = 0.01;                  ///< [s]
   AlignmentKind anchor = AlignmentKind::kStartHeading;  ///< or kStartPose
@@ -54,6 +64,8 @@ struct Scores {
   std::vector<SegmentDistance> segments;  ///< M_list of each, in order
   std::optional<double> m_list_percent;   ///< over all segments
   std::optional<EndError> m_end;          ///< none when the estimate does not reach the end
+  std::optional<double> start_to_end_m;   ///< distance of the estimate's last pose to its first
+  std::optional<ControlPointScore> control_points;  ///< of Association::kAtTruth
 
   std::optional<double> ate_yaw_m;           ///< after the best heading and translation: headline
   std::optional<double> heading_error_rad;   ///< rms, after the same alignment
@@ -77,6 +89,13 @@ struct Scores {
 /// quantities, never an error.
 Scores score(const Trajectory& estimate, const Trajectory& truth,
              std::span<const WaypointTime> waypoint_times, const ScoreConfig& config);
+
+/// The pairs of poses that are compared: without those in gaps of the truth.
+std::vector<PosePair> compared_pairs(const Trajectory& estimate, const Trajectory& truth,
+                                     const ScoreConfig& config);
+
+/// The alignment at the start: `config.anchor`, or what it can be without the truth's attitude.
+AlignmentKind start_alignment(const ScoreConfig& config);
 
 /// Estimated and true poses after the alignment of the headline: by heading and translation.
 std::vector<PosePair> headline_pairs(const Trajectory& estimate, const Trajectory& truth,

@@ -24,7 +24,11 @@ void note_missing_poses(SuccessVerdict& verdict, const Trajectory& truth,
     note(verdict, FailureReason::kStartsLate, truth.front().stamp);
   }
   for (std::size_t i = 1; i < pairs.size(); ++i) {
-    if (pairs[i].stamp - pairs[i - 1].stamp <= limits.gap) continue;
+    const Duration step = pairs[i].stamp - pairs[i - 1].stamp;
+    if (step <= limits.gap) continue;
+    if (step - time_in(limits.truth_gaps, pairs[i - 1].stamp, pairs[i].stamp) <= limits.gap) {
+      continue;
+    }
     note(verdict, FailureReason::kGap, pairs[i - 1].stamp);
     break;
   }
@@ -112,22 +116,34 @@ SuccessVerdict judge(const Trajectory& estimate, const Trajectory& truth,
     }
     return verdict;
   }
-  note_missing_poses(verdict, truth, pairs, limits);
+  if (!limits.at_points) note_missing_poses(verdict, truth, pairs, limits);
   note_large_errors(verdict, truth, pairs, limits);
-  if (coverage_of(pairs, truth, limits.gap) < limits.coverage) {
+  if (coverage_of(pairs, truth, limits) < limits.coverage) {
     note(verdict, FailureReason::kCoverage, pairs.back().stamp);
   }
   return verdict;
 }
 
-double coverage_of(std::span<const PosePair> pairs, const Trajectory& truth, Duration gap) {
+double coverage_of(std::span<const PosePair> pairs, const Trajectory& truth, Duration gap,
+                   std::span<const TruthGap> truth_gaps) {
   if (truth.size() < 2) return 0.0;
   Duration covered = 0;
   for (std::size_t i = 1; i < pairs.size(); ++i) {
-    const Duration step = pairs[i].stamp - pairs[i - 1].stamp;
+    Duration step = pairs[i].stamp - pairs[i - 1].stamp;
+    if (!truth_gaps.empty()) step -= time_in(truth_gaps, pairs[i - 1].stamp, pairs[i].stamp);
     if (step <= gap) covered += step;
   }
-  return to_seconds(covered) / to_seconds(truth.back().stamp - truth.front().stamp);
+  const Time begin = truth.front().stamp;
+  const Time end = truth.back().stamp;
+  const Duration known = end - begin - time_in(truth_gaps, begin, end);
+  return known > 0 ? to_seconds(covered) / to_seconds(known) : 0.0;
+}
+
+double coverage_of(std::span<const PosePair> pairs, const Trajectory& truth,
+                   const SuccessLimits& limits) {
+  if (!limits.at_points) return coverage_of(pairs, truth, limits.gap, limits.truth_gaps);
+  if (truth.empty()) return 0.0;
+  return static_cast<double>(pairs.size()) / static_cast<double>(truth.size());
 }
 
 double path_length(const Trajectory& trajectory) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "bench/metrics/association.hpp"
 
@@ -37,6 +38,8 @@ struct SuccessLimits {
   Duration edge = 3 * kSecond;                   ///< allowed time without estimates at either end
   Duration gap = 2 * kSecond;                    ///< allowed time without estimates in between
   double coverage = 0.5;  ///< least fraction of the truth's time with estimates [-]
+  std::vector<TruthGap> truth_gaps = {};  ///< stretches without truth: nothing is missing there
+  bool at_points = false;  ///< the truth is a list of points: what counts is how many are reached
 };
 
 /// When and why an estimate failed; `diverged_at` has a value exactly when there is a reason that
@@ -56,8 +59,13 @@ struct SuccessVerdict {
 SuccessVerdict judge(const Trajectory& estimate, const Trajectory& truth,
                      std::span<const PosePair> pairs, const SuccessLimits& limits);
 
-/// Fraction of the truth's time that lies between estimates at most `gap` apart.
-double coverage_of(std::span<const PosePair> pairs, const Trajectory& truth, Duration gap);
+/// Fraction of the truth's time, without its gaps, that lies between estimates at most `gap` apart.
+double coverage_of(std::span<const PosePair> pairs, const Trajectory& truth, Duration gap,
+                   std::span<const TruthGap> truth_gaps = {});
+
+/// The same by the rules of `limits`; of points, the fraction with an estimate.
+double coverage_of(std::span<const PosePair> pairs, const Trajectory& truth,
+                   const SuccessLimits& limits);
 
 /// Length [m] of the polygon through the positions.
 double path_length(const Trajectory& trajectory);

@@ -18,19 +18,20 @@ Json json_of(const std::optional<Part>& part, Member Part::*member) {
   return part ? json_of(std::optional<double>(*part.*member)) : Json();
 }
 
-Json axis_json(const AxisError& error) {
+Json axis_json(const AxisError& error, bool has_attitude) {
   return {{"longitudinal", error.longitudinal_m},
           {"lateral", error.lateral_m},
           {"vertical", error.vertical_m},
-          {"heading_rad", error.heading_rad},
-          {"tilt_rad", error.tilt_rad}};
+          {"heading_rad", has_attitude ? Json(error.heading_rad) : Json()},
+          {"tilt_rad", has_attitude ? Json(error.tilt_rad) : Json()}};
 }
 
 Json drift_json(const std::optional<DriftSummary>& drift) {
   if (!drift) return {};
-  return {{"rmse", axis_json(drift->rmse)},
-          {"max", axis_json(drift->max)},
-          {"end", axis_json(drift->end)}};
+  const bool attitude = drift->has_attitude;
+  return {{"rmse", axis_json(drift->rmse, attitude)},
+          {"max", axis_json(drift->max, attitude)},
+          {"end", axis_json(drift->end, attitude)}};
 }
 
 /// M_list of each segment and, as "all", of their sum.
@@ -133,6 +134,12 @@ Json scores_json(const Scores& scores) {
   json["m_end_m"] = json_of(scores.m_end, &EndError::norm_m);
   json["m_end_xy_m"] = json_of(scores.m_end, &EndError::xy_m);
   json["m_end_z_m"] = json_of(scores.m_end, &EndError::z_m);
+  json["start_to_end_m"] = json_of(scores.start_to_end_m);
+  if (scores.control_points) {
+    json["control_points"] = {{"points", scores.control_points->points},
+                              {"reached", scores.control_points->reached},
+                              {"score", scores.control_points->score}};
+  }
   add_absolute_errors(json, scores);
   add_relative_errors(json, scores);
   json["drift_m"] = drift_json(scores.drift);

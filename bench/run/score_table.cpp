@@ -45,6 +45,7 @@ std::vector<Column> columns_of(const RunRecord& run, bool several) {
   }
   if (!shown || segments.size() != 1) columns.push_back({"M_list %", "m_list_percent.all"});
   columns.push_back({"M_end m", "m_end_m"});
+  columns.push_back({"control points %", "control_points.score", 1, true});
   if (!several) {
     columns.push_back({"ATE SE(3) m", kSe3Key});
     columns.push_back({"ATE Sim(3) m", "ate_sim3_m", 3, true});
@@ -177,15 +178,18 @@ TextTable score_table(std::span<const RunRecord> runs) {
 }
 
 std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& scoring) {
-  const bool pose = scoring.anchor == AlignmentKind::kStartPose;
+  const char* start = scoring.truth == TruthContent::kPosition
+                          ? "the first position, the rotation by least squares over the path"
+                      : scoring.anchor == AlignmentKind::kStartPose
+                          ? "the standing start, by position and rotation"
+                          : "the first pose, by position and heading";
   const bool several = runs.size() > 1;
   std::string text = fmt::format(
       "ATE yaw, heading: after least squares over all positions, by translation and heading.\n"
       "ATE start, M_end, max |z|: aligned to the truth at {}.\n"
       "{}RPE: mean over pieces of 5 to 100 m (KITTI). within 5 %, 1 %: position error of the\n"
       "distance travelled so far. tracked: of the truth's time, with poses at most {:g} s apart.\n",
-      pose ? "the standing start, by position and rotation"
-           : "the first pose, by position and heading",
+      start,
       several ? "" : "ATE SE(3): least squares by translation and rotation (Umeyama, as evo).\n",
       scoring.max_gap);
   if (several) {

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "bench/metrics/lever_arm.hpp"
 #include "bench/run/bag_origin.hpp"
 #include "bench/run/segment_list.hpp"
 #include "core/file_name.hpp"
@@ -21,22 +23,36 @@
 namespace aims {
 namespace {
 
-Result<Pose> extrinsic_of(const std::string& text) {
-  if (text.empty()) return Pose();
-  std::vector<double> v;
+/// The numbers of a text of nothing else; empty otherwise.
+std::vector<double> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
   for (const std::string_view word : words_of(text)) {
-    if (const auto number = parse_number(word)) v.push_back(*number);
+    const auto number = parse_number(word);
+    if (!number) return {};
+    numbers.push_back(*number);
   }
-  const bool seven = v.size() == 7 && words_of(text).size() == 7;
+  return numbers;
+}
+
+/// Of "x y z qx qy qz qw", or of "x y z" where `may_be_position`.
+Result<Pose> pose_of(std::string_view option, const std::string& text, bool may_be_position) {
+  const std::vector<double> v = numbers_of(text);
+  if (may_be_position && v.size() == 3) return Pose{{1.0, 0.0, 0.0, 0.0}, {v[0], v[1], v[2]}};
+  const bool seven = v.size() == 7;
   const Eigen::Quaterniond rotation =
       seven ? Eigen::Quaterniond(v[6], v[3], v[4], v[5]) : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
   if (!(std::abs(rotation.norm() - 1.0) < 1e-3)) {
     return failure(
-        fmt::format("--extrinsic '{}': expected 'x y z qx qy qz qw' in metres with a "
-                    "unit quaternion",
-                    text));
+        fmt::format("{} '{}': expected 'x y z qx qy qz qw' in metres with a "
+                    "unit quaternion{}",
+                    option, text, may_be_position ? ", or 'x y z'" : ""));
   }
   return Pose{rotation.normalized(), {v[0], v[1], v[2]}};
+}
+
+Result<Pose> extrinsic_of(const std::string& text) {
+  if (text.empty()) return Pose();
+  return pose_of("--extrinsic", text, false);
 }
 
 /// "run/odom" of run.bag:/odom, "aims" of out/aims.tum.
@@ -63,7 +79,7 @@ Result<std::filesystem::path> read_truth(const ScoringRequest& request,
   if (!file) return tl::unexpected(file.error());
   input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
   input.truth = {name_of(*file), request.truth, file->kind, std::move(file->trajectory),
-                 file->body_frame};
+                 file->body_frame, file->has_attitude};
   return file->topic.empty() ? std::filesystem::path() : file->file;
 }
 
@@ -148,6 +164,116 @@ Result<std::vector<Segment>> segments_of_request(const ScoringRequest& request,
   return resolve_segments(*list, input.waypoint_times, input.truth.trajectory);
 }
 
+Result<void> read_segments(const ScoringRequest& request, const std::filesystem::path& bag,
+                           ScoringInput& input) {
+  auto origin = origin_of(request, bag, input.notes);
+  if (!origin) return tl::unexpected(origin.error());
+  input.waypoint_times = std::move(origin->waypoint_times);
+  if (input.scoring.segments.empty()) input.scoring.segments = std::move(origin->segments);
+  auto segments = segments_of_request(request, input);
+  if (!segments) return tl::unexpected(segments.error());
+  input.segments = std::move(*segments);
+  return {};
+}
+
+/// A truth of the start and the end of all estimates alone.
+Result<void> set_markers(const ScoringRequest& request, ScoringInput& input) {
+  const auto end_pose = pose_of("--end-pose", request.end_pose, true);
+  if (!end_pose) return tl::unexpected(end_pose.error());
+  std::optional<Time> begin, end;
+  for (const SourcedTrajectory& each : input.estimates) {
+    const Trajectory valid = valid_part(each.trajectory);
+    if (valid.size() < 2) continue;
+    begin = std::max(valid.front().stamp, begin.value_or(valid.front().stamp));
+    end = std::min(valid.back().stamp, end.value_or(valid.back().stamp));
+  }
+  if (!begin || *begin >= *end) {
+    return failure("--end-pose: expected estimates of two poses or more over the same time");
+  }
+  input.truth = {"markers", "--end-pose", "pose of the end in the frame of the start",
+                 {{*begin, Pose()}, {*end, *end_pose}}};
+  input.truth.has_attitude = numbers_of(request.end_pose).size() == 7;
+  input.scoring.association = Association::kAtTruth;
+  input.scoring.anchor = AlignmentKind::kStartPose;
+  return {};
+}
+
+/// Whether all attitudes of the truth are the same while an estimate turns by more than 0.2 rad, as
+/// where a total station's positions are written as poses.
+bool is_constant_attitude(const ScoringInput& input) {
+  constexpr std::size_t kFewest = 10;
+  constexpr double kTurn = 0.2;
+  const Trajectory& truth = input.truth.trajectory;
+  if (truth.size() < kFewest) return false;
+  const auto differs = [](const Eigen::Quaterniond& first, double angle) {
+    return [first, angle](const StampedPose& each) {
+      return each.pose.rotation.angularDistance(first) > angle;
+    };
+  };
+  if (std::ranges::any_of(truth, differs(truth.front().pose.rotation, 1e-9))) return false;
+  return std::ranges::any_of(input.estimates, [&](const SourcedTrajectory& each) {
+    const Trajectory valid = valid_part(each.trajectory);
+    return !valid.empty() && std::ranges::any_of(valid, differs(valid.front().pose.rotation, kTurn));
+  });
+}
+
+/// Decides what the truth measures, where the configuration leaves it open.
+void resolve_truth(const ScoringRequest& request, ScoringInput& input) {
+  TruthContent& content = input.scoring.truth;
+  const bool open = content == TruthContent::kAuto;
+  if (!input.truth.has_attitude || !request.lever_arm.empty()) content = TruthContent::kPosition;
+  if (open && content != TruthContent::kPosition && is_constant_attitude(input)) {
+    content = TruthContent::kPosition;
+    input.notes.emplace_back("truth: its attitude never changes while the estimates turn");
+  }
+  if (content == TruthContent::kAuto) content = TruthContent::kPose;
+  if (content == TruthContent::kPosition) {
+    input.notes.emplace_back(
+        "truth: of positions alone: aligned by the path, and there are no scores of attitude");
+  }
+  const Trajectory& truth = input.truth.trajectory;
+  if (truth.size() < 3 || input.scoring.association != Association::kInterpolated) return;
+  std::vector<Duration> steps;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    steps.push_back(truth[i].stamp - truth[i - 1].stamp);
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  if (*middle <= from_seconds(input.scoring.max_truth_gap)) return;
+  input.scoring.association = Association::kAtTruth;
+  input.notes.push_back(fmt::format(
+      "truth: {} control points, {:.1f} s apart: the estimates are compared at their stamps",
+      truth.size(), to_seconds(*middle)));
+}
+
+/// Moves the estimates to the point that the truth measures.
+Result<void> apply_lever_arm(const ScoringRequest& request, ScoringInput& input) {
+  if (request.lever_arm.empty()) return {};
+  const bool fitted = request.lever_arm == "estimate";
+  const std::vector<double> v = numbers_of(request.lever_arm);
+  if (!fitted && v.size() != 3) {
+    return failure(fmt::format("--lever-arm '{}': expected 'x y z' in metres, or estimate",
+                               request.lever_arm));
+  }
+  const bool level = input.scoring.anchor == AlignmentKind::kStartHeading;
+  for (SourcedTrajectory& each : input.estimates) {
+    LeverArm lever;
+    if (fitted) {
+      const Trajectory valid = valid_part(each.trajectory);
+      lever = fit_lever_arm(compared_pairs(valid, input.truth.trajectory, input.scoring), level);
+      const Eigen::Vector3d& p = lever.p_body_point;
+      input.notes.push_back(fmt::format(
+          "{}: lever arm fitted: [{:.3f}, {:.3f}, {:.3f}] m, {} of 3 directions observed; what it "
+          "fits is no error any more",
+          each.name, p.x(), p.y(), p.z(), lever.observed));
+    } else {
+      lever.p_body_point = {v[0], v[1], v[2]};
+    }
+    each.trajectory = moved_to_point(std::move(each.trajectory), lever.p_body_point);
+  }
+  return {};
+}
+
 /// KITTI's own poses are of a camera, whose y axis points down.
 void note_axes(ScoringInput& input) {
   const auto is_kitti = [](const SourcedTrajectory& each) { return each.kind == "KITTI poses"; };
@@ -182,18 +308,21 @@ Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
   input.scoring = request.scoring;
   const auto stamps = stamps_of(request.times);
   if (!stamps) return tl::unexpected(stamps.error());
-  const auto bag = read_truth(request, *stamps, input);
-  if (!bag) return tl::unexpected(bag.error());
-  auto origin = origin_of(request, *bag, input.notes);
-  if (!origin) return tl::unexpected(origin.error());
-  input.waypoint_times = std::move(origin->waypoint_times);
-  if (input.scoring.segments.empty()) input.scoring.segments = std::move(origin->segments);
-  auto segments = segments_of_request(request, input);
-  if (!segments) return tl::unexpected(segments.error());
-  input.segments = std::move(*segments);
-  if (auto read = read_estimates(request, *stamps, input); !read) {
-    return tl::unexpected(read.error());
+  if (request.truth.empty() == request.end_pose.empty()) {
+    return failure("expected --truth or --end-pose, and not both");
   }
+  if (!request.truth.empty()) {
+    const auto bag = read_truth(request, *stamps, input);
+    if (!bag) return tl::unexpected(bag.error());
+    if (auto read = read_segments(request, *bag, input); !read) {
+      return tl::unexpected(read.error());
+    }
+  }
+  auto done = read_estimates(request, *stamps, input);
+  if (done && !request.end_pose.empty()) done = set_markers(request, input);
+  if (!done) return tl::unexpected(done.error());
+  resolve_truth(request, input);
+  if (done = apply_lever_arm(request, input); !done) return tl::unexpected(done.error());
   note_axes(input);
   return input;
 }

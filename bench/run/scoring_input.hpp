@@ -22,6 +22,12 @@ struct ScoringRequest {
       waypoint_times;     ///< waypoint_times.csv; empty: the bag's own, if the truth is one
   std::string segments;   ///< see `parse_segments`; empty: as the configuration says
   std::string extrinsic;  ///< "x y z qx qy qz qw", T_body_estimate: pose of the estimates' frame
+  /// "x y z": the point that the truth measures, e.g. a prism, in the frame of the estimates [m];
+  /// "estimate": the one that fits best; empty: the frame itself.
+  std::string lever_arm;
+  /// In place of a truth: the pose of the end in the frame of the start, "x y z qx qy qz qw", or
+  /// "x y z", of which only the distance counts. Empty: there is a truth.
+  std::string end_pose;
   double time_offset_s = 0.0;  ///< added to the stamps of the estimates
   ScoreConfig scoring;
   /// `scoring` is of a configuration, whose segments count before those that a run states.

@@ -7,9 +7,8 @@
 namespace aims {
 
 Pose start_anchor(const Trajectory& estimate, const Trajectory& truth, const ScoreConfig& scoring) {
-  const auto pairs = associate(valid_part(estimate), truth, scoring.association,
-                               from_seconds(scoring.association_tolerance));
-  return align_start(pairs, scoring.anchor).T_truth_estimate;
+  const auto pairs = compared_pairs(valid_part(estimate), truth, scoring);
+  return align_start(pairs, start_alignment(scoring)).T_truth_estimate;
 }
 
 Trajectory anchored(const Trajectory& estimate, const Trajectory& truth,

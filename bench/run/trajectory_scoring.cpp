@@ -54,18 +54,32 @@ void move_near(SourcedTrajectory& each, std::vector<std::string>& notes) {
                   each.name, origin.norm() / 1000.0));
 }
 
-void note_truth(const ScoringInput& input, std::vector<std::string>& notes) {
-  const Trajectory& truth = input.truth.trajectory;
+void note_gaps(const Trajectory& truth, const ScoreConfig& scoring,
+               std::vector<std::string>& notes) {
+  if (scoring.association == Association::kAtTruth) return;
   Duration longest = 0;
   for (std::size_t i = 1; i < truth.size(); ++i) {
     longest = std::max(longest, truth[i].stamp - truth[i - 1].stamp);
   }
-  if (longest > kLongTruthGap) {
+  const auto gaps = gaps_in(truth, from_seconds(scoring.max_truth_gap));
+  if (!gaps.empty() && scoring.association == Association::kInterpolated) {
+    const Time begin = truth.front().stamp, end = truth.back().stamp;
+    const double unknown = to_seconds(time_in(gaps, begin, end));
+    notes.push_back(fmt::format(
+        "truth: in {} gaps of more than {:g} s (scoring.max_truth_gap), together {:.1f} of {:.1f} "
+        "s, there is none: nothing is scored there",
+        gaps.size(), scoring.max_truth_gap, unknown, to_seconds(end - begin)));
+  } else if (longest > kLongTruthGap) {
     notes.push_back(
         fmt::format("truth: no pose for up to {:.1f} s; there it is taken as a straight "
                     "line",
                     to_seconds(longest)));
   }
+}
+
+void note_truth(const ScoringInput& input, std::vector<std::string>& notes) {
+  const Trajectory& truth = input.truth.trajectory;
+  note_gaps(truth, input.scoring, notes);
   if (input.segments.empty()) {
     notes.emplace_back("no reference points: M_list is n/a");
     return;

@@ -19,6 +19,7 @@ struct SourcedTrajectory {
   std::string kind;    ///< "TUM", "KITTI poses", "nav_msgs/Odometry on /odom"
   Trajectory trajectory;
   std::string body_frame = {};  ///< whose poses they are, where the file states it; e.g. "lidar"
+  bool has_attitude = true;     ///< false: positions alone
 };
 
 /// Trajectories of any system, the truth, and over which ways M_list is taken.

@@ -29,6 +29,20 @@ std::string_view name_of(PositionSpread spread) {
   return "se3";
 }
 
+/// What the alignment at the start is by.
+std::string_view name_of(AlignmentKind start) {
+  switch (start) {
+    case AlignmentKind::kStartPose:
+      return "pose";
+    case AlignmentKind::kStartYaw:
+      return "path";
+    case AlignmentKind::kStartSe3:
+      return "path_se3";
+    default:
+      return "heading";
+  }
+}
+
 Json estimate_json(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
   const Scores& scores = estimate.scores;
   Json json = scores_json(scores);
@@ -36,7 +50,7 @@ Json estimate_json(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
   json["poses_invalid"] = scores.poses_invalid;
   json["poses_compared"] = scores.poses_compared;
   json["median_stamp_difference_s"] = json_of(estimate.median_stamp_difference_s);
-  json["alignment"] = {{"start", scoring.anchor == AlignmentKind::kStartPose ? "pose" : "heading"},
+  json["alignment"] = {{"start", name_of(start_alignment(scoring))},
                        {"se3", name_of(scores.se3_spread)}};
   json["source"] = estimate.given.source;
   json["kind"] = estimate.given.kind;
@@ -93,7 +107,8 @@ RunRecord record_of(const TrajectoryScores& scores) {
                      {"poses", truth.size()},
                      {"start_s", to_seconds(truth.front().stamp)},
                      {"end_s", to_seconds(truth.back().stamp)},
-                     {"path_m", path_length(truth)}}},
+                     {"path_m", path_length(truth)},
+                     {"attitude", scores.scoring.truth != TruthContent::kPosition}}},
                    {"notes", scores.notes},
                    {"segments", Json::array()},
                    {"estimators", Json::object()},

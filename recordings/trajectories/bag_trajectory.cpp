@@ -14,6 +14,7 @@
 #include "recordings/source/recording_file.hpp"
 #include "recordings/topics/connection_decoders.hpp"
 #include "recordings/trajectories/pose_cleaning.hpp"
+#include "recordings/trajectories/tf_trajectory.hpp"
 
 namespace aims {
 namespace {
@@ -24,16 +25,17 @@ namespace fs = std::filesystem;
 struct PoseLayout {
   std::string_view type;
   std::string_view position;
-  std::string_view rotation;
+  std::string_view rotation;  ///< empty: the message has a position alone
 };
 
 constexpr std::string_view kPath = "nav_msgs/Path";
-constexpr std::array<PoseLayout, 5> kLayouts = {{
+constexpr std::array<PoseLayout, 6> kLayouts = {{
     {"nav_msgs/Odometry", "pose.pose.position", "pose.pose.orientation"},
     {"geometry_msgs/PoseStamped", "pose.position", "pose.orientation"},
     {"geometry_msgs/PoseWithCovarianceStamped", "pose.pose.position", "pose.pose.orientation"},
     {"geometry_msgs/TransformStamped", "transform.translation", "transform.rotation"},
     {kPath, "pose.position", "pose.orientation"},
+    {"geometry_msgs/PointStamped", "point", ""},
 }};
 
 const PoseLayout* layout_of(const std::string& type) {
@@ -59,23 +61,32 @@ std::string wanted_types() {
   return fmt::format("{}", fmt::join(types, ", "));
 }
 
+/// Topics of the bag with poses; without any, those with positions.
+std::vector<std::string> topics_with_poses(const MessageSource& bag) {
+  std::vector<std::string> poses, positions;
+  for (const BagConnection& each : bag.connections()) {
+    const PoseLayout* layout = layout_of(each.type);
+    if (layout == nullptr) continue;
+    std::vector<std::string>& list = layout->rotation.empty() ? positions : poses;
+    if (std::find(list.begin(), list.end(), each.topic) == list.end()) list.push_back(each.topic);
+  }
+  return poses.empty() ? positions : poses;
+}
+
 /// The topic to read: the given one, the only one with poses, or the preferred one.
 Result<std::string> choose_topic(const MessageSource& bag, const std::string& given,
                                  const std::string& preferred, std::vector<std::string>& notes) {
   const std::string name = bag.name();
-  std::vector<std::string> fitting;
   for (const BagConnection& each : bag.connections()) {
-    if (!given.empty() && each.topic == given && layout_of(each.type) == nullptr) {
-      return failure(fmt::format("{}: topic {} is {}; expected one of {}", name, given, each.type,
-                                 wanted_types()));
-    }
-    const bool known = std::find(fitting.begin(), fitting.end(), each.topic) != fitting.end();
-    if (layout_of(each.type) != nullptr && !known) fitting.push_back(each.topic);
+    if (given.empty() || each.topic != given) continue;
+    if (layout_of(each.type) != nullptr) return given;
+    return failure(fmt::format("{}: topic {} is {}; expected one of {}", name, given, each.type,
+                               wanted_types()));
   }
+  const std::vector<std::string> fitting = topics_with_poses(bag);
   const auto has = [&fitting](const std::string& topic) {
     return std::find(fitting.begin(), fitting.end(), topic) != fitting.end();
   };
-  if (!given.empty() && has(given)) return given;
   if (!given.empty()) {
     return failure(fmt::format("{}: no topic {}; there are {}", name, given,
                                listed(bag.connections(), false)));
@@ -99,8 +110,12 @@ Result<std::string> choose_topic(const MessageSource& bag, const std::string& gi
 std::optional<StampedPose> pose_in(const MessageView& view, const PoseLayout& layout) {
   const auto stamp = view.time("header.stamp");
   const auto position = vector_at(view, layout.position);
+  if (!stamp || !position) return std::nullopt;
+  if (layout.rotation.empty()) {
+    return StampedPose{*stamp, {Eigen::Quaterniond::Identity(), *position}};
+  }
   auto rotation = quaternion_at(view, layout.rotation);
-  if (!stamp || !position || !rotation) return std::nullopt;
+  if (!rotation) return std::nullopt;
   const double off = std::abs(rotation->norm() - 1.0);
   if (off > 1e-14 && off < 1e-3) rotation->normalize();
   return StampedPose{*stamp, {*rotation, *position}};
@@ -196,6 +211,7 @@ void stamp_by_record_time(Trajectory& poses, const std::vector<Time>& record_tim
 
 Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::string& topic,
                                            const TrajectoryFileOptions& options) {
+  if (names_transforms(topic)) return read_tf_trajectory(file, topic, options);
   auto bag = open_recording(file);
   if (!bag) return tl::unexpected(bag.error());
   TrajectoryFile result;
@@ -207,6 +223,7 @@ Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::stri
       std::find_if((*bag)->connections().begin(), (*bag)->connections().end(),
                    [&](const BagConnection& each) { return each.topic == *chosen; });
   result.kind = fmt::format("{} on {}", connection->type, *chosen);
+  result.has_attitude = !layout_of(connection->type)->rotation.empty();
   std::vector<Time> record_times;
   TopicReader reader(**bag, *chosen);
   auto read = reader.read(result.trajectory, record_times);

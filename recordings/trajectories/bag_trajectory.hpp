@@ -11,8 +11,9 @@
 
 namespace aims {
 
-/// Reads the poses of one topic of a ROS 1 bag: nav_msgs/Odometry, geometry_msgs/PoseStamped,
-/// PoseWithCovarianceStamped or TransformStamped, or the last nav_msgs/Path. Stamps are those of
+/// Reads the poses of one topic of a recording: nav_msgs/Odometry, geometry_msgs/PoseStamped,
+/// PoseWithCovarianceStamped or TransformStamped, the last nav_msgs/Path, the positions of a
+/// geometry_msgs/PointStamped, or of tf (`tf_trajectory`). Stamps are those of
 /// the headers, or record times when no header has one. Without `topic`: the only suitable one, or
 /// the preferred one. Under strict rules, invalid poses and poses whose stamps do not increase are
 /// dropped and counted in a note. Errors list the existing topics.

@@ -14,6 +14,7 @@ namespace aims {
 namespace {
 
 constexpr std::size_t kColumns = 8;
+constexpr std::size_t kPositionColumns = 4;
 constexpr std::size_t kNanosecondDigits = 16;  ///< of a stamp, at least
 
 std::string_view trimmed(std::string_view cell) {
@@ -53,6 +54,25 @@ std::string seconds_of(std::string_view stamp) {
   return fmt::format("{}.{}", stamp.substr(0, stamp.size() - 9), stamp.substr(stamp.size() - 9));
 }
 
+/// How the rows of a table are read.
+struct RowLayout {
+  bool positions = false;  ///< stamp and position alone
+  bool w_first = false;
+
+  std::size_t columns() const { return positions ? kPositionColumns : kColumns; }
+
+  std::string row(const std::vector<std::string_view>& cells) const {
+    std::string text =
+        fmt::format("{} {} {} {}", seconds_of(cells[0]), cells[1], cells[2], cells[3]);
+    const std::size_t x = w_first ? 5 : 4;
+    if (!positions) {
+      text += fmt::format(" {} {} {} {}", cells[x], cells[x + 1], cells[x + 2],
+                          cells[w_first ? 4 : 7]);
+    }
+    return text + '\n';
+  }
+};
+
 }  // namespace
 
 bool is_pose_table(std::string_view text) {
@@ -61,11 +81,12 @@ bool is_pose_table(std::string_view text) {
   return line && line->find_first_of(",;") != std::string_view::npos;
 }
 
-Result<std::string> tum_of_pose_table(std::string_view text, const std::string& name) {
+Result<std::string> tum_of_pose_table(std::string_view text, const std::string& name,
+                                      std::vector<std::string>& notes) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   std::string out;
   std::optional<std::size_t> w;
-  std::optional<bool> w_first;
+  std::optional<RowLayout> layout;
   int number = 0;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -75,22 +96,27 @@ Result<std::string> tum_of_pose_table(std::string_view text, const std::string& 
     const auto cells = cells_of(line);
     const bool comment = line.find_first_not_of(" \t\r") == std::string_view::npos ||
                          line[line.find_first_not_of(" \t\r")] == '#';
-    const bool header = !w_first && cells.size() >= kColumns && !parse_number(cells[0], false);
+    const bool header =
+        !layout && cells.size() >= kPositionColumns && !parse_number(cells[0], false);
     if (comment || header) {
       if (!w && cells.size() >= kColumns) w = column_of_w(cells);
       out += '\n';
       continue;
     }
-    if (cells.size() < kColumns) {
-      return failure(
-          fmt::format("{}:{}: expected at least 8 columns: stamp, position, quaternion; "
-                      "found {}",
-                      name, number, cells.size()));
+    if (!layout) {
+      layout = RowLayout{cells.size() < kColumns, w ? *w == 4 : is_nanoseconds(cells[0])};
+      if (layout->positions && cells.size() > kPositionColumns) {
+        notes.push_back(fmt::format(
+            "{}: the first 4 of {} columns are read: stamp and position", name, cells.size()));
+      }
     }
-    if (!w_first) w_first = w ? *w == 4 : is_nanoseconds(cells[0]);
-    const std::size_t x = *w_first ? 5 : 4;
-    out += fmt::format("{} {} {} {} {} {} {} {}\n", seconds_of(cells[0]), cells[1], cells[2],
-                       cells[3], cells[x], cells[x + 1], cells[x + 2], cells[*w_first ? 4 : 7]);
+    if (cells.size() < layout->columns()) {
+      return failure(fmt::format("{}:{}: expected at least {}, found {}", name, number,
+                                 layout->positions ? "4 columns: stamp and position"
+                                                   : "8 columns: stamp, position, quaternion",
+                                 cells.size()));
+    }
+    out += layout->row(cells);
   }
   return out;
 }

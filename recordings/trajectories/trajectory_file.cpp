@@ -18,10 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kPositionColumns = 4;
 constexpr std::size_t kTumColumns = 8;
 constexpr std::size_t kKittiColumns = 12;
 
-/// A file, and the topic after a colon unless the source itself is a file.
+/// A file, and the topic after a colon unless the source itself is a file; with ":PARENT,CHILD" of
+/// tf.
 struct Source {
   fs::path file;
   std::string topic;
@@ -31,6 +33,10 @@ Source split(const std::string& source) {
   std::error_code ignored;
   const std::size_t colon = source.rfind(':');
   if (fs::exists(source, ignored) || colon == std::string::npos) return {source, ""};
+  const std::size_t before = colon == 0 ? std::string::npos : source.rfind(":/", colon - 1);
+  if (before != std::string::npos && source.find(',', colon) != std::string::npos) {
+    return {source.substr(0, before), source.substr(before + 1)};
+  }
   const bool names_topic = source.find('/', colon) == colon + 1;
   if (!names_topic && !fs::exists(source.substr(0, colon), ignored)) return {source, ""};
   return {source.substr(0, colon), source.substr(colon + 1)};
@@ -53,6 +59,27 @@ Result<Trajectory> stamped(const std::vector<Pose>& poses, const std::string& na
                   name, poses.size(), counts.empty() ? "" : "; ", fmt::join(counts, ", ")));
 }
 
+/// Lines "stamp x y z" in seconds and metres; what is not finite is kept, for scoring to count.
+Result<Trajectory> parse_positions(std::string_view text, const std::string& name) {
+  Trajectory positions;
+  LineReader lines(text, name);
+  while (const auto line = lines.next()) {
+    const auto words = words_of(*line);
+    StampedPose pose;
+    const auto stamp = words.empty() ? std::nullopt : parse_stamp(words[0]);
+    bool good = words.size() == kPositionColumns && stamp;
+    for (std::size_t i = 1; good && i < kPositionColumns; ++i) {
+      const auto number = parse_number(words[i], false);
+      good = number.has_value();
+      pose.pose.translation[static_cast<Eigen::Index>(i) - 1] = number.value_or(0.0);
+    }
+    if (!good) return lines.error("expected a position: stamp x y z");
+    pose.stamp = *stamp;
+    positions.push_back(pose);
+  }
+  return positions;
+}
+
 Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptions& options) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
@@ -63,7 +90,8 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   TrajectoryFile result;
   result.file = file;
   const bool table = is_pose_table(*text);
-  const auto lines_text = table ? tum_of_pose_table(*text, name) : Result<std::string>(*text);
+  const auto lines_text =
+      table ? tum_of_pose_table(*text, name, result.notes) : Result<std::string>(*text);
   if (!lines_text) return tl::unexpected(lines_text.error());
   LineReader lines(*lines_text, name);
   const auto first = lines.next();
@@ -72,7 +100,11 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   }
   const std::size_t columns = words_of(*first).size();
   Result<Trajectory> trajectory = Trajectory();
-  if (columns == kTumColumns) {
+  if (columns == kPositionColumns) {
+    result.kind = table ? "CSV of positions" : "positions";
+    result.has_attitude = false;
+    trajectory = parse_positions(*lines_text, name);
+  } else if (columns == kTumColumns) {
     result.kind = table ? "CSV" : "TUM";
     trajectory = parse_tum(*lines_text, name, PoseRules::kAsGiven);
   } else if (columns == kKittiColumns) {
@@ -82,8 +114,8 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
     trajectory = stamped(*poses, name, options.stamps, result.notes);
   } else {
     return lines.error(
-        fmt::format("expected 8 columns (TUM: stamp x y z qx qy qz qw) or 12 (KITTI "
-                    "poses), found {}",
+        fmt::format("expected 8 columns (TUM: stamp x y z qx qy qz qw), 12 (KITTI poses) or 4 "
+                    "(positions: stamp x y z), found {}",
                     columns));
   }
   if (!trajectory) return tl::unexpected(trajectory.error());

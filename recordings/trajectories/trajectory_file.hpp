@@ -32,14 +32,15 @@ struct TrajectoryFile {
   Trajectory trajectory;  ///< stamps increase and poses are valid only under strict rules
   std::string kind;       ///< "TUM", "KITTI poses", "nav_msgs/Odometry on /odom"
   std::filesystem::path file;
+  bool has_attitude = true;        ///< false: positions alone; the rotations are identities
   std::string topic;               ///< of a bag
   std::string body_frame;          ///< child frame of a bag's poses, e.g. "lidar"; may be empty
   std::vector<std::string> notes;  ///< assumptions and dropped poses, one sentence each
 };
 
-/// Reads `source`: a text file of TUM lines or KITTI poses, distinguished by the number of columns,
-/// or a recording, recognized by its first bytes or its name, with the topic after a colon
-/// ("run.bag:/odom"). Errors name the file, its line or offset, and what was expected; for a topic,
+/// Reads `source`: a text file of TUM lines, KITTI poses or positions (stamp x y z), distinguished
+/// by the number of columns, or a recording, recognized by its first bytes or its name, with the
+/// topic after a colon ("run.bag:/odom"), of tf also with two frames ("run.bag:/tf:map,base"). Errors name the file, its line or offset, and what was expected; for a topic,
 /// the existing ones.
 Result<TrajectoryFile> read_trajectory(const std::string& source,
                                        const TrajectoryFileOptions& options);

@@ -66,9 +66,8 @@ TimePanel panel_of(const TrajectoryScores& scores, std::string title, std::strin
   const Time start = scores.truth.trajectory.front().stamp;
   for (const ScoredEstimate& each : scores.estimates) {
     TimeSeries series{each.given.name, {}};
-    const auto pairs =
-        associate(thinned(each.in_truth_frame, kDrawnSpacing), scores.truth.trajectory,
-                  scores.scoring.association, from_seconds(scores.scoring.association_tolerance));
+    const auto pairs = compared_pairs(thinned(each.in_truth_frame, kDrawnSpacing),
+                                      scores.truth.trajectory, scores.scoring);
     for (const PosePair& pair : pairs) {
       series.points.emplace_back(to_seconds(pair.stamp - start), std::max(least, quantity(pair)));
     }
@@ -90,9 +89,11 @@ Result<void> draw_errors(const TrajectoryScores& scores, const std::filesystem::
   plot.subtitle = subtitle_of(scores);
   plot.panels = {
       panel_of(scores, "Distance from the truth, from 1 mm", "error [m]", kLeastMetres, distance),
-      panel_of(scores, "Height error, from 1 mm", "error [m]", kLeastMetres, height),
-      panel_of(scores, "Heading error, from 0.01 degrees", "error [deg]", kLeastDegrees,
-               heading_error_deg)};
+      panel_of(scores, "Height error, from 1 mm", "error [m]", kLeastMetres, height)};
+  if (scores.scoring.truth != TruthContent::kPosition) {
+    plot.panels.push_back(panel_of(scores, "Heading error, from 0.01 degrees", "error [deg]",
+                                   kLeastDegrees, heading_error_deg));
+  }
   const Time start = scores.truth.trajectory.front().stamp;
   for (const WaypointTime& each : points_of(scores)) {
     plot.events.emplace_back(to_seconds(each.stamp - start), each.point);

@@ -226,6 +226,73 @@ TEST_F(ScoringInputs, OnlyTheScoringOfAConfigurationCounts) {
             std::string::npos);
 }
 
+std::string positions_text(const Trajectory& trajectory, const Eigen::Vector3d& lever) {
+  std::string text = "#timestamp, x, y, z\n";
+  for (const StampedPose& each : trajectory) {
+    const Eigen::Vector3d p = each.pose * lever;
+    text += fmt::format("{}, {}, {}, {}\n", each.stamp + 1'600'000'000 * kSecond, p.x(), p.y(),
+                        p.z());
+  }
+  return text;
+}
+
+TEST_F(ScoringInputs, APrismIsReachedByALeverArmGivenOrFitted) {
+  ScoringRequest request;
+  request.truth = file("prism.csv", positions_text(bend(), {0.1, 0.2, 0.5}));
+  request.estimates = {file("mine.tum", tum_text(bend()))};
+  request.time_offset_s = 1'600'000'000.0;
+  const auto off = score_trajectories(*read_scoring_input(request));
+  ASSERT_TRUE(off) << off.error().message;
+  EXPECT_GT(off->estimates[0].scores.ate_yaw_m.value(), 0.02);
+  EXPECT_FALSE(off->estimates[0].scores.heading_error_rad);
+  request.lever_arm = "0.1 0.2 0.5";
+  const auto given = score_trajectories(*read_scoring_input(request));
+  EXPECT_NEAR(given->estimates[0].scores.ate_yaw_m.value(), 0.0, 1e-9);
+  request.lever_arm = "estimate";
+  const auto fitted = score_trajectories(*read_scoring_input(request));
+  EXPECT_NEAR(fitted->estimates[0].scores.ate_yaw_m.value(), 0.0, 1e-6);
+  request.lever_arm = "0.1 0.2";
+  EXPECT_NE(message_of(request).find("--lever-arm '0.1 0.2': expected 'x y z' in metres"),
+            std::string::npos);
+}
+
+TEST_F(ScoringInputs, APoseOfTheEndIsATruthOfItsOwn) {
+  ScoringRequest request = plain();
+  request.truth.clear();
+  const Pose T_start_end = bend().front().pose.inverse() * bend().back().pose;
+  const Eigen::Quaterniond& q = T_start_end.rotation;
+  const Eigen::Vector3d p = T_start_end.translation + Eigen::Vector3d(0.0, 0.3, 0.4);
+  request.end_pose =
+      fmt::format("{} {} {} {} {} {} {}", p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+  const auto scores = score_trajectories(*read_scoring_input(request));
+  ASSERT_TRUE(scores) << scores.error().message;
+  EXPECT_NEAR(scores->estimates[0].scores.m_end.value().norm_m, 0.5, 1e-9);
+  request.end_pose = "0 0 0";  // a closed route, which the bend is not
+  const auto closed = score_trajectories(*read_scoring_input(request));
+  EXPECT_NEAR(closed->estimates[0].scores.m_end.value().norm_m, T_start_end.translation.norm(),
+              1e-9);
+  request.truth = plain().truth;
+  EXPECT_NE(message_of(request).find("--truth or --end-pose"), std::string::npos);
+}
+
+TEST_F(ScoringInputs, PositionsWrittenAsPosesAndFewPointsAreRecognized) {
+  ScoringRequest request = plain();
+  Trajectory level = bend();
+  for (StampedPose& each : level) each.pose.rotation.setIdentity();
+  request.truth = file("station.tum", tum_text(level));
+  auto input = read_scoring_input(request);
+  ASSERT_TRUE(input) << input.error().message;
+  EXPECT_EQ(input->scoring.truth, TruthContent::kPosition);
+  EXPECT_EQ(input->scoring.association, Association::kInterpolated);
+  Trajectory few;
+  for (std::size_t i = 0; i < level.size(); i += 25) few.push_back(level[i]);
+  request.truth = file("points.tum", tum_text(few));
+  input = read_scoring_input(request);
+  EXPECT_EQ(input->scoring.association, Association::kAtTruth);
+  EXPECT_EQ(input->scoring.truth, TruthContent::kPose) << "five attitudes may be the same";
+  EXPECT_EQ(read_scoring_input(plain())->scoring.truth, TruthContent::kPose);
+}
+
 TEST_F(ScoringInputs, BadArgumentsAreNamed) {
   ScoringRequest request = plain();
   request.extrinsic = "1 2 3 0 0 0 2";
