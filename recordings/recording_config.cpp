@@ -92,6 +92,25 @@ void describe(Fields& f, ExtrinsicConfig& c) {
            {.unit = "deg",
             .range = in_range(-360.0, 360.0),
             .meaning = "roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)"});
+  const auto entries = [](std::string meaning) {
+    return Spec{.unit = "m, -", .range = within(100.0), .meaning = std::move(meaning)};
+  };
+  f.numbers("rotation_matrix", c.rotation_matrix,
+            entries("9 numbers, row by row, in place of the angles"));
+  f.numbers("quaternion_xyzw", c.quaternion_xyzw, entries("4 numbers, in place of the angles"));
+  f.numbers("matrix", c.matrix, entries("4x4 or 3x4, row by row, in place of all above"));
+  f.choice("direction", c.direction,
+           {{"sensor_in_imu", ExtrinsicDirection::kSensorInImu},
+            {"imu_in_sensor", ExtrinsicDirection::kImuInSensor},
+            {"lidar_in_imu", ExtrinsicDirection::kSensorInImu},
+            {"imu_in_lidar", ExtrinsicDirection::kImuInSensor}},
+           dimensionless("whose pose the values are, in whose frame"));
+  f.text("static_transform", c.static_transform,
+         dimensionless("arguments of a static_transform_publisher, of either ROS"));
+  f.text("file", c.file,
+         dimensionless("calibration: Kalibr, T_A_B in YAML, Ouster metadata, URDF, launch file"));
+  f.texts("file_frames", c.file_frames,
+          dimensionless("[IMU, sensor] as the file names them; empty: recognized"));
 }
 
 void describe(Fields& f, RecordingConfig& c) {

@@ -23,11 +23,27 @@ struct TopicsConfig {
   std::string truth;         ///< nav_msgs/Odometry or PoseStamped; read for scoring only
 };
 
-/// Extrinsics of a sensor, for a bag whose tf lacks them or is wrong.
+/// Whose pose the values of an extrinsic are.
+enum class ExtrinsicDirection { kSensorInImu, kImuInSensor };
+
+/// Extrinsics of a sensor, for a bag whose tf lacks them or is wrong; as a calibration states them.
 struct ExtrinsicConfig {
   bool override_tf = false;  ///< use these values instead of the bag's tf
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();       ///< in the IMU frame [m]
   Eigen::Vector3d rotation_rpy_deg = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw [deg]
+  std::vector<double> rotation_matrix;  ///< 9 numbers, row by row, in place of the angles
+  std::vector<double> quaternion_xyzw;  ///< 4 numbers, in place of the angles
+  std::vector<double> matrix;           ///< 16 or 12 numbers, row by row, in place of all above
+  ExtrinsicDirection direction = ExtrinsicDirection::kSensorInImu;
+  std::string static_transform;  ///< arguments of a ROS static_transform_publisher
+  std::string file;              ///< of a calibration; see recordings/frames/calibration_file.hpp
+  std::vector<std::string> file_frames;  ///< the IMU's and the sensor's name there
+
+  /// Whether tf is not asked.
+  bool is_given() const {
+    return override_tf || !matrix.empty() || !rotation_matrix.empty() || !quaternion_xyzw.empty() ||
+           !static_transform.empty() || !file.empty();
+  }
 };
 
 enum class ImuUnit { kAuto, kMetres, kGravities };

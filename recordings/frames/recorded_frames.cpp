@@ -6,14 +6,19 @@
 
 #include <numbers>
 
+#include "recordings/frames/fixed_transform.hpp"
+
 namespace aims {
 namespace {
 
+/// Of a configuration in plain form, which `with_plain_extrinsics` made.
 Pose pose_of(const ExtrinsicConfig& configured) {
+  if (configured.quaternion_xyzw.size() == 4) {
+    const std::vector<double>& q = configured.quaternion_xyzw;
+    return {Eigen::Quaterniond(q[3], q[0], q[1], q[2]), configured.translation};
+  }
   const Eigen::Vector3d rpy = configured.rotation_rpy_deg * (std::numbers::pi / 180.0);
-  const Eigen::Quaterniond roll(Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()));
-  const Eigen::Quaterniond pitch(Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()));
-  return {yaw_rotation(rpy.z()) * pitch * roll, configured.translation};
+  return {rotation_of_rpy(rpy.x(), rpy.y(), rpy.z()), configured.translation};
 }
 
 }  // namespace
@@ -47,7 +52,8 @@ Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::str
   notes.warn(fmt::format("{} unknown", key),
              fmt::format("NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Set "
                          "recording.{}.translation and "
-                         "rotation_rpy_deg with recording.{}.override_tf=true, or name the frames",
+                         "rotation_rpy_deg with recording.{}.override_tf=true, or .file to a "
+                         "calibration, or name the frames",
                          from, to, key, key));
   return {};
 }

@@ -187,7 +187,7 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
     info.notes.push_back(
         fmt::format("{}: the recording has no definition of this type: not decoded", type));
   }
-  info.extrinsics_configured = config.T_imu_lidar.override_tf;
+  info.extrinsics_configured = config.T_imu_lidar.is_given();
   info.warnings = bag_warnings(info);
   return info;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "recordings/frames/configured_extrinsic.hpp"
 #include "recordings/stream/recorded_legs.hpp"
 #include "recordings/stream/recording_survey.hpp"
 #include "recordings/topics/connection_decoders.hpp"
@@ -122,7 +123,9 @@ RecordingConfig with_recorded_legs(const RecordingConfig& given, MessageSource& 
 Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& given,
                                      const TopicsConfig& topics, const RecordingChannels& channels,
                                      std::vector<std::string> notes) {
-  const RecordingConfig config = with_recorded_legs(given, bag, notes);
+  const auto plain = with_plain_extrinsics(given);
+  if (!plain) return tl::unexpected(plain.error());
+  const RecordingConfig config = with_recorded_legs(*plain, bag, notes);
   RecordingSurvey survey(config, topics);
   if (auto ok = survey_transforms(bag, "/tf_static", true, survey); !ok) {
     return tl::unexpected(ok.error());

@@ -66,7 +66,7 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
      {"core/", "recordings/bag/", "recordings/messages/", "recordings/topics/",
       "recordings/recording_config.hpp"}},
     {"recordings/trajectories",
-     {"core/", "recordings/bag/", "recordings/messages/", "recordings/source/",
+     {"core/", "recordings/bag/", "recordings/frames/", "recordings/messages/", "recordings/source/",
       "recordings/topics/", "recordings/trajectories/"}},
     {"recordings/stream",
      {"core/", "recordings/bag/", "recordings/messages/", "recordings/clouds/",

@@ -139,11 +139,15 @@ TEST(TrajectoryScoring, MapCoordinatesLoseNoPrecision) {
 TEST(TrajectoryScoring, ALongGapOfTheTruthIsSaid) {
   ScoringInput input = input_of(circle);
   auto& truth = input.truth.trajectory;
-  truth.erase(truth.begin() + 1000, truth.begin() + 1300);
+  truth.erase(truth.begin() + 1000, truth.begin() + 1150);
   input.estimates.push_back(named("mine", sampled(0.1, circle)));
-  const auto result = score_trajectories(input);
+  auto result = score_trajectories(input);
   ASSERT_TRUE(result);
-  EXPECT_TRUE(says(result->notes, "truth: no pose for up to 3.0 s"));
+  EXPECT_TRUE(says(result->notes, "truth: no pose for up to 1.5 s"));
+  truth.erase(truth.begin() + 1000, truth.begin() + 1150);
+  result = score_trajectories(input);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(says(result->notes, "truth: 1 gap of more than 2 s"));
 }
 
 TEST(TrajectoryScoring, WithoutReferencePointsThereIsNoMList) {

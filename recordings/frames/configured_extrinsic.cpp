@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/frames/configured_extrinsic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "recordings/frames/calibration_file.hpp"
+#include "recordings/frames/static_transform.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kRad = std::numbers::pi / 180.0;
+
+std::string place_of(std::string_view key, std::string_view field) {
+  return fmt::format("recording.{}.{}", key, field);
+}
+
+/// The values as written, before their direction.
+Result<Pose> written_pose(const ExtrinsicConfig& config, std::string_view key) {
+  if (!config.matrix.empty()) return pose_of_matrix(config.matrix, place_of(key, "matrix"));
+  Pose pose{rotation_of_rpy(kRad * config.rotation_rpy_deg.x(), kRad * config.rotation_rpy_deg.y(),
+                            kRad * config.rotation_rpy_deg.z()),
+            config.translation};
+  Result<Eigen::Quaterniond> rotation = pose.rotation;
+  if (!config.quaternion_xyzw.empty()) {
+    rotation = rotation_of_quaternion(config.quaternion_xyzw, place_of(key, "quaternion_xyzw"));
+  }
+  if (!config.rotation_matrix.empty()) {
+    rotation = rotation_of_matrix(config.rotation_matrix, place_of(key, "rotation_matrix"));
+  }
+  if (!rotation) return tl::unexpected(rotation.error());
+  pose.rotation = *rotation;
+  return pose;
+}
+
+}  // namespace
+
+Result<Pose> configured_extrinsic(const ExtrinsicConfig& config, std::string_view key) {
+  const bool turned = config.direction == ExtrinsicDirection::kImuInSensor;
+  const bool typed = config.override_tf || !config.matrix.empty() ||
+                     !config.rotation_matrix.empty() || !config.quaternion_xyzw.empty();
+  if (static_cast<int>(typed) + static_cast<int>(!config.file.empty()) +
+          static_cast<int>(!config.static_transform.empty()) >
+      1) {
+    return failure(fmt::format(
+        "recording.{}: expected one of numbers, static_transform and file, found several", key));
+  }
+  if (!config.file.empty()) {
+    const std::vector<std::string>& names = config.file_frames;
+    if (!names.empty() && names.size() != 2) {
+      return failure(place_of(key, "file_frames") + ": expected two names, [IMU, sensor]");
+    }
+    return read_extrinsic(config.file, names.empty() ? "" : names[0],
+                          names.empty() ? "" : names[1]);
+  }
+  Result<Pose> pose = Pose();
+  if (!config.static_transform.empty()) {
+    const auto parsed =
+        parse_static_transform(config.static_transform, place_of(key, "static_transform"));
+    if (!parsed) return tl::unexpected(parsed.error());
+    pose = parsed->T_parent_child;
+  } else {
+    pose = written_pose(config, key);
+  }
+  if (pose && turned) return pose->inverse();
+  return pose;
+}
+
+Result<RecordingConfig> with_plain_extrinsics(RecordingConfig config) {
+  const auto make_plain = [](ExtrinsicConfig& each, std::string_view key) -> Result<void> {
+    const bool plain = each.override_tf && each.direction == ExtrinsicDirection::kSensorInImu;
+    const bool angles = each.matrix.empty() && each.rotation_matrix.empty() &&
+                        each.quaternion_xyzw.empty() && each.static_transform.empty() &&
+                        each.file.empty();
+    if (!each.is_given() || (plain && angles)) return {};
+    const auto pose = configured_extrinsic(each, key);
+    if (!pose) return tl::unexpected(pose.error());
+    const Eigen::Quaterniond& q = pose->rotation;
+    each = ExtrinsicConfig();
+    each.override_tf = true;
+    each.translation = pose->translation;
+    each.quaternion_xyzw = {q.x(), q.y(), q.z(), q.w()};
+    return {};
+  };
+  if (auto done = make_plain(config.T_imu_lidar, "T_imu_lidar"); !done) {
+    return tl::unexpected(done.error());
+  }
+  if (auto done = make_plain(config.T_imu_base, "T_imu_base"); !done) {
+    return tl::unexpected(done.error());
+  }
+  return config;
+}
+
+}  // namespace aims

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/lie.hpp"
+#include "recordings/recording_config.hpp"
+
+namespace aims {
+
+/// The pose of the sensor in the frame of the IMU that the configuration states, whichever form it
+/// has. Errors name `key`, or the file with its line, and what was expected.
+Result<Pose> configured_extrinsic(const ExtrinsicConfig& config, std::string_view key);
+
+/// The configuration with the plain form of each extrinsic that it states.
+Result<RecordingConfig> with_plain_extrinsics(RecordingConfig config);
+
+}  // namespace aims
