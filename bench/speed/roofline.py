@@ -28,8 +28,8 @@ SAMPLES = 4000  # a second, by perf
 STAGES = [
     ("reading the recording", r"read_cloud|numbers_at|number_at|CloudDecoder|CloudSurvey|RingSurvey|llround|atan2|"
                               r"hypot|is_sorted|_copy_to_iter|Recording|Bag|MessageTraversal|FieldLookup|leg_of_name"),
-    ("mixed returns", r"RangeSteps"),
-    ("moving returns", r"RangeImage|MovingReturns"),
+    ("mixed returns", r"MixedPixelFilter"),
+    ("moving returns", r"RangeImage|DynamicPoints"),
     ("thinning", r"ScanSelection"),
     ("deskewing", r"deskew|ScanMotion"),
     ("nearest points, map insertion", r"VoxelMap::nearest|VoxelMap::planes_at"),

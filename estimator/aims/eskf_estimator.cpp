@@ -33,8 +33,7 @@ double max_leg_speed(const EskfConfig& config) {
   return config.legs.enabled ? 5.0 : std::numeric_limits<double>::infinity();
 }
 
-/// A scale of the legs that is known this well no longer smears what is mapped along a direction
-/// that scans leave free [-].
+/// With a leg scale known this well, a map along an unconstrained direction is not blurred [-].
 constexpr double kKnownLegScale = 0.05;
 
 /// Without fusion, the leg states stay fixed.
@@ -199,15 +198,15 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   if (legs_are_known()) mapping_.reset();
 }
 
-/// Whether the estimate may map: where scans leave no direction free it lies where they are
-/// matched, and along those that they leave free later the legs take it there.
+/// Whether scans are mapped from the estimate: once the leg scale is known to 5 % and the scan
+/// constrains every direction.
 bool EskfEstimator::legs_are_known() const {
   const int scale = ErrorState::kLegScale.offset;
   return !lidar_update_.considers_legs() &&
          belief_.covariance(scale, scale) < kKnownLegScale * kKnownLegScale;
 }
 
-/// There is one calibration, that of the belief. With it the scan stays where it was matched.
+/// Applies the new mount and delay of the belief; the scan stays where it was matched.
 void EskfEstimator::apply_calibration() {
   const Pose matched = matched_pose();
   const double delay = belief_.state.delay;
@@ -257,7 +256,7 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
 
 void EskfEstimator::fuse_ground_constraint() {
   const auto plane = fit_ground(points_.to_map(), ground_lists_);
-  // The map is tilted as the first belief is, and scans that are matched in it do not show it.
+  // The map has the tilt of the first belief, so matching scans in it cannot show that tilt.
   const bool hidden_tilt = plane && !levelled_ && !map_.empty() && near_start();
   const auto above_ground = [&](const Belief& belief, bool tilted_as_start) {
     const Belief above = with_map_error(belief, lidar_update_.map_covariance());

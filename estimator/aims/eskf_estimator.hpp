@@ -75,7 +75,7 @@ class EskfEstimator : public Estimator {
   EskfConfig config_;
   SensorRig rig_;
   MeasurementQueue queue_;
-  int counted_ = 0;  ///< by the queue, when its counts were last taken over
+  int counted_ = 0;  ///< events of the queue when its counts were last copied
   ScanPoints points_;
   LidarUpdate lidar_update_;
   LegFreePrediction leg_free_;
@@ -95,8 +95,9 @@ class EskfEstimator : public Estimator {
   Time last_correction_ = 0;    ///< stamp of the newest, or of the start
   std::optional<Time> judged_;  ///< arrival
   Belief belief_;
-  /// With `cross_validation`, until the scale of the legs is known: takes all information of scans,
-  /// so that they are mapped where they fit, and not where legs that are far off take the estimate.
+  /// With `cross_validation`, until the leg scale is known: a belief that takes all information of
+  /// a scan. Scans are mapped from it, where they fit the map, and not from an estimate that
+  /// follows legs with a large scale error.
   std::optional<Belief> mapping_;
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
   FeetOdometry feet_;

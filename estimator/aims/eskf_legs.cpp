@@ -8,16 +8,15 @@
 namespace aims {
 namespace {
 
-/// Before their scale is known legs weigh as in `tfs_plus`, by its defaults: so little that scans
-/// fit each other (docs/decisions.md).
+/// Noise of the legs until their scale is known, that of `tfs_plus`: large enough that the error of
+/// the scale does not keep scans from fitting each other (docs/decisions.md).
 const LegConfig kLegsOfUnknownScale;
 
 /// Without a scan for longer, nothing but the legs may measure the velocity.
 constexpr Duration kScanIsRecent = kSecond / 2;
 
-/// What feet do not correct. Feet that creep and roll by more than their model says would turn the
-/// robot. Their scale is corrected where scans measure the velocity; elsewhere feet would draw it
-/// from their changes of speed.
+/// What feet correct. Not heading and gyro bias: unmodelled creep and rolling would turn the robot.
+/// The leg scale only where scans measure the velocity; elsewhere changes of speed would decide it.
 GainMask gain_of_feet(const NominalState& state, bool velocity_is_measured) {
   const Eigen::Vector3d up = state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   GainMask mask;
@@ -47,7 +46,7 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
   report_pose_without_scan(sample.stamp);
 }
 
-/// The scale of legs that are measured foot by foot is known better than that of reported ones.
+/// The scale of feet is known better in advance than that of a reported velocity.
 void EskfEstimator::expect_feet() {
   if (!config_.leg_states.enabled) return;
   const double sigma = std::min(kFeetScaleSigma, config_.leg_states.scale_sigma);
@@ -66,8 +65,8 @@ void EskfEstimator::repeat_lost_legs(Time until) {
   }
 }
 
-/// The velocity that the robot reports, with the covariance of eq. (11). Before their scale is
-/// known legs weigh little.
+/// The velocity that the robot reports, with the covariance of eq. (11), which is larger until the
+/// leg scale is known.
 LinearMeasurement EskfEstimator::reported_velocity(const LegOdometrySample& sample) {
   const LegConfig& legs = mapping_ ? kLegsOfUnknownScale : config_.legs;
   const Eigen::Matrix3d noise =

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "estimator/aims/leg_free_prediction.hpp"
-#include "estimator/lidar/relocalization.hpp"
+#include "estimator/lidar/drift_search.hpp"
 
 namespace aims {
 namespace {
@@ -30,8 +30,8 @@ constexpr int kSearchEvery = 5;
 /// Smaller offsets are left to the residuals, which reach as far.
 constexpr double kMinOffset = 0.5 * kMaxResidual;
 
-/// kFreeTilt of a map whose scans lie where their noise holds them, which both halves then have in
-/// common (docs/decisions.md) [rad].
+/// kFreeTilt of a map whose scans were placed by all information, map noise included: both halves
+/// then share that error (docs/decisions.md) [rad].
 constexpr double kFreeTiltOfNoise = 0.009;
 
 /// An axis of the position [odometry axes] and the deviation along it [m].
@@ -49,7 +49,7 @@ Uncertainty largest_uncertainty(const Eigen::Matrix3d& covariance) {
 /// Smallest eigenvalue and condition number of the translation information with unknown rotation
 /// (its Schur complement).
 void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagnostics) {
-  diagnostics.weak_weight = weakest_real_fraction(scan);
+  diagnostics.weak_weight = weakest_confirmed_fraction(scan);
   diagnostics.weak_tilt = weakest_real_tilt(scan);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(position_information(scan.within),
                                                               Eigen::EigenvaluesOnly);
@@ -64,7 +64,7 @@ bool moved(const Pose& pose, const Pose& since, double rotation, double position
          (pose.translation - since.translation).norm() > position;
 }
 
-/// A step that asks for other planes is large: its result fits planes that are not those there.
+/// A step so large that the planes must be searched again is kLarge.
 Step step_between(const Pose& before, const Pose& after) {
   if (moved(after, before, kRematchRotation, kRematchPosition)) return Step::kLarge;
   return moved(after, before, kConvergedRotation, kConvergedPosition) ? Step::kSmall
@@ -109,8 +109,8 @@ Belief LidarUpdate::fuse_velocity(const Belief& belief, const LinearMeasurement&
   return considers_legs() ? fuse_given_legs(belief, velocity, mask) : fuse(belief, velocity, mask);
 }
 
-/// One step with a few of the points: where all of them meet nearly the planes of the result, so
-/// that they are searched once.
+/// One step with every fifth point. Its result is so close to the final one that the planes of all
+/// points are searched only once.
 NominalState LidarUpdate::first_guess(const Belief& predicted,
                                       std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                                       ScanDiagnostics& diagnostics) {
@@ -124,9 +124,9 @@ NominalState LidarUpdate::first_guess(const Belief& predicted,
   return fuse(predicted, at, guess.measurement, guess.mask).state;
 }
 
-/// Matches the points at `guess`, or where more of them lie in the map. A robot that comes back
-/// with a drift larger than a residual may be has no match with what it has mapped there before,
-/// and would map it a second time.
+/// Matches the points at `guess`, or at an offset along the least certain axis at which more of
+/// them lie on planes of the map. After a drift larger than the matching distance, a robot that
+/// comes back would otherwise find no match with its own map and map the place twice.
 NominalState LidarUpdate::match_along_drift(const Belief& predicted, const NominalState& guess,
                                             std::span<const Eigen::Vector3f> points,
                                             const VoxelMap& map, ScanDiagnostics& diagnostics) {

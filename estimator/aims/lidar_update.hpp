@@ -24,9 +24,10 @@ enum class ScanPart {
   kReal,  ///< that on which both halves of the map agree
 };
 
-/// The LiDAR correction: an iterated trial update with the nominal noise, the degeneracy index from
-/// its residuals and innovation, and the final update with the noise scaled by the index. With
-/// `cross_validation` the information that comes from the noise of the map can be left out.
+/// The LiDAR correction in three steps: an iterated trial update with the nominal noise, the
+/// degeneracy index from its residuals and innovation, and the final update with the noise scaled
+/// by the index. With `cross_validation`, information that only one half of the map supports, which
+/// is noise of its planes, can be left out.
 class LidarUpdate {
  public:
   explicit LidarUpdate(const EskfConfig& config);
@@ -41,16 +42,16 @@ class LidarUpdate {
                 const VoxelMap& map, const CalibrationModel& calibration, ScanPart part,
                 ScanDiagnostics& diagnostics, const Belief* leg_free = nullptr);
 
-  /// Another belief, `predicted` for the same time, after the real part of the scan that update()
-  /// fused last, in at least one iteration, with the same map. Along what the scan leaves free the
-  /// two beliefs may be far apart.
+  /// A second belief for the same time, `predicted`, after fusing the cross-validated part of the
+  /// scan that update() fused last (at least one iteration, same map). Along directions that the
+  /// scan does not constrain the two beliefs may be far apart.
   Belief update_with_real_part(const Belief& predicted, const VoxelMap& map);
 
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
 
-  /// Whether the leg states are consider states: while scans leave a direction free, nothing but
-  /// the legs measures the velocity along it.
+  /// Whether leg scale and bias are consider states: along a direction that scans do not constrain
+  /// only the legs measure the velocity, so their errors are unobservable.
   bool considers_legs() const {
     return cross_validation_.enabled && fraction_.leaves_direction_free();
   }
@@ -60,11 +61,11 @@ class LidarUpdate {
     return cross_validation_.enabled && !fraction_.leaves_direction_free();
   }
 
-  /// The belief after fusing a velocity, with `mask` where scans constrain all directions. While
-  /// scans leave a direction free, position and velocity along it both carry the error of the leg
-  /// scale, which is common to the whole route. It cancels in the gain only as far as the models of
-  /// scale and velocity agree to a percent; what is left, times metres of uncertainty, would move
-  /// the position with every sample. The gain of a filter that knows the legs has none of it.
+  /// The belief after fusing a velocity; `mask` applies where scans constrain every direction.
+  /// Along an unconstrained direction the gain is conditioned on a known leg scale
+  /// (Schmidt-Kalman): position and velocity share the error of the leg scale over the whole route,
+  /// and the full gain would turn a model error of a percent into a step of the position with every
+  /// sample.
   Belief fuse_velocity(const Belief& belief, const LinearMeasurement& velocity,
                        const GainMask& mask = {}) const;
 
@@ -98,7 +99,7 @@ class LidarUpdate {
   NominalState matched_at_;       ///< where its matches were linearized last
   DegeneracyConfig degeneracy_;
   CrossValidationConfig cross_validation_;
-  RealFraction fraction_;
+  CrossValidatedInformation fraction_;
   bool map_covariance_enabled_;
   ScanMatcher matcher_;
   SeverityFilter severity_;

@@ -41,11 +41,11 @@ void describe(Fields& f, CrossValidationConfig& c) {
          {"", any(), "keep only the information in which both halves of the map agree"});
 }
 
-/// The first scan counts until there is a second one: all scans of a standing robot show its noise.
-/// Those after it count the more the farther the robot has come from the pattern of rings that the
-/// halves share, so that the average does not keep it.
-void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& position,
-                       double free_tilt) {
+/// The first scan is used until the robot moves, since all scans of a standing robot have the same
+/// noise. Later scans weigh more the farther the robot is from the start, where both halves of the
+/// map share the pattern of the rings.
+void CrossValidatedInformation::add(const HalvesInformation& scan, const Eigen::Vector3d& position,
+                                    double free_tilt) {
   const bool first = !last_position_;
   const double moved = first ? 0.0 : (position - *last_position_).norm();
   if (!first && moved < kMinShift) return;
@@ -58,13 +58,13 @@ void RealFraction::add(const HalvesInformation& scan, const Eigen::Vector3d& pos
   update_fraction(free_tilt);
 }
 
-void RealFraction::average(const HalvesInformation& scan, double gain) {
+void CrossValidatedInformation::average(const HalvesInformation& scan, double gain) {
   within_ += gain * (position_information(scan.within) - within_);
   across_ += gain * (position_information(scan.across) - across_);
   sum_of_weights_ += gain * (scan.within.bottomRightCorner<3, 3>().trace() - sum_of_weights_);
 }
 
-void RealFraction::update_fraction(double free_tilt) {
+void CrossValidatedInformation::update_fraction(double free_tilt) {
   // X V = W V diag(f) with V^T W V = I: V diagonalizes C as well, to (1 + f) / 2.
   const Eigen::Matrix3d within = within_ + kRegularization * Eigen::Matrix3d::Identity();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(across_, within);
@@ -92,7 +92,7 @@ void RealFraction::update_fraction(double free_tilt) {
   vector_gain_ = undo(step * fraction / root_of_noise.square());
 }
 
-PoseInformation RealFraction::applied_to(const HalvesInformation& scan) const {
+PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& scan) const {
   const Eigen::Matrix3d S = position_information(scan.within);
   const Eigen::Vector3d rotation = scan.across_vector.head<3>();
   const Eigen::Vector3d position =
@@ -116,7 +116,7 @@ Eigen::Matrix3d position_information(const Matrix6& information) {
                           information.bottomLeftCorner<3, 3>(), information.topLeftCorner<3, 3>());
 }
 
-double weakest_real_fraction(const HalvesInformation& scan) {
+double weakest_confirmed_fraction(const HalvesInformation& scan) {
   const Eigen::Matrix3d within =
       position_information(scan.within) + kRegularization * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d across = position_information(scan.across);

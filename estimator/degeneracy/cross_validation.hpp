@@ -31,11 +31,11 @@ struct PoseInformation {
   Vector6 vector = Vector6::Zero();
 };
 
-/// Planes that tilt towards a direction by less than this, root mean square over all returns, leave
-/// it free [rad]. That much has nothing to do with the noise of the map: both halves are mapped
-/// from poses with errors in common, and the planes around an edge tilt as the rings lie. Measured
-/// where nothing constrains a corridor: 1 mrad, 3.6 mrad in one scan of ten; with recesses of 5 cm
-/// every 8 m: 16 mrad (docs/estimators.md).
+/// A direction is unconstrained if the planes face it by less than this angle (root mean square
+/// over all returns) [rad]. Errors that both halves share reach that much: both are mapped from the
+/// same poses, and planes at an edge tilt with the rings. Measured in a corridor without features:
+/// 1 mrad, in one scan of ten 3.6 mrad; with recesses of 5 cm every 8 m: 16 mrad
+/// (docs/estimators.md).
 inline constexpr double kFreeTilt = 0.006;
 
 /// The information of scans without the part that comes from the noise of the plane normals
@@ -45,11 +45,11 @@ inline constexpr double kFreeTilt = 0.006;
 /// with instrumental variables, free of the bias towards no motion. The noise covariance of the
 /// vector is C = (W + X) / 2 at most; x then states A = X C^-1 X about the position.
 ///
-/// The scatter of X makes A positive where X is zero, so X and W are averaged over the way; a robot
-/// that stands sees the same noise in every scan. All of it is about the position with the rotation
-/// unknown: in a curved corridor the robot moves freely along an arc only, and a share of what is
-/// known about the position with the rotation given would hold it to another one.
-class RealFraction {
+/// Sampling noise of X makes A positive where X is zero, so X and W are averaged along the route (a
+/// standing robot sees the same noise in every scan). Both are information about the position with
+/// the rotation unknown (Schur complement): in a curved corridor the unconstrained direction is an
+/// arc, and information given the rotation would pull the robot off it.
+class CrossValidatedInformation {
  public:
   /// Adds a scan at `position` [m]; scans of a robot that stands count once. `free_tilt`: kFreeTilt
   /// of its map [rad].
@@ -93,7 +93,7 @@ Eigen::Matrix3d position_information(const Matrix6& information);
 /// Smallest eigenvalue ratio of `across` to `within` over the axes of the position, the rotation
 /// unknown: the real fraction of the information along the weakest axis, 1 without noise and about
 /// 0 where all of it is noise.
-double weakest_real_fraction(const HalvesInformation& scan);
+double weakest_confirmed_fraction(const HalvesInformation& scan);
 
 /// Root mean square tilt of the planes towards the weakest axis of the position, the rotation
 /// unknown, as far as both halves agree [rad]; negative when the halves contradict each other.

@@ -34,8 +34,8 @@ struct PoseMeasurement {
   Matrix6xError jacobian = Matrix6xError::Identity();  ///< rotation and position come first
 };
 
-/// What of a correction is applied (Schmidt-Kalman update): the gain K is replaced by matrix() K.
-/// States that are not corrected keep their value and their uncertainty.
+/// Which states a measurement corrects (Schmidt-Kalman update): the gain K becomes matrix() K. A
+/// state that is not corrected keeps its value and its variance.
 struct GainMask {
   bool legs = true;       ///< scale and bias of the legs
   bool gyro_bias = true;  ///< bias of the gyro
@@ -68,9 +68,10 @@ struct GainMask {
 /// The belief after fusing `measurement`, linearized at the belief.
 Belief fuse(const Belief& prior, const LinearMeasurement& measurement, const GainMask& mask = {});
 
-/// The belief after fusing `measurement` with the gain of a filter that knows scale and bias of the
-/// legs (docs/estimators.md#cross-validated-information): these stay, and nothing follows from the
-/// errors that others have in common with them. The covariance is that of this gain.
+/// The belief after fusing `measurement` with the gain conditioned on known leg scale and bias
+/// (Schmidt-Kalman; docs/estimators.md#cross-validated-information): leg scale and bias are not
+/// corrected, and correlations with them do not enter the gain. The covariance is that of this
+/// gain.
 Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement,
                        const GainMask& mask = {});
 

@@ -9,7 +9,7 @@ namespace aims {
 struct LidarUpdateConfig {
   double min_range = 0.3;         ///< [m]
   double max_range = 120.0;       ///< [m]
-  bool leave_out_mixed = true;    ///< returns at steps in range, see RangeSteps
+  bool leave_out_mixed = true;    ///< returns at steps in range, see MixedPixelFilter
   double selection_voxel = 0.25;  ///< one point is kept per voxel of the raw scan [m]
   int max_points = 4000;          ///< per update
   /// Residuals that share one error: R_lidar is the variance of a scan's residuals times this. A

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/lidar/relocalization.hpp"
+#include "estimator/lidar/drift_search.hpp"
 
 namespace aims {
 namespace {

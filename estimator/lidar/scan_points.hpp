@@ -7,9 +7,9 @@
 #include "core/lie.hpp"
 #include "core/measurements.hpp"
 #include "estimator/lidar/deskew.hpp"
+#include "estimator/lidar/dynamic_points.hpp"
 #include "estimator/lidar/four_points.hpp"
 #include "estimator/lidar/lidar_config.hpp"
-#include "estimator/lidar/moving_returns.hpp"
 #include "estimator/lidar/scan_selection.hpp"
 
 namespace aims {
@@ -48,7 +48,7 @@ class ScanPoints {
   LidarUpdateConfig lidar_;
   MapConfig map_;
   ScanSelection selection_;
-  MovingReturns moving_;
+  DynamicPoints moving_;
   int in_range_ = 0;
   int moving_count_ = 0;
   std::vector<int> indices_;  ///< of the returns selected last

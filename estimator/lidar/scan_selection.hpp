@@ -11,7 +11,7 @@
 #include "core/measurements.hpp"
 #include "estimator/lidar/float4.hpp"
 #include "estimator/lidar/lidar_config.hpp"
-#include "estimator/lidar/range_steps.hpp"
+#include "estimator/lidar/mixed_pixel_filter.hpp"
 
 namespace aims {
 
@@ -62,7 +62,7 @@ class ScanSelection {
   void keep_one_per_voxel(std::span<const Kept> runs);
 
   LidarUpdateConfig config_;
-  RangeSteps steps_;
+  MixedPixelFilter steps_;
   const LidarScan* scan_ = nullptr;
   std::array<double, 3> grid_shift_{};    ///< of the voxels, in their edges, by axis
   std::vector<std::int32_t> candidates_;  ///< returns to select from

@@ -6,7 +6,7 @@
 #include <new>
 
 #include "core/random.hpp"
-#include "estimator/lidar/range_steps.hpp"
+#include "estimator/lidar/mixed_pixel_filter.hpp"
 #include "estimator/lidar/scan_selection.hpp"
 #include "estimator/lidar/voxel_map.hpp"
 #include "estimator/registry.hpp"
@@ -73,7 +73,7 @@ TEST(Operations, AStrayRingTakesLittleMemory) {
     scan.points.push_back({{5.0F, 1.0F, 0.0F}, 0.5F, 3000 * i, static_cast<std::uint16_t>(i % 4)});
   }
   scan.points[14400].ring = 65535;
-  RangeSteps steps;
+  MixedPixelFilter steps;
   const std::size_t before = allocated_bytes;
   steps.mark(scan);
   EXPECT_LT(allocated_bytes - before, 20e6);

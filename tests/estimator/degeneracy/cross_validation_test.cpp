@@ -54,33 +54,33 @@ HalvesInformation scan_corridor(RandomStream& random, int facing, double shift =
 }
 
 /// After `scans` scans, `step` [m] apart.
-RealFraction after(RandomStream& random, int facing, int scans, double step) {
-  RealFraction fraction;
+CrossValidatedInformation after(RandomStream& random, int facing, int scans, double step) {
+  CrossValidatedInformation fraction;
   for (int k = 0; k < scans; ++k) {
     fraction.add(scan_corridor(random, facing), Eigen::Vector3d(step * k, 0.0, 0.0));
   }
   return fraction;
 }
 
-TEST(RealFraction, ACorridorWithoutFeaturesLeavesItsAxisFree) {
+TEST(CrossValidatedInformation, ACorridorWithoutFeaturesLeavesItsAxisFree) {
   RandomStream random(1, "cross_validation");
-  const RealFraction fraction = after(random, 0, 60, kStep);
+  const CrossValidatedInformation fraction = after(random, 0, 60, kStep);
   EXPECT_TRUE(fraction.leaves_direction_free());
   const Eigen::Matrix3d across =
       Eigen::Matrix3d::Identity() - Eigen::Vector3d::UnitX() * Eigen::Vector3d::UnitX().transpose();
   EXPECT_LT((fraction.constrained() - across).cwiseAbs().maxCoeff(), 0.05);
 }
 
-TEST(RealFraction, FacesAcrossTheCorridorConstrainItsAxis) {
+TEST(CrossValidatedInformation, FacesAcrossTheCorridorConstrainItsAxis) {
   RandomStream random(2, "cross_validation");
-  const RealFraction fraction = after(random, 60, 60, kStep);
+  const CrossValidatedInformation fraction = after(random, 60, 60, kStep);
   EXPECT_FALSE(fraction.leaves_direction_free());
   EXPECT_LT((fraction.constrained() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
 }
 
-TEST(RealFraction, AppliesNothingAlongTheFreeDirection) {
+TEST(CrossValidatedInformation, AppliesNothingAlongTheFreeDirection) {
   RandomStream random(3, "cross_validation");
-  RealFraction fraction;
+  CrossValidatedInformation fraction;
   Matrix6 kept = Matrix6::Zero();
   double from_noise = 0.0;
   for (int k = 0; k < 1000; ++k) {
@@ -96,9 +96,9 @@ TEST(RealFraction, AppliesNothingAlongTheFreeDirection) {
   EXPECT_GT(kept(4, 4), 0.9 * 1000.0 * 300.0 * kWeight) << "across it everything stays";
 }
 
-TEST(RealFraction, KeepsTheRotationWhole) {
+TEST(CrossValidatedInformation, KeepsTheRotationWhole) {
   RandomStream random(4, "cross_validation");
-  const RealFraction fraction = after(random, 0, 60, kStep);
+  const CrossValidatedInformation fraction = after(random, 0, 60, kStep);
   const HalvesInformation scan = scan_corridor(random, 0);
   const Matrix6 applied = fraction.applied_to(scan).matrix;
   const Eigen::Matrix3d kept = applied.topLeftCorner<3, 3>();
@@ -107,11 +107,11 @@ TEST(RealFraction, KeepsTheRotationWhole) {
 }
 
 // Every scan of a standing robot sees the same noise, so that the halves may agree on it.
-TEST(RealFraction, AStandingRobotDoesNotBecomeConfident) {
+TEST(CrossValidatedInformation, AStandingRobotDoesNotBecomeConfident) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     RandomStream random(seed, "cross_validation.standing");
     const HalvesInformation first = scan_corridor(random, 0);
-    RealFraction fraction;
+    CrossValidatedInformation fraction;
     for (int k = 0; k < 300; ++k) {
       const Eigen::Vector3d sway(0.004 * std::sin(0.3 * k), 0.003 * std::cos(0.5 * k), 0.0);
       fraction.add(first, sway);
@@ -124,8 +124,8 @@ TEST(RealFraction, AStandingRobotDoesNotBecomeConfident) {
 
 // What the halves have in common near the start, where each scan repeats the pattern of rings that
 // is mapped, says nothing about the corridor, and must not stay in the average beyond the start.
-TEST(RealFraction, ThePatternOfTheStartConstrainsNothing) {
-  RealFraction fraction;
+TEST(CrossValidatedInformation, ThePatternOfTheStartConstrainsNothing) {
+  CrossValidatedInformation fraction;
   for (double distance = 0.0; distance < 10.0; distance += kStep) {
     HalvesInformation scan;
     scan.within.diagonal() << 1.0, 1.0, 1.0, 1.0, 300.0, 300.0;  // walls across the corridor
@@ -136,10 +136,10 @@ TEST(RealFraction, ThePatternOfTheStartConstrainsNothing) {
   }
 }
 
-TEST(RealFraction, TheLimitOnTheTiltDecidesWhatIsFree) {
+TEST(CrossValidatedInformation, TheLimitOnTheTiltDecidesWhatIsFree) {
   constexpr double kTilt = 0.0075;  // of the planes towards the corridor's axis [rad]
   for (const double limit : {0.006, 0.009}) {
-    RealFraction fraction;
+    CrossValidatedInformation fraction;
     for (double distance = 0.0; distance < 10.0; distance += kStep) {
       HalvesInformation scan;
       scan.within.diagonal() << 1.0, 1.0, 1.0, 1.0, 300.0, 300.0;
@@ -179,9 +179,9 @@ HalvesInformation scan_curve(double noise, double real) {
 
 // Along the arc of a curved corridor the heading turns with the position: less information about
 // the position must not become more about this motion, nor about any other.
-TEST(RealFraction, ACurvedCorridorIsNotHeldToAnotherArc) {
+TEST(CrossValidatedInformation, ACurvedCorridorIsNotHeldToAnotherArc) {
   const HalvesInformation scan = scan_curve(100.0, 0.4);
-  RealFraction fraction;
+  CrossValidatedInformation fraction;
   for (int k = 0; k < 60; ++k) fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
   const Matrix6 kept = fraction.applied_to(scan).matrix;
   const Vector6 arc = (Vector6() << 0.0, 0.0, 0.1, 1.0, 0.0, 0.0).finished();
@@ -193,12 +193,12 @@ TEST(RealFraction, ACurvedCorridorIsNotHeldToAnotherArc) {
 }
 
 // A smaller weight is no longer step: what is left of the information asks for the same shift.
-TEST(RealFraction, ARescaledFractionKeepsTheStep) {
+TEST(CrossValidatedInformation, ARescaledFractionKeepsTheStep) {
   constexpr double kShift = 0.05;
   HalvesInformation scan = scan_curve(20.0, 0.4);
   const Vector6 shift = (Vector6() << 0.001, -0.002, 0.003, kShift, 0.02, -0.01).finished();
   scan.across_vector = scan.across * shift;
-  RealFraction fraction;
+  CrossValidatedInformation fraction;
   for (int k = 0; k < 200; ++k) fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
   EXPECT_FALSE(fraction.leaves_direction_free());
   const PoseInformation applied = fraction.applied_to(scan);
@@ -206,14 +206,14 @@ TEST(RealFraction, ARescaledFractionKeepsTheStep) {
   EXPECT_NEAR(step(3), kShift, 1e-3 * kShift);
 }
 
-TEST(RealFraction, BeforeTheFirstScanNothingIsConstrained) {
-  const RealFraction fraction;
+TEST(CrossValidatedInformation, BeforeTheFirstScanNothingIsConstrained) {
+  const CrossValidatedInformation fraction;
   EXPECT_TRUE(fraction.leaves_direction_free());
   EXPECT_EQ(fraction.constrained().norm(), 0.0);
 }
 
 // What the matrix states and what the vector asks for agree: no bias towards no motion.
-TEST(RealFraction, AScanCorrectsTheFullShift) {
+TEST(CrossValidatedInformation, AScanCorrectsTheFullShift) {
   constexpr double kShift = 0.05;
   RandomStream random(6, "cross_validation");
   HalvesInformation sum;
@@ -232,9 +232,9 @@ TEST(RealFraction, AScanCorrectsTheFullShift) {
 
 // Where a third of the information along the axis is real, the correction scatters by as much as
 // the information states: with W in place of (W + X) / 2 it would scatter by two thirds of that.
-TEST(RealFraction, TheInformationFitsTheScatterOfTheCorrection) {
+TEST(CrossValidatedInformation, TheInformationFitsTheScatterOfTheCorrection) {
   RandomStream random(8, "cross_validation");
-  RealFraction fraction;
+  CrossValidatedInformation fraction;
   double scatter = 0.0;
   double stated = 0.0;
   for (int k = 0; k < 2000; ++k) {
@@ -252,11 +252,11 @@ TEST(CrossValidation, WeakestFractionIsOneWithoutNoiseAndZeroWithNothingElse) {
   HalvesInformation scan;
   scan.within = 100.0 * Matrix6::Identity();
   scan.across = scan.within;
-  EXPECT_NEAR(weakest_real_fraction(scan), 1.0, 1e-9);
+  EXPECT_NEAR(weakest_confirmed_fraction(scan), 1.0, 1e-9);
   scan.across(3, 3) = 25.0;
-  EXPECT_NEAR(weakest_real_fraction(scan), 0.25, 1e-9);
+  EXPECT_NEAR(weakest_confirmed_fraction(scan), 0.25, 1e-9);
   scan.across(3, 3) = 0.0;
-  EXPECT_NEAR(weakest_real_fraction(scan), 0.0, 1e-9);
+  EXPECT_NEAR(weakest_confirmed_fraction(scan), 0.0, 1e-9);
 }
 
 TEST(CrossValidation, SchurComplementIsTheInformationWithTheRestUnknown) {

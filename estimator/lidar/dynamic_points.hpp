@@ -21,10 +21,10 @@ namespace aims {
 ///
 /// Around such places every return is left out that the earlier scans do not confirm. Each alone
 /// would not do: what walks away hides where it will be. Where nothing moves, nothing is left out.
-class MovingReturns {
+class DynamicPoints {
  public:
   /// `lever`: the LiDAR in body axes [m].
-  explicit MovingReturns(const Eigen::Vector3d& lever);
+  explicit DynamicPoints(const Eigen::Vector3d& lever);
 
   /// Compares a scan that ended at `stamp` with the earlier ones. `points`: its returns, evenly
   /// over its directions, in body axes at its end; `T_odom_body`: the predicted pose.

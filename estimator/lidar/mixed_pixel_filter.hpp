@@ -24,7 +24,7 @@ namespace aims {
 /// farther one, and the farther one behind the line through those beyond the nearer one. At a
 /// corner, where the surfaces meet, both lie on the same side. A return with a step between its
 /// neighbours may be mixed; the nearer one of these is the last of its surface.
-class RangeSteps {
+class MixedPixelFilter {
  public:
   /// Marks such returns of `scan`. What counts as a step follows from the range noise of the scan
   /// itself. Returns without rings deviate from lines everywhere; then no step stands out.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/lidar/range_steps.hpp"
+#include "estimator/lidar/mixed_pixel_filter.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -30,7 +30,7 @@ unsigned first_lanes(std::size_t left) { return left < 4 ? (1U << left) - 1U : 1
 
 }  // namespace
 
-void RangeSteps::mark(const LidarScan& scan) {
+void MixedPixelFilter::mark(const LidarScan& scan) {
   marked_.assign(scan.points.size(), 0);
   sort(scan);
   deviations_.clear();
@@ -43,14 +43,14 @@ void RangeSteps::mark(const LidarScan& scan) {
 }
 
 /// Sorts the returns by ring, in order of firing within each.
-void RangeSteps::sort(const LidarScan& scan) {
+void MixedPixelFilter::sort(const LidarScan& scan) {
   if (try_sort(scan)) return;
   make_room(scan);
   try_sort(scan);
 }
 
 /// Room for the returns of each ring of `scan`, and some more: later scans have as many or few.
-void RangeSteps::make_room(const LidarScan& scan) {
+void MixedPixelFilter::make_room(const LidarScan& scan) {
   for (Ring& ring : rings_) ring.count = 0;
   for (const LidarPoint& point : scan.points) {
     if (point.ring >= rings_.size()) rings_.resize(point.ring + 1U);
@@ -68,7 +68,7 @@ void RangeSteps::make_room(const LidarScan& scan) {
 }
 
 /// False when there is no room.
-bool RangeSteps::try_sort(const LidarScan& scan) {
+bool MixedPixelFilter::try_sort(const LidarScan& scan) {
   for (Ring& ring : rings_) ring.count = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const LidarPoint& point = scan.points[i];
@@ -86,7 +86,7 @@ bool RangeSteps::try_sort(const LidarScan& scan) {
 }
 
 /// Inverts the ranges, and finds the interval between firings.
-void RangeSteps::measure(Ring& ring) {
+void MixedPixelFilter::measure(Ring& ring) {
   constexpr std::int32_t kLongest = std::numeric_limits<std::int32_t>::max();
   const std::size_t end = ring.begin + ring.count;
   for (std::size_t k = ring.begin; k < end; k += 4) {
@@ -100,21 +100,21 @@ void RangeSteps::measure(Ring& ring) {
 }
 
 /// Change of the inverse range per firing, over those up to each of four from `k` on [1/m].
-Float4 RangeSteps::slope(std::size_t k) const {
+Float4 MixedPixelFilter::slope(std::size_t k) const {
   constexpr float kPerFiring = 1.0F / static_cast<float>(kBase);
   return kPerFiring * (load4(&inverse_ranges_[k]) - load4(&inverse_ranges_[k - kBase]));
 }
 
 /// Whether the `firings` up to each of four from `k` on came without a gap, which lengthens their
 /// time by at least an interval, and without a repeated time, which shortens it.
-Int4 RangeSteps::whole(const Ring& ring, std::size_t k, std::int32_t firings) const {
+Int4 MixedPixelFilter::whole(const Ring& ring, std::size_t k, std::int32_t firings) const {
   const Int4 span = load4(&times_[k]) - load4(&times_[k - static_cast<std::size_t>(firings)]);
   const Float4 intervals = to_float(span) / static_cast<float>(ring.interval);
   return magnitude(intervals - static_cast<float>(firings)) < Float4{} + 0.5F;
 }
 
 /// Of ranges from the line through those before them, as they are on a flat surface.
-void RangeSteps::add_deviations(const Ring& ring) {
+void MixedPixelFilter::add_deviations(const Ring& ring) {
   const std::size_t end = ring.begin + ring.count;
   for (std::size_t k = ring.begin + kBase + 1; k < end; k += 4 * kSampling) {
     const Float4 u = load4(&inverse_ranges_[k]);
@@ -128,7 +128,7 @@ void RangeSteps::add_deviations(const Ring& ring) {
 }
 
 /// The median over the returns: most lie on flat surfaces.
-double RangeSteps::measure_noise() {
+double MixedPixelFilter::measure_noise() {
   if (deviations_.empty()) return 0.0;
   const auto middle = deviations_.begin() + static_cast<std::ptrdiff_t>(deviations_.size() / 2);
   std::nth_element(deviations_.begin(), middle, deviations_.end());
@@ -136,7 +136,7 @@ double RangeSteps::measure_noise() {
 }
 
 /// Bit i: whether there is a step between the firings `a` + i and `a` + i + 2.
-unsigned RangeSteps::steps_after(const Ring& ring, std::size_t a) const {
+unsigned MixedPixelFilter::steps_after(const Ring& ring, std::size_t a) const {
   const std::size_t b = a + 2;
   const Float4 u_a = load4(&inverse_ranges_[a]);
   const Float4 u_b = load4(&inverse_ranges_[b]);
@@ -149,7 +149,7 @@ unsigned RangeSteps::steps_after(const Ring& ring, std::size_t a) const {
   return lanes_of((past_a * past_b < 0.0F) & stands_out & whole(ring, b + kBase, kSpan));
 }
 
-void RangeSteps::mark_ring(const Ring& ring) {
+void MixedPixelFilter::mark_ring(const Ring& ring) {
   const std::size_t end = ring.begin + ring.count;
   for (std::size_t a = ring.begin + kBase; a + kBase + 2 < end; a += 4) {
     unsigned lanes = steps_after(ring, a) & first_lanes(end - (a + kBase + 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/lidar/moving_returns.hpp"
+#include "estimator/lidar/dynamic_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -113,7 +113,7 @@ struct LeftOut {
 
 /// Of the scan after `scans` earlier ones, 0.1 s apart.
 LeftOut left_out_after(int scans, const std::optional<Walker>& walker) {
-  MovingReturns moving(kLever);
+  DynamicPoints moving(kLever);
   for (int scan = 0;; ++scan) {
     const double time = 0.1 * scan;
     const Pose pose = body_at(time);
@@ -131,13 +131,13 @@ LeftOut left_out_after(int scans, const std::optional<Walker>& walker) {
   }
 }
 
-TEST(MovingReturns, LeavesOutNothingWhereNothingMoves) {
+TEST(DynamicPoints, LeavesOutNothingWhereNothingMoves) {
   for (int scans = 0; scans < 30; ++scans) {
     EXPECT_EQ(left_out_after(scans, {}).rest, 0.0) << "scan " << scans;
   }
 }
 
-TEST(MovingReturns, LeavesOutPeopleInWhateverDirectionTheyWalk) {
+TEST(DynamicPoints, LeavesOutPeopleInWhateverDirectionTheyWalk) {
   for (const double speed : {-1.2, 1.2, 0.6}) {
     for (const double x : {3.0, 4.5, 6.0}) {
       const LeftOut left_out = left_out_after(15, Walker{x, -0.75, speed});
@@ -147,21 +147,21 @@ TEST(MovingReturns, LeavesOutPeopleInWhateverDirectionTheyWalk) {
   }
 }
 
-TEST(MovingReturns, KeepsThoseWhoStand) {
+TEST(DynamicPoints, KeepsThoseWhoStand) {
   const LeftOut left_out = left_out_after(15, Walker{4.5, -0.75, 0.0});
   EXPECT_EQ(left_out.person, 0.0);
   EXPECT_EQ(left_out.rest, 0.0);
 }
 
-TEST(MovingReturns, NeedsAScanFromHalfASecondBefore) {
+TEST(DynamicPoints, NeedsAScanFromHalfASecondBefore) {
   const Walker walker{4.5, -0.75, -1.2};
   EXPECT_EQ(left_out_after(4, walker).person, 0.0);
   EXPECT_GT(left_out_after(6, walker).person, 0.5);
 }
 
 // The pose of a scan is known better after its update than when it is compared.
-TEST(MovingReturns, ComparesWithScansAtTheirCorrectedPoses) {
-  MovingReturns moving(kLever);
+TEST(DynamicPoints, ComparesWithScansAtTheirCorrectedPoses) {
+  DynamicPoints moving(kLever);
   for (int scan = 0; scan < 12; ++scan) {
     const double time = 0.1 * scan;
     Seen seen = scan_at(body_at(time), {}, time);

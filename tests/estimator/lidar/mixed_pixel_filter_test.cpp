@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/lidar/range_steps.hpp"
+#include "estimator/lidar/mixed_pixel_filter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ ProfileScan scan_of(const Profile& profile, double noise, int rings, RandomStrea
 /// What is marked of a scan.
 struct Marks {
   explicit Marks(const LidarScan& scan) : marked(scan.points.size(), false) {
-    RangeSteps steps;
+    MixedPixelFilter steps;
     steps.mark(scan);
     for (std::size_t i = 0; i < scan.points.size(); ++i) marked[i] = steps.marked(i);
     range_noise = steps.range_noise();
@@ -69,7 +69,7 @@ struct Marks {
 
 // The far side of a recess meets its back and the wall at corners. It constrains the direction of
 // the corridor and has to stay.
-TEST(RangeSteps, LeavesCornersAlone) {
+TEST(MixedPixelFilter, LeavesCornersAlone) {
   RandomStream random(2, "range_steps.test");
   const auto room = [](double azimuth) {  // walls beside and 2 m ahead
     return std::min(kWall / std::sin(azimuth), azimuth < 1.5 ? 2.0 / std::cos(azimuth) : 1e9);
@@ -81,7 +81,7 @@ TEST(RangeSteps, LeavesCornersAlone) {
   }
 }
 
-TEST(RangeSteps, MeasuresTheRangeNoiseOfTheScan) {
+TEST(MixedPixelFilter, MeasuresTheRangeNoiseOfTheScan) {
   RandomStream random(3, "range_steps.test");
   for (const double noise : {0.005, 0.02, 0.1}) {
     const ProfileScan seen = scan_of(wall_with_recess(0.3), noise, 16, random);
@@ -90,7 +90,7 @@ TEST(RangeSteps, MeasuresTheRangeNoiseOfTheScan) {
   }
 }
 
-TEST(RangeSteps, TakesNoiseForNoStep) {
+TEST(MixedPixelFilter, TakesNoiseForNoStep) {
   RandomStream random(4, "range_steps.test");
   for (const double noise : {0.005, 0.02, 0.1}) {
     const ProfileScan seen = scan_of(wall_with_recess(0.0), noise, 16, random);
@@ -99,7 +99,7 @@ TEST(RangeSteps, TakesNoiseForNoStep) {
   }
 }
 
-TEST(RangeSteps, ASharpEdgeMarksAtMostThreeReturnsOfARing) {
+TEST(MixedPixelFilter, ASharpEdgeMarksAtMostThreeReturnsOfARing) {
   RandomStream random(1, "range_steps.test");
   const ProfileScan seen = scan_of(wall_with_recess(0.3), 0.01, 16, random);
   const Marks marks(seen.scan);
@@ -115,7 +115,7 @@ TEST(RangeSteps, ASharpEdgeMarksAtMostThreeReturnsOfARing) {
 
 // The wall ends in front of the back of a recess. What is hidden behind its end is missing from the
 // scan, so the end itself has to be; the back of the recess begins where the map may see it begin.
-TEST(RangeSteps, MarksTheEndOfTheNearerSurfaceOnEitherSideOfTheRobot) {
+TEST(MixedPixelFilter, MarksTheEndOfTheNearerSurfaceOnEitherSideOfTheRobot) {
   RandomStream random(9, "range_steps.test");
   for (const bool behind : {false, true}) {
     const auto from_the_recess = [&](double azimuth) { return behind ? M_PI - azimuth : azimuth; };
@@ -139,7 +139,7 @@ TEST(RangeSteps, MarksTheEndOfTheNearerSurfaceOnEitherSideOfTheRobot) {
   }
 }
 
-TEST(RangeSteps, MarksTheReturnBetweenBothSurfaces) {
+TEST(MixedPixelFilter, MarksTheReturnBetweenBothSurfaces) {
   RandomStream random(5, "range_steps.test");
   const double edge = std::atan2(kWall, 3.0);
   const Profile sharp = wall_with_recess(0.3);
@@ -163,7 +163,7 @@ TEST(RangeSteps, MarksTheReturnBetweenBothSurfaces) {
   }
 }
 
-TEST(RangeSteps, AGapIsNoStep) {
+TEST(MixedPixelFilter, AGapIsNoStep) {
   RandomStream random(6, "range_steps.test");
   ProfileScan seen = scan_of(wall_with_recess(0.3), 0.01, 16, random);
   const double edge = std::atan2(kWall, 3.0);
@@ -178,7 +178,7 @@ TEST(RangeSteps, AGapIsNoStep) {
 }
 
 // A LiDAR whose returns carry no ring: neighbours in time look in different directions.
-TEST(RangeSteps, WithoutRingsHardlyAnythingIsMarked) {
+TEST(MixedPixelFilter, WithoutRingsHardlyAnythingIsMarked) {
   RandomStream random(7, "range_steps.test");
   LidarScan scan;
   for (int i = 0; i < 20000; ++i) {
@@ -190,7 +190,7 @@ TEST(RangeSteps, WithoutRingsHardlyAnythingIsMarked) {
   EXPECT_LT(marks.count(), 200);
 }
 
-TEST(RangeSteps, IgnoresReturnsThatAreNotFinite) {
+TEST(MixedPixelFilter, IgnoresReturnsThatAreNotFinite) {
   RandomStream random(8, "range_steps.test");
   ProfileScan seen = scan_of(wall_with_recess(0.3), 0.01, 4, random);
   seen.scan.points[100].position.setConstant(std::numeric_limits<float>::quiet_NaN());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/lidar/relocalization.hpp"
+#include "estimator/lidar/drift_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ std::optional<double> offset_after_drift(double drift, int count, double reach,
   return offset_by_consensus(returns, drifted, kAlong, reach, map);
 }
 
-TEST(Relocalization, FindsTheWallWhereverTheDriftPutsIt) {
+TEST(DriftSearch, FindsTheWallWhereverTheDriftPutsIt) {
   for (const double drift : {-1.9, -0.73, -0.35, 0.28, 0.5, 1.2}) {
     const std::optional<double> offset = offset_after_drift(drift, 20, 2.0);
     ASSERT_TRUE(offset) << drift << " m";
@@ -53,23 +53,23 @@ TEST(Relocalization, FindsTheWallWhereverTheDriftPutsIt) {
   }
 }
 
-TEST(Relocalization, SearchesNoFartherThanItsReach) {
+TEST(DriftSearch, SearchesNoFartherThanItsReach) {
   EXPECT_FALSE(offset_after_drift(0.9, 20, 0.5));
   EXPECT_FALSE(offset_after_drift(0.6, 20, 0.5)) << "though a plane is in reach from there";
 }
 
-TEST(Relocalization, FewReturnsAreNoConsensus) {
+TEST(DriftSearch, FewReturnsAreNoConsensus) {
   EXPECT_FALSE(offset_after_drift(0.4, kMinConsensus - 1, 1.0));
   EXPECT_TRUE(offset_after_drift(0.4, 2 * kMinConsensus, 1.0));
 }
 
-TEST(Relocalization, OfTwoWallsTheNearerOneCounts) {
+TEST(DriftSearch, OfTwoWallsTheNearerOneCounts) {
   const std::optional<double> offset = offset_after_drift(0.4, 20, 2.0, {20.0, 21.0});
   ASSERT_TRUE(offset);
   EXPECT_NEAR(*offset, -0.4, 0.01);
 }
 
-TEST(Relocalization, WallsAlongTheAxisAreNone) {
+TEST(DriftSearch, WallsAlongTheAxisAreNone) {
   RandomStream random(1, "relocalization.along");
   const VoxelMap map = map_of_walls({20.0}, random);
   std::vector<Eigen::Vector3d> returns;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/lidar/relocalization.hpp"
+#include "estimator/lidar/drift_search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/lidar/moving_returns.hpp"
+#include "estimator/lidar/dynamic_points.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -37,7 +37,7 @@ constexpr int kReachOfWent = 4;
 
 }  // namespace
 
-int MovingReturns::Columns::cell_of(const Eigen::Vector3f& point) {
+int DynamicPoints::Columns::cell_of(const Eigen::Vector3f& point) {
   constexpr float kHalf = 0.5F * static_cast<float>(kSide);
   const float x = point.x() / kColumn + kHalf;
   const float y = point.y() / kColumn + kHalf;
@@ -47,31 +47,31 @@ int MovingReturns::Columns::cell_of(const Eigen::Vector3f& point) {
 }
 
 /// Votes by which column `x`, `y` shows movement.
-float MovingReturns::Columns::min_votes(int x, int y) {
+float DynamicPoints::Columns::min_votes(int x, int y) {
   const Eigen::Vector2f from_corner(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
   const Eigen::Vector2f center = from_corner.array() - 0.5F * static_cast<float>(kSide);
   return std::max(kMinVotes, kMinVotesTimesDistance / (kColumn * center.norm()));
 }
 
-void MovingReturns::Columns::clear() {
+void DynamicPoints::Columns::clear() {
   for (int cell : used_) cells_[static_cast<std::size_t>(cell)] = 0;
   used_.clear();
 }
 
-void MovingReturns::Columns::add(int cell) {
+void DynamicPoints::Columns::add(int cell) {
   std::uint8_t& votes = cells_[static_cast<std::size_t>(cell)];
   if (votes == 0) used_.push_back(cell);
   if (votes < std::numeric_limits<std::uint8_t>::max()) ++votes;
 }
 
-void MovingReturns::Columns::vote(const FourPoints& points, unsigned lanes) {
+void DynamicPoints::Columns::vote(const FourPoints& points, unsigned lanes) {
   for (; lanes != 0; lanes &= lanes - 1) {
     const int cell = cell_of(points.point(static_cast<std::size_t>(std::countr_zero(lanes))));
     if (cell >= 0) add(cell);
   }
 }
 
-void MovingReturns::Columns::mark_around(int reach, Columns& marks) const {
+void DynamicPoints::Columns::mark_around(int reach, Columns& marks) const {
   for (int cell : used_) {
     const int x = cell % kSide;
     const int y = cell / kSide;
@@ -85,21 +85,21 @@ void MovingReturns::Columns::mark_around(int reach, Columns& marks) const {
   }
 }
 
-bool MovingReturns::Columns::marked(const Eigen::Vector3f& point) const {
+bool DynamicPoints::Columns::marked(const Eigen::Vector3f& point) const {
   const int cell = cell_of(point);
   return cell >= 0 && cells_[static_cast<std::size_t>(cell)] > 0;
 }
 
-MovingReturns::MovingReturns(const Eigen::Vector3d& lever) : lever_(lever) {}
+DynamicPoints::DynamicPoints(const Eigen::Vector3d& lever) : lever_(lever) {}
 
-Pose MovingReturns::lidar_pose(const Pose& T_odom_body) const {
+Pose DynamicPoints::lidar_pose(const Pose& T_odom_body) const {
   Pose T_odom_lidar = T_odom_body;
   T_odom_lidar.translation = T_odom_body * lever_;
   return T_odom_lidar;
 }
 
 /// The newest scan of each age.
-void MovingReturns::find_references() {
+void DynamicPoints::find_references() {
   references_.clear();
   for (Duration age : kAges) {
     const auto younger = [&](const Past& each) {
@@ -116,7 +116,7 @@ void MovingReturns::find_references() {
 }
 
 /// Bit i: whether an earlier scan passed point i.
-unsigned MovingReturns::came(const FourPoints& points) const {
+unsigned DynamicPoints::came(const FourPoints& points) const {
   unsigned lanes = 0;
   for (const Reference& each : references_) {
     lanes |= each.past->image.passed(each.to_past(points), kMargin);
@@ -124,13 +124,13 @@ unsigned MovingReturns::came(const FourPoints& points) const {
   return lanes;
 }
 
-bool MovingReturns::confirmed(const Eigen::Vector3f& point) const {
+bool DynamicPoints::confirmed(const Eigen::Vector3f& point) const {
   return std::ranges::all_of(references_, [&](const Reference& each) {
     return each.past->image.confirms(each.R_past_now * point + each.t_past_now, kTolerance);
   });
 }
 
-void MovingReturns::compare(const PointBlocks& points, Time stamp, const Pose& T_odom_body) {
+void DynamicPoints::compare(const PointBlocks& points, Time stamp, const Pose& T_odom_body) {
   from_lidar_ = points;
   from_lidar_.subtract(lever_.cast<float>());
   now_.stamp = stamp;
@@ -155,7 +155,7 @@ void MovingReturns::compare(const PointBlocks& points, Time stamp, const Pose& T
   went_.mark_around(kReachOfWent, marks_);
 }
 
-int MovingReturns::remove_from(std::vector<Eigen::Vector3f>& points) const {
+int DynamicPoints::remove_from(std::vector<Eigen::Vector3f>& points) const {
   if (!marks_.any()) return 0;
   const Eigen::Vector3f lever = lever_.cast<float>();
   const auto moves = [&](const Eigen::Vector3f& point) {
@@ -165,7 +165,7 @@ int MovingReturns::remove_from(std::vector<Eigen::Vector3f>& points) const {
   return static_cast<int>(std::erase_if(points, moves));
 }
 
-void MovingReturns::keep(const Pose& T_odom_body) {
+void DynamicPoints::keep(const Pose& T_odom_body) {
   now_.T_odom_lidar = lidar_pose(T_odom_body);
   past_.push_back(std::move(now_));
   if (past_.back().stamp - past_.front().stamp > kAges.back() + kMaxOlder) {
