@@ -119,6 +119,10 @@ Result<std::vector<BaselineComparison>> baseline_fidelity(const BaselineFidelity
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
   const auto recording = estimate(request.config, request.options, observer);
   if (!recording) return tl::unexpected(recording.error());
+  if (!recording->failures.empty()) {  // those without poses are missing among the estimators
+    const EstimatorFailure& first = recording->failures.front();
+    return failure(fmt::format("{} failed: {}", first.name, first.message));
+  }
   if (recording->truth.empty()) {
     return failure(fmt::format("{}: holds no truth to score with", request.options.bag.string()));
   }

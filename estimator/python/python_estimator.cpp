@@ -36,7 +36,7 @@ Result<std::vector<std::byte>> greet(PythonProcess& process, std::string_view na
                                      double limit_s) {
   if (auto started = process.start(); !started) return tl::unexpected(started.error());
   const auto [module, kind] = parts_of(name);
-  MessageBytes hello;
+  PipeMessage hello;
   for (const std::string& text : {std::to_string(kPythonProtocol), module, kind}) {
     hello.add_text(text);
   }
@@ -80,15 +80,15 @@ class Batch {
   std::size_t size() const { return order_.size(); }
 
   /// The message of what was added; then empty.
-  MessageBytes take() {
-    MessageBytes message;
+  PipeMessage take() {
+    PipeMessage message;
     for (const Event kind : {Event::kImu, Event::kLegs, Event::kScan}) {
       message.add(static_cast<std::uint64_t>(std::ranges::count(order_, kind)));
     }
     message.add(std::uint64_t{order_.size()});
     for (const Event each : order_) message.add(each);
     message.pad_to_eight();
-    for (MessageBytes* part : {&imu_, &legs_, &scans_}) {
+    for (PipeMessage* part : {&imu_, &legs_, &scans_}) {
       message.append(part->bytes());
       part->clear();
     }
@@ -97,14 +97,14 @@ class Batch {
   }
 
  private:
-  static void add_vector(MessageBytes& bytes, const Eigen::Vector3d& vector) {
+  static void add_vector(PipeMessage& bytes, const Eigen::Vector3d& vector) {
     for (int axis = 0; axis < 3; ++axis) bytes.add(vector[axis]);
   }
 
   std::vector<Event> order_;
-  MessageBytes imu_;
-  MessageBytes legs_;
-  MessageBytes scans_;
+  PipeMessage imu_;
+  PipeMessage legs_;
+  PipeMessage scans_;
 };
 
 /// A pose of the process; none when its matrix is no rigid transform.
@@ -209,8 +209,8 @@ class PythonEstimator final : public Estimator {
   std::vector<Eigen::Vector3f> map_points() const override { return map_; }
 
  private:
-  static MessageBytes creation(const PythonConfig& config, const SensorRig& rig) {
-    MessageBytes bytes;
+  static PipeMessage creation(const PythonConfig& config, const SensorRig& rig) {
+    PipeMessage bytes;
     bytes.add_pose(rig.T_body_lidar);
     bytes.add_pose(rig.T_body_base);
     bytes.add(rig.imu_rate_hz);

@@ -139,12 +139,12 @@ std::string text_of_status(int status) {
 
 }  // namespace
 
-void MessageBytes::add_text(const std::string& text) {
+void PipeMessage::add_text(const std::string& text) {
   add(std::uint64_t{text.size()});
   append(std::as_bytes(std::span(text)));
 }
 
-void MessageBytes::add_pose(const Pose& pose) {
+void PipeMessage::add_pose(const Pose& pose) {
   const Eigen::Matrix3d R = pose.R();
   for (int row = 0; row < 3; ++row) {
     for (int at = 0; at < 3; ++at) add(R(row, at));

@@ -23,7 +23,7 @@ enum class PythonRequest : std::uint64_t { kHello = 1, kCreate = 2, kMeasure = 3
 enum class PythonReply : std::uint64_t { kError = 0, kDescription = 1, kDone = 2, kPoses = 3 };
 
 /// Bytes of a message, written one value after the other, little endian.
-class MessageBytes {
+class PipeMessage {
  public:
   template <class Value>
   void add(const Value& value) {

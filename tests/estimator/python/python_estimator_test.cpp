@@ -62,7 +62,7 @@ TEST(PythonEstimator, AnInterpreterThatHangsIsEnded) {
 }
 
 TEST(PythonMessage, ACursorEndsWhereTheMessageIsTooShort) {
-  MessageBytes message;
+  PipeMessage message;
   message.add_text("text");
   message.add(7.5);
   MessageCursor whole(message.bytes());
@@ -74,7 +74,7 @@ TEST(PythonMessage, ACursorEndsWhereTheMessageIsTooShort) {
   EXPECT_EQ(cut.take_text(), "text");
   EXPECT_EQ(cut.take<double>(), 0.0);
   EXPECT_TRUE(cut.is_short());
-  MessageBytes huge;
+  PipeMessage huge;
   huge.add(std::uint64_t{1} << 60);
   MessageCursor of_huge(huge.bytes());
   EXPECT_EQ(of_huge.take_text(), "");
