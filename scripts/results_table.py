@@ -32,7 +32,7 @@ def wilson(successes, runs, z=1.96):
     centre = rate + z * z / (2 * runs)
     half = z * math.sqrt(rate * (1 - rate) / runs + z * z / (4 * runs * runs))
     scale = 100 / (1 + z * z / runs)
-    return scale * (centre - half), scale * (centre + half)
+    return max(scale * (centre - half), 0.0), scale * (centre + half)
 
 
 def median(scores, key, digits):
