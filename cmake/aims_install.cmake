@@ -13,6 +13,8 @@ install(TARGETS aims RUNTIME COMPONENT runtime OPTIONAL)
 aims_say_left_out(aims runtime "the program aims")
 install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPONENT runtime
   FILES_MATCHING PATTERN "*.yaml")
+install(DIRECTORY models/datasets DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPONENT runtime
+  FILES_MATCHING PATTERN "*.yaml")
 install(DIRECTORY scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/aims COMPONENT runtime
   USE_SOURCE_PERMISSIONS)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/aims RENAME copyright

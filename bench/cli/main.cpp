@@ -29,6 +29,8 @@ constexpr std::array kCommands = {
     CommandEntry{"simulate", "Record the measurements of a scenario for ROS 1 or ROS 2",
                  aims::declare_simulate},
     CommandEntry{"estimate", "Run estimators on a recorded bag", aims::declare_estimate},
+    CommandEntry{"benchmark", "Run estimators on a public data set, beside published scores",
+                 aims::declare_benchmark},
     CommandEntry{"score", "Score trajectories of any system against ground truth",
                  aims::declare_score},
     CommandEntry{"info", "Topics, rates, gaps, time offsets, noise and extrinsics of a bag",

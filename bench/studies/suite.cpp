@@ -64,8 +64,9 @@ void add_failure(const Job& job, const JobResult& result, std::vector<SuiteFailu
   failures.push_back(std::move(failure));
 }
 
-/// Reads the results of the jobs into the cases, and checks the expectations of those that ended.
-void collect(const JobStore& store, Suite& suite) {
+}  // namespace
+
+void collect_suite(const JobStore& store, Suite& suite) {
   std::size_t next = 0;
   for (SuiteCase& each : suite.cases) {
     bool ended = true;
@@ -90,8 +91,6 @@ void collect(const JobStore& store, Suite& suite) {
   }
 }
 
-}  // namespace
-
 Result<Suite> run_suite(std::vector<ScenarioFile> scenarios, const SuiteOptions& options,
                         const JobObserver& observer) {
   auto suite = suite_of(std::move(scenarios));
@@ -104,7 +103,7 @@ Result<Suite> run_suite(std::vector<ScenarioFile> scenarios, const SuiteOptions&
   const auto run = run_jobs({.jobs = suite->jobs, .shard = options.shard}, options.jobs, observer);
   if (!run) return tl::unexpected(run.error());
   suite->run = *run;
-  collect(JobStore(options.jobs.out), *suite);
+  collect_suite(JobStore(options.jobs.out), *suite);
   return suite;
 }
 

@@ -51,6 +51,10 @@ struct Suite {
 Result<Suite> run_suite(std::vector<ScenarioFile> scenarios, const SuiteOptions& options,
                         const JobObserver& observer);
 
+/// Reads the results of the suite's jobs into its cases, and checks the expectations of those that
+/// ended.
+void collect_suite(const JobStore& store, Suite& suite);
+
 /// A line per scenario with invalid runs, which are left out of all statistics (validity.hpp):
 /// "severity_3: 1 of 5 runs are invalid and left out: seed 2 (the robot fell at 1.2 s)".
 std::vector<std::string> left_out_lines(const Suite& suite);

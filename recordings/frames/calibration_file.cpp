@@ -30,7 +30,7 @@ std::string lower(std::string_view text) {
 }
 
 bool is_index(std::string_view word) {
-  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+  return !word.empty() && word.size() <= 4 && word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 /// Lists of numbers by their place, in order: of "a.T_x_y.0.1" the place is "a.T_x_y".
@@ -46,7 +46,7 @@ Lists lists_of(const std::map<std::string, std::string>& scalars) {
     while (indices.size() < 2) {
       const std::size_t dot = head.rfind('.');
       const std::string_view last = std::string_view(head).substr(dot + 1);
-      if (dot == std::string::npos || !is_index(last) || last.size() > 4) break;
+      if (dot == std::string::npos || !is_index(last)) break;
       indices.insert(indices.begin(), std::stoi(std::string(last)));
       head.resize(dot);
     }
@@ -83,8 +83,8 @@ std::optional<Named> split_at(std::string_view key, std::string_view word, bool 
 /// What the last two parts of a place say of the frames.
 std::optional<Named> frames_of(const std::string& place) {
   const std::size_t dot = place.rfind('.');
-  const std::string group =
-      dot == std::string::npos ? "" : place.substr(0, dot).substr(place.rfind('.', dot - 1) + 1);
+  std::string group = dot == std::string::npos ? "" : place.substr(0, dot);
+  group = group.substr(group.rfind('.') + 1);
   std::string key = place.substr(dot == std::string::npos ? 0 : dot + 1);
   if (key == "T_cn_cnm1" && group.starts_with("cam") && is_index(group.substr(3))) {
     return Named{group, fmt::format("cam{}", std::stoi(group.substr(3)) - 1)};
@@ -107,7 +107,8 @@ std::string place_in(const std::string& text, const std::string& name, const std
   const std::string last = key.substr(key.rfind('.') + 1);
   const std::size_t at = text.find(last);
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
-  return fmt::format("{}:{}: {}", name, 1 + std::count(text.begin(), end, '\n'), key);
+  const std::string shown = key.size() < 200 ? key : key.substr(0, 200) + "...";
+  return fmt::format("{}:{}: {}", name, 1 + std::count(text.begin(), end, '\n'), shown);
 }
 
 /// A map "A_in_B: {translation: [..], quaternion_xyzw: [..]}" below `group`.

@@ -127,8 +127,9 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
 
 bool is_recording(const fs::path& file) {
   // A file with the name of a recording is read as one, so that a damaged one gets its reader's
-  // error.
-  return format_by_content(file) || format_by_name(file);
+  // error. A folder is one recording, of rosbag2 or of several files.
+  std::error_code ignored;
+  return fs::is_directory(file, ignored) || format_by_content(file) || format_by_name(file);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/files/csv.hpp"
 #include "core/files/csv_columns.hpp"
@@ -9,6 +11,7 @@
 #include "core/files/tum.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "core/text.hpp"
+#include "recordings/frames/calibration_file.hpp"
 #include "recordings/trajectories/trajectory_file.hpp"
 #include "tests/fuzz/demand.hpp"
 #include "tests/fuzz/fuzz_targets.hpp"
@@ -70,6 +73,12 @@ void fuzz_tables(std::span<const std::uint8_t> input) {
   refuse_readably(parse_ply(text, kName));
   read_columns(text);
   read_waypoint_times(text);
+  const auto transforms = parse_calibration(std::string(text), kName);
+  if (!transforms) demand_readable(transforms.error());
+  for (const FixedTransform& each : transforms.value_or(std::vector<FixedTransform>())) {
+    demand(each.T_parent_child.translation.allFinite());
+    demand(std::abs(each.T_parent_child.rotation.norm() - 1.0) < 1e-9);
+  }
   const MemoryFile file(std::as_bytes(input));
   refuse_readably(read_trajectory(file.path().string(), {}));
 }

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/dataset_benchmark.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "bench/jobs/job_id.hpp"
+#include "bench/jobs/recorded_jobs.hpp"
+#include "bench/run/code_version.hpp"
+#include "bench/run/estimate_summary.hpp"
+#include "bench/run/json_text.hpp"
+#include "bench/studies/suite_summary.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/config_dump.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything that decides the result, in words.
+std::string id_of(DatasetProfile profile, const DatasetSequence& sequence,
+                  const EstimatorSpec& estimator) {
+  profile.published.clear();
+  profile.read.run = {text_of(estimator)};
+  return text_hash(fmt::format("benchmark/1\n{}\n{}\n{}\n{}", code_version(),
+                               fingerprint(sequence), text_of(estimator), dump_config(fields_of(profile))));
+}
+
+JobResult result_of(const DatasetProfile& profile, const DatasetSequence& sequence,
+                    const EstimatorSpec& estimator, const fs::path& folder,
+                    std::atomic<double>& part) {
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  const auto observed = [&part](const Progress& progress) {
+    if (progress.expected_s > 0.0) part = progress.simulated_s / progress.expected_s;
+    return true;
+  };
+  JobResult job;
+  const auto result =
+      estimate_sequence(profile, sequence, text_of(estimator), folder, observed);
+  if (!result) {
+    job.outcome = JobOutcome::kFailed;
+    job.message = result.error().message;
+    return job;
+  }
+  std::vector<std::string> notes = result->setup.notes;
+  for (const ReadingWarning& each : result->setup.warnings) notes.push_back(each.text);
+  job.sequence = {{"recorded_s", result->recorded_s}, {"segments", Json::array()}};
+  job.scores = {{"success", false}};
+  if (result->scores) {
+    const RunRecord record = estimate_record(*result);
+    job.scores = record.scores["estimators"].front();
+    job.sequence["truth"] = record.scores["truth"];
+    notes.insert(notes.end(), result->scores->notes.begin(), result->scores->notes.end());
+  } else {
+    notes.emplace_back("no truth: not scored");
+  }
+  job.sequence["notes"] = notes;
+  return job;
+}
+
+std::vector<std::string> systems_of(const DatasetProfile& profile) {
+  std::vector<std::string> systems;
+  for (const PublishedScore& each : profile.published) {
+    if (std::ranges::find(systems, each.system) == systems.end()) systems.push_back(each.system);
+  }
+  return systems;
+}
+
+std::optional<double> published_in(const DatasetProfile& profile, const std::string& system,
+                                   const std::string& sequence) {
+  const auto found = std::ranges::find_if(profile.published, [&](const PublishedScore& each) {
+    return each.system == system && each.sequence == sequence;
+  });
+  if (found != profile.published.end()) return found->value;
+  // Recordings have the sensor before the sequence and the date behind it.
+  for (const PublishedScore& each : profile.published) {
+    if (each.system == system && sequence.find(each.sequence) != std::string::npos) {
+      return each.value;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<double> ours_in(const SuiteCase& each, const std::string& label,
+                              const std::string& score) {
+  return each.runs.empty() ? std::nullopt : find_score(each.runs.front(), label, score);
+}
+
+std::string cell(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3f}", *value) : "-";
+}
+
+Json sequence_json(const DatasetBenchmark& benchmark, const DatasetSequence& sequence,
+                   const SuiteCase& each) {
+  const DatasetProfile& profile = benchmark.profile;
+  Json json = {{"name", sequence.name},
+               {"recording", sequence.recording.string()},
+               {"truth", sequence.truth},
+               {"ours", Json::object()},
+               {"published", Json::object()}};
+  for (const std::string& label : labels_of(profile.read.run)) {
+    json["ours"][label] = json_of(ours_in(each, label, profile.score));
+  }
+  for (const std::string& system : systems_of(profile)) {
+    const auto value = published_in(profile, system, sequence.name);
+    if (value) json["published"][system] = *value;
+  }
+  return json;
+}
+
+std::string markdown(const DatasetBenchmark& benchmark) {
+  std::string text =
+      fmt::format("# {}\n\n{}\n", benchmark.profile.title, to_markdown(benchmark_table(benchmark)));
+  for (const std::string& note : benchmark_notes(benchmark)) text += fmt::format("- {}\n", note);
+  return text;
+}
+
+}  // namespace
+
+Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
+                                               std::vector<DatasetSequence> sequences,
+                                               const JobOptions& options,
+                                               const JobObserver& observer) {
+  DatasetBenchmark benchmark{std::move(profile), std::move(sequences), {}};
+  const JobStore store(options.out);
+  std::vector<RecordedJob> jobs;
+  for (const DatasetSequence& sequence : benchmark.sequences) {
+    auto scenario = std::make_shared<Scenario>();
+    scenario->name = sequence.name;
+    scenario->run = benchmark.profile.read.run;
+    benchmark.suite.cases.push_back({*scenario, {}, {}});
+    for (const std::string& text : scenario->run) {
+      auto spec = parse_estimator_spec(text);
+      if (!spec) return tl::unexpected(spec.error());
+      const std::string id = id_of(benchmark.profile, sequence, *spec);
+      const auto work = [&benchmark, &sequence, spec = *spec,
+                         folder = store.outputs_of(id)](std::atomic<double>& part) {
+        return result_of(benchmark.profile, sequence, spec, folder, part);
+      };
+      jobs.push_back({{scenario, 0, *spec, id}, work});
+      benchmark.suite.jobs.push_back(jobs.back().job);
+    }
+  }
+  const auto run = run_recorded_jobs(jobs, options, observer);
+  if (!run) return tl::unexpected(run.error());
+  benchmark.suite.run = *run;
+  collect_suite(store, benchmark.suite);
+  return benchmark;
+}
+
+TextTable benchmark_table(const DatasetBenchmark& benchmark) {
+  const DatasetProfile& profile = benchmark.profile;
+  const std::vector<std::string> systems = systems_of(profile);
+  const std::vector<std::string> labels = labels_of(profile.read.run);
+  TextTable table;
+  table.header = {"sequence"};
+  table.header.insert(table.header.end(), labels.begin(), labels.end());
+  for (const std::string& each : systems) table.header.push_back(each + " (published)");
+  for (std::size_t i = 0; i < benchmark.sequences.size(); ++i) {
+    const std::string& name = benchmark.sequences[i].name;
+    table.rows.push_back({name});
+    for (const std::string& label : labels) {
+      table.rows.back().push_back(cell(ours_in(benchmark.suite.cases[i], label, profile.score)));
+    }
+    for (const std::string& each : systems) {
+      table.rows.back().push_back(cell(published_in(profile, each, name)));
+    }
+  }
+  return table;
+}
+
+std::vector<std::string> benchmark_notes(const DatasetBenchmark& benchmark) {
+  const DatasetProfile& profile = benchmark.profile;
+  std::vector<std::string> notes = {
+      fmt::format("{} [{}]: {}", profile.score, profile.unit, profile.score_text),
+      profile.published_source.empty()
+          ? std::string("published: no figures were read in a source that could be checked")
+          : fmt::format("published: {}", profile.published_source),
+      fmt::format("cite: {}", profile.citation),
+      fmt::format("this profile is tested on {}", profile.tested)};
+  std::set<std::string> said;
+  for (const SuiteCase& each : benchmark.suite.cases) {
+    if (each.runs.empty() || !each.runs.front().scores.contains("notes")) continue;
+    for (const Json& note : each.runs.front().scores["notes"]) {
+      if (!note.is_string() || !said.insert(note.get<std::string>()).second) continue;
+      notes.push_back(fmt::format("{}: {}", each.scenario.name, note.get<std::string>()));
+    }
+  }
+  return notes;
+}
+
+Json benchmark_json(const DatasetBenchmark& benchmark) {
+  const DatasetProfile& profile = benchmark.profile;
+  Json json = {{"schema", "aims.benchmark/1"},
+               {"version", AIMS_VERSION},
+               {"profile", profile.name},
+               {"title", profile.title},
+               {"citation", profile.citation},
+               {"url", profile.url},
+               {"licence", profile.licence},
+               {"tested", profile.tested},
+               {"score", profile.score},
+               {"unit", profile.unit},
+               {"published_source", profile.published_source},
+               {"complete", benchmark.suite.complete},
+               {"notes", benchmark_notes(benchmark)},
+               {"sequences", Json::array()},
+               {"failures", failures_json(benchmark.suite)}};
+  for (std::size_t i = 0; i < benchmark.sequences.size(); ++i) {
+    json["sequences"].push_back(
+        sequence_json(benchmark, benchmark.sequences[i], benchmark.suite.cases[i]));
+  }
+  return json;
+}
+
+Result<void> write_benchmark(const DatasetBenchmark& benchmark, const fs::path& folder) {
+  auto written = write_suite(benchmark.suite, folder);
+  if (written) written = write_file_atomically(folder / "benchmark.md", markdown(benchmark));
+  if (written) {
+    written = write_file_atomically(folder / "benchmark.json",
+                                    json_text(benchmark_json(benchmark), 2) + "\n");
+  }
+  return written;
+}
+
+}  // namespace aims

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/run/dataset_sequences.hpp"
+#include "bench/studies/suite.hpp"
+#include "core/error.hpp"
+#include "core/files/table.hpp"
+
+namespace aims {
+
+/// The sequences of a data set through the estimators, scored as its authors score them.
+struct DatasetBenchmark {
+  DatasetProfile profile;
+  std::vector<DatasetSequence> sequences;
+  Suite suite;  ///< a case per sequence, with one run of seed 0
+};
+
+/// Does what `options.out` lacks, each estimator on each sequence in a process of its own.
+Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
+                                               std::vector<DatasetSequence> sequences,
+                                               const JobOptions& options,
+                                               const JobObserver& observer);
+
+/// A row per sequence: the score of each estimator here, then the published ones.
+TextTable benchmark_table(const DatasetBenchmark& benchmark);
+
+/// What the columns are, where the published ones are from, and what was assumed of each sequence.
+std::vector<std::string> benchmark_notes(const DatasetBenchmark& benchmark);
+
+/// What benchmark.json holds: schema aims.benchmark/1.
+Json benchmark_json(const DatasetBenchmark& benchmark);
+
+/// Writes benchmark.md and benchmark.json, and the files of a suite.
+Result<void> write_benchmark(const DatasetBenchmark& benchmark,
+                             const std::filesystem::path& folder);
+
+}  // namespace aims
