@@ -11,6 +11,7 @@
 #include "bench/cli/options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/estimate.hpp"
+#include "bench/run/mount_check.hpp"
 #include "recordings/inspection/bag_check.hpp"
 #include "recordings/inspection/bag_info.hpp"
 
@@ -25,6 +26,7 @@ struct BagArguments {
   std::string config;
   std::vector<std::string> systems;
   bool recover = false;
+  bool mount = false;
   bool json = false;
 };
 
@@ -39,13 +41,30 @@ Result<BagInfo> info_of(const BagArguments& arguments) {
                   {.recover = arguments.recover, .with = further(arguments.files)});
 }
 
+/// What the data say of the mount of the LiDAR, when asked for.
+Result<std::vector<std::string>> mount_of(const BagArguments& arguments) {
+  if (!arguments.mount) return std::vector<std::string>();
+  const auto config = load_estimate_config(arguments.config, arguments.shared.settings);
+  if (!config) return tl::unexpected(config.error());
+  EstimateOptions options;
+  options.bag = arguments.files.front();
+  options.recover = arguments.recover;
+  options.with = further(arguments.files);
+  return mount_report(*config, options);
+}
+
 int info_command(const BagArguments& arguments) {
   const auto info = info_of(arguments);
   if (!info) return refuse("info", info.error(), arguments.json);
+  const auto mount = mount_of(arguments);
+  if (!mount) return refuse("info", mount.error(), arguments.json);
   if (arguments.json) {
-    print_json(info_json(*info));
+    Json document = info_json(*info);
+    if (arguments.mount) document["mount"] = *mount;
+    print_json(document);
   } else {
     print_out("{}", info_text(*info));
+    for (const std::string& line : *mount) print_out("{}\n", line);
   }
   return kOk;
 }
@@ -102,7 +121,11 @@ std::shared_ptr<BagArguments> add_bag_options(Command& command) {
 
 void declare_info(Command command, const fs::path& /*scenarios*/) {
   auto arguments = add_bag_options(command);
-  command.footer("Example:\n  aims info robot.bag");
+  command.flag("--mount", arguments->mount,
+               "Compare the rotation of LiDAR odometry (A-LOAM, first 3 min) with\n"
+               "the gyro: an inverted or turned extrinsic, an IMU upside down, a\n"
+               "mirrored axis");
+  command.footer("Example:\n  aims info robot.bag --mount");
   command.action([arguments] { return info_command(*arguments); });
 }
 

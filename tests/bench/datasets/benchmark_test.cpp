@@ -194,6 +194,21 @@ TEST_F(Benchmark, IilabsPutsPublishedScoresBeside) {
   EXPECT_NE(text.find("LIORF (published)"), std::string::npos) << text;
 }
 
+TEST_F(Benchmark, InfoFindsAWrongMountByTheRotationOfLidarOdometry) {
+  const std::string bag = "'" + (walk_folder_->path() / "walk.bag").string() + "'";
+  const auto right = aims("info --mount " + bag);
+  EXPECT_NE(right.output.find("no contradiction between LiDAR odometry and gyro"),
+            std::string::npos)
+      << right.output;
+  const auto upside_down =
+      aims("info --mount " + bag + " --set recording.T_imu_lidar.quaternion_xyzw=[1,0,0,0]");
+  EXPECT_NE(upside_down.output.find("MOUNT OF THE LIDAR: LiDAR odometry and gyro contradict it"),
+            std::string::npos)
+      << upside_down.output;
+  EXPECT_NE(upside_down.output.find("to try it: --set recording.T_imu_lidar.quaternion_xyzw="),
+            std::string::npos);
+}
+
 TEST_F(Benchmark, WhatIsMissingIsSaid) {
   const auto none = aims("benchmark geode data");
   EXPECT_EQ(none.exit_code, 2);

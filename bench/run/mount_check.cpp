@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/mount_check.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "bench/run/stream.hpp"
+#include "core/lie.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kLeastRotation = 0.1;  ///< of an interval that counts: of turns, not of steps [rad]
+constexpr double kNoise = 0.02;         ///< of LiDAR odometry over it [rad]
+constexpr int kFewest = 5;              ///< intervals
+constexpr double kWrong = 0.3;          ///< residual of a mount that is wrong [-]
+constexpr double kBetter = 0.4;         ///< residual of a better one, of the given one's [-]
+constexpr double kAlike = 1.25;         ///< between residuals of mounts that fit alike [-]
+constexpr Duration kInterval = 500 * kMillisecond;
+constexpr Duration kLongest = 180 * kSecond;
+
+struct Hypothesis {
+  std::string cause;
+  Eigen::Matrix3d R;  ///< proper or improper
+};
+
+double residual_of(std::span<const RotationPair> pairs, const Eigen::Matrix3d& R) {
+  double sum = 0.0;
+  for (const RotationPair& each : pairs) {
+    sum += (each.imu - R * each.lidar).squaredNorm() /
+           (each.imu.squaredNorm() + each.lidar.squaredNorm() + kNoise * kNoise);
+  }
+  return pairs.empty() ? 0.0 : sum / static_cast<double>(pairs.size());
+}
+
+/// The 48 matrices that permute axes and change signs.
+std::vector<Eigen::Matrix3d> axis_changes() {
+  std::vector<Eigen::Matrix3d> changes;
+  std::array<int, 3> order = {0, 1, 2};
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+      for (int row = 0; row < 3; ++row) {
+        P(row, order[static_cast<std::size_t>(row)]) = (signs >> row & 1) != 0 ? -1.0 : 1.0;
+      }
+      changes.push_back(P);
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  return changes;
+}
+
+std::string cause_of(const Eigen::Matrix3d& P) {
+  if (P.determinant() < 0.0) {
+    return "an axis of the gyro has the wrong sign, or two are swapped: no mount corrects that, the "
+           "driver must";
+  }
+  const Eigen::AngleAxisd turn(P);
+  const double degrees = turn.angle() * 180.0 / std::numbers::pi;
+  const Eigen::Vector3d& axis = turn.axis();
+  return fmt::format("the IMU is turned by {:.0f} degrees about [{:.2g}, {:.2g}, {:.2g}]", degrees,
+                     axis.x(), axis.y(), axis.z());
+}
+
+/// The likelier first: inverted, upside down, turned, mirrored.
+std::vector<Hypothesis> hypotheses(const Eigen::Matrix3d& given) {
+  std::vector<Eigen::Matrix3d> changes = axis_changes();
+  const auto rank = [](const Eigen::Matrix3d& P) {
+    const bool diagonal = P.isDiagonal();
+    return std::pair(P.determinant() < 0.0, !diagonal);
+  };
+  std::ranges::stable_sort(changes, {}, rank);
+  std::vector<Hypothesis> all = {{"the extrinsic is inverted", given.transpose()}};
+  for (const Eigen::Matrix3d& P : changes) {
+    if (!P.isIdentity()) all.push_back({cause_of(P), P * given});
+  }
+  return all;
+}
+
+/// The rotation from the gyro between two stamps.
+Eigen::Vector3d gyro_rotation(std::span<const ImuSample> samples, Time begin, Time end) {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  auto next = std::ranges::upper_bound(samples, begin, {}, &ImuSample::stamp);
+  Time at = begin;
+  for (; next != samples.end() && at < end; ++next) {
+    const Time until = std::min(next->stamp, end);
+    rotation = rotation * so3_exp(next->angular_velocity * to_seconds(until - at));
+    at = until;
+  }
+  return so3_log(rotation.normalized());
+}
+
+/// Rotations over intervals of `kInterval` between poses.
+std::vector<RotationPair> rotation_pairs(const Trajectory& poses,
+                                         std::span<const ImuSample> samples,
+                                         const Eigen::Quaterniond& R_body_lidar) {
+  std::vector<RotationPair> pairs;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Duration step = poses[i].stamp - poses[first].stamp;
+    if (step < kInterval) continue;
+    const Eigen::Quaterniond moved =
+        poses[first].pose.rotation.conjugate() * poses[i].pose.rotation;
+    RotationPair pair;
+    pair.lidar = so3_log((R_body_lidar.conjugate() * moved * R_body_lidar).normalized());
+    pair.imu = gyro_rotation(samples, poses[first].stamp, poses[i].stamp);
+    if (step < 2 * kInterval && pair.imu.norm() > kLeastRotation) pairs.push_back(pair);
+    first = i;
+  }
+  return pairs;
+}
+
+std::vector<std::string> words(const MountCheck& check, const Pose& T_imu_lidar) {
+  if (check.intervals < kFewest) {
+    return {fmt::format("mount of the LiDAR: not checked: the body turns in {} intervals of 0.5 s, at "
+                        "least {} are needed",
+                        check.intervals, kFewest)};
+  }
+  if (!check.contradicts) {
+    return {fmt::format("mount of the LiDAR: no contradiction between LiDAR odometry and gyro over "
+                        "{} rotations (residual {:.2f})",
+                        check.intervals, check.given_residual)};
+  }
+  std::vector<std::string> lines = {fmt::format(
+      "MOUNT OF THE LIDAR: LiDAR odometry and gyro contradict it over {} rotations (residual {:.2f}; "
+      "{:.2f} if {})",
+      check.intervals, check.given_residual, check.best_residual, check.cause)};
+  const Eigen::Quaterniond& q = check.R_imu_lidar;
+  const Eigen::Vector3d& t = T_imu_lidar.translation;
+  lines.push_back(fmt::format(
+      "  to try it: --set recording.T_imu_lidar.quaternion_xyzw=[{:.6g},{:.6g},{:.6g},{:.6g}] --set "
+      "recording.T_imu_lidar.translation=[{:.6g},{:.6g},{:.6g}]",
+      q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()));
+  if (check.cause.find("no mount") != std::string::npos) lines.pop_back();
+  return lines;
+}
+
+}  // namespace
+
+MountCheck check_mount(std::span<const RotationPair> pairs, const Eigen::Quaterniond& R_imu_lidar) {
+  MountCheck check;
+  check.intervals = static_cast<int>(pairs.size());
+  check.R_imu_lidar = R_imu_lidar;
+  check.given_residual = check.best_residual = residual_of(pairs, R_imu_lidar.toRotationMatrix());
+  if (check.intervals < kFewest) return check;
+  const auto all = hypotheses(R_imu_lidar.toRotationMatrix());
+  std::vector<double> residuals;
+  for (const Hypothesis& each : all) residuals.push_back(residual_of(pairs, each.R));
+  const double least = *std::ranges::min_element(residuals);
+  const auto first = std::ranges::find_if(
+      residuals, [least](double each) { return each <= kAlike * least; });
+  const Hypothesis& best = all[static_cast<std::size_t>(first - residuals.begin())];
+  check.best_residual = *first;
+  check.cause = best.cause;
+  if (best.R.determinant() > 0.0) check.R_imu_lidar = Eigen::Quaterniond(best.R).normalized();
+  check.contradicts = check.given_residual > kWrong &&
+                      check.best_residual < kBetter * check.given_residual;
+  if (check.contradicts) return check;
+  check.cause.clear();
+  check.R_imu_lidar = R_imu_lidar;
+  return check;
+}
+
+Result<std::vector<std::string>> mount_report(const EstimateConfig& config,
+                                              const EstimateOptions& options) {
+  auto reader = RecordingReader::open(options.bag, config.recording,
+                                      {.recover = options.recover, .with = options.with});
+  if (!reader) return tl::unexpected(reader.error());
+  const RecordingSetup setup = reader->setup();
+  if (setup.topics.lidar.empty() || setup.topics.imu.empty() || setup.rings.count == 0) {
+    return std::vector<std::string>{"mount of the LiDAR: not checked: needs an IMU and rings"};
+  }
+  const std::array<std::string, 1> run = {"a_loam"};
+  auto estimators = make_estimators(run, config.estimators, setup.rig);
+  if (!estimators) return tl::unexpected(estimators.error());
+  std::vector<ImuSample> samples;
+  const auto next_batch = [&](std::vector<Delivery>& batch) {
+    auto more = reader->advance(kStreamBatch, batch);
+    for (const Delivery& each : batch) {
+      if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) samples.push_back(*imu);
+    }
+    return more;
+  };
+  stream(next_batch, *estimators, 1, [&] { return reader->position() < kLongest; });
+  std::ranges::stable_sort(samples, {}, &ImuSample::stamp);
+  const Pose& T_imu_lidar = setup.rig.T_body_lidar;
+  const auto pairs = rotation_pairs(estimators->front().estimator().result().trajectory, samples,
+                                    T_imu_lidar.rotation);
+  return words(check_mount(pairs, T_imu_lidar.rotation), T_imu_lidar);
+}
+
+}  // namespace aims

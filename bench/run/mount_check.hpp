@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/run/estimate.hpp"
+#include "core/error.hpp"
+
+namespace aims {
+
+/// The rotation of one interval as two sensors on one body see it.
+struct RotationPair {
+  Eigen::Vector3d imu = Eigen::Vector3d::Zero();    ///< rotation vector in the IMU frame [rad]
+  Eigen::Vector3d lidar = Eigen::Vector3d::Zero();  ///< in the LiDAR frame [rad]
+};
+
+/// What rotations say of the mount of the LiDAR on the IMU.
+struct MountCheck {
+  int intervals = 0;            ///< in which the body turns
+  double given_residual = 0.0;  ///< mean of squared differences over squared rotations, 0 to 2 [-]
+  double best_residual = 0.0;   ///< of the mount that fits best
+  bool contradicts = false;     ///< another mount of right angles fits clearly better
+  std::string cause;            ///< e.g. "the extrinsic is inverted"; empty unless it contradicts
+  /// The mount that fits best; the given one where none is a rotation.
+  Eigen::Quaterniond R_imu_lidar = Eigen::Quaterniond::Identity();
+};
+
+/// Compares the given mount with its inverse and with IMUs turned by right angles, upside down, or
+/// with an axis mirrored. A rotation about the one axis of all turns is not observable: mounts that
+/// differ by it alone fit alike, and the given one stays.
+MountCheck check_mount(std::span<const RotationPair> pairs, const Eigen::Quaterniond& R_imu_lidar);
+
+/// The check for the first three minutes of a recording, with the rotation of LiDAR odometry (A-LOAM, which
+/// uses no IMU), in words, with the line that corrects the mount. Errors as of `estimate`.
+Result<std::vector<std::string>> mount_report(const EstimateConfig& config,
+                                              const EstimateOptions& options);
+
+}  // namespace aims
