@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What was built is installed, in components; what was not is named. `runtime`: the program with its scenarios and scripts. `ros`: the live
-# node (ros/CMakeLists.txt). `python` and `python_sim`: the Python package without and with the
+# What was built is installed, in components; what was not is named. `runtime`: the program with its scenarios and scripts. `ros` and `live`:
+# the live programs for ROS 1 and ROS 2 (live/CMakeLists.txt). `python` and `python_sim`: the Python package without and with the
 # simulation (python/CMakeLists.txt). `dev`: the libraries that another program needs to estimate, read
-# recordings and score. Simulation and rendering stay inside the program: neither `ros`, `python` nor
-# `dev` depends on MuJoCo, Embree, pagmo or SQLite.
+# recordings and score. Simulation and rendering stay inside the program: neither `ros`, `live`, `python`
+# nor `dev` depends on MuJoCo, Embree, pagmo or SQLite.
 include(CMakePackageConfigHelpers)
 
 set(exported_libraries core files estimator metrics recordings)
@@ -51,6 +51,10 @@ if(TARGET aims_python_core AND NOT SKBUILD)
   aims_install_with(aims_python_core python ${CMAKE_INSTALL_DATADIR}/doc/python3-aims
     FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
   aims_install_with(aims_python_sim python_sim ${CMAKE_INSTALL_DATADIR}/doc/python3-aims-sim
+    FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
+endif()
+if(TARGET aims_live)
+  aims_install_with(aims_live live ${CMAKE_INSTALL_DATADIR}/doc/aims-live
     FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
 endif()
 if(TARGET aims_node)

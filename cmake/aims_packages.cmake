@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # `cpack -G DEB` in the build folder: aims_VERSION_ARCH.deb, the program; libaims-dev_..., for
-# programs of others; where they were built, aims-node_..., for the robot, and
+# programs of others; where they were built, aims-live_... and aims-node_..., for the robot, and
 # python3-aims_... and python3-aims-sim_....
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME aims)
@@ -10,6 +10,9 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL runtime dev)
+if(TARGET aims_live)
+  list(APPEND CPACK_COMPONENTS_ALL live)
+endif()
 if(TARGET aims_node)
   list(APPEND CPACK_COMPONENTS_ALL ros)
 endif()
@@ -40,6 +43,14 @@ with headers; CMake finds them by find_package(aims CONFIG).")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libboost-dev, libbz2-dev, libeigen3-dev, libexpected-dev, \
 libfmt-dev, liblz4-dev, libyaml-cpp-dev, libzstd-dev, \
 pkg-config")
+
+set(CPACK_DEBIAN_LIVE_PACKAGE_NAME aims-live)
+set(CPACK_DEBIAN_LIVE_PACKAGE_SECTION science)
+set(CPACK_COMPONENT_LIVE_DESCRIPTION
+  "legged-robot localization in degenerate corridors, live under ROS 2
+Estimates a legged robot's motion live from ROS 2 topics, and plays recordings
+on them. Speaks DDS: needs neither ROS nor anything of the simulation.")
+set(CPACK_DEBIAN_LIVE_PACKAGE_SHLIBDEPS ON)
 
 set(CPACK_DEBIAN_ROS_PACKAGE_NAME aims-node)
 set(CPACK_DEBIAN_ROS_PACKAGE_SECTION science)

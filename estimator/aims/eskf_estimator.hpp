@@ -18,12 +18,13 @@
 #include "estimator/lidar/deskew.hpp"
 #include "estimator/lidar/scan_points.hpp"
 #include "estimator/lidar/voxel_map.hpp"
+#include "estimator/motion.hpp"
 
 namespace aims {
 
 /// The error-state Kalman filter of all variants: the IMU predicts, leg odometry corrects at its
 /// own stamps, the LiDAR at the end of each scan.
-class EskfEstimator : public Estimator {
+class EskfEstimator : public Estimator, public MotionSource {
  public:
   EskfEstimator(const EskfConfig& config, const SensorRig& rig);
 
@@ -32,6 +33,8 @@ class EskfEstimator : public Estimator {
   const EstimatorResult& result() const override { return result_; }
   void forget_rows() override { keep_last_rows(result_); }
   std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
+  std::optional<MotionEstimate> motion(Time until) const override;
+  const std::vector<Eigen::Vector3f>& registered_points() const override { return mapped_; }
 
   /// State and covariance after the last processed measurement, for consistency checks.
   const Belief& belief() const { return belief_; }

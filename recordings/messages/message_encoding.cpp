@@ -26,6 +26,13 @@ void put(MessageBytes& out, const Eigen::Quaterniond& q) {
   for (const double value : {q.x(), q.y(), q.z(), q.w()}) out.put(value);
 }
 
+/// Row by row.
+void put(MessageBytes& out, const Eigen::Matrix<double, 6, 6>& covariance) {
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) out.put(covariance(row, column));
+  }
+}
+
 void put_unknown_covariance(MessageBytes& out, int size) {
   for (int i = 0; i < size * size; ++i) out.put(0.0);
 }
@@ -77,10 +84,54 @@ MessageBytes odometry_message(const MessageHeader& header, std::string_view chil
   out.text(child_frame);
   put(out, content.pose.translation);
   put(out, content.pose.rotation);
-  put_unknown_covariance(out, 6);
+  put(out, content.pose_covariance);
   put(out, content.linear_velocity);
   put(out, content.angular_velocity);
-  put_unknown_covariance(out, 6);
+  put(out, content.twist_covariance);
+  return out;
+}
+
+MessageBytes diagnostics_message(const MessageHeader& header, const DiagnosticContent& content,
+                                 Serialization serialization) {
+  MessageBytes out(serialization);
+  put(out, header);
+  out.length(1);
+  out.put(content.level);
+  out.text(content.name);
+  out.text(content.message);
+  out.text("");  // no hardware
+  out.length(content.values.size());
+  for (const auto& [key, value] : content.values) {
+    out.text(key);
+    out.text(value);
+  }
+  return out;
+}
+
+MessageBytes points_message(const MessageHeader& header, std::span<const Eigen::Vector3f> points,
+                            Serialization serialization) {
+  constexpr std::uint8_t kFloat32 = 7;  // of sensor_msgs/PointField
+  constexpr std::uint32_t kStep = 12;   // of a point [bytes]
+  static_assert(sizeof(Eigen::Vector3f) == kStep);
+  const auto count = static_cast<std::uint32_t>(points.size());
+  MessageBytes out(serialization);
+  out.reserve(512 + points.size_bytes());
+  put(out, header);
+  out.put(std::uint32_t{1});  // height
+  out.put(count);
+  out.length(3);
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    out.text(std::string_view("xyz").substr(axis, 1));
+    out.put(axis * std::uint32_t{sizeof(float)});
+    out.put(kFloat32);
+    out.put(std::uint32_t{1});
+  }
+  out.put(false);  // is_bigendian
+  out.put(kStep);
+  out.put(kStep * count);
+  out.length(points.size_bytes());
+  out.append(points.data(), points.size_bytes());
+  out.put(true);  // is_dense
   return out;
 }
 

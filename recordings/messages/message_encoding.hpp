@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/measurements.hpp"
@@ -26,6 +28,18 @@ struct OdometryContent {
   Pose pose;                                                  ///< child frame in the header's frame
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();  ///< in child axes [m/s]
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< in child axes [rad/s]
+  /// Of position, then rotation about the fixed axes of the header's frame; zero: unknown.
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Of linear, then angular velocity, in child axes; zero: unknown.
+  Eigen::Matrix<double, 6, 6> twist_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+/// One diagnostic_msgs/DiagnosticStatus.
+struct DiagnosticContent {
+  std::uint8_t level = 0;  ///< 0 ok, 1 warning, 2 error, 3 stale
+  std::string name;
+  std::string message;
+  std::vector<std::pair<std::string, std::string>> values;
 };
 
 // Messages in either serialization.
@@ -42,7 +56,7 @@ MessageBytes cloud_message(const MessageHeader& header, const LidarScan& scan,
 MessageBytes imu_message(const MessageHeader& header, const ImuSample& sample,
                          Serialization serialization = Serialization::kRos1);
 
-/// nav_msgs/Odometry; covariances unknown (zero).
+/// nav_msgs/Odometry.
 MessageBytes odometry_message(const MessageHeader& header, std::string_view child_frame,
                               const OdometryContent& content,
                               Serialization serialization = Serialization::kRos1);
@@ -58,6 +72,14 @@ MessageBytes foot_contacts_message(const MessageHeader& header, const LegOdometr
 /// tf2_msgs/TFMessage of fixed transforms, stamped `stamp`.
 MessageBytes transforms_message(Time stamp, const std::vector<FrameTransform>& transforms,
                                 Serialization serialization = Serialization::kRos1);
+
+/// diagnostic_msgs/DiagnosticArray of one status.
+MessageBytes diagnostics_message(const MessageHeader& header, const DiagnosticContent& content,
+                                 Serialization serialization = Serialization::kRos1);
+
+/// sensor_msgs/PointCloud2 of bare points, x, y, z float32 [m].
+MessageBytes points_message(const MessageHeader& header, std::span<const Eigen::Vector3f> points,
+                            Serialization serialization = Serialization::kRos1);
 
 /// std_msgs/String.
 MessageBytes string_message(std::string_view text,

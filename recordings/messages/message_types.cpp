@@ -48,6 +48,12 @@ constexpr auto kTypes = std::to_array<KnownType>({
      "geometry_msgs/PoseWithCovariance pose\n"
      "geometry_msgs/TwistWithCovariance twist\n",
      "cd5e73d190d741a2f92e81eda573aca7"},
+    {"diagnostic_msgs/KeyValue", "string key\nstring value\n"},
+    {"diagnostic_msgs/DiagnosticStatus",
+     "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\n"
+     "string message\nstring hardware_id\nKeyValue[] values\n"},
+    {"diagnostic_msgs/DiagnosticArray", "Header header\nDiagnosticStatus[] status\n",
+     "60810da900de1dd6ddd437c3503511da"},
     {"sensor_msgs/PointField",
      "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n"
      "uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 "
@@ -143,6 +149,7 @@ MessageType imu_type() { return type_of(*find_known("sensor_msgs/Imu")); }
 MessageType joint_state_type() { return type_of(*find_known("sensor_msgs/JointState")); }
 MessageType odometry_type() { return type_of(*find_known("nav_msgs/Odometry")); }
 MessageType transforms_type() { return type_of(*find_known("tf2_msgs/TFMessage")); }
+MessageType diagnostics_type() { return type_of(*find_known("diagnostic_msgs/DiagnosticArray")); }
 MessageType foot_forces_type() { return type_of(*find_known(kFootForces)); }
 MessageType foot_contacts_type() { return type_of(*find_known("aims_msgs/FootContacts")); }
 

@@ -24,6 +24,7 @@ MessageType imu_type();            ///< sensor_msgs/Imu
 MessageType joint_state_type();    ///< sensor_msgs/JointState
 MessageType odometry_type();       ///< nav_msgs/Odometry
 MessageType transforms_type();     ///< tf2_msgs/TFMessage
+MessageType diagnostics_type();    ///< diagnostic_msgs/DiagnosticArray
 MessageType foot_forces_type();    ///< aims_msgs/FootForces: loads in any unit
 MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: contacts and forces of the feet
 

@@ -82,7 +82,7 @@ TEST(Documents, EveryPictureIsShown) {
 
 TEST(Documents, NamedFilesExist) {
   const std::regex span(
-      R"(`((?:core|estimator|sim|recordings|bench|render|tests|scripts|models|scenarios|ros|docs|cmake)/[\w./-]*)`)");
+      R"(`((?:core|estimator|sim|recordings|bench|render|tests|scripts|models|scenarios|live|docs|cmake)/[\w./-]*)`)");
   for (const Line& path : matches_in_documents(span)) {
     EXPECT_TRUE(fs::exists(fs::path(AIMS_SOURCE_DIR) / path.text))
         << place(path) << ": " << path.text << " does not exist";
@@ -123,7 +123,7 @@ TEST(Documents, NamedScenariosExist) {
 
 TEST(Sources, NameDocumentsThatExist) {
   const std::regex name(R"(\b(docs/[\w/-]+\.md)\b)");
-  for (const char* folder : {"core", "estimator", "sim", "recordings", "bench", "render", "ros",
+  for (const char* folder : {"core", "estimator", "sim", "recordings", "bench", "render", "live",
                              "scenarios", "scripts", "tests"}) {
     for (const auto& entry :
          fs::recursive_directory_iterator(fs::path(AIMS_SOURCE_DIR) / folder)) {

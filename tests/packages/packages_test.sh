@@ -19,12 +19,14 @@ mkdir -p "$work"
 program=$(echo "$work"/aims_*.deb)
 libraries=$(echo "$work"/libaims-dev_*.deb)
 node=()  # only where ROS is installed
-if [ -e "$build/ros/aims_node" ]; then node=("$work"/aims-node_*.deb); fi
+if [ -e "$build/live/aims_node" ]; then node=("$work"/aims-node_*.deb); fi
+live=()  # only where CycloneDDS is installed
+if [ -e "$build/live/aims_live" ] && [ -e "$build/live/aims_play" ]; then live=("$work"/aims-live_*.deb); fi
 python=()  # only where Python's headers are
 if [ -e "$build/python/aims/py.typed" ]; then python=("$work"/python3-aims_*.deb); fi
 simulation=()
 if [ ${#python[@]} -gt 0 ]; then simulation=("$work"/python3-aims-sim_*.deb); fi
-all=("$program" "$libraries" "${node[@]}" "${python[@]}" "${simulation[@]}")
+all=("$program" "$libraries" "${live[@]}" "${node[@]}" "${python[@]}" "${simulation[@]}")
 
 # contents PACKAGE FILE...: the package holds each file.
 contents() {
@@ -48,6 +50,11 @@ if [ ${#node[@]} -gt 0 ]; then
   contents "${node[0]}" bin/aims_node share/doc/aims-node/copyright
   grep -qE '\.hpp$|\.a$|\.yaml$' "$work/contents" && fail "what a robot does not need is in ${node[0]}"
 fi
+if [ ${#live[@]} -gt 0 ]; then
+  contents "${live[0]}" bin/aims_live bin/aims_play share/doc/aims-live/copyright \
+    share/doc/aims-live/aims-live.service share/aims-live/robots/go2.yaml
+  grep -qE '\.hpp$|\.a$|scenarios' "$work/contents" && fail "what a robot does not need is in ${live[0]}"
+fi
 if [ ${#python[@]} -gt 0 ]; then
   modules=lib/python3/dist-packages/aims
   contents "${python[0]}" $modules/__init__.py $modules/py.typed share/doc/python3-aims/copyright \
@@ -70,7 +77,7 @@ for name in libeigen3-dev libfmt-dev libexpected-dev libyaml-cpp-dev libboost-de
   libbz2-dev; do
   depends "$libraries" | grep -xF "$name" >"$work/found" || fail "$libraries does not depend on $name"
 done
-for package in "$libraries" "${node[@]}" "${python[@]}"; do
+for package in "$libraries" "${live[@]}" "${node[@]}" "${python[@]}"; do
   depends "$package" | grep -iE 'mujoco|embree|pagmo|sqlite|cairo|osmesa' &&
     fail "$package depends on what only the simulation and the bench need"
 done
@@ -79,6 +86,9 @@ if [ ${#python[@]} -gt 0 ]; then
     depends "${python[0]}" | grep -xF "$name" >"$work/found" ||
       fail "${python[0]} does not depend on $name"
   done
+fi
+if [ ${#live[@]} -gt 0 ]; then
+  depends "${live[0]}" | grep -xF libddsc0debian >"$work/found" || fail "${live[0]} does not depend on CycloneDDS"
 fi
 if [ ${#node[@]} -gt 0 ]; then
   for name in libc6 libfmt9 libyaml-cpp0.7; do

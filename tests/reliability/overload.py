@@ -11,7 +11,7 @@ import subprocess
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "ros"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "live" / "ros1"))
 from network import Network, wait_until  # noqa: E402
 
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "live/dds/dds_transport.hpp"
+#include "live/dds/discovery.hpp"
+#include "live/dds/playback.hpp"
+#include "recordings/source/recording_file.hpp"
+
+namespace aims {
+namespace {
+
+constexpr int kOk = 0;
+constexpr int kBadInput = 2;
+constexpr int kInternal = 3;
+constexpr double kMaxBlocking = 10.0;  ///< a player waits for its subscribers [s]
+
+struct PlayArguments {
+  std::vector<std::string> files;
+  DdsOptions dds;
+  PlaybackOptions playback;
+};
+
+int bad_input(const std::string& message) {
+  fmt::print(stderr, "aims_play: {}\n", message);
+  return kBadInput;
+}
+
+void add_options(CLI::App& app, PlayArguments& arguments) {
+  app.add_option("recording", arguments.files,
+                 "Recording, simulated or of a robot: files or folders, merged by record time")
+      ->required();
+  app.add_option("--rate", arguments.playback.rate, "Of the recording's pace (1)")
+      ->check(CLI::Range(0.01, 1000.0));
+  app.add_option("--domain", arguments.dds.domain, "DDS domain ($ROS_DOMAIN_ID, else 0)")
+      ->check(CLI::Range(0, 232));
+  app.add_option("--topics", arguments.playback.topics, "Only these, e.g. /imu/data,/lidar/points")
+      ->delimiter(',');
+  app.add_flag("--wait", arguments.playback.wait,
+               "Start once each topic has a subscriber; else after a second");
+  app.footer("The time of sending is the record time. CYCLONEDDS_URI chooses the interfaces.\n"
+             "Exit codes: 0 ok, also when interrupted; 2 bad usage, recording or network.");
+}
+
+int run(const PlayArguments& arguments) {
+  std::vector<std::filesystem::path> with(arguments.files.begin() + 1, arguments.files.end());
+  const auto recording = open_recording(arguments.files.front(), {.with = std::move(with)});
+  if (!recording) return bad_input(recording.error().message);
+  const auto transport = DdsTransport::connect(arguments.dds);
+  if (!transport) return bad_input(transport.error().message);
+  const auto outcome = play(**recording, **transport, arguments.playback);
+  for (const std::string& problem : (*transport)->take_problems()) {
+    fmt::print(stderr, "aims_play: warning: {}\n", problem);
+  }
+  if (!outcome) return bad_input(outcome.error().message);
+  for (const std::string& skipped : outcome->skipped) {
+    fmt::print(stderr, "aims_play: warning: not played: {}\n", skipped);
+  }
+  fmt::print("{} messages of {} topics on domain {}{}\n", outcome->messages, outcome->topics,
+             arguments.dds.domain, outcome->complete ? "" : ", interrupted");
+  if (outcome->blocked > 0) {
+    fmt::print("warning: {} messages were not sent: a subscriber is too slow\n", outcome->blocked);
+  }
+  return kOk;
+}
+
+int main_of(int argc, char** argv) {
+  PlayArguments arguments;
+  const auto domain = default_domain();
+  if (!domain) return bad_input(domain.error().message);
+  arguments.dds.domain = *domain;
+  arguments.dds.node = "aims_play";
+  arguments.dds.max_blocking = kMaxBlocking;
+  CLI::App app("Publishes a recording on DDS at its own pace, as ROS 2 nodes do.", "aims_play");
+  add_options(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app.help());
+    return kOk;
+  } catch (const CLI::ParseError& error) {
+    return bad_input(fmt::format("{}; see --help", error.what()));
+  }
+  return run(arguments);
+}
+
+}  // namespace
+}  // namespace aims
+
+int main(int argc, char** argv) {
+  try {
+    return aims::main_of(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "aims_play: internal error: {}\n", error.what());
+    return aims::kInternal;
+  }
+}

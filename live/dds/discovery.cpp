@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/dds/discovery.hpp"
+
+#include <dds/dds.h>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+
+#include "live/dds/dds_names.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::uint32_t kMaxDomain = 232;  ///< beyond it ports exceed 65535
+constexpr std::size_t kBatch = 16;         ///< samples per call of DDS
+
+OfferedQuality quality_of(const dds_qos_t* qos) {
+  auto reliability = DDS_RELIABILITY_BEST_EFFORT;
+  auto durability = DDS_DURABILITY_VOLATILE;
+  dds_duration_t blocking = 0;
+  dds_qget_reliability(qos, &reliability, &blocking);
+  dds_qget_durability(qos, &durability);
+  return {reliability == DDS_RELIABILITY_RELIABLE, durability != DDS_DURABILITY_VOLATILE};
+}
+
+}  // namespace
+
+Result<std::uint32_t> default_domain() {
+  const char* text = std::getenv("ROS_DOMAIN_ID");
+  if (text == nullptr || *text == '\0') return 0U;
+  std::uint32_t domain = 0;
+  const char* end = text + std::strlen(text);
+  const auto [stop, error] = std::from_chars(text, end, domain);
+  if (error != std::errc() || stop != end || domain > kMaxDomain) {
+    return failure(fmt::format("ROS_DOMAIN_ID is '{}': expected a number from 0 to {}", text,
+                               kMaxDomain));
+  }
+  return domain;
+}
+
+Result<Discovery> Discovery::create(std::int32_t participant) {
+  Discovery discovery;
+  dds_guid_t own = {};
+  dds_get_guid(participant, &own);
+  std::memcpy(discovery.own_.data(), own.v, discovery.own_.size());
+  discovery.reader_ =
+      dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+  if (discovery.reader_ < 0) return failure("DDS discovery is not available");
+  return discovery;
+}
+
+void Discovery::update() {
+  std::array<void*, kBatch> samples{};
+  std::array<dds_sample_info_t, kBatch> infos{};
+  int count = 0;
+  while ((count = dds_take(reader_, samples.data(), infos.data(), kBatch, kBatch)) > 0) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      if (!infos[i].valid_data || infos[i].instance_state != DDS_IST_ALIVE) {
+        offers_.erase(infos[i].instance_handle);
+        continue;
+      }
+      const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
+      if (std::memcmp(endpoint.participant_key.v, own_.data(), own_.size()) == 0) continue;
+      const auto topic = ros_topic(endpoint.topic_name);
+      const auto type = ros_type(endpoint.type_name);
+      if (!topic || !type) continue;
+      offers_[infos[i].instance_handle] = {*topic, *type, aims::quality_of(endpoint.qos)};
+    }
+    dds_return_loan(reader_, samples.data(), count);
+  }
+}
+
+std::map<std::string, std::string> Discovery::topics() const {
+  std::map<std::string, std::string> types;
+  for (const auto& [instance, offer] : offers_) types[offer.topic] = offer.type;
+  return types;
+}
+
+OfferedQuality Discovery::quality_of(const std::string& topic) const {
+  OfferedQuality all;
+  for (const auto& [instance, offer] : offers_) {
+    if (offer.topic != topic) continue;
+    all.reliable = all.reliable && offer.quality.reliable;
+    all.transient_local = all.transient_local && offer.quality.transient_local;
+  }
+  all.transient_local = all.transient_local && all.reliable;
+  return all;
+}
+
+}  // namespace aims

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace aims {
+
+/// $ROS_DOMAIN_ID, or 0. Error for one that is no number below 233.
+Result<std::uint32_t> default_domain();
+
+/// What publishers promise to their subscribers.
+struct OfferedQuality {
+  bool reliable = true;
+  bool transient_local = true;  ///< late subscribers receive past messages
+};
+
+/// The ROS topics that other nodes of a domain publish.
+class Discovery {
+ public:
+  /// Watches from the participant, an entity of DDS, whose own topics are left out.
+  static Result<Discovery> create(std::int32_t participant);
+
+  /// Takes over which publishers came and went.
+  void update();
+
+  /// Types by topic.
+  std::map<std::string, std::string> topics() const;
+
+  /// What all publishers of the topic offer.
+  OfferedQuality quality_of(const std::string& topic) const;
+
+ private:
+  struct Offer {
+    std::string topic;
+    std::string type;
+    OfferedQuality quality;
+  };
+
+  std::int32_t reader_ = 0;
+  std::array<std::uint8_t, 16> own_{};
+  std::map<std::uint64_t, Offer> offers_;  ///< by instance
+};
+
+}  // namespace aims

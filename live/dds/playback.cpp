@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/dds/playback.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "recordings/bag/message_sink.hpp"
+#include "recordings/messages/ros2_definition.hpp"
+#include "recordings/source/conversion.hpp"
+
+namespace aims {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPatience = std::chrono::milliseconds(50);  ///< between looks at the network
+constexpr double kDelay = 1.0;       ///< for subscribers to find the topics [s]
+constexpr double kLastWait = 5.0;    ///< for subscribers to take the last messages [s]
+
+/// Sends each message when it is due.
+class PacedSink final : public MessageSink {
+ public:
+  PacedSink(DdsTransport& transport, double rate) : transport_(transport), rate_(rate) {}
+
+  Serialization serialization() const override { return Serialization::kCdr; }
+
+  std::uint32_t add_connection(const std::string& topic, const MessageType& type,
+                               bool latching) override {
+    const auto [place, added] = publishers_.try_emplace({topic, type.name}, 0);
+    if (added) {
+      place->second = static_cast<std::uint32_t>(
+          transport_.advertise({topic, type.name, {}, {}, latching, true}));
+    }
+    return place->second;
+  }
+
+  Result<void> write(std::uint32_t publisher, Time record_time,
+                     std::span<const std::byte> data) override {
+    wait_until(record_time);
+    if (!transport_.running()) return {};
+    if (!transport_.publish_at(publisher, record_time, data.data(), data.size())) ++blocked_;
+    return {};
+  }
+
+  Result<void> close() override {
+    transport_.wait_for_subscribers(kLastWait);
+    return {};
+  }
+
+  /// Whether each topic has a subscriber.
+  bool heard() const {
+    return std::ranges::all_of(publishers_, [&](const auto& publisher) {
+      return transport_.subscribers(publisher.second) > 0;
+    });
+  }
+
+  std::uint64_t blocked() const { return blocked_; }
+
+ private:
+  void wait_until(Time record_time) {
+    if (!first_) {
+      first_ = record_time;
+      start_ = Clock::now();
+    }
+    const std::chrono::duration<double> due(to_seconds(record_time - *first_) / rate_);
+    const auto then = start_ + std::chrono::duration_cast<Clock::duration>(due);
+    while (transport_.running() && Clock::now() < then) {
+      std::this_thread::sleep_until(std::min(then, Clock::now() + kPatience));
+    }
+  }
+
+  DdsTransport& transport_;
+  double rate_;
+  std::map<std::pair<std::string, std::string>, std::uint32_t> publishers_;
+  std::optional<Time> first_;
+  Clock::time_point start_;
+  std::uint64_t blocked_ = 0;
+};
+
+bool wanted(const std::string& topic, const std::vector<std::string>& topics) {
+  return topics.empty() || std::ranges::find(topics, topic) != topics.end();
+}
+
+/// Announces every topic before the first message, so that subscribers find them in time; returns
+/// those that can be played.
+std::vector<std::string> announce(const MessageSource& recording, PacedSink& sink,
+                                  const PlaybackOptions& options, PlaybackOutcome& outcome) {
+  std::vector<std::string> playable;
+  for (const BagConnection& connection : recording.connections()) {
+    if (!wanted(connection.topic, options.topics)) continue;
+    Result<MessageType> type =
+        MessageType{connection.type, connection.md5, connection.definition, connection.format};
+    if (connection.format.serialization == Serialization::kRos1) type = ros2_type(*type);
+    if (connection.format.serialization == Serialization::kOther) {
+      type = failure("neither ROS 1 nor CDR");
+    }
+    if (!type) {
+      outcome.skipped.push_back(fmt::format("{}: {}", connection.topic, type.error().message));
+      continue;
+    }
+    sink.add_connection(connection.topic, *type, connection.latching);
+    playable.push_back(connection.topic);
+  }
+  return playable;
+}
+
+}  // namespace
+
+Result<PlaybackOutcome> play(MessageSource& recording, DdsTransport& transport,
+                             const PlaybackOptions& options) {
+  PlaybackOutcome outcome;
+  PacedSink sink(transport, options.rate);
+  const std::vector<std::string> topics = announce(recording, sink, options, outcome);
+  if (topics.empty()) return failure(recording.name() + ": no topic to play");
+  recording.select(topics);
+  const auto start = Clock::now();
+  const auto enough = [&] {
+    if (options.wait) return sink.heard();
+    return Clock::now() - start > std::chrono::duration<double>(kDelay);
+  };
+  while (transport.running() && !enough()) std::this_thread::sleep_for(kPatience);
+  const auto done =
+      convert_messages(recording, sink, [&](Time) { return transport.running(); });
+  if (!done) return tl::unexpected(done.error());
+  outcome.topics = done->topics;
+  outcome.messages = done->messages;
+  outcome.blocked = sink.blocked();
+  outcome.complete = done->complete && transport.running();
+  return outcome;
+}
+
+}  // namespace aims

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "live/message.hpp"
+
+namespace aims {
+
+/// Queue of messages for a busy node, in order of arrival. A message that has waited too long is
+/// dropped and counted: a large one (a cloud) early, since it costs the most time and the next one
+/// replaces it; a small one late, since an estimator depends on it. These limits bound the memory.
+class Inbox {
+ public:
+  static constexpr std::size_t kLargeSize = 16384;            ///< size of a large message [bytes]
+  static constexpr std::int64_t kMaxWaitLarge = 2000000000;   ///< [ns]
+  static constexpr std::int64_t kMaxWaitSmall = 20000000000;  ///< [ns]
+
+  void push(LiveMessage message);
+  std::optional<LiveMessage> pop();
+  bool empty() const { return messages_.empty(); }
+
+  /// The longest wait of a large message from now on [ns].
+  void limit_wait(std::int64_t longest) { max_wait_large_ = longest; }
+
+  /// Messages dropped so far.
+  std::size_t dropped() const { return dropped_; }
+
+ private:
+  std::deque<LiveMessage> messages_;
+  std::int64_t max_wait_large_ = kMaxWaitLarge;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace aims

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "core/config.hpp"
+
+namespace aims {
+namespace {
+
+constexpr const char* kRos1Description =
+    "Estimates a robot's motion live from ROS 1 topics and publishes it on ~odometry.";
+constexpr const char* kDdsDescription =
+    "Estimates a robot's motion live from ROS 2 topics and publishes it on /aims/odometry.\n"
+    "Needs no ROS: it speaks DDS.";
+
+constexpr const char* kRos1Footer =
+    "Private parameters have the same names (_estimator:=lio); _set/recording/topics/imu:=/imu is\n"
+    "--set recording.topics.imu=/imu. Exit codes: 0 ok, 2 bad usage, configuration or topics.";
+
+constexpr const char* kDdsFooter =
+    "CYCLONEDDS_URI chooses the interfaces. Exit codes: 0 ok, 2 bad usage, configuration or topics.";
+
+constexpr std::string_view kSettingPrefix = "set/";
+
+/// The options that may also be parameters.
+Fields fields_of_options(LiveOptions& options) {
+  Fields fields;
+  fields.text("estimator", options.estimator, {});
+  fields.text("robot", options.robot, {});
+  fields.text("config", options.config, {});
+  fields.text("out", options.out, {});
+  fields.text("record", options.record, {});
+  fields.text("odom_frame", options.odom_frame, {});
+  fields.text("body_frame", options.body_frame, {});
+  fields.flag("tf", options.tf, {});
+  fields.number("settle", options.settle, {.unit = "s", .range = in_range(0.1, 60.0)});
+  fields.number("patience", options.patience, {.unit = "s", .range = up_to(1e6)});
+  fields.number("max_wait", options.max_wait, {.unit = "s", .range = in_range(0.05, 20.0)});
+  return fields;
+}
+
+void add_options(CLI::App& app, LiveOptions& options) {
+  app.add_option("--estimator,--estimators", options.estimator, "Estimator to run (aims_d)");
+  app.add_option("--robot", options.robot,
+                 "Topics of a robot: simulated, go2, ouster, livox, or a YAML file like theirs");
+  app.add_option("--config", options.config, "YAML file with recording, estimator");
+  app.add_option("--set", options.overrides, "key=value, applied after the file; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--out", options.out, "Folder for trajectory and health, written as they come");
+  app.add_option("--record", options.record,
+                 "Recording to write of the messages read: .mcap under ROS 2, .bag under ROS 1");
+  app.add_option("--odom_frame", options.odom_frame, "Frame of the published poses (odom)");
+  app.add_option("--body_frame", options.body_frame, "Frame of the IMU (imu)");
+  app.add_flag("--tf", options.tf, "Also publish the pose on /tf");
+  app.add_option("--settle", options.settle,
+                 "Time [s] gathered before topics, units and extrinsics are decided (3)")
+      ->check(CLI::Range(0.1, 60.0));
+  app.add_option("--patience", options.patience,
+                 "Timeout [s] without the needed topics; 0: none (0)")
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_option("--max_wait", options.max_wait,
+                 "A cloud that has waited longer [s] for the estimator is dropped (0.25)")
+      ->check(CLI::Range(0.05, 20.0));
+}
+
+void add_dds_options(CLI::App& app, LiveOptions& options) {
+  app.add_option("--domain", options.domain, "DDS domain ($ROS_DOMAIN_ID, else 0)")
+      ->check(CLI::Range(0, 232));
+  app.add_option("--node", options.node, "Namespace of the published topics (aims)");
+  app.add_flag("--source_time", options.source_time,
+               "Arrivals are the publishers' times of sending: for aims_play at another pace");
+}
+
+}  // namespace
+
+Result<LiveCommand> parse_live_arguments(std::vector<std::string> arguments, LiveNetwork network) {
+  LiveCommand command;
+  const bool dds = network == LiveNetwork::kDds;
+  CLI::App app(dds ? kDdsDescription : kRos1Description, dds ? "aims_live" : "aims_node");
+  app.footer(dds ? kDdsFooter : kRos1Footer);
+  add_options(app, command.options);
+  if (dds) add_dds_options(app, command.options);
+  std::ranges::reverse(arguments);  // the order that CLI11 expects
+  try {
+    app.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    command.help = app.help();
+  } catch (const CLI::ParseError& error) {
+    return failure(fmt::format("{}; see --help", error.what()));
+  }
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() > 0) command.given.push_back(option->get_single_name());
+  }
+  return command;
+}
+
+Result<void> apply_parameters(const std::map<std::string, std::string>& parameters,
+                              LiveCommand& command) {
+  const Fields fields = fields_of_options(command.options);
+  std::vector<std::string> settings;
+  for (const auto& [name, value] : parameters) {
+    if (name.starts_with(kSettingPrefix)) {
+      std::string key = name.substr(kSettingPrefix.size());
+      std::ranges::replace(key, '/', '.');
+      settings.push_back(fmt::format("{}={}", key, value));
+      continue;
+    }
+    const bool given = std::ranges::find(command.given, name) != command.given.end();
+    if (given && fields.find(name) != nullptr) continue;
+    if (auto ok = assign(fields, name, value); !ok) {
+      return failure(fmt::format("parameter ~{}: {}", name, ok.error().message));
+    }
+  }
+  auto& overrides = command.options.overrides;
+  overrides.insert(overrides.begin(), settings.begin(), settings.end());
+  return {};
+}
+
+}  // namespace aims

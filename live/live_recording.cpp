@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/stopwatch.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kPoll = 0.2;          ///< between queries for new topics [s]
+constexpr double kReportPeriod = 5.0;  ///< [s]
+constexpr Duration kMaxGathered =
+    10 * kSecond;  ///< of the messages gathered, however long it takes
+
+/// Large types that estimators do not use.
+constexpr std::array<std::string_view, 6> kIgnoredTypes = {
+    "sensor_msgs/Image", "sensor_msgs/CompressedImage", "stereo_msgs/DisparityImage",
+    "rosgraph_msgs/Log", "rosgraph_msgs/Clock",         "visualization_msgs/MarkerArray"};
+
+/// Collects the messages of all topics of the last `kMaxGathered`, and all latched messages.
+class Gathering {
+ public:
+  explicit Gathering(Transport& transport)
+      : transport_(transport), own_(transport.resolved("~")) {}
+
+  /// Collects messages for `kPoll`.
+  void collect() {
+    for (const auto& [topic, type] : transport_.topics()) {
+      if (std::ranges::find(kIgnoredTypes, type) != kIgnoredTypes.end()) continue;
+      if (!topic.starts_with(own_) && subscribed_.insert(topic).second) {
+        transport_.subscribe(topic, type);
+      }
+    }
+    const Stopwatch timer;
+    while (timer.seconds() < kPoll) {
+      // Time 0: a simulated clock that has not started.
+      if (auto message = transport_.wait(kPoll); message && message->arrival > 0) {
+        messages_->push_back(std::move(*message));
+      }
+      if (!transport_.running()) return;
+    }
+    trim();
+  }
+
+  Duration span() const {
+    return messages_->empty() ? 0 : messages_->back().arrival - messages_->front().arrival;
+  }
+
+  const std::shared_ptr<LiveMessages>& messages() const { return messages_; }
+  const std::set<std::string>& subscribed() const { return subscribed_; }
+
+ private:
+  void trim() {
+    if (span() <= kMaxGathered) return;
+    const Time oldest = messages_->back().arrival - kMaxGathered;
+    std::erase_if(*messages_, [&](const LiveMessage& message) {
+      return message.arrival < oldest && !message.connection->latching;
+    });
+  }
+
+  Transport& transport_;
+  std::string own_;
+  std::shared_ptr<LiveMessages> messages_ = std::make_shared<LiveMessages>();
+  std::set<std::string> subscribed_;
+};
+
+/// Waits for messages; from the first time that none is waiting on, clouds may wait no longer than
+/// `max_wait`: before, the estimator catches up with what was gathered.
+LiveSource::Wait waiting_for(Transport& transport, Duration max_wait) {
+  return [&transport, max_wait, late = true]() mutable -> std::optional<LiveMessage> {
+    while (transport.running()) {
+      auto message = transport.wait(late ? 0.0 : kPoll);
+      if (message) return message;
+      if (std::exchange(late, false)) transport.limit_wait(max_wait);
+    }
+    return std::nullopt;
+  };
+}
+
+Result<RecordingReader> try_open(Transport& transport, const Gathering& gathering,
+                                 const RecordingConfig& config, const LiveRecordingOptions& options,
+                                 const SetupCheck& check_setup) {
+  auto wait = waiting_for(transport, options.max_wait);
+  auto source = std::make_unique<LiveSource>(gathering.messages(), wait);
+  LiveSource& live = *source;
+  auto reader = RecordingReader::open(std::move(source), config);
+  if (!reader) return reader;
+  if (auto ok = check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
+  for (const std::string& topic : gathering.subscribed()) {
+    if (!live.selects(topic)) transport.unsubscribe(topic);
+  }
+  live.go_live(options.observer);
+  return reader;
+}
+
+}  // namespace
+
+Result<RecordingReader> open_live_recording(
+    Transport& transport, const RecordingConfig& config, const LiveRecordingOptions& options,
+    const SetupCheck& check_setup, const std::function<void(const std::string&)>& waiting) {
+  Gathering gathering(transport);
+  const Stopwatch since_start;
+  Stopwatch since_report;
+  std::string missing = "no messages yet";
+  while (transport.running()) {
+    gathering.collect();
+    if (gathering.span() >= options.settle) {
+      auto reader = try_open(transport, gathering, config, options, check_setup);
+      if (reader) return reader;
+      missing = reader.error().message;
+    } else if (gathering.span() > 0) {
+      missing = fmt::format("{:.1f} s of messages so far", to_seconds(gathering.span()));
+    }
+    if (options.patience > 0.0 && since_start.seconds() > options.patience) {
+      return failure(fmt::format("timeout after {:g} s: {}", options.patience, missing));
+    }
+    if (since_report.seconds() < kReportPeriod) continue;
+    waiting(missing);
+    since_report = Stopwatch();
+  }
+  return failure(fmt::format("stopped before the estimate started: {}", missing));
+}
+
+}  // namespace aims

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/time.hpp"
+#include "recordings/stream/recording_reader.hpp"
+#include "live/live_source.hpp"
+#include "live/transport.hpp"
+
+namespace aims {
+
+struct LiveRecordingOptions {
+  Duration settle = 3 * kSecond;  ///< gathered before topics, units and extrinsics are decided
+  double patience = 0.0;          ///< timeout without the needed topics [s]; 0: none
+  Duration max_wait = kSecond / 4;  ///< of a cloud, once the estimator has caught up
+  LiveSource::Observer observer;    ///< sees the messages that are read; none: nobody
+};
+
+/// Error unless the setup suffices, naming what is missing.
+using SetupCheck = std::function<Result<void>(const RecordingSetup& setup)>;
+
+/// Gathers all topics of the network until topics, units and extrinsics can be decided as for a bag
+/// and `check_setup` passes; then only those that are used. Meanwhile `waiting` is called every few
+/// seconds with what is missing. Error when the node is asked to end, or after the timeout.
+Result<RecordingReader> open_live_recording(Transport& transport, const RecordingConfig& config,
+                                            const LiveRecordingOptions& options,
+                                            const SetupCheck& check_setup,
+                                            const std::function<void(const std::string&)>& waiting);
+
+}  // namespace aims

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_source.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "recordings/messages/message_types.hpp"
+
+namespace aims {
+
+LiveSource::LiveSource(std::shared_ptr<LiveMessages> gathered, Wait wait)
+    : gathered_(std::move(gathered)), wait_(std::move(wait)) {
+  for (const LiveMessage& message : *gathered_) announce(*message.connection);
+  summary_.messages = gathered_->size();
+  if (gathered_->empty()) return;
+  summary_.start = gathered_->front().arrival;
+  summary_.end = gathered_->back().arrival;
+  last_ = summary_.start;
+}
+
+void LiveSource::select(std::span<const std::string> topics) {
+  selected_.emplace(topics.begin(), topics.end());
+}
+
+const BagConnection* LiveSource::find(const LiveConnection& connection) const {
+  const auto found = std::ranges::find_if(connections_, [&](const BagConnection& known) {
+    return known.topic == connection.topic && known.type == connection.type &&
+           known.md5 == connection.md5;
+  });
+  return found == connections_.end() ? nullptr : &*found;
+}
+
+void LiveSource::announce(const LiveConnection& connection) {
+  if (find(connection) == nullptr) {
+    BagConnection added{.id = static_cast<std::uint32_t>(connections_.size()),
+                        .topic = connection.topic,
+                        .type = connection.type,
+                        .md5 = connection.md5,
+                        .definition = connection.definition,
+                        .latching = connection.latching,
+                        .format = connection.cdr ? kRos2Format : kRos1Format};
+    if (connection.cdr) complete_definition(added.type, added.definition, added.format);
+    connections_.push_back(std::move(added));
+  }
+  for (BagConnection& known : connections_) known.messages += &known == find(connection) ? 1 : 0;
+}
+
+/// The message as read from a bag; nothing for one that is not selected.
+std::optional<BagMessage> LiveSource::given(const LiveMessage& message) {
+  const BagConnection* connection = find(*message.connection);
+  if (connection == nullptr) return std::nullopt;
+  if (!selects(connection->topic)) return std::nullopt;
+  return as_recorded(message, *connection);
+}
+
+BagMessage LiveSource::as_recorded(const LiveMessage& message, const BagConnection& connection) {
+  // A clock that was set back must not reverse the order of arrival.
+  last_ = std::max(last_, message.arrival);
+  return {.connection = &connection, .record_time = last_, .data = message.data};
+}
+
+void LiveSource::go_live(Observer observer) {
+  live_ = true;
+  observer_ = std::move(observer);
+  if (!observer_) return;
+  const Time now = std::exchange(last_, summary_.start);
+  for (const LiveMessage& message : *gathered_) {
+    observer_(as_recorded(message, *find(*message.connection)));
+  }
+  last_ = now;
+}
+
+/// The message after the last one; nullptr at the end.
+const LiveMessage* LiveSource::following() {
+  if (position_ < gathered_->size()) {
+    return &(*gathered_)[position_++];
+  }
+  if (!live_) return nullptr;
+  gathered_->clear();
+  position_ = 0;
+  auto message = wait_();
+  if (!message) return nullptr;
+  current_ = std::move(*message);
+  return &current_;
+}
+
+Result<std::optional<BagMessage>> LiveSource::next() {
+  while (const LiveMessage* message = following()) {
+    auto wanted = given(*message);
+    if (!wanted) continue;
+    if (observer_ && message == &current_) observer_(*wanted);
+    return wanted;
+  }
+  return std::nullopt;
+}
+
+void LiveSource::rewind() {
+  if (live_) return;
+  position_ = 0;
+  last_ = summary_.start;
+}
+
+}  // namespace aims

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace aims {
+
+/// One topic of one publisher.
+struct LiveConnection {
+  std::string topic;       ///< resolved, e.g. "/imu/data"
+  std::string type;        ///< e.g. "sensor_msgs/Imu", in ROS 2 too
+  std::string md5;         ///< of the definition; ROS 1 alone
+  std::string definition;  ///< of the message type and of all that it uses; ROS 1 alone
+  bool latching = false;   ///< late subscribers receive the last message
+  bool cdr = false;        ///< messages as ROS 2 serializes them; else as ROS 1 does
+};
+
+/// A message from the network.
+struct LiveMessage {
+  std::shared_ptr<const LiveConnection> connection;
+  std::int64_t arrival = 0;     ///< [ns] since the epoch
+  std::vector<std::byte> data;  ///< ROS 1: little endian; ROS 2: CDR behind its header
+};
+
+}  // namespace aims

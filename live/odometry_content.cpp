@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/odometry_content.hpp"
+
+namespace aims {
+namespace {
+
+// The errors of `MotionEstimate::covariance`, and those of the message.
+constexpr int kRotation = 0;
+constexpr int kPosition = 3;
+constexpr int kVelocity = 6;
+constexpr int kLinear = 0;   ///< position, linear velocity
+constexpr int kAngular = 3; ///< rotation, angular velocity
+
+}  // namespace
+
+OdometryContent odometry_between(const StampedPose& from, const StampedPose& to) {
+  OdometryContent content;
+  content.pose = to.pose;
+  const double seconds = to_seconds(to.stamp - from.stamp);
+  if (seconds <= 0.0) return content;
+  const Pose moved = from.pose.inverse() * to.pose;
+  content.angular_velocity = so3_log(moved.rotation) / seconds;
+  content.linear_velocity = moved.rotation.inverse() * moved.translation / seconds;
+  return content;
+}
+
+OdometryContent odometry_of(const MotionEstimate& motion) {
+  const Eigen::Matrix3d R_odom_body = motion.T_odom_body.R();
+  OdometryContent content;
+  content.pose = motion.T_odom_body;
+  content.linear_velocity = R_odom_body.transpose() * motion.velocity;
+  content.angular_velocity = motion.angular_velocity;
+
+  // R_hat Exp(d) = Exp(R_hat d) R_hat.
+  Eigen::Matrix<double, 6, 9> of_pose = Eigen::Matrix<double, 6, 9>::Zero();
+  of_pose.block<3, 3>(kLinear, kPosition).setIdentity();
+  of_pose.block<3, 3>(kAngular, kRotation) = R_odom_body;
+  content.pose_covariance = of_pose * motion.covariance * of_pose.transpose();
+
+  // Exp(-d) R_hat^T (v + dv) = R_hat^T v + R_hat^T dv + (R_hat^T v) x d.
+  Eigen::Matrix<double, 3, 9> of_velocity = Eigen::Matrix<double, 3, 9>::Zero();
+  of_velocity.block<3, 3>(0, kVelocity) = R_odom_body.transpose();
+  of_velocity.block<3, 3>(0, kRotation) = hat(content.linear_velocity);
+  content.twist_covariance.block<3, 3>(kLinear, kLinear) =
+      of_velocity * motion.covariance * of_velocity.transpose();
+  content.twist_covariance.block<3, 3>(kAngular, kAngular) = motion.rate_covariance;
+  return content;
+}
+
+}  // namespace aims

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/trajectory.hpp"
+#include "estimator/motion.hpp"
+#include "recordings/messages/message_encoding.hpp"
+
+namespace aims {
+
+/// The pose `to` with the mean twist since `from`, in the axes of `to`; covariances unknown.
+OdometryContent odometry_between(const StampedPose& from, const StampedPose& to);
+
+/// The motion in the frames that nav_msgs/Odometry defines: the covariance of the pose about the
+/// fixed axes of the odometry frame, twist and its covariance in the axes of the body.
+OdometryContent odometry_of(const MotionEstimate& motion);
+
+}  // namespace aims

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/publications.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "live/odometry_content.hpp"
+
+namespace aims {
+
+Publications::Publications(Transport& transport, OdometryFrames frames, std::string name)
+    : transport_(transport),
+      serialization_(transport.cdr() ? Serialization::kCdr : Serialization::kRos1),
+      frames_(std::move(frames)),
+      name_(std::move(name)),
+      odometry_(advertise("~odometry", odometry_type())),
+      fast_(advertise("~odometry_fast", odometry_type())),
+      cloud_(advertise("~cloud", point_cloud_type())),
+      map_(advertise("~map", point_cloud_type())),
+      diagnostics_(advertise("/diagnostics", diagnostics_type())) {
+  if (frames_.tf) tf_ = advertise("/tf", transforms_type());
+}
+
+std::size_t Publications::advertise(const char* topic, const MessageType& type) {
+  return transport_.advertise({.topic = topic,
+                               .type = type.name,
+                               .md5 = type.md5,
+                               .definition = type.definition,
+                               .latching = false,
+                               .cdr = transport_.cdr()});
+}
+
+MessageHeader Publications::header(Time stamp) {
+  return {.sequence = published_++, .stamp = stamp, .frame = frames_.odom};
+}
+
+void Publications::send(std::size_t publisher, const MessageBytes& message) {
+  transport_.publish(publisher, message.view().data(), message.view().size());
+}
+
+void Publications::pose(const StampedPose& pose, const std::optional<MotionEstimate>& motion) {
+  OdometryContent content =
+      motion ? odometry_of(*motion) : odometry_between(last_.value_or(pose), pose);
+  content.pose = pose.pose;
+  last_ = pose;
+  send(odometry_, odometry_message(header(pose.stamp), frames_.body, content, serialization_));
+  if (!frames_.tf) return;
+  const FrameTransform transform{frames_.odom, frames_.body, pose.pose};
+  send(tf_, transforms_message(pose.stamp, {transform}, serialization_));
+}
+
+void Publications::fast(const MotionEstimate& motion) {
+  send(fast_, odometry_message(header(motion.stamp), frames_.body, odometry_of(motion),
+                               serialization_));
+}
+
+void Publications::cloud(Time stamp, std::span<const Eigen::Vector3f> points) {
+  send(cloud_, points_message(header(stamp), points, serialization_));
+}
+
+void Publications::map(Time stamp, std::span<const Eigen::Vector3f> points) {
+  send(map_, points_message(header(stamp), points, serialization_));
+}
+
+void Publications::health(const HealthRow& row, std::size_t dropped) {
+  constexpr std::uint8_t kLevels[] = {1, 0, 1, 2};  // starting, healthy, degraded, invalid
+  DiagnosticContent content;
+  content.level = kLevels[static_cast<int>(row.state)];
+  content.name = name_ + ": localization";
+  content.message = name_of(row.state);
+  if (!row.reasons.empty()) {
+    content.message += fmt::format(": {}", fmt::join(row.reasons, "; "));
+  }
+  content.values = {{"position sigma [m]", fmt::format("{:.3f}", row.position_sigma)},
+                    {"messages dropped", fmt::format("{}", dropped)}};
+  send(diagnostics_, diagnostics_message(header(row.stamp), content, serialization_));
+}
+
+}  // namespace aims

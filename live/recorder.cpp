@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "recordings/source/recording_file.hpp"
+
+namespace aims {
+
+Result<Recorder> Recorder::create(const std::filesystem::path& file, bool cdr) {
+  Recorder recorder;
+  if (file.empty()) return recorder;
+  const RecordingFormat wanted = cdr ? RecordingFormat::kMcap : RecordingFormat::kBag;
+  if (format_by_name(file) != wanted) {
+    return failure(fmt::format("{}: expected a name that ends in {}", file.string(),
+                               cdr ? ".mcap" : ".bag"));
+  }
+  auto sink = create_recording(file, wanted);
+  if (!sink) return tl::unexpected(sink.error());
+  recorder.sink_ = std::move(*sink);
+  return recorder;
+}
+
+void Recorder::add(const BagMessage& message) {
+  if (!sink_ || !state_) return;
+  const BagConnection& connection = *message.connection;
+  const auto [place, added] = ids_.try_emplace(&connection, 0);
+  if (added) {
+    place->second = sink_->add_connection(
+        connection.topic,
+        {connection.type, connection.md5, connection.definition, connection.format},
+        connection.latching);
+  }
+  state_ = sink_->write(place->second, message.record_time, message.data);
+}
+
+Result<void> Recorder::close() {
+  if (!sink_) return {};
+  const auto closed = sink_->close();
+  return state_ ? closed : state_;
+}
+
+}  // namespace aims

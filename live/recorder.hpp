@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "core/error.hpp"
+#include "recordings/bag/message_sink.hpp"
+#include "recordings/bag/message_source.hpp"
+
+namespace aims {
+
+/// Writes the messages that a live estimate reads, with their arrivals as record times, so that
+/// `aims estimate` finds what the estimator got.
+class Recorder {
+ public:
+  /// `file`: .mcap for messages of ROS 2 (`cdr`), .bag for ROS 1; empty: nothing is written. Error
+  /// when it exists, cannot be written or is of the other kind.
+  static Result<Recorder> create(const std::filesystem::path& file, bool cdr);
+
+  /// Errors are kept for `close`: a full disk must not end the estimate.
+  void add(const BagMessage& message);
+
+  /// Completes the file. The first error, of `add` too.
+  Result<void> close();
+
+ private:
+  std::unique_ptr<MessageSink> sink_;
+  std::map<const BagConnection*, std::uint32_t> ids_;
+  Result<void> state_;
+};
+
+}  // namespace aims

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// usage: garbage DOMAIN TOPIC TYPE [TOPIC TYPE]...: a broken participant, which sends what no message
+// of that type is: random bytes of every length up to some hundred, then some that are longer than a
+// cloud may be.
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "live/dds/dds_transport.hpp"
+#include "live/dds/raw_type.hpp"
+
+int main(int argc, char** argv) {
+  using namespace aims;
+  if (argc < 4) return 2;
+  const auto transport = DdsTransport::connect(
+      {.domain = static_cast<std::uint32_t>(std::stoul(argv[1])), .max_blocking = 5.0});
+  if (!transport) return 2;
+  std::vector<std::size_t> topics;
+  for (int i = 2; i + 1 < argc; i += 2) {
+    topics.push_back((*transport)->advertise({argv[i], argv[i + 1], {}, {}, false, true}));
+  }
+  for (const std::size_t topic : topics) {
+    while ((*transport)->running() && !(*transport)->heard(topic)) (*transport)->wait(0.05);
+  }
+  std::mt19937 random(1);
+  std::vector<std::byte> bytes;
+  const auto send = [&](std::size_t size) {
+    bytes.resize(size);
+    for (std::byte& each : bytes) each = static_cast<std::byte>(random());
+    if (random() % 2 == 0) bytes[0] = std::byte{0}, bytes[1] = std::byte{1};  // as CDR begins
+    for (const std::size_t topic : topics) {
+      (*transport)->publish(topic, bytes.data(), bytes.size());
+    }
+  };
+  for (std::size_t size = 4; size < 400; ++size) send(size);
+  send(5'000'000);
+  send(kMaxSample + 4);
+  (*transport)->wait_for_subscribers(20.0);
+  std::puts("sent");
+}

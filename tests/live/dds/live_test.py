@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""usage: live_test.py AIMS AIMS_LIVE AIMS_PLAY GARBAGE FASTDDS_PEER WORK_FOLDER.
+
+CYCLONEDDS_URI keeps it on this machine. FASTDDS_PEER may be empty."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+AIMS, LIVE, PLAY, GARBAGE, PEER = None, None, None, None, None
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+SCENARIO = os.path.join(os.path.dirname(FOLDER), "walk.yaml")  # standing, then three metres
+TOPICS = ["--set", "recording.topics.lidar=/lidar/points"]
+LAST_WAIT_S = 60
+next_domain = 100 + os.getpid() % 100
+
+
+def own_domain():
+    """No two tests share a domain, and no test that of a robot."""
+    global next_domain
+    next_domain = 100 + (next_domain - 99) % 100
+    return str(next_domain)
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def run(*command):
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
+def estimate(recording, folder):
+    """The bytes of the trajectory of `aims estimate`."""
+    run(AIMS, "estimate", recording, "--out", folder, "--overwrite", "--quiet", "--no-pictures", "--no-page", *TOPICS)
+    return content(os.path.join(folder, "aims_d.tum"))
+
+
+class Live:
+    """aims_live on a recording that aims_play plays."""
+
+    def __init__(self, recording, name, live=(), play=(), play_domain=None):
+        for old in (name, name + ".mcap"):
+            shutil.rmtree(old, ignore_errors=True)
+            if os.path.exists(old):
+                os.remove(old)
+        self.name, self.domain = name, own_domain()
+        with open(name + ".log", "w", encoding="utf-8") as log:
+            self.live = subprocess.Popen([LIVE, "--domain", self.domain, "--out", name, "--record", name + ".mcap",
+                                          "--settle", "2", *TOPICS, *live], stdout=log, stderr=log)
+            self.play = subprocess.Popen([PLAY, recording, "--domain", play_domain or self.domain, "--wait", *play],
+                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def finish(self):
+        """Waits for the player, then for the last pose; ends the estimate. Its exit code."""
+        try:
+            self.said = self.play.communicate(timeout=120)[0]
+            size, end = -1, time.monotonic() + LAST_WAIT_S
+            while self.live.poll() is None and size < self.written() and time.monotonic() < end:
+                size = self.written()
+                time.sleep(1.0)
+            self.live.send_signal(signal.SIGTERM)
+            return self.live.wait(30)
+        finally:
+            for process in (self.play, self.live):
+                if process.poll() is None:
+                    process.kill()
+
+    def written(self):
+        file = os.path.join(self.name, "aims_d.tum")
+        return os.path.getsize(file) if os.path.exists(file) else 0
+
+    def poses(self):
+        return content(os.path.join(self.name, "aims_d.tum"))
+
+    def log(self):
+        return content(self.name + ".log").decode()
+
+
+class LiveEstimate(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        for recording in ("walk.mcap", "walk.bag"):
+            run(AIMS, "simulate", SCENARIO, "-o", recording, "--quiet", "--overwrite")
+        cls.offline = estimate("walk.mcap", "offline")
+
+    def assert_same(self, live):
+        code = live.finish()
+        log = live.log() + live.said
+        self.assertEqual((code, live.play.returncode), (0, 0), log)
+        self.assertNotIn("dropped", log)
+        self.assertNotIn("warning", log)
+        recorded = estimate(live.name + ".mcap", live.name + "-again")
+        poses = live.poses().count(b"\n")
+        print(f"{live.name}: {poses} poses; of the recording played {len(self.offline.splitlines())}")
+        self.assertGreater(poses, 100)
+        self.assertEqual(live.poses(), recorded, "the record of what was read gives the same bytes")
+        return live
+
+    def test_live_poses_are_those_of_the_recording_byte_for_byte(self):
+        live = self.assert_same(Live("walk.mcap", "source", ["--source_time"], ["--rate", "2"]))
+        self.assertEqual(live.poses(), self.offline)
+
+    def test_by_time_of_arrival_the_record_gives_the_same_bytes(self):
+        self.assert_same(Live("walk.bag", "arrival"))
+
+    def test_overloaded_it_drops_the_oldest_clouds_and_counts_them(self):
+        live = Live("walk.mcap", "overload", ["--source_time"], ["--rate", "100"])
+        self.assertEqual(live.finish(), 0, live.log())
+        dropped = re.search(r"note: (\d+) messages dropped, since the node was too slow", live.log())
+        self.assertIsNotNone(dropped, live.log())
+        print(f"overload: {dropped[1]} messages dropped")
+        self.assertEqual(live.poses(), estimate("overload.mcap", "overload-again"), "without the dropped ones")
+
+    def test_a_broken_participant_is_counted_and_harms_nothing_else(self):
+        live = Live("walk.mcap", "garbage", ["--source_time"])
+        garbage = subprocess.run([GARBAGE, live.domain, "/imu/data", "sensor_msgs/Imu", "/lidar/points",
+                                  "sensor_msgs/PointCloud2"], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual((garbage.returncode, garbage.stdout), (0, "sent\n"))
+        self.assertEqual(live.finish(), 0, live.log())
+        self.assertRegex(live.log(), "note: imu_malformed: [1-9]")
+        self.assertRegex(live.log(), "note: lidar_malformed: [1-9]")
+        self.assertGreater(len(live.poses().splitlines()), 100, live.log())
+
+
+# Topic, type under DDS, durability of what the simulation records.
+RELAYED = [("imu/data", "sensor_msgs::msg::dds_::Imu_", "volatile"),
+           ("lidar/points", "sensor_msgs::msg::dds_::PointCloud2_", "volatile"),
+           ("joint_states", "sensor_msgs::msg::dds_::JointState_", "volatile"),
+           ("foot_contacts", "aims_msgs::msg::dds_::FootContacts_", "volatile"),
+           ("leg_odometry", "nav_msgs::msg::dds_::Odometry_", "volatile"),
+           ("tf_static", "tf2_msgs::msg::dds_::TFMessage_", "transient"),
+           ("aims/scenario", "std_msgs::msg::dds_::String_", "transient")]
+
+
+class FastDds(unittest.TestCase):
+    """Between two domains, through another implementation: both directions, clouds in fragments."""
+
+    def setUp(self):
+        if not PEER:
+            self.skipTest("libfastrtps-dev is not installed")
+        self.processes = []
+
+    def tearDown(self):
+        for process in self.processes:
+            if process.poll() is None:
+                process.kill()
+            process.communicate()
+
+    def peer(self, *arguments):
+        self.processes.append(subprocess.Popen([PEER, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                               stderr=subprocess.DEVNULL, text=True))
+        return self.processes[-1]
+
+    def test_clouds_and_all_else_pass_through_it_and_it_reads_the_odometry(self):
+        run(AIMS, "simulate", SCENARIO, "-o", "walk.mcap", "--quiet", "--overwrite")
+        played = own_domain()
+        topics = ["/" + topic for topic, _, _ in RELAYED]
+        live = Live("walk.mcap", "fastdds", ["--source_time"], ["--topics", ",".join(topics)], played)
+        self.peer("relay", played, live.domain, *[f"{word}" if i else f"rt/{word}"
+                                                  for each in RELAYED for i, word in enumerate(each)])
+        reader = self.peer("odometry", live.domain, "rt/aims/odometry")
+        self.assertEqual(live.finish(), 0, live.log())
+        self.assertNotIn("dropped", live.log())
+        self.assertEqual(live.poses(), estimate("walk.mcap", "fastdds-offline"))
+        lines = reader.communicate("", timeout=20)[0].splitlines()
+        written = {round(float(row.split()[0]) * 1e9): row.split()[1:] for row in live.poses().decode().splitlines()}
+        self.assertGreater(len(lines), 0.8 * len(written))
+        for line in lines:
+            stamp, frame, child, *numbers = line.split()
+            seconds, nanoseconds = stamp.split(".")
+            pose = written[int(seconds) * 10**9 + int(nanoseconds)]
+            self.assertEqual((frame, child), ("odom", "imu"))
+            self.assertEqual([float(each) for each in numbers[:7]], [float(each) for each in pose])
+            self.assertTrue(all(float(numbers[i]) > 0.0 for i in (7, 8, 10)), line)
+        speeds = [float(line.split()[12]) for line in lines]
+        self.assertGreater(max(speeds), 0.2, "m/s: it walks")
+        self.assertLess(max(speeds), 2.0)
+
+
+if __name__ == "__main__":
+    AIMS, LIVE, PLAY, GARBAGE, PEER, work = sys.argv[1:7]
+    os.makedirs(work, exist_ok=True)
+    os.chdir(work)
+    unittest.main(argv=[sys.argv[0], *sys.argv[7:]], warnings="ignore")
