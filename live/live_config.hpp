@@ -7,8 +7,8 @@
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator_config.hpp"
-#include "recordings/recording_config.hpp"
 #include "live/live_options.hpp"
+#include "recordings/recording_config.hpp"
 
 namespace aims {
 
@@ -27,7 +27,8 @@ void describe(Fields& fields, LiveConfig& config);
 Result<std::filesystem::path> find_robot(const std::string& robot,
                                          const std::filesystem::path& program);
 
-/// Reads the robot's file, then the options' file and applies their settings on top. Error for an unknown estimator too.
+/// Reads the robot's file, then the options' file and applies their settings on top. Error for an
+/// unknown estimator too.
 Result<LiveConfig> load_live_config(const LiveOptions& options);
 
 }  // namespace aims

@@ -22,7 +22,8 @@ constexpr const char* kRos1Footer =
     "--set recording.topics.imu=/imu. Exit codes: 0 ok, 2 bad usage, configuration or topics.";
 
 constexpr const char* kDdsFooter =
-    "CYCLONEDDS_URI chooses the interfaces. Exit codes: 0 ok, 2 bad usage, configuration or topics.";
+    "CYCLONEDDS_URI chooses the interfaces. Exit codes: 0 ok, 2 bad usage, configuration or "
+    "topics.";
 
 constexpr std::string_view kSettingPrefix = "set/";
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -26,19 +27,27 @@ constexpr std::array<std::string_view, 6> kIgnoredTypes = {
     "sensor_msgs/Image", "sensor_msgs/CompressedImage", "stereo_msgs/DisparityImage",
     "rosgraph_msgs/Log", "rosgraph_msgs/Clock",         "visualization_msgs/MarkerArray"};
 
+/// Whether a live estimate publishes that topic: another one, which runs beside this one.
+bool is_estimated(const std::string& topic, const std::map<std::string, std::string>& topics) {
+  constexpr std::array<std::string_view, 4> kPublished = {"odometry", "odometry_fast", "cloud",
+                                                          "map"};
+  const std::size_t name = topic.rfind('/') + 1;
+  return std::ranges::find(kPublished, topic.substr(name)) != kPublished.end() &&
+         topics.contains(topic.substr(0, name) + "odometry_fast");
+}
+
 /// Collects the messages of all topics of the last `kMaxGathered`, and all latched messages.
 class Gathering {
  public:
-  explicit Gathering(Transport& transport)
-      : transport_(transport), own_(transport.resolved("~")) {}
+  explicit Gathering(Transport& transport) : transport_(transport) {}
 
   /// Collects messages for `kPoll`.
   void collect() {
-    for (const auto& [topic, type] : transport_.topics()) {
+    const auto topics = transport_.topics();
+    for (const auto& [topic, type] : topics) {
       if (std::ranges::find(kIgnoredTypes, type) != kIgnoredTypes.end()) continue;
-      if (!topic.starts_with(own_) && subscribed_.insert(topic).second) {
-        transport_.subscribe(topic, type);
-      }
+      if (is_estimated(topic, topics)) continue;
+      if (subscribed_.insert(topic).second) transport_.subscribe(topic, type);
     }
     const Stopwatch timer;
     while (timer.seconds() < kPoll) {
@@ -68,7 +77,6 @@ class Gathering {
   }
 
   Transport& transport_;
-  std::string own_;
   std::shared_ptr<LiveMessages> messages_ = std::make_shared<LiveMessages>();
   std::set<std::string> subscribed_;
 };

@@ -6,15 +6,15 @@
 
 #include "core/error.hpp"
 #include "core/time.hpp"
-#include "recordings/stream/recording_reader.hpp"
 #include "live/live_source.hpp"
 #include "live/transport.hpp"
+#include "recordings/stream/recording_reader.hpp"
 
 namespace aims {
 
 struct LiveRecordingOptions {
-  Duration settle = 3 * kSecond;  ///< gathered before topics, units and extrinsics are decided
-  double patience = 0.0;          ///< timeout without the needed topics [s]; 0: none
+  Duration settle = 3 * kSecond;    ///< gathered before topics, units and extrinsics are decided
+  double patience = 0.0;            ///< timeout without the needed topics [s]; 0: none
   Duration max_wait = kSecond / 4;  ///< of a cloud, once the estimator has caught up
   LiveSource::Observer observer;    ///< sees the messages that are read; none: nobody
 };

@@ -78,9 +78,9 @@ class HealthPrinter {
 /// From the arrival of a scan to its odometry.
 class Latency {
  public:
-  void arrived(const Delivery& delivery) {
+  void arrived(const Delivery& delivery, Time arrival) {
     if (const auto* scan = std::get_if<LidarScanPtr>(&delivery.measurement)) {
-      waiting_.emplace_back((*scan)->end, delivery.arrival);
+      waiting_.emplace_back((*scan)->end, arrival);
     }
   }
 
@@ -149,7 +149,8 @@ class Session {
 
  private:
   Result<void> take(const Delivery& delivery) {
-    latency_.arrived(delivery);
+    // The deliveries of a batch arrived within 5 ms; their own arrivals are on the stamps' clock.
+    latency_.arrived(delivery, reader_.summary().start + reader_.position());
     estimator_.consume(delivery);
     const bool inertial = std::holds_alternative<ImuSample>(delivery.measurement);
     if (inertial && source_ != nullptr && publications_.fast_heard()) {
@@ -170,7 +171,9 @@ class Session {
     }
     if (!poses.empty()) publish_points(poses.back().stamp);
     health_.print(health);
-    for (const HealthRow& row : health) publications_.health(row, transport_.dropped());
+    for (const HealthRow& row : health) {
+      publications_.health(row, transport_.dropped(), transport_.lost());
+    }
     poses_ += poses.size();
     if (auto ok = log_.add(poses, health); !ok) return ok;
     rows_.taken();
@@ -200,14 +203,17 @@ class Session {
 };
 
 void print_summary(const RecordingReader& reader, const Estimator& estimator,
-                   const Session& session, std::size_t dropped) {
+                   const Session& session, const Transport& transport) {
   for (const auto& [event, count] : reader.counts())
     print_line(fmt::format("note: {}: {}", event, count));
   for (const auto& [event, count] : estimator.result().counts) {
     print_line(fmt::format("note: {}: {}", event, count));
   }
+  const std::size_t dropped = transport.dropped();
   if (dropped > 0)
     print_line(fmt::format("note: {} messages dropped, since the node was too slow", dropped));
+  const std::size_t lost = transport.lost();
+  if (lost > 0) print_line(fmt::format("note: {} messages lost by the network", lost));
   print_line(fmt::format("{} poses", session.poses()));
 }
 
@@ -261,7 +267,7 @@ Result<void> estimate_live(Transport& transport, const LiveOptions& options) {
   Session session(transport, *reader, **estimator, std::move(publications), std::move(*log));
   const auto done = session.run();
   const auto recorded = recorder->close();
-  print_summary(*reader, **estimator, session, transport.dropped());
+  print_summary(*reader, **estimator, session, transport);
   if (!options.source_time) print_latency(session.latency());
   return done ? recorded : done;
 }

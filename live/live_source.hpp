@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "recordings/bag/message_source.hpp"
 #include "live/message.hpp"
+#include "recordings/bag/message_source.hpp"
 
 namespace aims {
 
@@ -60,7 +60,7 @@ class LiveSource final : public MessageSource {
   bool live_ = false;
   Observer observer_;
   std::size_t position_ = 0;  ///< among the gathered messages
-  LiveMessage current_;        ///< the last message that was waited for
+  LiveMessage current_;       ///< the last message that was waited for
   Time last_ = 0;             ///< record time of the last message returned
 };
 

@@ -9,7 +9,7 @@ constexpr int kRotation = 0;
 constexpr int kPosition = 3;
 constexpr int kVelocity = 6;
 constexpr int kLinear = 0;   ///< position, linear velocity
-constexpr int kAngular = 3; ///< rotation, angular velocity
+constexpr int kAngular = 3;  ///< rotation, angular velocity
 
 }  // namespace
 

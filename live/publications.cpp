@@ -51,8 +51,8 @@ void Publications::pose(const StampedPose& pose, const std::optional<MotionEstim
 }
 
 void Publications::fast(const MotionEstimate& motion) {
-  send(fast_, odometry_message(header(motion.stamp), frames_.body, odometry_of(motion),
-                               serialization_));
+  send(fast_,
+       odometry_message(header(motion.stamp), frames_.body, odometry_of(motion), serialization_));
 }
 
 void Publications::cloud(Time stamp, std::span<const Eigen::Vector3f> points) {
@@ -63,7 +63,7 @@ void Publications::map(Time stamp, std::span<const Eigen::Vector3f> points) {
   send(map_, points_message(header(stamp), points, serialization_));
 }
 
-void Publications::health(const HealthRow& row, std::size_t dropped) {
+void Publications::health(const HealthRow& row, std::size_t dropped, std::size_t lost) {
   constexpr std::uint8_t kLevels[] = {1, 0, 1, 2};  // starting, healthy, degraded, invalid
   DiagnosticContent content;
   content.level = kLevels[static_cast<int>(row.state)];
@@ -73,7 +73,8 @@ void Publications::health(const HealthRow& row, std::size_t dropped) {
     content.message += fmt::format(": {}", fmt::join(row.reasons, "; "));
   }
   content.values = {{"position sigma [m]", fmt::format("{:.3f}", row.position_sigma)},
-                    {"messages dropped", fmt::format("{}", dropped)}};
+                    {"messages dropped", fmt::format("{}", dropped)},
+                    {"messages lost", fmt::format("{}", lost)}};
   send(diagnostics_, diagnostics_message(header(row.stamp), content, serialization_));
 }
 

@@ -24,9 +24,9 @@ struct OdometryFrames {
   bool tf = false;   ///< also publish transforms on /tf
 };
 
-/// The topics of a live estimate: ~odometry with each pose, ~odometry_fast between them, ~cloud (the
-/// registered points of a scan), ~map, /diagnostics, and /tf where it is asked for. What costs time
-/// is made only for those who listen.
+/// The topics of a live estimate: ~odometry with each pose, ~odometry_fast between them, ~cloud
+/// (the registered points of a scan), ~map, /diagnostics, and /tf where it is asked for. What costs
+/// time is made only for those who listen.
 class Publications {
  public:
   Publications(Transport& transport, OdometryFrames frames, std::string name);
@@ -44,8 +44,8 @@ class Publications {
   void cloud(Time stamp, std::span<const Eigen::Vector3f> points);
   void map(Time stamp, std::span<const Eigen::Vector3f> points);
 
-  /// The state; `dropped`: messages that the node was too slow for.
-  void health(const HealthRow& row, std::size_t dropped);
+  /// The state; messages `dropped` since the node was too slow, and `lost` by the network.
+  void health(const HealthRow& row, std::size_t dropped, std::size_t lost);
 
  private:
   std::size_t advertise(const char* topic, const MessageType& type);

@@ -14,8 +14,8 @@ Result<Recorder> Recorder::create(const std::filesystem::path& file, bool cdr) {
   if (file.empty()) return recorder;
   const RecordingFormat wanted = cdr ? RecordingFormat::kMcap : RecordingFormat::kBag;
   if (format_by_name(file) != wanted) {
-    return failure(fmt::format("{}: expected a name that ends in {}", file.string(),
-                               cdr ? ".mcap" : ".bag"));
+    return failure(
+        fmt::format("{}: expected a name that ends in {}", file.string(), cdr ? ".mcap" : ".bag"));
   }
   auto sink = create_recording(file, wanted);
   if (!sink) return tl::unexpected(sink.error());

@@ -24,7 +24,7 @@ class Transport {
   /// False once the node was asked to end: Ctrl-C, SIGTERM, or by the network.
   virtual bool running() const = 0;
 
-  /// Types of all published topics, by topic.
+  /// Types of the topics that other nodes publish, by topic.
   virtual std::map<std::string, std::string> topics() = 0;
 
   /// The resolved name of a topic; "~x" is in the node's namespace.
@@ -39,6 +39,9 @@ class Transport {
 
   /// Messages dropped so far, since the node was too slow.
   virtual std::size_t dropped() const = 0;
+
+  /// Messages that the network lost so far, as far as it knows.
+  virtual std::size_t lost() const { return 0; }
 
   /// The longest time for which a cloud may wait from now on [ns].
   virtual void limit_wait(std::int64_t longest) = 0;

@@ -22,17 +22,15 @@ std::optional<MotionEstimate> EskfEstimator::motion(Time until) const {
   }
   if (!segments.empty()) {
     // One step for the covariance: over a tenth of a second it hardly depends on the steps.
-    belief.covariance =
-        propagate({belief_.state, belief_.covariance}, last, to_seconds(motion.stamp - time_),
-                  config_.imu)
-            .covariance;
+    belief.covariance = propagate({belief_.state, belief_.covariance}, last,
+                                  to_seconds(motion.stamp - time_), config_.imu)
+                            .covariance;
   }
   motion.T_odom_body = belief.state.T_odom_body();
   motion.velocity = belief.state.velocity;
-  const Eigen::Vector3d rate = segments.empty()
-                                   ? imu.angular_velocity_at(motion.stamp).value_or(
-                                         belief.state.gyro_bias)
-                                   : last.angular_velocity;
+  const Eigen::Vector3d rate =
+      segments.empty() ? imu.angular_velocity_at(motion.stamp).value_or(belief.state.gyro_bias)
+                       : last.angular_velocity;
   motion.angular_velocity = rate - belief.state.gyro_bias;
   motion.covariance = belief.covariance.topLeftCorner<9, 9>();
   const double white = imu.noise().density().gyro;

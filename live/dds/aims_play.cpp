@@ -44,8 +44,9 @@ void add_options(CLI::App& app, PlayArguments& arguments) {
       ->delimiter(',');
   app.add_flag("--wait", arguments.playback.wait,
                "Start once each topic has a subscriber; else after a second");
-  app.footer("The time of sending is the record time. CYCLONEDDS_URI chooses the interfaces.\n"
-             "Exit codes: 0 ok, also when interrupted; 2 bad usage, recording or network.");
+  app.footer(
+      "The time of sending is the record time. CYCLONEDDS_URI chooses the interfaces.\n"
+      "Exit codes: 0 ok, also when interrupted; 2 bad usage, recording or network.");
 }
 
 int run(const PlayArguments& arguments) {
@@ -76,6 +77,7 @@ int main_of(int argc, char** argv) {
   if (!domain) return bad_input(domain.error().message);
   arguments.dds.domain = *domain;
   arguments.dds.node = "aims_play";
+  arguments.dds.keep_all = true;
   arguments.dds.max_blocking = kMaxBlocking;
   CLI::App app("Publishes a recording on DDS at its own pace, as ROS 2 nodes do.", "aims_play");
   add_options(app, arguments);

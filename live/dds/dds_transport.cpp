@@ -24,7 +24,7 @@
 namespace aims {
 namespace {
 
-constexpr int kHistory = 100;      ///< messages of a topic that wait in DDS
+constexpr int kHistory = 100;       ///< messages of a topic that wait in DDS
 constexpr std::size_t kBatch = 16;  ///< samples per call of DDS
 
 std::atomic<bool> end_requested{false};
@@ -87,6 +87,7 @@ struct DdsTransport::Impl {
   std::condition_variable arrived;
   Inbox inbox;
   std::vector<std::string> problems;
+  std::size_t lost = 0;
 
   void open(Subscription& subscription);
   static void close(Subscription& subscription);
@@ -94,6 +95,7 @@ struct DdsTransport::Impl {
   void tell(std::string problem);
   dds_entity_t make_topic(const std::string& topic, const std::string& type) const;
   static void receive(dds_entity_t reader, void* argument);
+  static void miss(dds_entity_t reader, dds_sample_lost_status_t status, void* argument);
   static void refuse(dds_entity_t reader, dds_requested_incompatible_qos_status_t status,
                      void* argument);
   void take(const Subscription& subscription, const ddsi_serdata& sample, std::int64_t sent);
@@ -136,6 +138,14 @@ void DdsTransport::Impl::receive(dds_entity_t reader, void* argument) {
   subscription.owner->arrived.notify_one();
 }
 
+/// Called by DDS when messages did not arrive.
+void DdsTransport::Impl::miss(dds_entity_t /*reader*/, dds_sample_lost_status_t status,
+                              void* argument) {
+  Impl& owner = *static_cast<Subscription*>(argument)->owner;
+  const std::lock_guard lock(owner.mutex);
+  owner.lost += status.total_count_change;
+}
+
 /// Called by DDS when a publisher's quality is below what a reader asks for.
 void DdsTransport::Impl::refuse(dds_entity_t /*reader*/,
                                 dds_requested_incompatible_qos_status_t status, void* argument) {
@@ -162,6 +172,7 @@ void DdsTransport::Impl::open(Subscription& subscription) {
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   const Listener listener(dds_create_listener(&subscription), dds_delete_listener);
   dds_lset_data_available(listener.get(), receive);
+  dds_lset_sample_lost(listener.get(), miss);
   dds_lset_requested_incompatible_qos(listener.get(), refuse);
   subscription.topic = make_topic(topic, subscription.connection->type);
   if (subscription.topic > 0) {
@@ -265,6 +276,11 @@ std::size_t DdsTransport::dropped() const {
   return impl_->inbox.dropped();
 }
 
+std::size_t DdsTransport::lost() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->lost;
+}
+
 void DdsTransport::limit_wait(std::int64_t longest) {
   const std::lock_guard lock(impl_->mutex);
   impl_->inbox.limit_wait(longest);
@@ -279,6 +295,7 @@ std::size_t DdsTransport::advertise(const LiveConnection& connection) {
   const std::string topic = resolved(connection.topic);
   const dds_entity_t made = impl_->make_topic(topic, connection.type);
   const Qos qos = quality({true, connection.latching}, impl_->options.max_blocking);
+  if (impl_->options.keep_all) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
   const dds_entity_t writer =
       made > 0 ? dds_create_writer(impl_->participant, made, qos.get(), nullptr) : made;
   if (writer < 0) impl_->tell(fmt::format("cannot publish {}: {}", topic, dds_strretcode(writer)));

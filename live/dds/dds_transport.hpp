@@ -17,6 +17,7 @@ struct DdsOptions {
   /// Arrivals are the times at which publishers sent, by their clocks: those of the record for
   /// `aims_play`. Else this machine's time of reception.
   bool source_time = false;
+  bool keep_all = false;       ///< publishing waits rather than that a subscriber misses anything
   double max_blocking = 0.02;  ///< how long publishing waits for slow subscribers [s]
 };
 
@@ -38,6 +39,7 @@ class DdsTransport final : public Transport {
   std::optional<LiveMessage> wait(double seconds) override;
   std::size_t dropped() const override;
   void limit_wait(std::int64_t longest) override;
+  std::size_t lost() const override;
   std::vector<std::string> take_problems() override;
   std::size_t advertise(const LiveConnection& connection) override;
   bool heard(std::size_t publisher) const override { return subscribers(publisher) > 0; }

@@ -34,8 +34,8 @@ Result<std::uint32_t> default_domain() {
   const char* end = text + std::strlen(text);
   const auto [stop, error] = std::from_chars(text, end, domain);
   if (error != std::errc() || stop != end || domain > kMaxDomain) {
-    return failure(fmt::format("ROS_DOMAIN_ID is '{}': expected a number from 0 to {}", text,
-                               kMaxDomain));
+    return failure(
+        fmt::format("ROS_DOMAIN_ID is '{}': expected a number from 0 to {}", text, kMaxDomain));
   }
   return domain;
 }

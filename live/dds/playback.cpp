@@ -20,8 +20,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = std::chrono::milliseconds(50);  ///< between looks at the network
-constexpr double kDelay = 1.0;       ///< for subscribers to find the topics [s]
-constexpr double kLastWait = 5.0;    ///< for subscribers to take the last messages [s]
+constexpr double kDelay = 1.0;     ///< for subscribers to find the topics [s]
+constexpr double kLastWait = 5.0;  ///< for subscribers to take the last messages [s]
 
 /// Sends each message when it is due.
 class PacedSink final : public MessageSink {
@@ -125,8 +125,7 @@ Result<PlaybackOutcome> play(MessageSource& recording, DdsTransport& transport,
     return Clock::now() - start > std::chrono::duration<double>(kDelay);
   };
   while (transport.running() && !enough()) std::this_thread::sleep_for(kPatience);
-  const auto done =
-      convert_messages(recording, sink, [&](Time) { return transport.running(); });
+  const auto done = convert_messages(recording, sink, [&](Time) { return transport.running(); });
   if (!done) return tl::unexpected(done.error());
   outcome.topics = done->topics;
   outcome.messages = done->messages;

@@ -14,13 +14,13 @@ namespace aims {
 struct PlaybackOptions {
   double rate = 1.0;                ///< of the recording's pace
   std::vector<std::string> topics;  ///< empty: all
-  bool wait = false;   ///< starts once each topic has a subscriber; else after a second
+  bool wait = false;  ///< starts once each topic has a subscriber; else after a second
 };
 
 struct PlaybackOutcome {
   std::uint64_t topics = 0;
   std::uint64_t messages = 0;
-  std::uint64_t blocked = 0;  ///< not sent, since subscribers were too slow
+  std::uint64_t blocked = 0;         ///< not sent, since subscribers were too slow
   std::vector<std::string> skipped;  ///< topics that ROS 2 cannot hold, with the reason
   bool complete = false;             ///< false when it was interrupted
 };

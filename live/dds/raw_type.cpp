@@ -64,8 +64,7 @@ ddsi_serdata* from_fragments(const ddsi_sertype* type, ddsi_serdata_kind kind,
 }
 
 ddsi_serdata* from_pieces(const ddsi_sertype* type, ddsi_serdata_kind kind,
-                          ddsrt_msg_iovlen_t count, const ddsrt_iovec_t* pieces,
-                          std::size_t size) {
+                          ddsrt_msg_iovlen_t count, const ddsrt_iovec_t* pieces, std::size_t size) {
   if (size < kHeader || size > kMaxSample) return nullptr;
   auto sample = make_sample(type, kind, size);
   std::size_t filled = 0;

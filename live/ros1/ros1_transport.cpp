@@ -92,7 +92,7 @@ struct Ros1Transport::Impl {
     if (!connection) {
       connection = std::make_shared<LiveConnection>(
           LiveConnection{topic, message.getDataType(), message.getMD5Sum(),
-                        message.getMessageDefinition(), latched, false});
+                         message.getMessageDefinition(), latched, false});
     }
     LiveMessage taken;
     taken.connection = connection;
@@ -113,8 +113,8 @@ std::vector<std::string> Ros1Transport::own_arguments(int argc, char** argv) {
   return arguments;
 }
 
-std::unique_ptr<Ros1Transport> Ros1Transport::connect(int argc, char** argv, const std::string& name,
-                                                    std::string& error) {
+std::unique_ptr<Ros1Transport> Ros1Transport::connect(int argc, char** argv,
+                                                      const std::string& name, std::string& error) {
   try {
     ros::init(argc, argv, name, ros::init_options::NoRosout);
   } catch (const std::exception& exception) {
@@ -143,7 +143,10 @@ std::map<std::string, std::string> Ros1Transport::topics() {
   ros::master::V_TopicInfo found;
   std::map<std::string, std::string> types;
   if (!ros::master::getTopics(found)) return types;
-  for (const ros::master::TopicInfo& topic : found) types[topic.name] = topic.datatype;
+  const std::string own = resolved("~");
+  for (const ros::master::TopicInfo& topic : found) {
+    if (topic.name.rfind(own, 0) != 0) types[topic.name] = topic.datatype;
+  }
   return types;
 }
 

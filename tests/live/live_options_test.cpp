@@ -7,7 +7,8 @@ namespace aims {
 namespace {
 
 TEST(LiveOptions, ParametersFillInMissingOptions) {
-  auto command = parse_live_arguments({"--estimator", "lio", "--set", "a.b=1", "--tf"}, LiveNetwork::kRos1);
+  auto command =
+      parse_live_arguments({"--estimator", "lio", "--set", "a.b=1", "--tf"}, LiveNetwork::kRos1);
   ASSERT_TRUE(command) << command.error().message;
   const auto applied = apply_parameters({{"estimator", "leg"},
                                          {"out", "walk.tum"},

@@ -12,8 +12,9 @@ namespace aims {
 namespace {
 
 std::shared_ptr<const LiveConnection> connection(const std::string& topic,
-                                                const std::string& md5 = "m") {
-  return std::make_shared<LiveConnection>(LiveConnection{topic, "a/B", md5, "uint8 x", false, false});
+                                                 const std::string& md5 = "m") {
+  return std::make_shared<LiveConnection>(
+      LiveConnection{topic, "a/B", md5, "uint8 x", false, false});
 }
 
 /// A message on `topic` whose one byte is `value`.

@@ -64,15 +64,14 @@ TEST(OdometryOf, CovariancesAreThoseOfTheQuantitiesOfTheMessage) {
     Eigen::Matrix<double, 9, 1> noise;
     for (double& each : noise) each = normal(random);
     const Eigen::Matrix<double, 9, 1> error = root * noise;
-    const Eigen::Quaterniond true_rotation =
-        motion.T_odom_body.rotation * so3_exp(error.head<3>());
+    const Eigen::Quaterniond true_rotation = motion.T_odom_body.rotation * so3_exp(error.head<3>());
     Eigen::Matrix<double, 6, 1> pose;
     pose << error.segment<3>(3),
         so3_log(true_rotation * motion.T_odom_body.rotation.conjugate());  // about fixed axes
     poses.push_back(pose);
     Eigen::Matrix<double, 6, 1> velocity = Eigen::Matrix<double, 6, 1>::Zero();
-    velocity.head<3>() = true_rotation.conjugate() * (motion.velocity + error.tail<3>()) -
-                         content.linear_velocity;
+    velocity.head<3>() =
+        true_rotation.conjugate() * (motion.velocity + error.tail<3>()) - content.linear_velocity;
     velocities.push_back(velocity);
   }
   const double scale = content.pose_covariance.cwiseAbs().maxCoeff();

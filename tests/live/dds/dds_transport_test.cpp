@@ -68,8 +68,8 @@ class DdsTransportTest : public testing::Test {
 };
 
 TEST_F(DdsTransportTest, BytesArriveAsTheyWereSent) {
-  const std::size_t cloud = sender_->advertise(
-      {"/lidar/points", "sensor_msgs/PointCloud2", {}, {}, false, true});
+  const std::size_t cloud =
+      sender_->advertise({"/lidar/points", "sensor_msgs/PointCloud2", {}, {}, false, true});
   subscribe("/lidar/points", "sensor_msgs/PointCloud2");
   ASSERT_TRUE(eventually([&] { return sender_->subscribers(cloud) == 1; }));
   // From one packet to hundreds of fragments, of any length modulo four: RTPS pads.
@@ -87,7 +87,8 @@ TEST_F(DdsTransportTest, BytesArriveAsTheyWereSent) {
 
 TEST_F(DdsTransportTest, ArrivalIsTheTimeOfSendingToTheNanosecondWhereAskedFor) {
   receiver_ = connect(true);
-  const std::size_t topic = sender_->advertise({"/imu/data", "sensor_msgs/Imu", {}, {}, false, true});
+  const std::size_t topic =
+      sender_->advertise({"/imu/data", "sensor_msgs/Imu", {}, {}, false, true});
   subscribe("/imu/data", "sensor_msgs/Imu");
   ASSERT_TRUE(eventually([&] { return sender_->subscribers(topic) == 1; }));
   const auto sent = payload(100, 7);

@@ -8,6 +8,7 @@
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -22,7 +23,6 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -83,7 +83,8 @@ fast::DomainParticipant* participant(std::uint32_t domain) {
   return fast::DomainParticipantFactory::get_instance()->create_participant(domain, qos);
 }
 
-fast::Topic* topic(fast::DomainParticipant* node, const std::string& name, const std::string& type) {
+fast::Topic* topic(fast::DomainParticipant* node, const std::string& name,
+                   const std::string& type) {
   fast::TypeSupport(new BytesType(type)).register_type(node);
   return node->create_topic(name, type, fast::TOPIC_QOS_DEFAULT);
 }
@@ -125,12 +126,12 @@ void listen(fast::DomainParticipant* node, fast::Topic* on, bool transient, Rece
 }
 
 /// Subscribes once somebody listens behind the relay, so that nothing is lost there.
-std::thread relay(fast::DomainParticipant* from, fast::DomainParticipant* to, const std::string& name,
-           const std::string& type, bool transient) {
+std::thread relay(fast::DomainParticipant* from, fast::DomainParticipant* to,
+                  const std::string& name, const std::string& type, bool transient) {
   auto qos = quality<fast::DataWriterQos>(transient);
   qos.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;  // large samples are sent in fragments
-  fast::DataWriter* writer =
-      to->create_publisher(fast::PUBLISHER_QOS_DEFAULT)->create_datawriter(topic(to, name, type), qos);
+  fast::DataWriter* writer = to->create_publisher(fast::PUBLISHER_QOS_DEFAULT)
+                                 ->create_datawriter(topic(to, name, type), qos);
   const auto pass_on = [writer](const Bytes& bytes, const fast::SampleInfo& info) {
     Bytes copy = bytes;
     const std::int64_t sent = info.source_timestamp.to_ns();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// usage: garbage DOMAIN TOPIC TYPE [TOPIC TYPE]...: a broken participant, which sends what no message
-// of that type is: random bytes of every length up to some hundred, then some that are longer than a
-// cloud may be.
+// usage: garbage DOMAIN TOPIC TYPE [TOPIC TYPE]...: a broken participant, which sends what no
+// message of that type is: random bytes of every length up to some hundred, then some that are
+// longer than a cloud may be.
 #include <cstdio>
 #include <random>
 #include <string>
