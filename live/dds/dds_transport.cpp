@@ -27,6 +27,8 @@ namespace {
 constexpr int kHistory = 100;       ///< messages of a topic that wait in DDS
 constexpr std::size_t kBatch = 16;  ///< samples per call of DDS
 
+constexpr auto kWatchPeriod = std::chrono::seconds(1);
+
 std::atomic<bool> end_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 void request_end(int) { end_requested = true; }
@@ -81,6 +83,7 @@ struct DdsTransport::Impl {
   Discovery discovery;
   std::map<std::string, std::unique_ptr<Subscription>> subscriptions;
   std::vector<dds_entity_t> writers;
+  std::chrono::steady_clock::time_point watched;
   std::set<std::string> told;  ///< problems
 
   mutable std::mutex mutex;  ///< of what follows, which DDS's threads use too
@@ -92,6 +95,7 @@ struct DdsTransport::Impl {
   void open(Subscription& subscription);
   static void close(Subscription& subscription);
   void reopen_refused();
+  void watch_publishers();
   void tell(std::string problem);
   dds_entity_t make_topic(const std::string& topic, const std::string& type) const;
   static void receive(dds_entity_t reader, void* argument);
@@ -204,6 +208,19 @@ void DdsTransport::Impl::reopen_refused() {
   }
 }
 
+/// Now and then reports topics of which two publishers send; of transforms there may be several.
+void DdsTransport::Impl::watch_publishers() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - watched < kWatchPeriod) return;
+  watched = now;
+  discovery.update();
+  for (const auto& [topic, subscription] : subscriptions) {
+    if (subscription->connection->type == "tf2_msgs/TFMessage") continue;
+    const std::size_t count = discovery.publishers(topic);
+    if (count > 1) tell(fmt::format("{} has {} publishers: expected one", topic, count));
+  }
+}
+
 DdsTransport::DdsTransport(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 DdsTransport::~DdsTransport() {
@@ -261,6 +278,7 @@ void DdsTransport::unsubscribe(const std::string& topic) {
 
 std::optional<LiveMessage> DdsTransport::wait(double seconds) {
   impl_->reopen_refused();
+  impl_->watch_publishers();
   std::unique_lock lock(impl_->mutex);
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (impl_->inbox.empty()) {

@@ -4,6 +4,7 @@
 #include <dds/dds.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -76,6 +77,11 @@ std::map<std::string, std::string> Discovery::topics() const {
   std::map<std::string, std::string> types;
   for (const auto& [instance, offer] : offers_) types[offer.topic] = offer.type;
   return types;
+}
+
+std::size_t Discovery::publishers(const std::string& topic) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      offers_, [&](const auto& offer) { return offer.second.topic == topic; }));
 }
 
 OfferedQuality Discovery::quality_of(const std::string& topic) const {

@@ -32,6 +32,9 @@ class Discovery {
   /// Types by topic.
   std::map<std::string, std::string> topics() const;
 
+  /// How many publish the topic.
+  std::size_t publishers(const std::string& topic) const;
+
   /// What all publishers of the topic offer.
   OfferedQuality quality_of(const std::string& topic) const;
 
