@@ -18,7 +18,7 @@ std::string dds_topic(const std::string& topic) {
 
 std::optional<std::string> ros_topic(const std::string& dds) {
   if (!dds.starts_with(kTopicPrefix) || dds.size() == kTopicPrefix.size()) return std::nullopt;
-  return "/" + dds.substr(kTopicPrefix.size());
+  return dds.substr(kTopicPrefix.size() - 1);  // from the slash on
 }
 
 std::string dds_type(const std::string& type) {

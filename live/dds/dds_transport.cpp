@@ -251,8 +251,8 @@ std::map<std::string, std::string> DdsTransport::topics() {
 }
 
 std::string DdsTransport::resolved(const std::string& topic) const {
-  if (topic.starts_with("~")) return "/" + impl_->options.node + "/" + topic.substr(1);
-  return topic.starts_with("/") ? topic : "/" + topic;
+  if (topic.starts_with("~")) return fmt::format("/{}/{}", impl_->options.node, topic.substr(1));
+  return topic.starts_with("/") ? topic : fmt::format("/{}", topic);
 }
 
 void DdsTransport::subscribe(const std::string& topic, const std::string& type) {
