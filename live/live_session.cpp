@@ -27,6 +27,8 @@ namespace {
 /// Record time of one batch of deliveries.
 constexpr Duration kBatch = 5 * kMillisecond;
 constexpr Duration kMapPeriod = 5 * kSecond;
+/// In which the estimator catches up with what was gathered before it started.
+constexpr Duration kCatchUp = 2 * kSecond;
 
 Time wall_time() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -75,11 +77,12 @@ class HealthPrinter {
   std::optional<HealthRow> last_;
 };
 
-/// From the arrival of a scan to its odometry.
+/// From the arrival of a scan to its odometry, without those that waited for the start.
 class Latency {
  public:
   void arrived(const Delivery& delivery, Time arrival) {
-    if (const auto* scan = std::get_if<LidarScanPtr>(&delivery.measurement)) {
+    const auto* scan = std::get_if<LidarScanPtr>(&delivery.measurement);
+    if (scan != nullptr && arrival >= first_) {
       waiting_.emplace_back((*scan)->end, arrival);
     }
   }
@@ -106,6 +109,7 @@ class Latency {
   bool empty() const { return total_ == 0; }
 
  private:
+  Time first_ = wall_time() + kCatchUp;
   std::deque<std::pair<Time, Time>> waiting_;  ///< end and arrival of scans
   std::array<std::size_t, 1001> counts_{};     ///< by whole milliseconds
   std::size_t total_ = 0;
