@@ -80,7 +80,9 @@ class Live:
         return content(os.path.join(self.name, "aims_d.tum"))
 
     def log(self):
-        return content(self.name + ".log").decode()
+        """What it said, without what CycloneDDS says of packets."""
+        lines = content(self.name + ".log").decode().splitlines(keepends=True)
+        return "".join(line for line in lines if "malformed packet" not in line)
 
 
 # A loaded machine may keep clouds waiting.
@@ -123,11 +125,14 @@ class LiveEstimate(unittest.TestCase):
         self.assertEqual(live.poses(), estimate("overload.mcap", "overload-again"), "without the dropped ones")
 
     def test_a_broken_participant_is_counted_and_harms_nothing_else(self):
-        live = Live("walk.mcap", "garbage", ["--source_time", *PATIENT])
+        live = Live("walk.mcap", "garbage", PATIENT)
+        end = time.monotonic() + 30
+        while "publishes" not in live.log() and time.monotonic() < end:
+            time.sleep(0.1)
         garbage = subprocess.run([GARBAGE, live.domain, "/imu/data", "sensor_msgs/Imu", "/lidar/points",
                                   "sensor_msgs/PointCloud2"], capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual((garbage.returncode, garbage.stdout), (0, "sent\n"))
-        self.assertEqual(live.finish(), 0, live.log())
+        self.assertEqual(live.finish(), 0, live.log()[-2000:])
         self.assertRegex(live.log(), "note: imu_malformed: [1-9]")
         self.assertRegex(live.log(), "note: lidar_malformed: [1-9]")
         self.assertGreater(len(live.poses().splitlines()), 60, live.log())
