@@ -268,7 +268,7 @@ void RecordingReader::Impl::receive(const BagMessage& message, std::vector<Deliv
 Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
                                               const RecordingConfig& config,
                                               BagOpenOptions options) {
-  auto source = open_recording(file, options);
+  auto source = open_sensor_recording(file, options, config.topics.lidar == "none");
   if (!source) return tl::unexpected(source.error());
   return open(std::move(*source), config);
 }
@@ -320,7 +320,11 @@ Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deli
     impl.next.reset();
     if (auto ok = impl.fetch(); !ok) return tl::unexpected(ok.error());
   }
-  if (!impl.next) impl.release(std::numeric_limits<Time>::max(), deliveries);
+  if (!impl.next) {
+    impl.release(std::numeric_limits<Time>::max(), deliveries);
+    const auto repeated = static_cast<int>(impl.bag->summary().repeated_messages);
+    if (repeated > 0) impl.counts["recorded_in_two_files"] = repeated;
+  }
   return impl.next.has_value();
 }
 
