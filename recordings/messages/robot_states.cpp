@@ -12,9 +12,6 @@ namespace {
 // Unitree lists its legs FR, FL, RR, RL (unitree_legged_sdk, unitree_sdk2).
 constexpr std::array<int, kLegCount> kUnitree = {1, 0, 3, 2};
 
-// Go2: go2_description of unitree_ros.
-constexpr LegGeometry kGo2 = {0.1934, 0.0465, 0.0955, 0.213, 0.213, 0.022};
-
 // ANYmal C: anymal_c_simple_description. The hip joint lies (0.2999, 0.104) m from the centre, the
 // thigh's (0.0599, 0.08381) m from it, the knee (0.1003, -0.285) m (y, z) from that, and the foot
 // (0.08795, 0.01305, -0.33797) m from the knee: forward in front, backward behind.
@@ -33,14 +30,12 @@ constexpr BipedLegs kG1 = {{{{{0.0, 0.064452, -0.1027}, 0.0, 1},
 
 constexpr auto kStates = std::to_array<RobotState>({
     {.type = "unitree_go/LowState",
-     .robot = "a Go2",
      .topic = "/lowstate",
      .imu = "imu_state",
      .angles = "motor_state[].q",
      .rates = "motor_state[].dq",
      .contacts = "foot_force",
-     .legs = kUnitree,
-     .geometry = &kGo2},
+     .legs = kUnitree},
     {.type = "unitree_go/SportModeState",
      .topic = "/sportmodestate",
      .imu = "imu_state",
