@@ -30,11 +30,11 @@ std::vector<std::string_view> foot_names_at(const MessageView& message, const Co
   return texts_at(message, rule.state->foot_names).value_or(std::vector<std::string_view>());
 }
 
-std::string_view angles_path(const RobotState* state) {
+std::string_view angles_path(const StateLayout* state) {
   return state == nullptr ? "position" : state->angles;
 }
 
-std::string_view rates_path(const RobotState* state) {
+std::string_view rates_path(const StateLayout* state) {
   return state == nullptr ? "velocity" : state->rates;
 }
 
@@ -84,7 +84,7 @@ std::optional<LegOdometrySample> twist_at(const MessageView& message, Time recor
   return std::nullopt;
 }
 
-std::vector<std::string_view> joint_names_at(const MessageView& message, const RobotState* state) {
+std::vector<std::string_view> joint_names_at(const MessageView& message, const StateLayout* state) {
   if (state == nullptr) return names_at(message);
   return texts_at(message, state->joint_names).value_or(std::vector<std::string_view>());
 }
@@ -162,7 +162,7 @@ std::optional<FootLoads> forces_at(const MessageView& message, const ContactRule
 }
 
 std::optional<FeetReading> feet_at(const MessageView& message, Time record_time,
-                                   const RobotState& state) {
+                                   const StateLayout& state) {
   const Time stamp = header_stamp(message, record_time);
   if (state.biped != nullptr) {
     const auto angles = numbers_at(message, state.angles);

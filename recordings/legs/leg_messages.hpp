@@ -42,14 +42,14 @@ struct ContactRule {
   std::string field;  ///< path, also of a field of each entry: "contacts[].state"
   std::array<ContactThreshold, kLegCount> thresholds;
   std::vector<std::string> foot_names;
-  const RobotState* state = nullptr;  ///< of the message's type, if `field` is its contacts
+  const StateLayout* state = nullptr;  ///< of the message's type, if `field` is its contacts
 };
 
 /// How joints are read.
 struct JointRule {
-  std::vector<std::string> names;     ///< as configured; empty: by the recorded names
-  std::optional<JointOrder> order;    ///< where the recorded names do not tell
-  const RobotState* state = nullptr;  ///< of the message's type; null: a sensor_msgs/JointState
+  std::vector<std::string> names;      ///< as configured; empty: by the recorded names
+  std::optional<JointOrder> order;     ///< where the recorded names do not tell
+  const StateLayout* state = nullptr;  ///< of the message's type; null: a sensor_msgs/JointState
 };
 
 /// The joints of a sensor_msgs/JointState or a robot's state; nothing when one is missing.
@@ -64,7 +64,7 @@ struct UnnamedJoints {
 std::optional<UnnamedJoints> unnamed_joints_at(const MessageView& message, const JointRule& rule);
 
 /// The names of the joints; none where the message has none.
-std::vector<std::string_view> joint_names_at(const MessageView& message, const RobotState* state);
+std::vector<std::string_view> joint_names_at(const MessageView& message, const StateLayout* state);
 
 /// Whether the names tell which foot each number of the contacts belongs to.
 bool feet_are_named(const MessageView& message, const ContactRule& rule);
@@ -85,6 +85,6 @@ std::optional<FootLoads> forces_at(const MessageView& message, const ContactRule
 
 /// The feet of a robot's state. A foot of a biped is both legs of its side.
 std::optional<FeetReading> feet_at(const MessageView& message, Time record_time,
-                                   const RobotState& state);
+                                   const StateLayout& state);
 
 }  // namespace aims

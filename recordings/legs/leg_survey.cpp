@@ -21,7 +21,7 @@ bool is_world_frame(const std::string& frame) {
          frame.find("world") != std::string::npos;
 }
 
-void LegSurvey::add_joints(const MessageView& message, Time record_time, const RobotState* state) {
+void LegSurvey::add_joints(const MessageView& message, Time record_time, const StateLayout* state) {
   ++joint_messages_;
   joint_rule_.state = state;
   if (joints_at(message, record_time, joint_rule_)) {
@@ -37,7 +37,7 @@ void LegSurvey::add_joints(const MessageView& message, Time record_time, const R
 }
 
 void LegSurvey::choose_contact_field(const std::string& type, const MessageDecoder& decoder,
-                                     const RobotState* state) {
+                                     const StateLayout* state) {
   contact_field_ = config_.contacts_field;
   if (state != nullptr && (contact_field_.empty() || contact_field_ == state->contacts)) {
     contact_field_ = state->contacts;
@@ -60,7 +60,7 @@ void LegSurvey::choose_contact_field(const std::string& type, const MessageDecod
 }
 
 void LegSurvey::add_contacts(const MessageView& message, const std::string& type,
-                             const MessageDecoder& decoder, const RobotState* state) {
+                             const MessageDecoder& decoder, const StateLayout* state) {
   if (contact_field_.empty()) choose_contact_field(type, decoder, state);
   const auto loads = loads_at(message, rule_of(0.0));
   if (!loads) return;
@@ -125,7 +125,7 @@ void LegSurvey::decide_order(const Eigen::Quaterniond& R_body_base, ReadingNotes
   }
 }
 
-void LegSurvey::add_feet(const MessageView& message, const RobotState& state) {
+void LegSurvey::add_feet(const MessageView& message, const StateLayout& state) {
   feet_state_ = &state;
   const auto feet = feet_at(message, 0, state);
   if (!feet) return;

@@ -24,9 +24,9 @@ class LegSurvey {
       : config_(config), topics_(topics), joint_rule_{config.joint_names, std::nullopt, nullptr} {}
 
   /// `state`: how the message's type holds a robot's legs, or null. Likewise below.
-  void add_joints(const MessageView& message, Time record_time, const RobotState* state);
+  void add_joints(const MessageView& message, Time record_time, const StateLayout* state);
   void add_contacts(const MessageView& message, const std::string& type,
-                    const MessageDecoder& decoder, const RobotState* state);
+                    const MessageDecoder& decoder, const StateLayout* state);
 
   bool has_joints_and_contacts() const { return has_joints() && contact_messages_ > 0; }
 
@@ -48,7 +48,7 @@ class LegSurvey {
   const std::string& lack() const { return lack_; }
 
   /// Adds the feet of a topic of leg odometry that has them.
-  void add_feet(const MessageView& message, const RobotState& state);
+  void add_feet(const MessageView& message, const StateLayout& state);
 
   /// Whether the thresholds of contacts are to be learned, from the loads of `add_loads`.
   bool learns_contacts() const;
@@ -70,7 +70,7 @@ class LegSurvey {
   ContactRule rule_of(double threshold) const;
   Result<ContactRule> learned_rule(ReadingNotes& notes) const;
   void choose_contact_field(const std::string& type, const MessageDecoder& decoder,
-                            const RobotState* state);
+                            const StateLayout* state);
   LegSource decide_feet(ReadingNotes& notes);
   void note_twist(const std::string& type, const std::string& frame, ReadingNotes& notes) const;
 
@@ -88,9 +88,9 @@ class LegSurvey {
   int contact_messages_ = 0;
   std::string contact_field_;
   bool contacts_are_flags_ = false;
-  bool contacts_are_raw_ = false;              ///< counts without calibration, or torques
-  const RobotState* contact_state_ = nullptr;  ///< if its contacts are read
-  const RobotState* feet_state_ = nullptr;     ///< of the feet without joints
+  bool contacts_are_raw_ = false;               ///< counts without calibration, or torques
+  const StateLayout* contact_state_ = nullptr;  ///< if its contacts are read
+  const StateLayout* feet_state_ = nullptr;     ///< of the feet without joints
   double largest_load_ = 0.0;
   bool has_feet_ = false;
   double farthest_foot_ = 0.0;  ///< of the feet without joints [m]

@@ -28,7 +28,7 @@ constexpr BipedLegs kG1 = {{{{{0.0, 0.064452, -0.1027}, 0.0, 1},
                            0.035,
                            3};
 
-constexpr auto kStates = std::to_array<RobotState>({
+constexpr auto kStates = std::to_array<StateLayout>({
     {.type = "unitree_go/LowState",
      .topic = "/lowstate",
      .imu = "imu_state",
@@ -130,7 +130,7 @@ constexpr auto kStates = std::to_array<RobotState>({
 
 std::vector<std::string_view> imus_of_all() {
   std::vector<std::string_view> imus;
-  for (const RobotState& state : kStates) {
+  for (const StateLayout& state : kStates) {
     if (!state.imu.empty() && std::ranges::find(imus, state.imu) == imus.end()) {
       imus.push_back(state.imu);
     }
@@ -163,10 +163,10 @@ bool has_fields(std::string_view definition, std::string_view path) {
 
 }  // namespace
 
-std::span<const RobotState> robot_states() { return kStates; }
+std::span<const StateLayout> robot_states() { return kStates; }
 
-const RobotState* robot_state_of(std::string_view type, std::string_view definition) {
-  for (const RobotState& state : kStates) {
+const StateLayout* robot_state_of(std::string_view type, std::string_view definition) {
+  for (const StateLayout& state : kStates) {
     if (state.type != type) continue;
     const auto paths = {state.imu,  state.angles,   state.rates,      state.joint_names,
                         state.feet, state.contacts, state.foot_names, state.foot_speeds};
@@ -179,7 +179,7 @@ const RobotState* robot_state_of(std::string_view type, std::string_view definit
 
 bool is_robot_state_with_imu(std::string_view type) {
   return std::ranges::any_of(
-      kStates, [&](const RobotState& state) { return state.type == type && !state.imu.empty(); });
+      kStates, [&](const StateLayout& state) { return state.type == type && !state.imu.empty(); });
 }
 
 std::span<const std::string_view> robot_imus() {

@@ -34,7 +34,7 @@ struct BipedLegs {
 
 /// How a message type of a robot holds its IMU and legs. A robot is a row of data. Paths: "a.b" is
 /// a field, "a[].b" the field b of each entry of a. Empty: the type lacks it.
-struct RobotState {
+struct StateLayout {
   std::string_view type = {};
   std::string_view robot = {};  ///< whose geometry this is, in words
   std::string_view topic = {};  ///< its usual name
@@ -55,10 +55,10 @@ struct RobotState {
 };
 
 /// All rows; those of the same type that hold more come first.
-std::span<const RobotState> robot_states();
+std::span<const StateLayout> robot_states();
 
 /// The first row of that type whose fields occur in the definition; null: none.
-const RobotState* robot_state_of(std::string_view type, std::string_view definition);
+const StateLayout* robot_state_of(std::string_view type, std::string_view definition);
 
 /// Whether a row of that type has an IMU.
 bool is_robot_state_with_imu(std::string_view type);

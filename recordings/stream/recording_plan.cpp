@@ -109,7 +109,7 @@ void survey_loads(MessageSource& bag, const std::string& topic, RecordingSurvey&
 }
 
 /// The legs of the robot whose message type has the joints, if it has one.
-const RobotState* state_of_joints(const RecordingChannels& channels, const TopicsConfig& topics) {
+const StateLayout* state_of_joints(const RecordingChannels& channels, const TopicsConfig& topics) {
   const Channel* joints = channels.of_topic(topics.joint_states);
   return joints != nullptr && joints->state != nullptr && joints->state->geometry != nullptr
              ? joints->state
@@ -119,7 +119,7 @@ const RobotState* state_of_joints(const RecordingChannels& channels, const Topic
 /// The configuration with the legs that a simulated recording states, or those of the robot of the
 /// message type, unless it names its own.
 RecordingConfig with_recorded_legs(const RecordingConfig& given, MessageSource& bag,
-                                   const RobotState* state, std::vector<std::string>& notes) {
+                                   const StateLayout* state, std::vector<std::string>& notes) {
   RecordingConfig config = given;
   if (given.leg_geometry != RecordingConfig().leg_geometry) return config;
   const auto legs = recorded_legs(bag);

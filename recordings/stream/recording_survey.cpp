@@ -83,7 +83,7 @@ void RecordingSurvey::add(const BagMessage& message, const Channel& channel) {
   }
   if (channel.is(Role::kLidar)) add_cloud(*view, message.record_time);
   if (channel.is(Role::kImu)) add_imu(*view);
-  const RobotState* state = channel.state;
+  const StateLayout* state = channel.state;
   if (channel.is(Role::kLegs) && state != nullptr) legs_.add_feet(*view, *state);
   if (channel.is(Role::kJoints)) legs_.add_joints(*view, message.record_time, state);
   if (channel.is(Role::kContacts)) {

@@ -57,8 +57,8 @@ class RecordingSurvey {
     std::string frame;
     std::string child_frame;
     std::string type;
-    const RobotState* state = nullptr;  ///< how the type holds a robot's legs, if it does
-    bool unstamped = false;             ///< a message has no stamp
+    const StateLayout* state = nullptr;  ///< how the type holds a robot's legs, if it does
+    bool unstamped = false;              ///< a message has no stamp
   };
 
   Seen& seen(Role role) { return seen_[static_cast<std::size_t>(role)]; }

@@ -26,22 +26,16 @@ void append(const MessageView& message, std::string_view path, std::vector<doubl
 
 std::vector<double> sample_numbers(const MessageView& message, const Channel& channel) {
   std::vector<double> numbers;
-  if (channel.is(Role::kImu)) {
-    EventCounts ignored;
-    if (const auto sample = imu_at(message, 0, ignored)) {
-      for (const Eigen::Vector3d& each : {sample->angular_velocity, sample->specific_force}) {
-        numbers.insert(numbers.end(), each.begin(), each.end());
-      }
+  if (channel.state == nullptr) return numbers;
+  const StateLayout& state = *channel.state;
+  EventCounts ignored;
+  if (const auto sample = imu_at(message, 0, ignored); sample && !state.imu.empty()) {
+    for (const Eigen::Vector3d& each : {sample->angular_velocity, sample->specific_force}) {
+      numbers.insert(numbers.end(), each.begin(), each.end());
     }
   }
-  if (channel.state != nullptr) {
-    const RobotState& state = *channel.state;
-    for (const auto path : {state.angles, state.rates, state.feet, state.contacts}) {
-      append(message, path, numbers);
-    }
-  } else if (channel.is(Role::kJoints)) {
-    append(message, "position", numbers);
-    append(message, "velocity", numbers);
+  for (const auto path : {state.angles, state.rates, state.feet, state.contacts}) {
+    append(message, path, numbers);
   }
   return numbers;
 }

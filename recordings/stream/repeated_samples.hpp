@@ -12,7 +12,7 @@
 namespace aims {
 
 /// The numbers that tell a new sample from one that was sent again: IMU, joints, feet and loads of
-/// a message. Empty for other messages.
+/// a robot's state. Empty for other messages.
 std::vector<double> sample_numbers(const MessageView& message, const Channel& channel);
 
 /// Finds out whether a driver sends each sample several times under new stamps, as Unitree's

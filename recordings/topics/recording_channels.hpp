@@ -33,7 +33,7 @@ struct Channel {
   const BagConnection* connection = nullptr;
   std::array<bool, kRoleCount> serves{};
   MessageDecoder decoder;
-  const RobotState* state = nullptr;  ///< how the type holds a robot's legs, if it does
+  const StateLayout* state = nullptr;  ///< how the type holds a robot's legs, if it does
 
   bool is(Role role) const { return serves[static_cast<std::size_t>(role)]; }
 };

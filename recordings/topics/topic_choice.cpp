@@ -26,13 +26,13 @@ bool holds(std::string_view text, std::string_view part) {
 
 bool is_cloud(const BagConnection& c) { return is_cloud_type(c.type); }
 bool is_imu(const BagConnection& c) { return c.type == "sensor_msgs/Imu"; }
-const RobotState* state_of(const BagConnection& c) { return robot_state_of(c.type, c.definition); }
-bool has_imu(const RobotState& state) { return !state.imu.empty(); }
-bool has_joints(const RobotState& state) { return state.has_joints(); }
-bool has_feet(const RobotState& state) { return state.has_feet(); }
-bool has_contacts(const RobotState& state) { return !state.contacts.empty(); }
-bool is_state(const BagConnection& c, bool (*has)(const RobotState&)) {
-  const RobotState* state = state_of(c);
+const StateLayout* state_of(const BagConnection& c) { return robot_state_of(c.type, c.definition); }
+bool has_imu(const StateLayout& state) { return !state.imu.empty(); }
+bool has_joints(const StateLayout& state) { return state.has_joints(); }
+bool has_feet(const StateLayout& state) { return state.has_feet(); }
+bool has_contacts(const StateLayout& state) { return !state.contacts.empty(); }
+bool is_state(const BagConnection& c, bool (*has)(const StateLayout&)) {
+  const StateLayout* state = state_of(c);
   return state != nullptr && has(*state);
 }
 bool may_be_imu(const BagConnection& c) { return is_imu(c) || is_state(c, has_imu); }
@@ -145,8 +145,8 @@ class Chooser {
 /// The topic of a robot's state that has what is wanted, of the first such row; several of one row
 /// are an error.
 Result<std::string> state_topic(const Chooser& chooser, std::string_view key,
-                                bool (*has)(const RobotState&)) {
-  for (const RobotState& row : robot_states()) {
+                                bool (*has)(const StateLayout&)) {
+  for (const StateLayout& row : robot_states()) {
     if (!has(row)) continue;
     const auto is_of_row = [&row](const BagConnection& c) { return state_of(c) == &row; };
     auto topic = chooser.found({key, row.type, is_of_row}, row.topic);

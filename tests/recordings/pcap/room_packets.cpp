@@ -161,10 +161,10 @@ std::vector<RoomPacket> ouster_lidar_packets(Time start, Time clock, int turns) 
     for (std::size_t first = 0; first < kColumns; first += 16) {
       Bytes out;
       for (std::size_t column = first; column < first + 16; ++column) {
-        const auto after = static_cast<Duration>(column) * kTurn / kColumns;
+        const auto after = static_cast<Duration>(column * kTurn / kColumns);
         put_ouster_column(out, clock + frame * kTurn + after, column, frame);
       }
-      const auto sent = static_cast<Duration>(first + 16) * kTurn / kColumns;
+      const auto sent = static_cast<Duration>((first + 16) * kTurn / kColumns);
       packets.push_back({start + frame * kTurn + sent, std::move(out.all)});
     }
   }

@@ -262,7 +262,7 @@ TEST_F(RobotStates, TooFewMotorsAreACauseThatIsNamed) {
 }
 
 TEST(RobotStateTable, EachRowHasWhatLegOdometryNeeds) {
-  for (const RobotState& state : robot_states()) {
+  for (const StateLayout& state : robot_states()) {
     SCOPED_TRACE(state.type);
     EXPECT_TRUE(state.has_joints() || state.has_feet());
     EXPECT_FALSE(state.contacts.empty());
