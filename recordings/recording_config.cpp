@@ -50,8 +50,8 @@ void describe_legs(Fields& f, RecordingConfig& c) {
             {"threshold", ContactDetection::kThreshold},
             {"learned", ContactDetection::kLearned}},
            dimensionless("contact from a load: above contact_threshold, or in the upper of two "
-                         "classes learned from the recording; auto: learned for raw counts of "
-                         "unitree_go and for tables"));
+                         "classes learned from the recording; auto: learned for raw counts, "
+                         "torques of robots' states and tables"));
   f.number("contact_threshold", c.contact_threshold,
            {.unit = "N",
             .range = within(1e6),
@@ -72,12 +72,12 @@ void describe_legs(Fields& f, RecordingConfig& c) {
 
 void describe(Fields& f, TopicsConfig& c) {
   f.text("lidar", c.lidar, dimensionless("sensor_msgs/PointCloud2 or livox CustomMsg"));
-  f.text("imu", c.imu, dimensionless("sensor_msgs/Imu, or a state of unitree_go"));
+  f.text("imu", c.imu, dimensionless("sensor_msgs/Imu, or a robot's state that has one"));
   f.text("leg_odometry", c.leg_odometry,
          dimensionless("nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist, "
-                       "unitree_go/SportModeState"));
+                       "or a robot's state with feet"));
   f.text("joint_states", c.joint_states,
-         dimensionless("sensor_msgs/JointState or unitree_go/LowState"));
+         dimensionless("sensor_msgs/JointState, or a robot's state with joints"));
   f.text("contacts", c.contacts,
          dimensionless("any message with an array of numbers, one per foot"));
   f.text("truth", c.truth,

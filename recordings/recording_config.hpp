@@ -14,10 +14,10 @@ namespace aims {
 /// suitable type. "none": not used.
 struct TopicsConfig {
   std::string lidar;         ///< sensor_msgs/PointCloud2 or livox_ros_driver(2)/CustomMsg
-  std::string imu;           ///< sensor_msgs/Imu, or a state of unitree_go
+  std::string imu;           ///< sensor_msgs/Imu, or a robot's state (`robot_states`)
   std::string leg_odometry;  ///< nav_msgs/Odometry, geometry_msgs/TwistStamped or Twist,
-                             ///< unitree_go/SportModeState
-  std::string joint_states;  ///< sensor_msgs/JointState or unitree_go/LowState, for legs without
+                             ///< a robot's state with feet
+  std::string joint_states;  ///< sensor_msgs/JointState or a robot's state, for legs without
                              ///< odometry
   std::string contacts;      ///< any message with an array of numbers, one per foot
   std::string truth;         ///< nav_msgs/Odometry or PoseStamped; read for scoring only

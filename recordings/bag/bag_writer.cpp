@@ -47,7 +47,8 @@ struct BagWriter::Impl {
   BagPublisher publisher;
   std::vector<Connection> connections;
   BagIndexBytes index;
-  std::vector<std::byte> chunk;  ///< content of the open chunk
+  std::vector<std::byte> chunk;         ///< content of the open chunk
+  std::vector<std::byte> chunk_record;  ///< of the last chunk; kept, since new memory costs time
   Time start = 0;
   Time end = 0;
   bool has_messages = false;
@@ -85,15 +86,17 @@ std::vector<std::byte> BagWriter::Impl::take_index(std::vector<std::byte>& out) 
 
 Result<void> BagWriter::Impl::close_chunk() {
   if (!has_messages) return {};
-  const auto packed = compress(options.compression, chunk);
+  const bool plain = options.compression == BagCompression::kNone;
+  const auto packed = plain ? std::vector<std::byte>() : compress(options.compression, chunk);
   if (!packed) return refuse(packed.error().message);
-  std::vector<std::byte> bytes;
+  std::vector<std::byte>& bytes = chunk_record;
+  bytes.clear();
   HeaderBuilder(bytes)
       .text("compression", name_of(options.compression))
       .op(BagOp::kChunk)
       .number("size", static_cast<std::uint32_t>(chunk.size()))
       .finish();
-  append_data(bytes, *packed);
+  append_data(bytes, plain ? chunk : *packed);
   const std::vector<std::byte> counts = take_index(bytes);
   HeaderBuilder(index.chunk_infos)
       .number("chunk_pos", publisher.chunk_position())
@@ -144,6 +147,7 @@ Result<BagWriter> BagWriter::create(std::unique_ptr<BagOutput> output, const std
   auto impl = std::unique_ptr<Impl>(new Impl{name,
                                              options,
                                              BagPublisher(std::move(output), room),
+                                             {},
                                              {},
                                              {},
                                              {},

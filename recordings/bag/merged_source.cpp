@@ -54,7 +54,7 @@ Result<std::optional<std::size_t>> MergedSource::earliest() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     // A part that begins later is not touched yet: it may need much memory.
-    const bool later = first && parts_[*first].waiting->record_time <= part.source->summary().start;
+    const bool later = first && parts_[*first].waiting->record_time < part.source->summary().start;
     if (!part.waiting && !part.ended && !later) {
       auto message = part.source->next();
       if (!message) return tl::unexpected(message.error());
@@ -77,12 +77,27 @@ void MergedSource::select(std::span<const std::string> topics) {
   }
 }
 
+/// Drops the same message of other parts: files that overlap hold it twice.
+void MergedSource::drop_copies(std::size_t first) {
+  const Part& chosen = parts_[first];
+  const BagMessage& message = *chosen.waiting;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    std::optional<BagMessage>& other = parts_[i].waiting;
+    if (i == first || !other || other->record_time != message.record_time) continue;
+    if (parts_[i].places[other->connection->id] != chosen.places[message.connection->id]) continue;
+    if (!std::ranges::equal(other->data, message.data)) continue;
+    other.reset();
+    ++summary_.repeated_messages;
+  }
+}
+
 Result<std::optional<BagMessage>> MergedSource::next() {
   if (lent_) parts_[*std::exchange(lent_, std::nullopt)].waiting.reset();
   const auto first = earliest();
   if (!first) return tl::unexpected(first.error());
   if (!*first) return std::optional<BagMessage>();
   lent_ = *first;
+  drop_copies(**first);
   const Part& part = parts_[**first];
   BagMessage message = *part.waiting;
   message.connection = &connections_[part.places[message.connection->id]];
@@ -91,6 +106,7 @@ Result<std::optional<BagMessage>> MergedSource::next() {
 
 void MergedSource::rewind() {
   lent_.reset();
+  summary_.repeated_messages = 0;
   for (Part& part : parts_) {
     part.waiting.reset();
     part.ended = false;

@@ -16,7 +16,8 @@
 namespace aims {
 
 /// Several sources as one, in order of record time; of equal times the source added first goes
-/// first. A topic of one type is one connection. Memory is that of the sources whose times overlap.
+/// first. A message that two sources hold (topic, record time and bytes) is given and counted once.
+/// A topic of one type is one connection. Memory is that of the sources whose times overlap.
 class MergedSource final : public MessageSource {
  public:
   explicit MergedSource(std::string name) : name_(std::move(name)) {}
@@ -49,6 +50,7 @@ class MergedSource final : public MessageSource {
   void add_summary(const BagSummary& part);
   /// Fetches the next message of each part that may be the next of all; returns the earliest.
   Result<std::optional<std::size_t>> earliest();
+  void drop_copies(std::size_t first);
 
   std::string name_;
   std::vector<Part> parts_;

@@ -39,13 +39,14 @@ struct BagSummary {
   std::uint64_t file_size = 0;  ///< [bytes]
   std::uint64_t chunks = 0;
   std::uint64_t messages = 0;
-  std::uint64_t lost_bytes = 0;     ///< in and behind damaged chunks, when recovered
-  Time start = 0;                   ///< earliest record time, since the epoch
-  Time end = 0;                     ///< latest record time
-  std::string compression;          ///< "none", "lz4", "bz2", or several: "lz4, none"
-  bool indexed = true;              ///< false: without index, read by scanning
-  bool closed = true;               ///< false: its writer never completed it
-  std::uint64_t lost_messages = 0;  ///< with impossible times, when recovered
+  std::uint64_t lost_bytes = 0;         ///< in and behind damaged chunks, when recovered
+  Time start = 0;                       ///< earliest record time, since the epoch
+  Time end = 0;                         ///< latest record time
+  std::string compression;              ///< "none", "lz4", "bz2", or several: "lz4, none"
+  bool indexed = true;                  ///< false: without index, read by scanning
+  bool closed = true;                   ///< false: its writer never completed it
+  std::uint64_t lost_messages = 0;      ///< with impossible times, when recovered
+  std::uint64_t repeated_messages = 0;  ///< that several files hold, of those read so far
 };
 
 /// Messages in order of record time: a bag, or the topics of a running robot.

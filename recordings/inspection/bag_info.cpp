@@ -158,7 +158,7 @@ const TopicInfo* BagInfo::find(const std::string& topic) const {
 
 Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig& config,
                          BagOpenOptions options) {
-  auto opened = open_recording(bag, options);
+  auto opened = open_sensor_recording(bag, options, true);
   if (!opened) return tl::unexpected(opened.error());
   const std::unique_ptr<MessageSource>& reader = *opened;
   BagInfo info;
@@ -171,6 +171,7 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
     if (!*message) break;
     survey.add(**message, info);
   }
+  info.summary.repeated_messages = reader->summary().repeated_messages;
   survey.finish(reader->connections(), info);
   const auto recording = RecordingReader::open(bag, config, options);
   if (recording) {

@@ -34,6 +34,10 @@ bool is_sensor(const TopicInfo& topic) {
 }
 
 void warn_of_recorder(const BagInfo& info, std::vector<std::string>& out) {
+  if (info.summary.repeated_messages > 0) {
+    out.push_back(fmt::format("{} messages stand in two of the files: they count once",
+                              info.summary.repeated_messages));
+  }
   std::uint64_t unset = 0;
   double step = 0.0;
   for (const TopicInfo& each : info.topics) {
@@ -54,7 +58,7 @@ void warn_of_recorder(const BagInfo& info, std::vector<std::string>& out) {
   }
 }
 
-void warn_of_times(const TopicInfo& topic, std::vector<std::string>& out) {
+void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
   if (!is_sensor(topic) || topic.messages < 2) return;
   if (topic.zero_stamps) {
     out.push_back(
@@ -78,7 +82,11 @@ void warn_of_times(const TopicInfo& topic, std::vector<std::string>& out) {
                     "driver's clock",
                     topic.topic, topic.repeated, topic.backwards));
   }
-  if (topic.stamped && std::abs(topic.median_offset_s.value_or(0.0)) > kMaxOffset) {
+  // Reading says the same, without the time that the sensor takes.
+  const bool said = std::ranges::any_of(info.notes, [&](const std::string& note) {
+    return note.starts_with(topic.topic + ": stamps are");
+  });
+  if (topic.stamped && !said && std::abs(topic.median_offset_s.value_or(0.0)) > kMaxOffset) {
     out.push_back(
         fmt::format("{}: stamps are {:.3f} s {} the record times; if the clocks differ, set "
                     "recording.{}_delay={:.3f}",
@@ -210,7 +218,7 @@ std::vector<std::string> bag_warnings(const BagInfo& info) {
                               info.undecodable, info.first_undecodable));
   }
   for (const TopicInfo& each : info.topics) {
-    warn_of_times(each, out);
+    warn_of_times(info, each, out);
     warn_of_clock(each, out);
   }
   warn_of_offsets(info, out);

@@ -12,6 +12,7 @@
 #include "recordings/legs/leg_names.hpp"
 #include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/message_values.hpp"
+#include "recordings/messages/robot_states.hpp"
 
 namespace aims {
 
@@ -38,18 +39,20 @@ std::optional<LegOdometrySample> twist_at(const MessageView& message, Time recor
 
 /// How contacts are read.
 struct ContactRule {
-  std::string field;
+  std::string field;  ///< path, also of a field of each entry: "contacts[].state"
   std::array<ContactThreshold, kLegCount> thresholds;
   std::vector<std::string> foot_names;
+  const StateLayout* state = nullptr;  ///< of the message's type, if `field` is its contacts
 };
 
 /// How joints are read.
 struct JointRule {
-  std::vector<std::string> names;   ///< as configured; empty: by the recorded names
-  std::optional<JointOrder> order;  ///< where the recorded names do not tell
+  std::vector<std::string> names;      ///< as configured; empty: by the recorded names
+  std::optional<JointOrder> order;     ///< where the recorded names do not tell
+  const StateLayout* state = nullptr;  ///< of the message's type; null: a sensor_msgs/JointState
 };
 
-/// The joints of a sensor_msgs/JointState or a unitree_go/LowState; nothing when one is missing.
+/// The joints of a sensor_msgs/JointState or a robot's state; nothing when one is missing.
 std::optional<JointReading> joints_at(const MessageView& message, Time record_time,
                                       const JointRule& rule);
 
@@ -58,7 +61,10 @@ struct UnnamedJoints {
   std::vector<double> angles, rates;
   std::vector<std::string> names;
 };
-std::optional<UnnamedJoints> unnamed_joints_at(const MessageView& message);
+std::optional<UnnamedJoints> unnamed_joints_at(const MessageView& message, const JointRule& rule);
+
+/// The names of the joints; none where the message has none.
+std::vector<std::string_view> joint_names_at(const MessageView& message, const StateLayout* state);
 
 /// Whether the names tell which foot each number of the contacts belongs to.
 bool feet_are_named(const MessageView& message, const ContactRule& rule);
@@ -68,6 +74,7 @@ struct FeetReading {
   Time stamp = 0;
   std::array<Eigen::Vector3d, kLegCount> position;  ///< in the base [m]
   std::array<Eigen::Vector3d, kLegCount> velocity;  ///< relative to the base, in its axes [m/s]
+  bool has_velocity = true;                         ///< false: differences of the places serve
 };
 
 /// The numbers of the contact field, one per foot in the order of the legs.
@@ -76,10 +83,8 @@ std::optional<FootLoads> loads_at(const MessageView& message, const ContactRule&
 /// The forces in an aims_msgs/FootContacts; none in those of earlier versions.
 std::optional<FootLoads> forces_at(const MessageView& message, const ContactRule& rule);
 
-/// The feet of a unitree_go/SportModeState.
-std::optional<FeetReading> feet_at(const MessageView& message, Time record_time);
-
-/// The order in which Unitree's states list the feet.
-inline constexpr std::array<const char*, kLegCount> kUnitreeFeet = {"FR", "FL", "RR", "RL"};
+/// The feet of a robot's state. A foot of a biped is both legs of its side.
+std::optional<FeetReading> feet_at(const MessageView& message, Time record_time,
+                                   const StateLayout& state);
 
 }  // namespace aims

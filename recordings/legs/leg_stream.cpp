@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aims {
 namespace {
@@ -158,12 +159,26 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReadin
   return finish(std::move(sample), sum, feet, counts);
 }
 
-std::optional<LegOdometrySample> LegStream::add_feet(const FeetReading& reading,
-                                                     EventCounts& counts) {
+/// The speeds of feet that have none, and the contacts of which they are: a difference over
+/// touchdown is no speed of a foot that stands.
+bool LegStream::difference_feet(FeetReading& reading, std::array<bool, kLegCount>& contact) {
+  const auto before = std::exchange(feet_, std::pair(reading, contact));
+  if (reading.has_velocity) return true;
+  const double step = before ? to_seconds(reading.stamp - before->first.stamp) : 0.0;
+  if (!(step > 0.0) || step > kMaxStep) return false;
+  for (std::size_t leg = 0; leg < contact.size(); ++leg) {
+    reading.velocity[leg] = (reading.position[leg] - before->first.position[leg]) / step;
+    contact[leg] = contact[leg] && before->second[leg];
+  }
+  return true;
+}
+
+std::optional<LegOdometrySample> LegStream::add_feet(FeetReading reading, EventCounts& counts) {
   if (!has_contacts_at(reading.stamp, counts)) return std::nullopt;
   LegOdometrySample sample;
   sample.stamp = reading.stamp;
   sample.contact = contacts_->contact;
+  if (!difference_feet(reading, sample.contact)) return ++counts["legs_incomplete"], std::nullopt;
   sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int feet = 0;

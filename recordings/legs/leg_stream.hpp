@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
@@ -48,7 +49,7 @@ class LegStream {
   LegOdometrySample add_twist(LegOdometrySample sample);
   std::optional<LegOdometrySample> add_joints(JointReading reading, EventCounts& counts);
   /// Feet without joints; contacts of the same instant come first.
-  std::optional<LegOdometrySample> add_feet(const FeetReading& reading, EventCounts& counts);
+  std::optional<LegOdometrySample> add_feet(FeetReading reading, EventCounts& counts);
   std::optional<LegOdometrySample> add_contacts(const ContactReading& reading, EventCounts& counts);
 
  private:
@@ -56,6 +57,7 @@ class LegStream {
   void attach(LegOdometrySample& sample) const;
   void integrate(LegOdometrySample& sample);
   void differentiate(JointReading& reading);
+  bool difference_feet(FeetReading& reading, std::array<bool, kLegCount>& contact);
   std::array<bool, kLegCount> usable_contacts(const JointReading& joints) const;
   std::optional<LegOdometrySample> forward_kinematics(const JointReading& joints,
                                                       EventCounts& counts);
@@ -69,6 +71,7 @@ class LegStream {
   TwistCheck twist_check_;
   std::optional<ImuSample> imu_;
   std::optional<JointReading> joints_;
+  std::optional<std::pair<FeetReading, std::array<bool, kLegCount>>> feet_;  ///< the last ones
   std::optional<ContactReading> contacts_;
   std::deque<ContactReading> recent_contacts_;  ///< in the order of the recording
   Time stamp_before_ = 0;                       ///< of the joints before the last ones

@@ -21,28 +21,36 @@ bool is_world_frame(const std::string& frame) {
          frame.find("world") != std::string::npos;
 }
 
-void LegSurvey::add_joints(const MessageView& message, Time record_time) {
+void LegSurvey::add_joints(const MessageView& message, Time record_time, const StateLayout* state) {
   ++joint_messages_;
+  joint_rule_.state = state;
   if (joints_at(message, record_time, joint_rule_)) {
     ++complete_joint_messages_;
-  } else if (config_.joint_names.empty() && unnamed_joints_at(message)) {
+  } else if (config_.joint_names.empty() && unnamed_joints_at(message, joint_rule_)) {
     ++unnamed_joint_messages_;
   }
   if (joint_names_.empty()) {
-    const auto names = message.texts("name");
-    if (names) joint_names_ = fmt::format("{}", fmt::join(*names, ", ")).substr(0, kMaxListed);
+    const auto names = joint_names_at(message, state);
+    joint_names_ = fmt::format("{}", fmt::join(names, ", ")).substr(0, kMaxListed);
   }
   if (const auto effort = message.numbers("effort"); effort && !effort->empty()) ++effort_messages_;
 }
 
-void LegSurvey::choose_contact_field(const std::string& type, const MessageDecoder& decoder) {
+void LegSurvey::choose_contact_field(const std::string& type, const MessageDecoder& decoder,
+                                     const StateLayout* state) {
   contact_field_ = config_.contacts_field;
-  const bool unitree = type == kUnitreeLowState || type == kUnitreeSportState;
-  contacts_are_raw_ = unitree || type == kFootForces;
-  if (contact_field_.empty() && unitree) contact_field_ = "foot_force";
-  if (unitree && config_.foot_names.empty()) {
-    config_.foot_names.assign(kUnitreeFeet.begin(), kUnitreeFeet.end());
+  if (state != nullptr && (contact_field_.empty() || contact_field_ == state->contacts)) {
+    contact_field_ = state->contacts;
+    contact_state_ = state;
+    contacts_are_flags_ = state->contact_kind == ContactKind::kState;
+    contacts_are_raw_ = !contacts_are_flags_;
+    if (!state->foot_names.empty() || !config_.foot_names.empty()) return;
+    for (const int leg : state->legs) {
+      config_.foot_names.emplace_back(kLegNames[static_cast<std::size_t>(leg)]);
+    }
+    return;
   }
+  contacts_are_raw_ = type == kFootForces;
   if (contact_field_.empty() && type == "sensor_msgs/JointState") contact_field_ = "effort";
   for (const MessageField& field : decoder.fields()) {
     if (field.kind != FieldKind::kNumbers) continue;
@@ -52,8 +60,8 @@ void LegSurvey::choose_contact_field(const std::string& type, const MessageDecod
 }
 
 void LegSurvey::add_contacts(const MessageView& message, const std::string& type,
-                             const MessageDecoder& decoder) {
-  if (contact_field_.empty()) choose_contact_field(type, decoder);
+                             const MessageDecoder& decoder, const StateLayout* state) {
+  if (contact_field_.empty()) choose_contact_field(type, decoder, state);
   const auto loads = loads_at(message, rule_of(0.0));
   if (!loads) return;
   ++contact_messages_;
@@ -66,7 +74,7 @@ void LegSurvey::add_contacts(const MessageView& message, const std::string& type
 void LegSurvey::add_joint_motion(const MessageView& message, Time record_time) {
   const Time stamp = header_stamp(message, record_time);
   const Time time = stamp == 0 ? record_time : stamp;
-  if (const auto unnamed = unnamed_joints_at(message)) {
+  if (const auto unnamed = unnamed_joints_at(message, joint_rule_)) {
     return order_finder_.add_joints(time, unnamed->angles, unnamed->rates);
   }
   const auto joints = joints_at(message, record_time, joint_rule_);
@@ -117,9 +125,11 @@ void LegSurvey::decide_order(const Eigen::Quaterniond& R_body_base, ReadingNotes
   }
 }
 
-void LegSurvey::add_feet(const MessageView& message) {
-  const auto feet = feet_at(message, 0);
+void LegSurvey::add_feet(const MessageView& message, const StateLayout& state) {
+  feet_state_ = &state;
+  const auto feet = feet_at(message, 0, state);
   if (!feet) return;
+  has_feet_ = true;
   for (const Eigen::Vector3d& foot : feet->position) {
     if (foot.allFinite()) farthest_foot_ = std::max(farthest_foot_, foot.norm());
   }
@@ -136,7 +146,7 @@ void LegSurvey::add_loads(const MessageView& message) {
 }
 
 ContactRule LegSurvey::rule_of(double threshold) const {
-  ContactRule rule = {contact_field_, {}, config_.foot_names};
+  ContactRule rule = {contact_field_, {}, config_.foot_names, contact_state_};
   rule.thresholds.fill({threshold, threshold});
   return rule;
 }
@@ -158,7 +168,9 @@ Result<ContactRule> LegSurvey::learned_rule(ReadingNotes& notes) const {
       fmt::format("{}: contacts begin/end at '{}' of {} (FL, FR, RL, RR), learned from "
                   "{} messages (contact_detection)",
                   topics_.contacts, contact_field_, list, loads_.size()));
-  return ContactRule{contact_field_, *thresholds, config_.foot_names};
+  ContactRule rule = rule_of(0.0);
+  rule.thresholds = *thresholds;
+  return rule;
 }
 
 Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
@@ -194,14 +206,22 @@ void LegSurvey::note_twist(const std::string& type, const std::string& frame,
   }
 }
 
-LegSource LegSurvey::decide_feet(ReadingNotes& notes) const {
+LegSource LegSurvey::decide_feet(ReadingNotes& notes) {
   if (farthest_foot_ > 0.0 && contact_messages_ > 0) {
-    notes.push_back("leg odometry: from feet, contacts and gyro");
+    notes.push_back(feet_state_->biped == nullptr
+                        ? "leg odometry: from feet, contacts and gyro"
+                        : fmt::format("leg odometry: from the joints of {}, the torques of its "
+                                      "knees and the gyro",
+                                      feet_state_->robot));
     return LegSource::kFeet;
   }
-  notes.push_back(
-      fmt::format("{}: {}: estimators run without legs", topics_.leg_odometry,
-                  farthest_foot_ > 0.0 ? "no contacts of the feet" : "foot_position_body is zero"));
+  const std::string_view field =
+      feet_state_->feet.empty() ? feet_state_->angles : feet_state_->feet;
+  const std::string lack = farthest_foot_ > 0.0 ? "no contacts of the feet"
+                           : has_feet_          ? fmt::format("{} is zero", field)
+                                                : fmt::format("'{}' does not hold all feet", field);
+  notes.push_back(fmt::format("{}: {}: estimators run without legs", topics_.leg_odometry, lack));
+  lack_ = lack;
   return LegSource::kNone;
 }
 
@@ -209,13 +229,16 @@ LegSource LegSurvey::decide_source(const std::string& type, const std::string& f
                                    ReadingNotes& notes) {
   const bool joints = has_joints();
   if (!topics_.joint_states.empty() && joint_messages_ > 0 && !joints && lack_.empty()) {
-    lack_ = fmt::format("{}: the names do not identify the twelve joints (joint_names): {}",
-                        topics_.joint_states, joint_names_);
+    const bool named = joint_rule_.state == nullptr || !joint_rule_.state->joint_names.empty();
+    lack_ = named ? fmt::format("{}: the names do not identify the twelve joints (joint_names): {}",
+                                topics_.joint_states, joint_names_)
+                  : fmt::format("{}: expected twelve joints or more in '{}'", topics_.joint_states,
+                                joint_rule_.state->angles);
     notes.warn("joints not identified", lack_);
   }
   if (!topics_.leg_odometry.empty()) {
     if (type == "nav_msgs/Odometry") return LegSource::kOdometry;
-    if (type == kUnitreeSportState) return decide_feet(notes);
+    if (feet_state_ != nullptr) return decide_feet(notes);
     note_twist(type, frame, notes);
     return LegSource::kTwist;
   }

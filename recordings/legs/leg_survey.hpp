@@ -21,11 +21,12 @@ bool is_world_frame(const std::string& frame);
 class LegSurvey {
  public:
   LegSurvey(const RecordingConfig& config, const TopicsConfig& topics)
-      : config_(config), topics_(topics), joint_rule_{config.joint_names, std::nullopt} {}
+      : config_(config), topics_(topics), joint_rule_{config.joint_names, std::nullopt, nullptr} {}
 
-  void add_joints(const MessageView& message, Time record_time);
+  /// `state`: how the message's type holds a robot's legs, or null. Likewise below.
+  void add_joints(const MessageView& message, Time record_time, const StateLayout* state);
   void add_contacts(const MessageView& message, const std::string& type,
-                    const MessageDecoder& decoder);
+                    const MessageDecoder& decoder, const StateLayout* state);
 
   bool has_joints_and_contacts() const { return has_joints() && contact_messages_ > 0; }
 
@@ -47,7 +48,7 @@ class LegSurvey {
   const std::string& lack() const { return lack_; }
 
   /// Adds the feet of a topic of leg odometry that has them.
-  void add_feet(const MessageView& message);
+  void add_feet(const MessageView& message, const StateLayout& state);
 
   /// Whether the thresholds of contacts are to be learned, from the loads of `add_loads`.
   bool learns_contacts() const;
@@ -68,8 +69,9 @@ class LegSurvey {
   }
   ContactRule rule_of(double threshold) const;
   Result<ContactRule> learned_rule(ReadingNotes& notes) const;
-  void choose_contact_field(const std::string& type, const MessageDecoder& decoder);
-  LegSource decide_feet(ReadingNotes& notes) const;
+  void choose_contact_field(const std::string& type, const MessageDecoder& decoder,
+                            const StateLayout* state);
+  LegSource decide_feet(ReadingNotes& notes);
   void note_twist(const std::string& type, const std::string& frame, ReadingNotes& notes) const;
 
   RecordingConfig config_;
@@ -86,8 +88,11 @@ class LegSurvey {
   int contact_messages_ = 0;
   std::string contact_field_;
   bool contacts_are_flags_ = false;
-  bool contacts_are_raw_ = false;  ///< counts without calibration
+  bool contacts_are_raw_ = false;               ///< counts without calibration, or torques
+  const StateLayout* contact_state_ = nullptr;  ///< if its contacts are read
+  const StateLayout* feet_state_ = nullptr;     ///< of the feet without joints
   double largest_load_ = 0.0;
+  bool has_feet_ = false;
   double farthest_foot_ = 0.0;  ///< of the feet without joints [m]
   std::vector<FootLoads> loads_;
 };

@@ -102,6 +102,25 @@ constexpr auto kTypes = std::to_array<KnownType>({
      "uint8 version_high\nuint8 version_low\nuint8 status\nuint8 soc\nint32 current\n"
      "uint16 cycle\nint8[2] bq_ntc\nint8[2] mcu_ntc\nuint16[15] cell_vol\n"},
     {"unitree_go/TimeSpec", "int32 sec\nuint32 nanosec\n"},
+    {"unitree_hg/LowState",
+     "uint32[2] version\nuint8 mode_pr\nuint8 mode_machine\nuint32 tick\nIMUState imu_state\n"
+     "MotorState[35] motor_state\nuint8[40] wireless_remote\nuint32[4] reserve\nuint32 crc\n"},
+    {"unitree_hg/IMUState",
+     "float32[4] quaternion\nfloat32[3] gyroscope\nfloat32[3] accelerometer\nfloat32[3] rpy\n"
+     "int16 temperature\n"},
+    {"unitree_hg/MotorState",
+     "uint8 mode\nfloat32 q\nfloat32 dq\nfloat32 ddq\nfloat32 tau_est\nint16[2] temperature\n"
+     "float32 vol\nuint32[2] sensor\nuint32 motorstate\nuint32[4] reserve\n"},
+    {"spot_msgs/FootStateArray", "Header header\nFootState[] states\n"},
+    {"spot_msgs/FootState",
+     "geometry_msgs/Point foot_position_rt_body\nuint8 contact\nTerrainState terrain\n"},
+    {"spot_msgs/TerrainState",
+     "float32 ground_mu_est\nstring frame_name\n"
+     "geometry_msgs/Vector3 foot_slip_distance_rt_frame\n"
+     "geometry_msgs/Vector3 foot_slip_velocity_rt_frame\n"
+     "geometry_msgs/Vector3 ground_contact_normal_rt_frame\n"
+     "float32 visual_surface_ground_penetration_mean\n"
+     "float32 visual_surface_ground_penetration_std\n"},
     {"livox_ros_driver/CustomMsg", kLivoxMessage},
     {"livox_ros_driver/CustomPoint", kLivoxPoint},
     {"livox_ros_driver2/CustomMsg", kLivoxMessage},

@@ -14,11 +14,27 @@
 
 namespace aims {
 
-/// The stamp of a message's header, or its own one, or its record time when it has none.
+/// The stamp of a message's header, or its own one, or nothing.
+std::optional<Time> recorded_stamp(const MessageView& message);
+
+/// The same, or its record time when it has none.
 Time header_stamp(const MessageView& message, Time record_time);
 
 /// A vector "x", "y", "z" below `path`, or nothing.
 std::optional<Eigen::Vector3d> vector_at(const MessageView& message, std::string_view path);
+
+/// The numbers of an array, bytes too. "a[].b" is the field b of each entry of a. Nothing where a
+/// field is absent or of another kind.
+std::optional<std::vector<double>> numbers_at(const MessageView& message, std::string_view path);
+
+/// The texts of an array, or of a field of each entry, by the same paths.
+std::optional<std::vector<std::string_view>> texts_at(const MessageView& message,
+                                                      std::string_view path);
+
+/// The points of an array: three numbers each, or "x", "y", "z" of each entry ("a[]") or of a field
+/// of it ("a[].b").
+std::optional<std::vector<Eigen::Vector3d>> points_at(const MessageView& message,
+                                                      std::string_view path);
 
 /// A pose "position", "orientation" below `path`, or nothing. The quaternion is normalized; a norm
 /// outside (0.5, 2) yields the identity and is counted as "pose_without_rotation".
@@ -43,8 +59,8 @@ std::optional<Eigen::Quaterniond> quaternion_at(const MessageView& message, std:
 /// not finite, is none too and counted as "imu_orientation_invalid".
 std::optional<Eigen::Quaterniond> imu_orientation(const MessageView& message, EventCounts& counts);
 
-/// The sample of a sensor_msgs/Imu or of a state of a Unitree robot, in the recorded unit; nothing
-/// for other messages. Invalid orientations are counted as "imu_orientation_invalid".
+/// The sample of a sensor_msgs/Imu or of a robot's state (`robot_states`), in the recorded unit;
+/// nothing for other messages. Invalid orientations are counted as "imu_orientation_invalid".
 std::optional<ImuSample> imu_at(const MessageView& message, Time record_time, EventCounts& counts);
 
 /// Whether the norm differs from 1 by more than rounding.

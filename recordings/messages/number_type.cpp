@@ -52,9 +52,8 @@ std::size_t size_of(NumberType type) {
 }
 
 double number_at(const std::byte* bytes, NumberType type, std::endian order) {
-  return with_type(type, [&]<class T>(T /*type*/) {
-    return static_cast<double>(load_number<T>(bytes, order));
-  });
+  return with_type(
+      type, [&]<class T>(T /*type*/) { return static_cast<double>(load_number<T>(bytes, order)); });
 }
 
 void numbers_at(const std::byte* bytes, std::size_t stride, NumberType type, std::endian order,

@@ -103,10 +103,14 @@ const OusterScans::Layout& OusterScans::layout() const {
 Result<OusterMetadata> read_ouster_metadata(const std::filesystem::path& file) {
   const auto text = read_file(file, std::size_t{1} << 20);
   if (!text) return tl::unexpected(text.error());
-  const auto scalars = yaml_scalars(*text, file.string());  // JSON is YAML
+  return parse_ouster_metadata(*text, file.string());
+}
+
+Result<OusterMetadata> parse_ouster_metadata(const std::string& text, const std::string& name) {
+  const auto scalars = yaml_scalars(text, name);  // JSON is YAML
   if (!scalars) return tl::unexpected(scalars.error());
   const auto refuse = [&](std::string_view key, const std::string& what) {
-    return failure(fmt::format("{}: {}: expected {}", file.string(), key, what));
+    return failure(fmt::format("{}: {}: expected {}", name, key, what));
   };
   OusterMetadata metadata;
   const std::string* profile = find(*scalars, "udp_profile_lidar");

@@ -30,6 +30,9 @@ struct OusterMetadata {
 /// other than LEGACY, RNG19_RFL8_SIG16_NIR16 (also _DUAL) and RNG15_RFL8_NIR8.
 Result<OusterMetadata> read_ouster_metadata(const std::filesystem::path& file);
 
+/// The same of the text of such a file; `name` is its name in errors.
+Result<OusterMetadata> parse_ouster_metadata(const std::string& text, const std::string& name);
+
 /// Puts the scans of an Ouster sensor together from its packets (Ouster sensor documentation, data
 /// packet format): a scan ends where the frame number changes. Each point has the time of its
 /// column, in the sensor's clock. Of two returns the one with the larger signal is used. LiDAR axes

@@ -9,91 +9,16 @@
 #include <system_error>
 #include <utility>
 
-#include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "recordings/pcap/hesai_packets.hpp"
 #include "recordings/pcap/ouster_packets.hpp"
+#include "recordings/pcap/packet_decoder.hpp"
 #include "recordings/pcap/udp_packets.hpp"
-#include "recordings/pcap/velodyne_packets.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-enum PacketKind : std::size_t { kScan, kImu, kFrames };
-
-/// A message that a packet completes.
-struct PacketMessage {
-  PacketKind kind = kScan;
-  MessageBytes bytes = MessageBytes();
-};
-
-/// Turns the packets of one sensor into messages.
-class PacketDecoder {
- public:
-  virtual ~PacketDecoder() = default;
-  /// Nothing for packets that complete no message. Error for those of another model.
-  virtual Result<std::optional<PacketMessage>> add(const UdpPacket& packet) = 0;
-  /// The last scan, if it is complete.
-  virtual std::optional<PacketMessage> finish() = 0;
-};
-
-class VelodyneDecoder final : public PacketDecoder {
- public:
-  Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
-    if (packet.payload.size() != kVelodynePacketSize) return std::nullopt;
-    const auto scan = scans_.add(packet.payload, packet.time);
-    if (!scan) return tl::unexpected(scan.error());
-    if (!*scan) return std::nullopt;
-    return PacketMessage{kScan, cloud_message({0, (*scan)->stamp, "velodyne"}, **scan)};
-  }
-
-  std::optional<PacketMessage> finish() override {
-    const auto scan = scans_.finish();
-    if (!scan) return std::nullopt;
-    return PacketMessage{kScan, cloud_message({0, scan->stamp, "velodyne"}, *scan)};
-  }
-
- private:
-  VelodyneScans scans_;
-};
-
-class OusterDecoder final : public PacketDecoder {
- public:
-  explicit OusterDecoder(const OusterMetadata& metadata) : metadata_(metadata), scans_(metadata) {}
-
-  Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
-    const bool imu = packet.payload.size() == OusterScans::kImuPacketSize;
-    if (!imu && packet.payload.size() != scans_.lidar_packet_size()) return std::nullopt;
-    if (!std::exchange(framed_, true)) {
-      if (!imu) static_cast<void>(scans_.add(packet.payload));  // the first ends no scan
-      return PacketMessage{kFrames, frames(packet.time)};
-    }
-    if (imu) {
-      const ImuSample sample = OusterScans::imu_of(packet.payload);
-      return PacketMessage{kImu, imu_message({0, sample.stamp, "os_imu"}, sample)};
-    }
-    const auto scan = scans_.add(packet.payload);
-    if (!scan) return std::nullopt;
-    return PacketMessage{kScan, cloud_message({0, scan->stamp, "os_lidar"}, *scan)};
-  }
-
-  std::optional<PacketMessage> finish() override {
-    const auto scan = scans_.finish(true);
-    if (!scan) return std::nullopt;
-    return PacketMessage{kScan, cloud_message({0, scan->stamp, "os_lidar"}, *scan)};
-  }
-
- private:
-  MessageBytes frames(Time stamp) const {
-    return transforms_message(stamp, {{"os_sensor", "os_lidar", metadata_.T_sensor_lidar},
-                                      {"os_sensor", "os_imu", metadata_.T_sensor_imu}});
-  }
-
-  OusterMetadata metadata_;
-  OusterScans scans_;
-  bool framed_ = false;  ///< the frames are given
-};
 
 }  // namespace
 
@@ -101,6 +26,7 @@ struct PcapReader::Impl {
   UdpPackets packets;
   std::optional<OusterMetadata> ouster;
   bool recover = false;
+  bool hesai = false;  ///< by the first packet that tells
   std::unique_ptr<PacketDecoder> decoder = {};
   Time time = 0;  ///< of the last packet; those of a capture may be out of order
   PacketMessage message = {};
@@ -123,8 +49,6 @@ void PcapReader::Impl::note_payload(std::span<const std::byte> payload) {
   const auto begins = [&](std::uint8_t a, std::uint8_t b) {
     return payload[0] == std::byte{a} && payload[1] == std::byte{b};
   };
-  if (begins(0xee, 0xff))
-    maker = "packets of a Hesai, which are not read: convert them by its driver";
   if (begins(0x55, 0xaa))
     maker = "packets of a RoboSense, which are not read: convert them by its driver";
 }
@@ -170,14 +94,14 @@ Result<PcapReader> PcapReader::open(const fs::path& file, BagOpenOptions options
   }
   const std::string found = reader.impl_->found();
   return reader.impl_->packets.file().refuse(
-      0, ouster
-             ? fmt::format("expected complete scans of an Ouster, as the metadata beside it "
-                           "describe ({} bytes a packet), found none: {}",
-                           OusterScans(*reader.impl_->ouster).lidar_packet_size(), found)
-             : fmt::format("expected complete scans of a Velodyne VLP-16 (1206 bytes a packet), "
-                           "found none: {}; for an Ouster its metadata is expected beside it, as "
-                           "NAME.json",
-                           found));
+      0, ouster ? fmt::format("expected complete scans of an Ouster, as the metadata beside it "
+                              "describe ({} bytes a packet), found none: {}",
+                              OusterScans(*reader.impl_->ouster).lidar_packet_size(), found)
+                : fmt::format("expected complete scans of a Velodyne VLP-16 (1206 bytes a packet) "
+                              "or a Hesai XT32 or XT16, found none: {}; for an Ouster its metadata "
+                              "is expected beside it, as "
+                              "NAME.json",
+                              found));
 }
 
 std::string PcapReader::name() const { return impl_->packets.file().path().string(); }
@@ -198,6 +122,10 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
     }
     pcap.note_payload((*packet)->payload);
     const UdpPacket& each = **packet;
+    if (!pcap.ouster && !pcap.hesai && is_hesai_packet(each.payload)) {
+      pcap.hesai = true;
+      pcap.decoder = hesai_decoder("hesai_lidar");
+    }
     auto completed = pcap.decoder->add(each);
     if (!completed) return pcap.packets.file().refuse(each.position, completed.error().message);
     if (!*completed) continue;
@@ -210,11 +138,9 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
 void PcapReader::rewind() {
   impl_->packets.rewind();
   impl_->time = 0;
-  if (impl_->ouster) {
-    impl_->decoder = std::make_unique<OusterDecoder>(*impl_->ouster);
-  } else {
-    impl_->decoder = std::make_unique<VelodyneDecoder>();
-  }
+  impl_->decoder = impl_->ouster  ? ouster_decoder(*impl_->ouster, true)
+                   : impl_->hesai ? hesai_decoder("hesai_lidar")
+                                  : velodyne_decoder("velodyne");
 }
 
 }  // namespace aims

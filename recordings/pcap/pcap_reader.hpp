@@ -12,7 +12,8 @@ namespace aims {
 
 /// Reads a capture of a LiDAR's packets (.pcap) as messages: scans as sensor_msgs/PointCloud2; of
 /// an Ouster also its IMU as sensor_msgs/Imu and its frames on /tf_static. NAME.json beside
-/// NAME.pcap is the metadata of an Ouster; without it the packets are those of a Velodyne VLP-16.
+/// NAME.pcap is the metadata of an Ouster; without it the packets are those of a Velodyne VLP-16 or
+/// a Hesai XT32 or XT16, by their first bytes.
 /// The incomplete scans at both ends are left out.
 class PcapReader final : public KindSource {
  public:

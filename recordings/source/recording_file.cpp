@@ -17,6 +17,7 @@
 #include "recordings/csv/csv_reader.hpp"
 #include "recordings/mcap/mcap_reader.hpp"
 #include "recordings/mcap/mcap_writer.hpp"
+#include "recordings/pcap/packet_source.hpp"
 #include "recordings/pcap/pcap_reader.hpp"
 #include "recordings/rosbag2/rosbag2_metadata.hpp"
 #include "recordings/rosbag2/rosbag2_reader.hpp"
@@ -143,6 +144,16 @@ Result<std::unique_ptr<MessageSource>> open_recording(const fs::path& file,
   if (format == RecordingFormat::kPcap) return opened<PcapReader>(file, options);
   if (format == RecordingFormat::kCsv) return opened<CsvReader>(file, options);
   return opened<BagReader>(file, options);
+}
+
+Result<std::unique_ptr<MessageSource>> open_sensor_recording(const fs::path& file,
+                                                             BagOpenOptions options,
+                                                             bool without_lidar) {
+  auto source = open_recording(file, std::move(options));
+  if (!source) return source;
+  const auto decoded = decode_packets(*source);
+  if (!decoded && !without_lidar) return tl::unexpected(decoded.error());
+  return source;
 }
 
 Result<std::unique_ptr<MessageSink>> create_recording(const fs::path& file, RecordingFormat format,

@@ -18,7 +18,7 @@ enum class RecordingFormat {
   kBag,      ///< ROS 1 bag, format 2.0
   kMcap,     ///< MCAP, with messages of ROS 2 or ROS 1
   kRosbag2,  ///< folder of rosbag2, with SQLite or MCAP files, or one such SQLite file
-  kPcap,     ///< capture of the packets of a Velodyne or Ouster
+  kPcap,     ///< capture of the packets of a Velodyne, Hesai or Ouster
   kCsv,      ///< table of comma-separated values: the YAML file that maps its columns
 };
 
@@ -35,6 +35,12 @@ std::optional<RecordingFormat> format_by_name(const std::filesystem::path& file)
 /// named twice.
 Result<std::unique_ptr<MessageSource>> open_recording(const std::filesystem::path& file,
                                                       BagOpenOptions options = {});
+
+/// The same with the clouds and IMU that packets of LiDARs in it become (`decode_packets`).
+/// `without_lidar`: packets that cannot be decoded are no error.
+Result<std::unique_ptr<MessageSource>> open_sensor_recording(const std::filesystem::path& file,
+                                                             BagOpenOptions options = {},
+                                                             bool without_lidar = false);
 
 /// A new recording of ROS 1 messages (bag) or ROS 2 messages (the others). Error when the file or
 /// folder exists or cannot be written, or when the format does not know the compression.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/stream/recording_plan.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 
@@ -106,15 +108,31 @@ void survey_loads(MessageSource& bag, const std::string& topic, RecordingSurvey&
   }
 }
 
-/// The configuration with the legs that a simulated recording states, unless it names its own.
+/// The legs of the robot whose message type has the joints, if it has one.
+const StateLayout* state_of_joints(const RecordingChannels& channels, const TopicsConfig& topics) {
+  const Channel* joints = channels.of_topic(topics.joint_states);
+  return joints != nullptr && joints->state != nullptr && joints->state->geometry != nullptr
+             ? joints->state
+             : nullptr;
+}
+
+/// The configuration with the legs that a simulated recording states, or those of the robot of the
+/// message type, unless it names its own.
 RecordingConfig with_recorded_legs(const RecordingConfig& given, MessageSource& bag,
-                                   std::vector<std::string>& notes) {
+                                   const StateLayout* state, std::vector<std::string>& notes) {
   RecordingConfig config = given;
   if (given.leg_geometry != RecordingConfig().leg_geometry) return config;
   const auto legs = recorded_legs(bag);
-  if (!legs || *legs == given.leg_geometry) return config;
-  config.leg_geometry = *legs;
-  notes.push_back("leg geometry: as the recording's scenario states it (robot.legs)");
+  if (legs && *legs != given.leg_geometry) {
+    config.leg_geometry = *legs;
+    notes.push_back("leg geometry: as the recording's scenario states it (robot.legs)");
+  } else if (!legs && state != nullptr) {
+    config.leg_geometry = *state->geometry;
+    notes.push_back(
+        fmt::format("leg geometry: that of {}, as the message type {} suggests "
+                    "(leg_geometry)",
+                    state->robot, state->type));
+  }
   return config;
 }
 
@@ -125,7 +143,8 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
                                      std::vector<std::string> notes) {
   const auto plain = with_plain_extrinsics(given);
   if (!plain) return tl::unexpected(plain.error());
-  const RecordingConfig config = with_recorded_legs(*plain, bag, notes);
+  const RecordingConfig config =
+      with_recorded_legs(*plain, bag, state_of_joints(channels, topics), notes);
   RecordingSurvey survey(config, topics);
   if (auto ok = survey_transforms(bag, "/tf_static", true, survey); !ok) {
     return tl::unexpected(ok.error());

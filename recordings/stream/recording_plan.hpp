@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct RecordingPlan {
   Duration arrival_shift = 0;                               ///< added to record times
   Time start = 0;                                           ///< earliest record time that was set
   std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
+  std::map<std::string, Duration> repeat_period;     ///< of topics that send each sample repeatedly
   std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used
 };
 

@@ -10,6 +10,7 @@
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/stream/recording_plan.hpp"
+#include "recordings/stream/repeated_samples.hpp"
 #include "recordings/topics/recording_channels.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
@@ -43,18 +44,20 @@ struct RecordingReader::Impl {
         config(configured),
         legs(plan.legs),
         contact_detector(plan.contacts.thresholds) {
+    for (const auto& [topic, period] : plan.repeat_period) repeats.emplace(topic, period);
     summary.start = plan.start;
   }
 
   Result<void> fetch();
   bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
-  void release(Time until, std::vector<Delivery>& out);
+  void release(Time due, std::vector<Delivery>& out);
   void receive(const BagMessage& message, std::vector<Delivery>& out);
+  bool is_repeated(const Channel& channel, const MessageView& view);
   void take(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
   void take_cloud(const MessageView& view, std::vector<Delivery>& out);
   void take_imu(const MessageView& view, std::vector<Delivery>& out);
-  void take_legs(const MessageView& view, std::vector<Delivery>& out);
-  void take_feet(const MessageView& view, std::vector<Delivery>& out);
+  void take_legs(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
+  void take_feet(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
   void take_joints(const MessageView& view, std::vector<Delivery>& out);
   void take_contacts(const MessageView& view, std::vector<Delivery>& out);
   void take_truth(const MessageView& view);
@@ -70,8 +73,9 @@ struct RecordingReader::Impl {
   RecordingConfig config;
   LegStream legs;
   ContactDetector contact_detector;
-  std::optional<BagMessage> next;  ///< read, not yet delivered
-  std::multimap<Time, Held> held;  ///< by the time at which they are due
+  std::map<std::string, RepeatFilter> repeats;  ///< by topic
+  std::optional<BagMessage> next;               ///< read, not yet delivered
+  std::multimap<Time, Held> held;               ///< by the time at which they are due
   std::size_t held_bytes = 0;
   bool started = false;
   Time until = 0;        ///< record time up to which messages have been delivered
@@ -138,8 +142,9 @@ void RecordingReader::Impl::take_imu(const MessageView& view, std::vector<Delive
   deliver(Role::kImu, sample, sample.stamp, out);
 }
 
-void RecordingReader::Impl::take_legs(const MessageView& view, std::vector<Delivery>& out) {
-  if (plan.legs.source == LegSource::kFeet) return take_feet(view, out);
+void RecordingReader::Impl::take_legs(const Channel& channel, const MessageView& view,
+                                      std::vector<Delivery>& out) {
+  if (plan.legs.source == LegSource::kFeet) return take_feet(channel, view, out);
   if (plan.legs.source == LegSource::kNone) return;
   const bool twist = plan.legs.source == LegSource::kTwist;
   auto sample = twist ? twist_at(view, record_time) : odometry_at(view, counts);
@@ -148,8 +153,9 @@ void RecordingReader::Impl::take_legs(const MessageView& view, std::vector<Deliv
   deliver(twist ? legs.add_twist(*sample) : legs.add_odometry(*sample, counts), out);
 }
 
-void RecordingReader::Impl::take_feet(const MessageView& view, std::vector<Delivery>& out) {
-  auto feet = feet_at(view, record_time);
+void RecordingReader::Impl::take_feet(const Channel& channel, const MessageView& view,
+                                      std::vector<Delivery>& out) {
+  auto feet = channel.state == nullptr ? std::nullopt : feet_at(view, record_time, *channel.state);
   if (!feet) return malformed(Role::kLegs);
   feet->stamp = stamp_of(Role::kLegs, feet->stamp, config.leg_delay);
   deliver(legs.add_feet(*feet, counts), out);
@@ -186,15 +192,27 @@ void RecordingReader::Impl::take_truth(const MessageView& view) {
   }
 }
 
+/// Whether the message is the sample before under a new stamp.
+bool RecordingReader::Impl::is_repeated(const Channel& channel, const MessageView& view) {
+  if (repeats.empty()) return false;
+  const auto filter = repeats.find(channel.connection->topic);
+  if (filter == repeats.end()) return false;
+  return filter->second.repeats(header_stamp(view, record_time), sample_numbers(view, channel));
+}
+
 void RecordingReader::Impl::take(const Channel& channel, const MessageView& view,
                                  std::vector<Delivery>& out) {
+  if (is_repeated(channel, view)) {
+    ++counts["repeated_samples"];
+    return;
+  }
   if (channel.is(Role::kTruth)) take_truth(view);
   if (channel.is(Role::kLidar)) take_cloud(view, out);
   if (channel.is(Role::kImu)) take_imu(view, out);
   // Contacts first, where one message holds both: the joints then find those of their instant.
   if (channel.is(Role::kContacts)) take_contacts(view, out);
   if (channel.is(Role::kJoints)) take_joints(view, out);
-  if (channel.is(Role::kLegs)) take_legs(view, out);
+  if (channel.is(Role::kLegs)) take_legs(channel, view, out);
 }
 
 /// Keeps a message that is recorded before its stamp, as after the recorder's clock was set back or
@@ -219,8 +237,8 @@ bool RecordingReader::Impl::hold(const BagMessage& message, const Channel& chann
 }
 
 /// Takes the messages that are due.
-void RecordingReader::Impl::release(Time until, std::vector<Delivery>& out) {
-  while (!held.empty() && held.begin()->first <= until) {
+void RecordingReader::Impl::release(Time due, std::vector<Delivery>& out) {
+  while (!held.empty() && held.begin()->first <= due) {
     const auto first = held.extract(held.begin());
     record_time = first.key();
     const BagMessage message = {first.mapped().connection, first.key(), first.mapped().data, 0};
@@ -250,7 +268,7 @@ void RecordingReader::Impl::receive(const BagMessage& message, std::vector<Deliv
 Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
                                               const RecordingConfig& config,
                                               BagOpenOptions options) {
-  auto source = open_recording(file, options);
+  auto source = open_sensor_recording(file, options, config.topics.lidar == "none");
   if (!source) return tl::unexpected(source.error());
   return open(std::move(*source), config);
 }
@@ -302,7 +320,11 @@ Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deli
     impl.next.reset();
     if (auto ok = impl.fetch(); !ok) return tl::unexpected(ok.error());
   }
-  if (!impl.next) impl.release(std::numeric_limits<Time>::max(), deliveries);
+  if (!impl.next) {
+    impl.release(std::numeric_limits<Time>::max(), deliveries);
+    const auto repeated = static_cast<int>(impl.bag->summary().repeated_messages);
+    if (repeated > 0) impl.counts["recorded_in_two_files"] = repeated;
+  }
   return impl.next.has_value();
 }
 

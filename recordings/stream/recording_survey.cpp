@@ -50,7 +50,8 @@ void adopt_rate(std::optional<double> measured_hz, const char* sensor, double& n
 
 }  // namespace
 
-void RecordingSurvey::note_times(Role role, const MessageView& view, Time record_time) {
+void RecordingSurvey::note_times(Role role, const MessageView& view, Time record_time,
+                                 bool is_new) {
   Seen& each = seen(role);
   if (record_time > kSetRecordTime) {
     first_set_ = std::min(first_set_.value_or(record_time), record_time);
@@ -58,8 +59,10 @@ void RecordingSurvey::note_times(Role role, const MessageView& view, Time record
   if (each.stamps.size() >= kMaxSamples) return;
   const Time stamp = header_stamp(view, record_time);
   if (record_time < kUnsetRecordTime && stamp > kSetRecordTime) return;  // never set
+  each.unstamped = each.unstamped || !recorded_stamp(view);
   each.stamps.push_back(stamp);
   each.latencies.push_back(record_time - stamp);
+  each.is_new.push_back(is_new);
   if (each.frame.empty()) each.frame = view.text("header.frame_id").value_or("");
   if (each.child_frame.empty()) each.child_frame = view.text("child_frame_id").value_or("");
 }
@@ -70,17 +73,21 @@ void RecordingSurvey::add(const BagMessage& message, const Channel& channel) {
     if (channel.is(Role::kLidar) && cloud_error_.empty()) cloud_error_ = view.error().message;
     return;
   }
+  const bool is_new = repeats_[channel.connection->topic].add(
+      header_stamp(*view, message.record_time), sample_numbers(*view, channel));
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     if (!channel.serves[i]) continue;
-    note_times(static_cast<Role>(i), *view, message.record_time);
+    note_times(static_cast<Role>(i), *view, message.record_time, is_new);
     seen_[i].type = channel.connection->type;
+    seen_[i].state = channel.state;
   }
   if (channel.is(Role::kLidar)) add_cloud(*view, message.record_time);
   if (channel.is(Role::kImu)) add_imu(*view);
-  if (channel.is(Role::kLegs)) legs_.add_feet(*view);
-  if (channel.is(Role::kJoints)) legs_.add_joints(*view, message.record_time);
+  const StateLayout* state = channel.state;
+  if (channel.is(Role::kLegs) && state != nullptr) legs_.add_feet(*view, *state);
+  if (channel.is(Role::kJoints)) legs_.add_joints(*view, message.record_time, state);
   if (channel.is(Role::kContacts)) {
-    legs_.add_contacts(*view, channel.connection->type, channel.decoder);
+    legs_.add_contacts(*view, channel.connection->type, channel.decoder, state);
   }
 }
 
@@ -145,6 +152,35 @@ Duration RecordingSurvey::latency_of(const Seen& each) {
   return early_latency(std::move(first));
 }
 
+/// Samples that are sent again under new stamps count once.
+void RecordingSurvey::decide_repeats(RecordingPlan& plan) {
+  for (const auto& [topic, finder] : repeats_) {
+    const auto period = finder.period();
+    if (!period) continue;
+    plan.repeat_period[topic] = *period;
+    notes_.push_back(fmt::format(
+        "{}: each sample is sent {:.1f} times, and new every {:.1f} ms: "
+        "repetitions are left out",
+        topic, static_cast<double>(finder.messages()) / static_cast<double>(finder.samples()),
+        1e3 * to_seconds(*period)));
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      if (topic_of(topics_, static_cast<Role>(i)) == topic) keep_new(seen_[i]);
+    }
+  }
+}
+
+void RecordingSurvey::keep_new(Seen& each) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < each.is_new.size(); ++i) {
+    if (!each.is_new[i]) continue;
+    each.stamps[kept] = each.stamps[i];
+    each.latencies[kept++] = each.latencies[i];
+  }
+  each.stamps.resize(kept);
+  each.latencies.resize(kept);
+  each.is_new.assign(kept, true);
+}
+
 /// Clocks: stamps that were never set, and sensors with different clocks.
 void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
@@ -191,6 +227,15 @@ void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::strin
   }
 }
 
+/// The types of robots' states that are read and have no stamp.
+std::set<std::string> RecordingSurvey::unstamped_states() const {
+  std::set<std::string> types;
+  for (const Seen& each : seen_) {
+    if (each.unstamped && each.state != nullptr) types.insert(each.type);
+  }
+  return types;
+}
+
 void RecordingSurvey::decide_imu(RecordingPlan& plan) {
   ReadingNotes& notes = notes_;
   plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
@@ -212,8 +257,8 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) {
     notes.push_back(
         fmt::format("IMU in g ({:.3f} at the start): multiplied by {}", force, kStandardGravity));
   }
-  if (seen(Role::kImu).type == kUnitreeLowState) {
-    notes.push_back(fmt::format("{} has no stamp: record times are used", kUnitreeLowState));
+  for (const std::string& type : unstamped_states()) {
+    notes.push_back(fmt::format("{} has no stamp: record times are used", type));
   }
   const double turning = upper_median(turn_rates_).value_or(0.0);
   if (largest_turn_rate_ > kMaxTurnRate || turning > kFastTurning) {
@@ -339,6 +384,7 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
     plan.setup.has_point_times = plan.cloud.clock != PointClock::kNone;
     plan.setup.rings = plan.cloud.rings;
   }
+  decide_repeats(plan);
   decide_stamps(plan);
   decide_imu(plan);
   if (auto legs = decide_legs(plan); !legs) {

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "recordings/legs/leg_survey.hpp"
 #include "recordings/reading_notes.hpp"
 #include "recordings/stream/recording_plan.hpp"
+#include "recordings/stream/repeated_samples.hpp"
 #include "recordings/topics/recording_channels.hpp"
 
 namespace aims {
@@ -50,21 +53,27 @@ class RecordingSurvey {
   struct Seen {
     std::vector<Time> stamps;
     std::vector<Duration> latencies;  ///< record time minus stamp
+    std::vector<bool> is_new;         ///< not the sample before under a new stamp
     std::string frame;
     std::string child_frame;
     std::string type;
+    const StateLayout* state = nullptr;  ///< how the type holds a robot's legs, if it does
+    bool unstamped = false;              ///< a message has no stamp
   };
 
   Seen& seen(Role role) { return seen_[static_cast<std::size_t>(role)]; }
   const Seen& seen(Role role) const { return seen_[static_cast<std::size_t>(role)]; }
-  void note_times(Role role, const MessageView& view, Time record_time);
+  void note_times(Role role, const MessageView& view, Time record_time, bool is_new);
   void add_cloud(const MessageView& view, Time record_time);
   void add_imu(const MessageView& view);
 
   static Duration latency_of(const Seen& each);
+  static void keep_new(Seen& each);
+  void decide_repeats(RecordingPlan& plan);
   void decide_stamps(RecordingPlan& plan);
   void warn_of_clocks(const RecordingPlan& plan, const std::string& reference, Duration latency);
   void warn_of_up(const RecordingSetup& setup);
+  std::set<std::string> unstamped_states() const;
   void decide_imu(RecordingPlan& plan);
   Result<void> decide_legs(RecordingPlan& plan);
   void decide_frames(RecordingPlan& plan);
@@ -75,6 +84,7 @@ class RecordingSurvey {
   RecordingConfig config_;
   TopicsConfig topics_;
   std::array<Seen, kRoleCount> seen_;
+  std::map<std::string, RepeatFinder> repeats_;  ///< by topic
   CloudSurvey clouds_;
   std::string cloud_error_;                              ///< of the first that could not be read
   std::vector<double> forces_;                           ///< norms, in the recorded unit

@@ -38,6 +38,7 @@ Result<RecordingChannels> RecordingChannels::create(const std::filesystem::path&
   for (const BagConnection& connection : connections) {
     Channel channel;
     channel.connection = &connection;
+    channel.state = robot_state_of(connection.type, connection.definition);
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       channel.serves[i] = topic_of(topics, static_cast<Role>(i)) == connection.topic;
     }
@@ -59,6 +60,12 @@ Result<RecordingChannels> RecordingChannels::create(const std::filesystem::path&
 
 const Channel* RecordingChannels::find(const BagMessage& message) const {
   const auto found = channels_.find(message.connection->id);
+  return found == channels_.end() ? nullptr : &found->second;
+}
+
+const Channel* RecordingChannels::of_topic(const std::string& topic) const {
+  const auto found = std::ranges::find_if(
+      channels_, [&](const auto& each) { return each.second.connection->topic == topic; });
   return found == channels_.end() ? nullptr : &found->second;
 }
 

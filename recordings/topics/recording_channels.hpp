@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "recordings/bag/message_source.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/messages/robot_states.hpp"
 #include "recordings/recording_config.hpp"
 
 namespace aims {
@@ -32,6 +33,7 @@ struct Channel {
   const BagConnection* connection = nullptr;
   std::array<bool, kRoleCount> serves{};
   MessageDecoder decoder;
+  const StateLayout* state = nullptr;  ///< how the type holds a robot's legs, if it does
 
   bool is(Role role) const { return serves[static_cast<std::size_t>(role)]; }
 };
@@ -45,6 +47,8 @@ class RecordingChannels {
                                           const TopicsConfig& topics);
 
   const Channel* find(const BagMessage& message) const;
+  /// The first channel of a topic; null: none.
+  const Channel* of_topic(const std::string& topic) const;
   std::vector<std::string> topics() const;
 
  private:

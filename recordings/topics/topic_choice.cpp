@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <optional>
 #include <set>
 
-#include "recordings/messages/message_types.hpp"
+#include "recordings/messages/robot_states.hpp"
 #include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
@@ -25,17 +26,26 @@ bool holds(std::string_view text, std::string_view part) {
 
 bool is_cloud(const BagConnection& c) { return is_cloud_type(c.type); }
 bool is_imu(const BagConnection& c) { return c.type == "sensor_msgs/Imu"; }
-bool may_be_imu(const BagConnection& c) { return is_imu_type(c.type); }
-bool is_low_state(const BagConnection& c) { return c.type == kUnitreeLowState; }
-bool is_sport_state(const BagConnection& c) { return c.type == kUnitreeSportState; }
+const StateLayout* state_of(const BagConnection& c) { return robot_state_of(c.type, c.definition); }
+bool has_imu(const StateLayout& state) { return !state.imu.empty(); }
+bool has_joints(const StateLayout& state) { return state.has_joints(); }
+bool has_feet(const StateLayout& state) { return state.has_feet(); }
+bool has_contacts(const StateLayout& state) { return !state.contacts.empty(); }
+bool is_state(const BagConnection& c, bool (*has)(const StateLayout&)) {
+  const StateLayout* state = state_of(c);
+  return state != nullptr && has(*state);
+}
+bool may_be_imu(const BagConnection& c) { return is_imu(c) || is_state(c, has_imu); }
 bool is_odometry(const BagConnection& c) { return c.type == "nav_msgs/Odometry"; }
 bool is_twist(const BagConnection& c) {
   return c.type == "geometry_msgs/TwistStamped" ||
          c.type == "geometry_msgs/TwistWithCovarianceStamped" || c.type == "geometry_msgs/Twist";
 }
-bool is_legs(const BagConnection& c) { return is_odometry(c) || is_twist(c) || is_sport_state(c); }
+bool is_legs(const BagConnection& c) {
+  return is_odometry(c) || is_twist(c) || is_state(c, has_feet);
+}
 bool is_joints(const BagConnection& c) { return c.type == "sensor_msgs/JointState"; }
-bool may_be_joints(const BagConnection& c) { return is_joints(c) || is_low_state(c); }
+bool may_be_joints(const BagConnection& c) { return is_joints(c) || is_state(c, has_joints); }
 bool is_anything(const BagConnection&) { return true; }
 bool is_truth(const BagConnection& c) {
   return is_odometry(c) || c.type == "geometry_msgs/PoseStamped" ||
@@ -57,7 +67,7 @@ bool may_be_contacts(const BagConnection& c) {
 struct Request {
   std::string_view key;
   std::string_view expected;  ///< in words
-  bool (*is_suitable)(const BagConnection&);
+  std::function<bool(const BagConnection&)> is_suitable;
 };
 
 std::string topic_list(std::span<const BagConnection> connections) {
@@ -132,20 +142,26 @@ class Chooser {
   std::span<const BagConnection> connections_;
 };
 
-/// The topic of a Unitree robot's state; several are an error.
-Result<std::string> unitree_state(const Chooser& chooser, std::string_view key) {
-  auto low = chooser.found({key, kUnitreeLowState, is_low_state}, "/lowstate");
-  if (!low || !low->empty()) return low;
-  return chooser.found({key, kUnitreeSportState, is_sport_state}, "/sportmodestate");
+/// The topic of a robot's state that has what is wanted, of the first such row; several of one row
+/// are an error.
+Result<std::string> state_topic(const Chooser& chooser, std::string_view key,
+                                bool (*has)(const StateLayout&)) {
+  for (const StateLayout& row : robot_states()) {
+    if (!has(row)) continue;
+    const auto is_of_row = [&row](const BagConnection& c) { return state_of(c) == &row; };
+    auto topic = chooser.found({key, row.type, is_of_row}, row.topic);
+    if (!topic || !topic->empty()) return topic;
+  }
+  return std::string();
 }
 
-/// The IMU, if need be that of a Unitree robot's state.
+/// The IMU, if need be that of a robot's state.
 Result<std::string> imu_topic(const Chooser& chooser, const std::string& configured) {
-  const Request request = {"imu", "sensor_msgs/Imu or a state of unitree_go", may_be_imu};
+  const Request request = {"imu", "sensor_msgs/Imu or a robot's state with an IMU", may_be_imu};
   if (configured == kNone) return std::string();
   if (!configured.empty()) return chooser.requested(request, configured);
   auto topic = chooser.found({"imu", "sensor_msgs/Imu", is_imu}, kImuTopic);
-  if (topic && topic->empty()) topic = unitree_state(chooser, "imu");
+  if (topic && topic->empty()) topic = state_topic(chooser, "imu", has_imu);
   if (topic && topic->empty()) return chooser.missing({"imu", "sensor_msgs/Imu", is_imu});
   return topic;
 }
@@ -162,7 +178,7 @@ Result<std::string> required_topic(const Chooser& chooser, const Request& reques
 
 Result<std::string> legs(const Chooser& chooser, const std::string& configured) {
   constexpr std::string_view kExpected =
-      "nav_msgs/Odometry, geometry_msgs/TwistStamped or unitree_go/SportModeState";
+      "nav_msgs/Odometry, geometry_msgs/TwistStamped or a robot's state with feet";
   if (configured == kNone) return std::string();
   if (!configured.empty())
     return chooser.requested({"leg_odometry", kExpected, is_legs}, configured);
@@ -171,22 +187,20 @@ Result<std::string> legs(const Chooser& chooser, const std::string& configured) 
   if (!topic || !topic->empty()) return topic;
   topic = chooser.found({"leg_odometry", "geometry_msgs/TwistStamped", may_be_twist}, "");
   if (!topic || !topic->empty()) return topic;
-  // Joints give more than the feet of the other state.
-  topic = unitree_state(chooser, "leg_odometry");
-  const BagConnection* state = topic ? chooser.find(*topic) : nullptr;
-  if (state != nullptr && is_low_state(*state)) return std::string();
-  return topic;
+  // Joints give more than feet.
+  topic = state_topic(chooser, "leg_odometry", has_joints);
+  if (!topic) return topic;
+  return topic->empty() ? state_topic(chooser, "leg_odometry", has_feet) : std::string();
 }
 
-/// Joints or contacts of a Unitree robot where no other topic has them.
-void add_unitree_state(const Chooser& chooser, const TopicsConfig& configured,
-                       TopicsConfig& topics) {
-  const auto found = unitree_state(chooser, "joint_states");
-  const BagConnection* state = found ? chooser.find(*found) : nullptr;
-  if (state == nullptr) return;
-  const bool joints = configured.joint_states.empty() && topics.joint_states.empty();
-  if (joints && is_low_state(*state)) topics.joint_states = state->topic;
-  if (configured.contacts.empty() && topics.contacts.empty()) topics.contacts = state->topic;
+/// Joints or contacts of a robot's state where no other topic has them.
+void add_state(const Chooser& chooser, const TopicsConfig& configured, TopicsConfig& topics) {
+  if (configured.joint_states.empty() && topics.joint_states.empty()) {
+    topics.joint_states = state_topic(chooser, "joint_states", has_joints).value_or("");
+  }
+  if (configured.contacts.empty() && topics.contacts.empty()) {
+    topics.contacts = state_topic(chooser, "contacts", has_contacts).value_or("");
+  }
 }
 
 /// An optional topic. Of several suitable ones none is chosen.
@@ -219,7 +233,7 @@ struct Choice {
 Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                  std::vector<std::string>& notes) {
   const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
-  const Request joints = {"joint_states", "sensor_msgs/JointState or unitree_go/LowState",
+  const Request joints = {"joint_states", "sensor_msgs/JointState or a robot's state with joints",
                           may_be_joints};
   const Request contacts = {"contacts", "contacts of feet", is_anything};
   Choice choice;
@@ -231,7 +245,7 @@ Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                                                   kJointStatesTopic, is_joints, notes));
   choice.keep(topics.contacts, optional_topic(chooser, contacts, configured.contacts,
                                               kFootContactsTopic, may_be_contacts, notes));
-  add_unitree_state(chooser, configured, topics);
+  add_state(chooser, configured, topics);
   if (!configured.truth.empty() && configured.truth != kNone) {
     const Request truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
     choice.keep(topics.truth, chooser.requested(truth, configured.truth));
@@ -249,7 +263,7 @@ bool is_cloud_type(std::string_view type) {
 }
 
 bool is_imu_type(std::string_view type) {
-  return type == "sensor_msgs/Imu" || type == kUnitreeLowState || type == kUnitreeSportState;
+  return type == "sensor_msgs/Imu" || is_robot_state_with_imu(type);
 }
 
 std::string_view type_of(std::span<const BagConnection> connections, std::string_view topic) {

@@ -9,37 +9,14 @@
 #include <numeric>
 #include <random>
 
+#include "tests/recordings/legs/trot.hpp"
+
 namespace aims {
 namespace {
 
-const LegGeometry kGeometry = {0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
-constexpr double kPeriod = 0.5;  ///< of a step [s]
+using test::Trot;
 
-/// Angles of a robot that trots at 0.4 m/s forwards and turns at `rate`; FL and RR stand first.
-struct Trot {
-  double rate = 0.0;
-  double knee_sign = 1.0;
-
-  std::array<bool, kLegCount> contact(double time) const {
-    const bool first = std::fmod(time, kPeriod) < 0.5 * kPeriod;
-    return {first, !first, !first, first};
-  }
-  JointVector angles(double time) const {
-    JointVector q;
-    for (int leg = 0; leg < kLegCount; ++leg) {
-      const bool stands = contact(time)[static_cast<std::size_t>(leg)];
-      const double phase = std::fmod(time, 0.5 * kPeriod) - 0.25 * kPeriod;  // of the half period
-      Eigen::Vector3d foot = hip_in_base(leg, kGeometry);
-      foot.y() += side_of(leg) * 0.08;
-      const Eigen::Vector3d velocity(0.4 - rate * foot.y(), rate * foot.x(), 0.0);
-      const double back = stands ? -phase : phase;
-      foot += back * velocity + Eigen::Vector3d(0.0, 0.0, stands ? -0.3 : -0.25);
-      q.segment<3>(3 * leg) = leg_angles(leg, foot, kGeometry);
-      q[3 * leg + 2] *= knee_sign;
-    }
-    return q;
-  }
-};
+const LegGeometry kGeometry = test::kTrotGeometry;
 
 /// The finder after 10 s of it, with the joint of entry i in `order[i]`, and feet in `feet`.
 LegOrderFinder finder_of(const Trot& trot, const std::vector<int>& order,

@@ -13,6 +13,7 @@
 #include "core/files/atomic_file.hpp"
 #include "recordings/pcap/ouster_packets.hpp"
 #include "recordings/pcap/velodyne_packets.hpp"
+#include "tests/recordings/pcap/room_packets.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -257,6 +258,19 @@ TEST_F(Capture, RefusesWhatIsMalformed) {
             std::string::npos);
   EXPECT_NE(refusal(header() + packet).find("expected complete scans of a Velodyne VLP-16"),
             std::string::npos);
+}
+
+TEST_F(Capture, OfAHesaiHasItsScans) {
+  std::string bytes = header();
+  for (const auto& each : test::xt_packets(1'700'000'123 * kSecond, 2)) {
+    bytes += frame(Packet{each.payload});
+  }
+  ASSERT_TRUE(write_file_atomically(folder_.path() / "c.pcap", bytes));
+  const auto reader = PcapReader::open(folder_.path() / "c.pcap");
+  ASSERT_TRUE(reader) << reader.error().message;
+  ASSERT_EQ(reader->connections().size(), 1U);
+  EXPECT_EQ(reader->connections()[0].topic, "/lidar/points");
+  EXPECT_EQ(reader->connections()[0].messages, 2U);
 }
 
 TEST_F(Capture, NamesTheProfileThatIsNotRead) {

@@ -170,6 +170,18 @@ TEST_F(SplitRecording, FilesOfThreeFormatsAreOneRecording) {
 
 TEST_F(SplitRecording, AFolderOfRecordingsIsOneRecording) { expect_the_whole(parts_.path(), {}); }
 
+TEST_F(SplitRecording, AMessageThatTwoFilesHoldCountsOnce) {
+  auto whole = RecordingReader::open(whole_, {});
+  auto reader = RecordingReader::open(whole_, {}, {.with = {lidar_}});
+  ASSERT_TRUE(whole && reader) << reader.error().message;
+  const auto read = test::read_all(*reader);
+  const auto expected = test::read_all(*whole);
+  ASSERT_TRUE(read && expected) << read.error().message;
+  test::expect_same_deliveries(*expected, *read);
+  const auto scans = test::scans_of(*read).size();
+  EXPECT_EQ(reader->counts().at("recorded_in_two_files"), static_cast<int>(scans));
+}
+
 TEST_F(SplitRecording, AFileNamedTwiceIsRefused) {
   const auto again = open_recording(lidar_, {.with = {imu_, lidar_}});
   ASSERT_FALSE(again);

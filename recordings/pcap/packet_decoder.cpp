@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/pcap/packet_decoder.hpp"
+
+#include <utility>
+
+#include "recordings/pcap/hesai_packets.hpp"
+#include "recordings/pcap/velodyne_packets.hpp"
+
+namespace aims {
+namespace {
+
+std::optional<PacketMessage> cloud_of(const std::optional<LidarScan>& scan,
+                                      const std::string& frame) {
+  if (!scan) return std::nullopt;
+  return PacketMessage{kScan, cloud_message({0, scan->stamp, frame}, *scan)};
+}
+
+class VelodyneDecoder final : public PacketDecoder {
+ public:
+  explicit VelodyneDecoder(std::string frame) : frame_(std::move(frame)) {}
+
+  Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
+    if (packet.payload.size() != kVelodynePacketSize) return std::nullopt;
+    const auto scan = scans_.add(packet.payload, packet.time);
+    if (!scan) return tl::unexpected(scan.error());
+    return cloud_of(*scan, frame_);
+  }
+
+  std::optional<PacketMessage> finish() override { return cloud_of(scans_.finish(), frame_); }
+
+ private:
+  std::string frame_;
+  VelodyneScans scans_;
+};
+
+class HesaiDecoder final : public PacketDecoder {
+ public:
+  explicit HesaiDecoder(std::string frame) : frame_(std::move(frame)) {}
+
+  Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
+    if (!is_hesai_packet(packet.payload)) return std::nullopt;
+    const auto scan = scans_.add(packet.payload);
+    if (!scan) return tl::unexpected(scan.error());
+    return cloud_of(*scan, frame_);
+  }
+
+  std::optional<PacketMessage> finish() override { return cloud_of(scans_.finish(), frame_); }
+
+ private:
+  std::string frame_;
+  HesaiScans scans_;
+};
+
+class OusterDecoder final : public PacketDecoder {
+ public:
+  OusterDecoder(const OusterMetadata& metadata, bool with_frames)
+      : metadata_(metadata), scans_(metadata), framed_(!with_frames) {}
+
+  Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
+    const bool imu = packet.payload.size() == OusterScans::kImuPacketSize;
+    if (!imu && packet.payload.size() != scans_.lidar_packet_size()) return std::nullopt;
+    if (!std::exchange(framed_, true)) {
+      if (!imu) static_cast<void>(scans_.add(packet.payload));  // the first ends no scan
+      return PacketMessage{kFrames, ouster_frames(metadata_, packet.time)};
+    }
+    if (imu) {
+      const ImuSample sample = OusterScans::imu_of(packet.payload);
+      return PacketMessage{kImu, imu_message({0, sample.stamp, "os_imu"}, sample)};
+    }
+    return cloud_of(scans_.add(packet.payload), "os_lidar");
+  }
+
+  std::optional<PacketMessage> finish() override {
+    return cloud_of(scans_.finish(true), "os_lidar");
+  }
+
+ private:
+  OusterMetadata metadata_;
+  OusterScans scans_;
+  bool framed_ = false;  ///< the frames are given
+};
+
+}  // namespace
+
+std::unique_ptr<PacketDecoder> velodyne_decoder(std::string frame) {
+  return std::make_unique<VelodyneDecoder>(std::move(frame));
+}
+
+std::unique_ptr<PacketDecoder> hesai_decoder(std::string frame) {
+  return std::make_unique<HesaiDecoder>(std::move(frame));
+}
+
+std::unique_ptr<PacketDecoder> ouster_decoder(const OusterMetadata& metadata, bool with_frames) {
+  return std::make_unique<OusterDecoder>(metadata, with_frames);
+}
+
+MessageBytes ouster_frames(const OusterMetadata& metadata, Time stamp) {
+  return transforms_message(stamp, {{"os_sensor", "os_lidar", metadata.T_sensor_lidar},
+                                    {"os_sensor", "os_imu", metadata.T_sensor_imu}});
+}
+
+}  // namespace aims

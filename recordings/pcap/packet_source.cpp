@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/pcap/packet_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "recordings/messages/message_decoder.hpp"
+#include "recordings/messages/message_types.hpp"
+#include "recordings/pcap/packet_decoder.hpp"
+#include "recordings/pcap/recorded_metadata.hpp"
+
+namespace aims {
+namespace {
+
+enum class Maker { kVelodyne, kHesai, kOuster };
+
+/// How a message type holds packets.
+struct PacketType {
+  std::string_view type;
+  Maker maker;
+  std::string_view packets;  ///< field of the array; empty: the message is one packet
+  std::string_view data;
+  std::string_view size;  ///< field of the used size of `data`; empty: all of it
+};
+
+constexpr auto kTypes = std::to_array<PacketType>({
+    {"velodyne_msgs/VelodyneScan", Maker::kVelodyne, "packets", "data", ""},
+    {"pandar_msgs/PandarScan", Maker::kHesai, "packets", "data", "size"},
+    {"hesai_lidar/PandarScan", Maker::kHesai, "packets", "data", "size"},
+    {"hesai_ros_driver/UdpFrame", Maker::kHesai, "packets", "data", "size"},
+    {"ouster_ros/PacketMsg", Maker::kOuster, "", "buf", ""},
+    {"ouster_sensor_msgs/PacketMsg", Maker::kOuster, "", "buf", ""},
+});
+
+const PacketType* packet_type_of(std::string_view type) {
+  const auto found = std::ranges::find(kTypes, type, &PacketType::type);
+  return found == kTypes.end() ? nullptr : &*found;
+}
+
+constexpr std::string_view kFramesTopic = "/tf_static";
+
+/// A topic of packets.
+struct Stream {
+  const PacketType* type = nullptr;
+  std::string frame;
+  MessageDecoder message;
+  std::shared_ptr<PacketDecoder> packets;  ///< that of an Ouster serves both of its topics
+  PacketKind kind = kScan;
+  std::uint32_t made = 0;  ///< connection of what the packets become
+};
+
+/// A recording with what its packets become.
+class PacketSource final : public MessageSource {
+ public:
+  PacketSource(std::unique_ptr<MessageSource> source, std::optional<OusterMetadata> ouster)
+      : source_(std::move(source)),
+        ouster_(std::move(ouster)),
+        connections_(source_->connections()) {
+    for (const BagConnection& each : connections_) recorded_.insert(each.id);
+    const std::vector<BagConnection> recorded = connections_;
+    for (const BagConnection& each : recorded) add_stream(each);
+    if (ouster_) frames_ = add_connection(recorded.front(), kFramesTopic, transforms_type());
+    for (const BagConnection& each : connections_) wanted_.insert(each.id);
+    restart();
+  }
+
+  std::string name() const override { return source_->name(); }
+  const std::vector<BagConnection>& connections() const override { return connections_; }
+  const BagSummary& summary() const override { return source_->summary(); }
+
+  void select(std::span<const std::string> topics) override {
+    wanted_.clear();
+    std::set<std::string> needed;
+    for (const BagConnection& each : connections_) {
+      if (std::ranges::find(topics, each.topic) == topics.end()) continue;
+      wanted_.insert(each.id);
+      if (recorded_.contains(each.id)) needed.insert(each.topic);
+    }
+    for (const auto& [id, stream] : streams_) {
+      if (wanted_.contains(stream.made)) needed.insert(connection(id)->topic);
+    }
+    source_->select(std::vector<std::string>(needed.begin(), needed.end()));
+  }
+
+  Result<std::optional<BagMessage>> next() override {
+    while (true) {
+      if (auto made = take()) return made;
+      if (ended_) return std::optional<BagMessage>();
+      auto message = source_->next();
+      if (!message) return message;
+      if (!*message) {
+        finish();
+        continue;
+      }
+      last_time_ = (*message)->record_time;
+      const std::uint32_t id = (*message)->connection->id;
+      const auto stream = streams_.find(id);
+      if (stream != streams_.end()) {
+        if (auto decoded = decode(stream->second, **message); !decoded) {
+          return tl::unexpected(decoded.error());
+        }
+      }
+      if (!wanted_.contains(id)) continue;
+      BagMessage same = **message;
+      same.connection = connection(id);
+      return std::optional<BagMessage>(same);
+    }
+  }
+
+  void rewind() override {
+    source_->rewind();
+    restart();
+  }
+
+ private:
+  struct Made {
+    std::uint32_t id = 0;
+    Time time = 0;
+    MessageBytes bytes;
+  };
+
+  const BagConnection* connection(std::uint32_t id) const {
+    return &*std::ranges::find(connections_, id, &BagConnection::id);
+  }
+
+  std::uint32_t add_connection(const BagConnection& packets, std::string_view topic,
+                               const MessageType& type) {
+    std::uint32_t id = 0;
+    for (const BagConnection& each : connections_) id = std::max(id, each.id + 1);
+    BagConnection added;
+    added.id = id;
+    added.topic = topic;
+    added.type = type.name;
+    added.md5 = type.md5;
+    added.definition = type.definition;
+    // Where the recording has such a topic, that is chosen unless this one is named.
+    const bool recorded = std::ranges::any_of(connections_, [&](const BagConnection& each) {
+      return recorded_.contains(each.id) && each.type == type.name && each.messages > 0;
+    });
+    added.messages = recorded && topic != kFramesTopic ? 0 : packets.messages;
+    connections_.push_back(std::move(added));
+    return id;
+  }
+
+  void add_stream(const BagConnection& packets) {
+    const PacketType* type = packet_type_of(packets.type);
+    if (type == nullptr || packets.messages == 0) return;
+    auto decoder = MessageDecoder::create(packets.type, packets.definition, packets.format);
+    if (!decoder) return;
+    Stream stream;
+    stream.type = type;
+    stream.message = std::move(*decoder);
+    // An Ouster has a topic each for LiDAR and IMU, told apart by the size of their packets.
+    const bool imu =
+        type->maker == Maker::kOuster && packets.topic.find("imu") != std::string::npos;
+    stream.kind = imu ? kImu : kScan;
+    stream.made = add_connection(packets, packets.topic + (imu ? "/imu" : "/points"),
+                                 imu ? imu_type() : point_cloud_type());
+    streams_.emplace(packets.id, std::move(stream));
+  }
+
+  /// Decoders as at the start of the recording.
+  void restart() {
+    made_.clear();
+    lent_.reset();
+    ended_ = false;
+    last_time_ = summary().start;
+    const std::shared_ptr<PacketDecoder> ouster =
+        ouster_ ? std::shared_ptr<PacketDecoder>(ouster_decoder(*ouster_, false)) : nullptr;
+    for (auto& [id, stream] : streams_) {
+      stream.packets = stream.type->maker == Maker::kOuster ? ouster : nullptr;
+    }
+    if (ouster_)
+      made_.push_back({frames_, summary().start, ouster_frames(*ouster_, summary().start)});
+  }
+
+  /// The next message that is made, if it is wanted.
+  std::optional<BagMessage> take() {
+    while (!made_.empty()) {
+      lent_ = std::move(made_.front());
+      made_.pop_front();
+      if (!wanted_.contains(lent_->id)) continue;
+      return BagMessage{connection(lent_->id), lent_->time, lent_->bytes.view(), 0};
+    }
+    return std::nullopt;
+  }
+
+  void keep(const Stream& stream, std::optional<PacketMessage> made, Time time) {
+    if (made && made->kind == stream.kind) {
+      made_.push_back({stream.made, time, std::move(made->bytes)});
+    }
+  }
+
+  Result<void> add(Stream& stream, const MessageView& packet, Time record_time, Time stamp) {
+    auto payload = packet.bytes(stream.type->data);
+    if (!payload) return {};
+    const auto size = packet.number(stream.type->size);
+    if (size && *size >= 0.0 && *size < static_cast<double>(payload->size())) {
+      payload = payload->first(static_cast<std::size_t>(*size));
+    }
+    if (!stream.packets) {
+      const std::string frame = stream.frame.empty() ? "lidar" : stream.frame;
+      stream.packets =
+          stream.type->maker == Maker::kHesai ? hesai_decoder(frame) : velodyne_decoder(frame);
+    }
+    auto made = stream.packets->add({stamp, *payload, 0});
+    if (!made) return tl::unexpected(made.error());
+    keep(stream, std::move(*made), record_time);
+    return {};
+  }
+
+  Result<void> decode(Stream& stream, const BagMessage& message) {
+    const auto view = stream.message.decode(message.data);
+    if (!view) return {};  // counted where it is read
+    if (stream.frame.empty()) stream.frame = view->text("header.frame_id").value_or("");
+    const auto refuse = [&](const Result<void>& added) {
+      return failure(fmt::format("{}: topic '{}': {}", name(), message.connection->topic,
+                                 added.error().message));
+    };
+    if (stream.type->packets.empty()) {
+      const auto added = add(stream, *view, message.record_time, message.record_time);
+      return added ? added : refuse(added);
+    }
+    const auto packets = view->messages(stream.type->packets);
+    for (const MessageView& each : packets.value_or(std::vector<MessageView>())) {
+      const Time stamp = each.time("stamp").value_or(message.record_time);
+      const auto added = add(stream, each, message.record_time, stamp);
+      if (!added) return refuse(added);
+    }
+    return {};
+  }
+
+  /// The scans that the recording ends in.
+  void finish() {
+    ended_ = true;
+    for (auto& [id, stream] : streams_) {
+      if (stream.packets && stream.kind == kScan) {
+        keep(stream, stream.packets->finish(), last_time_);
+      }
+    }
+  }
+
+  std::unique_ptr<MessageSource> source_;
+  std::optional<OusterMetadata> ouster_;
+  std::vector<BagConnection> connections_;
+  std::set<std::uint32_t> recorded_;         ///< connections of the recording itself
+  std::set<std::uint32_t> wanted_;           ///< connections that are given
+  std::map<std::uint32_t, Stream> streams_;  ///< by connection
+  std::uint32_t frames_ = 0;
+  std::deque<Made> made_;
+  std::optional<Made> lent_;  ///< that the caller has
+  Time last_time_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+Result<void> decode_packets(std::unique_ptr<MessageSource>& source) {
+  std::optional<OusterMetadata> ouster;
+  bool packets = false;
+  for (const BagConnection& each : source->connections()) {
+    const PacketType* type = packet_type_of(each.type);
+    if (type == nullptr || each.messages == 0) continue;
+    packets = true;
+    if (type->maker != Maker::kOuster || ouster) continue;
+    auto metadata = recorded_ouster_metadata(*source, each.topic);
+    if (!metadata) return tl::unexpected(metadata.error());
+    ouster = std::move(*metadata);
+  }
+  if (packets) source = std::make_unique<PacketSource>(std::move(source), std::move(ouster));
+  return {};
+}
+
+}  // namespace aims

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/time.hpp"
+
+namespace aims::test {
+
+/// A packet of a LiDAR that spins at 10 Hz in the middle of a room of 8 x 6 x 3 m.
+struct RoomPacket {
+  Time time = 0;  ///< when it is sent
+  std::vector<std::byte> payload;
+};
+
+inline constexpr double kRoom[3] = {4.0, 3.0, 1.5};  ///< half lengths [m]
+
+/// Of a VLP-16 (user manual 63-9243) from azimuth 0 on; `start` is a whole number of microseconds.
+std::vector<RoomPacket> vlp16_packets(Time start, int turns);
+
+/// Of a Hesai with 32 or 16 lasers (XT32, XT16: user manuals, protocol 6.1) from azimuth 0 on,
+/// which is 3.28 us after `start`, a whole number of microseconds.
+std::vector<RoomPacket> xt_packets(Time start, int turns, int lasers = 32);
+
+/// Of an Ouster with 16 beams and 512 columns (profile LEGACY), whose clock begins at `clock`.
+std::vector<RoomPacket> ouster_lidar_packets(Time start, Time clock, int turns);
+std::vector<RoomPacket> ouster_imu_packets(Time start, Time clock, int packets);
+std::string ouster_metadata_text();
+
+}  // namespace aims::test
