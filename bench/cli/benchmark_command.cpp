@@ -45,8 +45,8 @@ Result<std::vector<DatasetSequence>> chosen(std::vector<DatasetSequence> all,
   for (const DatasetSequence& each : all) known.push_back(each.name);
   for (const std::string& name : names) {
     if (std::ranges::find(known, name) != known.end()) continue;
-    return failure(fmt::format("--sequences: no sequence '{}'; there are {}", name,
-                               fmt::join(known, ", ")));
+    return failure(
+        fmt::format("--sequences: no sequence '{}'; there are {}", name, fmt::join(known, ", ")));
   }
   std::erase_if(all, [&](const DatasetSequence& each) {
     return std::ranges::find(names, each.name) == names.end();
@@ -102,7 +102,8 @@ void declare_benchmark(Command command, const fs::path& scenarios) {
   command.flag("--no-page", arguments->no_page, "Write no HTML pages");
   add_json(command, arguments->json);
   command.footer(
-      "Every sequence is estimated, scored as the authors of the data set score it, and put beside\n"
+      "Every sequence is estimated, scored as the authors of the data set score it, and put "
+      "beside\n"
       "what they publish. The same command again continues.\n"
       "Examples:\n"
       "  aims benchmark geode ~/geode\n"

@@ -32,6 +32,30 @@ Result<void> take(const EndedProcess& ended, const RecordedJob& each, const JobS
   return store.put(each.job, result);
 }
 
+/// The jobs without a result, and those to be done again.
+std::vector<const RecordedJob*> missing_jobs(const std::vector<RecordedJob>& jobs,
+                                             const JobStore& store, const JobOptions& options) {
+  std::vector<const RecordedJob*> missing;
+  for (const RecordedJob& each : jobs) {
+    const auto known = store.find(each.job.id);
+    const bool failed = known && known->outcome != JobOutcome::kDone;
+    if (!known || options.redo || (options.retry && failed)) missing.push_back(&each);
+  }
+  return missing;
+}
+
+JobProgress progress_of(const JobRun& run, std::size_t total, double under_way,
+                        const Stopwatch& stopwatch) {
+  JobProgress progress;
+  progress.done = run.done;
+  progress.failed = run.failed;
+  progress.total = total;
+  progress.fraction = (static_cast<double>(run.done) + under_way) /
+                      static_cast<double>(std::max<std::size_t>(1, total));
+  progress.elapsed_s = stopwatch.seconds();
+  return progress;
+}
+
 }  // namespace
 
 Result<JobRun> run_recorded_jobs(const std::vector<RecordedJob>& jobs, const JobOptions& options,
@@ -45,13 +69,8 @@ Result<JobRun> run_recorded_jobs(const std::vector<RecordedJob>& jobs, const Job
     return tl::unexpected(entered.error());
   }
   JobRun run;
-  std::vector<const RecordedJob*> missing;
-  for (const RecordedJob& each : jobs) {
-    const auto known = store.find(each.job.id);
-    const bool again = options.redo || (options.retry && known->outcome != JobOutcome::kDone);
-    if (known && !again) ++run.reused;
-    if (!known || again) missing.push_back(&each);
-  }
+  const auto missing = missing_jobs(jobs, store, options);
+  run.reused = jobs.size() - missing.size();
   const Stopwatch stopwatch;
   ProcessPool pool(options.jobs);
   std::size_t next = 0;
@@ -72,14 +91,7 @@ Result<JobRun> run_recorded_jobs(const std::vector<RecordedJob>& jobs, const Job
       const auto result = store.find(each.job.id);
       run.failed += result && result->outcome == JobOutcome::kDone ? 0 : 1;
     }
-    JobProgress progress;
-    progress.done = run.done;
-    progress.failed = run.failed;
-    progress.total = missing.size();
-    progress.fraction = (static_cast<double>(run.done) + pool.under_way()) /
-                        static_cast<double>(std::max<std::size_t>(1, missing.size()));
-    progress.elapsed_s = stopwatch.seconds();
-    run.complete = observer(progress);
+    run.complete = observer(progress_of(run, missing.size(), pool.under_way(), stopwatch));
   }
   return run;
 }

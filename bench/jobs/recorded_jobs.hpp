@@ -12,7 +12,7 @@ namespace aims {
 
 /// A job that reads a recording in place of a simulated sequence.
 struct RecordedJob {
-  Job job;                                                    ///< under its id
+  Job job;                                                   ///< under its id
   std::function<JobResult(std::atomic<double>& part)> work;  ///< in a process of its own
 };
 

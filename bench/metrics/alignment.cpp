@@ -90,10 +90,10 @@ Alignment align_start(std::span<const PosePair> pairs, AlignmentKind kind) {
   }
   const PosePair& first = pairs.front();
   const Eigen::Quaterniond rotation =
-      kind == AlignmentKind::kStartYaw   ? align_yaw(pairs).T_truth_estimate.rotation
-      : kind == AlignmentKind::kStartSe3 ? align_se3(pairs).T_truth_estimate.rotation
-                                         : yaw_rotation(yaw_of(first.truth.rotation) -
-                                                        yaw_of(first.estimate.rotation));
+      kind == AlignmentKind::kStartYaw ? align_yaw(pairs).T_truth_estimate.rotation
+      : kind == AlignmentKind::kStartSe3
+          ? align_se3(pairs).T_truth_estimate.rotation
+          : yaw_rotation(yaw_of(first.truth.rotation) - yaw_of(first.estimate.rotation));
   alignment.T_truth_estimate = {rotation,
                                 first.truth.translation - rotation * first.estimate.translation};
   return alignment;

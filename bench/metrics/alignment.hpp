@@ -37,7 +37,8 @@ struct Alignment {
 /// Aligns the start; identity without pairs. By heading, the first pair becomes equal. By pose, the
 /// mean over the second half of `standing_start` does, so that an estimator that levels itself
 /// while standing is not held to its first attitude; a truth that walks off at once has the first
-/// pair only, as evo's align_origin. The kinds kStartYaw and kStartSe3 need no attitude of the truth.
+/// pair only, as evo's align_origin. The kinds kStartYaw and kStartSe3 need no attitude of the
+/// truth.
 Alignment align_start(std::span<const PosePair> pairs,
                       AlignmentKind kind = AlignmentKind::kStartPose);
 

@@ -23,8 +23,8 @@ double control_point_score(std::span<const PosePair> aligned, int points) {
   if (points <= 0) return 0.0;
   int sum = 0;
   for (const double error : position_errors(aligned)) {
-    const auto* found = std::ranges::find_if(
-        kClasses, [error](const Class& each) { return error < each.below; });
+    const auto* found =
+        std::ranges::find_if(kClasses, [error](const Class& each) { return error < each.below; });
     if (found != kClasses.end()) sum += found->earned;
   }
   return 100.0 * sum / (kMost * points);

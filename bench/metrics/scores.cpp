@@ -14,11 +14,12 @@ void describe_truth(Fields& f, ScoreConfig& c) {
             {"pose", TruthContent::kPose},
             {"position", TruthContent::kPosition}},
            {.meaning = "What of the truth is measured; auto: as its format says."});
-  f.number("max_truth_gap", c.max_truth_gap,
-           {.unit = "s",
-            .range = positive_up_to(1e6),
-            .meaning = "Longest time between true poses over which they are interpolated; in longer "
-                       "gaps nothing is scored."});
+  f.number(
+      "max_truth_gap", c.max_truth_gap,
+      {.unit = "s",
+       .range = positive_up_to(1e6),
+       .meaning = "Longest time between true poses over which they are interpolated; in longer "
+                  "gaps nothing is scored."});
 }
 
 void describe_association(Fields& f, ScoreConfig& c) {
@@ -243,8 +244,7 @@ Scores score_over(const Trajectory& estimate, const Trajectory& truth,
   scores.m_list_percent = m_list_percent(scores.segments);
   scores.m_end = end_error_if_reached(anchored, valid_truth, edge);
   if (valid.size() >= 2) {
-    scores.start_to_end_m =
-        (valid.back().pose.translation - valid.front().pose.translation).norm();
+    scores.start_to_end_m = (valid.back().pose.translation - valid.front().pose.translation).norm();
   }
   if (limits.at_points) {
     scores.control_points = {static_cast<int>(valid_truth.size()), static_cast<int>(pairs.size())};

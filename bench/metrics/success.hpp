@@ -37,7 +37,7 @@ struct SuccessLimits {
   double error_per_path = kSuccessErrorPerPath;  ///< per metre of path [-]
   Duration edge = 3 * kSecond;                   ///< allowed time without estimates at either end
   Duration gap = 2 * kSecond;                    ///< allowed time without estimates in between
-  double coverage = 0.5;  ///< least fraction of the truth's time with estimates [-]
+  double coverage = 0.5;                  ///< least fraction of the truth's time with estimates [-]
   std::vector<TruthGap> truth_gaps = {};  ///< stretches without truth: nothing is missing there
   bool at_points = false;  ///< the truth is a list of points: what counts is how many are reached
 };

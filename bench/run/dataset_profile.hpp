@@ -24,10 +24,10 @@ struct DatasetTruth {
   /// Files below the folder of the data set or of the sequence, with {sequence} and *; the first
   /// that is there counts.
   std::vector<std::string> files;
-  std::string topic;          ///< of the recording, where no file is found; "/tf:PARENT,CHILD"
-  std::string extrinsic;      ///< as --extrinsic of aims score
-  std::string lever_arm;      ///< as --lever-arm
-  std::string end_pose;       ///< as --end-pose; with `files` of those sequences that have none
+  std::string topic;           ///< of the recording, where no file is found; "/tf:PARENT,CHILD"
+  std::string extrinsic;       ///< as --extrinsic of aims score
+  std::string lever_arm;       ///< as --lever-arm
+  std::string end_pose;        ///< as --end-pose; with `files` of those sequences that have none
   double time_offset_s = 0.0;  ///< added to the stamps of the estimates [s]
 };
 
@@ -35,8 +35,8 @@ struct DatasetTruth {
 struct DatasetProfile {
   std::string name;  ///< of the file
   std::string title, citation, url, licence;
-  std::string tested;    ///< "generated data" or "the original"
-  EstimateConfig read;   ///< topics, calibration, scoring, who runs
+  std::string tested;   ///< "generated data" or "the original"
+  EstimateConfig read;  ///< topics, calibration, scoring, who runs
   DatasetTruth truth;
   std::string score = "ate_se3_m";  ///< dotted key of scores.json that the authors report
   std::string unit = "m";

@@ -94,17 +94,18 @@ Result<std::vector<DatasetSequence>> dataset_sequences(const DatasetProfile& pro
   const std::vector<fs::path> entries =
       sequences.empty() ? sorted_entries(folder) : std::vector<fs::path>();
   for (const fs::path& each : entries) {
-    const bool holds = fs::is_directory(each, ignored) &&
-                       std::ranges::any_of(sorted_entries(each), is_recording);
+    const bool holds =
+        fs::is_directory(each, ignored) && std::ranges::any_of(sorted_entries(each), is_recording);
     if (is_recording(each) || holds) {
       const bool file = fs::is_regular_file(each, ignored);
       sequences.push_back({(file ? each.stem() : each.filename()).string(), each, ""});
     }
   }
   if (sequences.empty()) {
-    return failure(fmt::format("{}: expected recordings (.bag, .mcap, .db3, folders of them), found "
-                               "none",
-                               folder.string()));
+    return failure(
+        fmt::format("{}: expected recordings (.bag, .mcap, .db3, folders of them), found "
+                    "none",
+                    folder.string()));
   }
   for (DatasetSequence& each : sequences) each.truth = truth_of(profile, each, folder);
   return sequences;

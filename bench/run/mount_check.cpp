@@ -16,12 +16,13 @@
 namespace aims {
 namespace {
 
-constexpr double kLeastRotation = 0.1;  ///< of an interval that counts: of turns, not of steps [rad]
-constexpr double kNoise = 0.02;         ///< of LiDAR odometry over it [rad]
-constexpr int kFewest = 5;              ///< intervals
-constexpr double kWrong = 0.3;          ///< residual of a mount that is wrong [-]
-constexpr double kBetter = 0.4;         ///< residual of a better one, of the given one's [-]
-constexpr double kAlike = 1.25;         ///< between residuals of mounts that fit alike [-]
+constexpr double kLeastRotation =
+    0.1;                         ///< of an interval that counts: of turns, not of steps [rad]
+constexpr double kNoise = 0.02;  ///< of LiDAR odometry over it [rad]
+constexpr int kFewest = 5;       ///< intervals
+constexpr double kWrong = 0.3;   ///< residual of a mount that is wrong [-]
+constexpr double kBetter = 0.4;  ///< residual of a better one, of the given one's [-]
+constexpr double kAlike = 1.25;  ///< between residuals of mounts that fit alike [-]
 constexpr Duration kInterval = 500 * kMillisecond;
 constexpr Duration kLongest = 180 * kSecond;
 
@@ -57,7 +58,8 @@ std::vector<Eigen::Matrix3d> axis_changes() {
 
 std::string cause_of(const Eigen::Matrix3d& P) {
   if (P.determinant() < 0.0) {
-    return "an axis of the gyro has the wrong sign, or two are swapped: no mount corrects that, the "
+    return "an axis of the gyro has the wrong sign, or two are swapped: no mount corrects that, "
+           "the "
            "driver must";
   }
   const Eigen::AngleAxisd turn(P);
@@ -117,25 +119,29 @@ std::vector<RotationPair> rotation_pairs(const Trajectory& poses,
 
 std::vector<std::string> words(const MountCheck& check, const Pose& T_imu_lidar) {
   if (check.intervals < kFewest) {
-    return {fmt::format("mount of the LiDAR: not checked: the body turns in {} intervals of 0.5 s, at "
-                        "least {} are needed",
-                        check.intervals, kFewest)};
+    return {
+        fmt::format("mount of the LiDAR: not checked: the body turns in {} intervals of 0.5 s, at "
+                    "least {} are needed",
+                    check.intervals, kFewest)};
   }
   if (!check.contradicts) {
-    return {fmt::format("mount of the LiDAR: no contradiction between LiDAR odometry and gyro over "
-                        "{} rotations (residual {:.2f})",
-                        check.intervals, check.given_residual)};
+    return {
+        fmt::format("mount of the LiDAR: no contradiction between LiDAR odometry and gyro over "
+                    "{} rotations (residual {:.2f})",
+                    check.intervals, check.given_residual)};
   }
-  std::vector<std::string> lines = {fmt::format(
-      "MOUNT OF THE LIDAR: LiDAR odometry and gyro contradict it over {} rotations (residual {:.2f}; "
-      "{:.2f} if {})",
-      check.intervals, check.given_residual, check.best_residual, check.cause)};
+  std::vector<std::string> lines = {
+      fmt::format("MOUNT OF THE LIDAR: LiDAR odometry and gyro contradict it over {} rotations "
+                  "(residual {:.2f}; "
+                  "{:.2f} if {})",
+                  check.intervals, check.given_residual, check.best_residual, check.cause)};
   const Eigen::Quaterniond& q = check.R_imu_lidar;
   const Eigen::Vector3d& t = T_imu_lidar.translation;
-  lines.push_back(fmt::format(
-      "  to try it: --set recording.T_imu_lidar.quaternion_xyzw=[{:.6g},{:.6g},{:.6g},{:.6g}] --set "
-      "recording.T_imu_lidar.translation=[{:.6g},{:.6g},{:.6g}]",
-      q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()));
+  lines.push_back(
+      fmt::format("  to try it: --set "
+                  "recording.T_imu_lidar.quaternion_xyzw=[{:.6g},{:.6g},{:.6g},{:.6g}] --set "
+                  "recording.T_imu_lidar.translation=[{:.6g},{:.6g},{:.6g}]",
+                  q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()));
   if (check.cause.find("no mount") != std::string::npos) lines.pop_back();
   return lines;
 }
@@ -152,14 +158,14 @@ MountCheck check_mount(std::span<const RotationPair> pairs, const Eigen::Quatern
   std::vector<double> residuals;
   for (const Hypothesis& each : all) residuals.push_back(residual_of(pairs, each.R));
   const double least = *std::ranges::min_element(residuals);
-  const auto first = std::ranges::find_if(
-      residuals, [least](double each) { return each <= kAlike * least; });
+  const auto first =
+      std::ranges::find_if(residuals, [least](double each) { return each <= kAlike * least; });
   const Hypothesis& best = all[static_cast<std::size_t>(first - residuals.begin())];
   check.best_residual = *first;
   check.cause = best.cause;
   if (best.R.determinant() > 0.0) check.R_imu_lidar = Eigen::Quaterniond(best.R).normalized();
-  check.contradicts = check.given_residual > kWrong &&
-                      check.best_residual < kBetter * check.given_residual;
+  check.contradicts =
+      check.given_residual > kWrong && check.best_residual < kBetter * check.given_residual;
   if (check.contradicts) return check;
   check.cause.clear();
   check.R_imu_lidar = R_imu_lidar;

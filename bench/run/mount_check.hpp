@@ -33,8 +33,9 @@ struct MountCheck {
 /// differ by it alone fit alike, and the given one stays.
 MountCheck check_mount(std::span<const RotationPair> pairs, const Eigen::Quaterniond& R_imu_lidar);
 
-/// The check for the first three minutes of a recording, with the rotation of LiDAR odometry (A-LOAM, which
-/// uses no IMU), in words, with the line that corrects the mount. Errors as of `estimate`.
+/// The check for the first three minutes of a recording, with the rotation of LiDAR odometry
+/// (A-LOAM, which uses no IMU), in words, with the line that corrects the mount. Errors as of
+/// `estimate`.
 Result<std::vector<std::string>> mount_report(const EstimateConfig& config,
                                               const EstimateOptions& options);
 

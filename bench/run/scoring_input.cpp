@@ -78,7 +78,7 @@ Result<std::filesystem::path> read_truth(const ScoringRequest& request,
                             {PoseRules::kStrict, std::string(kTruthImuTopic), stamps});
   if (!file) return tl::unexpected(file.error());
   input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
-  input.truth = {name_of(*file), request.truth, file->kind, std::move(file->trajectory),
+  input.truth = {name_of(*file),   request.truth,     file->kind, std::move(file->trajectory),
                  file->body_frame, file->has_attitude};
   return file->topic.empty() ? std::filesystem::path() : file->file;
 }
@@ -190,7 +190,9 @@ Result<void> set_markers(const ScoringRequest& request, ScoringInput& input) {
   if (!begin || *begin >= *end) {
     return failure("--end-pose: expected estimates of two poses or more over the same time");
   }
-  input.truth = {"markers", "--end-pose", "pose of the end in the frame of the start",
+  input.truth = {"markers",
+                 "--end-pose",
+                 "pose of the end in the frame of the start",
                  {{*begin, Pose()}, {*end, *end_pose}}};
   input.truth.has_attitude = numbers_of(request.end_pose).size() == 7;
   input.scoring.association = Association::kAtTruth;
@@ -213,7 +215,8 @@ bool is_constant_attitude(const ScoringInput& input) {
   if (std::ranges::any_of(truth, differs(truth.front().pose.rotation, 1e-9))) return false;
   return std::ranges::any_of(input.estimates, [&](const SourcedTrajectory& each) {
     const Trajectory valid = valid_part(each.trajectory);
-    return !valid.empty() && std::ranges::any_of(valid, differs(valid.front().pose.rotation, kTurn));
+    return !valid.empty() &&
+           std::ranges::any_of(valid, differs(valid.front().pose.rotation, kTurn));
   });
 }
 

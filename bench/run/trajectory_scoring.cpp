@@ -68,7 +68,8 @@ void note_gaps(const Trajectory& truth, const ScoreConfig& scoring,
     notes.push_back(fmt::format(
         "truth: {} gap{} of more than {:g} s (scoring.max_truth_gap), together {:.1f} of {:.1f} s: "
         "nothing is scored there",
-        gaps.size(), gaps.size() == 1 ? "" : "s", scoring.max_truth_gap, unknown, to_seconds(end - begin)));
+        gaps.size(), gaps.size() == 1 ? "" : "s", scoring.max_truth_gap, unknown,
+        to_seconds(end - begin)));
   } else if (longest > kLongTruthGap) {
     notes.push_back(
         fmt::format("truth: no pose for up to {:.1f} s; there it is taken as a straight "

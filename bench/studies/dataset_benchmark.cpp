@@ -28,8 +28,8 @@ std::string id_of(DatasetProfile profile, const DatasetSequence& sequence,
                   const EstimatorSpec& estimator) {
   profile.published.clear();
   profile.read.run = {text_of(estimator)};
-  return text_hash(fmt::format("benchmark/1\n{}\n{}\n{}\n{}", code_version(),
-                               fingerprint(sequence), text_of(estimator), dump_config(fields_of(profile))));
+  return text_hash(fmt::format("benchmark/1\n{}\n{}\n{}\n{}", code_version(), fingerprint(sequence),
+                               text_of(estimator), dump_config(fields_of(profile))));
 }
 
 JobResult result_of(const DatasetProfile& profile, const DatasetSequence& sequence,
@@ -42,8 +42,7 @@ JobResult result_of(const DatasetProfile& profile, const DatasetSequence& sequen
     return true;
   };
   JobResult job;
-  const auto result =
-      estimate_sequence(profile, sequence, text_of(estimator), folder, observed);
+  const auto result = estimate_sequence(profile, sequence, text_of(estimator), folder, observed);
   if (!result) {
     job.outcome = JobOutcome::kFailed;
     job.message = result.error().message;

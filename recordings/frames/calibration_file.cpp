@@ -30,7 +30,8 @@ std::string lower(std::string_view text) {
 }
 
 bool is_index(std::string_view word) {
-  return !word.empty() && word.size() <= 4 && word.find_first_not_of("0123456789") == std::string_view::npos;
+  return !word.empty() && word.size() <= 4 &&
+         word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 /// Lists of numbers by their place, in order: of "a.T_x_y.0.1" the place is "a.T_x_y".
@@ -122,7 +123,8 @@ Result<Pose> pose_in_group(const Lists& lists, const std::string& group, const s
   const auto translation = translation_of(t, place);
   if (!translation) return tl::unexpected(translation.error());
   Result<Eigen::Quaterniond> rotation = Eigen::Quaterniond::Identity();
-  if (const auto q = find("quaternion_xyzw"); !q.empty()) rotation = rotation_of_quaternion(q, place);
+  if (const auto q = find("quaternion_xyzw"); !q.empty())
+    rotation = rotation_of_quaternion(q, place);
   if (const auto R = find("rotation_matrix"); !R.empty()) rotation = rotation_of_matrix(R, place);
   if (const auto a = find("rotation_rpy_deg"); a.size() == 3) {
     constexpr double kRad = std::numbers::pi / 180.0;
@@ -175,8 +177,8 @@ Result<std::vector<FixedTransform>> parse_yaml(const std::string& text, const st
 }
 
 constexpr std::array<std::string_view, 2> kImuWords = {"imu", "body"};
-constexpr std::array<std::string_view, 8> kLidarWords = {"lidar",  "velodyne", "ouster", "hesai",
-                                                         "pandar", "livox",    "laser",  "os_sensor"};
+constexpr std::array<std::string_view, 8> kLidarWords = {
+    "lidar", "velodyne", "ouster", "hesai", "pandar", "livox", "laser", "os_sensor"};
 
 /// The frame of that name, or of the first word that one frame alone contains.
 Result<std::string> frame_named(const std::set<std::string>& frames, const std::string& given,
@@ -192,10 +194,11 @@ Result<std::string> frame_named(const std::set<std::string>& frames, const std::
     if (given.empty() && found.size() == 1) return found.front();
     if (given.empty() && found.size() > 1) break;
   }
-  return failure(fmt::format("{}: expected one frame as the {}{}; there are {}: name them in "
-                             "file_frames",
-                             name, role, given.empty() ? "" : fmt::format(", '{}'", given),
-                             frames.empty() ? "none" : fmt::format("{}", fmt::join(frames, ", "))));
+  return failure(
+      fmt::format("{}: expected one frame as the {}{}; there are {}: name them in "
+                  "file_frames",
+                  name, role, given.empty() ? "" : fmt::format(", '{}'", given),
+                  frames.empty() ? "none" : fmt::format("{}", fmt::join(frames, ", "))));
 }
 
 }  // namespace

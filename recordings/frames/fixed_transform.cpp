@@ -33,9 +33,10 @@ Result<Eigen::Quaterniond> rotation_of_matrix(std::span<const double> row_major,
         place, off));
   }
   if (R.determinant() < 0.0) {
-    return failure(fmt::format("{}: expected a rotation matrix of determinant +1, found -1: one "
-                               "axis is mirrored",
-                               place));
+    return failure(
+        fmt::format("{}: expected a rotation matrix of determinant +1, found -1: one "
+                    "axis is mirrored",
+                    place));
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return Eigen::Quaterniond(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()))
@@ -64,11 +65,11 @@ Eigen::Quaterniond rotation_of_rpy(double roll, double pitch, double yaw) {
 
 Result<Eigen::Vector3d> translation_of(std::span<const double> xyz, std::string_view place) {
   const bool good = xyz.size() == 3 && std::ranges::all_of(xyz, [](double each) {
-    return std::abs(each) <= kFarthest;
-  });
+                      return std::abs(each) <= kFarthest;
+                    });
   if (!good) {
-    return failure(fmt::format("{}: expected a translation of three numbers in metres, at most 100",
-                               place));
+    return failure(
+        fmt::format("{}: expected a translation of three numbers in metres, at most 100", place));
   }
   return Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
 }
@@ -77,9 +78,10 @@ Result<Pose> pose_of_matrix(std::span<const double> row_major, std::string_view 
                             double metres) {
   const bool whole = row_major.size() == 16;
   if (!whole && row_major.size() != 12) {
-    return failure(fmt::format("{}: expected 16 numbers, a matrix 4x4 row by row, or 12, its first "
-                               "three rows; found {}",
-                               place, row_major.size()));
+    return failure(
+        fmt::format("{}: expected 16 numbers, a matrix 4x4 row by row, or 12, its first "
+                    "three rows; found {}",
+                    place, row_major.size()));
   }
   if (whole) {
     const Eigen::Map<const Eigen::RowVector4d> last(row_major.data() + 12);

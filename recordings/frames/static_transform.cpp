@@ -95,7 +95,8 @@ class Tags {
       const std::size_t close = text_.find(comment ? "-->" : ">", open);
       if (close == std::string_view::npos) return std::nullopt;
       at_ = close + 1;
-      line_ = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(open), '\n');
+      line_ =
+          1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(open), '\n');
       if (!comment) return text_.substr(open + 1, close - open - 1);
     }
   }

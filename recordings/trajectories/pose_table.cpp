@@ -66,8 +66,8 @@ struct RowLayout {
         fmt::format("{} {} {} {}", seconds_of(cells[0]), cells[1], cells[2], cells[3]);
     const std::size_t x = w_first ? 5 : 4;
     if (!positions) {
-      text += fmt::format(" {} {} {} {}", cells[x], cells[x + 1], cells[x + 2],
-                          cells[w_first ? 4 : 7]);
+      text +=
+          fmt::format(" {} {} {} {}", cells[x], cells[x + 1], cells[x + 2], cells[w_first ? 4 : 7]);
     }
     return text + '\n';
   }
@@ -106,8 +106,8 @@ Result<std::string> tum_of_pose_table(std::string_view text, const std::string& 
     if (!layout) {
       layout = RowLayout{cells.size() < kColumns, w ? *w == 4 : is_nanoseconds(cells[0])};
       if (layout->positions && cells.size() > kPositionColumns) {
-        notes.push_back(fmt::format(
-            "{}: the first 4 of {} columns are read: stamp and position", name, cells.size()));
+        notes.push_back(fmt::format("{}: the first 4 of {} columns are read: stamp and position",
+                                    name, cells.size()));
       }
     }
     if (cells.size() < layout->columns()) {

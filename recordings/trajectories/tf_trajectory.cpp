@@ -114,9 +114,8 @@ std::optional<Pose> link_at(const Trajectory& poses, Time stamp) {
 }
 
 Trajectory composed(const Transforms& transforms, const std::vector<std::pair<Link, bool>>& chain) {
-  const auto fastest = std::ranges::max_element(chain, {}, [&](const auto& step) {
-    return transforms.of(step.first).size();
-  });
+  const auto fastest = std::ranges::max_element(
+      chain, {}, [&](const auto& step) { return transforms.of(step.first).size(); });
   Trajectory result;
   for (const StampedPose& each : transforms.of(fastest->first)) {
     std::optional<Pose> total = Pose();
@@ -155,9 +154,9 @@ Result<TrajectoryFile> read_tf_trajectory(const fs::path& file, const std::strin
   if (frames.empty() && moving.size() == 1) wanted = moving.front();
   const auto chain = transforms->chain(wanted.first, wanted.second);
   if (chain.empty()) {
-    return failure(fmt::format(
-        "{}: expected two connected frames, as {}:PARENT,CHILD; there are {}", name,
-        fs::path(file).filename().string() + ":" + result.topic, transforms->names()));
+    return failure(
+        fmt::format("{}: expected two connected frames, as {}:PARENT,CHILD; there are {}", name,
+                    fs::path(file).filename().string() + ":" + result.topic, transforms->names()));
   }
   result.trajectory = composed(*transforms, chain);
   result.kind = fmt::format("{} in {} of {}", wanted.second, wanted.first, result.topic);

@@ -40,8 +40,8 @@ struct TrajectoryFile {
 
 /// Reads `source`: a text file of TUM lines, KITTI poses or positions (stamp x y z), distinguished
 /// by the number of columns, or a recording, recognized by its first bytes or its name, with the
-/// topic after a colon ("run.bag:/odom"), of tf also with two frames ("run.bag:/tf:map,base"). Errors name the file, its line or offset, and what was expected; for a topic,
-/// the existing ones.
+/// topic after a colon ("run.bag:/odom"), of tf also with two frames ("run.bag:/tf:map,base").
+/// Errors name the file, its line or offset, and what was expected; for a topic, the existing ones.
 Result<TrajectoryFile> read_trajectory(const std::string& source,
                                        const TrajectoryFileOptions& options);
 

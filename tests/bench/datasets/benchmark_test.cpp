@@ -17,7 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-Pose mount(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) { return {Eigen::Quaterniond(R), t}; }
+Pose mount(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
+  return {Eigen::Quaterniond(R), t};
+}
 
 class Benchmark : public testing::CommandLine {
  protected:
@@ -55,8 +57,8 @@ class Benchmark : public testing::CommandLine {
   /// Runs the benchmark by `lio`; the score of the sequence.
   double score_of(const std::string& profile, const std::string& name = "seq_01",
                   const std::string& more = "") const {
-    const auto run =
-        aims("benchmark " + profile + " data --estimators lio --no-page --out out --jobs 1 " + more);
+    const auto run = aims("benchmark " + profile +
+                          " data --estimators lio --no-page --out out --jobs 1 " + more);
     EXPECT_EQ(run.exit_code, 0) << run.output;
     const Json all = results();
     for (const Json& each : all["sequences"]) {

@@ -96,8 +96,8 @@ class Bags {
  private:
   BagWriter open(std::string topic) const {
     std::ranges::replace(topic, '/', '_');
-    const fs::path file = per_topic_ ? folder_ / name_ / (name_ + topic + ".bag")
-                                     : folder_ / (name_ + ".bag");
+    const fs::path file =
+        per_topic_ ? folder_ / name_ / (name_ + topic + ".bag") : folder_ / (name_ + ".bag");
     auto writer = BagWriter::create(file);
     EXPECT_TRUE(writer) << writer.error().message;
     return std::move(*writer);
@@ -136,8 +136,8 @@ void write_scan(const LidarScan& scan, const DataSet& data, Time arrival, Bags& 
     bags.write(data.lidar_topic, custom_message_type(), arrival, custom_message(stamp, scan));
     return;
   }
-  const auto message = cloud_message({0, stamp, data.lidar_frame}, scan, Serialization::kRos1,
-                                     format_of(data));
+  const auto message =
+      cloud_message({0, stamp, data.lidar_frame}, scan, Serialization::kRos1, format_of(data));
   bags.write(data.lidar_topic, point_cloud_type(), arrival, message);
 }
 
@@ -147,12 +147,10 @@ void write_delivery(const Delivery& each, const DataSet& data, const Pose& T_new
     write_scan(remounted(**scan, T_new_old), data, arrival, bags);
   } else if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) {
     const Time stamp = imu->stamp + kDataEpoch;
-    bags.write(data.imu_topic, imu_type(), arrival,
-               imu_message({0, stamp, data.imu_frame}, *imu));
+    bags.write(data.imu_topic, imu_type(), arrival, imu_message({0, stamp, data.imu_frame}, *imu));
   } else if (const auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
     if (data.odometry_topic.empty()) return;
-    const OdometryContent content{legs->T_odom_base, legs->linear_velocity,
-                                  legs->angular_velocity};
+    const OdometryContent content{legs->T_odom_base, legs->linear_velocity, legs->angular_velocity};
     bags.write(data.odometry_topic, odometry_type(), arrival,
                odometry_message({0, legs->stamp + kDataEpoch, "odom"}, "base", content));
   }

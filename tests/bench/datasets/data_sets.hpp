@@ -27,12 +27,12 @@ struct DataSet {
   std::string lidar_topic, lidar_frame;
   std::string imu_topic, imu_frame;
   CloudLayout layout = CloudLayout::kVelodyne;
-  bool custom_message = false;   ///< livox_ros_driver2/CustomMsg
-  bool stamped_at_end = false;   ///< clouds
-  Pose T_imu_lidar = {};         ///< by its documents
-  bool has_tf = false;           ///< which states it
-  bool bag_per_topic = false;    ///< a folder of them per sequence
-  std::string prism_topic = {};  ///< geometry_msgs/PointStamped
+  bool custom_message = false;      ///< livox_ros_driver2/CustomMsg
+  bool stamped_at_end = false;      ///< clouds
+  Pose T_imu_lidar = {};            ///< by its documents
+  bool has_tf = false;              ///< which states it
+  bool bag_per_topic = false;       ///< a folder of them per sequence
+  std::string prism_topic = {};     ///< geometry_msgs/PointStamped
   std::string odometry_topic = {};  ///< nav_msgs/Odometry of the legs
 };
 

@@ -136,8 +136,9 @@ TEST(ControlPoints, EarnByTheClassesOfTheHiltiChallenge) {
 }
 
 TEST(ControlPoints, AreComparedAtTheirStampsWithTheEstimateInterpolated) {
-  const Trajectory estimate =
-      test::sampled(0.0, 60.0, 1.0, [](double t) { return Pose{{1, 0, 0, 0}, {t, 0.1 * t, 0.0}}; });
+  const Trajectory estimate = test::sampled(0.0, 60.0, 1.0, [](double t) {
+    return Pose{{1, 0, 0, 0}, {t, 0.1 * t, 0.0}};
+  });
   Trajectory truth;
   for (const double t : {0.5, 10.25, 30.75, 59.5, 70.0}) {
     truth.push_back({from_seconds(t), {{1, 0, 0, 0}, {-0.1 * t, t, 7.0}}});

@@ -29,8 +29,7 @@ std::vector<RotationPair> rotations(const Eigen::Matrix3d& R_imu_lidar, bool abo
   return pairs;
 }
 
-const Eigen::Quaterniond kMount =
-    yaw_rotation(0.6) * so3_exp(Eigen::Vector3d(0.0, 0.4, 0.0));
+const Eigen::Quaterniond kMount = yaw_rotation(0.6) * so3_exp(Eigen::Vector3d(0.0, 0.4, 0.0));
 
 TEST(MountCheck, ARightMountIsNotContradicted) {
   const MountCheck check = check_mount(rotations(kMount.toRotationMatrix(), true), kMount);

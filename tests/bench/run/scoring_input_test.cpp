@@ -230,8 +230,8 @@ std::string positions_text(const Trajectory& trajectory, const Eigen::Vector3d& 
   std::string text = "#timestamp, x, y, z\n";
   for (const StampedPose& each : trajectory) {
     const Eigen::Vector3d p = each.pose * lever;
-    text += fmt::format("{}, {}, {}, {}\n", each.stamp + 1'600'000'000 * kSecond, p.x(), p.y(),
-                        p.z());
+    text +=
+        fmt::format("{}, {}, {}, {}\n", each.stamp + 1'600'000'000 * kSecond, p.x(), p.y(), p.z());
   }
   return text;
 }

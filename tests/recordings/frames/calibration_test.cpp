@@ -72,18 +72,18 @@ std::vector<std::string> written() {
   const Eigen::Matrix4d T = T_imu_lidar();
   const Eigen::Matrix4d inverse = T.inverse();
   const Eigen::Vector4d q = quaternion_xyzw();
-  const std::string xyz = fmt::format("{} {} {}", kTranslation.x(), kTranslation.y(),
-                                      kTranslation.z());
+  const std::string xyz =
+      fmt::format("{} {} {}", kTranslation.x(), kTranslation.y(), kTranslation.z());
   Eigen::Matrix4d in_mm = T;
   in_mm.topRightCorner<3, 1>() *= 1000.0;
   Eigen::Matrix4d T_cam_imu = Eigen::Matrix4d::Identity();
   T_cam_imu.topLeftCorner<3, 3>() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
   T_cam_imu.topRightCorner<3, 1>() << 0.01, 0.02, 0.03;
   return {
-      "T_imu_lidar: [" + flat(T) + "]\n",
-      "T_imu_lidar: [" + flat(T.topRows<3>()) + "]\n",
+      "T_imu_lidar: [" + flat(T) + "]\n", "T_imu_lidar: [" + flat(T.topRows<3>()) + "]\n",
       "T_lidar_imu:" + rows(inverse) + "\n",
-      "%YAML:1.0\n---\nT_IMU_LiDAR: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [ " +
+      "%YAML:1.0\n---\nT_IMU_LiDAR: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: "
+      "[ " +
           flat(T) + " ]\n",
       "imu_T_lidar: [" + flat(T) + "]\n",
       // Kalibr: both are known in the camera alone.
@@ -106,15 +106,16 @@ std::vector<std::string> written() {
           flat(in_mm) + "]}}",
       fmt::format("static_transform_publisher {} {} {} {} imu lidar 100\n", xyz, kYaw, kPitch,
                   kRoll),
-      fmt::format("rosrun tf2_ros static_transform_publisher {} {} {} {} {} imu lidar\n", xyz,
-                  q[0], q[1], q[2], q[3]),
+      fmt::format("rosrun tf2_ros static_transform_publisher {} {} {} {} {} imu lidar\n", xyz, q[0],
+                  q[1], q[2], q[3]),
       fmt::format("ros2 run tf2_ros static_transform_publisher --x {} --y {} --z {} --roll {} "
                   "--pitch {} --yaw {} --frame-id imu --child-frame-id lidar\n",
                   kTranslation.x(), kTranslation.y(), kTranslation.z(), kRoll, kPitch, kYaw),
-      fmt::format("<launch>\n<!-- static_transform_publisher -->\n<node pkg=\"tf2_ros\" "
-                  "type=\"static_transform_publisher\" name=\"a\"\n  args=\"{} {} {} {} imu lidar\" "
-                  "/>\n</launch>\n",
-                  xyz, kYaw, kPitch, kRoll),
+      fmt::format(
+          "<launch>\n<!-- static_transform_publisher -->\n<node pkg=\"tf2_ros\" "
+          "type=\"static_transform_publisher\" name=\"a\"\n  args=\"{} {} {} {} imu lidar\" "
+          "/>\n</launch>\n",
+          xyz, kYaw, kPitch, kRoll),
       fmt::format("<robot name=\"r\">\n<joint name=\"a\" type=\"fixed\">\n<origin rpy=\"{} {} {}\" "
                   "xyz=\"{}\"/><parent link=\"imu\"/>\n<child link=\"mount\"/></joint>\n<joint "
                   "name=\"b\" type=\"fixed\"><parent link='mount'/><child link='lidar'/></joint>\n"
@@ -175,8 +176,9 @@ TEST(Calibration, WhatIsNoRigidTransformIsRefusedByItsPlace) {
   };
   Eigen::Matrix4d T = T_imu_lidar();
   T.row(0).head<3>() *= -1.0;
-  EXPECT_NE(message("a: 1\nT_imu_lidar: [" + flat(T) + "]").find("c.yaml:2: T_imu_lidar: expected a "
-                                                                "rotation matrix of determinant +1"),
+  EXPECT_NE(message("a: 1\nT_imu_lidar: [" + flat(T) + "]")
+                .find("c.yaml:2: T_imu_lidar: expected a "
+                      "rotation matrix of determinant +1"),
             std::string::npos);
   T = T_imu_lidar();
   T(0, 0) += 0.2;
@@ -193,8 +195,9 @@ TEST(Calibration, WhatIsNoRigidTransformIsRefusedByItsPlace) {
   EXPECT_NE(message("<robot>\n<joint type='fixed'>\n<child link='b'/></joint></robot>")
                 .find("c.yaml:3: expected a fixed joint"),
             std::string::npos);
-  EXPECT_NE(parse_static_transform("0 0 0 0 0 0 2 a b", "here").error().message.find(
-                "here: expected a unit quaternion, found one of norm 2"),
+  EXPECT_NE(parse_static_transform("0 0 0 0 0 0 2 a b", "here")
+                .error()
+                .message.find("here: expected a unit quaternion, found one of norm 2"),
             std::string::npos);
 }
 

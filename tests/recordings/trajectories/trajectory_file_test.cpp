@@ -163,8 +163,8 @@ TEST_F(TrajectoryFiles, TransformsOfTwoFramesAreATrajectory) {
   const auto fixed = writer->add_connection("/tf_static", transforms_type());
   const Pose T_odom_map{yaw_rotation(0.5), {0.1, 0.0, 0.0}};  // the tree has map below odom
   const Pose T_base_imu{yaw_rotation(-1.0), {0.0, 0.0, 0.3}};
-  EXPECT_TRUE(writer->write(fixed, kEpoch,
-                            transforms_message(0, {{"base", "imu", T_base_imu}}).view()));
+  EXPECT_TRUE(
+      writer->write(fixed, kEpoch, transforms_message(0, {{"base", "imu", T_base_imu}}).view()));
   for (int i = 0; i < 10; ++i) {
     const Time stamp = kEpoch + i * kSecond;
     const auto moving = transforms_message(stamp, {{"odom", "/base", pose_number(i)}});
@@ -183,8 +183,9 @@ TEST_F(TrajectoryFiles, TransformsOfTwoFramesAreATrajectory) {
   const Pose expected = T_odom_map.inverse() * pose_number(4) * T_base_imu;
   EXPECT_TRUE(chain->trajectory[4].pose.translation.isApprox(expected.translation, 1e-12));
   EXPECT_LT(chain->trajectory[4].pose.rotation.angularDistance(expected.rotation), 1e-7);
-  EXPECT_NE(message_of(path.string() + ":/tf").find("as tf.bag:/tf:PARENT,CHILD; there are "
-                                                    "base,imu odom,base odom,map"),
+  EXPECT_NE(message_of(path.string() + ":/tf")
+                .find("as tf.bag:/tf:PARENT,CHILD; there are "
+                      "base,imu odom,base odom,map"),
             std::string::npos)
       << message_of(path.string() + ":/tf");
 }
