@@ -61,11 +61,11 @@ RobotKnowledge::RobotKnowledge(const EskfConfig& config, double imu_rate_hz)
   quantities_.push_back({"legs_as_reported", E::kLegScale.offset, kLegEntries, of_legs(0.0, 0.0),
                          of_legs(leg_states_.scale_sigma, kLegBiasSigma),
                          of_legs(kLegScaleWalk, kLegBiasWalk),
-                         BlockInformation(E::kLegScale.offset, E::kLegSize),
+                         EntryInformation(E::kLegScale.offset, E::kLegSize),
                          leg_states_.enabled && config.lidar.enabled});
   quantities_.push_back(
       {"lidar_mount", E::kMount.offset, axes("rad"), three(0.0), three(unknown.mount_sigma),
-       three(kMountWalk), BlockInformation(E::kMount.offset, 3),
+       three(kMountWalk), EntryInformation(E::kMount.offset, 3),
        estimated.enabled && estimated.mount_sigma > 0.0, known(prior_, "lidar_mount")});
   quantities_.push_back({"imu_delay",
                          E::kDelay,
@@ -73,7 +73,7 @@ RobotKnowledge::RobotKnowledge(const EskfConfig& config, double imu_rate_hz)
                          one(quarter),
                          one(std::hypot(unknown.delay_sigma, quarter)),
                          one(kDelayWalk),
-                         BlockInformation(E::kDelay, 1),
+                         EntryInformation(E::kDelay, 1),
                          estimated.enabled,
                          known(prior_, "imu_delay"),
                          true});

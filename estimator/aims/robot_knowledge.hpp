@@ -7,7 +7,7 @@
 
 #include "estimator/aims/config.hpp"
 #include "estimator/aims/leg_comparison.hpp"
-#include "estimator/filter/block_information.hpp"
+#include "estimator/filter/entry_information.hpp"
 #include "estimator/learned.hpp"
 #include "estimator/legs/joint_compliance.hpp"
 
@@ -61,7 +61,7 @@ class RobotKnowledge {
     Eigen::VectorXd prior;  ///< of an unknown robot
     Eigen::VectorXd sigma;  ///< likewise
     Eigen::VectorXd walk;   ///< per root of a second
-    BlockInformation data;
+    EntryInformation data;
     bool estimated = true;
     std::optional<Gaussian> known = std::nullopt;
     bool varies_by_run = false;

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 
 #include "core/random.hpp"
-#include "estimator/filter/block_information.hpp"
+#include "estimator/filter/entry_information.hpp"
 
 namespace aims {
 namespace {
@@ -56,10 +56,10 @@ TEST(Learned, ThePosteriorWeighsPriorAndDataByTheirPrecision) {
 }
 
 // The sum over updates is that of the normal equations, whatever the prior of the filter.
-TEST(BlockInformation, IsThatOfTheMeasurementsAlone) {
-  RandomStream random(3, "test.block_information");
+TEST(EntryInformation, IsThatOfTheMeasurementsAlone) {
+  RandomStream random(3, "test.entry_information");
   Belief belief = wide_belief();
-  BlockInformation data(E::kLegScale.offset, E::kLegSize);
+  EntryInformation data(E::kLegScale.offset, E::kLegSize);
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(6, 6);
   Eigen::VectorXd vector = Eigen::VectorXd::Zero(6);
   for (int i = 0; i < 40; ++i) {
@@ -78,10 +78,10 @@ TEST(BlockInformation, IsThatOfTheMeasurementsAlone) {
 }
 
 // Of two independent estimates: d^T (S_1 + S_2)^-1 d.
-TEST(BlockInformation, DisagreementIsTheNormalizedDifference) {
+TEST(EntryInformation, DisagreementIsTheNormalizedDifference) {
   Belief belief = wide_belief();
   belief.covariance *= 1e4;
-  BlockInformation data(E::kLegScale.offset, 3);
+  EntryInformation data(E::kLegScale.offset, 3);
   LinearMeasurement row;
   columns(row.jacobian, E::kLegScale).setIdentity();
   row.residual = -Eigen::Vector3d(0.3, 0.0, 0.0);
@@ -90,7 +90,7 @@ TEST(BlockInformation, DisagreementIsTheNormalizedDifference) {
   const Eigen::Matrix3d known = 0.03 * Eigen::Matrix3d::Identity();
   EXPECT_NEAR(disagreement(data, Eigen::Vector3d::Zero(), known), 0.09 / 0.04, 1e-3);
   EXPECT_NEAR(disagreement(data, Eigen::Vector3d(0.3, 0.0, 0.0), known), 0.0, 1e-6);
-  const BlockInformation none(E::kLegScale.offset, 3);
+  const EntryInformation none(E::kLegScale.offset, 3);
   EXPECT_EQ(disagreement(none, Eigen::Vector3d::Ones(), known), 0.0) << "nothing is contradicted";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/filter/block_information.hpp"
+#include "estimator/filter/entry_information.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -16,12 +16,12 @@ Eigen::VectorXd entries_of(const NominalState& state, int offset, int size) {
   return boxminus(state, NominalState()).segment(offset, size);
 }
 
-BlockInformation::BlockInformation(int offset, int size)
+EntryInformation::EntryInformation(int offset, int size)
     : offset_(offset),
       matrix_(Eigen::MatrixXd::Zero(size, size)),
       vector_(Eigen::VectorXd::Zero(size)) {}
 
-void BlockInformation::add(const Belief& before, const Belief& after) {
+void EntryInformation::add(const Belief& before, const Belief& after) {
   const auto size = static_cast<int>(vector_.size());
   const auto information = [&](const Belief& belief) -> Eigen::MatrixXd {
     return belief.covariance.block(offset_, offset_, size, size).inverse();
@@ -36,7 +36,7 @@ void BlockInformation::add(const Belief& before, const Belief& after) {
   vector_ += vector;
 }
 
-double disagreement(const BlockInformation& data, const Eigen::VectorXd& mean,
+double disagreement(const EntryInformation& data, const Eigen::VectorXd& mean,
                     const Eigen::MatrixXd& covariance) {
   const Eigen::MatrixXd& I = data.matrix();
   const Eigen::VectorXd u = data.vector() - I * mean;
