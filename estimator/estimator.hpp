@@ -12,6 +12,7 @@
 #include "core/trajectory.hpp"
 #include "estimator/diagnostics.hpp"
 #include "estimator/health.hpp"
+#include "estimator/learned.hpp"
 
 namespace aims {
 
@@ -63,6 +64,9 @@ class Estimator {
 
   /// Points of the local map in the odometry frame [m]; empty for an estimator without a map.
   virtual std::vector<Eigen::Vector3f> map_points() const = 0;
+
+  /// What the data so far say about the robot and its sensors; empty for one that learns nothing.
+  virtual std::vector<LearnedQuantity> learned() const { return {}; }
 };
 
 }  // namespace aims

@@ -47,8 +47,16 @@ void describe_config(Fields& fields, Config& config) {
   describe(fields, config);
 }
 
+/// The free function `check` where a member hides it.
+template <class Config>
+Result<void> check_config(const Config& config) {
+  if constexpr (requires { check(config); }) return check(config);
+  return {};
+}
+
 /// Configuration `Config` of the estimator `Made`, which is constructed from it and the rig.
-/// `describe(Fields&, Config&)` and `requirements_of(const Config&)` belong to it.
+/// `describe(Fields&, Config&)` and `requirements_of(const Config&)` belong to it, and
+/// `check(const Config&)` where values may not go together.
 template <class Config, std::derived_from<Estimator> Made>
 class ConfigOf final : public EstimatorConfig {
  public:
@@ -56,6 +64,7 @@ class ConfigOf final : public EstimatorConfig {
 
   void describe(Fields& fields) override { describe_config(fields, config_); }
   Requirements requirements() const override { return requirements_of(config_); }
+  Result<void> check() const override { return check_config(config_); }
   std::unique_ptr<Estimator> create(const SensorRig& rig) const override {
     return std::make_unique<Made>(config_, rig);
   }

@@ -52,13 +52,6 @@ std::optional<Imu> second_output(const SimulationConfig& config, Duration timest
   return Imu(fast, timestep, seeds);
 }
 
-/// What the estimators are told of the robot: no drawn error is part of it.
-SensorRig nominal_rig(const SimulationConfig& config) {
-  const Mounts mounts = nominal_mounts(config.robot.mounts);
-  return {mounts.T_body_lidar, mounts.T_base_body.inverse(), config.robot.legs, config.imu.rate,
-          config.leg_odometry.rate};
-}
-
 /// Random offset of the start position and heading, at most three sigma.
 Placement start_offset(const RobotConfig& config, std::uint64_t seed) {
   RandomStream random(seed, "robot.start");
@@ -97,6 +90,12 @@ Result<void> check_route(const SimulationConfig& config, const Scene& scene, con
 }
 
 }  // namespace
+
+SensorRig nominal_rig(const SimulationConfig& config) {
+  const Mounts mounts = nominal_mounts(config.robot.mounts);
+  return {mounts.T_body_lidar, mounts.T_base_body.inverse(), config.robot.legs, config.imu.rate,
+          config.leg_odometry.rate};
+}
 
 struct Simulation::Impl {
   Impl(const SimulationConfig& config, std::uint64_t seed, int threads, Scene built_scene,

@@ -53,4 +53,7 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What the estimators are told of the robot: no drawn error is part of it.
+SensorRig nominal_rig(const SimulationConfig& config);
+
 }  // namespace aims

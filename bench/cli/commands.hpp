@@ -29,6 +29,7 @@ void declare_study(Command command, const std::filesystem::path& scenarios);
 void declare_simulate(Command command, const std::filesystem::path& scenarios);
 void declare_estimate(Command command, const std::filesystem::path& scenarios);
 void declare_benchmark(Command command, const std::filesystem::path& scenarios);
+void declare_calibrate(Command command, const std::filesystem::path& scenarios);
 void declare_score(Command command, const std::filesystem::path& scenarios);
 void declare_info(Command command, const std::filesystem::path& scenarios);
 void declare_check(Command command, const std::filesystem::path& scenarios);

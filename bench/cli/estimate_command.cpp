@@ -48,6 +48,16 @@ fs::path folder_of(const EstimateArguments& arguments) {
   return fs::path("out") / (fs::path(arguments.files.front()).stem().string() + "-estimate");
 }
 
+/// What of the robot's calibration the data have overruled.
+void print_contradictions(const EstimatorOutcome& outcome) {
+  constexpr std::string_view kCount = "calibration.contradicted.";
+  for (const auto& [name, count] : outcome.result.counts) {
+    if (!name.starts_with(kCount)) continue;
+    print_out("warning: {}: the recording contradicts the calibration's {}, which was dropped\n",
+              outcome.name, name.substr(kCount.size()));
+  }
+}
+
 void print_results(const EstimateResult& result, const fs::path& folder,
                    const std::vector<std::string>& warnings) {
   for (const std::string& note : result.setup.notes) print_out("note: {}\n", note);
@@ -59,6 +69,7 @@ void print_results(const EstimateResult& result, const fs::path& folder,
     if (!health.empty()) print_out("health: {}: {}\n", each.name, health);
   }
   for (const ReadingWarning& each : result.setup.warnings) print_out("warning: {}\n", each.text);
+  for (const EstimatorOutcome& each : result.estimators) print_contradictions(each);
   for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
   if (!result.complete) print_out("interrupted: the results end where reading was stopped\n");
   print_out("results: {}\n", (folder / "").string());
@@ -105,8 +116,9 @@ Result<Answer> estimate_command(const EstimateArguments& arguments) {
   auto folder = OutputFolder::create(folder_of(arguments), shared.overwrite);
   if (!folder) return tl::unexpected(folder.error());
   ProgressDisplay display(arguments.files.front(), shared.quiet, "read");
-  const EstimateOptions options = {arguments.files.front(), arguments.recover, shared.jobs,
-                                   folder->path(), further(arguments.files)};
+  const EstimateOptions options = {
+      arguments.files.front(), arguments.recover,        shared.jobs,
+      folder->path(),          further(arguments.files), shared.calibration};
   const auto result = estimate(*config, options, [&](const Progress& progress) {
     return display.show(std::nullopt, progress);
   });
@@ -151,6 +163,7 @@ void declare_estimate(Command command, const fs::path& /*scenarios*/) {
                "SENSOR=TOPIC, e.g. lidar=/points,imu=/imu/data; sensors:\n"
                "lidar, imu, leg_odometry, joint_states, contacts, truth");
   add_estimators(command, shared, "aims_d");
+  add_calibration(command, shared);
   add_settings(command, shared, "the configuration");
   add_out(command, shared, "out/NAME-estimate");
   add_overwrite(command, shared);

@@ -94,6 +94,7 @@ void declare_faults(Command command, const fs::path& scenarios) {
   add_scenario(command, shared, Presence::kOptional);
   add_folder(command, shared);
   add_seeds(command, shared, "that of the scenario; one");
+  add_robot_seed(command, shared);
   add_estimators(command, shared, "those of the scenario");
   add_settings(command, shared);
   add_out(command, shared, "out/faults");

@@ -31,6 +31,8 @@ constexpr std::array kCommands = {
     CommandEntry{"estimate", "Run estimators on a recorded bag", aims::declare_estimate},
     CommandEntry{"benchmark", "Run estimators on a public data set, beside published scores",
                  aims::declare_benchmark},
+    CommandEntry{"calibrate", "Learn from recordings what stays with a robot",
+                 aims::declare_calibrate},
     CommandEntry{"score", "Score trajectories of any system against ground truth",
                  aims::declare_score},
     CommandEntry{"info", "Topics, rates, gaps, time offsets, noise and extrinsics of a bag",

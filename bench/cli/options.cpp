@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "bench/cli/terminal.hpp"
+#include "bench/run/calibration_fit.hpp"
 #include "bench/run/seeds.hpp"
 #include "estimator/estimator_spec.hpp"
 
@@ -43,6 +44,18 @@ void add_scenarios(Command& command, SharedOptions& options) {
 void add_seeds(Command& command, SharedOptions& options, const std::string& absent) {
   command.option("--seeds,--seed", options.seeds,
                  fmt::format("Seed, range or list: 3, 1-5 or 1,4,7-9 ({})", absent));
+}
+
+void add_robot_seed(Command& command, SharedOptions& options) {
+  command.option("--robot-seed", options.robot_seed, {0, 2147483647},
+                 "Seed of the robot and its constant errors, which then\n"
+                 "stay over seeds and scenarios; 0: the seed of the run");
+}
+
+void add_calibration(Command& command, SharedOptions& options) {
+  command.option("--calibration", options.calibration,
+                 "Calibration of the robot, a file of `aims calibrate`:\n"
+                 "a prior that the data can overrule (none)");
 }
 
 void add_estimators(Command& command, SharedOptions& options, const std::string& absent) {
@@ -109,11 +122,31 @@ void add_quiet(Command& command, SharedOptions& options) {
 
 std::vector<std::string> overrides_of(const SharedOptions& options) {
   std::vector<std::string> overrides = options.settings;
+  if (options.robot_seed > 0) {
+    overrides.push_back(fmt::format("robot_seed={}", options.robot_seed));
+  }
   if (!options.estimators.empty()) {
     overrides.push_back(run_setting(joined_specs(options.estimators)));
   }
   return overrides;
 }
+
+namespace {
+
+/// `overrides_of` on top of what the calibration sets.
+Result<std::vector<std::string>> calibrated_overrides_of(const SharedOptions& options) {
+  std::vector<std::string> overrides;
+  if (!options.calibration.empty()) {
+    const auto calibration = read_robot_calibration(options.calibration);
+    if (!calibration) return failure("--calibration " + calibration.error().message);
+    overrides = prior_settings(*calibration, options.calibration);
+  }
+  const auto given = overrides_of(options);
+  overrides.insert(overrides.end(), given.begin(), given.end());
+  return overrides;
+}
+
+}  // namespace
 
 Result<std::vector<std::string>> overrides_of(const SharedOptions& options,
                                               const std::vector<std::string>& topics) {
@@ -125,8 +158,9 @@ Result<std::vector<std::string>> overrides_of(const SharedOptions& options,
     }
     overrides.push_back("recording.topics." + topic);
   }
-  const auto shared = overrides_of(options);
-  overrides.insert(overrides.end(), shared.begin(), shared.end());
+  const auto shared = calibrated_overrides_of(options);
+  if (!shared) return shared;
+  overrides.insert(overrides.end(), shared->begin(), shared->end());
   return overrides;
 }
 
@@ -150,13 +184,28 @@ Result<void> check_settings(const std::vector<std::string>& settings,
 Result<Scenario> scenario_of(const SharedOptions& options) {
   const auto file = named_scenario(options.scenario, options.folder);
   if (!file) return tl::unexpected(file.error());
-  return load_scenario(*file, overrides_of(options), options.folder);
+  const auto overrides = calibrated_overrides_of(options);
+  if (!overrides) return tl::unexpected(overrides.error());
+  return load_scenario(*file, *overrides, options.folder);
+}
+
+std::vector<std::string> calibration_warnings(const SharedOptions& options,
+                                              const Scenario& scenario) {
+  if (options.calibration.empty()) return {};
+  const auto calibration = read_robot_calibration(options.calibration);
+  if (!calibration) return {};
+  const std::vector<std::string> found = misfits(*calibration, scenario);
+  if (found.empty()) return {};
+  return {fmt::format("{}: the calibration {} is of another robot: {}", scenario.name,
+                      options.calibration, fmt::join(found, ", "))};
 }
 
 Result<std::vector<ScenarioFile>> scenarios_of(const SharedOptions& options) {
   std::vector<std::string> names = options.named;
   names.insert(names.end(), options.scenarios.begin(), options.scenarios.end());
-  return select_scenarios(names, options.tags, options.folder, overrides_of(options));
+  const auto overrides = calibrated_overrides_of(options);
+  if (!overrides) return tl::unexpected(overrides.error());
+  return select_scenarios(names, options.tags, options.folder, *overrides);
 }
 
 Result<std::vector<std::uint64_t>> seeds_of(const SharedOptions& options,

@@ -30,6 +30,8 @@ struct SharedOptions {
   std::vector<std::string> settings;    ///< "key=value"
   std::vector<std::string> param;       ///< ranges
   std::string out;
+  int robot_seed = 0;                         ///< 0: that of the scenario
+  std::string calibration;                    ///< file of `aims calibrate`; empty: none
   std::string cache;                          ///< empty: the default
   double cache_limit_gb = kCacheLimit / 1e9;  ///< 0: any
   int jobs = default_jobs();
@@ -49,6 +51,10 @@ void add_folder(Command& command, SharedOptions& options);
 void add_tags(Command& command, SharedOptions& options);
 /// --seeds; `absent` says what runs without it.
 void add_seeds(Command& command, SharedOptions& options, const std::string& absent);
+/// --robot-seed, where scenarios are simulated.
+void add_robot_seed(Command& command, SharedOptions& options);
+/// --calibration.
+void add_calibration(Command& command, SharedOptions& options);
 /// --estimators; likewise.
 void add_estimators(Command& command, SharedOptions& options, const std::string& absent);
 /// --set.
@@ -86,6 +92,10 @@ Result<void> check_settings(const std::vector<std::string>& settings,
 
 /// The scenario of SCENARIO with --set and --estimators on top.
 Result<Scenario> scenario_of(const SharedOptions& options);
+
+/// Warnings about a calibration that is of another robot than that of the scenario.
+std::vector<std::string> calibration_warnings(const SharedOptions& options,
+                                              const Scenario& scenario);
 
 /// The scenarios that were given, with --set and --estimators on top. Error when there is none.
 Result<std::vector<ScenarioFile>> scenarios_of(const SharedOptions& options);

@@ -181,6 +181,7 @@ void declare_render(Command command, const fs::path& scenarios) {
   add_folder(command, shared);
   add_outputs(command, *arguments);
   add_seeds(command, shared, "that of the scenario; one");
+  add_robot_seed(command, shared);
   add_estimators(command, shared, "aims_d; the map is of the first");
   add_settings(command, shared);
   add_out(command, shared, "out/SCENARIO-seed-N-render");

@@ -74,6 +74,9 @@ void print_run(const Suite& suite, const fs::path& out, const SharedOptions& sha
   print_ring_notes(suite);
   print_expectations(suite);
   print_outcome(suite, shared);
+  for (const std::string& warning : calibration_warnings(shared, each.scenario)) {
+    print_out("warning: {}\n", warning);
+  }
   print_out("results: {}\n", (out / "").string());
   for (const fs::path& picture : pictures_in(out)) print_out("  {}\n", picture.string());
 }
@@ -110,7 +113,9 @@ void declare_run(Command command, const fs::path& scenarios) {
   add_scenario(command, shared, Presence::kRequired);
   add_folder(command, shared);
   add_seeds(command, shared, "that of the scenario");
+  add_robot_seed(command, shared);
   add_estimators(command, shared, "those of the scenario");
+  add_calibration(command, shared);
   add_settings(command, shared);
   add_out(command, shared, "out/SCENARIO-seed-N");
   add_overwrite(command, shared);

@@ -99,6 +99,7 @@ void declare_simulate(Command command, const fs::path& scenarios) {
                  "Recording to write: NAME.bag, NAME.mcap, or NAME/ for rosbag2",
                  Presence::kRequired);
   add_seeds(command, shared, "that of the scenario; one");
+  add_robot_seed(command, shared);
   add_settings(command, shared);
   command.option("--fast-imu", arguments->fast_imu_hz, {1.0, 2000.0},
                  "Rate of a second IMU topic [Hz], e.g. 200 (none)");

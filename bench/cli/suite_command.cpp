@@ -73,6 +73,11 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
   print_ring_notes(suite);
   print_expectations(suite);
   print_outcome(suite, shared);
+  for (const SuiteCase& each : suite.cases) {
+    for (const std::string& warning : calibration_warnings(shared, each.scenario)) {
+      print_out("warning: {}\n", warning);
+    }
+  }
   print_out("results: {}, suite.json, suite.csv\n", (fs::path(shared.out) / "suite.md").string());
 }
 
@@ -110,6 +115,7 @@ void declare_suite(Command command, const fs::path& scenarios) {
   shared.folder = scenarios.string();
   add_suite_options(command, shared, "out/suite", "those of each scenario");
   add_estimators(command, shared, "those of each scenario");
+  add_calibration(command, shared);
   command.flag("--trajectories", arguments->trajectories,
                "Keep trajectories and diagnostics of each run");
   command.flag("--no-page", arguments->no_page, "Write no HTML pages");

@@ -17,6 +17,7 @@ void add_suite_options(Command& command, SharedOptions& options, const std::stri
   add_named_scenarios(command, options);
   add_scenarios(command, options);
   add_seeds(command, options, seeds);
+  add_robot_seed(command, options);
   add_settings(command, options, "each scenario");
   add_continued_out(command, options, folder);
   add_cache(command, options);

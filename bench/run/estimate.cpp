@@ -116,6 +116,31 @@ void note_missing(const EstimateConfig& config, RecordingSetup& setup) {
   }
 }
 
+/// Topics that are used, in a fixed order.
+std::vector<std::string> topics_of(const TopicsConfig& topics) {
+  std::vector<std::string> used = {topics.lidar, topics.imu, topics.leg_odometry,
+                                   topics.joint_states, topics.contacts};
+  std::erase_if(used, [](const std::string& each) { return each.empty() || each == "none"; });
+  return used;
+}
+
+/// Warns about a calibration that is of another robot than the recording.
+Result<void> warn_of_misfit(const EstimateOptions& options, RecordingSetup& setup) {
+  if (options.calibration.empty()) return {};
+  const auto calibration = read_robot_calibration(options.calibration);
+  if (!calibration) return tl::unexpected(calibration.error());
+  std::vector<std::string> found = misfits(calibration->sensors, calibrated_sensors(setup));
+  const bool by_feet = std::ranges::any_of(calibration->quantities, [](const auto& each) {
+    return each.used && each.name == "legs_by_feet";
+  });
+  if (by_feet && !setup.has_joints) found.emplace_back("no joint angles, by which it has the legs");
+  if (found.empty()) return {};
+  setup.warnings.push_back({"calibration of another robot",
+                            fmt::format("the calibration {} does not fit this recording: {}",
+                                        options.calibration.string(), fmt::join(found, ", "))});
+  return {};
+}
+
 /// Adds what the counts of the whole recording say to the warnings, and all of them to the health.
 void warn_in_health(EstimateResult& result) {
   const auto early = result.counts.find("recorded_before_their_stamp");
@@ -191,6 +216,10 @@ Result<StreamEnd> stream_into_log(RecordingReader& reader, std::vector<TimedEsti
 
 }  // namespace
 
+CalibratedSensors calibrated_sensors(const RecordingSetup& setup) {
+  return sensors_of(setup.rig, topics_of(setup.topics));
+}
+
 void describe(Fields& fields, EstimateConfig& config) {
   fields.texts(
       "run", config.run,
@@ -239,6 +268,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)
     return tl::unexpected(ok.error());
   note_missing(config, result.setup);
+  if (auto ok = warn_of_misfit(options, result.setup); !ok) return tl::unexpected(ok.error());
   for (const std::string& text : config.run) {
     const bool none = result.setup.rings.count == 0 && !result.setup.topics.lidar.empty();
     if (none && requirements_of(text, config.estimators).rings) {

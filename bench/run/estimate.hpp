@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
 #include "estimator/estimator_config.hpp"
+#include "estimator/robot_calibration.hpp"
 #include "recordings/stream/recording_reader.hpp"
 
 namespace aims {
@@ -43,6 +44,7 @@ struct EstimateOptions {
   /// read; memory then does not grow with them. Empty: the result holds them.
   std::filesystem::path folder = {};
   std::vector<std::filesystem::path> with = {};  ///< further files of the same recording
+  std::filesystem::path calibration = {};        ///< of the robot; only to see whether it fits
 };
 
 /// An estimator that broke before the end of its stream.
@@ -71,6 +73,9 @@ struct EstimateResult {
   /// Of the online trajectories, then of the re-optimized ones; none without a truth.
   std::optional<TrajectoryScores> scores;
 };
+
+/// What a calibration from that recording holds for.
+CalibratedSensors calibrated_sensors(const RecordingSetup& setup);
 
 /// Streams the recording through the estimators. Error when it cannot be opened, a topic is missing
 /// or an estimator is unknown.

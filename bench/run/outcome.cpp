@@ -21,6 +21,7 @@ EstimatorOutcome outcome_without_rows(const TimedEstimator& timed) {
   outcome.result.counts = result.counts;
   outcome.result.failure = result.failure;
   outcome.result.external_cpu_s = result.external_cpu_s;
+  outcome.learned = timed.estimator().learned();
   outcome.map = timed.estimator().map_points();
   outcome.scan_times = timed.scan_times();
   outcome.wall_s = timed.total_seconds();

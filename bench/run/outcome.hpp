@@ -17,6 +17,7 @@ namespace aims {
 struct EstimatorOutcome {
   std::string name;
   EstimatorResult result;
+  std::vector<LearnedQuantity> learned;         ///< of the robot
   std::vector<Eigen::Vector3f> map;             ///< in its odometry frame [m]
   Scores scores;                                ///< of the online trajectory
   std::optional<Scores> optimized;              ///< of the re-optimized one

@@ -31,12 +31,20 @@ void describe(Fields& f, EskfConfig& c) {
   f.group("degeneracy", c.degeneracy);
   f.group("cross_validation", c.cross_validation);
   f.group("queue", c.queue);
+  f.group("prior", c.prior);
   state_dependencies(f, c);
 }
 
 Requirements requirements_of(const EskfConfig& config) {
   return {.lidar = config.lidar.enabled, .imu = true, .legs = config.legs.enabled};
 }
+
+bool measures_legs(const EskfConfig& config) {
+  return config.prior.enabled && config.prior.measure_legs && config.legs.enabled &&
+         config.lidar.enabled && config.cross_validation.enabled;
+}
+
+Result<void> check(const EskfConfig& config) { return check(config.prior); }
 
 CalibrationConfig estimated_calibration(const EskfConfig& config) {
   CalibrationConfig calibration = config.calibration;

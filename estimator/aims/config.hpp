@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/config.hpp"
+#include "estimator/aims/robot_prior.hpp"
 #include "estimator/degeneracy/cross_validation.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
 #include "estimator/estimator_config.hpp"
@@ -37,12 +38,19 @@ struct EskfConfig {
   DegeneracyConfig degeneracy;
   CrossValidationConfig cross_validation;
   QueueConfig queue;
+  RobotPriorConfig prior;
 };
 
 /// Also states which settings have no effect under which others.
 void describe(Fields& fields, EskfConfig& config);
 
 Requirements requirements_of(const EskfConfig& config);
+
+/// Whether legs are compared with scans, which a second belief has.
+bool measures_legs(const EskfConfig& config);
+
+/// Error for values that do not go together.
+Result<void> check(const EskfConfig& config);
 
 /// What of the calibration is estimated. On level ground a tilt of the mount acts as a bias of the
 /// accelerometer does, and nothing measures its heading: with the ground constraint the mount is

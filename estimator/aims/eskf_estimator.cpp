@@ -33,9 +33,6 @@ double max_leg_speed(const EskfConfig& config) {
   return config.legs.enabled ? 5.0 : std::numeric_limits<double>::infinity();
 }
 
-/// With a leg scale known this well, a map along an unconstrained direction is not blurred [-].
-constexpr double kKnownLegScale = 0.05;
-
 /// Without fusion, the leg states stay fixed.
 LegStatesConfig leg_states_of(const EskfConfig& config) {
   return config.legs.enabled ? config.leg_states : LegStatesConfig();
@@ -54,9 +51,14 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
       ground_(config_.ground_constraint),
       health_({.lidar = config_.lidar.enabled, .legs = config_.legs.enabled, .imu = true},
               config_.imu.gravity),
+      robot_(config_, rig.imu_rate_hz),
       feet_(config_.feet, rig, config_.imu.gravity,
             config_.lidar.enabled ? VerticalReference::kFilter : VerticalReference::kLevelGround) {
   result_.diagnostics.series = scan_series();
+  if (const auto known_compliance = known(config_.prior, "joint_compliance")) {
+    feet_.compliance().know(known_compliance->mean(0),
+                            std::sqrt(known_compliance->covariance(0, 0)));
+  }
 }
 
 void EskfEstimator::consume(const Delivery& delivery) {
@@ -94,6 +96,7 @@ bool EskfEstimator::start() {
   if (!stood_still_) ++result_.counts["initialization.moving"];
   belief_ = open_leg_states(initial->belief, leg_states_of(config_));
   belief_ = open_calibration(belief_, estimated_calibration(config_), rig_.imu_rate_hz);
+  belief_ = robot_.at_start(belief_);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
   if (config_.lidar.enabled && config_.cross_validation.enabled) mapping_ = belief_;
   time_ = initial->stamp;
@@ -175,7 +178,7 @@ void EskfEstimator::record_scan(ScanDiagnostics& diagnostics) {
 
 /// Fuses the prepared points, and learns from the correction how noisy the IMU is.
 void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
-  const NominalState predicted = belief_.state;
+  const Belief predicted = belief_;
   const ScanPart part = mapping_ ? ScanPart::kAll : ScanPart::kReal;
   accept(matching(), lidar_update_.update(matching(), points_.to_match(), map_, calibration_, part,
                                           diagnostics, leg_free_.belief()));
@@ -185,17 +188,39 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   }
   if (diagnostics.relocated) ++result_.counts["lidar.relocated"];
   if (mapping_) accept(belief_, lidar_update_.update_with_real_part(belief_, map_));
+  const double since_last = last_scan_ ? to_seconds(time_ - *last_scan_) : 0.0;
+  accept(belief_, robot_.after_scan(predicted, belief_, since_last));
+  note_contradictions();
   if (last_scan_) {
-    const ErrorVector y = boxminus(belief_.state, predicted);
+    const ErrorVector y = boxminus(belief_.state, predicted.state);
     // Across the robot only: along it a corridor may leave the velocity free.
     const Eigen::Vector3d across =
         belief_.state.rotation.conjugate() * segment(y, ErrorState::kVelocity);
     queue_.imu().noise().add_correction(segment(y, ErrorState::kRotation).squaredNorm() / 3.0,
-                                        across.tail<2>().squaredNorm() / 2.0,
-                                        to_seconds(time_ - *last_scan_));
+                                        across.tail<2>().squaredNorm() / 2.0, since_last);
   }
   apply_calibration();
+  if (measures_legs(config_) && mapping_ && last_leg_ &&
+      (feet_.compliance_is_learned() || !feet_.applies(*last_leg_))) {
+    robot_.compare_legs(belief_.state, mapping_->state, since_last);
+  }
   if (legs_are_known()) mapping_.reset();
+}
+
+/// States what of the robot's calibration this run contradicts.
+void EskfEstimator::note_contradictions() {
+  for (const std::string& name : robot_.take_contradictions()) {
+    ++result_.counts["calibration.contradicted." + name];
+    health_.calibration_contradicted();
+  }
+  const bool compliance = feet_.compliance().contradicted();
+  if (!compliance || result_.counts.contains("calibration.contradicted.joint_compliance")) return;
+  ++result_.counts["calibration.contradicted.joint_compliance"];
+  health_.calibration_contradicted();
+}
+
+std::vector<LearnedQuantity> EskfEstimator::learned() const {
+  return robot_.learned(belief_, feet_.compliance(), queue_.imu().noise().density());
 }
 
 /// Whether scans are mapped from the estimate: once the leg scale is known to 5 % and the scan
@@ -238,7 +263,8 @@ void EskfEstimator::predict(Belief& belief, double duration) {
     const double dt = to_seconds(segment.end - segment.begin);
     accept(belief, propagate(belief, segment, dt, config_.imu));
   }
-  walk_leg_states(belief, leg_states_of(config_), duration);
+  const double walk = robot_.walk_of_legs();
+  walk_leg_states(belief, leg_states_of(config_), walk * walk * duration);
   walk_calibration(belief, estimated_calibration(config_), duration);
 }
 

@@ -8,6 +8,7 @@
 #include "estimator/aims/health_monitor.hpp"
 #include "estimator/aims/leg_free_prediction.hpp"
 #include "estimator/aims/lidar_update.hpp"
+#include "estimator/aims/robot_knowledge.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/filter/measurement_queue.hpp"
@@ -35,6 +36,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
   std::optional<MotionEstimate> motion(Time until) const override;
   const std::vector<Eigen::Vector3f>& registered_points() const override { return mapped_; }
+  std::vector<LearnedQuantity> learned() const override;
 
   /// State and covariance after the last processed measurement, for consistency checks.
   const Belief& belief() const { return belief_; }
@@ -46,7 +48,8 @@ class EskfEstimator : public Estimator, public MotionSource {
   void correct(const LidarScanPtr& scan);
   void predict_to(Time stamp);
   void predict(Belief& belief, double duration);
-  void expect_feet();
+  void meet_legs(bool by_feet);
+  void note_contradictions();
   void report_pose_without_scan(Time stamp);
   void report_pose(Time stamp);
   void coast();
@@ -87,6 +90,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   GroundLists ground_lists_;
   ZeroVelocityDetector zero_velocity_;
   HealthMonitor health_;
+  RobotKnowledge robot_;
   EstimatorResult result_;
 
   bool started_ = false;

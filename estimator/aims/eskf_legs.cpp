@@ -35,7 +35,7 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
     return;
   }
   const Duration period = from_seconds(1.0 / rig_.leg_rate_hz);
-  if (!last_leg_ && feet_.applies(sample)) expect_feet();
+  if (!last_leg_) meet_legs(feet_.applies(sample));
   if (last_leg_) {
     const auto lost = static_cast<int>((sample.stamp - last_leg_->stamp - period / 2) / period);
     if (lost > 0) result_.counts["leg.lost"] += lost;
@@ -46,12 +46,11 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
   report_pose_without_scan(sample.stamp);
 }
 
-/// The scale of feet is known better in advance than that of a reported velocity.
-void EskfEstimator::expect_feet() {
-  if (!config_.leg_states.enabled) return;
-  const double sigma = std::min(kFeetScaleSigma, config_.leg_states.scale_sigma);
-  block(belief_.covariance, ErrorState::kLegScale, ErrorState::kLegScale) =
-      sigma * sigma * Eigen::Matrix3d::Identity();
+/// The scale of legs that are measured foot by foot is known better than that of reported ones; a
+/// calibration of the robot knows it well enough to map from the start.
+void EskfEstimator::meet_legs(bool by_feet) {
+  belief_ = robot_.at_first_legs(belief_, by_feet);
+  if (robot_.legs_are_known() && !measures_legs(config_)) mapping_.reset();
 }
 
 /// Zero-order hold of lost leg packets, for the variant that does not notice the loss.
@@ -130,7 +129,9 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   const GainMask mask =
       by_feet ? gain_of_feet(belief_.state, feet_have_constant_scale() && scans_measure_velocity())
               : GainMask();
+  const Belief before = belief_;
   accept(belief_, lidar_update_.fuse_velocity(belief_, measurement, mask));
+  if (mask.legs && !lidar_update_.considers_legs()) robot_.after_legs(before, belief_);
   if (!mapping_) return;
   accept(*mapping_, fuse(*mapping_, moved_to(measurement, belief_.state, mapping_->state), mask));
 }

@@ -123,6 +123,9 @@ void HealthMonitor::judge_agreement(Findings& findings) const {
   if (position_residual_ > kPositionDisagreement + kNoiseFactor * expected_position_) {
     findings.degraded.emplace_back("scans disagree with the predicted position");
   }
+  if (calibration_contradicted_) {
+    findings.degraded.emplace_back("the robot differs from its calibration");
+  }
   if (not_finite_) findings.degraded.emplace_back("an update was not finite");
 }
 

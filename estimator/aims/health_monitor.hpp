@@ -45,6 +45,8 @@ class HealthMonitor {
   void scan(const ScanDiagnostics& scan, std::size_t points);
   /// The filter refused a result that is not finite.
   void not_finite() { not_finite_ = true; }
+  /// The data contradict the calibration that the run started from.
+  void calibration_contradicted() { calibration_contradicted_ = true; }
 
   /// State and reasons at `now` (arrival); `estimate` is empty before the estimate starts.
   HealthRow judge(Time now, const InputMonitor& inputs,
@@ -69,6 +71,7 @@ class HealthMonitor {
   int weak_scans_ = 0;              ///< in a row, which leave an axis free
   double path_ = 0.0;               ///< [m]
   std::optional<Eigen::Vector3d> last_position_;
+  bool calibration_contradicted_ = false;
   bool not_finite_ = false;  ///< since the last judgement
 };
 

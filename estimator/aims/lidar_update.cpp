@@ -71,12 +71,21 @@ Step step_between(const Pose& before, const Pose& after) {
                                                                       : Step::kConverged;
 }
 
+/// Projection of the position onto what lies across the heading, odometry axes.
+Eigen::Matrix3d across_the_way(const NominalState& state) {
+  Eigen::Vector3d ahead = state.rotation * Eigen::Vector3d::UnitX();
+  ahead.z() = 0.0;
+  ahead.normalize();
+  return Eigen::Matrix3d::Identity() - ahead * ahead.transpose();
+}
+
 }  // namespace
 
 LidarUpdate::LidarUpdate(const EskfConfig& config)
     : max_iterations_(config.lidar.max_iterations),
       degeneracy_(config.degeneracy),
       cross_validation_(config.cross_validation),
+      measures_legs_(measures_legs(config)),
       map_covariance_enabled_(config.map_covariance.enabled),
       matcher_(config.lidar.correlated_points, config.robust_kernel),
       severity_(config.degeneracy.alpha) {
@@ -87,17 +96,26 @@ LidarUpdate::LidarUpdate(const EskfConfig& config)
 /// its information by gamma_lidar.
 Linearization LidarUpdate::fused(ScanPart part, double gamma, const NominalState& state) const {
   const bool real = part == ScanPart::kReal && cross_validation_.enabled;
-  const PoseInformation pose =
-      real ? fraction_.applied_to(scan_.halves)
-           : PoseInformation{scan_.halves.within, scan_.halves.within_vector};
+  PoseInformation pose = real ? fraction_.applied_to(scan_.halves)
+                              : PoseInformation{scan_.halves.within, scan_.halves.within_vector};
+  if (real && measures_legs_) {
+    Matrix6 kept = Matrix6::Identity();
+    kept.bottomRightCorner<3, 3>() = across_the_way(state);
+    pose = {kept * pose.matrix * kept, kept * pose.vector};
+  }
   return {scan_measurement(gamma * pose.matrix, gamma * pose.vector, calibration_,
                            state.rotation.toRotationMatrix()),
-          real ? scan_mask() : GainMask()};
+          real ? scan_mask(state) : GainMask()};
 }
 
-GainMask LidarUpdate::scan_mask() const {
+GainMask LidarUpdate::scan_mask(const NominalState& state) const {
   if (!considers_legs()) return {};
-  return {.legs = false, .translation = fraction_.constrained()};
+  const bool free = fraction_.leaves_direction_free();
+  Eigen::Matrix3d translation = free ? fraction_.constrained() : Eigen::Matrix3d::Identity();
+  if (measures_legs_) {
+    translation = across_the_way(state) * translation * across_the_way(state);
+  }
+  return {.legs = false, .translation = translation};
 }
 
 double LidarUpdate::free_tilt() const {
@@ -273,7 +291,7 @@ Belief LidarUpdate::update_with_real_part(const Belief& predicted, const VoxelMa
   at.mount = matched_at_.mount;
   at.delay = matched_at_.delay;
   const Eigen::Vector3d apart = predicted.state.position - predicted_.position;
-  at.position = matched_at_.position + apart - scan_mask().translation * apart;
+  at.position = matched_at_.position + apart - scan_mask(predicted.state).translation * apart;
   const Linearization real = fused(ScanPart::kReal, gamma_lidar_, at);
   const Belief belief = fuse(predicted, at, real.measurement, real.mask);
   update_map_covariance(map, matched_at_, predicted, belief);

@@ -53,13 +53,11 @@ class LidarUpdate {
   /// Whether leg scale and bias are consider states: along a direction that scans do not constrain
   /// only the legs measure the velocity, so their errors are unobservable.
   bool considers_legs() const {
-    return cross_validation_.enabled && fraction_.leaves_direction_free();
+    return cross_validation_.enabled && (measures_legs_ || fraction_.leaves_direction_free());
   }
 
   /// Whether cross-validation has shown that the last scan leaves no direction free.
-  bool constrains_all_directions() const {
-    return cross_validation_.enabled && !fraction_.leaves_direction_free();
-  }
+  bool constrains_all_directions() const { return cross_validation_.enabled && !considers_legs(); }
 
   /// The belief after fusing a velocity; `mask` applies where scans constrain every direction.
   /// Along an unconstrained direction the gain is conditioned on a known leg scale
@@ -74,7 +72,7 @@ class LidarUpdate {
 
  private:
   double free_tilt() const;
-  GainMask scan_mask() const;
+  GainMask scan_mask(const NominalState& state) const;
   Linearization fused(ScanPart part, double gamma, const NominalState& state) const;
   NominalState first_guess(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics);
@@ -99,6 +97,7 @@ class LidarUpdate {
   NominalState matched_at_;       ///< where its matches were linearized last
   DegeneracyConfig degeneracy_;
   CrossValidationConfig cross_validation_;
+  bool measures_legs_;  ///< the real part holds nothing along the way
   CrossValidatedInformation fraction_;
   bool map_covariance_enabled_;
   ScanMatcher matcher_;

@@ -36,6 +36,9 @@ class FeetOdometry {
   std::optional<LinearMeasurement> measure(const LegOdometrySample& sample, const Belief& belief,
                                            const ImuHistory& imu);
 
+  JointCompliance& compliance() { return compliance_; }
+  const JointCompliance& compliance() const { return compliance_; }
+
   /// The last measured velocity with the means of `leg_velocity_model`.
   const LegVelocity& velocity() const { return velocity_; }
 

@@ -13,13 +13,14 @@ constexpr double kLoadTime = 2.0;
 /// without LiDAR, drift of pitch and speed would pass for it.
 constexpr double kLearningTime = 20.0;
 
-/// Deviation of the compliance about its prior [rad/m].
-constexpr double kSigma = 0.4;
 /// Deviation of the mean vertical velocity by rigid legs [m/s].
 constexpr double kClimbSigma = 0.01;
 
 /// Softer joints do not carry a robot [rad/m].
 constexpr double kLargestCompliance = 3.0;
+
+/// Squared difference of a known value over its variance that is no chance: 99.99 %.
+constexpr double kContradiction = 15.1;
 
 double gain_of(double time, double rate_hz) { return 1.0 - std::exp(-1.0 / (time * rate_hz)); }
 
@@ -47,19 +48,44 @@ JointVector JointCompliance::yield(const LegOdometrySample& sample, const Eigen:
   return yield;
 }
 
-bool JointCompliance::is_learned() const { return walked_ >= kLearningTime; }
+bool JointCompliance::is_learned() const { return known_variance_ || walked_ >= kLearningTime; }
 
 void JointCompliance::update(double climb, double change, double rate_hz) {
-  if (is_learned()) return;
+  if (walked_ >= kLearningTime) return;
   walked_ = std::min(walked_ + 1.0 / rate_hz, kLearningTime);
   const double gain = 1.0 / (walked_ * rate_hz);
   climb_ += gain * (climb - climb_);
   change_ += gain * (change - change_);
+  judge_known();
+  if (known_variance_) return;
   const double response = kSigma * kSigma * change_;
   const double noise = kClimbSigma * kClimbSigma * kLearningTime / walked_;
   const double beyond_prior = climb_ + change_ * kPrior;
   value_ = std::clamp(kPrior - response * beyond_prior / (response * change_ + noise), 0.0,
                       kLargestCompliance);
+}
+
+void JointCompliance::know(double value, double sigma) {
+  value_ = std::clamp(value, 0.0, kLargestCompliance);
+  known_variance_ = sigma * sigma;
+}
+
+/// At the end of learning: the value by the drift alone against the one that is known.
+void JointCompliance::judge_known() {
+  if (!known_variance_ || walked_ < kLearningTime || information() == 0.0) return;
+  const double difference = information_vector() / information() - value_;
+  contradicted_ =
+      difference * difference > kContradiction * (1.0 / information() + *known_variance_);
+  if (contradicted_) known_variance_.reset();
+}
+
+double JointCompliance::information() const {
+  return change_ * change_ * walked_ / (kClimbSigma * kClimbSigma * kLearningTime);
+}
+
+double JointCompliance::information_vector() const {
+  if (change_ == 0.0) return 0.0;
+  return information() * std::clamp(-climb_ / change_, 0.0, kLargestCompliance);
 }
 
 }  // namespace aims

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "core/leg_geometry.hpp"
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
@@ -19,10 +21,24 @@ namespace aims {
 /// probable value under its prior and that of this constant.
 class JointCompliance {
  public:
+  /// Stiff legs, as those of a Unitree Go1; soft ones (80 N m/rad under 12 kg) have 1.5 rad/m.
+  static constexpr double kPrior = 0.05;
+  /// Deviation about it [rad/m].
+  static constexpr double kSigma = 0.4;
+
   double value() const { return value_; }  ///< W / K [rad/m]
 
-  /// Whether it has walked long enough: the value then stays.
+  /// Whether it has walked long enough, or is known: the value then stays.
   bool is_learned() const;
+  /// Holds the value that another run has found, with its deviation [rad/m], until the drift of
+  /// this one contradicts it.
+  void know(double value, double sigma);
+  bool contradicted() const { return contradicted_; }
+
+  /// What the drift alone says, without prior: information [m^2/rad^2] and its product with the
+  /// value that makes the drift zero.
+  double information() const;
+  double information_vector() const;
 
   /// Angles of the links beyond their encoders for W / K = 1 rad/m [m], by the loads of `sample`;
   /// `up` in base axes. Zero without loads. Call once per sample: it follows the mean load.
@@ -34,14 +50,15 @@ class JointCompliance {
   void update(double climb, double change, double rate_hz);
 
  private:
+  void judge_known();
+
   double value_ = kPrior;
   double mean_load_ = 0.0;  ///< of all feet together
   double walked_ = 0.0;     ///< time of the means [s]
   double climb_ = 0.0;      ///< mean
   double change_ = 0.0;     ///< mean
-
-  /// Stiff legs, as those of a Unitree Go1; soft ones (80 N m/rad under 12 kg) have 1.5 rad/m.
-  static constexpr double kPrior = 0.05;
+  std::optional<double> known_variance_;
+  bool contradicted_ = false;
 };
 
 }  // namespace aims

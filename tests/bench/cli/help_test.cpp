@@ -46,6 +46,7 @@ const std::map<std::string, std::vector<std::string>> kCommands = {
     {"study groups", {"--out", "--json"}},
     {"simulate", {"--seeds", "--set", "--out", "--overwrite", "--quiet"}},
     {"estimate", {"--estimators", "--set", "--out", "--overwrite", "--jobs", "--quiet"}},
+    {"calibrate", {"--seeds", "--robot-seed", "--set", "--out", "--overwrite", "--quiet"}},
     {"score", {"--set", "--out", "--overwrite", "--waypoint-times", "--json", "--no-page"}},
     {"info", {"--set", "--config", "--recover", "--json"}},
     {"check", {"--set", "--config", "--recover", "--system", "--json"}},

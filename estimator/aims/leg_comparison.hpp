@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "estimator/filter/error_state.hpp"
+
+namespace aims {
+
+/// Scale of the legs from the way that they and the IMU make of a walk, without what scans say
+/// along it, against the way that scans show. It is what a place without features needs: there the
+/// legs weigh feet by a velocity that nothing else corrects, and the IMU pulls on it.
+class LegComparison {
+ public:
+  /// Adds the states at the end of a scan, `dt` [s] after the last one: by legs alone along the
+  /// way, and by scans. Turns and standing do not count.
+  void add(const NominalState& by_legs, const NominalState& by_scans, double dt);
+
+  /// Information about scale x, y, z and bias x, y, z of the legs: one row v s_x + b_x = z with
+  /// the mean speed v, for the `state` whose scale and bias the way by legs has. Zero until there
+  /// are a few pieces of the way, whose spread is its deviation.
+  Eigen::MatrixXd information() const;
+  Eigen::VectorXd vector(const NominalState& state) const;
+
+ private:
+  double variance() const;
+
+  std::optional<NominalState> last_by_legs_;
+  std::optional<NominalState> last_by_scans_;
+  double time_ = 0.0;   ///< of walking straight [s]
+  double legs_ = 0.0;   ///< way by legs [m]
+  double scans_ = 0.0;  ///< way by scans [m]
+  double piece_legs_ = 0.0;
+  double piece_scans_ = 0.0;
+  int pieces_ = 0;
+  double mean_ratio_ = 0.0;       ///< of way by legs and by scans, over pieces
+  double square_of_ratio_ = 0.0;  ///< sum of squared deviations from the mean
+};
+
+}  // namespace aims
