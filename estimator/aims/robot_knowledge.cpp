@@ -125,7 +125,7 @@ Belief RobotKnowledge::after_scan(const Belief& before, Belief after, double dt)
     if (!each.estimated) continue;
     each.data.add(before, after);
     if (!each.known) continue;
-    Eigen::MatrixXd covariance = each.known->covariance;
+    EntryMatrix covariance = each.known->covariance;
     covariance.diagonal() += duration_ * each.walk.cwiseAbs2();
     if (each.offset == E::kLegScale.offset) {
       covariance.diagonal().head<3>().array() += kScaleOfPlaces * kScaleOfPlaces;
@@ -144,10 +144,11 @@ std::vector<LearnedQuantity> RobotKnowledge::learned(const Belief& belief,
   std::vector<LearnedQuantity> all;
   for (const Quantity& each : quantities_) {
     const bool compared = compared_ && each.offset == E::kLegScale.offset;
-    all.push_back({each.name, each.entries,
-                   compared ? comparison_.information() : each.data.matrix(),
-                   compared ? comparison_.vector(belief.state) : each.data.vector(), each.prior,
-                   each.sigma, each.varies_by_run});
+    const Eigen::MatrixXd data = each.data.matrix();
+    const Eigen::VectorXd vector = each.data.vector();
+    all.push_back({each.name, each.entries, compared ? comparison_.information() : data,
+                   compared ? comparison_.vector(belief.state) : vector, each.prior, each.sigma,
+                   each.varies_by_run});
   }
   if (by_feet_) {
     all.push_back({"joint_compliance",

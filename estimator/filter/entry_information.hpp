@@ -7,6 +7,10 @@
 
 namespace aims {
 
+/// Of up to six entries of the error state; they need no memory of their own.
+using EntryMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+using EntryVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+
 /// What measurements say about consecutive entries of the error state that are constant, without
 /// the filter's prior and random walk: the sum of what each update adds to information matrix and
 /// vector of these entries, P+^-1 - P-^-1 and P+^-1 x+ - P-^-1 x-. All else is marginalized.
@@ -18,22 +22,22 @@ class EntryInformation {
   /// Adds an update that made `after` of `before`.
   void add(const Belief& before, const Belief& after);
 
-  const Eigen::MatrixXd& matrix() const { return matrix_; }
-  const Eigen::VectorXd& vector() const { return vector_; }
+  const EntryMatrix& matrix() const { return matrix_; }
+  const EntryVector& vector() const { return vector_; }
 
  private:
   int offset_;
-  Eigen::MatrixXd matrix_;
-  Eigen::VectorXd vector_;
+  EntryMatrix matrix_;
+  EntryVector vector_;
 };
 
 /// The same entries of a state: those of the error from the zero state.
-Eigen::VectorXd entries_of(const NominalState& state, int offset, int size);
+EntryVector entries_of(const NominalState& state, int offset, int size);
 
 /// By how much `data` contradict `known` values: the chi-square statistic of their difference,
 /// with as many degrees of freedom as entries that the data determine. `known` is given by its
 /// mean and covariance.
-double disagreement(const EntryInformation& data, const Eigen::VectorXd& mean,
-                    const Eigen::MatrixXd& covariance);
+double disagreement(const EntryInformation& data, const EntryVector& mean,
+                    const EntryMatrix& covariance);
 
 }  // namespace aims
