@@ -128,8 +128,7 @@ Result<int> calibrate(const CalibrateArguments& arguments) {
   watch_interrupt();
   CalibrateArguments measuring = arguments;
   std::vector<std::string>& settings = measuring.shared.settings;
-  settings.insert(settings.begin(),
-                  {"estimators.*.prior.enabled=true", "estimators.*.prior.measure_legs=true"});
+  settings.insert(settings.begin(), "estimators.*.cross_validation.measure_legs=true");
   const auto runs = runs_of_known_robot(measuring);
   if (interrupted()) return interrupted_code();
   if (!runs) return tl::unexpected(runs.error());

@@ -9,7 +9,8 @@ void state_dependencies(Fields& f, const EskfConfig& c) {
             {"ground_constraint", "calibration", "robust_kernel", "map", "map_covariance",
              "degeneracy", "cross_validation"});
   f.idle_if(!c.legs.enabled, "legs.enabled is false",
-            {"feet", "leg_states", "zero_velocity", "degeneracy.gamma_min"});
+            {"feet", "leg_states", "zero_velocity", "degeneracy.gamma_min",
+             "cross_validation.measure_legs"});
 }
 
 }  // namespace
@@ -40,8 +41,8 @@ Requirements requirements_of(const EskfConfig& config) {
 }
 
 bool measures_legs(const EskfConfig& config) {
-  return config.prior.enabled && config.prior.measure_legs && config.legs.enabled &&
-         config.lidar.enabled && config.cross_validation.enabled;
+  return config.cross_validation.enabled && config.cross_validation.measure_legs &&
+         config.legs.enabled && config.lidar.enabled;
 }
 
 Result<void> check(const EskfConfig& config) { return check(config.prior); }

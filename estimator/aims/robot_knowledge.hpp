@@ -38,7 +38,7 @@ class RobotKnowledge {
   /// Adds what a leg packet made of the belief, where it corrects the leg states.
   void after_legs(const Belief& before, const Belief& after) { legs().data.add(before, after); }
   /// Adds the states after a scan by legs alone along the way and by scans, where they are
-  /// compared (`prior.measure_legs`).
+  /// compared (`cross_validation.measure_legs`).
   void compare_legs(const NominalState& by_legs, const NominalState& by_scans, double dt) {
     comparison_.add(by_legs, by_scans, dt);
   }

@@ -17,8 +17,6 @@ constexpr double kLargest = 1e6;
 void describe(Fields& f, RobotPriorConfig& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "start from the calibration of this robot (`--calibration FILE`)", kSource});
-  f.flag("measure_legs", c.measure_legs,
-         {"", any(), "compare legs with scans, which then do not correct along the way", kSource});
   f.text("file", c.file, {"", any(), "the file that it was read from", kSource});
   const auto numbers = [&](std::string_view name, std::vector<double>& value,
                            const std::string& unit, const std::string& what) {
@@ -37,7 +35,7 @@ void describe(Fields& f, RobotPriorConfig& c) {
   numbers("accelerometer_bias", c.accelerometer_bias, "m/s^2", "bias of the accelerometer");
   const bool nothing = std::ranges::all_of(
       kPriorQuantities, [&](const PriorQuantity& each) { return (c.*each.numbers).empty(); });
-  f.idle_if(nothing && !c.measure_legs, "no quantity is known", {"enabled"});
+  f.idle_if(nothing, "no quantity is known", {"enabled"});
 }
 
 Result<void> check(const RobotPriorConfig& config) {

@@ -19,9 +19,6 @@ namespace aims {
 /// `numbers_of`; none: not known.
 struct RobotPriorConfig {
   bool enabled = false;
-  /// Calibration: the estimate gets nothing from scans along the way, as in a place without
-  /// features; beside it the second belief has all of them, and shows what the legs are worth.
-  bool measure_legs = false;
   std::string file;                        ///< that it was read from, for messages
   std::vector<double> legs_by_feet;        ///< scale [-] and bias [m/s], measured foot by foot
   std::vector<double> legs_as_reported;    ///< the same of reported velocities

@@ -39,6 +39,9 @@ Eigen::Matrix3d coupling(const Matrix6& information) {
 void describe(Fields& f, CrossValidationConfig& c) {
   f.flag("enabled", c.enabled,
          {"", any(), "keep only the information in which both halves of the map agree"});
+  f.flag("measure_legs", c.measure_legs,
+         {"", any(), "compare legs with scans, which then do not correct along the way",
+          "docs/estimators.md#calibration-that-a-robot-keeps"});
 }
 
 /// The first scan is used until the robot moves, since all scans of a standing robot have the same

@@ -11,6 +11,10 @@ namespace aims {
 /// Removal of the information that the noise of the map adds to a scan.
 struct CrossValidationConfig {
   bool enabled = false;
+  /// For `aims calibrate`: the estimate takes nothing from scans along the way, as in a place
+  /// without features, while the second belief takes all of it. The difference is what the legs
+  /// err.
+  bool measure_legs = false;
 };
 
 void describe(Fields& fields, CrossValidationConfig& config);

@@ -62,7 +62,6 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
     {"recordings/legs",
      {"core/", "recordings/messages/", "recordings/legs/", "recordings/recording_config.hpp",
       "recordings/event_counts.hpp", "recordings/reading_notes.hpp"}},
-    {"recordings/calibration", {"core/", "recordings/calibration/"}},
     {"recordings/topics",
      {"core/", "recordings/bag/", "recordings/messages/", "recordings/topics/",
       "recordings/recording_config.hpp"}},

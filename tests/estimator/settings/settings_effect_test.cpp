@@ -120,6 +120,7 @@ std::vector<std::string> other_values(const Parameter& parameter) {
   const std::string text = parameter.text();
   if (parameter.expected == "true or false") return {text == "true" ? "false" : "true"};
   if (parameter.expected.starts_with("one of")) return options_of(parameter.expected);
+  if (parameter.expected == "a text") return {"another"};
   const bool whole = is_integer(parameter);
   std::vector<std::string> values;
   const auto multiply = [&](std::initializer_list<double> factors) {
