@@ -113,13 +113,6 @@ void print_calibration(const RobotCalibration& calibration) {
   }
 }
 
-Result<void> write(const fs::path& file, const std::string& text) {
-  auto out = AtomicFile::create(file);
-  if (!out) return tl::unexpected(out.error());
-  if (auto written = out->write(text); !written) return written;
-  return out->commit();
-}
-
 Result<int> calibrate(const CalibrateArguments& arguments) {
   const SharedOptions& shared = arguments.shared;
   if (fs::exists(shared.out) && !shared.overwrite) {
@@ -134,7 +127,9 @@ Result<int> calibrate(const CalibrateArguments& arguments) {
   if (!runs) return tl::unexpected(runs.error());
   const std::string estimator = fmt::format("{}", fmt::join(shared.estimators, ","));
   const RobotCalibration calibration = combined(*runs, estimator);
-  if (auto ok = write(shared.out, text_of(calibration)); !ok) return tl::unexpected(ok.error());
+  if (auto ok = write_file_atomically(shared.out, text_of(calibration)); !ok) {
+    return tl::unexpected(ok.error());
+  }
   print_calibration(calibration);
   for (const std::string& each : warnings_of(calibration, *runs)) print_out("warning: {}\n", each);
   print_out("calibration: {}\n", shared.out);

@@ -16,13 +16,12 @@
 namespace aims {
 namespace {
 
-constexpr double kLeastRotation =
-    0.1;                         ///< of an interval that counts: of turns, not of steps [rad]
-constexpr double kNoise = 0.02;  ///< of LiDAR odometry over it [rad]
-constexpr int kFewest = 5;       ///< intervals
-constexpr double kWrong = 0.3;   ///< residual of a mount that is wrong [-]
-constexpr double kBetter = 0.4;  ///< residual of a better one, of the given one's [-]
-constexpr double kAlike = 1.25;  ///< between residuals of mounts that fit alike [-]
+constexpr double kLeastRotation = 0.1;  ///< of an interval that counts: turns, not steps [rad]
+constexpr double kNoise = 0.02;         ///< of LiDAR odometry over it [rad]
+constexpr int kFewest = 5;              ///< intervals
+constexpr double kWrong = 0.3;          ///< residual of a mount that is wrong [-]
+constexpr double kBetter = 0.4;         ///< residual of a better one, of the given one's [-]
+constexpr double kAlike = 1.25;         ///< between residuals of mounts that fit alike [-]
 constexpr Duration kInterval = 500 * kMillisecond;
 constexpr Duration kLongest = 180 * kSecond;
 
@@ -59,8 +58,7 @@ std::vector<Eigen::Matrix3d> axis_changes() {
 std::string cause_of(const Eigen::Matrix3d& P) {
   if (P.determinant() < 0.0) {
     return "an axis of the gyro has the wrong sign, or two are swapped: no mount corrects that, "
-           "the "
-           "driver must";
+           "the driver must";
   }
   const Eigen::AngleAxisd turn(P);
   const double degrees = turn.angle() * 180.0 / std::numbers::pi;
@@ -132,9 +130,9 @@ std::vector<std::string> words(const MountCheck& check, const Pose& T_imu_lidar)
   }
   std::vector<std::string> lines = {
       fmt::format("MOUNT OF THE LIDAR: LiDAR odometry and gyro contradict it over {} rotations "
-                  "(residual {:.2f}; "
-                  "{:.2f} if {})",
+                  "(residual {:.2f}; {:.2f} if {})",
                   check.intervals, check.given_residual, check.best_residual, check.cause)};
+  if (!check.correctable) return lines;
   const Eigen::Quaterniond& q = check.R_imu_lidar;
   const Eigen::Vector3d& t = T_imu_lidar.translation;
   lines.push_back(
@@ -142,7 +140,6 @@ std::vector<std::string> words(const MountCheck& check, const Pose& T_imu_lidar)
                   "recording.T_imu_lidar.quaternion_xyzw=[{:.6g},{:.6g},{:.6g},{:.6g}] --set "
                   "recording.T_imu_lidar.translation=[{:.6g},{:.6g},{:.6g}]",
                   q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()));
-  if (check.cause.find("no mount") != std::string::npos) lines.pop_back();
   return lines;
 }
 
@@ -163,11 +160,13 @@ MountCheck check_mount(std::span<const RotationPair> pairs, const Eigen::Quatern
   const Hypothesis& best = all[static_cast<std::size_t>(first - residuals.begin())];
   check.best_residual = *first;
   check.cause = best.cause;
-  if (best.R.determinant() > 0.0) check.R_imu_lidar = Eigen::Quaterniond(best.R).normalized();
+  check.correctable = best.R.determinant() > 0.0;
+  if (check.correctable) check.R_imu_lidar = Eigen::Quaterniond(best.R).normalized();
   check.contradicts =
       check.given_residual > kWrong && check.best_residual < kBetter * check.given_residual;
   if (check.contradicts) return check;
   check.cause.clear();
+  check.correctable = false;
   check.R_imu_lidar = R_imu_lidar;
   return check;
 }

@@ -24,6 +24,7 @@ struct MountCheck {
   double best_residual = 0.0;   ///< of the mount that fits best
   bool contradicts = false;     ///< another mount of right angles fits clearly better
   std::string cause;            ///< e.g. "the extrinsic is inverted"; empty unless it contradicts
+  bool correctable = false;     ///< the cause is a mount, not the axes of the gyro
   /// The mount that fits best; the given one where none is a rotation.
   Eigen::Quaterniond R_imu_lidar = Eigen::Quaterniond::Identity();
 };

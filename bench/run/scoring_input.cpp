@@ -17,6 +17,7 @@
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
 #include "core/files/waypoint_times.hpp"
+#include "recordings/median.hpp"
 #include "recordings/topics/recording_topics.hpp"
 #include "recordings/trajectories/trajectory_file.hpp"
 
@@ -240,13 +241,12 @@ void resolve_truth(const ScoringRequest& request, ScoringInput& input) {
   for (std::size_t i = 1; i < truth.size(); ++i) {
     steps.push_back(truth[i].stamp - truth[i - 1].stamp);
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  if (*middle <= from_seconds(input.scoring.max_truth_gap)) return;
+  const Duration middle = *upper_median(std::move(steps));
+  if (middle <= from_seconds(input.scoring.max_truth_gap)) return;
   input.scoring.association = Association::kAtTruth;
   input.notes.push_back(fmt::format(
       "truth: {} control points, {:.1f} s apart: the estimates are compared at their stamps",
-      truth.size(), to_seconds(*middle)));
+      truth.size(), to_seconds(middle)));
 }
 
 /// Moves the estimates to the point that the truth measures.

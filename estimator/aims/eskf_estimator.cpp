@@ -201,7 +201,7 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   }
   apply_calibration();
   if (measures_legs(config_) && mapping_ && last_leg_ &&
-      (feet_.compliance_is_learned() || !feet_.applies(*last_leg_))) {
+      (feet_.compliance().is_learned() || !feet_.applies(*last_leg_))) {
     robot_.compare_legs(belief_.state, mapping_->state, since_last);
   }
   if (legs_are_known()) mapping_.reset();

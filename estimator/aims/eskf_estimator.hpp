@@ -56,8 +56,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   void judge_health();
   void repeat_lost_legs(Time until);
   void fuse_leg_velocity(const LegOdometrySample& sample);
-  bool feet_have_constant_scale() const;
-  bool scans_measure_velocity() const;
+  bool scans_measure_scale_of_feet() const;
   LinearMeasurement reported_velocity(const LegOdometrySample& sample);
   bool fuse_zero_velocity(const LegOdometrySample& sample);
   void fuse_standing(const Eigen::Vector3d& rate);

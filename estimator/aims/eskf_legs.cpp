@@ -17,10 +17,10 @@ constexpr Duration kScanIsRecent = kSecond / 2;
 
 /// What feet correct. Not heading and gyro bias: unmodelled creep and rolling would turn the robot.
 /// The leg scale only where scans measure the velocity; elsewhere changes of speed would decide it.
-GainMask gain_of_feet(const NominalState& state, bool velocity_is_measured) {
+GainMask gain_of_feet(const NominalState& state, bool scale_is_measured) {
   const Eigen::Vector3d up = state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   GainMask mask;
-  mask.legs = velocity_is_measured;
+  mask.legs = scale_is_measured;
   mask.gyro_bias = false;
   mask.rotation -= up * up.transpose();
   return mask;
@@ -107,12 +107,10 @@ void EskfEstimator::fuse_standing(const Eigen::Vector3d& rate) {
   accept(*mapping_, fuse(*mapping_, not_turning(*mapping_), without_legs));
 }
 
-/// While the compliance of the joints is being learned, a scale would be that of other legs.
-bool EskfEstimator::feet_have_constant_scale() const { return feet_.compliance_is_learned(); }
-
-bool EskfEstimator::scans_measure_velocity() const {
-  return lidar_update_.constrains_all_directions() && last_scan_ &&
-         time_ - *last_scan_ < kScanIsRecent;
+/// Only with the final compliance of the joints: before, a scale would be that of other legs.
+bool EskfEstimator::scans_measure_scale_of_feet() const {
+  return feet_.compliance().is_learned() && lidar_update_.constrains_all_directions() &&
+         last_scan_ && time_ - *last_scan_ < kScanIsRecent;
 }
 
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
@@ -127,11 +125,11 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
   const GainMask mask =
-      by_feet ? gain_of_feet(belief_.state, feet_have_constant_scale() && scans_measure_velocity())
-              : GainMask();
-  const Belief before = belief_;
+      by_feet ? gain_of_feet(belief_.state, scans_measure_scale_of_feet()) : GainMask();
+  const bool judged = mask.legs && !lidar_update_.considers_legs() && robot_.judges_legs();
+  const std::optional<Belief> before = judged ? std::optional(belief_) : std::nullopt;
   accept(belief_, lidar_update_.fuse_velocity(belief_, measurement, mask));
-  if (mask.legs && !lidar_update_.considers_legs()) robot_.after_legs(before, belief_);
+  if (before) robot_.after_legs(*before, belief_);
   if (!mapping_) return;
   accept(*mapping_, fuse(*mapping_, moved_to(measurement, belief_.state, mapping_->state), mask));
 }

@@ -13,9 +13,6 @@ namespace {
 
 using E = ErrorState;
 
-/// Chi-square values that a known quantity of 1 to 6 entries exceeds by chance in one of 10,000.
-constexpr std::array kContradiction = {15.1, 18.4, 21.1, 23.5, 25.7, 27.9};
-
 const std::vector<std::string> kLegEntries = {"scale x [-]",  "scale y [-]",  "scale z [-]",
                                               "bias x [m/s]", "bias y [m/s]", "bias z [m/s]"};
 
@@ -130,7 +127,7 @@ Belief RobotKnowledge::after_scan(const Belief& before, Belief after, double dt)
     if (each.offset == E::kLegScale.offset) {
       covariance.diagonal().head<3>().array() += kScaleOfPlaces * kScaleOfPlaces;
     }
-    const double limit = kContradiction[static_cast<std::size_t>(each.sigma.size() - 1)];
+    const double limit = kNoChance[static_cast<std::size_t>(each.sigma.size() - 1)];
     if (disagreement(each.data, each.known->mean, covariance) > limit) {
       after = opened(after, each);
     }
@@ -143,11 +140,12 @@ std::vector<LearnedQuantity> RobotKnowledge::learned(const Belief& belief,
                                                      const ImuNoiseDensity& noise) const {
   std::vector<LearnedQuantity> all;
   for (const Quantity& each : quantities_) {
-    const bool compared = compared_ && each.offset == E::kLegScale.offset;
+    const bool legs = each.offset == E::kLegScale.offset;
+    if (legs && !compared_) continue;
     const Eigen::MatrixXd data = each.data.matrix();
     const Eigen::VectorXd vector = each.data.vector();
-    all.push_back({each.name, each.entries, compared ? comparison_.information() : data,
-                   compared ? comparison_.vector(belief.state) : vector, each.prior, each.sigma,
+    all.push_back({each.name, each.entries, legs ? comparison_.information() : data,
+                   legs ? comparison_.vector(belief.state) : vector, each.prior, each.sigma,
                    each.varies_by_run});
   }
   if (by_feet_) {

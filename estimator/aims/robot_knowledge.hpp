@@ -13,8 +13,7 @@
 
 namespace aims {
 
-/// A scale of the legs that is known this well no longer smears what is mapped along a direction
-/// that scans leave free [-].
+/// With a leg scale known this well, a map along an unconstrained direction is not blurred [-].
 inline constexpr double kKnownLegScale = 0.05;
 
 /// Random walk of calibrated legs, relative to kLegScaleWalk: 0.4 % over 200 s.
@@ -35,7 +34,9 @@ class RobotKnowledge {
   /// Adds what a scan, `dt` [s] after the last one, made of the belief; the belief, with the
   /// quantities opened that it contradicts.
   Belief after_scan(const Belief& before, Belief after, double dt);
-  /// Adds what a leg packet made of the belief, where it corrects the leg states.
+  /// Whether legs are known and what their packets say is compared with that.
+  bool judges_legs() const { return quantities_[0].known.has_value(); }
+  /// Adds what a leg packet made of the belief, where it corrects the leg states and is judged.
   void after_legs(const Belief& before, const Belief& after) { legs().data.add(before, after); }
   /// Adds the states after a scan by legs alone along the way and by scans, where they are
   /// compared (`cross_validation.measure_legs`).
@@ -49,6 +50,7 @@ class RobotKnowledge {
   /// The names of quantities that became contradicted since the last call.
   std::vector<std::string> take_contradictions() { return std::exchange(contradicted_, {}); }
 
+  /// Of the legs only where they are compared with scans.
   std::vector<LearnedQuantity> learned(const Belief& belief, const JointCompliance& compliance,
                                        const ImuNoiseDensity& noise) const;
 

@@ -42,9 +42,6 @@ class FeetOdometry {
   /// The last measured velocity with the means of `leg_velocity_model`.
   const LegVelocity& velocity() const { return velocity_; }
 
-  /// Whether the compliance of the joints stays as it is, and with it the scale of the legs.
-  bool compliance_is_learned() const { return compliance_.is_learned(); }
-
  private:
   /// State and motion at an instant.
   struct Instant {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/filter/entry_information.hpp"
+
 namespace aims {
 namespace {
 
@@ -18,9 +20,6 @@ constexpr double kClimbSigma = 0.01;
 
 /// Softer joints do not carry a robot [rad/m].
 constexpr double kLargestCompliance = 3.0;
-
-/// Squared difference of a known value over its variance that is no chance: 99.99 %.
-constexpr double kContradiction = 15.1;
 
 double gain_of(double time, double rate_hz) { return 1.0 - std::exp(-1.0 / (time * rate_hz)); }
 
@@ -74,8 +73,7 @@ void JointCompliance::know(double value, double sigma) {
 void JointCompliance::judge_known() {
   if (!known_variance_ || walked_ < kLearningTime || information() == 0.0) return;
   const double difference = information_vector() / information() - value_;
-  contradicted_ =
-      difference * difference > kContradiction * (1.0 / information() + *known_variance_);
+  contradicted_ = difference * difference > kNoChance[0] * (1.0 / information() + *known_variance_);
   if (contradicted_) known_variance_.reset();
 }
 

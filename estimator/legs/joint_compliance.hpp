@@ -28,7 +28,8 @@ class JointCompliance {
 
   double value() const { return value_; }  ///< W / K [rad/m]
 
-  /// Whether it has walked long enough, or is known: the value then stays.
+  /// Whether it has walked long enough, or is known: the value then stays, and with it the scale of
+  /// the legs.
   bool is_learned() const;
   /// Holds the value that another run has found, with its deviation [rad/m], until the drift of
   /// this one contradicts it.

@@ -44,8 +44,6 @@ void describe(Fields& f, MapConfig& c) {
   f.number("insertion_voxel", c.insertion_voxel,
            {"m", in_range(0.01, 10.0), "one return per voxel of the raw scan is mapped",
             "chosen: finer than the map, which merges returns"});
-  f.integer("max_insertions", c.max_insertions,
-            {"-", in_range(1, 10000000), "returns mapped per scan at most", "bound on time"});
 }
 
 void describe(Fields& f, MapCovarianceConfig& c) {

@@ -35,7 +35,6 @@ struct MapConfig {
   double point_spacing = 0.15;   ///< returns closer than this to a map point merge into it [m]
   int max_voxels = 100000;       ///< beyond it the farthest are dropped
   double insertion_voxel = 0.1;  ///< one point is inserted per voxel of the raw scan [m]
-  int max_insertions = 12000;    ///< points per scan
 };
 
 void describe(Fields& fields, MapConfig& config);

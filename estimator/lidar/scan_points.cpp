@@ -7,6 +7,9 @@ namespace {
 /// Returns that a scan is compared with earlier ones by, at most: two per pixel of a RangeImage.
 constexpr int kMaxImagePoints = 10000;
 
+/// Returns of one scan that are mapped, at most: a bound on time.
+constexpr int kMaxInsertions = 12000;
+
 }  // namespace
 
 ScanPoints::ScanPoints(const LidarUpdateConfig& lidar, const MapConfig& map,
@@ -22,9 +25,9 @@ void ScanPoints::prepare(const LidarScan& scan, const ScanMotion& motion, const 
   };
   // Each selection chooses among the returns that the one before left: the finer one is first.
   const bool map_is_finer = map_.insertion_voxel <= lidar_.selection_voxel;
-  if (map_is_finer) select(map_.insertion_voxel, map_.max_insertions, to_map_);
+  if (map_is_finer) select(map_.insertion_voxel, kMaxInsertions, to_map_);
   select(lidar_.selection_voxel, lidar_.max_points, to_match_);
-  if (!map_is_finer) select(map_.insertion_voxel, map_.max_insertions, to_map_);
+  if (!map_is_finer) select(map_.insertion_voxel, kMaxInsertions, to_map_);
   moving_.remove_from(to_match_);
   moving_count_ = moving_.remove_from(to_map_);
 }

@@ -20,6 +20,7 @@ using test::SyntheticCorridor;
 constexpr int kMappedScans = 16;
 constexpr int kMatchedScans = 4;
 constexpr double kShift = 0.07;  // between scans [m]
+constexpr int kMaxInsertions = 12000;  // as ScanPoints
 
 /// Information about the position along the corridor, per unit of all information.
 struct AlongCorridor {
@@ -92,7 +93,7 @@ class MappedCorridor {
   void map(const ScanPair& pair) {
     const Eigen::Vector3f at = sensor_.cast<float>();
     for (const auto& [scan, into] : {std::pair(&pair.noisy, &map_), {&pair.exact, &exact_map_}}) {
-      auto points = select(*scan, map_config_.insertion_voxel, map_config_.max_insertions);
+      auto points = select(*scan, map_config_.insertion_voxel, kMaxInsertions);
       for (Eigen::Vector3f& point : points) point += at;
       into->insert(points, at);
     }

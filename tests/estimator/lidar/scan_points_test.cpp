@@ -46,7 +46,6 @@ ScanPoints points_with(double selection_voxel, double insertion_voxel) {
   lidar.max_points = 100000;
   MapConfig map;
   map.insertion_voxel = insertion_voxel;
-  map.max_insertions = 100000;
   return {lidar, map, kT_body_lidar.translation};
 }
 
