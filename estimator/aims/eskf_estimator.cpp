@@ -167,6 +167,8 @@ void EskfEstimator::record_scan(ScanDiagnostics& diagnostics) {
   health_.scan(diagnostics, points_.to_match().size());
   last_scan_ = time_;
   leg_free_.restart(matching(), time_);
+  velocity_noise_.at_scan(time_, belief_.state.T_odom_body() * rig_.T_body_base,
+                          diagnostics.iterations > 0 && lidar_update_.constrains_all_directions());
   diagnostics.delay = belief_.state.delay;
   diagnostics.mount = so3_log(belief_.state.mount);
   const Eigen::Matrix3d rig = rig_covariance(first_belief_.state.T_odom_body(),

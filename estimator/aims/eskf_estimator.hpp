@@ -15,6 +15,7 @@
 #include "estimator/ground/ground_constraint.hpp"
 #include "estimator/legs/feet_odometry.hpp"
 #include "estimator/legs/leg_states.hpp"
+#include "estimator/legs/velocity_noise.hpp"
 #include "estimator/legs/zero_velocity.hpp"
 #include "estimator/lidar/deskew.hpp"
 #include "estimator/lidar/scan_points.hpp"
@@ -109,6 +110,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   FeetOdometry feet_;
   StrideMeans stride_means_;
   LegVelocity velocity_;                  ///< reported last
+  VelocityNoise velocity_noise_;
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]
   int leg_updates_ = 0;
 

@@ -26,6 +26,13 @@ GainMask gain_of_feet(const NominalState& state, bool scale_is_measured) {
   return mask;
 }
 
+/// The covariance of a sample at `rate_hz`, at least that of white noise of that density.
+Eigen::Matrix3d with_density(const Eigen::Matrix3d& noise, const Eigen::Vector3d& density,
+                             double rate_hz) {
+  const Eigen::Vector3d variance = noise.diagonal().cwiseMax(rate_hz * density);
+  return variance.asDiagonal();
+}
+
 }  // namespace
 
 void EskfEstimator::correct(const LegOdometrySample& sample) {
@@ -68,12 +75,18 @@ void EskfEstimator::repeat_lost_legs(Time until) {
 /// leg scale is known.
 LinearMeasurement EskfEstimator::reported_velocity(const LegOdometrySample& sample) {
   const LegConfig& legs = mapping_ ? kLegsOfUnknownScale : config_.legs;
+  const Eigen::Matrix3d nominal =
+      leg_velocity_noise(legs, rig_.leg_rate_hz, belief_.state.velocity.norm());
   const Eigen::Matrix3d noise =
-      leg_velocity_noise(legs, rig_.leg_rate_hz, belief_.state.velocity.norm()) /
-      lidar_update_.gamma_leg();
+      with_density(nominal, velocity_noise_.density(), rig_.leg_rate_hz) / lidar_update_.gamma_leg();
   const Eigen::Vector3d rate =
       queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
   velocity_ = stride_means_.update(sample.stamp, sample.linear_velocity);
+  const NominalState& state = belief_.state;
+  velocity_noise_.add(sample.stamp,
+                      state.rotation * rig_.T_body_base.rotation *
+                          (velocity_.measured - state.leg_bias -
+                           state.leg_scale.cwiseProduct(velocity_.stride_mean)));
   return leg_velocity_model(belief_.state, rig_.T_body_base, rate, velocity_, noise);
 }
 
